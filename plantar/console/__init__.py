@@ -1,1 +1,1 @@
-"""The command line without its commands: options, progress, and how a command ends."""
+"""Command line without commands: options, progress, and endings."""

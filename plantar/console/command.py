@@ -1,4 +1,4 @@
-"""Common parts of commands: running the named one, output options, and printing the result."""
+"""Common parts of commands: running, output options, and printing."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ _WIDEST_HELP = 120
 
 
 class Command(NamedTuple):
-    """A command of the command line.
+    """Command of the command line.
 
     Attributes:
-        function: Its parameters are the command's, as typer reads them.
-        summary: One line for the list of commands.
-        place: Place in that list, ascending.
-        name: The function's name if empty.
+        function: Its parameters are the command's, by typer.
+        summary: One line, for the list.
+        place: In that list, ascending.
+        name: Function's if empty.
     """
 
     function: Callable[..., None]
@@ -48,13 +48,13 @@ class Command(NamedTuple):
 
 
 def run_command(app: typer.Typer) -> int:
-    """Run the command that the process's arguments name.
+    """Run the command named by the process's arguments.
 
-    Typer would print several lines for a wrong argument, and exit with 1 if stdout is closed.
+    Typer prints several lines for wrong arguments, and exits with 1 if stdout is closed.
 
     Raises:
-        InputError: If an argument is wrong; the message names the help to read.
-        KeyboardInterrupt: If the user stopped it.
+        InputError: If an argument is wrong.
+        KeyboardInterrupt: If stopped by the user.
     """
     usage_error = cast(type[Exception], typer.BadParameter.__base__)  # typer exports it under no public name
     command = typer.main.get_command(app)
@@ -78,7 +78,7 @@ def run_command(app: typer.Typer) -> int:
 
 
 def _command_path(command: Any) -> str:
-    """The command in the process's arguments, which the error of an option without value lacks."""
+    """Command in the arguments, which errors of an option without value lack."""
     first = next((word for word in sys.argv[1:] if not word.startswith("-")), "")
     return f"plantar {first}" if first in getattr(command, "commands", {}) else "plantar"
 
@@ -89,14 +89,14 @@ def end_command(
     """Print a command's result: JSON or text on stdout, failures on stderr.
 
     Args:
-        result: The result.
-        as_json: Print it as one JSON object.
-        text: The result for people.
-        failures: A line for each failure.
-        failed: Whether the command failed as a whole.
+        result: Result.
+        as_json: Print one JSON object.
+        text: Result for people.
+        failures: A line each.
+        failed: Whether the whole command failed.
 
     Raises:
-        typer.Exit: With exit code 1, if it failed.
+        typer.Exit: Code 1, if failed.
     """
     print(json.dumps(result) if as_json else plain_lines(text))
     for line in failures:
@@ -106,7 +106,7 @@ def end_command(
 
 
 def file_lines(names: Iterable[str]) -> str:
-    """Names of files, each in a line of its own, with a line end before each."""
+    """File names, a line each, after a line end."""
     return "".join(f"\n  {name}" for name in names)
 
 
@@ -114,19 +114,19 @@ T = TypeVar("T")
 
 
 def with_option_groups(command: Callable[..., T]) -> Callable[..., T]:
-    """Replace each parameter of a command that is annotated with a dataclass by that dataclass's options.
+    """Replace a command's dataclass parameters by their options.
 
-    Typer reads a command's signature and knows no groups. A field is an option if its metadata has "help"; "metavar" is
-    shown for its value, and "names" replaces the option's names. So the dataclass needs no typer.
+    Typer knows no groups. Fields with "help" in their metadata are options; "metavar" is shown for the value, "names"
+    replaces option names. So dataclasses need no typer.
 
     Args:
-        command: The function; all fields of its dataclasses have defaults.
+        command: All fields of its dataclasses have defaults.
 
     Returns:
-        A function of single options, in order, which calls the command with the groups.
+        Function of single options, in order, which calls the command with the groups.
 
     Raises:
-        TypeError: If two parameters or fields have one name.
+        TypeError: If names repeat.
 
     Example:
         >>> from dataclasses import dataclass, field
@@ -167,7 +167,7 @@ def with_option_groups(command: Callable[..., T]) -> Callable[..., T]:
 
 
 def _options_of(group: type[Any]) -> list[inspect.Parameter]:
-    """A parameter for each field of a dataclass that is an option."""
+    """Parameter for each option field of a dataclass."""
     hints = get_type_hints(group)
     return [
         inspect.Parameter(

@@ -51,10 +51,10 @@ _ENDED_BY = {"SIGTERM": "ended (SIGTERM)", "SIGHUP": "ended: its terminal was cl
 
 
 class Terminated(SystemExit):
-    """The process was asked to end; raised, so that open files are closed and temporaries removed.
+    """Process was asked to end; raised to close files and remove temporaries.
 
     Args:
-        text: Text to show; None for the signal's meaning.
+        text: To show; None for the signal's meaning.
 
     Example:
         >>> Terminated(signal.SIGTERM).code
@@ -98,7 +98,7 @@ def print_note(text: object) -> None:
 
 
 def leave_at_interrupt() -> None:
-    """Let Ctrl-C end the process at once while it loads, before `run`: Python may lose one raised within an import."""
+    """Let Ctrl-C end the process at once while loading, before `run`: Python may lose one within an import."""
     with suppress(ValueError):  # not the main thread
         if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
             signal.signal(signal.SIGINT, _leave)
@@ -111,7 +111,7 @@ def _leave(number: int, frame: FrameType | None) -> None:
 
 @contextmanager
 def _interruptible() -> Iterator[None]:
-    """Raise KeyboardInterrupt at Ctrl-C, once more where Python had to ignore it."""
+    """Raise KeyboardInterrupt at Ctrl-C, again where Python had to ignore it."""
 
     def again(lost: Any) -> None:
         if issubclass(lost.exc_type, KeyboardInterrupt):
@@ -132,10 +132,10 @@ def run(command: Callable[[], int | None]) -> int:
     """Run a command to its exit code.
 
     Args:
-        command: What to run; returns an exit code, None for 0.
+        command: Returns an exit code, None for 0.
 
     Returns:
-        The exit code; see the table at the top of this file.
+        Exit code; see the table at the top of this file.
 
     Example:
         >>> run(lambda: 1)
@@ -169,7 +169,7 @@ def run(command: Callable[[], int | None]) -> int:
 
 @contextmanager
 def ignore_further_interrupts() -> Iterator[None]:
-    """Ignore signals after the one that interrupted the block: its line is still to be printed.
+    """Ignore signals after the one that interrupted the block, to print its line.
 
     Yields:
         None.
@@ -194,7 +194,7 @@ def _ended(text: object, code: int) -> int:
 
 
 def _prepare_streams() -> None:
-    """Streams that accept any text, and a stderr that never becomes stdout."""
+    """Streams that accept any text; stderr never becomes stdout."""
     if sys.stderr is None:  # closed by the caller: print() would take stdout instead
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  for the rest of the process
     reconfigure = getattr(sys.stdout, "reconfigure", None)
@@ -203,7 +203,7 @@ def _prepare_streams() -> None:
 
 
 def _drop_output() -> None:
-    """Discard the rest of stdout, which the interpreter would try to write again at exit."""
+    """Discard the rest of stdout, which the interpreter would retry at exit."""
     with suppress(OSError, ValueError, AttributeError):
         null = os.open(os.devnull, os.O_WRONLY)
         os.dup2(null, sys.stdout.fileno())
@@ -212,7 +212,7 @@ def _drop_output() -> None:
 
 @contextmanager
 def _terminable() -> Iterator[None]:
-    """Raise `Terminated` at signals that would end the process, unless another handler takes them."""
+    """Raise `Terminated` at ending signals that no other handler takes."""
     numbers = [signal.Signals[name] for name in _ENDED_BY if hasattr(signal, name)]
     ours = []
     if threading.current_thread() is threading.main_thread():

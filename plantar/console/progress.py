@@ -1,4 +1,4 @@
-"""The progress of a command, as a bar on stderr."""
+"""Progress of a command, as a bar on stderr."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def progress_bar() -> Iterator[Progress]:
     """Show a progress bar on stderr, if that is a terminal.
 
     Yields:
-        Moves the bar: takes the fraction done, 0..1, and a text.
+        Moves the bar: takes fraction done, 0..1, and text.
     """
     from rich.console import Console  # 0.1 s, which `plantar --help` need not wait for
     from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
@@ -32,16 +32,16 @@ def progress_bar() -> Iterator[Progress]:
 
 
 def part_of(whole: Progress, start: float, share: float, name: str = "") -> Progress:
-    """The progress of one part of some work.
+    """Progress of one part of some work.
 
     Args:
-        whole: Progress of the whole.
-        start: Fraction done when the part begins.
-        share: Fraction of the part.
-        name: Text before the part's texts.
+        whole: Whole's progress.
+        start: Fraction done before the part.
+        share: Part's fraction.
+        name: Prefix of the part's texts.
 
     Returns:
-        Progress of the part.
+        Part's progress.
 
     Example:
         >>> part_of(lambda fraction, text: print(fraction, text), 0.5, 0.25, "walk: ")(0.5, "step 3")

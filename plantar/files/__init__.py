@@ -1,1 +1,1 @@
-"""Files of unknown origin, read within limits of size, text, archive and separate processes."""
+"""Files of unknown origin, read within limits."""

@@ -1,4 +1,4 @@
-"""Calling a library of native code on a foreign file in a separate process, with limits of memory, time and output."""
+"""Native code on a foreign file, in a separate process with limits."""
 
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ _STARTING = 10.0  # s that starting the process may take on a busy machine
 def confined(
     function: str, path: str | os.PathLike[str], error: type[PlantarError], what: str, memory: float, seconds: float
 ) -> dict[str, NDArray[Any]]:
-    """Returns the arrays of a function that is called on a file in a separate process.
+    """Returns arrays of a function called on a file in a separate process.
 
     Args:
-        function: Its module and name, as "package.module:name"; it takes the file's path and returns arrays by name.
-        path: The file.
-        error: Class of the error if the function raises, crashes or passes a limit.
-        what: What the file should be, for the message, for example "a C3D file".
-        memory: Bytes of data that the process may hold.
-        seconds: Processor time in s; the same again to wait.
+        function: "package.module:name"; takes the path, returns arrays by name.
+        path: File.
+        error: Class if the function raises, crashes or passes a limit.
+        what: Expected file, for messages, such as "a C3D file".
+        memory: Allowed bytes of data.
+        seconds: Processor time in s; as much again to wait.
 
     Example:
         >>> confined("os.path:getsize", "none", PlantarError, "a file", memory=1e9, seconds=10.0)
@@ -65,7 +65,7 @@ def confined(
 
 
 def _environment(folder: str) -> dict[str, str]:
-    """One thread, a folder for temporary files, and no modules from the current folder."""
+    """One thread, a folder for temporary files, no modules from the current folder."""
     threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
     places = [place for place in os.environ.get("PYTHONPATH", "").split(os.pathsep) if place]
     return {**os.environ, **threads, "TMPDIR": folder, "PYTHONPATH": os.pathsep.join(places)}
@@ -85,7 +85,7 @@ def _reason(done: subprocess.CompletedProcess[bytes], memory: float, seconds: fl
 
 
 def _called_on_file() -> None:
-    """In the separate process: call the function of the arguments, and write its result to stdout."""
+    """In the separate process: call the named function, write its result to stdout."""
     function, path, *limits = sys.argv[1:]
     output = os.dup(1)
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # libraries may print

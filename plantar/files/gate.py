@@ -1,4 +1,4 @@
-"""Limits for files from outside, and the libraries that read them in a separate process.
+"""Limits for foreign files, and the libraries that read them apart.
 
 SECURITY.md is made of these declarations (`tools/security_page.py`).
 """
@@ -33,14 +33,14 @@ _MESHES = "plantar.shoes.foot.library_files"
 
 
 class Helper(NamedTuple):
-    """A library that reads a kind of file in a separate process.
+    """Library that reads a file kind in a separate process.
 
     Attributes:
-        function: The function that is called there, as "package.module:name".
-        what: What the file should be, for messages.
-        memory: Bytes of data that the process may hold: some, and more for each byte of the file.
+        function: Called there, "package.module:name".
+        what: Expected file, for messages.
+        memory: Allowed bytes: some, and more for each byte of the file.
         seconds: Processor time in s, likewise.
-        library: The library.
+        library: Library.
     """
 
     function: str
@@ -72,12 +72,12 @@ HELPERS: Mapping[str, Helper] = {
 def read_apart(
     kind: str, path: str | os.PathLike[str], error: type[PlantarError], size: int | None = None
 ) -> dict[str, NDArray[Any]]:
-    """Returns the arrays of a file, read in a separate process.
+    """Returns arrays of a file, read in a separate process.
 
     Args:
-        kind: A key of HELPERS.
-        path: The file.
-        error: Class of the error if the file cannot be read, or reading it crashes or passes a limit.
+        kind: Of HELPERS.
+        path: File.
+        error: Class if unreadable, or reading crashes or passes a limit.
         size: Bytes of a folder; None for a single file.
 
     Example:

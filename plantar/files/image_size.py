@@ -1,4 +1,4 @@
-"""The stated size of an image, before it is decoded."""
+"""Stated size of an image, before decoding."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class ImageSize:
     Attributes:
         width: Pixels across.
         height: Pixels down.
-        depth: Bytes a pixel once it is decoded.
+        depth: Decoded bytes a pixel.
     """
 
     width: int
@@ -36,7 +36,7 @@ class ImageSize:
 
 
 def stated_size(data: bytes) -> ImageSize | None:
-    """Size that the bytes of a PNG, JPEG, TIFF or BMP state; None for other files, and where they end before.
+    """Size in the bytes of a PNG, JPEG, TIFF or BMP; None for others, and if cut short.
 
     Example:
         >>> stated_size(b"BM" + bytes(12) + struct.pack("<IiiHH", 40, 30, -20, 1, 24) + bytes(20))

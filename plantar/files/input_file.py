@@ -1,4 +1,4 @@
-"""Opens foreign files: a regular file of a largest size, or one line that explains why not."""
+"""Opens foreign files: regular and limited in size, or one line why not."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Name = str | os.PathLike[str]
 
 
 def is_file(path: Name) -> bool:
-    """Whether there is a regular file of this name; False also for impossible names.
+    """Whether a regular file has this name; False for impossible names.
 
     Example:
         >>> is_file("/dev/null"), is_file("x" * 300), is_file("")
@@ -35,13 +35,13 @@ def is_file(path: Name) -> bool:
 
 
 def check_input(path: Name, error: type[PlantarError], most: float | None = None, where: str | None = None) -> int:
-    """Returns the size in bytes of a file; for libraries that open it themselves.
+    """Returns size in bytes of a file that a library opens itself.
 
     Args:
-        path: The file.
-        error: Class of the error if it cannot be read, is no regular file, or is too large.
-        most: Largest size in bytes; None where there is no limit.
-        where: Beginning of the message; the path where None.
+        path: File.
+        error: Class if unreadable, no regular file, or too large.
+        most: Largest size in bytes, or None.
+        where: Message's beginning; the path where None.
 
     Example:
         >>> from plantar.errors import FormatError
@@ -54,7 +54,7 @@ def check_input(path: Name, error: type[PlantarError], most: float | None = None
 
 
 def open_input(path: Name, error: type[PlantarError], most: float | None = None, where: str | None = None) -> BinaryIO:
-    """Returns a regular file opened for reading; path, error, most and where as of `check_input`.
+    """Returns regular file opened for reading; path, error, most and where as of `check_input`.
 
     Example:
         >>> with open_input(__file__, PlantarError) as stream:

@@ -1,4 +1,4 @@
-"""Allowed places of the files that a robot's file names: a downloaded robot reads only files that came with it.
+"""Allowed places of files that a robot's file names: only files that came with it.
 
 - A robot TOML names files in its own folder and below.
 - A model (MJCF, URDF) also in the folder above it, unless that is, or holds, the home folder or that of temporary
@@ -46,13 +46,13 @@ _OWN = Path(__file__).resolve().parents[1]
 
 
 def named_file(path: Path, folders: tuple[Path, ...], error: type[PlantarError], where: str) -> Path:
-    """Returns the path of a file that another file names, if its place is allowed.
+    """Returns path of a file named by another, if its place is allowed.
 
     Args:
-        path: The file.
-        folders: Folders that it may lie in or below.
-        error: Class of the error if it lies elsewhere, links followed.
-        where: Beginning of the message: what names it.
+        path: File.
+        folders: Allowed, with subfolders.
+        error: Class for other places, links followed.
+        where: Message's beginning: what names it.
 
     Example:
         >>> named_file(Path("/etc/passwd"), (Path("/robots/mine"),), PlantarError, "robot.toml")
@@ -76,7 +76,7 @@ def _besides() -> tuple[Path, ...]:
 
 
 def _is_a_package(folder: Path) -> bool:
-    """Whether a folder can be one robot's: not the home folder or that of temporary files."""
+    """Whether a folder can be one robot's: not the home or temporary folder."""
     common = [Path(tempfile.gettempdir()).resolve()]
     home = os.path.expanduser("~")
     common += [Path(home).resolve()] if home != "~" else []
@@ -84,7 +84,7 @@ def _is_a_package(folder: Path) -> bool:
 
 
 def folders_of_model(file: Path) -> tuple[Path, ...]:
-    """Folders that a model's files may lie in or below: its own, and the one above where that is a package.
+    """Folders for a model's files: its own, and the one above where that is a package.
 
     Example:
         >>> [f.as_posix() for f in folders_of_model(Path("/robots/mine/xml/mine.xml"))]
@@ -95,13 +95,13 @@ def folders_of_model(file: Path) -> tuple[Path, ...]:
 
 
 def mesh_of_urdf(file: Path, name: str, error: type[PlantarError], where: str) -> Path:
-    """Returns the path, which may not exist, of a URDF's mesh; `package://` is found in the folders above the file.
+    """Returns path, perhaps missing, of a URDF's mesh; `package://` is found in the folders above the file.
 
     Args:
-        file: The URDF.
-        name: The mesh's name in it.
-        error: Class of the error if its place is not allowed.
-        where: Beginning of the message.
+        file: URDF.
+        name: Mesh's name.
+        error: Class for forbidden places.
+        where: Message's beginning.
 
     Example:
         >>> mesh_of_urdf(Path("/robots/mine/mine.urdf"), "foot.stl", PlantarError, "mine.urdf").as_posix()
@@ -124,11 +124,11 @@ def mesh_of_urdf(file: Path, name: str, error: type[PlantarError], where: str) -
 
 
 def parsed_model(file: Path, error: type[PlantarError]) -> Element:
-    """Returns the outermost element of an MJCF or URDF, MJCF includes put in their place.
+    """Returns outermost element of an MJCF or URDF, with MJCF includes in place.
 
     Args:
-        file: The model.
-        error: Class of the error if a file cannot be read, is no XML, is included twice, or its place is not allowed.
+        file: Model.
+        error: Class if a file is unreadable, no XML, included twice, or in a forbidden place.
 
     Example:
         >>> parsed_model(Path("none.xml"), PlantarError)
@@ -139,7 +139,7 @@ def parsed_model(file: Path, error: type[PlantarError]) -> Element:
 
 
 def files_of_model(file: Path, error: type[PlantarError]) -> set[Path]:
-    """Returns the full paths of an MJCF or URDF file and the files that it includes; error as of `parsed_model`."""
+    """Returns full paths of an MJCF or URDF file and its includes; error as of `parsed_model`."""
     seen: set[Path] = set()
     _included(file, file, seen, error)
     return seen
@@ -167,10 +167,9 @@ def _included(file: Path, main: Path, seen: set[Path], error: type[PlantarError]
 
 
 def check_model(file: Path, error: type[PlantarError]) -> None:
-    """Refuse a model file of too many parts, or that names files in other places; foreign ones are tried in MuJoCo
-    first.
+    """Refuse models of too many parts or with files in other places; foreign ones are tried in MuJoCo first.
 
-    The error is of the class `error`.
+    Raises class `error`.
 
     Example:
         >>> check_model(Path("none.xml"), PlantarError)
@@ -221,7 +220,7 @@ def _check_names(file: Path, error: type[PlantarError], seen: set[Path]) -> None
 
 
 def _check_size(path: Path, tag: str, error: type[PlantarError], where: str) -> None:
-    """Refuse a mesh, height field or texture that is too large, or no file; a missing one is the reader's."""
+    """Refuse a mesh, height field or texture that is too large or no file; missing ones are the reader's."""
     if tag not in ("mesh", "hfield", "texture", "skin") or not os.path.exists(path):
         return
     check_input(path, error, _LARGEST_PART, f"{where}: {path}")

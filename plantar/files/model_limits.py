@@ -36,12 +36,12 @@ _UNITS = {"": 1.0, "K": 2.0**10, "M": 2.0**20, "G": 2.0**30}
 
 
 def check_model_size(root: Element, error: type[PlantarError], where: str) -> None:
-    """Refuse a model of more parts than any robot has, replicas counted, or of tables of too much memory.
+    """Refuse models with more parts than any robot, replicas counted, or too much table memory.
 
     Args:
-        root: Its outermost element, includes in their place.
-        error: Class of the error if it passes a limit.
-        where: Beginning of the message.
+        root: Outermost element, includes in place.
+        error: Class if it passes a limit.
+        where: Message's beginning.
 
     Example:
         >>> from plantar.files.xml_file import parse_xml
@@ -77,7 +77,7 @@ def _check_number(tag: str, key: str, text: str, error: type[PlantarError], wher
 
 
 def _numbers(text: str) -> list[float]:
-    """The numbers of an attribute; 0 for others, which MuJoCo reports."""
+    """Attribute's numbers; 0 for others, which MuJoCo reports."""
     out = [0.0]
     for word in text.split():
         try:
@@ -88,7 +88,7 @@ def _numbers(text: str) -> list[float]:
 
 
 def parsed_in_trial(path: str) -> dict[str, int]:
-    """Let MuJoCo read a model, for `confined`; returns the number of its bodies, 0 where MuJoCo refuses it."""
+    """Let MuJoCo read a model, for `confined`; returns its body count, 0 if refused."""
     import mujoco
 
     try:

@@ -1,4 +1,4 @@
-"""Reads foreign TOML and JSON: limited in size and depth; an error is one line with its place."""
+"""Reads foreign TOML and JSON, limited in size and depth; errors are one line."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _DEEP_KEY = re.compile(rf"(?:{_PART}[ \t]*+\.[ \t]*+){{10}}")
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """The table of a TOML text; ValueError of one line if it is not valid, or nested too deep.
+    """Table of a TOML text; one-line ValueError if invalid or nested too deep.
 
     Example:
         >>> parse_toml("a = [1, 2]")
@@ -55,12 +55,12 @@ def _refuse_long_integers(value: Any) -> None:
 
 
 def read_toml(path: str | os.PathLike[str], error: type[PlantarError], where: str) -> dict[str, Any]:
-    """Returns the table of a TOML file, UTF-8 with or without a byte order mark.
+    """Returns table of a TOML file, UTF-8 with or without a byte order mark.
 
     Args:
-        path: The file, of up to TOML_MOST bytes.
-        error: Class of the error if it cannot be read or is not valid TOML.
-        where: Beginning of the message, for example "scene file walk.toml".
+        path: Up to TOML_MOST bytes.
+        error: Class if unreadable or invalid.
+        where: Message's beginning, such as "scene file walk.toml".
 
     Example:
         >>> from plantar.errors import SceneError
@@ -75,13 +75,13 @@ def read_toml(path: str | os.PathLike[str], error: type[PlantarError], where: st
 
 
 def read_json(path: str | os.PathLike[str], error: type[PlantarError], where: str, kind: str = "valid JSON") -> Any:
-    """Returns the value of a JSON file, UTF-8 with or without a byte order mark.
+    """Returns value of a JSON file, UTF-8 with or without a byte order mark.
 
     Args:
-        path: The file, of up to JSON_MOST bytes.
-        error: Class of the error if it cannot be read or is not valid JSON.
-        where: Beginning of the message, for example "layout file sole.json".
-        kind: What it should have been, for the message.
+        path: Up to JSON_MOST bytes.
+        error: Class if unreadable or invalid.
+        where: Message's beginning, such as "layout file sole.json".
+        kind: Expected file, for messages.
 
     Example:
         >>> from plantar.errors import LayoutError
@@ -98,11 +98,11 @@ def read_json(path: str | os.PathLike[str], error: type[PlantarError], where: st
 
 
 def packaged_files(package: str, pattern: str) -> list[Path]:
-    """Returns the sorted paths of data files in a package, which is not loaded; none where it is not installed.
+    """Returns sorted paths of data files in a package, which is not loaded; none if not installed.
 
     Args:
-        package: Name of the package.
-        pattern: Which files, with wildcards, below its folder.
+        package: Its name.
+        pattern: Wildcards, below its folder.
 
     Example:
         >>> [path.name for path in packaged_files("plantar.sim", "scenes/beam*.toml")]
@@ -116,7 +116,7 @@ def packaged_files(package: str, pattern: str) -> list[Path]:
 
 
 def described_files(paths: Iterable[Path]) -> dict[Path, str]:
-    """First line of the "title" or "description" of each TOML file by path; empty where there is none.
+    """First line of each TOML file's "title" or "description" by path, or empty.
 
     Example:
         >>> [*described_files(packaged_files("plantar.sim", "scenes/beam.toml")).values()][0][:14]

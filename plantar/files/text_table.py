@@ -1,4 +1,4 @@
-"""Small tables of text (CSV, TSV) in any encoding, limited in size, rows and columns."""
+"""Small text tables (CSV, TSV) in any encoding, limited in size."""
 
 from __future__ import annotations
 
@@ -22,27 +22,27 @@ _SEEN = 1024  # bytes in which the zeros of UTF-16 are looked for
 
 
 class TextTable(NamedTuple):
-    """A table with a row of names.
+    """Table with a row of names.
 
     Attributes:
-        names: The names, in small letters and without spaces around them.
-        rows: Line number and cells of each row that is not empty; as many cells as the line has.
+        names: In lower case, without surrounding spaces.
+        rows: Line number and cells of each non-empty row; any count of cells.
     """
 
     names: list[str]
     rows: list[tuple[int, list[str]]]
 
     def column(self, *known: str) -> int | None:
-        """Index of the column that has the first of some names that one has; None where none has."""
+        """Index of the column with the first existing name, or None."""
         return next((self.names.index(name) for name in known if name in self.names), None)
 
 
 def read_text_table(path: str | os.PathLike[str], error: type[PlantarError]) -> TextTable:
-    """Returns a table: tabs, semicolons or commas between cells, a row of names first.
+    """Returns table: tabs, semicolons or commas between cells, names first.
 
     Args:
-        path: The file, of up to TABLE_MOST bytes; UTF-8, UTF-16 or Latin-1.
-        error: Class of the error if it cannot be read, is no text, or is too large.
+        path: Up to TABLE_MOST bytes; UTF-8, UTF-16 or Latin-1.
+        error: Class if unreadable, no text, or too large.
 
     Example:
         >>> read_text_table("none.csv", PlantarError)
@@ -70,7 +70,7 @@ def read_text_table(path: str | os.PathLike[str], error: type[PlantarError]) -> 
 
 
 def encoding_of(head: bytes) -> str:
-    """Encoding of a text from its first bytes: UTF-16 and UTF-8 where they are marked or seen, else Latin-1.
+    """Encoding of a text by its first bytes: UTF-16 and UTF-8 if marked or seen, else Latin-1.
 
     Example:
         >>> encoding_of("N/cm²".encode()), encoding_of("N/cm²".encode("latin-1"))

@@ -1,4 +1,4 @@
-"""Parses foreign XML (models, drawings, sheets): limited in size, depth and elements, without entities."""
+"""Parses foreign XML, limited in size, depth and elements, without entities."""
 
 from __future__ import annotations
 
@@ -39,18 +39,18 @@ class _Limited(ElementTree.TreeBuilder):
 
 
 def parse_xml(data: bytes, error: type[PlantarError], where: str) -> ElementTree.Element:
-    """The outermost element of an XML text.
+    """Outermost element of XML text.
 
     Args:
-        data: The text.
+        data: Text.
         error: What is raised.
-        where: Beginning of the message, for example the file's name.
+        where: Message's beginning, such as the file's name.
 
     Returns:
-        The element.
+        Element.
 
     Raises:
-        PlantarError: If it is no XML, declares entities, or is too deep or of too many elements; of the class `error`.
+        PlantarError: For bad XML; class `error`.
 
     Example:
         >>> parse_xml(b"<robot name='a'/>", PlantarError, "a.urdf").tag

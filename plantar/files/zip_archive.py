@@ -1,4 +1,4 @@
-"""Opens foreign ZIP archives (NPZ, 3MF, XLSX): the size they unpack to is checked before anything is unpacked."""
+"""Opens foreign ZIP archives (NPZ, 3MF, XLSX): unpacked size is checked first."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ _END, _END_64 = b"PK\x05\x06", b"PK\x06\x06"
 
 
 def is_bomb(size: float, unpacked: float) -> bool:
-    """Whether what a file unpacks to is more than measurements and meshes pack to.
+    """Whether a file unpacks to more than measurements and meshes do.
 
     Args:
-        size: Bytes of the file.
-        unpacked: Bytes that it states it unpacks to.
+        size: File's bytes.
+        unpacked: Stated unpacked bytes.
 
     Returns:
         Whether it is.
@@ -46,19 +46,18 @@ def is_bomb(size: float, unpacked: float) -> bool:
 def open_archive(
     path: str | os.PathLike[str], error: type[PlantarError], most: float
 ) -> Iterator[tuple[zipfile.ZipFile, BinaryIO]]:
-    """Open a ZIP archive whose contents are of a size that can be read.
+    """Open a ZIP archive with contents of a readable size.
 
     Args:
-        path: The file.
+        path: File.
         error: What is raised.
-        most: Bytes that all its parts may unpack to.
+        most: Unpacked bytes of all parts.
 
     Yields:
-        The archive, and the file that it is in.
+        Archive, and its file.
 
     Raises:
-        PlantarError: If the file is no archive, or its parts are too many, too large, or packed as only a decompression
-            bomb is; of the class `error`.
+        PlantarError: For bad archives; class `error`.
 
     Example:
         >>> import tempfile
@@ -97,19 +96,19 @@ def open_archive(
 
 
 def read_part(archive: zipfile.ZipFile, name: str, error: type[PlantarError], where: str) -> bytes:
-    """A part of an archive, as long and with the checksum that its list states.
+    """Part of an archive, checked by stated length and checksum.
 
     Args:
-        archive: An archive of `open_archive`.
-        name: The part.
+        archive: Archive of `open_archive`.
+        name: Part.
         error: What is raised.
-        where: Beginning of the message.
+        where: Message's beginning.
 
     Returns:
-        Its bytes.
+        Bytes.
 
     Raises:
-        PlantarError: If there is no such part, or it is damaged or encrypted; of the class `error`.
+        PlantarError: If missing, damaged, encrypted; class `error`.
     """
     try:
         return archive.read(name)
@@ -128,7 +127,7 @@ def read_part(archive: zipfile.ZipFile, name: str, error: type[PlantarError], wh
 
 
 def _size_of_list(stream: BinaryIO, size: int) -> int:
-    """Bytes of the archive's list of parts as its end states them; 0 where there is no such end."""
+    """Bytes of the archive's list of parts stated at its end, or 0."""
     tail_size = min(size, 66_000)
     stream.seek(size - tail_size)
     tail = stream.read(tail_size)

@@ -1,6 +1,6 @@
-"""Formats of plantar pressure recordings, one a file.
+"""Formats of plantar pressure recordings, one a module.
 
-Each module of this folder with a `FORMAT` is one, and each entry point of the group "plantar.formats".
+A format is each module here with a `FORMAT`, and each entry point of the group "plantar.formats".
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _HEADS = (1 << 16, 1 << 22)
 
 
 def formats() -> dict[str, Format]:
-    """All formats by name, in the order in which they are tried; FormatError if an entry point is no format.
+    """All formats by name, in trial order; FormatError if an entry point is no format.
 
     Example:
         >>> list(formats())[:4]
@@ -56,7 +56,7 @@ def _formats() -> dict[str, Format]:
 
 
 def named_format(path: str | os.PathLike[str], name: str | None = None) -> Format:
-    """Returns the format of a name, or of the content of the file at path where name is None; else FormatError."""
+    """Returns format of a name, or of the content of the file at path if name is None; else FormatError."""
     known = formats()
     if name is not None and name not in known:
         raise FormatError(f"unknown format {name!r}; allowed: {', '.join(known)}")
@@ -64,13 +64,13 @@ def named_format(path: str | os.PathLike[str], name: str | None = None) -> Forma
 
 
 def is_study_folder(path: str | os.PathLike[str]) -> bool:
-    """Whether a path is a folder of recordings, and not one that a format claims."""
+    """Whether a path is a folder of recordings that no format claims."""
     held = (f.folders for f in formats().values() if f.folders is not None)
     return os.path.isdir(path) and not any(is_file(Path(path) / name) for name in held)
 
 
 def detect_format(path: str | os.PathLike[str]) -> Format:
-    """Recognise a file, or a folder that holds a recording, by its content; FormatError if it is of no known format."""
+    """Recognise a file or recording folder by content; FormatError if unknown."""
     known = formats()
     names = ", ".join(f"{f.name} ({f.title})" for f in known.values())
     if os.path.isdir(path):
@@ -103,17 +103,17 @@ def read_recording(
     """Read a recording of any known format.
 
     Args:
-        path: The file.
-        format: Name of its format; recognised from the content where None.
-        layout: Sole layout to use instead of the format's own geometry; its mirror image serves the other foot.
-        options: What else is known of the file.
+        path: File.
+        format: Its name; recognised from content where None.
+        layout: Sole layout in place of the format's own; mirrored for the other foot.
+        options: What else is known.
 
     Returns:
-        The recording, in SI units, or in counts where it states so.
+        Recording in SI units, or in stated counts.
 
     Raises:
-        FormatError: If the format's name is unknown, or the file is not of it.
-        InputError: If an option is not valid.
+        FormatError: If unknown or mismatched.
+        InputError: If an option is invalid.
     """
     chosen = named_format(path, format)
     known = options or ReadOptions()

@@ -1,8 +1,7 @@
-"""Arrays in numpy's own files (.npz, .npy): a frame a row, a cell a column, and the times next to them.
+"""Arrays in numpy files (.npz, .npy): a frame a row, a cell a column.
 
-In an NPZ the arrays are "time" (s), "left" and "right" or one of another name, and optionally "unit", "rate_hz",
-"side", "kind" ("insole", "platform", "robot") and "layout_left" (JSON of a layout file), as `Recording.to_npz` writes
-them.
+NPZ arrays are "time" (s), "left" and "right" or one of another name, and optionally "unit", "rate_hz", "side", "kind"
+("insole", "platform", "robot") and "layout_left" (JSON of a layout file), as written by `Recording.to_npz`.
 """
 
 from __future__ import annotations
@@ -64,7 +63,7 @@ def _recognises(head: bytes) -> bool:
 
 @dataclass(frozen=True)
 class _Array:
-    """An array of the file, of which only the header has been read."""
+    """Array of the file with only its header read."""
 
     shape: tuple[int, ...]
     dtype: np.dtype[Any]
@@ -84,12 +83,12 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def recording_of_arrays(arrays: Mapping[str, NDArray[Any]], options: ReadOptions, name: Path) -> PressureRecording:
-    """Returns a recording from arrays in memory; FormatError if none holds frames of cells.
+    """Returns recording from arrays in memory; FormatError without frames of cells.
 
     Args:
-        arrays: The arrays by the names of an NPZ file.
-        options: What is known of them.
-        name: Name of the recording.
+        arrays: By names of an NPZ file.
+        options: What is known.
+        name: Of the recording.
     """
     held = {}
     for key, values in arrays.items():
@@ -159,7 +158,7 @@ def _kind(arrays: dict[str, _Array]) -> Kind:
 
 
 def _one_platform(feet: dict[Side, FootRecording]) -> dict[Side, FootRecording]:
-    """A platform from its feet's loads: no cell carries both at once."""
+    """Platform from its feet's loads: no cell carries both."""
     if len(feet) < 2 or feet["left"].force.shape != feet["right"].force.shape:
         return feet
     return {"left": replace(feet["left"], force=feet["left"].force + feet["right"].force)}
@@ -167,7 +166,7 @@ def _one_platform(feet: dict[Side, FootRecording]) -> dict[Side, FootRecording]:
 
 @contextmanager
 def _arrays(path: Path) -> Iterator[dict[str, _Array]]:
-    """The arrays of a file by their names, readable as long as it is open."""
+    """File's arrays by name, readable while it is open."""
     with open_input(path, FormatError) as stream:
         if stream.read(2) != b"PK":
             stream.seek(0)
@@ -187,7 +186,7 @@ def _opened(archive: zipfile.ZipFile, name: str) -> IO[bytes]:
 
 
 def _array(path: Path, name: str, opened: Callable[[], IO[bytes]], size: int) -> _Array:
-    """The stated shape of an array, compared with the bytes there are."""
+    """Array's stated shape, compared with the bytes there are."""
     with opened() as stream:
         version = np.lib.format.read_magic(stream)
         if version not in ((1, 0), (2, 0)):

@@ -1,4 +1,4 @@
-"""Contents of a C3D file as plain arrays; runs in a separate process, since ezc3d is native code."""
+"""C3D contents as plain arrays; ezc3d is native code, so in a separate process."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _EVENT = re.compile(
 
 
 def foot_of_marker(label: str) -> Side | None:
-    """The foot that a marker is on, by its label; None of other markers.
+    """Foot of a marker by its label, or None.
 
     Example:
         >>> [foot_of_marker(m) for m in ("LTOE", "S01:RHEE", "R_FCC", "Heel.L", "RFT1", "LSHO", "RKNE", "LeftAnkle")]
@@ -38,7 +38,7 @@ def foot_of_marker(label: str) -> Side | None:
 
 
 def event_of(label: str, context: str = "") -> tuple[Side, str] | None:
-    """Returns the foot and "strikes" or "lifts" of an event's label and context, or None.
+    """Returns foot and "strikes" or "lifts" of an event's label and context, or None.
 
     Example:
         >>> event_of("LHS"), event_of("RTO"), event_of("Foot Off", "Right"), event_of("start", "General")
@@ -56,13 +56,13 @@ def _side(word: str | None) -> Side | None:
 
 
 def content_of_file(path: Path) -> dict[str, Any]:
-    """Force plates, tracks of the feet and events of a C3D file.
+    """Force plates, foot tracks and events of a C3D file.
 
     Returns:
-        "rate" in Hz and "frames" of the analog channels and the number of "plates"; of each plate i "channels_i" (c, n)
-        as scaled by the file, their "units_i", "type_i", "corners_i" (4, 3), "origin_i" (3,) and "matrix_i" (6, c) or
-        empty; "point_unit"; "track_left" and "track_right" (n, 3), the mean of the foot's markers at the analog rate;
-        "strikes_..." and "lifts_..." of each side in s from the first frame.
+        "rate" in Hz and "frames" of the analog channels, number of "plates"; of plate i "channels_i" (c, n) as scaled
+        by the file, "units_i", "type_i", "corners_i" (4, 3), "origin_i" (3,) and "matrix_i" (6, c) or empty;
+        "point_unit"; "track_left" and "track_right" (n, 3), the foot's mean marker at the analog rate; "strikes_..."
+        and "lifts_..." of each side in s from the first frame.
     """
     import ezc3d  # 0.08 s
 
@@ -87,7 +87,7 @@ def content_of_file(path: Path) -> dict[str, Any]:
 
 
 def _values(parameters: Any, group: str, *names: str) -> list[Any]:
-    """Values of the first existing parameter, with its continuations (LABELS2, ...); empty without."""
+    """First existing parameter's values with continuations (LABELS2, ...), or empty."""
     held = parameters.get(group, {})
     for name in names:
         if name in held:
@@ -131,7 +131,7 @@ def _plates(parameters: Any, analogs: NDArray[np.float64]) -> dict[str, Any]:
 
 
 def _events(content: Any) -> dict[str, NDArray[np.float64]]:
-    """Times in s of the strikes and lifts of each foot, from the first frame."""
+    """Each foot's strikes and lifts in s from the first frame."""
     out = {f"{kind}_{side}": np.zeros(0) for kind in ("strikes", "lifts") for side in SIDES}
     parameters = content["parameters"]
     labels, contexts = (_values(parameters, "EVENT", name) for name in ("LABELS", "CONTEXTS"))

@@ -1,6 +1,6 @@
-"""Force plates in C3D files: force, moment and centre of pressure of each plate, without cells.
+"""Force plates in C3D files: force, moment and CoP, without cells.
 
-Plate types 1 to 5 are computed from their channels (C3D format user guide, "Force platforms").
+Types 1 to 5 are computed from channels (C3D format user guide, "Force platforms").
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ def _cut_short(head: bytes, held: Mapping[str, NDArray[Any]]) -> list[str]:
 
 
 def _axes(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A plate's axes as columns (3, 3) in the laboratory, from its corners +x +y, -x +y, -x -y, +x -y (C3D guide)."""
+    """Plate axes as columns (3, 3) in the laboratory, from corners +x +y, -x +y, -x -y, +x -y (C3D guide)."""
     x = corners[0] + corners[3] - corners[1] - corners[2]
     y = corners[0] + corners[1] - corners[2] - corners[3]
     z = np.cross(x, y)
@@ -109,7 +109,7 @@ def _axes(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _vertical_axis(corners: list[NDArray[np.float64]], warnings: list[str]) -> int:
-    """The laboratory's axis to which the plates' surfaces are perpendicular; z where none is."""
+    """Laboratory axis perpendicular to the plates' surfaces; else z."""
     normals = [np.abs(_axes(c)[:, 2]) for c in corners if len(c) == 4 and np.isfinite(c).all() and np.ptp(c) > 0.0]
     if not normals:
         warnings.append(
@@ -127,7 +127,7 @@ def _vertical_axis(corners: list[NDArray[np.float64]], warnings: list[str]) -> i
 
 
 def _plate(held: Mapping[str, NDArray[Any]], number: int, up: int, length: float, warnings: list[str]) -> Plate:
-    """One plate: its channels as force and moment about the middle of its surface, z up."""
+    """One plate's channels as force and moment about its surface's middle, z up."""
     kind, channels, name = int(held[f"type_{number}"]), held[f"channels_{number}"], f"plate {number + 1}"
     if not 1 <= kind <= 5 or not len(channels):
         raise FormatError(f"{name} is of type {kind} or lacks channels; allowed: types 1 to 5 with all their channels")
@@ -173,7 +173,7 @@ def _plate(held: Mapping[str, NDArray[Any]], number: int, up: int, length: float
 def _scales(
     units: list[str], kind: int, length: float, name: str, values: NDArray[np.float64], warnings: list[str]
 ) -> tuple[float, float]:
-    """N and N m in a unit of a plate's forces and moments; a matrix gives N, and N by the points' length."""
+    """N and N m in a unit of a plate's forces and moments; a matrix gives N, and N times the points' length."""
     if kind >= 4:
         return 1.0, length
     force = units[0]
@@ -205,7 +205,7 @@ def _load(
     length: float,
     warnings: list[str],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Force (3, n) in N and moment (3, n) in N m about the middle of the surface in the plate's axes; 0 of type 1."""
+    """Force (3, n) in N and moment (3, n) in N m about the surface's middle in plate axes; 0 of type 1."""
     if kind == 1:
         return newton * values[:3], np.zeros((3, values.shape[1]))
     if kind == 3:

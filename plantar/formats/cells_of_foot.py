@@ -1,4 +1,4 @@
-"""Columns of cells without geometry, as the recording of one foot."""
+"""Cell columns without geometry, as one foot's recording."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ __all__ = ["cells_of_foot", "foot_of_matrix", "halves", "scale_to_force", "unit_
 def unit_of_values(
     stated: str | None, options: ReadOptions, warnings: list[str], what: str = "the file", pressures: bool = False
 ) -> Unit:
-    """Returns the unit of the values: the options', else the stated one, else raw counts with warnings that name what.
+    """Returns unit of values: the options', the stated one, or raw counts with warnings that name what.
 
-    FormatError if it is not known, or for pressures one of force.
+    FormatError if unknown, or a force's for pressures.
     """
     text = options.unit or stated
     if not text:
@@ -48,17 +48,16 @@ def cells_of_foot(
     ids: Sequence[int] | None = None,
     own: SoleLayout | None = None,
 ) -> FootRecording:
-    """Returns one foot's forces from values in a unit; FormatError if the layout does not fit, or pressures have no
-    areas.
+    """Returns one foot's forces from values in a unit; FormatError for an unfit layout, or pressures without areas.
 
     Args:
-        side: The foot.
-        values: Values (n, k), NaN where not measured; they become the forces in place.
+        side: Foot.
+        values: Values (n, k), NaN if unmeasured; become the forces in place.
         unit: Their unit.
         options: With the user's layout.
-        warnings: List to which assumptions are added.
-        ids: Cell ids of the columns, where the file names them.
-        own: Layout of the file itself.
+        warnings: Assumptions are added.
+        ids: Cell ids of the columns, if named.
+        own: File's own layout.
     """
     layout = layout_for(side, options.layout) or own
     if layout is not None and ids is not None and len(set(ids)) == len(ids) and set(ids) <= set(layout.ids.tolist()):
@@ -88,18 +87,17 @@ def foot_of_matrix(
     name: str,
     threshold: float,
 ) -> FootRecording:
-    """Returns the forces of a matrix of cells, on the user's layout or one of rectangles; FormatError if that does not
-    fit.
+    """Returns forces of a cell matrix, on the user's layout or rectangles; FormatError if unfit.
 
     Args:
-        side: The foot.
-        values: Values (n, k) of the cells row by row, NaN where not measured; they become the forces in place.
+        side: Foot.
+        values: Cell values (n, k) row by row, NaN if unmeasured; become the forces in place.
         unit: Their unit.
         options: With the user's layout.
-        present: Which places (rows, columns) of the matrix are cells.
-        pitch: Distances of rows and columns in m.
-        name: Name of the layout.
-        threshold: Pressure in Pa from which a cell counts as loaded.
+        present: Which matrix places (rows, columns) are cells.
+        pitch: Row and column distance in m.
+        name: Of the layout.
+        threshold: Cell counts as loaded from this pressure in Pa.
     """
     layout = layout_for(side, options.layout)
     layout = layout or grid_cells(present, *pitch, side=side, name=name, threshold=threshold)
@@ -109,7 +107,7 @@ def foot_of_matrix(
 
 
 def scale_to_force(values: NDArray[np.float64], unit: Unit, areas: NDArray[np.float64] | None) -> None:
-    """Convert values (n, k) in a unit to forces in N, in place, pressures by areas (k,) in m^2; raw counts stay."""
+    """Convert values (n, k) in a unit to N in place, pressures by areas (k,) in m^2; raw counts stay."""
     if unit.kind == "pressure" and areas is not None:
         scale_frames(values, unit.factor * areas)
     elif unit.factor != 1.0:
@@ -119,7 +117,7 @@ def scale_to_force(values: NDArray[np.float64], unit: Unit, areas: NDArray[np.fl
 def halves(
     values: NDArray[np.float64], options: ReadOptions, warnings: list[str]
 ) -> list[tuple[Side, NDArray[np.float64]]]:
-    """Returns feet and their columns of values (n, k) that name none, by the options; warnings get assumptions."""
+    """Returns feet and columns of values (n, k) that name none, by options; warnings get assumptions."""
     k = values.shape[1]
     if options.layout is not None and k == 2 * len(options.layout):
         warnings.append(
@@ -140,7 +138,7 @@ def halves(
 
 
 def _in_turns(values: NDArray[np.float64]) -> bool:
-    """Whether each half of the columns (n, k) is free of load for a part of the time in which the other one has it."""
+    """Whether each half of columns (n, k) is unloaded for some time while the other is loaded."""
     half = values.shape[1] // 2
     one, other = np.nansum(values[:, :half], axis=1), np.nansum(values[:, half:], axis=1)
     loaded = [x > _IN_AIR * float(np.percentile(x, 98.0)) for x in (one, other)]

@@ -1,7 +1,7 @@
-"""Meaning of a column's heading: a quantity, its axis, the foot or plate, and a unit.
+"""Meaning of a heading: quantity, axis, foot or plate, and unit.
 
 A heading is cut into known words ("FzLeft" is force, z, left; "1_ground_force_vy" is 1, ground, force, y); one unknown
-word makes the whole heading unknown.
+word makes it unknown.
 """
 
 from __future__ import annotations
@@ -63,13 +63,13 @@ class Heading:
     """Meaning of a heading.
 
     Attributes:
-        quantity: The quantity.
-        axis: "x", "y", "z", "vertical", "ap" or "ml"; empty where none is named.
-        side: The foot; None where none is named.
-        number: The last number, of a plate or cell; None without.
-        unit: The unit as it is stated; empty without.
-        plate: Whether a force plate, belt or the ground's reaction is named.
-        words: The words that are no side, number or unit, joined.
+        quantity: Quantity.
+        axis: "x", "y", "z", "vertical", "ap" or "ml", or empty.
+        side: Named foot or None.
+        number: Last number, of a plate or cell, or None.
+        unit: As stated, or empty.
+        plate: Whether a force plate, belt or ground reaction is named.
+        words: Words other than side, number or unit, joined.
     """
 
     quantity: Quantity
@@ -108,7 +108,7 @@ def heading_of(text: str) -> Heading:
 
 @lru_cache(maxsize=4096)
 def _words(name: str) -> tuple[str, ...] | None:
-    """A name's known words and numbers; None where it holds another one."""
+    """Name's known words and numbers; None with any other."""
     out: list[str] = []
     for chunk in re.findall(r"[^\W_]+|%", name):
         parts = _cut(chunk)
@@ -119,7 +119,7 @@ def _words(name: str) -> tuple[str, ...] | None:
 
 
 def _cut(chunk: str) -> list[str] | None:
-    """Letters and digits as known words and numbers: first at changes of case, then the fewest words that fit."""
+    """Letters and digits as known words and numbers: cut at case changes, then into the fewest fitting words."""
     spans = re.findall(r"[A-Z]{2,}(?![a-zß-ÿ])|[A-Z]?[a-zß-ÿ]+|[A-Z]|\d+", chunk)
     cased = [_fewest(span.lower()) if not span.isdigit() else [span] for span in spans]
     if all(part is not None for part in cased) and "".join(spans) == chunk:

@@ -1,7 +1,7 @@
-"""Tables of any origin (CSV, TSV, text): a row a frame, below any lines of text that state unit, rate and names.
+"""Tables of any origin (CSV, TSV, text): a row a frame, below lines of unit, rate and names.
 
-Names are read by `plantar.formats.column_names`. OpenSim's .mot and .sto, Cortex' .forces, loadsol's text and tables
-without names whose last columns are the sums of others (PhysioNet's gaitpdb) are such tables, too.
+OpenSim's .mot and .sto, Cortex' .forces, loadsol's text, and nameless tables whose last columns sum others (PhysioNet's
+gaitpdb) count, too.
 """
 
 from __future__ import annotations

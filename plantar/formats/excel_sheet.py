@@ -1,6 +1,6 @@
-"""Binary Excel workbooks (.xls, BIFF8 in an OLE2 file): the fullest sheet, read as text; footscan exports so.
+"""Binary Excel workbooks (.xls, BIFF8 in OLE2), as footscan exports: the fullest sheet as text.
 
-Sources: [MS-CFB] and [MS-XLS], Microsoft's open specifications.
+Sources: [MS-CFB] and [MS-XLS], Microsoft.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def _recognises(head: bytes) -> bool:
 
 
 def lines_of_workbook(data: bytes) -> list[str]:
-    """Rows of a workbook's fullest sheet, with tabs between cells; FormatError if it is damaged, encrypted or empty."""
+    """Rows of a workbook's fullest sheet, tabs between cells; FormatError if damaged, encrypted or empty."""
     try:
         sheets = _sheets(_stream(data))
     except (struct.error, IndexError, UnicodeDecodeError, ValueError) as error:
@@ -46,7 +46,7 @@ def lines_of_workbook(data: bytes) -> list[str]:
 
 
 def _stream(data: bytes) -> bytes:
-    """The stream "Workbook" of an OLE2 file."""
+    """ "Workbook" stream of an OLE2 file."""
     if not data.startswith(_MAGIC) or len(data) < 1536:
         raise ValueError("no OLE2 file")
     shift, small = struct.unpack_from("<HH", data, 0x1E)
@@ -147,7 +147,7 @@ def _sheets(stream: bytes) -> list[dict[tuple[int, int], str]]:
 
 
 def _rk(value: int) -> str:
-    """A number in 30 bits: the high ones of a double, or an integer; over 100 where the first bit is set."""
+    """Number in 30 bits: a double's high ones, or an integer; over 100 if the first bit is set."""
     number = float(struct.unpack("<i", struct.pack("<I", value & 0xFFFFFFFC))[0] >> 2) if value & 2 else 0.0
     if not value & 2:
         number = struct.unpack("<d", struct.pack("<II", 0, value & 0xFFFFFFFC))[0]
@@ -155,7 +155,7 @@ def _rk(value: int) -> str:
 
 
 def _strings(parts: list[bytes]) -> list[str]:
-    """The shared strings; a string that continues in a further record states its width there again."""
+    """Shared strings; a continued string states its width again in the next record."""
     part, at = 0, 8
     unique = struct.unpack_from("<I", parts[0], 4)[0]
     out: list[str] = []

@@ -1,6 +1,4 @@
-"""Footprints in images: a scan, an ink print or a pressure plot (PNG, JPEG, TIFF, BMP), found against the
-background.
-"""
+"""Footprints in images (PNG, JPEG, TIFF, BMP), found against the background."""
 
 from __future__ import annotations
 
@@ -33,8 +31,8 @@ class Print:
     """One footprint.
 
     Attributes:
-        mask: Which pixels (h, w) belong to it.
-        contours: Outlines (k, 2) of its parts as (column, row) in pixels of the mask: the foot, and separate toes.
+        mask: Its pixels (h, w).
+        contours: Outlines (k, 2) of foot and separate toes as (column, row) in mask pixels.
     """
 
     mask: NDArray[np.bool_]
@@ -43,13 +41,13 @@ class Print:
 
 @dataclass(frozen=True, eq=False)
 class FootprintImage:
-    """An image with one or two footprints, from left to right.
+    """Image with one or two footprints, left to right.
 
     Attributes:
-        path: The file.
-        pixel: Size of a pixel of the masks in m; None where it is not stated.
-        picture: The image (h, w, 3) in RGB, of the masks' size.
-        prints: The footprints.
+        path: File.
+        pixel: Mask pixel in m, or None.
+        picture: RGB image (h, w, 3) of the masks' size.
+        prints: Footprints.
         warnings: What was assumed.
     """
 
@@ -65,12 +63,12 @@ def _recognises(head: bytes) -> bool:
 
 
 def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintImage:
-    """Returns the footprints in an image at path, of mm_per_pixel mm or the resolution that the file states.
+    """Returns footprints in an image at path, of mm_per_pixel mm or the file's resolution.
 
     Raises:
-        FormatError: If the file is no image, or no footprint differs from its background.
-        InputError: If mm_per_pixel is not possible.
-        DependencyError: If OpenCV is not installed.
+        FormatError: If unreadable or without footprint.
+        InputError: If mm_per_pixel is impossible.
+        DependencyError: If OpenCV is missing.
     """
     if mm_per_pixel is not None and not (np.isfinite(mm_per_pixel) and 0.001 <= mm_per_pixel <= 50.0):
         raise InputError(f"--mm-per-pixel {mm_per_pixel} is not possible; allowed: 0.001 to 50")
@@ -95,7 +93,7 @@ def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintI
 
 
 def _decoded(path: Path, data: bytes) -> tuple[NDArray[np.uint8], float]:
-    """The image as BGR over white, upright whatever its bit depth, and the factor of its reduction."""
+    """Upright image as BGR over white, any bit depth, and its reduction factor."""
     _refuse_large(path, data)
     held = read_apart("image", path, FormatError)
     image = np.asarray(held["image"])
@@ -105,10 +103,10 @@ def _decoded(path: Path, data: bytes) -> tuple[NDArray[np.uint8], float]:
 
 
 def decoded_image(path: Path) -> dict[str, Any]:
-    """An image of a size that is enough to outline a foot, for `confined`.
+    """Image large enough to outline a foot, for `confined`.
 
     Returns:
-        "image": BGR over white (h, w, 3), of 8 bits, empty where OpenCV reads none; "factor": of its reduction.
+        "image": 8-bit BGR over white (h, w, 3), empty if OpenCV reads none; "factor": of its reduction.
     """
     import cv2
 
@@ -145,7 +143,7 @@ def _refuse_large(path: Path, data: bytes) -> None:
 
 
 def _reduced(cv2: Any, image: NDArray[Any]) -> tuple[NDArray[Any], float]:
-    """The image, no larger than is enough to outline a foot, and the factor of its reduction."""
+    """Image just large enough to outline a foot, and its reduction factor."""
     factor = min(1.0, _WORKING / max(image.shape[:2]))
     if factor == 1.0:
         return image, 1.0
@@ -154,7 +152,7 @@ def _reduced(cv2: Any, image: NDArray[Any]) -> tuple[NDArray[Any], float]:
 
 
 def _stated_resolution(data: bytes) -> float | None:
-    """mm a pixel as PNG (pHYs) or JPEG (JFIF) state it; None where they do not, or state a screen's 72 or 96 dpi."""
+    """mm a pixel stated by PNG (pHYs) or JPEG (JFIF); None without, or for a screen's 72 or 96 dpi."""
     per_metre = 0.0
     if data.startswith(_MAGIC[0]):
         at = data.find(b"pHYs", 0, 4096)
@@ -170,7 +168,7 @@ def _stated_resolution(data: bytes) -> float | None:
 
 
 def _foreground(cv2: Any, image: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Pixels whose colour is far from that of the image's border, by Otsu's threshold."""
+    """Pixels with colours far from the image border's, by Otsu's threshold."""
     smooth = cv2.GaussianBlur(image, (0, 0), max(1.0, max(image.shape[:2]) / 500.0))
     lab = cv2.cvtColor(smooth, cv2.COLOR_BGR2LAB).astype(np.float32)
     rim = max(2, min(image.shape[:2]) // 60)
@@ -190,7 +188,7 @@ def _foreground(cv2: Any, image: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def _prints(cv2: Any, mask: NDArray[np.uint8], pixel: float | None, warnings: list[str]) -> list[Print]:
-    """Parts of the foreground grouped to feet: separate toes and heels belong to the part they are near."""
+    """Foreground parts grouped to feet: separate toes and heels join the part they are near."""
     count, labels, stats, centres = cv2.connectedComponentsWithStats(mask, connectivity=8)
     areas = stats[1:, cv2.CC_STAT_AREA].astype(float)
     if not len(areas):
@@ -233,7 +231,7 @@ def _tall(boxes: dict[int, NDArray[np.float64]], length: float) -> bool:
 def _belongs(
     boxes: dict[int, NDArray[np.float64]], stats: Any, group: list[int], part: int, upright: bool, length: float
 ) -> bool:
-    """Whether a part is of a group's foot: in line with it, and apart by less than 0.4 of the foot (a high arch)."""
+    """Whether a part is of a group's foot: in line, and apart by under 0.4 of the foot (a high arch)."""
     across, along = (0, 1) if upright else (1, 0)
     low = min(boxes[i][across] for i in group)
     high = max(boxes[i][across] + boxes[i][across + 2] for i in group)

@@ -1,7 +1,6 @@
-"""Footscan (formerly RSscan) text exports of a pressure plate: "Frame 3 (12 ms)", then the plate's cells in rows, in N.
+"""Footscan (formerly RSscan) pressure plate text: "Frame 3 (12 ms)", then rows of cells in N.
 
-After the R package pressuRe (0.2.4, `load_footscan`): times in ms, the first row is the hind edge; cells are 5.08 mm
-wide and 7.62 mm long, 64 across.
+After the R package pressuRe (0.2.4, `load_footscan`): first row hind edge; cells 5.08 mm wide, 7.62 mm long, 64 across.
 """
 
 from __future__ import annotations
@@ -95,7 +94,7 @@ def _times(stated: list[float], options: ReadOptions, warnings: list[str]) -> tu
 def _take_frames(
     path: Path, lines: Iterator[str], warnings: list[str]
 ) -> tuple[list[float], tuple[int, int], FrameTable]:
-    """Times in ms of the frames, rows and columns of the plate, and the readings, the front row of a frame first."""
+    """Frame times in ms, plate rows and columns, and readings, front row first."""
     times: list[float] = []
     table: FrameTable | None = None
     shape, odd, last_is_odd = (0, 0), 0, False

@@ -1,6 +1,6 @@
-"""Force plates as feet: zero, sign, centre of pressure, and the foot of each contact; for every format of plates.
+"""Force plates as feet: zero, sign, CoP, and the foot of each contact.
 
-Axes are the laboratory's with z up; loads are on the foot.
+Laboratory axes, z up; loads are on the foot.
 """
 
 from __future__ import annotations
@@ -47,21 +47,21 @@ def feet_of_plates(
     markers: Mapping[Side, NDArray[np.float64]] | None = None,
     events: Mapping[Side, StatedEvents] | None = None,
 ) -> tuple[dict[Side, FootRecording], bool]:
-    """Returns the feet that step on force plates, and whether the plates see every step, as those of a treadmill do.
+    """Returns feet on force plates, and whether plates see every step, as a treadmill's do.
 
-    Each plate's zero is the mean of its own empty frames; its sign is that of its load.
+    Each plate's zero is the mean of its empty frames; its sign that of its load.
 
     Args:
-        plates: The plates as the file gives them.
+        plates: As given by the file.
         rate: Frames a second.
-        options: With the feet of the plates, where given.
-        warnings: List to which assumptions are added.
-        markers: Place of each foot's markers (n, 2) in m, NaN where unseen.
-        events: Heel strikes of each foot that the file states, in s from the first frame.
+        options: With the plates' feet, if given.
+        warnings: Assumptions are added.
+        markers: Each foot's markers (n, 2) in m, NaN if unseen.
+        events: Each foot's stated heel strikes in s from the first frame.
 
     Raises:
-        FormatError: If no plate is stepped on, the load is no foot's, or one plate carries both feet at once.
-        InputError: If `options.plates` names another number of plates.
+        FormatError: If load is no foot's.
+        InputError: For another number of plates.
     """
     if options.plates and len(options.plates) != len(plates):
         raise InputError(f"--plates names {len(options.plates)} plates; the file has {len(plates)}")
@@ -102,7 +102,7 @@ def feet_of_plates(
 
 
 def _zeroed(plate: Plate, rate: float, warnings: list[str]) -> Plate:
-    """A plate with zero load in its empty frames and positive load under a foot."""
+    """Plate with zero load when empty and positive load under a foot."""
     vertical = plate.force[:, 2]
     empty = _empty_frames(vertical, rate)
     force, moment, free = plate.force, plate.moment, plate.free
@@ -134,9 +134,7 @@ def _zeroed(plate: Plate, rate: float, warnings: list[str]) -> Plate:
 
 
 def _zero(values: NDArray[np.float64], empty: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Empty reading of columns (n, k): lines between means of runs of empty frames where these differ, else one
-    mean.
-    """
+    """Empty reading of columns (n, k): lines between means of empty runs where these differ, else one mean."""
     known = np.where(np.isfinite(values), values, 0.0)
     out = np.tile(known[empty].mean(axis=0), (len(values), 1))
     halves = [(a, b) for c, d in true_runs(empty) for a, b in ((c, (c + d) // 2), ((c + d) // 2, d)) if b - a > 1]
@@ -148,7 +146,7 @@ def _zero(values: NDArray[np.float64], empty: NDArray[np.bool_]) -> NDArray[np.f
 
 
 def _empty_frames(vertical: NDArray[np.float64], rate: float) -> NDArray[np.bool_] | None:
-    """Frames (n,) of an empty plate: flat ones near zero, or at an end of its range; None where there is none."""
+    """Empty plate's frames (n,): flat ones near zero or a range end; None without."""
     known = vertical[np.isfinite(vertical)]
     if len(known) < 3:
         return None
@@ -181,7 +179,7 @@ def _empty_frames(vertical: NDArray[np.float64], rate: float) -> NDArray[np.bool
 
 
 def _level(values: NDArray[np.float64], reach: float, about: float, peak: float) -> tuple[float, float]:
-    """The commonest level of values within a reach about a place, and the extent of its noise."""
+    """Commonest level within reach of a place, and its noise extent."""
     counts, edges = np.histogram(values, bins=60, range=(about - reach, about + reach))
     smooth = np.convolve(counts, [1, 2, 1], mode="same")
     level = 0.5 * float(edges[np.argmax(smooth)] + edges[np.argmax(smooth) + 1])
@@ -245,7 +243,7 @@ def _is_of_both(plate: Plate, contact: PlateContact) -> bool:
 
 
 def _sees_all(contacts: Sequence[PlateContact], plates: int) -> bool:
-    """Whether plates see every step of a walk: those of a treadmill are stepped on again and again."""
+    """Whether plates see every step: a treadmill's are stepped on again and again."""
     counts = np.bincount([c.plate for c in contacts], minlength=plates)
     return plates > 1 and bool((counts >= 4).sum() >= 2)
 
@@ -253,7 +251,7 @@ def _sees_all(contacts: Sequence[PlateContact], plates: int) -> bool:
 def _weights(
     plates: Sequence[Plate], contacts: Sequence[PlateContact], sides: Sequence[Side | None], reach: int
 ) -> dict[Side, list[NDArray[np.bool_]]]:
-    """Frames (n,) of each plate that are of each foot: its contacts, and up to `reach` frames before and after."""
+    """Frames (n,) of each plate by foot: contacts, and up to `reach` frames around."""
     n = len(plates[0].force)
     out: dict[Side, list[NDArray[np.bool_]]] = {side: [np.zeros(n, dtype=bool) for _ in plates] for side in SIDES}
     for i, plate in enumerate(plates):
@@ -270,7 +268,7 @@ def _weights(
 
 
 def _foot(side: Side, plates: Sequence[Plate], masks: Sequence[NDArray[np.bool_]]) -> FootRecording:
-    """One foot from its frames on the plates: their sum, and the CoP weighted by load."""
+    """One foot from its frames on plates: sum, and load-weighted CoP."""
     known = [p for p, mask in zip(plates, masks, strict=True) if mask.any()]
     own = [mask for mask in masks if mask.any()]
     force = np.sum([np.where(m[:, None], np.nan_to_num(p.force), 0.0) for p, m in zip(known, own, strict=True)], axis=0)

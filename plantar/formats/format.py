@@ -1,4 +1,4 @@
-"""Type of a recording format: a name, how it is recognised, and how it is read."""
+"""Type of a recording format: name, recognition and reading."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ __all__ = ["Format", "ReadOptions"]
 
 @dataclass(frozen=True)
 class ReadOptions:
-    """What is known about a file, used instead of its own statements.
+    """Known facts that replace a file's own statements.
 
     Attributes:
         layout: Sole layout; mirrored for the other foot.
-        unit: Unit of the values, for example "kPa", "N" or "raw"; see `plantar.formats.units`.
+        unit: Of the values, such as "kPa", "N" or "raw"; see `plantar.formats.units`.
         rate_hz: Frames a second.
-        side: The foot of a file of one; of a pedar file of two insoles that it does not separate, of the first columns.
-        insole_size: Size of a pedar insole, for example "x" or "vw"; see `plantar.formats.nominal_insole`.
-        mass_kg: Mass of the body, which turns forces in body weights into N.
-        plates: The foot of each force plate, in the file's order; None for a plate that is left out.
+        side: Foot of a one-foot file; of first columns in a pedar file of two unseparated insoles.
+        insole_size: Of a pedar insole, such as "x" or "vw"; see `plantar.formats.nominal_insole`.
+        mass_kg: Body mass, which turns forces in body weights into N.
+        plates: Foot of each force plate in file order; None leaves a plate out.
     """
 
     layout: SoleLayout | None = None
@@ -41,12 +41,12 @@ class Format:
 
     Attributes:
         name: Name for `--format`.
-        title: Description in a few words.
-        suffixes: Usual ends of file names, only for listing.
-        recognises: Whether a file's first bytes are of this format.
-        read: Reads a file; None for footprint images, which are no recordings.
-        folders: File that a folder of this format holds, where the format is a folder.
-        order: Formats are tried in this order; those that recognise any table or text have a high one.
+        title: Few words.
+        suffixes: Usual file name ends, for listing.
+        recognises: Whether first bytes are of this format.
+        read: Reads a file; None for footprint images.
+        folders: File in a folder of this format, if it is one.
+        order: Trial order; high for those that recognise any table or text.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Recordings from a file's path, arrays of cells, or a data frame."""
+"""Recordings from paths, arrays of cells, or data frames."""
 
 from __future__ import annotations
 
@@ -20,18 +20,17 @@ __all__ = ["recording_of"]
 
 
 def recording_of(given: Any, format: str | None = None, options: ReadOptions | None = None) -> PressureRecording:
-    """Returns a recording from a value in any form.
+    """Returns recording from any form.
 
     Args:
-        given: A recording; the path of a file; an array (n, k) of n frames and k cells (or n x rows x columns); a
-            mapping with the arrays of an NPZ file; or a data frame (pandas, polars) with a column a cell and names as
-            in a CSV table.
-        format: Name of a file's format; recognised from its content where None.
-        options: What else is known: layout, unit, rate, side. Arrays are raw counts where no unit is given.
+        given: Recording; path of a file; array (n, k) of n frames and k cells (or n x rows x columns); mapping of an
+            NPZ file's arrays; or data frame (pandas, polars) with a column a cell and names as in a CSV table.
+        format: File format; recognised from content where None.
+        options: What else is known: layout, unit, rate, side. Arrays without unit are raw counts.
 
     Raises:
-        InputError: If it is none of these.
-        FormatError: If it holds no frames of cells or forces.
+        InputError: For another type.
+        FormatError: Without frames of load.
     """
     known = options or ReadOptions()
     if isinstance(given, PressureRecording):
@@ -53,7 +52,7 @@ def recording_of(given: Any, format: str | None = None, options: ReadOptions | N
 
 
 def _columns(frame: Any) -> tuple[np.ndarray[Any, Any], list[str]]:
-    """The numbers (n, k) of a data frame and its columns' names; an index of times becomes the first column."""
+    """Numbers (n, k) and column names of a data frame; an index of times becomes the first column."""
     names, columns = [str(name) for name in frame.columns], [np.asarray(frame[name]) for name in frame.columns]
     index = getattr(frame, "index", None)
     values = None if index is None else np.asarray(index)
@@ -64,7 +63,7 @@ def _columns(frame: Any) -> tuple[np.ndarray[Any, Any], list[str]]:
 
 
 def _numbers(column: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-    """A column (n,) as numbers: dates and durations in s, NaN where a value is no number."""
+    """Column (n,) as numbers: dates and durations in s, NaN for no number."""
     if column.dtype.kind in "mM":
         return (column - column[:1]) / np.timedelta64(1, "s") if len(column) else column.astype(float)
     if column.dtype.kind in "iufb":

@@ -1,4 +1,4 @@
-"""Plantar's own recordings (MCAP), as `plantar.recordings.recorder` writes them."""
+"""Plantar's own recordings (MCAP) of `plantar.recordings.recorder`."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def _recognises(head: bytes) -> bool:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read the skin topics "/skin/left" and "/skin/right", whose field "force" is in N; else any topics with arrays."""
+    """Read "/skin/left" and "/skin/right", whose field "force" is in N; else any topics with arrays."""
     recording = read_mcap(path)
     warnings = list(recording.warnings)
     tables: dict[Side, Table] = {}
@@ -63,7 +63,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def _once(table: Table) -> Table:
-    """A topic without frames repeated for the same instant, as a run's first is: the last one counts."""
+    """Topic without repeated frames of an instant, as at a run's start: the last counts."""
     kept = np.append(np.diff(table.time) != 0.0, True)
     if kept.all() or not kept[-1]:
         return table
@@ -71,7 +71,7 @@ def _once(table: Table) -> Table:
 
 
 def _placement(recording: Recording, side: Side, time: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    """Pose of the sole on the ground (n, 3), from the simulator's "/truth/<side>"; None where it is not recorded."""
+    """Sole pose on the ground (n, 3) from the simulator's "/truth/<side>", or None."""
     truth = recording.topics.get(f"/truth/{side}")
     if truth is None or not {"position", "rotation"} <= set(truth.fields) or len(truth) < 2:
         return None

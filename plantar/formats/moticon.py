@@ -1,7 +1,7 @@
-"""Moticon OpenGo text exports (.txt): tab-separated channels of two sensor insoles of 16 cells each.
+"""Moticon OpenGo text exports (.txt): tab-separated channels of two insoles of 16 cells.
 
-Lines that start with "#" are the header; the last of them names the channels with their units. Empty values are
-dropouts of the radio link. Total force and centre of pressure are the device's, as its cells cover a part of the sole.
+"#" lines are the header; the last names channels with units. Empty values are radio dropouts. Total force and CoP are
+the device's, as its cells cover a part of the sole.
 """
 
 from __future__ import annotations
@@ -197,7 +197,7 @@ def _layout(
 def _device_cop(
     columns: dict[str, tuple[int, str]], table: NDArray[np.float64], size: int | None, side: Side
 ) -> NDArray[np.float64] | None:
-    """The device's centre of pressure, from shares of the insole to m in the sole frame."""
+    """Device's CoP, from insole shares to m in the sole frame."""
     if "center of pressure x" not in columns or "center of pressure y" not in columns:
         return None
     along, across = (table[:, columns[f"center of pressure {axis}"][0]] for axis in "xy")

@@ -1,4 +1,4 @@
-"""Nominal geometry of insoles whose recordings do not state the places of their cells: 99 cells, and Moticon's 16."""
+"""Nominal insole geometry for recordings without cell places: 99 cells, and Moticon's 16."""
 
 from __future__ import annotations
 
@@ -100,9 +100,7 @@ _CENTRE = np.array([0.0, 0.0, 0.0, 0.0, -0.004, -0.008, -0.004, 0.004, 0.014, 0.
 
 
 def insole_outline(length: float) -> NDArray[np.float64]:
-    """Outline (k, 2) in m of a right insole of a length in m, counter-clockwise, its origin in the middle of the heel
-    edge.
-    """
+    """Outline (k, 2) in m of a right insole of a length in m, counter-clockwise from a mid-heel-edge origin."""
     stations = np.linspace(0.0, 1.0, 41)
     half = 0.5 * np.interp(stations, _STATIONS, _WIDTH)
     centre = np.interp(stations, _STATIONS, _CENTRE)
@@ -112,11 +110,9 @@ def insole_outline(length: float) -> NDArray[np.float64]:
 
 
 def nominal_insole(size: str, side: Side) -> SoleLayout:
-    """Returns a parametric insole of a side, of 99 quadrilateral cells with the areas published for the size
-    (`CELL_AREAS`).
+    """Returns parametric insole of a side: 99 quadrilateral cells with the size's published areas (`CELL_AREAS`).
 
-    Each row's height is proportional to the area of its cells. The origin is in the middle of the heel edge; x points
-    to the toe; ids are 1 to 99.
+    Row heights are proportional to cell areas. Origin in the middle of the heel edge; x to the toe; ids 1 to 99.
 
     Example:
         >>> layout = nominal_insole("y", "left")
@@ -181,7 +177,7 @@ def nominal_insole(size: str, side: Side) -> SoleLayout:
 
 
 def _neighbours(spans: list[tuple[int, float, float]]) -> tuple[tuple[int, ...], ...]:
-    """Cells that share a part of an edge: next to each other in a row, or overlapping in adjacent rows."""
+    """Cells sharing part of an edge, in a row or in adjacent rows."""
 
     def touch(p: tuple[int, float, float], q: tuple[int, float, float]) -> bool:
         if p[0] == q[0]:
@@ -224,10 +220,10 @@ _AREA_SIZE = 7
 
 
 def moticon_insole(size: int | None, side: Side, areas: NDArray[np.float64] | None = None) -> SoleLayout:
-    """Returns the insole of a size (7 where unknown) and side, cut into the parts that are nearest to each cell.
+    """Returns insole of a size (7 if unknown) and side, cut into the parts nearest to each cell.
 
-    The origin is in the middle of the heel edge, ids are 1 to 16. Areas (16,) in m^2 are those of the recording, if
-    known; they differ a little from those of the drawn parts.
+    Origin in the middle of the heel edge, ids 1 to 16. Areas (16,) in m^2 are the recording's, if known, slightly
+    unlike the drawn parts'.
 
     Example:
         >>> layout = moticon_insole(7, "left")

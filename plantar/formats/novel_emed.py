@@ -1,7 +1,7 @@
-"""Novel emed ASCII exports (.lst): one page of a printed table for each frame of a pressure platform.
+"""Novel emed ASCII exports (.lst): a printed table for each frame of a platform.
 
-Each page gives its columns and rows, pressures, and the force of each row, column and frame, from which the unit of
-pressure follows. Wide frames have several pages. Summary pages (MVP, MPP) follow the frames.
+Pages give columns, rows, pressures, and forces of rows, columns and frame, from which the pressure unit follows. Wide
+frames have several pages; summary pages (MVP, MPP) follow.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class _Page:
     columns_shown: set[int] = field(default_factory=set)
 
     def close(self) -> None:
-        """Join the rows that were read to one table."""
+        """Join the rows read to one table."""
         self.tables.append((np.array(self.labels), np.array(self.columns), np.array(self.values)))
         self.rows_shown.update(self.labels)
         self.columns_shown.update(self.columns)
@@ -74,7 +74,7 @@ class _Page:
         return sum(values.size for _, _, values in self.tables)
 
     def goes_on_with(self, page: _Page) -> bool:
-        """Whether a page shows other columns, or other rows of the same columns, of the same frame."""
+        """Whether a page continues the frame: other columns, or other rows of the same."""
         if self.picture != page.picture:
             return False
         if self.columns_shown.isdisjoint(page.columns):
@@ -82,7 +82,7 @@ class _Page:
         return self.columns == page.columns and self.rows_shown.isdisjoint(page.rows_shown)
 
     def join(self, page: _Page) -> None:
-        """Add another page of the same frame."""
+        """Add a page of the same frame."""
         if self.columns_shown.isdisjoint(page.columns):
             self.columns += page.columns
         self.tables += page.tables
@@ -221,7 +221,7 @@ def _frames(pages: list[_Page], warnings: list[str]) -> list[_Page]:
 
 
 def _matrix(facts: dict[str, str], needed: tuple[int, int], warnings: list[str]) -> tuple[int, int]:
-    """Columns and rows of the platform that the tables need."""
+    """Platform columns and rows that the tables need."""
     match = re.match(r"(\d+)\s*x\s*(\d+)", facts.get("matrix", ""))
     if match is None:
         warnings.append(f"the file states no size of the matrix: {needed[1]} rows and {needed[0]} columns are shown")
@@ -266,7 +266,7 @@ def _unit(
     area: float,
     warnings: list[str],
 ) -> Unit:
-    """Unit of the tables: of the options, or by the file's own forces."""
+    """Table unit: of the options, or by the file's forces."""
     if options.unit is not None:
         unit = find_unit(options.unit)
         if unit is None or unit.kind == "force":

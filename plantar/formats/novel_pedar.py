@@ -1,8 +1,7 @@
-"""Novel pedar and pliance ASCII exports (.asc): pressures of insoles or a mat, one row a frame.
+"""Novel pedar and pliance ASCII exports (.asc): pressures, a row a frame.
 
-A header states the sensor, the rate and the unit, and may list the cells of each insole. The row of column names starts
-with "time[secs]" and gives cell numbers; where they restart, the next foot begins. A pliance export may end with a
-table of cell corners.
+A header states sensor, rate and unit, and may list each insole's cells. Column names start with "time[secs]" and cell
+numbers; where they restart, the next foot begins. Pliance exports may end with cell corners.
 """
 
 from __future__ import annotations
@@ -88,7 +87,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def _take_header(path: Path, lines: Iterator[str]) -> tuple[list[str], list[int], str | None]:
-    """Lines before the row of column names, the cells of that, and its delimiter; None for blanks."""
+    """Lines before the column names, their cells, and the delimiter; None for blanks."""
     header: list[str] = []
     for line in lines:
         if _COLUMNS.match(line):
@@ -104,7 +103,7 @@ def _take_header(path: Path, lines: Iterator[str]) -> tuple[list[str], list[int]
 
 @dataclass(frozen=True, eq=False)
 class _Rows:
-    """The frames: times (n,) in s, values (n, span) of each span of columns (NaN where damaged), what was repaired."""
+    """Frames: times (n,) in s, values (n, span) of each column span (NaN if damaged), and repairs."""
 
     time: NDArray[np.float64]
     values: list[NDArray[np.float64]]
@@ -114,7 +113,7 @@ class _Rows:
 def _take_rows(
     path: Path, lines: Iterator[str], delimiter: str | None, cells: int, spans: Sequence[range]
 ) -> tuple[_Rows, list[str]]:
-    """Frames up to the next section, and the lines after them that may give the cells' corners."""
+    """Frames up to the next section, and following lines that may give cell corners."""
     tail: list[str] = []
 
     def frames() -> Iterator[str]:
@@ -163,7 +162,7 @@ def _take_rows(
 
 
 def _frames(block: list[str], delimiter: str | None, cells: int) -> NDArray[np.float64]:
-    """Numbers (lines, 1 + cells) of lines; NaN in each line that is not made of as many finite numbers."""
+    """Numbers (lines, 1 + cells); NaN in lines without as many finite numbers."""
     rows = number_rows(block, delimiter, 1 + cells)
     if rows is not None and np.isfinite(rows).all() and (np.abs(rows[:, 0]) < _LATEST).all():
         return rows
@@ -176,7 +175,7 @@ def _frames(block: list[str], delimiter: str | None, cells: int) -> NDArray[np.f
 
 
 def _numbers(parts: list[str], cells: int) -> NDArray[np.float64] | None:
-    """One frame, or None where it is not made of as many finite numbers as it should be."""
+    """One frame, or None without the due count of finite numbers."""
     if len(parts) != 1 + cells:
         return None
     try:
@@ -219,7 +218,7 @@ def _rate(text: str) -> float | None:
 
 
 def _sides(text: str, columns: list[int], options: ReadOptions, warnings: list[str]) -> list[tuple[Side, range]]:
-    """Which columns belong to which foot, left first."""
+    """Columns of each foot, left first."""
     restarts = [i for i in range(1, len(columns)) if columns[i] <= columns[i - 1]]
     listed: dict[Side, int] = {}
     for name, cells in re.findall(r"(left|right)\s+insole:[ \t]*([\d,;\t ]*)", text, re.IGNORECASE):
@@ -262,7 +261,7 @@ def _sides(text: str, columns: list[int], options: ReadOptions, warnings: list[s
 
 
 def _sensor_type(text: str) -> str:
-    """The header's sensors in lower case, such as "y-1865l-1870r"."""
+    """Header's sensors in lower case, such as "y-1865l-1870r"."""
     return (_field(text, r"(?:sensor|mat)\s+type:?[ \t]*([^\n]*)") or "").lower()
 
 
@@ -303,7 +302,7 @@ def _layout(
 
 
 def _size(text: str, given: str | None) -> tuple[str, str]:
-    """The insole's size, of the options or the letters that begin the sensor type; and a note on it."""
+    """Insole size, of the options or the sensor type's first letters; and a note."""
     if given is not None:
         return given, " (--insole-size)"
     stated = (_field(text, r"sensor\s+type:?[ \t]*([a-z]{1,2})(?![a-z])") or "").lower()

@@ -1,4 +1,4 @@
-"""Foot of each contact on a force plate: by names, markers, events, inward push, or the plates' places."""
+"""Foot of each plate contact: by names, markers, events, push or place."""
 
 from __future__ import annotations
 
@@ -29,19 +29,19 @@ _LONG = 1.4  # Contacts and gaps on a treadmill's belt of so many medians show t
 
 @dataclass(frozen=True, eq=False)
 class Plate:
-    """Measurements of one force plate; optional ones are None where the file does not hold them.
+    """Measurements of one force plate; None if not in the file.
 
     Attributes:
-        name: Its name for messages, such as "plate 1".
-        force: Force (n, 3) in N; horizontal ones NaN where they were not measured.
-        moment: Moment (n, 3) in N m about `origin`.
-        cop: Centre of pressure (n, 2) in m.
-        free: Free moment (n,) in N m, where it does not follow from `moment`.
-        origin: Point (2,) in m on the surface that moments are about.
-        corners: Corners (4, 2) in m.
-        side: The foot that the file or the user names for it.
-        stepped: Whether a foot was on it.
-        placed: Whether its place and axes in the laboratory are known.
+        name: For messages, such as "plate 1".
+        force: (n, 3) in N; horizontal ones NaN if unmeasured.
+        moment: (n, 3) in N m about `origin`.
+        cop: (n, 2) in m.
+        free: Free moment (n,) in N m, if not from `moment`.
+        origin: Surface point (2,) in m of moments.
+        corners: (4, 2) in m.
+        side: Foot named by file or user.
+        stepped: Whether stepped on.
+        placed: Whether laboratory place and axes are known.
     """
 
     name: str
@@ -58,7 +58,7 @@ class Plate:
 
 @dataclass(frozen=True)
 class PlateContact:
-    """A contact on a plate: its number, first frame, and the frame after its last one."""
+    """Contact on a plate: its number, first frame, and the one after its last."""
 
     plate: int
     begin: int
@@ -66,9 +66,7 @@ class PlateContact:
 
 
 def plate_contacts(plate: int, vertical: NDArray[np.float64], rate: float) -> list[PlateContact]:
-    """Returns the contacts on a plate by its vertical force (n,) in N at a rate in Hz; cut ones, too, but none
-    throughout.
-    """
+    """Returns plate contacts by vertical force (n,) in N at a rate in Hz, cut ones too; none if throughout."""
     force = np.nan_to_num(vertical)
     loaded = force > max(LEAST, _SHARE * float(np.percentile(force, 99.5)))
     out: list[PlateContact] = []
@@ -90,17 +88,17 @@ def sides_of_contacts(
     markers: Mapping[Side, NDArray[np.float64]] | None = None,
     events: Mapping[Side, StatedEvents] | None = None,
 ) -> list[Side]:
-    """Returns the foot of each contact.
+    """Returns foot of each contact.
 
     Args:
-        plates: The plates, which may name their foot.
-        contacts: Their contacts.
-        treadmill: Whether each plate is a belt that one foot walks on.
+        plates: May name their foot.
+        contacts: Of the plates.
+        treadmill: Whether each plate is a one-foot belt.
         rate: Frames a second.
-        given: The user's side of a file of one foot.
-        warnings: List to which the reason is added.
-        markers: Place of each foot's markers (n, 2).
-        events: Heel strikes of each foot in s.
+        given: User's side of a one-foot file.
+        warnings: Reason is added.
+        markers: Each foot's (n, 2).
+        events: Each foot's heel strikes in s.
     """
     if treadmill:
         _report_crossings(plates, contacts, rate, warnings)
@@ -153,7 +151,7 @@ def sides_of_contacts(
 
 
 def _walks_on_one_foot(contacts: Sequence[PlateContact], found: Sequence[Side | None]) -> bool:
-    """Whether contacts of one foot overlap as steps of two feet do: begin and end of both are some time apart."""
+    """Whether contacts of one foot overlap as two feet's do: begins and ends some time apart."""
     for i, a in enumerate(contacts):
         for k in range(i + 1, len(contacts)):
             b = contacts[k]
@@ -179,7 +177,7 @@ def _by_markers(plate: Plate, contact: PlateContact, markers: Mapping[Side, NDAr
 
 
 def _by_events(contact: PlateContact, rate: float, events: Mapping[Side, StatedEvents] | None) -> Side | None:
-    """The foot with a stated heel strike nearest to a contact's begin."""
+    """Foot with the stated heel strike nearest a contact's begin."""
     away = {
         side: float(np.abs(own.heel_strikes - contact.begin / rate).min())
         for side, own in (events or {}).items()
@@ -190,7 +188,7 @@ def _by_events(contact: PlateContact, rate: float, events: Mapping[Side, StatedE
 
 
 def _forward(plates: Sequence[Plate], contacts: Sequence[PlateContact], treadmill: bool) -> NDArray[np.float64] | None:
-    """The direction (2,) of walking: a foot brakes first and pushes off last; else that of the CoP."""
+    """Walking direction (2,): a foot brakes first and pushes off last; else the CoP's."""
     push, way = np.zeros(2), np.zeros(2)
     for contact in contacts:
         plate, length = plates[contact.plate], contact.end - contact.begin
@@ -211,7 +209,7 @@ def _forward(plates: Sequence[Plate], contacts: Sequence[PlateContact], treadmil
 def _by_push(
     plates: Sequence[Plate], contacts: Sequence[PlateContact], forward: NDArray[np.float64] | None
 ) -> list[Side | None]:
-    """The foot of each contact by its push in mid-stance, which is inwards, towards the body."""
+    """Foot of each contact by its mid-stance push, inwards to the body."""
     out: list[Side | None] = []
     for contact in contacts:
         length = contact.end - contact.begin
@@ -229,7 +227,7 @@ def _by_push(
 def _by_place(
     plates: Sequence[Plate], contacts: Sequence[PlateContact], forward: NDArray[np.float64] | None
 ) -> list[Side]:
-    """The foot of each contact by its plate's place across the direction of walking; empty where they lie in a line."""
+    """Foot of each contact by its plate's place across the walking direction; empty if in a line."""
     if forward is None or len(contacts) < 2:
         return []
     places = []
@@ -250,7 +248,7 @@ def _by_place(
 
 
 def _filled_in(contacts: Sequence[PlateContact], found: Sequence[Side | None]) -> list[Side]:
-    """Contacts of an unknown foot as the other foot than the known one next to them in time."""
+    """Contacts of unknown feet as the other foot than the known one next in time."""
     order = sorted(range(len(contacts)), key=lambda i: contacts[i].begin)
     sides: dict[int, Side | None] = dict(enumerate(found))
     for way in (order, order[::-1]):
@@ -264,7 +262,7 @@ def _filled_in(contacts: Sequence[PlateContact], found: Sequence[Side | None]) -
 def _report_crossings(
     plates: Sequence[Plate], contacts: Sequence[PlateContact], rate: float, warnings: list[str]
 ) -> None:
-    """Warn of contacts in which both feet are on one belt while the other one is empty for too long."""
+    """Warn of contacts with both feet on one belt while the other is empty too long."""
     for i, plate in enumerate(plates):
         own = [c for c in contacts if c.plate == i]
         others = [c for c in contacts if c.plate != i]

@@ -1,4 +1,4 @@
-"""Checks of a recording that was read: marks for missing values, and doubts about unit, rate or cell size."""
+"""Checks of a read recording: missing-value marks, doubts about unit, rate or cell size."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ _SLENDER = (1.8, 4.2)  # How many times longer than wide insoles are, with room;
 
 
 def checked(recording: PressureRecording) -> PressureRecording:
-    """The recording with marks for missing values as NaN, and with warnings of these and of all doubts."""
+    """Recording with missing-value marks as NaN, warnings of these and of all doubts."""
     found = without_marks(recording)
     return replace(found, warnings=tuple(dict.fromkeys([*found.warnings, *doubts(found)])))
 
 
 def doubts(recording: PressureRecording) -> list[str]:
-    """Warnings about raw counts, peak force, peak pressure, cell area, insole length and rate that are no foot's."""
+    """Warnings about raw counts, and force, pressure, cell area, insole length and rate that are no foot's."""
     out: list[str] = []
     if recording.raw and not any("raw counts" in w or "of body weight" in w for w in recording.warnings):
         out.append("the readings are raw counts: forces and pressures cannot be given")
@@ -74,7 +74,7 @@ def doubts(recording: PressureRecording) -> list[str]:
 
 
 def _slender_or_wide(foot: FootRecording) -> list[str]:
-    """Warning about an insole whose length and width are no foot's: the cell size is wrong in one direction."""
+    """Warning about an insole whose length and width are no foot's: cells mis-sized in one direction."""
     assert foot.layout is not None
     length, width = (float(v) for v in np.ptp(foot.layout.outline, axis=0))
     if not width > 0.0 or _SLENDER[0] <= length / width <= _SLENDER[1]:
@@ -86,7 +86,7 @@ def _slender_or_wide(foot: FootRecording) -> list[str]:
 
 
 def _clipped_or_held(foot: FootRecording, rate: float) -> list[str]:
-    """Warning about cells at the end of their range, and of frames that repeat earlier ones."""
+    """Warning about cells at their range's end, and of repeated frames."""
     measured = foot.force[: max(20, _SEEN // foot.force.shape[1])]
     part = np.nan_to_num(measured)
     let_go(foot.force)
@@ -126,7 +126,7 @@ def _clipped_or_held(foot: FootRecording, rate: float) -> list[str]:
 
 
 def _switched_on(side: str, value: NDArray[np.float64]) -> list[str]:
-    """Warning about cells that read zero below a pressure that matters; values (n, k) in Pa."""
+    """Warning about cells reading zero below a pressure that matters; values (n, k) in Pa."""
     seen = value[:, value.max(axis=0) > 0.0]
     positive = seen[seen > 0.0]
     if not len(positive) or float((seen == 0.0).mean()) < _ZEROS:
@@ -155,10 +155,9 @@ _SAME = 1e-6  # Relative difference up to which readings are the same, after a c
 
 
 def without_marks(recording: PressureRecording) -> PressureRecording:
-    """The recording with marks as NaN, and a warning for each; those of robots and force plates are unchanged.
+    """Recording with marks as NaN, each with a warning; robots' and force plates' are unchanged.
 
-    A mark is one value that is read several times and is three times as large as any other reading, or the only one
-    below zero.
+    A mark is a repeated value three times as large as any other reading, or the only one below zero.
     """
     if recording.kind in ("robot", "plate"):
         return recording
@@ -180,7 +179,7 @@ def without_marks(recording: PressureRecording) -> PressureRecording:
 
 
 def _marks(force: NDArray[np.float64], per: NDArray[np.float64], are_pressures: bool) -> list[float]:
-    """The marks among readings (n, k), each divided by one of (k,) numbers."""
+    """Marks among readings (n, k), each divided by one of (k,) numbers."""
     if not force.size:
         return []
     sample = force[:: max(1, force.size // _SAMPLED)] / per

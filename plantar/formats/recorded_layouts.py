@@ -1,4 +1,4 @@
-"""Layouts of cells that a recording describes: a matrix of rectangles, corners of each cell, and parts of layouts."""
+"""Layouts that a recording describes: matrices, cell corners, and parts."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ __all__ = ["corner_table", "grid_cells", "layout_of_corners", "polygon_layout", 
 def grid_cells(
     present: NDArray[np.bool_], row_pitch: float, column_pitch: float, *, side: Side, name: str, threshold: float
 ) -> SoleLayout:
-    """Returns a layout of the cells of a matrix that are there; the first row is the front, the first column the left.
+    """Returns layout of a matrix' present cells; first row front, first column left.
 
-    Its origin is in the middle of the hind edge; ids count through the whole matrix.
+    Origin in the middle of the hind edge; ids count the whole matrix.
 
     Args:
-        present: Which cells (rows, columns) there are; FormatError without any, or for a bad pitch.
-        row_pitch: Distance of rows in m.
-        column_pitch: Distance of columns in m.
-        side: The foot.
-        name: Name of the layout.
-        threshold: Pressure in Pa from which a cell counts as loaded.
+        present: Which cells (rows, columns) exist; FormatError without any, or for a bad pitch.
+        row_pitch: Row distance in m.
+        column_pitch: Column distance in m.
+        side: Foot.
+        name: Of the layout.
+        threshold: Cell counts as loaded from this pressure in Pa.
 
     Example:
         >>> layout = grid_cells(np.ones((3, 2), dtype=bool), 0.01, 0.005, side="left", name="mat", threshold=1e4)
@@ -83,11 +83,10 @@ def grid_cells(
 
 
 def polygon_layout(rings: Sequence[NDArray[np.float64]], *, ids: Sequence[int], side: Side, name: str) -> SoleLayout:
-    """Returns a named layout of a side from rings: the corners (k, 2) of each cell in m, counter-clockwise, and its
-    ids.
+    """Returns named layout of a side from rings: corners (k, 2) of each cell in m, counter-clockwise, and ids.
 
-    Cells that share two corners are neighbours, the outline is the convex hull, the threshold 10 kPa. FormatError if
-    ids are not unique, or a cell has no area.
+    Cells sharing two corners are neighbours, the outline is the convex hull, the threshold 10 kPa. FormatError for
+    repeated ids or cells without area.
 
     Example:
         >>> square = np.array([[0.0, 0.0], [0.01, 0.0], [0.01, 0.01], [0.0, 0.01]])
@@ -124,7 +123,7 @@ def polygon_layout(rings: Sequence[NDArray[np.float64]], *, ids: Sequence[int], 
 
 
 def subset(layout: SoleLayout, cells: Sequence[int]) -> SoleLayout:
-    """Returns the layout of the cells of some indices, each once, in the order given; vertices and outline stay.
+    """Returns layout of cells by indices, each once, in their order; vertices and outline stay.
 
     Example:
         >>> from plantar import hex_layout
@@ -146,9 +145,9 @@ def subset(layout: SoleLayout, cells: Sequence[int]) -> SoleLayout:
 
 
 def corner_table(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np.float64] | None:
-    """Returns corners (cells, 4, 2) in m in the file's axes, from the rows "x[0]" .. "y[3]" (in cm) of its tail.
+    """Returns corners (cells, 4, 2) in m in file axes, from rows "x[0]" .. "y[3]" (in cm) of its tail.
 
-    None without a whole table, which warnings report.
+    None without a whole table; reported in warnings.
     """
     rows: dict[str, list[float]] = {}
     for line in tail:
@@ -172,9 +171,9 @@ def corner_table(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np
 
 
 def layout_of_corners(corners: NDArray[np.float64], cells: list[int], side: Side) -> SoleLayout:
-    """Returns a layout of quadrilateral cells of a side by their corners (n, 4, 2) in m in the file's axes.
+    """Returns layout of a side's quadrilateral cells by corners (n, 4, 2) in m in file axes.
 
-    The file's y becomes x (forward), its x becomes -y (to the right).
+    File y becomes x (forward), file x becomes -y (right).
     """
     import shapely  # only where a file brings its own geometry
 

@@ -1,7 +1,7 @@
-"""ROS bags with topics that carry an array of numbers: a ROS 2 bag (folder, .db3, .mcap) or a ROS 1 bag (.bag).
+"""ROS bags with number arrays: ROS 2 (folder, .db3, .mcap) or ROS 1 (.bag).
 
-Topics and fields that name a foot are the feet. ROS messages are in SI units (REP 103): what a topic or field calls a
-force is in N, a pressure in Pa, anything else raw counts.
+Topics and fields that name a foot are the feet. Units are SI (REP 103): named forces in N, pressures in Pa, others raw
+counts.
 """
 
 from __future__ import annotations
@@ -39,15 +39,15 @@ def _recognises(head: bytes) -> bool:
 
 
 def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
-    """Returns the recording of a bag's arrays.
+    """Returns recording of a bag's arrays.
 
     Args:
-        path: Folder of a ROS 2 bag, or one of its files.
-        options: Layout, unit and side, which a bag does not hold.
+        path: ROS 2 bag folder, or one of its files.
+        options: Layout, unit and side, which bags lack.
 
     Raises:
-        FormatError: If the bag is damaged or holds no topic with an array of numbers.
-        DependencyError: If rosbags is not installed.
+        FormatError: If damaged or without arrays.
+        DependencyError: If rosbags is missing.
     """
     if os.path.isdir(path) and not is_file(path / _FOLDERS):
         raise FormatError(f"{path}: cannot be read (a folder that is no ROS 2 bag)")
@@ -113,7 +113,7 @@ def _size(path: Path) -> int:
 
 
 class _Series:
-    """The messages of one array: their times, and the rows of each length that occurs."""
+    """One array's messages: times, and rows of each occurring length."""
 
     def __init__(self) -> None:
         self.times: list[float] = []
@@ -126,7 +126,7 @@ class _Series:
         self.rows.setdefault(len(row), FrameTable(len(row), 0)).add(row[None])
 
     def table(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Times (n,) in s, in order, and values (n, k); NaN where a message is of another length than most."""
+        """Times (n,) in s, in order, and values (n, k); NaN for messages of unusual length."""
         width = int(np.median(self.widths))
         width = width if width in self.rows else max(self.rows, key=lambda w: len(self.rows[w]))
         values = np.full((len(self.times), width), np.nan)
@@ -137,10 +137,10 @@ class _Series:
 
 
 def series_of_bag(path: Path) -> dict[str, Any]:
-    """The arrays of a bag, a folder of ROS 2 or one of its files; called in a separate process.
+    """Arrays of a bag, a ROS 2 folder or file; called in a separate process.
 
     Returns:
-        The "names" of the arrays, "<topic>/<field>", and of each "<name>:times" (n,) in s and "<name>:values" (n, k).
+        "names" of the arrays, "<topic>/<field>", and of each "<name>:times" (n,) in s and "<name>:values" (n, k).
     """
     from rosbags.highlevel import AnyReader
     from rosbags.typesys import Stores, get_typestore

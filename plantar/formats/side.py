@@ -1,4 +1,4 @@
-"""The foot of a recording of one sensor, of each force plate, and of each row of a table."""
+"""Foot of a one-sensor recording, force plate or table row."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _MARKS: dict[Side, re.Pattern[str]] = {
 
 
 def side_of(*texts: str) -> Side | None:
-    """The foot that the first of some texts with a foot's name names; None without.
+    """Foot named by the first naming text, or None.
 
     Example:
         >>> side_of("HX210.11.31.M11-DFM-RF S0073"), side_of("walk_left.fsx"), side_of("walk", "left and right")
@@ -34,7 +34,7 @@ def side_of(*texts: str) -> Side | None:
 
 
 def sides_of_plates(text: str | None) -> tuple[Side | None, ...]:
-    """The foot of each force plate (None: left out) of a text such as "L,R" or "left,-,right"; else InputError.
+    """Foot of each force plate (None: left out) of text such as "L,R" or "left,-,right"; else InputError.
 
     Example:
         >>> sides_of_plates("L,-,right"), sides_of_plates(None)
@@ -61,7 +61,7 @@ _MARK: dict[Side, str] = {"left": "0", "right": "1"}
 
 
 def is_side_column(name: str) -> bool:
-    """Whether a column of this name gives the foot of a row.
+    """Whether a column of this name gives a row's foot.
 
     Example:
         >>> [is_side_column(name) for name in ("Side", "foot", "sole_id", "left 12", "footprint 3")]
@@ -71,9 +71,7 @@ def is_side_column(name: str) -> bool:
 
 
 def with_numbers(lines: Iterator[str], delimiter: str | None, column: int) -> Iterator[str]:
-    """Yields lines of cells between a delimiter (None: blanks) with 0 for the left and 1 for the right foot in a side
-    column.
-    """
+    """Yields lines of cells between a delimiter (None: blanks) with the side column as 0 (left) and 1 (right)."""
     known: dict[str, str] = {}
     for line in lines:
         cells = line.split(delimiter)
@@ -87,7 +85,7 @@ def with_numbers(lines: Iterator[str], delimiter: str | None, column: int) -> It
 
 
 def rows_of_sides(values: NDArray[np.float64], warnings: list[str]) -> dict[Side, NDArray[np.int64]]:
-    """Returns the indices of each foot's rows by the values (n,) of a side column; warnings get assumptions."""
+    """Returns each foot's row indices by values (n,) of a side column; warnings get assumptions."""
     kinds = np.unique(values[np.isfinite(values)])
     if len(kinds) > 2 or len(kinds) == 0:
         raise FormatError(
@@ -109,11 +107,11 @@ def rows_of_sides(values: NDArray[np.float64], warnings: list[str]) -> dict[Side
 def on_one_time(
     time: NDArray[np.float64], rows: dict[Side, NDArray[np.int64]], columns: Sequence[NDArray[np.float64]]
 ) -> tuple[NDArray[np.float64], dict[Side, NDArray[np.float64]], bool]:
-    """Returns rows of both feet on one time base: times (m,), values (m, k) of each foot, and whether these are
+    """Returns both feet's rows on one time base: times (m,), each foot's values (m, k), and whether these are
     interpolated.
 
-    Rows are indices of each foot's in time (n,) and in columns (n,) of values; NaN where a foot has none for a while.
-    Where times differ, the right foot's values are interpolated at the left's. FormatError if a foot has no time.
+    Rows are each foot's indices in time (n,) and in columns (n,) of values; NaN where a foot pauses. Where times
+    differ, the right foot is interpolated at the left's. FormatError for a foot without time.
     """
     if len(rows) == 1:
         ((side, own),) = rows.items()
@@ -144,7 +142,7 @@ def _usual(time: NDArray[np.float64]) -> float:
 def _without_ends(
     time: NDArray[np.float64], alone: NDArray[np.float64], others: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Times (n,) of a foot within a shift of the other foot's."""
+    """Times (n,) of a foot within a shift of the other's."""
     most = _SHIFT * _usual(time)
     low = others[0] if 0.0 < others[0] - time[0] <= most else -np.inf
     high = others[-1] if 0.0 < time[-1] - others[-1] <= most else np.inf
@@ -152,7 +150,7 @@ def _without_ends(
 
 
 def _covered(wanted: NDArray[np.float64], time: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Whether wanted times (m,) lie between two of some times (n,), in order, that are no gap apart."""
+    """Whether wanted times (m,) lie between two ordered times (n,) without a gap."""
     after = np.searchsorted(time, wanted, side="left")
     covered = time[np.minimum(after, len(time) - 1)] == wanted
     inside = (after > 0) & (after < len(time))
@@ -163,7 +161,7 @@ def _covered(wanted: NDArray[np.float64], time: NDArray[np.float64]) -> NDArray[
 def _at_times(
     wanted: NDArray[np.float64], time: NDArray[np.float64], values: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Values (m, k) at wanted times (m,) by straight lines between those (n, k) of times (n,); NaN in a gap."""
+    """Values (m, k) at wanted times (m,), linear between (n, k) of times (n,); NaN in gaps."""
     out = np.column_stack([np.interp(wanted, time, column) for column in values.T])
     out[~_covered(wanted, time)] = np.nan
     return out

@@ -1,4 +1,4 @@
-"""Heel strikes and toe offs of another program: a vendor's report of steps, or a table of events."""
+"""Heel strikes and toe offs of another program."""
 
 from __future__ import annotations
 
@@ -35,14 +35,14 @@ Pairs = dict[Side, list[tuple[float, float]]]
 
 
 def read_events(path: str | os.PathLike[str]) -> dict[Side, StatedEvents]:
-    """Read the events of each foot that a file names.
+    """Read each foot's events from a file.
 
     Args:
-        path: A Moticon report (.xlsx) with the sheets "Left Steps" and "Right Steps", whose second and third columns
-            are initial contact and toe off in s; or a CSV table with the columns side, heel_strike_s and toe_off_s.
+        path: Moticon report (.xlsx) whose sheets "Left Steps" and "Right Steps" have initial contact and toe off in s
+            as second and third columns; or CSV with columns side, heel_strike_s and toe_off_s.
 
     Raises:
-        FormatError: If the file is neither, or holds no event, or a time that is none.
+        FormatError: If neither, eventless or mistimed.
     """
     with open_input(path, FormatError) as stream:
         zipped = stream.read(2) == b"PK"
@@ -93,7 +93,7 @@ def _report_rows(path: str | os.PathLike[str]) -> Pairs:
 
 
 def _number(cell: ElementTree.Element | None) -> float:
-    """Number of a cell; NaN where it holds a text or nothing."""
+    """Number of a cell; NaN for text or blank."""
     text = None if cell is None or cell.get("t") == "s" else cell.findtext(f"{_SHEET}v")
     found = None if text is None else number(text)
     return float("nan") if found is None else found

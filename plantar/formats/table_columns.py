@@ -1,4 +1,4 @@
-"""A table of numbers with named columns as a recording."""
+"""Number table with named columns as a recording."""
 
 from __future__ import annotations
 
@@ -38,18 +38,18 @@ def recording_of_columns(
     facts: dict[str, str] | None = None,
     warnings: list[str] | None = None,
 ) -> PressureRecording:
-    """Returns a recording from a table of numbers and the names of its columns.
+    """Returns recording from a table of numbers and its column names.
 
-    Columns are, by quantity, forces, moments and centres of pressure of plates; forces of a foot; or cells. Others are
-    left out, with a warning. FormatError if no column is a load, rows are curves of trials, or a unit is not known.
+    Columns are plates' forces, moments and CoP, a foot's forces, or cells, by quantity; others are left out with a
+    warning. FormatError without load columns, for trial curves, or an unknown unit.
 
     Args:
-        table: Numbers (n, k), NaN where one is missing.
-        names: Names (k) of the columns; empty where there are none.
-        options: What is known of the table.
-        path: Name of the recording.
+        table: Numbers (n, k), NaN if missing.
+        names: Columns (k); may be empty.
+        options: What is known.
+        path: Recording's name.
         facts: "unit", "rate", "side" of comments.
-        warnings: List to which assumptions are added.
+        warnings: Assumptions are added.
     """
     facts, warnings = {} if facts is None else facts, [] if warnings is None else warnings
     if not names:
@@ -93,7 +93,7 @@ def recording_of_columns(
 
 
 def _refuse_curves(headings: Sequence[Heading], at: int | None) -> None:
-    """Refuse tables whose rows are curves over the stance of trials."""
+    """Refuse tables of trial curves over the stance."""
     trial = any({"subject", "trial", "session", "participant"} & set(h.words.split()) for h in headings)
     if at is None and (trial or any("trialid" in h.words for h in headings)):
         stems = [h.words for h in headings if h.number is not None]
@@ -107,7 +107,7 @@ def _refuse_curves(headings: Sequence[Heading], at: int | None) -> None:
 def _side_by_side(
     table: NDArray[np.float64], names: list[str], at: int | None, of_side: int, warnings: list[str]
 ) -> tuple[NDArray[np.float64], list[str]]:
-    """A table of both feet in columns, times first, from one whose rows are of either foot."""
+    """Table of both feet in columns, times first, from rows of either foot."""
     rows = rows_of_sides(table[:, of_side], warnings)
     cells = [i for i in range(table.shape[1]) if i not in (at, of_side)]
     time = np.arange(len(table), dtype=float) if at is None else table[:, at]
@@ -123,7 +123,7 @@ def _side_by_side(
 
 
 def _taken(table: NDArray[np.float64], columns: list[int]) -> NDArray[np.float64]:
-    """Some columns of a table, without a copy where they lie together."""
+    """Some columns of a table, uncopied if adjacent."""
     if columns == list(range(columns[0], columns[0] + len(columns))):
         return table[:, columns[0] : columns[0] + len(columns)]
     return table[:, columns]
@@ -174,7 +174,7 @@ def _report_left_out(names: Sequence[str], warnings: list[str], what: str) -> No
 
 
 def _chosen_cells(headings: Sequence[Heading], columns: Sequence[int]) -> list[int]:
-    """Columns of cells by their names; without known ones, those of one unknown word and numbers."""
+    """Cell columns by name; without known names, those of one unknown word and numbers."""
     stated = any(find_unit(headings[i].unit) is not None for i in columns if headings[i].unit)
 
     def foreign(i: int) -> bool:  # where some state a unit of load, what is in another one is no load
@@ -196,7 +196,7 @@ def _chosen_cells(headings: Sequence[Heading], columns: Sequence[int]) -> list[i
 def _without_totals(
     table: NDArray[np.float64], columns: list[int], named: bool, warnings: list[str]
 ) -> tuple[list[int], dict[Side, list[int]]]:
-    """Columns without those that are the sum of others; of two such ones the columns of each foot."""
+    """Columns without sums of others; of two such, each foot's columns."""
     n = len(columns)
     if named or n < 5:
         return columns, {}

@@ -1,4 +1,4 @@
-"""Tables of forces of plates, belts or whole feet: their columns grouped by plate or foot, axis and quantity."""
+"""Tables of plate, belt or foot forces: columns grouped by plate or foot, axis and quantity."""
 
 from __future__ import annotations
 
@@ -29,9 +29,7 @@ _NOMINAL = 700.0
 
 
 def is_force_table(headings: Sequence[Heading]) -> bool:
-    """Whether headings, without times, are of forces of plates or whole feet: of an axis, ground, plate, or one a
-    foot.
-    """
+    """Whether headings, without times, are forces of plates or whole feet: of an axis, ground, plate, or one a foot."""
     forces = [h for h in headings if h.quantity == "force"]
     cells = [
         h for h in headings if h.quantity in ("cell", "pressure") or (h.quantity == "number" and h.number is not None)
@@ -51,16 +49,15 @@ def feet_of_forces(
     stated: str | None,
     warnings: list[str],
 ) -> tuple[dict[Side, FootRecording], bool, str, bool]:
-    """Returns the feet; whether every step is seen; "plate" or "insole"; and whether forces are in percent of body
-    weight.
+    """Returns feet; whether every step is seen; "plate" or "insole"; and whether forces are percent of body weight.
 
     Args:
         table: Numbers (n, k).
-        columns: Headings of columns by number, without times.
+        columns: Headings by column number, without times.
         rate: Frames a second.
-        options: What is known of the table.
-        stated: Unit that comments state; FormatError if it is not known, or no force is vertical.
-        warnings: List to which assumptions are added.
+        options: What is known.
+        stated: Unit in comments; FormatError if unknown, or no force is vertical.
+        warnings: Assumptions are added.
     """
     groups: dict[_Key, dict[str, dict[str, int]]] = {}
     for i, h in columns.items():
@@ -114,12 +111,12 @@ def _numbered_sides(plates: list[Plate], names: Sequence[_Key]) -> list[Plate]:
 
 
 def _up(axes: Mapping[str, int], up: str) -> str | None:
-    """The axis of a plate's vertical force; None where it has none."""
+    """Axis of a plate's vertical force, or None."""
     return next((a for a in ("vertical", up, "") if a in axes), None)
 
 
 def _vertical(table: NDArray[np.float64], groups: Mapping[_Key, dict[str, dict[str, int]]], warnings: list[str]) -> str:
-    """The vertical axis: the one along which most of the load acts."""
+    """Vertical axis, along which most load acts."""
     load = dict.fromkeys("xyz", 0.0)
     named = False
     for own in groups.values():
@@ -145,7 +142,7 @@ def _unit(
     stated: str | None,
     warnings: list[str],
 ) -> tuple[float, bool]:
-    """N in one unit of the forces, and whether they are relative to an unknown body weight."""
+    """N in one force unit, and whether relative to an unknown body weight."""
     text = options.unit or next((columns[i].unit for i in verticals if columns[i].unit), "") or stated or ""
     name = plain(text)
     weight = None if options.mass_kg is None else options.mass_kg * GRAVITY
@@ -208,7 +205,7 @@ def _plate(
 
 
 def _length(unit: str, cop: NDArray[np.float64], vertical: NDArray[np.float64], warnings: list[str]) -> float:
-    """m in one unit of a centre of pressure: a plate is no longer than some metres."""
+    """m in one CoP unit: a plate is at most some metres long."""
     known = LENGTHS.get(plain(unit))
     if known is not None:
         return known

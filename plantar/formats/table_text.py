@@ -1,4 +1,4 @@
-"""Text of a table: its head (names, first row, facts above), and cells that are quoted numbers or times."""
+"""Table text: head (names, first row, facts), and quoted numbers or times."""
 
 from __future__ import annotations
 
@@ -49,14 +49,14 @@ _UNITS = {
 
 @dataclass(frozen=True)
 class TableHead:
-    """The beginning of a table.
+    """Beginning of a table.
 
     Attributes:
-        names: Names of the columns; empty where there are none.
-        delimiter: The sign between cells; None for blanks.
+        names: Column names; may be empty.
+        delimiter: Sign between cells; None for blanks.
         width: Cells of a row.
-        first: Number of the line of the first row.
-        facts: Facts in lines above the table, by lower-case name.
+        first: Line number of the first row.
+        facts: Of lines above the table, by lower-case name.
     """
 
     names: list[str]
@@ -67,9 +67,7 @@ class TableHead:
 
 
 def head_of_table(lines: Sequence[str]) -> TableHead | None:
-    """The beginning of a table of numbers, from the first lines that are not blank; None where no rows of numbers
-    begin.
-    """
+    """Beginning of a number table, from the first non-blank lines; None without number rows."""
     for first in range(len(lines)):
         if lines[first].startswith("#"):
             continue
@@ -98,7 +96,7 @@ def head_of_table(lines: Sequence[str]) -> TableHead | None:
 
 
 def _name_alone(above: Sequence[str]) -> str | None:
-    """The name of a single column of forces, with its unit from a line below where it has one; None of others."""
+    """Name of a single force column, with any unit of a line below; None of others."""
     texts = [x.strip('"# ') for x in above[-2:]]
     if len(texts) == 2 and plain(texts[1]) in _UNITS:
         texts = [f"{texts[0]} [{texts[1]}]"]
@@ -106,7 +104,7 @@ def _name_alone(above: Sequence[str]) -> str | None:
 
 
 def _delimiter(lines: Sequence[str]) -> str | None:
-    """The sign between cells: the one that all lines share most often; None for blanks."""
+    """Sign between cells that most lines share; None for blanks."""
     if not lines:
         return None
     best = max("\t;,", key=lambda d: (min(x.count(d) for x in lines) > 0, d != ","))
@@ -119,7 +117,7 @@ def _cells(line: str, delimiter: str | None) -> list[str]:
 
 
 def _width(rows: Sequence[str], delimiter: str | None) -> int:
-    """The commonest count of cells, of which empty ones at the end do not count where all rows have them."""
+    """Commonest cell count, without end cells that are empty in all rows."""
     counts = [len(_cells(x, delimiter)) for x in rows]
     width = max(set(counts), key=counts.count, default=0)
     while width > 1 and all(len(c) >= width and not c[width - 1].strip() for c in (_cells(x, delimiter) for x in rows)):
@@ -128,7 +126,7 @@ def _width(rows: Sequence[str], delimiter: str | None) -> int:
 
 
 def _is_row(line: str, delimiter: str | None, width: int) -> bool:
-    """Whether a line is a row of numbers, of which some may be missing or name a foot."""
+    """Whether a line is a row of numbers, some missing or naming a foot."""
     cells = _cells(line, delimiter)
     known = sum(_is_cell(c) for c in cells)
     numbers = sum(number(c) is not None or seconds_of_time(c[:40]) is not None for c in cells)
@@ -140,7 +138,7 @@ def _numbers(line: str, delimiter: str | None) -> bool:
 
 
 def _wider_names(above: str, rows: Sequence[str], width: int) -> tuple[list[str], str | None] | None:
-    """Names of many more columns than the rows below have, which are damaged; None of others."""
+    """Damaged names of many more columns than the rows have; None of others."""
     delimiter = _delimiter([above])
     names = [c[:_LONGEST_NAME] for c in names_of_row(above.lstrip("#"), delimiter)]
     words = sum(bool(re.search(r"[^\W\d_]", c)) for c in names[:1000])
@@ -149,7 +147,7 @@ def _wider_names(above: str, rows: Sequence[str], width: int) -> tuple[list[str]
 
 
 def _is_cell(text: str) -> bool:
-    """Whether a cell of a table holds a number, nothing, the name of a foot, or a time of day."""
+    """Whether a cell holds a number, blank, foot name, or time of day."""
     if number(text) is not None or not text.strip() or seconds_of_time(text[:40]) is not None:
         return True
     stripped = text.strip(' "').lower()
@@ -157,7 +155,7 @@ def _is_cell(text: str) -> bool:
 
 
 def _names(above: Sequence[str], delimiter: str | None, width: int) -> tuple[list[str], int]:
-    """Names of the columns from the lines above the rows, and the number of other lines among these."""
+    """Column names from the lines above the rows, and the count of other lines."""
     at = len(above) - 1
     rows = []
     for line in above[-3:]:
@@ -195,7 +193,7 @@ def _names_columns(cells: Sequence[str], width: int) -> bool:
 
 
 def _facts(lines: Sequence[str], delimiter: str | None) -> dict[str, str]:
-    """Facts of lines such as "# unit: kPa", "SampleRate=1200" and "rate<tab>100"."""
+    """Facts of lines like "# unit: kPa", "SampleRate=1200" and "rate<tab>100"."""
     out: dict[str, str] = {}
     for line in lines:
         line = line.lstrip("#").strip()
@@ -230,7 +228,7 @@ _SINCE = datetime(2020, 1, 1)
 
 
 def names_of_row(line: str, delimiter: str | None) -> list[str]:
-    """Returns the unquoted cells of a line of names between a delimiter (None: blanks), which quotes may contain."""
+    """Returns unquoted cells of a names line between a delimiter (None: blanks), which quotes may contain."""
     if delimiter is None or '"' not in line:
         return [cell.strip() for cell in line.split(delimiter)]
     (cells,) = csv.reader([line], delimiter=delimiter)
@@ -238,7 +236,7 @@ def names_of_row(line: str, delimiter: str | None) -> list[str]:
 
 
 def time_unit(name: str) -> float | None:
-    """Unit in s of the times that a column's name names, 0 where it states none; None where it names no times.
+    """Unit in s of a time column's name, 0 if unstated; None for no times.
 
     Example:
         >>> [time_unit(name) for name in ("Time [ms]", "t_min", "Elapsed time (s)", "Date/Time", "T [°C]", "left 3")]
@@ -255,8 +253,7 @@ def time_unit(name: str) -> float | None:
 
 
 def without_quotes(lines: Iterator[str]) -> Iterator[str]:
-    """Yields lines with commas between cells: `"1,5","2,5"` as `1.5,2.5`, and those without a comma in quotes as they
-    are.
+    """Yields comma-separated lines: `"1,5","2,5"` as `1.5,2.5`, those without quoted commas unchanged.
 
     Example:
         >>> list(without_quotes(iter(['0.01,"1,5","-2,25"', '"0.02","1","1,234.5"'])))
@@ -274,14 +271,14 @@ def _plain(quoted: re.Match[str]) -> str:
 
 
 def has_quoted_commas(line: str) -> bool:
-    """Whether a cell of a line is in quotes and holds a comma."""
+    """Whether a quoted cell of a line holds a comma."""
     return _QUOTED_COMMA.search(line) is not None
 
 
 def seconds_of_time(text: str) -> float | None:
-    """Seconds of a time of day, or since 2020 began of an ISO 8601 date and time, or None.
+    """Seconds of a time of day, or since 2020 of an ISO 8601 time, or None.
 
-    Of another date, whose order is unknown, only the time of day counts.
+    Of other dates, whose order is unknown, only the time of day counts.
 
     Example:
         >>> seconds_of_time("08:21:17.5"), seconds_of_time("01:02.25"), seconds_of_time("1/2/2024 1:00:00 PM")
@@ -304,13 +301,12 @@ def seconds_of_time(text: str) -> float | None:
 
 
 def with_seconds(lines: Iterator[str], delimiter: str | None, column: int) -> Iterator[str]:
-    """Yields lines in whose time column seconds, also beyond midnight, stand for times of day or dates; others as they
-    are.
+    """Yields lines with seconds, also beyond midnight, for the time column's times of day or dates; others unchanged.
 
     Args:
-        lines: The lines; the first one's time counts as 0.
-        column: The time column.
-        delimiter: The sign between cells; None for blanks.
+        lines: The first one's time is 0.
+        column: Time column.
+        delimiter: Sign between cells; None for blanks.
     """
     first: float | None = None
     last = days = 0.0

@@ -1,7 +1,7 @@
-"""Tekscan ASCII exports (.asf, .csv): a header of KEY value lines, then a matrix of readings for each frame.
+"""Tekscan ASCII exports (.asf, .csv): header of KEY value lines, then a matrix a frame.
 
-F-Scan insoles, mats and walkways share the format. "B" marks places of the matrix without a cell. UNITS names a
-pressure, a force a cell, or raw counts.
+F-Scan insoles, mats and walkways share it. "B" marks places without a cell. UNITS names a pressure, a force a cell, or
+raw counts.
 """
 
 from __future__ import annotations
@@ -139,7 +139,7 @@ def _take_header(path: Path, lines: Iterator[str]) -> tuple[dict[str, str], re.M
 def _take_frames(
     path: Path, first: re.Match[str], lines: Iterator[str], header: dict[str, str], warnings: list[str]
 ) -> tuple[list[int], tuple[int, int], FrameTable]:
-    """Numbers of the frames, rows and columns of the matrix, and its readings, a frame a row."""
+    """Frame numbers, matrix rows and columns, and readings, a frame a row."""
     stated = _stated(header, "ROWS")
     frames = frames_of_lines(lines, _FRAME, first, (stated or _LARGEST) + _MOST_EXTRA)
     bodies = ((int(match[1][-18:]), [line.strip() for line in body]) for match, body in frames)
@@ -193,7 +193,7 @@ def _shape(
 
 
 def _matrix(body: list[str], delimiter: str | None, rows: int, columns: int) -> tuple[NDArray[np.float64], int]:
-    """A whole matrix (rows, columns), and how many of its cells hold what is neither a number nor "B"."""
+    """Whole matrix (rows, columns), and its count of cells neither number nor "B"."""
     values = _fast(body, delimiter, rows, columns)
     if values is not None:
         return values, 0
@@ -208,7 +208,7 @@ def _matrix(body: list[str], delimiter: str | None, rows: int, columns: int) -> 
 
 
 def _fast(body: list[str], delimiter: str | None, rows: int, columns: int) -> NDArray[np.float64] | None:
-    """A whole matrix at once; None where anything looks odd."""
+    """Whole matrix at once; None where anything is odd."""
     if delimiter is None or len(body) != rows:
         return None
     text = "\n".join(body)

@@ -1,4 +1,4 @@
-"""Reading text exports: any encoding, any line end, comma or point, and bad numbers."""
+"""Reading text exports of any encoding, line end and decimal sign."""
 
 from __future__ import annotations
 
@@ -39,9 +39,9 @@ _NUMBER = re.compile(r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?")
 
 
 def open_text(path: Path) -> TextIO:
-    """Returns a text file at path opened for reading, with uniform line ends; FormatError if it cannot be read.
+    """Returns text file at path opened for reading, with uniform line ends; FormatError if unreadable.
 
-    Its encoding is found from its beginning; a line of more than 1 MB is an error when it is read.
+    Encoding is found from its beginning; a line over 1 MB is an error when read.
     """
     stream = open_input(path, FormatError)
     encoding = encoding_of(stream.read(1 << 20))
@@ -51,7 +51,7 @@ def open_text(path: Path) -> TextIO:
 
 
 class _Lines(io.BufferedReader):
-    """The bytes of a text, whose lines may not exceed a length."""
+    """Text bytes with lines of limited length."""
 
     def __init__(self, stream: io.RawIOBase, where: str) -> None:
         super().__init__(stream, 1 << 17)
@@ -68,7 +68,7 @@ class _Lines(io.BufferedReader):
 
 
 def blocks_of_lines(lines: Iterator[str], most: int = 2048, characters: int = 16_000_000) -> Iterator[list[str]]:
-    """Yields blocks of up to most lines that end sooner at a number of characters; lines can be taken between blocks.
+    """Yields blocks of up to most lines, ending sooner at a number of characters; lines can be taken between blocks.
 
     Example:
         >>> [len(block) for block in blocks_of_lines(iter(["ab", "c", "d", "e"]), most=3, characters=2)]
@@ -89,9 +89,9 @@ def blocks_of_lines(lines: Iterator[str], most: int = 2048, characters: int = 16
 def frames_of_lines(
     lines: Iterator[str], mark: re.Pattern[str], first: re.Match[str] | None, most: int
 ) -> Iterator[tuple[re.Match[str], list[str]]]:
-    """Yields the match of `mark` that begins each frame, and its lines that are not empty, up to "@@".
+    """Yields match of `mark` that begins each frame, and its non-empty lines, up to "@@".
 
-    Lines follow the first match (None for no frames); a frame of more than most lines ends them.
+    Lines follow the first match (None for no frames); a frame over most lines ends them.
     """
     while first is not None:
         begin, body = first, list[str]()
@@ -121,7 +121,7 @@ def head_text(head: bytes) -> str | None:
 
 
 def cells_of_row(line: str, delimiter: str | None) -> list[str]:
-    """Gives the cells of a line between its delimiter (None: blanks), without the empty ones at its end."""
+    """Gives cells of a line between its delimiter (None: blanks), without empty end cells."""
     cells = line.split(delimiter)
     while cells and not cells[-1].strip():
         cells.pop()
@@ -129,7 +129,7 @@ def cells_of_row(line: str, delimiter: str | None) -> list[str]:
 
 
 def number(text: str) -> float | None:
-    """A number with a decimal point or comma, None where it is none or not finite.
+    """Number with decimal point or comma; None if none or not finite.
 
     Example:
         >>> number(" 1,5 "), number("1.5e3"), number("1.2.3"), number("nan")
@@ -143,7 +143,7 @@ def number(text: str) -> float | None:
 
 
 def number_in(text: str) -> float | None:
-    """The first number in a text, None where there is none.
+    """First number in a text, or None.
 
     Example:
         >>> number_in("5.08 mm"), number_in("none")
@@ -161,18 +161,18 @@ def table_of_lines(
     warnings: list[str],
     columns: Sequence[int] = (),
 ) -> NDArray[np.float64]:
-    """Returns the numbers (n, k) of lines of a file at path, NaN where a cell is empty or none.
+    """Returns numbers (n, k) of a file's lines at path, NaN for empty cells or none.
 
-    Warnings get a cut last row, and counts of damaged rows and cells. FormatError without lines, or for too many
+    Warnings get a cut last row, and counts of damaged rows and cells. FormatError without lines, or if too many are
     damaged.
 
     Args:
-        path: The file, whose size decides how much room is made.
-        lines: The lines.
-        delimiter: The sign between cells; None for blanks.
-        width: Cells of a line, empty ones at its end aside.
-        warnings: The list.
-        columns: Cells (k,) that are read; all where empty.
+        path: Its size decides the room made.
+        lines: Lines.
+        delimiter: Sign between cells; None for blanks.
+        width: Cells of a line, without empty ones at its end.
+        warnings: List.
+        columns: Cells (k,) to read; all if empty.
     """
     wanted = list(columns) or list(range(width))
     table = FrameTable(len(wanted), 0)
@@ -209,7 +209,7 @@ def table_of_lines(
 def _rows(
     block: list[str], delimiter: str | None, width: int, wanted: Sequence[int]
 ) -> tuple[NDArray[np.float64], int, int]:
-    """Numbers of some lines, and counts of bad cells and of lines of another width."""
+    """Numbers of lines, and counts of bad cells and of lines of another width."""
     goes = np.full(width, -1)
     goes[wanted] = np.arange(len(wanted))
     rows = number_rows(block, delimiter, goes.tolist())
@@ -228,7 +228,7 @@ def _rows(
 
 
 def row_of_numbers(cells: Sequence[str]) -> tuple[NDArray[np.float64], int]:
-    """Cells of a row as numbers, NaN where a cell is none, and the number of cells with other contents."""
+    """Row's cells as numbers, NaN for none, and the count of other contents."""
     try:
         values = np.array(cells, dtype=np.float64)
         if np.isfinite(values).all() and not any("_" in cell for cell in cells):  # which Python lets stand in numbers
@@ -247,7 +247,7 @@ def row_of_numbers(cells: Sequence[str]) -> tuple[NDArray[np.float64], int]:
 
 
 def seconds_of_clock(text: str) -> float | None:
-    """Seconds since midnight of a time such as 08:21:17.982, None where it is none.
+    """Seconds since midnight of a time like 08:21:17.982, or None.
 
     Example:
         >>> seconds_of_clock("08:21:17.982")

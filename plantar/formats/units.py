@@ -1,4 +1,4 @@
-"""Units that recordings state: pressure in Pa, force in N, length in m, and raw counts, which are not converted."""
+"""Units that recordings state: pressure, force, length, and unconverted raw counts."""
 
 from __future__ import annotations
 
@@ -61,12 +61,12 @@ RAW: tuple[str, ...] = ("raw", "counts", "count", "adc", "digital", "do", "bits"
 
 @dataclass(frozen=True)
 class Unit:
-    """Unit of the numbers of a recording.
+    """Unit of a recording's numbers.
 
     Attributes:
         kind: "pressure", "force" or "raw".
-        factor: Pa or N for one of them; 1 for raw counts.
-        name: As it was stated.
+        factor: Pa or N of one; 1 for raw counts.
+        name: As stated.
     """
 
     kind: Literal["pressure", "force", "raw"]
@@ -75,13 +75,13 @@ class Unit:
 
 
 def plain(text: str) -> str:
-    """A unit's name in lower case, without brackets, blanks and raised digits."""
+    """Unit name in lower case, without brackets, blanks and raised digits."""
     out = text.strip().strip("[](){}'\"").replace("²", "2").replace("\ufffd", "2").replace("^", "").replace("*", "")
     return out.replace(" ", "").lower()
 
 
 def find_unit(text: str) -> Unit | None:
-    """The unit of a text; None where it is not known. "mN" is millinewton, and "MN" is refused.
+    """Unit of a text, or None. "mN" is millinewton, "MN" is refused.
 
     Example:
         >>> find_unit("N/cm²")

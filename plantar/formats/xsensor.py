@@ -1,7 +1,7 @@
-"""XSENSOR CSV exports: for each frame, for each insole, a header of its own and a matrix of pressures.
+"""XSENSOR CSV exports: a header and pressure matrix a frame and insole.
 
-Matrices of groups of cells (heel, toes, ...) are skipped. Load and contact area in the headers check the unit and give
-the cells' area more precisely; in swing the stated load is 0.
+Matrices of cell groups (heel, toes, ...) are skipped. Headers' load and contact area check the unit and refine the
+cells' area; in swing the stated load is 0.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def _recognises(head: bytes) -> bool:
 
 @dataclass
 class _Sensor:
-    """One insole over all frames: the numbers of those with a whole matrix, and the matrices as rows."""
+    """One insole over all frames: numbers of those with a whole matrix, and matrices as rows."""
 
     name: str
     rows: int = 0
@@ -54,7 +54,7 @@ class _Sensor:
     damaged: int = 0
 
     def add(self, frame: int, rows: list[NDArray[np.float64]], file_size: int) -> None:
-        """Add the matrix of a frame if it is whole and of the sensor's shape; the first one defines both."""
+        """Add a frame's matrix if whole and of the sensor's shape; the first defines both."""
         stated = self.rows or len(rows)
         widths = {len(r) for r in rows}
         if len(rows) != stated or len(widths) != 1 or stated * len(rows[0]) > _LARGEST:
@@ -67,7 +67,7 @@ class _Sensor:
             self.values.add(np.concatenate(rows)[None])
 
     def of_frames(self, count: int) -> NDArray[np.float64]:
-        """The matrices (count, cells) of the first frames; NaN where one is missing."""
+        """First frames' matrices (count, cells); NaN if missing."""
         if self.frames == list(range(len(self.frames))) and len(self.frames) >= count:
             return self.values.rows[:count]
         if count > _MOST_EMPTY + 5 * len(self.frames):
@@ -203,7 +203,7 @@ def _scan(stream: TextIO, file_size: int) -> _Scan:
 
 
 def _is_row(line: str, taken: int, rows: int) -> bool:
-    """Whether a line is a row of the matrix, perhaps a damaged one: one that is due and begins with no keyword."""
+    """Whether a line is a due matrix row without first keyword, perhaps damaged."""
     if line[:1].isdigit():
         return True
     content = line.strip().strip(",;\t ")
@@ -234,7 +234,7 @@ def _keep(facts: dict[str, str], key: str, value: str) -> None:
 
 
 def _row(line: str, delimiter: str, columns: int) -> NDArray[np.float64] | None:
-    """One row of the matrix; None where it holds what is no number. A blank cell was not measured."""
+    """One matrix row; None with anything not a number. Blank cells were not measured."""
     cells = line.rstrip("\n").split(delimiter)
     if columns:
         extra, cells = cells[columns:], cells[:columns]
@@ -277,7 +277,7 @@ def _times(
 
 
 def _places(numbers: list[float], warnings: list[str]) -> NDArray[np.float64]:
-    """Places (n,) of frames in the recording by their numbers, or one after the other where these do not rise by 1."""
+    """Frames' places (n,) in the recording by number, or in sequence where these do not rise by 1."""
     places = np.array(numbers) - numbers[0]
     steps = np.diff(places)
     if not np.isfinite(places).all() or not ((steps >= 1.0) & (steps == np.round(steps))).all():

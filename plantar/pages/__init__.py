@@ -1,1 +1,1 @@
-"""The frame of a written page: a report, a benchmark, the assembly of a shoe."""
+"""Frame of written pages: reports, benchmarks, shoe assembly."""

@@ -1,4 +1,4 @@
-"""Parts of every written page: its frame, sections, tables and figures, and the form of numbers."""
+"""Parts of written pages: frame, sections, tables, figures and number format."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _WIDE = 1000
 
 
 class Section(NamedTuple):
-    """One part of a page: the key that links point to, its name, and its HTML."""
+    """Page part: link key, name and HTML."""
 
     key: str
     name: str
@@ -41,14 +41,14 @@ class Section(NamedTuple):
 
 
 def page(title: str, about: str, sections: Sequence[Section], script: str = "", style: str = "") -> str:
-    """A whole page that refers to no other file and no network.
+    """Whole page without other files or network.
 
     Args:
-        title: Its title as plain text.
-        about: HTML below the title: a line, or a list of facts.
-        sections: Its parts, which the menu lists.
-        script: HTML put at the end.
-        style: Its own style sheet, after that of all pages.
+        title: Plain text.
+        about: HTML below the title: a line, or facts.
+        sections: Listed in the menu.
+        script: HTML at the end.
+        style: Own style sheet, after the common one.
 
     Returns:
         HTML.
@@ -75,20 +75,18 @@ def _style() -> str:
 
 
 def figures_of(figures: Iterable[tuple[Path, str]]) -> Section:
-    """The section of figures: PNG files to embed, each with a caption as plain text."""
+    """Section of figures: PNG files to embed, with plain text captions."""
     return Section("figures", "Figures", embedded(figures))
 
 
 def embedded(figures: Iterable[tuple[Path, str]], names: Sequence[str] | None = None) -> str:
-    """Returns the HTML of figures in the page itself: PNG files with captions, those of the given names (stems), or
-    all.
-    """
+    """Returns HTML of embedded figures: PNG files with captions, those of the given names (stems), or all."""
     taken = (one for one in figures if names is None or one[0].stem in names)
     return "".join(figure(path.read_bytes(), caption) for path, caption in taken)
 
 
 def figure(content: bytes, caption: str) -> str:
-    """Returns the HTML of a figure in the page itself: content is a PNG's bytes, caption plain text."""
+    """Returns HTML of an embedded figure: content is a PNG's bytes, caption plain text."""
     data, text = base64.b64encode(content).decode(), html.escape(caption)
     width = int.from_bytes(content[16:20], "big")  # of the PNG's first chunk
     wide = f' class="wide" tabindex="0" aria-label="{text}"' if width > _WIDE else ""
@@ -103,14 +101,14 @@ def warning_list(warnings: Iterable[str]) -> str:
 
 
 def table(label: str, caption: str, head: Iterable[str], rows: Iterable[str], words: Iterable[str] = ()) -> str:
-    """A table that scrolls by itself where the page is narrow.
+    """Table that scrolls by itself on narrow pages.
 
     Args:
-        label: Its name for screen readers.
-        caption: HTML of its caption.
-        head: HTML of each column's head.
-        rows: Results of `row` and `group_row`.
-        words: Heads of the columns of words, aligned left; numbers end at the right.
+        label: For screen readers.
+        caption: HTML.
+        head: HTML of each column.
+        rows: Of `row` and `group_row`.
+        words: Heads of left-aligned word columns; numbers end right.
 
     Returns:
         HTML.
@@ -128,17 +126,17 @@ def table(label: str, caption: str, head: Iterable[str], rows: Iterable[str], wo
 
 
 def row(name: str, cells: Iterable[str]) -> str:
-    """Returns the HTML of a table's row: its name at the head, and HTML cells."""
+    """Returns HTML of a table row: its name, and HTML cells."""
     return f'<tr><th scope="row">{name}</th>{"".join(f"<td>{cell}</td>" for cell in cells)}</tr>'
 
 
 def group_row(name: str, columns: int) -> str:
-    """Returns the HTML of a row with the name of the rows below it, over all columns of the table."""
+    """Returns HTML of a row with the name of the rows below, over all columns of the table."""
     return f'<tr class="group"><th scope="rowgroup" colspan="{columns}">{name}</th></tr>'
 
 
 def titled(name: str, unit: str) -> str:
-    """Returns a measure's name with its unit, if any.
+    """Returns measure's name with its unit, if any.
 
     Example:
         >>> titled("Length", "mm"), titled("Arch index", "")
@@ -148,12 +146,12 @@ def titled(name: str, unit: str) -> str:
 
 
 def scaled(value: float | None, factor: float) -> float | None:
-    """Returns a value times a factor; None stays None."""
+    """Returns value times a factor; None stays None."""
     return None if value is None else value * factor
 
 
 def number(value: float | None, digits: int = 3) -> str:
-    """Returns a value as text with about as many significant digits, or an en dash if None.
+    """Returns value as text with about as many significant digits, or an en dash if None.
 
     Example:
         >>> number(1234.5), number(-0.01234), number(None), number(0.0), number(2.0)

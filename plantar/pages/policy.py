@@ -1,4 +1,4 @@
-"""The content security policy of pages: a page runs its own scripts, and makes no request."""
+"""Content security policy: a page runs its own scripts, and makes no request."""
 
 from __future__ import annotations
 

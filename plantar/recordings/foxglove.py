@@ -1,10 +1,9 @@
-"""Messages of Foxglove's own schemas, which its 3D and log panels draw without settings, as protocol buffers.
+"""Messages of Foxglove's schemas, drawn without settings, as protocol buffers.
 
-The descriptors in `schemas/` are of the package foxglove-schemas-protobuf (`tools/foxglove_schemas.py`, MIT licence).
-Positions and sizes are in m, rotations quaternions (x, y, z, w), colours red, green, blue and opacity, 0 to 1; a
-`place` is made by `pose`. Messages of one length are encoded once (https://protobuf.dev/programming-guides/encoding/),
-with places for numbers and time, whose two integers have leading zeros so that a message keeps its length. `field` is
-the field's number.
+The descriptors in `schemas/` come from foxglove-schemas-protobuf (`tools/foxglove_schemas.py`, MIT licence). Positions
+and sizes in m, rotations quaternions (x, y, z, w), colours red, green, blue and opacity, 0 to 1; a `place` is made by
+`pose`. Messages of one length are encoded once (https://protobuf.dev/programming-guides/encoding/), with places for
+numbers and time, whose two integers have leading zeros to keep the length. `field` is a field number.
 """
 
 from __future__ import annotations
@@ -57,8 +56,8 @@ _SHIFTS = 7 * np.arange(_LONG, dtype=np.uint64)
 
 
 class Part(NamedTuple):
-    """Encoded fields `data` with places to fill: offset and value index of each double (`slots`), and the offset of the
-    seconds of each time (`times`).
+    """Encoded fields `data` with places to fill: offset and value index of each double (`slots`), and offset of each
+    time's seconds (`times`).
     """
 
     data: bytes
@@ -80,7 +79,7 @@ def _head(field: int, kind: int) -> bytes:
 
 
 def joined(*parts: Part) -> Part:
-    """Fields one after the other."""
+    """Fields in sequence."""
     data, slots, times = bytearray(), [], []
     for part in parts:
         start = len(data)
@@ -91,13 +90,13 @@ def joined(*parts: Part) -> Part:
 
 
 def nested(field: int, *parts: Part) -> Part:
-    """Returns a message, its fields `parts`, as a `field` of another one."""
+    """Returns message of fields `parts` as a `field` of another."""
     inner = joined(*parts)
     return joined(Part(_head(field, _BYTES) + _varint(len(inner.data))), inner)
 
 
 def double(field: int, value: float | Slot) -> Part:
-    """Returns a double `field`: its `value`, or the slot that fills it (an `int` is always a slot)."""
+    """Returns double `field`: its `value`, or the slot that fills it (an `int` is always a slot)."""
     head = _head(field, _EIGHT_BYTES)
     if isinstance(value, int):
         return Part(head + bytes(8), ((len(head), value),))
@@ -105,38 +104,38 @@ def double(field: int, value: float | Slot) -> Part:
 
 
 def numbers(field: int, values: Sequence[float | Slot]) -> Part:
-    """Returns a message `field` of doubles or slots `values` numbered from 1, such as a vector or a colour."""
+    """Returns message `field` of doubles or slots `values` numbered from 1, as in a vector or colour."""
     return nested(field, *(double(i, value) for i, value in enumerate(values, 1)))
 
 
 def integer(field: int, value: int) -> Part:
-    """Returns a `field` of a whole number, truth value or enumeration member `value`, 0 or more."""
+    """Returns `field` of a whole number, truth value or enumeration member `value`, at least 0."""
     return Part(_head(field, _VARINT) + _varint(int(value)))
 
 
 def fixed32s(field: int, values: ArrayLike) -> Part:
-    """Returns whole numbers `values`, 0 to 2^32 - 1, packed into one `field` of four bytes each."""
+    """Returns whole numbers `values`, 0 to 2^32 - 1, packed into one `field`, four bytes each."""
     return raw(field, np.asarray(values, dtype="<u4").tobytes())
 
 
 def raw(field: int, data: bytes) -> Part:
-    """Returns a `field` of bytes `data`."""
+    """Returns `field` of bytes `data`."""
     return Part(_head(field, _BYTES) + _varint(len(data)) + data)
 
 
 def text(field: int, value: str) -> Part:
-    """Returns a `field` of the text `value`."""
+    """Returns `field` of the text `value`."""
     return raw(field, value.encode())
 
 
 def timestamp(field: int) -> Part:
-    """A time (google.protobuf.Timestamp), filled when the message is written."""
+    """Time (google.protobuf.Timestamp), filled when written."""
     inside = _head(1, _VARINT) + bytes(_LONG) + _head(2, _VARINT) + bytes(_LONG)
     return joined(Part(_head(field, _BYTES) + _varint(len(inside))), Part(inside, (), (1,)))
 
 
 class Template:
-    """A message, its fields `parts`, whose numbers and times are filled in.
+    """Message of fields `parts`, whose numbers and times are filled in.
 
     Example:
         >>> vector = Template(double(1, Slot(0)), double(2, Slot(1)), double(3, 0.5))
@@ -158,13 +157,11 @@ class Template:
             self._filled_in[at] = True
 
     def filled(self, time_s: float, values: ArrayLike = ()) -> bytes:
-        """Returns the encoded message at `time_s` in s, 0 or more, with the `values` of its slots."""
+        """Returns encoded message at `time_s` in s, 0 or more, with the `values` of its slots."""
         return self.filled_all([round(time_s * 1e9)], np.asarray(values, dtype=float).reshape(1, -1)).tobytes()
 
     def filled_all(self, times: ArrayLike, values: NDArray[np.float64]) -> NDArray[np.uint8]:
-        """Returns the encodings (m, l) of messages at `times` (m,) in ns, with the slots' `values` (m, k),
-        vectorised.
-        """
+        """Returns encodings (m, l) of messages at `times` (m,) in ns, with the slots' `values` (m, k)."""
         seconds, nanoseconds = np.divmod(np.asarray(times, dtype=np.uint64), np.uint64(10**9))
         out = np.tile(self._data, (len(seconds), 1))
         if len(self._slots):
@@ -175,16 +172,14 @@ class Template:
         return out
 
     def matches(self, message: bytes) -> bool:
-        """Whether a message differs from this template only in what is filled in."""
+        """Whether a message differs only in what is filled in."""
         if len(message) != len(self._data):
             return False
         same = np.frombuffer(message, dtype=np.uint8) == self._data
         return bool((same | self._filled_in).all())
 
     def values_of(self, messages: Sequence[bytes]) -> NDArray[np.float64]:
-        """The values (n, k) of the slots of `messages` that `filled` made; a ValueError if one is of another
-        template.
-        """
+        """Slot values (n, k) of `messages` made by `filled`; ValueError for another template's."""
         if not all(map(self.matches, messages)):
             raise ValueError("a message is of another template")
         data = np.frombuffer(b"".join(messages), dtype=np.uint8).reshape(len(messages), -1)
@@ -201,9 +196,9 @@ def _long_varints(values: NDArray[np.uint64]) -> NDArray[np.uint8]:
 
 
 def read_fields(message: bytes) -> Iterator[tuple[int, int | float | bytes]]:
-    """Yields number and value of each field: `int` of a varint or four bytes, `float` of eight, `bytes` of the rest.
+    """Yields each field's number and value: `int` of a varint or four bytes, `float` of eight, `bytes` of the rest.
 
-    Raises ValueError if the message is cut short or of an unknown wire type.
+    ValueError if cut short or of an unknown wire type.
     """
     position = 0
     while position < len(message):
@@ -253,59 +248,56 @@ _LINE_LOOP = 1
 
 
 def descriptor(schema: str) -> bytes:
-    """The encoded FileDescriptorSet of `schema`, one of SCHEMAS, with all files that it needs."""
+    """Encoded FileDescriptorSet of `schema`, one of SCHEMAS, with all needed files."""
     return files("plantar.recordings").joinpath("schemas", f"{schema}.bin").read_bytes()
 
 
 def frame_transform(frame: str, translation: Numbers, rotation: Numbers, parent: str = "world") -> Part:
-    """Returns a `transforms` field of foxglove.FrameTransforms: `translation` and `rotation` of `frame` in its
-    `parent`.
-    """
+    """Returns `transforms` field of foxglove.FrameTransforms: `translation` and `rotation` of `frame` in its `parent`."""
     return nested(1, timestamp(1), text(2, parent), text(3, frame), numbers(4, translation), numbers(5, rotation))
 
 
 def entity(name: str, frame: str, *primitives: Part, locked: bool = True) -> Part:
-    """Returns an `entities` field of foxglove.SceneUpdate: `primitives` in the coordinates of `frame` under a `name`.
+    """Returns `entities` field of foxglove.SceneUpdate: `primitives` in `frame` coordinates under a `name`.
 
-    It replaces the topic's entity of that name. A `locked` one moves with its frame.
+    Replaces the topic's entity of that name. A `locked` one moves with its frame.
     """
     return nested(2, timestamp(1), text(2, frame), text(3, name), integer(5, locked), *primitives)
 
 
 def delete_all() -> Part:
-    """A `deletions` field of foxglove.SceneUpdate that removes all earlier entities of the topic."""
+    """`deletions` field of foxglove.SceneUpdate that removes the topic's earlier entities."""
     return nested(1, timestamp(1), integer(2, 1))
 
 
 def pose(position: Numbers, rotation: Numbers = _UPRIGHT) -> Part:
-    """Returns the pose of a primitive, its `position` and `rotation`."""
+    """Returns primitive's pose: `position` and `rotation`."""
     return nested(1, numbers(1, position), numbers(2, rotation))
 
 
 def cube(place: Part, size: Numbers, colour: Numbers) -> Part:
-    """Returns a box with edges `size` (x, y, z) and `colour`, centred at `place`."""
+    """Returns box with edges `size` (x, y, z) and `colour`, centred at `place`."""
     return nested(8, place, numbers(2, size), numbers(3, colour))
 
 
 def sphere(place: Part, size: Numbers, colour: Numbers) -> Part:
-    """Returns a sphere or an ellipsoid with diameters `size` (x, y, z) and `colour` at `place`."""
+    """Returns sphere or ellipsoid with diameters `size` (x, y, z) and `colour` at `place`."""
     return nested(9, place, numbers(2, size), numbers(3, colour))
 
 
 def cylinder(place: Part, size: Numbers, colour: Numbers) -> Part:
-    """Returns a cylinder along z with diameters and height `size` (x, y, z) and `colour` at `place`."""
+    """Returns cylinder along z with diameters and height `size` (x, y, z) and `colour` at `place`."""
     return nested(10, place, numbers(2, size), double(3, 1.0), double(4, 1.0), numbers(5, colour))
 
 
 def arrow(place: Part, length: float | Slot, thickness: float, colour: Numbers) -> Part:
-    """Returns an arrow along x from `place`: `length` and `thickness` of its shaft, and `colour`; its head is twice as
-    wide."""
+    """Returns arrow along x from `place`: shaft `length` and `thickness`, and `colour`; its head is twice as wide."""
     sizes = (double(2, length), double(3, thickness), double(4, 2.0 * thickness), double(5, 2.0 * thickness))
     return nested(7, place, *sizes, numbers(6, colour))
 
 
 def line_loop(points: Sequence[Numbers], thickness: float, colour: Numbers) -> Part:
-    """Returns a closed line through `points` (x, y, z) of a `thickness` and `colour`."""
+    """Returns closed line through `points` (x, y, z) of a `thickness` and `colour`."""
     corners = [numbers(5, point) for point in points]
     place = nested(2, numbers(1, _ORIGIN), numbers(2, _UPRIGHT))
     return nested(11, integer(1, _LINE_LOOP), place, double(3, thickness), *corners, numbers(6, colour))
@@ -318,10 +310,10 @@ def triangles(points: Sequence[Numbers], indices: ArrayLike, colour: Numbers) ->
 
 
 def words(place: Part, value: str, size: float, colour: Numbers) -> Part:
-    """Returns a text `value` at `place` that turns to the viewer, with letters of height `size` and `colour`."""
+    """Returns text `value` at `place` facing the viewer, with letters of height `size` and `colour`."""
     return nested(13, place, integer(2, True), double(3, size), numbers(5, colour), text(6, value))
 
 
 def log_message(time_s: float, message: str, level: str = "info", name: str = "plantar") -> bytes:
-    """Returns an encoded foxglove.Log: a `message` at `time_s` with a `level` of LEVELS, from the source `name`."""
+    """Returns encoded foxglove.Log: `message` at `time_s` with a `level` of LEVELS, from source `name`."""
     return Template(timestamp(1), integer(2, LEVELS[level]), text(3, message), text(4, name)).filled(time_s)

@@ -1,4 +1,4 @@
-"""Large tables of frames: gathered block by block, in an unnamed file whose pages are released after reading."""
+"""Large tables of frames: blocks in an unnamed file, with pages released after reading."""
 
 from __future__ import annotations
 
@@ -22,9 +22,7 @@ _BLOCK = 250_000  # Numbers that are worked on at a time: 2 MB
 
 
 def room(rows: int, width: int) -> NDArray[np.float64]:
-    """Returns an uninitialised table (`rows`, `width`): in memory, or where it is large in a file that vanishes with
-    it.
-    """
+    """Returns uninitialised table (`rows`, `width`): in memory, or if large in a file that vanishes with it."""
     size = rows * width * 8
     if size > LARGE:
         try:
@@ -38,7 +36,7 @@ def room(rows: int, width: int) -> NDArray[np.float64]:
 
 
 def blocks_of_frames(values: NDArray[Any]) -> Iterator[slice]:
-    """Row slices of a table `values` (n, k) in blocks of 2 MB; the pages of each are released after it."""
+    """Row slices of a table `values` (n, k) in 2 MB blocks, each's pages released after it."""
     rows = max(1, _BLOCK // max(1, values[:1].size))
     for start in range(0, len(values), rows):
         yield slice(start, min(start + rows, len(values)))
@@ -46,13 +44,13 @@ def blocks_of_frames(values: NDArray[Any]) -> Iterator[slice]:
 
 
 def scale_frames(values: NDArray[np.float64], factor: float | NDArray[np.float64]) -> None:
-    """Multiply a table `values` (n, k) in place by a `factor`: a number, or one (k,) for each column."""
+    """Multiply a table `values` (n, k) in place by `factor`: a number, or one (k,) a column."""
     for rows in blocks_of_frames(values):
         values[rows] *= factor
 
 
 def column_maxima(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Largest number (k,) of each column of a table (n, k), missing ones left out; 0 at the least."""
+    """Largest number (k,) of each column of a table (n, k), without missing ones; at least 0."""
     top = np.zeros(values.shape[1])
     for rows in blocks_of_frames(values):
         np.fmax(top, np.fmax.reduce(values[rows], axis=0, initial=0.0), out=top)
@@ -60,9 +58,7 @@ def column_maxima(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def let_go(array: NDArray[Any]) -> None:
-    """Release the pages of `array` where it is part of a mapped table: they are read again from its file when
-    needed.
-    """
+    """Release pages of `array` in a mapped table: re-read from file when needed."""
     base: Any = array
     while base is not None and not isinstance(base, mmap.mmap):
         base = base.obj if isinstance(base, memoryview) else getattr(base, "base", None)
@@ -75,9 +71,9 @@ MOST_VALUES = 400_000_000
 
 
 class FrameTable:
-    """A table of numbers that grows by blocks of rows of `width` numbers, with room for the `expected` rows.
+    """Number table that grows by blocks of `width` columns, with room for the `expected` rows.
 
-    It grows by a quarter beyond; earlier views of `rows` are invalid then.
+    Growing beyond, by a quarter, invalidates earlier views of `rows`.
 
     Example:
         >>> table = FrameTable(2, expected=3)
@@ -95,7 +91,7 @@ class FrameTable:
         return self._filled
 
     def add(self, block: NDArray[np.float64]) -> None:
-        """Add rows `block` (m, width); a FormatError if the table becomes larger than MOST_VALUES."""
+        """Add rows `block` (m, width); FormatError beyond MOST_VALUES."""
         end = self._filled + len(block)
         if end * self._values.shape[1] > MOST_VALUES:
             raise FormatError(
@@ -126,11 +122,11 @@ class FrameTable:
 
     @property
     def rows(self) -> NDArray[np.float64]:
-        """The rows (n, width), a view."""
+        """Rows (n, width), a view."""
         return self._values[: self._filled]
 
     def columns(self, kept: NDArray[np.bool_]) -> NDArray[np.float64]:
-        """The rows (n, k) of the columns in the mask `kept` (width,), compacted in place; the table is used up."""
+        """Rows (n, k) of columns in mask `kept` (width,), compacted in place; uses up the table."""
         count = int(kept.sum())
         flat = self._values.reshape(-1)
         for rows in blocks_of_frames(self.rows):  # a row never lands behind where it is read from

@@ -1,4 +1,4 @@
-"""The records of an MCAP file, gathered into tables chunk by chunk; a chunk is unpacked up to its stated size."""
+"""MCAP records gathered into tables by chunk, unpacked up to the stated size."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _LARGEST = {0x05: _LARGEST_CHUNK, 0x06: _LARGEST_CHUNK}
 
 
 class _Topic:
-    """The messages of one topic whose fields, names and widths, are float64."""
+    """One topic's messages, with names and widths of float64 fields."""
 
     def __init__(self, name: str, fields: list[tuple[str, int]]) -> None:
         self.name = name
@@ -53,7 +53,7 @@ class _Topic:
         self._gathered: list[tuple[int, bytes]] = []
 
     def gather(self, time: int, payload: bytes) -> None:
-        """Add a message, whose values go to the table with the next `flush`."""
+        """Add a message; its values join the table at the next `flush`."""
         if len(payload) == 4 + 8 * self._width and payload[0] == 0 and payload[1] in (0, 1):
             self._gathered.append((time, payload))
             if len(self._gathered) == _BLOCK:
@@ -73,7 +73,7 @@ class _Topic:
         self._values.add(np.asarray(rows if little.all() else np.where(little[:, None], rows, swapped), dtype=float))
 
     def columns(self) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
-        """Times (n,) in s, in order, and the values (n, k) of each field."""
+        """Times (n,) in s, in order, and each field's values (n, k)."""
         time, values = self._times.rows[:, 0] * 1e-9, self._values.rows
         if (np.diff(time) < 0.0).any():
             order = np.argsort(time, kind="stable")
@@ -87,9 +87,9 @@ class McapContent:
 
     Attributes:
         metadata: Metadata records.
-        layouts: Sole layout of each side that has one.
-        topics: The topics of float64 fields, by their channel's number; empty with `sinks`, receivers of some topics.
-        warnings: What was missing, damaged or skipped, one line each.
+        layouts: Sole layout of each side, if any.
+        topics: Float64 topics by channel number; empty with `sinks`, receivers of some topics.
+        warnings: What was missing, damaged or skipped.
     """
 
     def __init__(self, sinks: Mapping[str, Sink] | None = None) -> None:
@@ -104,7 +104,7 @@ class McapContent:
         self._damaged = self._undescribed = self._unpacked = self._size = 0
 
     def take_file(self, stream: BinaryIO) -> None:
-        """Read all records of a file `stream`, open at its first record; a FormatError if it unpacks to too much."""
+        """Read all records of a file `stream` from its first; FormatError if it unpacks to too much."""
         self._size = os.fstat(stream.fileno()).st_size
         closed = False
         for opcode, body in self._records(stream):
@@ -131,7 +131,7 @@ class McapContent:
         ]
 
     def _records(self, stream: BinaryIO) -> Iterator[tuple[int, bytes]]:
-        """Opcode and body of each record up to the first that passes the end of the file."""
+        """Opcode and body of each record to the first beyond the file's end."""
         while len(head := stream.read(9)) == 9:
             opcode, length = struct.unpack("<BQ", head)
             if stream.tell() + length > self._size:
@@ -235,8 +235,7 @@ class McapContent:
 
 
 def message_values(payload: bytes, fields: list[tuple[str, int]]) -> NDArray[np.float64]:
-    """Returns the numbers (k,) of a message's CDR `payload` by its `fields`, names and widths; a ValueError for another
-    size."""
+    """Returns numbers (k,) of a CDR `payload` by `fields`, names and widths; ValueError for another size."""
     if len(payload) != 4 + 8 * sum(width for _, width in fields) or payload[0] or payload[1] not in (0, 1):
         raise ValueError("a message is of another size than its fields")
     return np.frombuffer(payload, "<f8" if payload[1] else ">f8", offset=4).astype(float)
@@ -264,7 +263,7 @@ def _unpacked(chunk: Any) -> bytes:
 
 
 def _float_fields(channel: Any, schema: Any) -> list[tuple[str, int]] | None:
-    """Names and widths of the fields of a message type, None where it is not of float64 alone."""
+    """Field names and widths of a message type, None if not all float64."""
     if schema is None or schema.encoding != "ros2msg" or channel.message_encoding != "cdr":
         return None
     out: list[tuple[str, int]] = []

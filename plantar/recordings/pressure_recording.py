@@ -1,4 +1,4 @@
-"""Plantar pressure over time: the type that every format is read into."""
+"""Plantar pressure over time, the type that formats are read into."""
 
 from __future__ import annotations
 
@@ -44,15 +44,15 @@ Kind = Literal["insole", "platform", "robot", "plate"]
 
 @dataclass(frozen=True, eq=False)
 class FootRecording:
-    """Measurements of the cells under one foot, n frames of k cells; FormatError for a layout of another number.
+    """Cells under one foot, n frames of k cells; FormatError if the layout's count differs.
 
     Attributes:
-        force: Normal force (n, k) of each cell in N, NaN where not measured; counts where the recording is raw.
-        layout: Where the cells are; None where unknown.
-        total: Vertical force (n,) in N by the device, NaN where not measured; None to sum the cells.
-        cop: Centre of pressure (n, 2) in m by the device, NaN without load; None to compute it.
-        wrench: Wrench (n, 6) on the foot in N and N m about the frame's origin, where measured.
-        placement: Pose (n, 3) of the sole frame on the ground, x and y in m and the turn about z in rad, where known.
+        force: Normal cell force (n, k) in N, NaN if unmeasured; counts in raw recordings.
+        layout: Cell places, or None.
+        total: Device's vertical force (n,) in N, NaN if unmeasured; None to sum cells.
+        cop: Device's CoP (n, 2) in m, NaN without load; None to compute it.
+        wrench: Wrench (n, 6) on the foot in N and N m about the frame's origin, if measured.
+        placement: Sole pose (n, 3) on the ground, x and y in m and turn about z in rad, if known.
     """
 
     side: Side
@@ -70,7 +70,7 @@ class FootRecording:
 
     @cached_property
     def missing(self) -> NDArray[np.bool_] | None:
-        """Which values (n, k) are missing; None where all were measured."""
+        """Missing values (n, k); None if all were measured."""
         lacking = [rows for rows in blocks_of_frames(self.force) if np.isnan(self.force[rows]).any()]
         if not lacking:
             return None
@@ -92,9 +92,9 @@ class FootRecording:
 
     @cached_property
     def vertical_force(self) -> NDArray[np.float64]:
-        """Vertical force (n,) in N, the device's total or the sum over the measured cells; NaN where not measured.
+        """Vertical force (n,) in N, the device's total or the cells' sum; NaN if unmeasured.
 
-        A frame that lacks more than a tenth of the cells that ever measure counts as not measured.
+        A frame lacking over a tenth of the ever-measuring cells counts as unmeasured.
         """
         if self.total is not None:
             return self.total
@@ -109,13 +109,11 @@ class FootRecording:
         return total
 
     def pressure(self) -> NDArray[np.float64] | None:
-        """Pressure (n, k) in Pa, NaN where not measured; None without cell areas."""
+        """Pressure (n, k) in Pa, NaN if unmeasured; None without cell areas."""
         return None if self.layout is None else np.asarray(self.force / self.layout.areas)
 
     def center_of_pressure(self, minimum_force: float) -> NDArray[np.float64] | None:
-        """Centre of pressure (n, 2) in the sole frame in m (T 4.21); NaN below `minimum_force` in N, None without a
-        layout.
-        """
+        """CoP (n, 2) in the sole frame in m (T 4.21); NaN below `minimum_force` in N, None without layout."""
         with np.errstate(invalid="ignore"):
             loaded = self.vertical_force >= max(minimum_force, 1e-9)
         if self.cop is not None:
@@ -134,7 +132,7 @@ class FootRecording:
 
 @dataclass(frozen=True, eq=False)
 class StatedEvents:
-    """Heel strikes (m,) and toe offs (k,) of one foot in s, in order, as a file lists them."""
+    """Heel strikes (m,) and toe offs (k,) of one foot in s, in order, as a file states."""
 
     heel_strikes: NDArray[np.float64]
     toe_offs: NDArray[np.float64]
@@ -142,19 +140,19 @@ class StatedEvents:
 
 @dataclass(frozen=True, eq=False)
 class PressureRecording:
-    """A recording of one or two feet on one time base.
+    """Recording of one or two feet on one time base.
 
     Attributes:
-        path: The file.
-        format: Name of its format.
+        path: File.
+        format: Its name.
         rate_hz: Frames a second.
         time: Times (n,) in s.
-        feet: The measured feet. A platform is one entry until `plantar.gait.analysis.prints.platform` separates it.
-        metadata: The file's other entries.
-        warnings: What was assumed, repaired or left out, one line each.
-        raw: Whether the values are uncalibrated counts, which give no force or pressure.
-        grid: Rows and columns of the sensor's matrix, where it is one.
-        events: Heel strikes and toe offs of each foot that the file lists.
+        feet: A platform is one entry until `plantar.gait.analysis.prints.platform` separates it.
+        metadata: Other file entries.
+        warnings: What was assumed, repaired or left out.
+        raw: Whether values are uncalibrated counts, without force or pressure.
+        grid: Rows and columns of a sensor matrix.
+        events: Each foot's stated heel strikes and toe offs.
     """
 
     path: Path
@@ -171,20 +169,20 @@ class PressureRecording:
 
 
 def _product(values: NDArray[np.float64], matrix: NDArray[np.float64]) -> NDArray[np.float64]:
-    """values @ matrix, block by block: BLAS would copy columns out of a wider table whole."""
+    """values @ matrix by blocks: BLAS would copy a wider table's columns whole."""
     blocks = [values[rows] @ matrix for rows in blocks_of_frames(values)]
     return np.concatenate(blocks) if blocks else np.zeros((0, *matrix.shape[1:]))
 
 
 def layout_for(side: Side, given: SoleLayout | None) -> SoleLayout | None:
-    """Returns the layout of a `side`: the `given` one of either side, mirrored for the other foot; None for None."""
+    """Returns layout of a `side`: `given` of either side, mirrored for the other; None for None."""
     if given is None or given.side == side:
         return given
     return mirrored(given)
 
 
 def true_runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """First frame, and the frame after the last one, of each run of true values of a mask (n,).
+    """First frame and frame after the last of each true run in a mask (n,).
 
     Example:
         >>> true_runs(np.array([True, False, True, True]))
@@ -195,7 +193,7 @@ def true_runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
 
 
 def possible_rate(rate: float, what: str) -> float:
-    """Returns the `rate` in Hz; outside RATES a FormatError, whose message begins with `what`."""
+    """Returns `rate` in Hz; outside RATES FormatError, whose message begins with `what`."""
     if not RATES[0] <= rate <= RATES[1]:
         raise FormatError(
             f"{what} {rate:.4g} frames a second, which is not possible; allowed: {RATES[0]:g} to {RATES[1]:g} "
@@ -207,10 +205,10 @@ def possible_rate(rate: float, what: str) -> float:
 def sampling(
     time: NDArray[np.float64], stated_hz: float | None, given_hz: float | None = None
 ) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
-    """Returns increasing times (n,) in s, the rate in Hz, and warnings; single damaged times are repaired.
+    """Returns increasing times (n,) in s, rate in Hz, and warnings; single damaged times are repaired.
 
-    The user's rate `given_hz` replaces times and the file's rate `stated_hz`, in Hz or None. Frames have `time` (n,) in
-    s, 1 or more, NaN where unreadable. A FormatError if there is no rate, or one outside RATES.
+    The user's `given_hz` replaces times and the file's `stated_hz`, in Hz or None. `time` (n,) is in s, 1 or more
+    frames, NaN if unreadable. FormatError without a rate, or outside RATES.
     """
     if given_hz is not None:
         return np.arange(len(time)) / given_hz, given_hz, ()
@@ -272,7 +270,7 @@ def _checked_times(
 
 
 def _begun_again(time: NDArray[np.float64], rate: float) -> str:
-    """A note where times (n,) go back by a second or more and on from there."""
+    """Note where times (n,) jump back by a second or more."""
     known = np.flatnonzero(np.isfinite(time))
     steps = np.diff(time[known])
     back = np.flatnonzero(steps < -max(1.0, _BEGUN / rate))
@@ -288,7 +286,7 @@ def _counts(time: NDArray[np.float64]) -> bool:
 
 
 def _apart(time: NDArray[np.float64], usual: float) -> NDArray[np.float64]:
-    """Times (n,) with equal ones spread evenly up to the next, at most the usual step in s each: a gap may follow."""
+    """Times (n,) with equal ones spread evenly to the next, at most the usual step in s each: a gap may follow."""
     first = np.flatnonzero(np.diff(time, prepend=-np.inf) > 0.0)
     count = np.diff(np.append(first, len(time)))
     step = np.minimum(np.append(np.diff(time[first]), np.inf) / count, usual)

@@ -1,7 +1,7 @@
-"""Write a recording: append-only, crash-safe MCAP that Foxglove and `read_mcap` open.
+"""Write recordings: append-only, crash-safe MCAP for Foxglove and `read_mcap`.
 
-The profile is "ros2": each topic of numbers has one message type of float64 fields, encoded as CDR (a 4-byte header,
-then little-endian values), vectorised chunk by chunk. Topics for viewers carry encoded messages of Foxglove's schemas.
+Profile "ros2": each number topic has one message type of float64 fields, encoded as CDR (4-byte header, little-endian
+values) by chunk. Viewer topics carry encoded Foxglove messages.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ _Encode = Callable[[list[int], list[_Message]], "Sequence[bytes] | NDArray[np.ui
 
 
 class _Gathered(NamedTuple):
-    """Messages of a topic for a chunk: m records, one after the other."""
+    """Topic's messages for a chunk: m records in sequence."""
 
     times: NDArray[np.uint64]
     offsets: NDArray[np.int64]
@@ -60,7 +60,7 @@ class _Gathered(NamedTuple):
 
 
 class Channel(Generic[_Message]):
-    """One `topic` of a recording, such as "/skin/left", made by a `Recorder`."""
+    """One recorded `topic`, such as "/skin/left", made by a `Recorder`."""
 
     def __init__(self, recorder: Recorder, number: int, topic: str, encode: _Encode[_Message]) -> None:
         self.topic = topic
@@ -72,10 +72,10 @@ class Channel(Generic[_Message]):
         self._written = 0
 
     def write(self, time_s: float, message: _Message) -> None:
-        """Append a `message` at `time_s` in s, which the caller must not change; on disk after the next flush.
+        """Append a `message`, unchanged until the next flush, at `time_s` in s.
 
-        A message is an array of all fields' values, flat, or bytes, by the kind of the topic. RecordingError if the
-        time is not 0 to 1e9 s, or the number of values is wrong.
+        A message is a flat array of all fields' values, or bytes, by topic kind. RecordingError for times outside 0 to
+        1e9 s, or a wrong number of values.
         """
         if not 0.0 <= time_s < 1e9:
             raise RecordingError(f"topic {self.topic} got the time {time_s} s; allowed: 0 to 1e9 s")
@@ -106,7 +106,7 @@ class Channel(Generic[_Message]):
 
 
 class _NumbersChannel(Channel[NDArray[np.float64]]):
-    """A topic of `width` numbers a message, which are copied."""
+    """Topic of `width` numbers a message, copied."""
 
     def __init__(self, recorder: Recorder, number: int, topic: str, width: int) -> None:
         super().__init__(recorder, number, topic, _as_cdr)
@@ -125,17 +125,16 @@ def _as_cdr(times: list[int], rows: list[NDArray[np.float64]]) -> NDArray[np.uin
 class Recorder:
     """Writes one recording; a context manager.
 
-    A killed process loses at most one chunk, and the file reads up to its last whole one; a clean exit appends the
-    index.
+    A killed process loses at most one chunk; the file reads up to its last whole one. A clean exit appends the index.
 
     Args:
-        path: File to write, replaced if it exists.
-        metadata: JSON values to store with the data.
-        layouts: Sole layout of each side, stored as layout files.
-        chunk_duration: Recorded time a chunk in s, above 0.
+        path: Replaced if it exists.
+        metadata: JSON values.
+        layouts: Each side's sole layout.
+        chunk_duration: In s, above 0.
 
     Raises:
-        RecordingError: If the file cannot be written, or a value of `metadata` is not JSON.
+        RecordingError: If unwritable, or not JSON.
 
     Example:
         >>> import tempfile
@@ -198,10 +197,9 @@ class Recorder:
         self._flush_at = 0.0
 
     def channel(self, topic: str, fields: Sequence[tuple[str, int]]) -> Channel[NDArray[np.float64]]:
-        """Returns the channel of a new `topic` of numbers; RecordingError if it exists or lacks "/", or a field is
-        invalid.
+        """Returns channel of a new number `topic`; RecordingError if it exists or lacks "/", or a field is invalid.
 
-        Names of `fields` are lower case, as ROS 2 allows, with 1 value or more each; messages are copied.
+        Names of `fields` are lower case, as in ROS 2, 1 value or more each; messages are copied.
         """
         names = [name for name, _ in fields]
         if not names or len(set(names)) != len(names):
@@ -219,7 +217,7 @@ class Recorder:
         return channel
 
     def message_channel(self, topic: str, schema: str) -> Channel[bytes]:
-        """Returns the channel of a new `topic` of encoded messages of a `schema` of `foxglove.SCHEMAS`, else a
+        """Returns channel of a new `topic` of encoded messages of a `schema` of `foxglove.SCHEMAS`, else
         RecordingError.
         """
         return self._drawn(topic, schema, lambda times, messages: messages)
@@ -231,10 +229,9 @@ class Recorder:
         template: Template,
         values: Callable[[NDArray[np.float64]], NDArray[np.float64]] = np.asarray,
     ) -> Channel[NDArray[np.float64]]:
-        """Returns the channel of a new `topic` of messages of a `schema` that fill a `template`, encoded a chunk at
-        once.
+        """Returns channel of a new `topic` whose `schema` messages fill a `template`, encoded by chunk.
 
-        `values` maps the written rows (m, j) to the template's slot values (m, k). Errors as of `message_channel`.
+        `values` maps written rows (m, j) to slot values (m, k). Errors as of `message_channel`.
         """
         return self._drawn(topic, schema, lambda times, rows: template.filled_all(times, values(np.array(rows))))
 
@@ -256,9 +253,7 @@ class Recorder:
         self._channels.append(channel)
 
     def flush(self) -> None:
-        """Write the gathered messages as one chunk; a RecordingError if the disk is full or the file cannot be
-        written.
-        """
+        """Write gathered messages as one chunk; RecordingError if the disk is full or unwritable."""
         full = [channel for channel in self._channels if channel._times]
         if not full:
             return
@@ -317,7 +312,7 @@ class Recorder:
             self._temporary = None
 
     def close(self) -> None:
-        """Write the last chunk and the index, and close the file, once; errors as in `flush`."""
+        """Write the last chunk and index, and close the file, once; errors as in `flush`."""
         if self._file.closed:
             return
         try:

@@ -1,4 +1,4 @@
-"""Recordings of `Recorder` as tables, and their export to NPZ or CSV."""
+"""`Recorder` files as tables, and their export to NPZ or CSV."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ __all__ = ["Recording", "Table", "read_mcap", "take_mcap"]
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """The messages of one topic: `time` (n,) in s, and the values (n, k) of each of its `fields`, in order."""
+    """One topic's messages: `time` (n,) in s, and values (n, k) of each of its `fields`."""
 
     time: NDArray[np.float64]
     fields: Mapping[str, NDArray[np.float64]]
@@ -35,13 +35,13 @@ class Table:
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """Content of a recording file.
+    """Content of a recording.
 
     Attributes:
-        metadata: Values stored with the data.
-        layouts: Sole layout of each side that has one.
-        topics: Table of each topic.
-        warnings: What was missing, damaged or skipped, one line each.
+        metadata: Stored values.
+        layouts: Sole layout of each side, if any.
+        topics: Tables.
+        warnings: What was missing, damaged or skipped.
     """
 
     path: Path
@@ -51,15 +51,13 @@ class Recording:
     warnings: tuple[str, ...] = ()
 
     def values(self, topic: str, field: str) -> NDArray[np.float64]:
-        """Returns the values (n, k) of a `field` of a `topic`."""
+        """Returns values (n, k) of a `field` of a `topic`."""
         return np.asarray(self.topics[topic].fields[field])
 
     def to_npz(self, path: str | os.PathLike[str]) -> Path:
-        """Write all tables to one compressed NPZ at `path` (".npz" is added where it has no suffix), and return its
-        path.
+        """Write all tables to one compressed NPZ at `path` (".npz" added without suffix); returns its path.
 
-        Keys are "<topic>/time" and "<topic>/<field>" without the leading slash; "metadata" and "layout_<side>" hold
-        JSON.
+        Keys: "<topic>/time" and "<topic>/<field>" without leading slash; "metadata" and "layout_<side>" hold JSON.
         """
         final = Path(path)
         final = final if final.suffix else final.with_suffix(".npz")
@@ -75,9 +73,9 @@ class Recording:
         return final
 
     def to_csv(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write one CSV a topic to `folder`, with metadata.json and the layout files, and return the paths.
+        """Write a CSV a topic, metadata.json and layout files to `folder`; returns the paths.
 
-        Columns are "time_s", then "<field>" or "<field>_<index>"; values keep all their digits.
+        Columns are "time_s", then "<field>" or "<field>_<index>", with all digits.
         """
         texts = {"metadata.json": json.dumps(dict(self.metadata), indent=1) + "\n"}
         for side, layout in self.layouts.items():
@@ -97,10 +95,10 @@ class Recording:
 
 
 def read_mcap(path: str | os.PathLike[str]) -> Recording:
-    """Read an MCAP recording whose topics are made of float64 fields.
+    """Read an MCAP recording's topics of float64 fields.
 
-    Damaged chunks and topics of other types are left out, and listed in `warnings`. A FormatError if the file cannot be
-    read, is not MCAP, or holds no readable part.
+    Damaged chunks and other topics are left out and listed in `warnings`. FormatError if unreadable, not MCAP, or
+    without a readable part.
 
     Example:
         >>> read_mcap("none.mcap")
@@ -123,7 +121,7 @@ def read_mcap(path: str | os.PathLike[str]) -> Recording:
 
 
 def take_mcap(path: str | os.PathLike[str], content: McapContent) -> None:
-    """Pass the records of an MCAP file `path` to `content`; a FormatError if it cannot be read or is not MCAP."""
+    """Pass records of an MCAP file `path` to `content`; FormatError if unreadable or not MCAP."""
     with open_input(path, FormatError) as stream:
         head = stream.read(len(MCAP_MAGIC))
         if not head:

@@ -1,1 +1,1 @@
-"""A recording in the browser: one page that needs no network."""
+"""Recording in the browser, without network."""

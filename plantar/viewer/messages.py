@@ -22,15 +22,15 @@ _WHOLE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 @dataclass(frozen=True)
 class Shape:
-    """A primitive of an entity.
+    """Primitive of an entity.
 
     Attributes:
         kind: "arrow", "cube", "sphere", "cylinder", "line", "triangles" or "text".
-        pose: Position in m and quaternion (x, y, z, w) in the entity's frame.
-        size: Size (x, y, z) in m of a cube, sphere or cylinder.
+        pose: Position in m and quaternion (x, y, z, w), entity's frame.
+        size: (x, y, z) in m of cube, sphere or cylinder.
         colour: Red, green, blue and opacity, 0..1.
-        points: Points (x, y, z) in m of a line or of triangles.
-        indices: Three points of each triangle, in sequence.
+        points: (x, y, z) in m of lines or triangles.
+        indices: Three points a triangle.
     """
 
     kind: str
@@ -51,11 +51,11 @@ class Entity:
 
 
 def transforms(message: bytes) -> Iterator[tuple[str, str, tuple[float, ...]]]:
-    """Decode a foxglove.FrameTransforms message: yields name, parent and pose (position in m, quaternion x, y, z, w) of
-    each frame.
+    """Decode foxglove.FrameTransforms: yields name, parent and pose (position in m, quaternion x, y, z, w) of each
+    frame.
 
     Raises:
-        ValueError: If the message is damaged.
+        ValueError: If damaged.
     """
     for number, part in read_fields(message):
         if number == 1:
@@ -65,11 +65,10 @@ def transforms(message: bytes) -> Iterator[tuple[str, str, tuple[float, ...]]]:
 
 
 def transform_template(message: bytes) -> Template:
-    """The template of messages by `plantar.recordings` with the frames of a given one; its slots are the poses (k, 7)
-    in sequence.
+    """Template of `plantar.recordings` with a given message's frames; slots are poses (k, 7) in sequence.
 
     Raises:
-        ValueError: If the message is damaged.
+        ValueError: If damaged.
     """
     slots = ([Slot(7 * i + j) for j in range(7)] for i in count())
     frames = zip(transforms(message), slots, strict=False)
@@ -77,15 +76,15 @@ def transform_template(message: bytes) -> Template:
 
 
 def deleted_all(message: bytes) -> bool:
-    """Whether a foxglove.SceneUpdate removes all that was drawn before."""
+    """Whether a foxglove.SceneUpdate removes all earlier drawings."""
     return any(number == 1 and _fields(part).get(2) == 1 for number, part in read_fields(message))
 
 
 def entities(message: bytes) -> list[Entity]:
-    """The entities of a foxglove.SceneUpdate, with the primitives that the viewer draws.
+    """Entities of a foxglove.SceneUpdate, with the drawn primitives.
 
     Raises:
-        ValueError: If the message is damaged.
+        ValueError: If damaged.
     """
     found = []
     for number, part in read_fields(message):
@@ -119,7 +118,7 @@ def _shape(kind: str, message: Value) -> Shape:
 
 
 def _numbers(message: Value, size: int) -> tuple[float, ...]:
-    """The doubles of a message with the field numbers 1 to `size`; all must be finite."""
+    """Doubles of a message, field numbers 1 to `size`; all finite."""
     values = [_fields(message).get(i, 0.0) for i in range(1, size + 1)]
     if not all(isinstance(value, float) and math.isfinite(value) for value in values):
         raise ValueError("a number of a message is none")

@@ -1,6 +1,6 @@
-"""The page itself: HTML, style, script, three.js and the walks in one file that needs no network.
+"""The page: HTML, style, script, three.js and walks in one file.
 
-three.js is that of its npm package (three 0.170.0, `build/three.module.min.js`, 692 kB, MIT licence).
+three.js is its npm package's (0.170.0, `build/three.module.min.js`, 692 kB, MIT licence).
 """
 
 from __future__ import annotations
@@ -36,18 +36,18 @@ _EXPORT = re.compile(r"export\s*\{([^}]*)\};?\s*$")
 def write_page(
     recordings: str | os.PathLike[str] | Sequence[str | os.PathLike[str]], path: str | os.PathLike[str] = "view.html"
 ) -> dict[str, Any]:
-    """Write a page for the browser that plays one recording, or two side by side.
+    """Write a browser page of one recording, or two side by side.
 
     Args:
-        recordings: MCAP file, or a list of up to two.
-        path: HTML file to write.
+        recordings: MCAP file, or up to two.
+        path: HTML file.
 
     Returns:
-        The file, its size in bytes, for each walk its name, duration in s and number of log lines, and the warnings.
+        File, size in bytes, each walk's name, duration in s and number of log lines, and warnings.
 
     Raises:
-        InputError: If there are too many recordings or the page cannot be written.
-        FormatError: If a recording cannot be read or has no soles to show.
+        InputError: For too many, or unwritable.
+        FormatError: If unreadable or without soles.
     """
     recordings = [recordings] if isinstance(recordings, str | os.PathLike) else recordings
     if not 1 <= len(recordings) <= _MOST:
@@ -74,18 +74,18 @@ def write_page(
 
 
 def view_text(written: Mapping[str, Any]) -> str:
-    """A summary of a written page, for people."""
+    """Summary of a written page."""
     walks = "\n".join(f"  {walk['name']}: {walk['duration_s']:.1f} s" for walk in written["walks"])
     return f"{walks}\n  {written['file']} ({written['bytes'] / 1e6:.1f} MB)"
 
 
 def page_of(walks: Sequence[Walk]) -> str:
-    """The page of walks."""
+    """Page of walks."""
     return "".join(_pieces(walks))
 
 
 def _pieces(walks: Sequence[Walk]) -> Iterator[str]:
-    """The page piece by piece: an hour of measured soles is large."""
+    """Page in pieces: an hour of measured soles is large."""
     parts = {
         "TITLE": html.escape(" and ".join(walk.name for walk in walks)),
         "STYLE": _asset("view.css"),
@@ -108,7 +108,7 @@ def _asset(name: str) -> str:
 
 
 def _three() -> str:
-    """three.js as a part of a script: exports become members of a constant."""
+    """three.js inside a script: exports become members of a constant."""
     code = _asset("three.module.min.js")
     exported = _EXPORT.search(code)
     assert exported is not None, "three.module.min.js ends with its exports"
@@ -118,7 +118,7 @@ def _three() -> str:
 
 
 def _view(number: int, walk: Walk, alone: bool) -> str:
-    """The part of the page for a walk; the page's title names a single one."""
+    """Page's part for a walk; the page's title names a single one."""
     name = html.escape(walk.name)
     warnings = "".join(f"<li>{html.escape(line)}</li>" for line in walk.warnings)
     lines = "".join(
@@ -145,7 +145,7 @@ aria-label="{name} in 3D; drag to turn, arrow keys to step in time"></canvas>
 
 
 def _walk(walk: Walk) -> dict[str, Any]:
-    """A walk as JSON; arrays as base64 of little-endian numbers."""
+    """Walk as JSON; arrays as base64 of little-endian numbers."""
     frames = list(walk.poses)
     poses = np.stack([walk.poses[name] for name in frames], axis=1)
     return {
@@ -173,7 +173,7 @@ def _walk(walk: Walk) -> dict[str, Any]:
 
 
 def _decinewtons(force: ArrayLike) -> Any:
-    """Forces in 0.1 N as 16-bit numbers; the largest number marks one that was not measured."""
+    """Forces in 0.1 N as 16-bit numbers; the largest marks unmeasured ones."""
     values = np.asarray(force)
     rounded = np.clip(np.nan_to_num(values) * 10.0, 0, _NOT_MEASURED - 1).round()
     return np.where(np.isfinite(values), rounded, _NOT_MEASURED)

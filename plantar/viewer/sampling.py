@@ -1,4 +1,4 @@
-"""Messages of a topic reduced to the latest one at each of some times, while the file is read piece by piece."""
+"""Messages reduced to the latest at given times, while reading in pieces."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ __all__ = ["FramePoses", "Latest"]
 
 
 class Latest:
-    """Keeps, for each wanted time, the last value before or at it; the first one before that.
+    """Keeps for each wanted time the last value until it; else the first.
 
     Args:
-        times: The wanted times (n,) in s, ascending.
-        keep: Called with a slice of rows and their value.
+        times: Wanted (n,) in s, ascending.
+        keep: Called with a row slice and value.
 
     Attributes:
         count: Values taken.
-        late: Values left out, since later ones came before.
+        late: Values left out for later ones before them.
 
     Example:
         >>> rows = np.empty(3)
@@ -42,7 +42,7 @@ class Latest:
         self.count = self.late = 0
 
     def take(self, time: float, value: Callable[[], Any]) -> None:
-        """Take a value of a time in s; value is called where it is kept."""
+        """Take a value at a time in s; value is called where kept."""
         if time < self._since:
             self.late += 1
             return
@@ -51,7 +51,7 @@ class Latest:
         self.count += 1
 
     def held(self) -> Any:
-        """The value taken last."""
+        """Value taken last."""
         return None if self._held is None else self._held()
 
     def finish(self) -> None:
@@ -65,10 +65,10 @@ class Latest:
 
 
 class FramePoses:
-    """Poses of frames at wanted times (n,) in s, from foxglove.FrameTransforms messages; a frame missing in one stays.
+    """Frame poses at wanted times (n,) in s, from foxglove.FrameTransforms; frames missing in a message stay.
 
     Attributes:
-        poses: Poses (n, k, 7): position in m and quaternion (x, y, z, w).
+        poses: (n, k, 7): position in m and quaternion (x, y, z, w).
     """
 
     def __init__(self, first: bytes, names: list[str], times: NDArray[np.float64]) -> None:
@@ -83,7 +83,7 @@ class FramePoses:
         """Take a message of a time in s.
 
         Raises:
-            ValueError: If it is damaged.
+            ValueError: If damaged.
         """
         template = self._template
         if template is not None and template.matches(message):

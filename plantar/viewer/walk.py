@@ -1,6 +1,6 @@
-"""The content of a page: frames that move, shapes in them, and the force on the soles, at common times.
+"""Content of a page: moving frames, shapes, and sole forces, at common times.
 
-Without frames and shapes (topics "/tf" and "/scene/..." of `plantar sim`) the soles are shown alone: at the places in
+Without frames and shapes (topics "/tf" and "/scene/..." of `plantar sim`) soles are shown alone: at places in
 "/truth/left", or side by side.
 """
 
@@ -49,7 +49,7 @@ Fields = list[tuple[str, int]] | None
 
 @dataclass(frozen=True)
 class Event:
-    """A line of the log at a time in s; its level is "info", "warning" or "error"."""
+    """Log line at a time in s; level "info", "warning" or "error"."""
 
     time: float
     text: str
@@ -58,18 +58,18 @@ class Event:
 
 @dataclass(frozen=True)
 class Walk:
-    """A recording at n times.
+    """Recording at n times.
 
     Attributes:
-        time: Times (n,) in s, from 0 on.
-        poses: Position and quaternion (x, y, z, w) of each frame (n, 7) in the world in m.
-        layouts: The soles, by side; their frames are "sole_left" and "sole_right".
-        force: Force (n, k) in N on the taxels of each sole, float32.
-        zmp: True zero moment point (n, 3) in m, NaN where unknown.
-        polygon: Corners (n, 12, 3) of the true support polygon in m, likewise.
-        footsteps: Times in s, and the footsteps planned from then on.
-        weight: Weight in N, to scale forces by.
-        warnings: One line for each missing part.
+        time: (n,) in s, from 0 on.
+        poses: Each frame's position and quaternion (x, y, z, w), (n, 7), world in m.
+        layouts: Soles, by side; frames "sole_left" and "sole_right".
+        force: (n, k) in N on each sole's taxels, float32.
+        zmp: True zero moment point (n, 3) in m, NaN if unknown.
+        polygon: True support polygon (n, 12, 3) in m, likewise.
+        footsteps: Times in s, and footsteps planned from then on.
+        weight: In N, to scale forces.
+        warnings: A line for each missing part.
     """
 
     name: str
@@ -87,10 +87,10 @@ class Walk:
 
 
 def read_walk(path: str | os.PathLike[str]) -> Walk:
-    """Read a recording in two passes, piece by piece: an hour of it takes no more memory than ten minutes.
+    """Read a recording in two passes, in pieces: memory does not grow with its length.
 
     Raises:
-        FormatError: If it cannot be read, or holds no taxel forces with layouts.
+        FormatError: If unreadable or without layouts.
     """
     drawn = _Drawn()
     content = McapContent(drawn.sinks())
@@ -132,7 +132,7 @@ def _name(path: str | os.PathLike[str], metadata: Mapping[str, Any]) -> str:
 
 @dataclass
 class _Skin:
-    """The messages of a sole: numbers in each, and the first and last time in s."""
+    """Messages of a sole: number count, and first and last time in s."""
 
     width: int
     first: float
@@ -140,7 +140,7 @@ class _Skin:
 
 
 class _Drawn:
-    """Result of a first reading: times, the frames' names, and what is drawn once or now and then."""
+    """First reading: times, frame names, and what is drawn once or seldom."""
 
     def __init__(self) -> None:
         self.skin: dict[Side, _Skin] = {}
@@ -218,7 +218,7 @@ class _Drawn:
         )
 
     def _counted(self, found: list[Entity]) -> list[Entity]:
-        """Entities, as long as the page has room for them."""
+        """Entities, as far as the page has room."""
         count = sum(1 + len(shape.points) + len(shape.indices) // 3 for e in found for shape in e.shapes)
         if self._shapes + count > _MOST_SHAPES:
             self._dropped += 1
@@ -228,7 +228,7 @@ class _Drawn:
 
 
 class _Shown:
-    """Result of a second reading: the values at each of the times to show."""
+    """Second reading: values at each shown time."""
 
     def __init__(self, drawn: _Drawn, layouts: Mapping[Side, SoleLayout], time: NDArray[np.float64]) -> None:
         n = len(time)
@@ -292,7 +292,7 @@ class _Shown:
         self._latest["/scene/balance"].take(time, lambda: message)
 
     def _keep_balance(self, rows: slice, message: bytes) -> None:
-        """ZMP and support polygon; those without colour are absent."""
+        """ZMP and support polygon; absent without colour."""
         try:
             found = entities(message)
         except ValueError:
@@ -318,7 +318,7 @@ class _Shown:
 
 
 def _span(fields: Fields, wanted: str) -> tuple[int, int] | None:
-    """Place of a field's numbers in a message; None without such a field."""
+    """Place of a field's numbers in a message, or None."""
     start = 0
     for name, width in fields or ():
         if name == wanted:
@@ -329,7 +329,7 @@ def _span(fields: Fields, wanted: str) -> tuple[int, int] | None:
 
 
 def _times(drawn: _Drawn, layouts: Mapping[Side, SoleLayout]) -> NDArray[np.float64]:
-    """Times of the shown frames, else evenly as long as the walk lasts."""
+    """Times of shown frames, else evenly spaced over the walk."""
     frames = np.unique(np.array(drawn.frame_times))
     if len(frames) > 1:
         return np.asarray(frames[:: -(-len(frames) // _MOST)])
