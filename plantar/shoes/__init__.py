@@ -1,7 +1,7 @@
-"""Mountable tactile shoes: from a foot's geometry (`Foot`) to a printable part (`build_shoe`) and its files
+"""Mountable tactile shoes: a foot's geometry (`Foot`) becomes a printable part (`build_shoe`) and files
 (`export_shoe`).
 
-Lengths inside this package are in mm; the layout is in m. The names below are loaded at first use (PEP 562).
+Lengths here are in mm, in the layout in m. Names below load at first use (PEP 562).
 """
 
 from __future__ import annotations

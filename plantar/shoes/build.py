@@ -1,4 +1,4 @@
-"""From a foot to its pair of shoes or insoles: fit, plan and solid in one call."""
+"""A foot's pair of shoes or insoles: fit, plan and solid in one call."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ Progress = Callable[[float, str], None]  # receives the fraction done, 0..1, and
 
 @dataclass(frozen=True)
 class Shoe:
-    """One shoe: its plan, solid and triangles (n, 3, 3) in mm in the sole frame, both None for a layout alone."""
+    """One shoe: plan, solid and triangles (n, 3, 3) in mm, sole frame; both None for layouts alone."""
 
     plan: ShoePlan
     solid: Polyhedron | None = None
@@ -64,15 +64,15 @@ class Shoe:
 
 @dataclass(frozen=True)
 class ShoeBuild:
-    """The shoes of one foot.
+    """Shoes of one foot.
 
     Attributes:
-        fit: The cells of the left sole.
-        parameters: Dimensions as used: the load case may raise some.
-        shoes: The requested shoes, left first.
-        retention: None for layouts alone.
-        notes: What was detected, assumed and decided.
-        kind: "shoe", or "insole": a flat sheet without walls.
+        fit: Left sole's cells.
+        parameters: As used: the load case may raise some.
+        shoes: Left first.
+        retention: None for layouts.
+        notes: Detected, assumed and decided.
+        kind: "shoe", or "insole": flat without walls.
         touching: None of an insole.
     """
 
@@ -110,27 +110,27 @@ def build_shoe(
     layout_only: bool = False,
     progress: Progress | None = None,
 ) -> ShoeBuild:
-    """Fit taxels to the face on which a foot's shoe stands and build the shoe around both.
+    """Fit taxels to a foot's sole and build the shoe around both.
 
     Args:
-        foot: The left foot.
-        side: "left", "right" or "both"; the right shoe mirrors the left.
-        cell_area: Area of a taxel in mm^2.
-        taxels: Number of taxels; None takes as many whole cells as fit.
-        overhang: Allowed reach of taxels beyond the sole in mm; with `taxels` up to overhang_max.
-        rim: "whole" cells up to the edge, or "fine": smaller ones along it.
-        cell: Other cells than hexagons of skin, see `read_cell`, in place of `rim` and `cell_area`.
-        parameters: Dimensions of the shoe.
-        name: Name of the layout; None takes the foot's.
-        layout_only: Leave the solid out, and with it OpenCascade.
+        foot: Left foot.
+        side: "left", "right" or "both"; right mirrors left.
+        cell_area: Taxel in mm^2.
+        taxels: Their number; None takes as many whole cells as fit.
+        overhang: Allowed taxel reach beyond the sole in mm; with `taxels` up to overhang_max.
+        rim: "whole" cells, or "fine": smaller ones along the edge.
+        cell: Other cells than skin hexagons, see `read_cell`, in place of `rim` and `cell_area`.
+        parameters: Dimensions.
+        name: Layout's; None takes the foot's.
+        layout_only: Leave out solid and OpenCascade.
         progress: Receives fraction and text.
 
     Returns:
-        The shoes with their layouts and solids.
+        Shoes with layouts and solids.
 
     Raises:
-        InputError: If an argument is out of its range.
-        FootError: If the foot cannot carry the taxels.
+        InputError: If an argument is out of range.
+        FootError: If taxels do not fit.
 
     Example:
         >>> from plantar.shoes.foot.foot import foot_from_dimensions
@@ -201,7 +201,7 @@ def build_shoe(
 def _observed(
     placed: Callable[[float], tuple[TaxelFit, ShoePlan]], cell_area: float, *, fixed: bool
 ) -> tuple[TaxelFit, ShoePlan, tuple[str, ...]]:
-    """Cells and plan of a cell area, or of a smaller one that observes the center of pressure both ways."""
+    """Cells and plan of a cell area, or of a smaller one that observes the CoP both ways."""
     area, problem, last = cell_area, None, None
     while True:
         try:
@@ -251,7 +251,7 @@ def _planned_sides(left: ShoePlan, sides: tuple[Side, ...]) -> tuple[Shoe, ...]:
 def _built_sides(
     left: ShoePlan, steps: tuple[Step, ...], parameters: ShoeParameters, sides: tuple[Side, ...], report: Progress
 ) -> tuple[Shoe, ...]:
-    """The solids of the requested sides, each with its mark."""
+    """Solids of the requested sides, with marks."""
     p = parameters
     report(0.1, "loading the CAD kernel")
     load_kernel()
@@ -284,26 +284,26 @@ def build_insole(
     layout_only: bool = False,
     progress: Progress | None = None,
 ) -> ShoeBuild:
-    """Fit taxels to the outline of a foot and build a flat insole around them; options as in `build_shoe`.
+    """Fit taxels to a foot's outline in a flat insole; options as in `build_shoe`.
 
     Args:
-        foot: The left foot: of a scan, of a last, or of an outline.
-        thickness: From the ground's face of the pad to the face below the foot, in mm.
+        foot: Left, of a scan, last or outline.
+        thickness: From the pad's ground face to the foot's face, in mm.
         side: "left", "right" or "both".
-        cell_area: Area of a taxel in mm^2.
+        cell_area: Taxel in mm^2.
         rim: "fine" or "whole".
-        cell: Other cells than hexagons of skin.
+        cell: Other cells than skin hexagons.
         parameters: Dimensions.
-        name: Name of the layout.
-        layout_only: Leave the solid out.
+        name: Layout's.
+        layout_only: Leave out the solid.
         progress: Receives fraction and text.
 
     Returns:
-        The insoles with their layouts and solids.
+        Insoles with layouts and solids.
 
     Raises:
-        InputError: If an argument is out of its range.
-        FootError: If the foot cannot carry the taxels.
+        InputError: If an argument is out of range.
+        FootError: If taxels do not fit.
 
     Example:
         >>> from plantar.shoes.foot.foot import foot_from_dimensions

@@ -1,6 +1,4 @@
-"""Coupons: small prints to try the fit of one cell and of one holder, cut out of the same blocks as the shoe. Lengths
-in mm.
-"""
+"""Coupons: small prints to try a cell's and a holder's fit. In mm."""
 
 from __future__ import annotations
 
@@ -33,8 +31,8 @@ _NAMES = {"clips": "clip", "straps": "lug", "screws": "screw"}
 
 @dataclass(frozen=True)
 class Coupon:
-    """A piece of the left shoe: "cell", "clip", "lug" or "screw", its purpose (text), outline from above (window, a
-    shapely polygon in mm) and triangles (n, 3, 3) in mm.
+    """Piece of the left shoe: "cell", "clip", "lug" or "screw", its purpose (text), outline from above (window, shapely
+    in mm) and triangles (n, 3, 3) in mm.
     """
 
     name: str
@@ -44,12 +42,12 @@ class Coupon:
 
 
 def build_coupons(build: ShoeBuild, *, progress: Progress | None = None) -> tuple[Coupon, ...]:
-    """Gives pieces of the left shoe or insole of a build, a cell with a port and one holder; progress receives fraction
-    and text.
+    """Gives pieces of a build's left shoe or insole, a cell with port and a holder; progress receives fraction and
+    text.
 
     Raises:
-        InputError: If the build has no left shoe.
-        FootError: If a piece cannot be built.
+        InputError: Without left shoe.
+        FootError: If a piece fails.
     """
     plan, p = build.shoes[0].plan, build.parameters
     if plan.side != "left":
@@ -114,7 +112,7 @@ def _holder(plan: Any, retention: Retention) -> Any:
 
 
 def _limited(steps: tuple[Step, ...], window: Any) -> tuple[Step, ...]:
-    """The steps within a window, and one more that cuts off the rest around it."""
+    """Steps within a window, and one that cuts off the rest."""
     around = window.buffer(_MORE, join_style="mitre")
     kept = []
     for step in steps:
@@ -137,10 +135,10 @@ def _limited(steps: tuple[Step, ...], window: Any) -> tuple[Step, ...]:
 
 
 def write_coupons(coupons: tuple[Coupon, ...], folder: str | os.PathLike[str]) -> tuple[str, ...]:
-    """Write each of the coupons into a folder as `coupon_<name>.stl`; returns the files' names.
+    """Write coupons into a folder as `coupon_<name>.stl`; returns file names.
 
     Raises:
-        InputError: If a file cannot be written.
+        InputError: If unwritable.
     """
     names = []
     for coupon in coupons:

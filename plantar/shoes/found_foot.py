@@ -1,4 +1,4 @@
-"""Shoes for a foot found in a robot's model, its surface in the sole's frame."""
+"""Shoes for a foot found in a robot's model, surface in the sole frame."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ _AREAS = (100.0, 691.0)  # mm^2 of a taxel: what can be made, and what the paper
 
 @dataclass(frozen=True)
 class FoundShoes:
-    """The shoes that were built.
+    """Built shoes.
 
     Attributes:
-        thickness: Outer contact face below the bare sole in m.
-        mass: Mass of one in kg; None for layouts alone.
-        notes: What was found, assumed and decided, failed checks included.
+        thickness: Contact face below the bare sole in m.
+        mass: Of one in kg; None for layouts.
+        notes: Found, assumed and decided, failed checks included.
     """
 
     thickness: float
@@ -44,7 +44,7 @@ class FoundShoes:
 
 
 def taxel_area(area: float) -> float:
-    """Area of a taxel in mm^2 for a sole of an area in mm^2: as many as on the papers' soles, none larger than theirs.
+    """Taxel area in mm^2 for a sole area in mm^2: as many as on the papers' soles, none larger.
 
     Example:
         >>> taxel_area(27_791.0), taxel_area(9_900.0), taxel_area(900.0)
@@ -63,22 +63,21 @@ def shoe_for_surface(
     solid: bool = False,
     progress: Progress | None = None,
 ) -> FoundShoes:
-    """Build and write the shoes of a left foot: layouts into the folder, printable parts and papers into its folder
-    "shoe".
+    """Build and write a left foot's shoes: layouts into the folder, parts and papers into its folder "shoe".
 
     Args:
-        name: Name of the robot.
-        triangles: Surface (n, 3, 3) in m: x forward, y left, z up, the origin in the sole plane below the ankle.
-        folder: An existing folder.
-        mass: Mass of the robot in kg.
-        solid: Whether to build the printable part, if it can be.
+        name: Robot.
+        triangles: Surface (n, 3, 3) in m: x forward, y left, z up, origin in the sole plane below the ankle.
+        folder: Existing.
+        mass: Robot's in kg.
+        solid: Whether to build the printable part, if possible.
         progress: Receives fraction and text.
 
     Returns:
-        The result.
+        Result.
 
     Raises:
-        FootError: If the foot cannot carry taxels.
+        FootError: If taxels do not fit.
     """
     foot = replace(_foot(name, triangles), mass=mass)
     area = taxel_area(foot.sole.area)

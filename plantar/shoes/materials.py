@@ -1,8 +1,8 @@
-"""Printed materials, typical of their data sheets, and printing processes. Lengths in mm.
+"""Printed materials, typical of data sheets, and printing processes. In mm.
 
-Gaps are a side, by advice of printers' makers (FDM, 0.4 mm nozzle) or promises of services (SLS and MJF 0.3 mm, SLA 0.1
-mm). The scatter of seats, one standard deviation, is a third of that promise, for lack of a published figure. A coupon
-of your printer replaces them: parameters `gap_press`, `gap_slide`, `gap_play` and `seat_scatter`.
+Gaps are a side, by printer makers' advice (FDM, 0.4 mm nozzle) or services' promises (SLS and MJF 0.3 mm, SLA 0.1 mm).
+Seat scatter, one standard deviation, is a third of that promise, for lack of a published figure. A coupon of your
+printer replaces them: parameters `gap_press`, `gap_slide`, `gap_play` and `seat_scatter`.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ __all__ = ["Material", "Process"]
 
 @dataclass(frozen=True)
 class Material:
-    """A printed material.
+    """Printed material.
 
     Attributes:
         process: Its usual process.
         density: In g/cm^3.
         modulus: Young's modulus in MPa.
         strength: Tensile, within a layer, in MPa.
-        across: Share of the strength across the layers, 0..1.
-        strain: Allowed strain of a clip, 0..1.
+        across: Strength share across layers, 0..1.
+        strain: Allowed in a clip, 0..1.
     """
 
     name: str
@@ -49,18 +49,18 @@ MATERIALS: dict[str, Material] = {
 
 @dataclass(frozen=True)
 class Process:
-    """A printing process; lengths are gaps a side.
+    """Printing process; gaps a side in mm.
 
     Attributes:
-        press: Of what is pushed in and stays.
-        slide: Of what slides.
-        play: Of what moves freely.
-        scatter: Standard deviation of the height of a seat.
-        sag: How far a bridged ceiling may sag.
-        foot: How far the first layer spreads.
+        press: Pushed in, stays.
+        slide: Slides.
+        play: Moves freely.
+        scatter: Seat height's standard deviation.
+        sag: Of a bridged ceiling.
+        foot: Spread of the first layer.
         shrinkage: Beyond the printer's correction, in %.
-        supports: Whether what hangs over needs support.
-        finish: Work before parts are fitted.
+        supports: Whether overhangs need support.
+        finish: Work before fitting.
     """
 
     name: str

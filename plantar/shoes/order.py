@@ -1,4 +1,4 @@
-"""The options of a shoe, with their meaning; light, so that a help needs no geometry."""
+"""Options of a shoe; light, so that help needs no geometry."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def _option(default: Any, text: str, metavar: str | None = None) -> Any:
 
 @dataclass(frozen=True)
 class FootSource:
-    """Where the foot comes from: a file, a built-in robot or dimensions; the rest describes how a file is read.
+    """Foot source: a file, built-in robot or dimensions; the rest describes file reading.
 
     Example:
         >>> FootSource(robot="h1").file is None
@@ -39,7 +39,7 @@ class FootSource:
 
 @dataclass(frozen=True)
 class ShoeOrder:
-    """What is built for the foot; `plantar.shoes.ordered.build_ordered` checks it.
+    """What is built for the foot, checked by `plantar.shoes.ordered.build_ordered`.
 
     Example:
         >>> ShoeOrder().cell_area

@@ -1,4 +1,4 @@
-"""What an order asks for: a shoe or an insole, built, or its coupons."""
+"""An order's shoe or insole, built, or its coupons."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ def build_ordered(
     taxels: int | None = None,
     progress: Progress | None = None,
 ) -> ShoeBuild:
-    """Gives the shoe or the insole of an order for a foot, by parameters and taxels of its robot; for coupons, only
-    layouts; progress receives fraction and text.
+    """Gives an order's shoe or insole for a foot, by parameters and taxels of its robot; for coupons, only layouts;
+    progress receives fraction and text.
 
     Raises:
         InputError: If the order contradicts itself.
-        FootError: If the foot cannot carry the taxels.
+        FootError: If taxels do not fit.
     """
     light = order.layout_only or order.coupon
     common: dict[str, Any] = {"side": order.side, "cell_area": order.cell_area, "name": order.name}
@@ -50,10 +50,10 @@ def build_ordered(
 
 
 def ordered_cell(order: ShoeOrder) -> Cell | None:
-    """The cell of an order; None for hexagons of skin.
+    """Cell of an order; None for skin hexagons.
 
     Raises:
-        InputError: If there is no such cell, or the order contradicts itself.
+        InputError: If unknown or contradictory.
     """
     if order.cell is None:
         return None
@@ -65,9 +65,7 @@ def ordered_cell(order: ShoeOrder) -> Cell | None:
 
 
 def write_ordered_coupons(build: ShoeBuild, folder: Path, progress: Progress | None = None) -> dict[str, Any]:
-    """Build the coupons of a build and write them into a folder, progress receives fraction and text; returns plain
-    JSON values.
-    """
+    """Build a build's coupons into a folder, progress receives fraction and text; returns plain JSON values."""
     coupons = build_coupons(build, progress=progress)
     files = write_coupons(coupons, folder)
     rows = [
@@ -78,7 +76,7 @@ def write_ordered_coupons(build: ShoeBuild, folder: Path, progress: Progress | N
 
 
 def coupons_text(summary: dict[str, Any]) -> str:
-    """The coupons for people."""
+    """Coupons for people."""
     lines = [f"  {note}" for note in summary["notes"]]
     for row in summary["coupons"]:
         size = " x ".join(f"{v:.1f}" for v in row["size_mm"])

@@ -1,4 +1,4 @@
-"""Every dimension of the shoe: one named parameter each, with default, range and unit, or with its choices."""
+"""Every dimension of the shoe: a named parameter with default and range."""
 
 from __future__ import annotations
 
@@ -17,31 +17,31 @@ __all__ = ["ShoeParameters", "check_dimensions", "checked", "choice", "length", 
 
 
 def length(default: float, low: float, high: float, meaning: str) -> Any:
-    """Gives a dataclass field for a length in mm: default, low and high limits, meaning."""
+    """Gives dataclass field for a length in mm: default, low and high limits, meaning."""
     return number(default, low, high, "mm", meaning)
 
 
 def number(default: float, low: float, high: float, unit: str, meaning: str) -> Any:
-    """Gives a dataclass field for a number: default, low and high limits, unit ("-" for none), meaning."""
+    """Gives dataclass field for a number: default, low and high limits, unit ("-" for none), meaning."""
     return field(default=default, metadata={"low": low, "high": high, "unit": unit, "text": meaning})
 
 
 def choice(default: str, choices: tuple[str, ...], meaning: str) -> Any:
-    """Gives a dataclass field for one of several choices: default, choices, meaning."""
+    """Gives dataclass field for a choice: default, choices, meaning."""
     return field(default=default, metadata={"choices": choices, "text": meaning})
 
 
 def text(default: str, meaning: str) -> Any:
-    """Gives a dataclass field for a text of one line: default, meaning."""
+    """Gives dataclass field for a one-line text: default, meaning."""
     return field(default=default, metadata={"text": meaning})
 
 
 def checked(record: Any, name: str, value: Any, what: str) -> Any:
-    """Gives a value for the field of a name of a dataclass (record), numbers as floats; what is the word for its fields
-    in messages.
+    """Gives value for the field of a name of a dataclass (record), numbers as floats; what is the word for fields in
+    messages.
 
     Raises:
-        InputError: If the value is not allowed; the message names field, value, unit and range.
+        InputError: If not allowed.
     """
     metadata = record.__dataclass_fields__[name].metadata
     if "choices" in metadata:
@@ -59,8 +59,8 @@ def checked(record: Any, name: str, value: Any, what: str) -> Any:
 
 
 def check_dimensions(record: Any, what: str, names: Iterable[str] | None = None) -> None:
-    """Check fields, by names or all, of a frozen dataclass (record) as it is being made, and keep its numbers as
-    floats; what is the word for its fields.
+    """Check fields, by names or all, of a frozen dataclass (record) being made, numbers as floats; what is the word for
+    its fields.
     """
     for name in [f.name for f in fields(record)] if names is None else names:
         object.__setattr__(record, name, checked(record, name, getattr(record, name), what))
@@ -72,10 +72,10 @@ RETENTIONS: tuple[str, ...] = ("auto", "clips", "straps", "screws", "none")
 
 @dataclass(frozen=True)
 class ShoeParameters:
-    """Dimensions of a tactile shoe, from the ground up. Lengths in mm.
+    """Tactile shoe dimensions, from the ground up. In mm.
 
     Raises:
-        InputError: If a value is out of its range, or two values contradict each other.
+        InputError: For unfit or contradictory values.
 
     Example:
         >>> ShoeParameters(pad_thickness=3.0).thickness
@@ -168,27 +168,27 @@ class ShoeParameters:
 
     @property
     def bottom(self) -> float:
-        """Height of the printed part's lower face above the sole frame in mm."""
+        """Printed lower face above the sole frame in mm."""
         return self.pad_thickness + self.taxel_protrusion
 
     @property
     def pad_rim_height(self) -> float:
-        """Height of the pad's rim above its sheet in mm; 0 where the relief leaves none."""
+        """Pad rim above its sheet in mm; 0 where the relief leaves none."""
         return max(0.0, self.taxel_protrusion - self.pad_relief)
 
     @property
     def ceiling(self) -> float:
-        """Height of the pockets' ceiling above the sole frame in mm."""
+        """Pocket ceiling above the sole frame in mm."""
         return self.bottom + self.pocket_depth
 
     @property
     def thickness(self) -> float:
-        """Height of the foot's face above the sole frame in mm."""
+        """Foot's face above the sole frame in mm."""
         return self.ceiling + self.floor
 
     @property
     def rim_top(self) -> float:
-        """Height of the wall's upper edge above the sole frame in mm."""
+        """Wall's upper edge above the sole frame in mm."""
         return self.thickness + self.rim_height
 
     @property
@@ -204,7 +204,7 @@ class ShoeParameters:
 
     @property
     def made_by(self) -> Process:
-        """The printing process, with the given gaps and scatter."""
+        """Printing process with the given gaps and scatter."""
         process = PROCESSES[self.printed.process if self.process == "auto" else self.process]
         given: dict[str, Any] = {
             "press": self.gap_press,
@@ -220,10 +220,10 @@ class ShoeParameters:
 
     @classmethod
     def range_of(cls, name: str) -> tuple[float, float, str, str]:
-        """Lowest and highest value, unit and meaning of a numeric parameter.
+        """Range, unit and meaning of a numeric parameter.
 
         Raises:
-            InputError: If there is no such parameter; the message names all of them.
+            InputError: If unknown; lists all.
         """
         metadata = cls._metadata(name)
         if "choices" in metadata:
@@ -239,7 +239,7 @@ class ShoeParameters:
 
     @classmethod
     def table(cls) -> list[dict[str, Any]]:
-        """Each parameter as a row: name, default, low, high, unit (or choices) and text."""
+        """Each parameter as a row: name, default, low, high, unit (or choices), text."""
         return [{"name": f.name, "default": f.default, **f.metadata} for f in fields(cls)]
 
     @classmethod
@@ -247,7 +247,7 @@ class ShoeParameters:
         """Defaults with some values replaced.
 
         Raises:
-            InputError: If a name is unknown or a value is out of its range.
+            InputError: If unknown or unfit.
         """
         for name in values:
             cls._metadata(name)
@@ -257,7 +257,7 @@ class ShoeParameters:
         """These parameters with some replaced, as by `--set`.
 
         Raises:
-            InputError: If a text is no NAME=VALUE, a name is unknown, or a value is not allowed.
+            InputError: If malformed, unknown or unfit.
 
         Example:
             >>> ShoeParameters().changed(["rim_height=16", "material=PETG"]).rim_height
@@ -276,11 +276,11 @@ class ShoeParameters:
 
 
 def read_parameters(path: str | os.PathLike[str]) -> ShoeParameters:
-    """Read shoe parameters in mm from `name = value` pairs of a JSON or TOML file, or from the table "parameters" of a
+    """Read shoe parameters in mm from `name = value` pairs in JSON or TOML, or the table "parameters" of a
     `check.json`.
 
     Raises:
-        InputError: If the file cannot be read, or a name or value is not allowed.
+        InputError: If unreadable, unknown or unfit.
     """
     file = Path(path)
     if file.suffix.lower() not in (".json", ".toml"):

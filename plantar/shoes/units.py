@@ -1,4 +1,4 @@
-"""The one boundary between millimetres (inside `shoes`) and SI (everywhere else)."""
+"""One boundary between millimetres (inside `shoes`) and SI (everywhere else)."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _Length = TypeVar("_Length", float, NDArray[np.float64])
 
 
 def to_m(length: _Length) -> _Length:
-    """A length or array of lengths in mm, in m.
+    """Length or array of lengths in mm, in m.
 
     Example:
         >>> to_m(250.0)
@@ -25,7 +25,7 @@ def to_m(length: _Length) -> _Length:
 
 
 def to_mm(length: _Length) -> _Length:
-    """A length or array of lengths in m, in mm.
+    """Length or array of lengths in m, in mm.
 
     Example:
         >>> to_mm(0.25)

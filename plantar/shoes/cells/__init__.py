@@ -1,1 +1,1 @@
-"""Sensor cells: skin, a film sensor with its tail, a sheet of electrodes; the built-in ones as TOML."""
+"""Sensor cells: skin, film with tail, electrode sheet; built-in ones as TOML."""

@@ -1,8 +1,7 @@
-"""The body of a sensor cell as its maker states it, by name or from a TOML file. Lengths in mm.
+"""Body of a sensor cell as stated by its maker or a TOML file. In mm.
 
-*Tiles* have a rubber head that spreads over the ribs. *Films* (with an active area, or round) lie at the ceiling of a
-pocket, and a land of the pad presses on them. A *sheet* has rows and columns of electrodes; a cell lies around a
-crossing.
+*Tiles* have a rubber head that spreads over the ribs. *Films* (with an active area, or round) lie at a pocket's
+ceiling, pressed by a land of the pad. A *sheet* has rows and columns of electrodes; a cell lies around a crossing.
 """
 
 from __future__ import annotations
@@ -45,10 +44,10 @@ KEYS: Mapping[str, tuple[str, ...]] = {
 
 @dataclass(frozen=True)
 class Cell:
-    """One kind of sensor cell. Lengths in mm, forces in N; 0 means unset, as each text describes.
+    """Sensor cell kind. Lengths in mm, forces in N; 0 means unset, as texts describe.
 
     Raises:
-        InputError: If a value is out of its range, missing, or not one of its shape.
+        InputError: If a value is unfit.
 
     Example:
         >>> fsr = Cell(shape="round", size=18.28, active=12.7, thickness=0.46, tail_length=6.7, tail_width=8.0)
@@ -137,7 +136,7 @@ class Cell:
 
     @property
     def label(self) -> str:
-        """Its name, or its shape without one."""
+        """Name, or shape without one."""
         return self.name or self.shape
 
     @property
@@ -148,7 +147,7 @@ class Cell:
 
     @property
     def body(self) -> tuple[float, float]:
-        """Extent of the body along and across the rows, without its tail; of a sheet that of a crossing."""
+        """Body extent along and across rows, without tail; of a sheet, a crossing's."""
         if self.shape == "rectangle":
             return self.length, self.width
         if self.shape == "sheet":
@@ -157,7 +156,7 @@ class Cell:
 
     @property
     def active_extent(self) -> tuple[float, float]:
-        """Extent of a film's active area along and across the rows."""
+        """Film's active extent along and across rows."""
         if self.shape == "rectangle":
             return self.active_length, self.active_width
         across = self.active or self.size
@@ -170,23 +169,23 @@ class Cell:
         return share * along * across
 
     def as_dict(self) -> dict[str, float | str]:
-        """The keys of its shape with values that are set, as in a TOML."""
+        """Set values by its shape's keys, as in TOML."""
         every = {f.name: f.default for f in fields(self) if f.name in KEYS[self.shape]}
         return {k: getattr(self, k) for k, d in every.items() if d not in (0.0, "") or getattr(self, k) != d}
 
     @classmethod
     def from_mapping(cls, values: Mapping[str, Any], where: str) -> Cell:
-        """A cell from a table of a TOML file.
+        """Cell from a TOML table.
 
         Args:
             values: Keys and values; `shape` is needed.
-            where: Name of the table, for messages.
+            where: Table's name, for messages.
 
         Returns:
-            The cell.
+            Cell.
 
         Raises:
-            InputError: If a key is unknown, or a value missing or not allowed.
+            InputError: For unfit keys or values.
         """
         if values.get("shape") not in SHAPES:
             given = f"is {values['shape']!r}" if "shape" in values else "is missing"
@@ -201,7 +200,7 @@ class Cell:
 
     @classmethod
     def table(cls) -> list[dict[str, Any]]:
-        """Each key as a row: name, default, low, high, unit (or choices), text and shapes."""
+        """Each key as a row: name, default, low, high, unit (or choices), text, shapes."""
         return [
             {"name": f.name, "default": f.default, "shapes": [s for s in SHAPES if f.name in KEYS[s]], **f.metadata}
             for f in fields(cls)
@@ -212,7 +211,7 @@ _NAME_MOST = 40  # letters
 
 
 def built_in_cells() -> dict[str, Path]:
-    """Files of the built-in cells by name.
+    """Built-in cells' files by name.
 
     Example:
         >>> sorted(built_in_cells())
@@ -222,10 +221,10 @@ def built_in_cells() -> dict[str, Path]:
 
 
 def read_cell(name: str | os.PathLike[str]) -> Cell:
-    """A built-in cell by name, or one of a TOML file; without a name it has that of its file.
+    """Built-in cell by name, or a TOML file's, named as that file by default.
 
     Raises:
-        InputError: If there is no such cell, the file cannot be read, or a key or value is not allowed.
+        InputError: If unknown, unreadable or unfit.
 
     Example:
         >>> read_cell("square").kind

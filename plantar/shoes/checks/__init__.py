@@ -1,1 +1,1 @@
-"""Whether the shoe prints, holds and can be mounted."""
+"""Whether the shoe prints, holds and mounts."""

@@ -1,4 +1,4 @@
-"""Checks of a built shoe, measured on what was exported: the STL's triangles and the solid read back from the STEP."""
+"""Checks of a built shoe, measured on exported STL and STEP."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Check:
-    """One check: its measured value, and what is allowed, in words."""
+    """One check: measured value, and what is allowed, in words."""
 
     name: str
     holds: bool
@@ -53,16 +53,16 @@ class ShoeCheck:
     """Measures of one shoe.
 
     Attributes:
-        watertight: Whether every edge of the STL has two consistent triangles.
+        watertight: Whether every STL edge has two consistent triangles.
         min_wall_mm: Thinnest wall, floor or bar.
-        size_mm: Extent (3,) of the printed part.
-        overhang_mm: Reach of the contact face beyond the foot.
-        reach_mm: Reach of any part, lugs and the board's holder included.
-        printing: The build directions, the chosen first.
+        size_mm: Printed extent (3,).
+        overhang_mm: Contact face beyond the foot.
+        reach_mm: Any part beyond it, lugs and board holder included.
+        printing: Build directions, chosen first.
         mounting: None of an insole.
         pull_off: None without holders.
         shortest_edge_mm: Of the STEP.
-        arc_share: Share of bent walls that are cylinders and cones, 0..1.
+        arc_share: Share of bent walls in cylinders and cones, 0..1.
     """
 
     watertight: bool
@@ -90,9 +90,7 @@ class ShoeCheck:
 
 
 def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: StepSolid) -> ShoeCheck:
-    """Gives measures and checks of a shoe of a build, by its surface (n, 3, 3) in mm from the STL and the solid from
-    the STEP (step).
-    """
+    """Gives measures and checks of a build's shoe, by STL surface (n, 3, 3) in mm and STEP solid (step)."""
     with optional_library("trimesh", "shoes"):
         import trimesh
     assert build.retention is not None
@@ -156,9 +154,7 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: StepSolid)
 
 
 def check_plan(plan: ShoePlan, build: ShoeBuild) -> tuple[Check, ...]:
-    """Gives the checks that a plan of a build decides: blind rim, center of pressure, touching taxels, their load
-    share.
-    """
+    """Gives checks decided by a build's plan: blind rim, CoP, touching taxels, load share."""
     rim, share = build.fit.blind_most, build.load_share
     return (
         *(() if rim is None else (_most("blind rim beyond the taxels' centres, mm", plan.blind_rim, rim, 2),)),
@@ -277,7 +273,7 @@ def _reach(plan: ShoePlan, surface: Array) -> float:
 
 def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: StepSolid) -> tuple[float, float]:
     """Gives largest distances in mm of a shoe's corners in the solid (step) from the layout's, by parameters: of cells
-    from the groove, of pockets from their ceiling, without those that a port or the channel removes.
+    from the groove, of pockets from the ceiling, except those removed by port or channel.
     """
     p = parameters
     cable = shapely.union_all([*cable_outlines(shoe.plan, p), hole_outline(shoe.plan, p)]).buffer(SHORTEST)

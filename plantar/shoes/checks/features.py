@@ -1,4 +1,4 @@
-"""Whether the print has the seats named in its bill and assembly, by sections of the surface. Lengths in mm."""
+"""Whether the print has the seats of its bill and assembly, by sections. In mm."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Feature:
-    """A feature of the print: the part that needs it, and the share of it, 0..1, that is there."""
+    """Feature of the print: the part that needs it, and its present share, 0..1."""
 
     name: str
     part: str
@@ -50,7 +50,7 @@ class _Print:
         return min(float(self._at(round(h, 4) + _EPS).intersection(place).area / place.area) for h in heights)
 
     def free(self, place: Any, *heights: float) -> float:
-        """1 where the print leaves a place free in every section, 0 where it fills it."""
+        """1 where every section leaves a place free, 0 where filled."""
         most = max(float(self._at(round(h, 4) + _EPS).intersection(place).area / place.area) for h in heights)
         return 1.0 if most <= _FREE else 1.0 - most
 
@@ -59,15 +59,15 @@ class _Print:
 
 
 def printed_features(shoe: Shoe, build: ShoeBuild, surface: Array) -> tuple[Feature, ...]:
-    """Look for every feature named in the shoe's papers.
+    """Look for every feature in the shoe's papers.
 
     Args:
-        shoe: The shoe.
-        build: Its build.
-        surface: Triangles (n, 3, 3) in mm, as read back from the STL.
+        shoe: Shoe.
+        build: Its own.
+        surface: STL triangles (n, 3, 3) in mm.
 
     Returns:
-        The features.
+        Features.
     """
     solid, p, plan = _Print(surface), build.parameters, shoe.plan
     found = [*_seats(solid, plan, p), *_cable(solid, plan, p)]

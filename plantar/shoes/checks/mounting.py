@@ -1,4 +1,4 @@
-"""Whether the shoe goes onto the foot: the foot in the exported shoe, and on its way into it. Lengths in mm."""
+"""Whether the exported shoe goes onto the foot. Lengths in mm."""
 
 from __future__ import annotations
 
@@ -34,18 +34,18 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Mounting:
-    """How the foot sits in the shoe.
+    """Foot in the shoe.
 
     Attributes:
-        gap: Smallest gap between foot and wall.
-        play: Largest gap at the wall's upper edge.
-        gap_above: Smallest gap between the foot and lugs or clips.
-        gap_on_the_way: Smallest gap between the foot and rigid parts while the shoe is pushed on.
-        floor_gap: From the foot's lowest point to the floor.
-        support_share: Share of the foot's touching area over the floor, 0..1.
-        undercut: Area in mm^2 of wall over the foot's place, which could not be printed.
-        links: Places where other links of the robot meet print or strap.
-        links_known: Whether those are of the robot's model.
+        gap: Smallest, foot to wall.
+        play: Largest gap at the wall's edge.
+        gap_above: Smallest, foot to lugs or clips.
+        gap_on_the_way: Smallest, foot to rigid parts while pushed on.
+        floor_gap: Foot's lowest point to the floor.
+        support_share: Share of the touching area over the floor, 0..1.
+        undercut: Unprintable wall area in mm^2 over the foot's place.
+        links: Places where other robot links meet print or strap.
+        links_known: Whether from the robot's model.
     """
 
     gap: float
@@ -62,9 +62,7 @@ class Mounting:
 def check_mounting(
     foot: Foot, side: Side, surface: Array, retention: Retention, parameters: ShoeParameters
 ) -> Mounting:
-    """Gives the gaps of the left foot put into the surface (n, 3, 3) in mm of the exported shoe of a side, by its
-    retention and parameters.
-    """
+    """Gives gaps of the left foot in an exported shoe's surface (n, 3, 3) in mm of a side, by retention and parameters."""
     p = parameters
     flip = np.array([1.0, 1.0, 1.0]) if side == "left" else np.array([1.0, -1.0, 1.0])
     shoe = surface * flip  # the left foot is put into either
@@ -143,7 +141,7 @@ def _gap(foot: Foot, height: float, solid: Any) -> float:
 
 
 def _gap_on_the_way(foot: Foot, height: float, solid: Any) -> float:
-    """Smallest distance, seen from above, between the foot up to a height and a section of the shoe there."""
+    """Smallest distance from above between the foot up to a height and a shoe section there."""
     if foot.triangles is None:
         return float(foot.passing(height).distance(solid))
     flat = cut_below(foot.triangles, height)[..., :2]

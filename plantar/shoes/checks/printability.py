@@ -1,4 +1,4 @@
-"""Whether a part prints: overhangs against 45 degrees, bridges, bed and time; and what a shoe weighs. Lengths in mm."""
+"""Whether a part prints: overhangs against 45 degrees, bridges, bed, time; and its weight. In mm."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Printing:
-    """A part on the printer's bed.
+    """Part on the printer's bed, in a direction.
 
     Attributes:
-        direction: One of BUILD_DIRECTIONS.
-        overhang: Area in mm^2 that faces down by more than 45 degrees and is no bridge.
-        bridges: Area in mm^2 of bridged ceilings.
-        size: Extent (3,) on the bed: longer, shorter side and height.
+        direction: Of BUILD_DIRECTIONS.
+        overhang: Area in mm^2 facing down by over 45 degrees, bridges aside.
+        bridges: Ceilings in mm^2.
+        size: Bed extent (3,): longer, shorter side and height.
     """
 
     direction: str
@@ -51,7 +51,7 @@ class Printing:
 
 
 def choose_direction(triangles: Array, parameters: ShoeParameters) -> tuple[Printing, ...]:
-    """Gives how triangles (n, 3, 3), closed, lie on the bed by the printer's parameters, the best first: fits, least
+    """Gives placements of closed triangles (n, 3, 3) on the bed by printer parameters, best first: fits, least
     overhang, height, bridges.
     """
     found = [_printing(name, triangles, parameters) for name in BUILD_DIRECTIONS]
@@ -94,8 +94,8 @@ def _overhang(triangles: Array, bridge_max: float) -> tuple[float, float]:
 
 
 def print_hours(volume: float, height: float, flow: float) -> float:
-    """Gives the estimated hours to print a volume in mm^3 of a height in mm: volume over flow in mm^3/s, and 6 s for
-    each layer of 0.2 mm.
+    """Gives estimated hours to print a volume in mm^3 of a height in mm: volume over flow in mm^3/s, 6 s a layer of 0.2
+    mm.
 
     Example:
         >>> round(print_hours(239_000.0, 28.5, 8.0), 1)
@@ -111,7 +111,7 @@ BOARD_UP = 12.0  # length in mm of board above the shelf
 
 @dataclass(frozen=True)
 class Weights:
-    """Masses of one shoe in g: print, pad, taxels (their area times protrusion and pocket depth) and board."""
+    """Shoe masses in g: print, pad, taxels (area times protrusion and pocket depth), board."""
 
     printed: float
     pad: float
@@ -123,12 +123,12 @@ class Weights:
         return self.printed + self.pad + self.skin + self.board
 
     def as_dict(self) -> dict[str, float]:
-        """Each mass and their `total`, in g."""
+        """Masses and `total`, in g."""
         return asdict(self) | {"total": round(self.total, 2)}
 
 
 def weigh(shoe: Shoe, build: ShoeBuild, volume: float) -> Weights:
-    """Gives the masses of a shoe of a build with a printed volume in mm^3."""
+    """Gives masses of a build's shoe with a printed volume in mm^3."""
     p = build.parameters
     pad = volume_of(pad_surface(shoe.plan, p)) if p.pad_thickness > 0.0 else 0.0
     board = p.board_length * BOARD_UP * p.board_thickness * _BOARD_DENSITY if shoe.plan.heel.board else 0.0

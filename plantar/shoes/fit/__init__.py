@@ -1,1 +1,1 @@
-"""Taxels on the face of the shoe: lattice fit and its bound."""
+"""Taxels on the shoe's face: lattice fit and bound."""

@@ -1,4 +1,4 @@
-"""Cells of a stated body on the face of the shoe: tiles and films on a lattice, a sheet's crossings. Lengths in mm."""
+"""Cells of a stated body on the shoe's face: tiles, films, sheet crossings. In mm."""
 
 from __future__ import annotations
 
@@ -44,22 +44,22 @@ def fit_cells(
     overhang_max: float = 0.0,
     border: float = 0.0,
 ) -> TaxelFit:
-    """Fit cells of a stated body to the face of a shoe.
+    """Fit cells of a stated body to a shoe's face.
 
     Args:
-        foot: Outline of the foot below the rim's upper edge, a shapely polygon.
-        cell: The cell.
-        rib: Wall between two pockets.
-        taxels: Number of cells, not of a sheet; None takes as many as fit.
-        overhang: Allowed reach of cells beyond the outline without `taxels`; the least with them.
-        overhang_max: Allowed reach of the shoe beyond the outline.
+        foot: Shapely outline below the rim's upper edge.
+        cell: Cell.
+        rib: Wall between pockets.
+        taxels: Their number, not of a sheet; None takes as many as fit.
+        overhang: Allowed cell reach beyond the outline without `taxels`; the least with them.
+        overhang_max: Allowed shoe reach beyond the outline.
         border: Plate beyond the cells.
 
     Returns:
-        The cells, all whole but for those at the edge of a sheet.
+        Cells, all whole but at a sheet's edge.
 
     Raises:
-        InputError: If an argument is out of its range.
+        InputError: If an argument is out of range.
         FootError: If they do not fit.
 
     Example:
@@ -117,7 +117,7 @@ def _placed(lattice: Lattice, axial: NDArray[np.int64], shape: Array) -> tuple[A
 def _links(
     pattern: CellPattern, lattice: Lattice, axial: NDArray[np.int64], pockets: tuple[Array, ...]
 ) -> tuple[tuple[int, int], ...]:
-    """Pairs of cells less than two pitches apart with no pocket between them: where a cable can run."""
+    """Pairs of cells under two pitches apart, no pocket between: cable ways."""
     centres = lattice.centres(axial)
     far = 1.01 * max(pattern.width, math.hypot(0.5 * pattern.width, pattern.rise), pattern.rise)
     gaps = np.hypot(*(centres[:, None] - centres[None]).transpose(2, 0, 1))
@@ -177,7 +177,7 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
 
 
 def _crossings(region: Any, inside: Any, cell: Cell) -> Array:
-    """Crossings (n, 2) of the offset with the most electrodes inside."""
+    """Crossings (n, 2) at the offset with most electrodes inside."""
     half = 0.5 * cell.line_width
     low_x, low_y, high_x, high_y = region.bounds
     most = (high_x - low_x) / cell.pitch_x + (high_y - low_y) / cell.pitch_y

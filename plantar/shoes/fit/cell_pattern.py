@@ -1,4 +1,4 @@
-"""How cells repeat over a sole: the room of one, a union of convex parts, and the lattice. Lengths in mm."""
+"""Repetition of cells: room of one, a union of convex parts, and lattice. In mm."""
 
 from __future__ import annotations
 
@@ -35,15 +35,15 @@ _TOUCH = 1e-6  # mm^2 that rooms may share: rounding
 
 @dataclass(frozen=True)
 class CellPattern:
-    """Cells and their lattice before it is placed.
+    """Cells and their unplaced lattice.
 
     Attributes:
-        width: From centre to centre within a row.
+        width: Between centres in a row.
         rise: From row to row.
-        shift: Of a row against the one before, 0 or half of `width`.
-        parts: Corners (k, 2) of the convex parts of a room about its centre, rows along x.
-        period: Angle in rad by which lattice and cells repeat when turned.
-        hexagon: Area of a cell in mm^2 where the room is that of a `HexLattice`; else None.
+        shift: Of a row against the last, 0 or half of `width`.
+        parts: Corners (k, 2) of a room's convex parts about its centre, rows along x.
+        period: Angle in rad of rotational repetition.
+        hexagon: Cell area in mm^2 of a `HexLattice` room; else None.
     """
 
     width: float
@@ -54,19 +54,19 @@ class CellPattern:
     hexagon: float | None = None
 
     def at(self, origin: tuple[float, float], angle: float) -> Lattice:
-        """Gives the lattice with cell (0, 0) at an origin and its rows at an angle in rad."""
+        """Gives lattice with cell (0, 0) at an origin, rows at an angle in rad."""
         if self.hexagon is not None:
             return HexLattice(self.hexagon, origin, angle)
         return RowLattice(self, origin, angle)
 
     @cached_property
     def room(self) -> Any:
-        """Room of a cell about its centre, a shapely polygon."""
+        """Shapely room of a cell about its centre."""
         return joined(self.parts)
 
     @property
     def reach(self) -> float:
-        """Farthest point of a room from its centre."""
+        """Farthest room point from its centre."""
         return max(float(np.hypot(*p.T).max()) for p in self.parts)
 
     @property
@@ -76,7 +76,7 @@ class CellPattern:
 
 @dataclass(frozen=True)
 class RowLattice:
-    """A placed lattice of any cells, with the centre of cell (0, 0) at `origin` and rows at `angle` in rad."""
+    """Placed lattice of any cells: cell (0, 0) at `origin`, rows at `angle` in rad."""
 
     pattern: CellPattern
     origin: tuple[float, float]
@@ -88,27 +88,25 @@ class RowLattice:
         return np.stack([self.origin[0] + c * x - s * y, self.origin[1] + s * x + c * y], axis=-1)
 
     def _flat(self, axial: Any) -> Array:
-        """Centres with the rows along x; of integers, so that cells that meet share corners."""
+        """Centres with rows along x; of integers, so that touching cells share corners."""
         i, j = np.asarray(axial, dtype=np.int64).reshape(-1, 2).T
         half = 2 * i + (j if self.pattern.shift else 0)
         return np.stack([half * (0.5 * self.pattern.width), 2 * j * (0.5 * self.pattern.rise)], axis=-1)
 
     def centres(self, axial: Any) -> Array:
-        """Centres (n, 2) of cells (n, 2) in mm."""
+        """Cell centres (n, 2) in mm."""
         return self._placed(self._flat(axial))
 
     def corners(self, axial: Any) -> Array:
-        """Corners (n, k, 2) of cells' rooms in mm."""
+        """Corners (n, k, 2) of cell rooms in mm."""
         return self.shapes(axial, ring(self.pattern.room))
 
     def shapes(self, axial: Any, shape: Array) -> Array:
-        """Gives the corners (n, k, 2) of a shape (k, 2) about the centres of axial cells (n, 2), rows along x."""
+        """Gives corners (n, k, 2) of a shape (k, 2) about axial cells (n, 2), rows along x."""
         return self._placed(self._flat(axial)[:, None, :] + shape)
 
     def cells_near(self, lower: Any, upper: Any) -> NDArray[np.int64]:
-        """Gives cells (n, 2), by row, whose centres lie within about one cell of a box with corners lower (2,) and
-        upper (2,).
-        """
+        """Gives cells (n, 2), by row, with centres within about a cell of a box with corners lower (2,) and upper (2,)."""
         p = self.pattern
         box = np.array([[lower[0], lower[1]], [upper[0], lower[1]], [upper[0], upper[1]], [lower[0], upper[1]]])
         box = box - np.array(self.origin)
@@ -131,7 +129,7 @@ Lattice = HexLattice | RowLattice  # a placed lattice of cells
 
 
 def hex_pattern(area: float) -> CellPattern:
-    """Hexagons of an area in mm^2 that tile.
+    """Tiling hexagons of an area in mm^2.
 
     Example:
         >>> round(hex_pattern(691.0).width, 2)
@@ -143,10 +141,10 @@ def hex_pattern(area: float) -> CellPattern:
 
 
 def pattern_of(cell: Cell, rib: float) -> CellPattern:
-    """Gives how a tile or film cell repeats: as stated, or as near to each other as the rib between pockets allows.
+    """Gives how a tile or film cell repeats: as stated, or as near as the rib between pockets allows.
 
     Raises:
-        FootError: If the stated pitch leaves a thinner rib.
+        FootError: If a stated rib is thinner.
 
     Example:
         >>> fsr = Cell(shape="round", size=18.0, thickness=0.5, play=0.0)
@@ -181,7 +179,7 @@ def _pitch(cell: Cell, axis: str, least: float, rib: float) -> float:
 
 
 def _least_rise(parts: Sequence[Array], width: float, shift: float, height: float) -> float:
-    """Smallest distance of rows: rooms are convex across the rows, so that bisection finds it."""
+    """Smallest row distance, by bisection: rooms are convex across rows."""
     if not shift:
         return float(height)
     room = shapely.union_all([shapely.Polygon(p) for p in parts])
@@ -210,9 +208,7 @@ def _period(cell: Cell, width: float, rise: float, shift: float) -> float:
 
 
 def pocket_parts(cell: Cell, around: float = 0.0) -> tuple[Array, ...]:
-    """Gives corners (k, 2) of the convex parts, body and tail with play, of a tile's or film's cell, with more room
-    around.
-    """
+    """Gives corners (k, 2) of convex parts, body and tail with play, of a tile or film cell, with more room around."""
     gap = cell.play + around
     along, across = cell.body
     body = _body(cell.shape, along + 2.0 * gap, across + 2.0 * gap)
@@ -224,13 +220,13 @@ def pocket_parts(cell: Cell, around: float = 0.0) -> tuple[Array, ...]:
 
 
 def joined(parts: Sequence[Array]) -> Any:
-    """Overlapping convex parts (k, 2) as one shapely polygon, counter-clockwise."""
+    """Overlapping convex parts (k, 2) as one counter-clockwise shapely polygon."""
     shape = shapely.union_all([shapely.Polygon(p) for p in parts], grid_size=1e-6)
     return shapely.geometry.polygon.orient(shape.simplify(1e-6))
 
 
 def active_shape(cell: Cell) -> Array:
-    """Corners (k, 2) of a film's active area about the middle of its body; of equal area for a circle."""
+    """Corners (k, 2) of a film's active area about its body's middle; equal area for circles."""
     along, across = cell.active_extent
     if cell.shape == "round":
         equal = math.sqrt(2.0 * math.pi / (_SIDES * math.sin(2.0 * math.pi / _SIDES))) * math.cos(math.pi / _SIDES)

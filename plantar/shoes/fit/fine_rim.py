@@ -1,7 +1,6 @@
-"""A fine rim: a row of smaller cells along the edge, so that a load near it is measured near it. Lengths in mm.
+"""Fine rim: smaller cells along the edge measure loads near it. In mm.
 
-A strip of one depth is cut into cells across it, one for each sharp corner; inside lies the lattice, its cells whole or
-trimmed.
+A strip of one depth is cut across into cells, one for each sharp corner; inside lies the lattice, whole or trimmed.
 """
 
 from __future__ import annotations
@@ -38,7 +37,7 @@ Array = NDArray[np.float64]
 
 
 def blind_rim(face: Any, centres: Array) -> float:
-    """Gives the largest distance in mm of a face, a shapely polygon, from the hull of cell centres (n, 2).
+    """Gives largest distance in mm of a shapely face from the hull of cell centres (n, 2).
 
     Example:
         >>> import shapely
@@ -50,18 +49,18 @@ def blind_rim(face: Any, centres: Array) -> float:
 
 
 def strip_cells(region: Any, face: Any, cell_area: float) -> tuple[tuple[Array, ...], Any]:
-    """Cells along the edge of a region: the fewest, with those inside, that the blind rim allows.
+    """Cells along a region's edge: the fewest, with those inside, that the blind rim allows.
 
     Args:
-        region: Where cells may be, a shapely polygon.
-        face: The contact face around it.
-        cell_area: Area of a whole cell in mm^2.
+        region: Shapely polygon for cells.
+        face: Surrounding contact face.
+        cell_area: Whole cell in mm^2.
 
     Returns:
-        Corners (k, 2) of each cell, counter-clockwise, once around; and the shapely polygon inside of them.
+        Corners (k, 2) of each cell, counter-clockwise, once around; and the shapely polygon inside.
 
     Raises:
-        FootError: If no cells that can be made leave a blind rim of BLIND_MOST.
+        FootError: If BLIND_MOST cannot be kept.
     """
     found: list[tuple[float, list[Any], Any]] = []
     edge = shapely.geometry.polygon.orient(shapely.Polygon(region.exterior).simplify(_DETAIL))
@@ -86,7 +85,7 @@ def strip_cells(region: Any, face: Any, cell_area: float) -> tuple[tuple[Array, 
 
 
 class _Line:
-    """A closed line; a place on it is the way from its first corner."""
+    """Closed line; places are distances from its first corner."""
 
     def __init__(self, polygon: Any) -> None:
         self.ring = polygon.exterior
@@ -171,19 +170,19 @@ def _core(inside: Any, cell_area: float) -> tuple[list[Array], Lattice, int]:
 
 
 def fit_fine_rim(foot: Any, *, cell_area: float, overhang: float, border: float) -> TaxelFit:
-    """Fit taxels with a fine rim to the face of a shoe.
+    """Fit taxels with a fine rim to a shoe's face.
 
     Args:
-        foot: Outline of the foot below the rim's upper edge, a shapely polygon.
-        cell_area: Area of a whole cell in mm^2.
-        overhang: Allowed reach of cells beyond the outline in mm.
+        foot: Shapely outline below the rim's upper edge.
+        cell_area: Whole cell in mm^2.
+        overhang: Allowed cell reach beyond the outline in mm.
         border: Plate beyond the cells in mm.
 
     Returns:
-        The cells, from heel to toes; the bound is that of the inner ones.
+        Cells, heel to toes; the bound is the inner ones'.
 
     Raises:
-        FootError: If no cells that can be made leave a blind rim of BLIND_MOST.
+        FootError: If BLIND_MOST cannot be kept.
     """
     region, face = tidy(grown(foot, overhang)), tidy(grown(foot, overhang + border))
     strip, inside = strip_cells(region, face, cell_area)

@@ -1,9 +1,9 @@
-"""Proven upper bound on the whole cells that any placement of a lattice puts inside an outline. Lengths in mm.
+"""Proven upper bound on a lattice's whole cells inside an outline. In mm.
 
-Branch and bound over offset and angle. A cell is inside the half planes of the convex hull and outside the triangles
-that fill its pockets; the slack of each condition changes by at most the cell's motion. In a box of placements that is
-at most `reach` = half its diagonal + (distance of the cell's farthest point from the centre of rotation) x half its
-angle: cells with a slack below -reach at the middle are outside for the whole box, and the others bound it.
+Branch and bound over offset and angle. A cell is inside the convex hull's half planes and outside the triangles that
+fill its pockets; each slack changes by at most the cell's motion, in a box of placements at most `reach` = half its
+diagonal + (distance of the cell's farthest point from the centre of rotation) x half its angle. Cells with slack below
+-reach at the middle are outside for the whole box; the others bound it.
 """
 
 from __future__ import annotations
@@ -35,15 +35,15 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class CellBound:
-    """The proven bound.
+    """Proven bound.
 
     Attributes:
-        bound: Whole cells that no placement exceeds.
-        best: Whole cells of the best placement seen, which may leave the outline by hundredths of a mm.
-        origin: Centre of a cell of that placement in mm.
-        angle: Angle of its rows in rad.
-        boxes: Boxes of placements that were looked at.
-        angles: Angles in rad of the boxes left over, at which more may fit.
+        bound: Whole cells no placement exceeds.
+        best: Whole cells of the best seen placement, up to hundredths of a mm outside.
+        origin: Centre of one of its cells in mm.
+        angle: Of its rows in rad.
+        boxes: Placement boxes examined.
+        angles: In rad, of boxes left over, where more may fit.
     """
 
     bound: int
@@ -55,16 +55,16 @@ class CellBound:
 
 
 def bound_whole_cells(region: Any, pattern: CellPattern, *, known: int = 0, share: float = 1.0) -> CellBound:
-    """Bound the number of whole cells in an outline.
+    """Bound the whole cells in an outline.
 
     Args:
-        region: Outline, a shapely polygon without holes in mm.
-        pattern: The cells.
-        known: Cells of a known placement.
-        share: The search ends at a best of this share of the bound.
+        region: Shapely polygon without holes in mm.
+        pattern: Cells.
+        known: Cells of a placement.
+        share: Search ends at this share of the bound.
 
     Returns:
-        The bound and the best placement seen; `best` is 0 if none beats `known`.
+        Bound and best seen placement; `best` is 0 if none beats `known`.
 
     Example:
         >>> import shapely
@@ -120,7 +120,7 @@ def bound_whole_cells(region: Any, pattern: CellPattern, *, known: int = 0, shar
 
 @dataclass(frozen=True)
 class _Outline:
-    """An outline about a centre of rotation: half planes n x <= d, and triangles that a cell must not enter."""
+    """Outline about a rotation centre: half planes n x <= d, and forbidden triangles."""
 
     centre: tuple[float, float]
     radius: float
@@ -170,7 +170,7 @@ class _Outline:
         return len(self.cells) * (len(self.normals) + 3 * len(self.triangles))
 
     def counts(self, boxes: Array, half: Array, wanted: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Whole cells (b,) at the middle of each box (b, 3) of a half size (b, 3); a bound (b,) for the box."""
+        """Whole cells (b,) at the middle of boxes (b, 3) of half size (b, 3); a bound (b,) each."""
         faces = 3 + max(len(p) for p in self.parts)
         step = max(1, _CHUNK // (len(self.cells) * (len(self.normals) + faces * len(self.triangles))))
         parts = [self._counts(boxes[i : i + step], half[i : i + step], wanted) for i in range(0, len(boxes), step)]
@@ -194,7 +194,7 @@ class _Outline:
         return np.where(possible > wanted, (slack >= 0.0).sum(axis=1), 0), possible
 
     def _clear_of_triangles(self, turn: Array, offset: Array) -> Array:
-        """Clearance of each cell (b, n) from the triangles; negative where it enters one (separating axes)."""
+        """Clearance of cells (b, n) from triangles; negative inside (separating axes)."""
         corners = np.einsum("bij,tkj->btki", turn, self.triangles)
         edge = np.roll(corners, -1, axis=2) - corners
         first, second = corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0]

@@ -1,4 +1,4 @@
-"""Fit of a lattice of taxels to a sole: where to put it and how to turn it. Lengths in mm."""
+"""Fit of a taxel lattice to a sole: place and turn. In mm."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ _SLACK = 1e-3  # mm by which a cell may leave the region; above the rounding of 
 
 @dataclass(frozen=True)
 class LatticeFit:
-    """A placement of the lattice and the cells that are kept.
+    """Placed lattice and its kept cells.
 
     Attributes:
-        cells: Axial coordinates (n, 2) of the kept cells, row by row.
-        overhang: Allowed reach of a cell beyond the sole's outline in mm, as used.
-        bound: Proven most whole cells of any placement with this overhang.
+        cells: Axial coordinates (n, 2), row by row.
+        overhang: Used cell reach beyond the outline in mm.
+        bound: Proven most whole cells with this overhang.
     """
 
     lattice: Lattice
@@ -62,15 +62,15 @@ class _Candidate:
 
 
 def whole_cell_region(region: Any, parts: Sequence[NDArray[np.float64]], angle: float) -> Any:
-    """Where the centre of a cell may lie so that the whole cell is inside a region (erosion), up to a micrometre.
+    """Where a cell's centre may lie with the cell inside a region (erosion), to a micrometre.
 
     Args:
-        region: A shapely polygon in mm.
-        parts: Corners (k, 2) in mm of the cell's convex parts about its centre.
-        angle: Rotation of the cell in rad.
+        region: Shapely, in mm.
+        parts: Corners (k, 2) in mm of the cell's convex parts.
+        angle: Cell rotation in rad.
 
     Returns:
-        A shapely geometry, possibly empty.
+        Shapely geometry, possibly empty.
 
     Example:
         >>> import shapely
@@ -100,26 +100,25 @@ def fit_lattice(
     overhang_max: float = 0.0,
     pattern: CellPattern | None = None,
 ) -> LatticeFit:
-    """Place the lattice so that the most whole cells lie inside a sole; deterministic.
+    """Place the lattice with most whole cells inside a sole; deterministic.
 
     At every fifth degree (fifteenth for cells with a tail) the best offset is found exactly; `bound_whole_cells` looks
-    between. Ties are decided by straight rows, by the area under the cells and inside their hull, and by the distance
-    from the sole's centre.
+    between. Ties: straight rows, area under the cells and inside their hull, distance from the sole's centre.
 
     Args:
-        sole: Outline of the sole, a shapely polygon in mm.
-        cell_area: Area of a cell in mm^2.
-        taxels: Number of cells, with the least overhang in steps of 0.5 mm; None takes as many as fit.
-        overhang: Allowed reach of cells beyond the outline in mm without `taxels`; the least with them.
-        overhang_max: The most overhang in mm with `taxels`.
-        pattern: Other cells than hexagons, in place of `cell_area`.
+        sole: Shapely outline in mm.
+        cell_area: In mm^2.
+        taxels: Their number, with the least overhang in steps of 0.5 mm; None takes as many as fit.
+        overhang: Allowed cell reach beyond the outline in mm without `taxels`; the least with them.
+        overhang_max: In mm, with `taxels`.
+        pattern: Other cells than hexagons, for `cell_area`.
 
     Returns:
-        The placement.
+        Placement.
 
     Raises:
-        InputError: If an argument is out of its range.
-        FootError: If no cell, or fewer than `taxels` cells, fit.
+        InputError: If an argument is out of range.
+        FootError: If too few cells fit.
     """
     low, high = CELL_AREAS
     if pattern is None and not (math.isfinite(cell_area) and low <= cell_area <= high):
@@ -170,7 +169,7 @@ def _least_overhang(sole: Any, pattern: CellPattern, taxels: int, overhang: floa
 
 @dataclass(frozen=True)
 class _Scan:
-    """Number of whole cells at many lattice origins, at one angle."""
+    """Whole cells at many lattice origins, one angle."""
 
     rank: int
     straight: bool
@@ -205,7 +204,7 @@ def _straight(pattern: CellPattern) -> list[float]:
 
 
 def _angles(pattern: CellPattern) -> list[float]:
-    """In degrees, in the order of ties: straight ones, halves between them, then every step."""
+    """In degrees, in tie order: straight, halves between, then every step."""
     period = round(math.degrees(pattern.period))
     steps = [float(a) for a in range(0, period, _TAILED_STEP if period == 360 else _ANGLE_STEP)]
     straight = _straight(pattern)
@@ -214,7 +213,7 @@ def _angles(pattern: CellPattern) -> list[float]:
 
 
 def _edge_angles(sole: Any, pattern: CellPattern) -> list[float]:
-    """In rad, the longest edge first, without those of `_angles`."""
+    """In rad, longest edge first, without those of `_angles`."""
     period = float(round(math.degrees(pattern.period)))
     points = np.array(sole.exterior.coords)
     edge = np.diff(points, axis=0)
@@ -236,7 +235,7 @@ def _most(scans: list[_Scan]) -> int:
 
 
 def _placements(sole: Any, pattern: CellPattern, taxels: int | None, scans: list[_Scan]) -> list[_Candidate]:
-    """Placements worth comparing: with the most whole cells, or the fewest that hold `taxels`, reduced to them."""
+    """Placements worth comparing: most whole cells, or the fewest that hold `taxels`, reduced to them."""
     most = _most(scans)
     if not most:
         return []
@@ -263,7 +262,7 @@ def _sampled_offsets(pattern: CellPattern, angle: float) -> NDArray[np.float64]:
 
 
 def _critical_offsets(allowed: Any, pattern: CellPattern, lattice: Lattice) -> NDArray[np.float64]:
-    """Origins (k, 2) with one cell tight at a corner of the allowed area, or two at its edges: one of these is best."""
+    """Origins (k, 2) with a cell tight at a corner of the allowed area, or two at edges: one is best."""
     edge = allowed.boundary
     shifts = _difference_vectors(allowed, lattice)
     corners = shapely.get_coordinates(edge)
@@ -329,7 +328,7 @@ def _reduced(sole: Any, lattice: Lattice, cells: NDArray[np.int64], taxels: int)
 
 
 def _centred(start: _Candidate, sole: Any, region: Any, pattern: CellPattern) -> _Candidate:
-    """The same cells moved towards the sole's centre as far as they stay inside the region."""
+    """Same cells moved to the sole's centre as far as the region allows."""
     allowed = whole_cell_region(region, pattern.parts, start.lattice.angle)
     shapely.prepare(allowed)
     best, step = start, 1.6

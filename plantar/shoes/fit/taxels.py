@@ -1,4 +1,4 @@
-"""The taxels of a sole: one lattice, its cells whole or cut at the rim. Lengths in mm."""
+"""Taxels of a sole: one lattice, cells whole or rim-cut. In mm."""
 
 from __future__ import annotations
 
@@ -36,24 +36,24 @@ Cells = tuple[NDArray[np.float64], ...]
 
 @dataclass(frozen=True)
 class TaxelFit:
-    """The cells of the left sole.
+    """Left sole's cells.
 
     Attributes:
-        cells: Corners (k, 2) of each, counter-clockwise; row by row.
-        shares: Area (n,) of each over a whole cell's.
-        cell_area: Area of a whole cell in mm^2.
-        overhang: Allowed reach of a cell beyond the foot's outline, as used.
-        sole: Outline of the face that they were fitted to, a shapely polygon.
-        bound: Proven most whole cells of any placement; None of a sheet.
-        border: Border left around the cells.
-        lattice_cells: Axial coordinates (n, 2) where all cells are whole.
-        blind_most: Widest blind rim in mm that was requested, if any.
-        cell: The cell's body; None of hexagons of skin.
-        pockets: Corners (k, 2) of the pockets, of a sheet of its recess; None where they follow from the cells.
-        rooms: Corners (k, 2) that the plate has to hold; None for the cells.
-        links: Pairs of cells that a cable can join; None for the neighbours.
-        lines: Row and column (n, 2) of a sheet's cells.
-        crossings: Crossings (n, 2) of these.
+        cells: Corners (k, 2) of each, counter-clockwise, row by row.
+        shares: Area (n,) over a whole cell's.
+        cell_area: Whole cell in mm^2.
+        overhang: Used cell reach beyond the foot's outline.
+        sole: Shapely outline of the face.
+        bound: Proven most whole cells; None of a sheet.
+        border: Left around the cells.
+        lattice_cells: Axial coordinates (n, 2) if all are whole.
+        blind_most: Requested widest blind rim in mm.
+        cell: Body; None of skin hexagons.
+        pockets: Corners (k, 2) of pockets, or a sheet's recess; None if implied by the cells.
+        rooms: Corners (k, 2) within the plate; None for the cells.
+        links: Cell pairs for cables; None for neighbours.
+        lines: Row and column (n, 2) of sheet cells.
+        crossings: Of these, (n, 2).
     """
 
     cells: Cells
@@ -76,12 +76,12 @@ class TaxelFit:
 
     @cached_property
     def covered(self) -> float:
-        """Area in mm^2 of the sole under the cells, which do not overlap."""
+        """Sole area in mm^2 under the cells, which do not overlap."""
         return float(shapely.area(shapely.intersection([shapely.Polygon(c) for c in self.cells], self.sole)).sum())
 
     @property
     def covered_area_ratio(self) -> float:
-        """Share of the sole under the cells, 0..1."""
+        """Sole share under the cells, 0..1."""
         return self.covered / float(self.sole.area)
 
     @property
@@ -98,23 +98,23 @@ def fit_taxels(
     overhang_max: float = 0.0,
     border: float = 0.0,
 ) -> TaxelFit:
-    """Fit taxels to the face of a shoe: as many whole cells as fit, or a given number with the least overhang.
+    """Fit taxels to a shoe's face: most whole cells, or a number with least overhang.
 
-    If these do not fit, first the border shrinks, then cells at the rim are cut.
+    If these do not fit, the border shrinks, then rim cells are cut.
 
     Args:
-        foot: Outline of the foot below the rim's upper edge, a shapely polygon.
-        cell_area: Area of a cell in mm^2.
-        taxels: Number of cells; None takes as many whole ones as fit.
-        overhang: Allowed reach of cells beyond the outline without `taxels`; the least with them.
-        overhang_max: Allowed reach of the shoe beyond the outline.
-        border: Plate wanted beyond the cells.
+        foot: Shapely outline below the rim's upper edge.
+        cell_area: In mm^2.
+        taxels: Their number; None takes as many whole ones as fit.
+        overhang: Allowed cell reach beyond the outline without `taxels`; the least with them.
+        overhang_max: Allowed shoe reach beyond the outline.
+        border: Wanted plate beyond the cells.
 
     Returns:
-        The cells.
+        Cells.
 
     Raises:
-        InputError: If an argument is out of its range.
+        InputError: If an argument is out of range.
         FootError: If they do not fit.
     """
     if taxels is None:
@@ -161,12 +161,12 @@ def _whole(sole: Any, fit: LatticeFit, cell_area: float, border: float, notes: t
 
 
 def rows_and_columns(lines: NDArray[np.int64]) -> tuple[int, int]:
-    """Number of rows and of columns among lines (n, 2), the row and column of each cell."""
+    """Row and column counts among lines (n, 2), each cell's row and column."""
     return len(np.unique(lines[:, 0])), len(np.unique(lines[:, 1]))
 
 
 def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit | None:
-    """A number of cells within a distance of the sole, of which the rim cuts the least; None if they do not fit."""
+    """A number of cells within a distance of the sole, least cut by the rim, or None."""
     from plantar.shoes.fit.fit_bound import bound_whole_cells
 
     # Gentle corners stay one point: a cut cell gets no short edges.
@@ -213,7 +213,7 @@ def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit
 def _cut_placement(
     region: Any, cell_area: float, taxels: int, degrees: float, i: float, j: float
 ) -> tuple[float, HexLattice, NDArray[np.int64], NDArray[np.float64]] | None:
-    """Score, lattice, axial coordinates and shares of the cells of one placement that the region cuts least."""
+    """Score, lattice, axial coordinates and shares of a placement's cells that the region cuts least."""
     angle = math.radians(degrees)
     start = HexLattice(cell_area, angle=angle)
     c, s = math.cos(angle), math.sin(angle)
@@ -244,8 +244,8 @@ _SHORT = 1.2  # mm: shortest edge that is left
 
 
 def trimmed_cell(cell: Any, region: Any) -> NDArray[np.float64]:
-    """Gives corners (k, 2) of the largest part of a cell in a region, both shapely polygons, without edges too short to
-    print; corners of the whole cell stay.
+    """Gives corners (k, 2) of the largest part of a cell in a region, both shapely, without unprintably short edges;
+    whole cells' corners stay.
 
     Example:
         >>> import shapely

@@ -1,1 +1,1 @@
-"""Reading a foot: mesh, robot model or outline, and which way it points."""
+"""Reading a foot: mesh, robot model or outline, and orientation."""

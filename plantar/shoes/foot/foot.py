@@ -1,4 +1,4 @@
-"""A foot as the shoe sees it: its outline at the sole and up to the rim."""
+"""Foot as the shoe sees it: outline at the sole and up to the rim."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ FOOT_LENGTHS = (60.0, 450.0)  # lengths in mm that a robot's foot may have
 
 @dataclass(frozen=True)
 class Foot:
-    """The left foot of a robot in mm: x forward, y left, z up, the sole plane at z = 0, origin below the ankle.
+    """Left foot of a robot in mm: x forward, y left, z up, sole plane z = 0, origin below the ankle.
 
     Attributes:
-        sole: Outline of the sole, a shapely polygon.
-        outline_up_to: Outline (shapely polygon) of the part below a height above the sole plane.
-        height: Height of the geometry in mm; infinite where only dimensions are known.
-        triangles: Surface (n, 3, 3); None where only the outline is known.
-        support: Part of the sole that touches a flat floor; None for all of it.
-        mass: Mass of the robot in kg.
-        links: Points (n, 3) where the robot's other links pass while the ankle moves; None if unknown.
+        sole: Shapely outline.
+        outline_up_to: Shapely outline of the part below a height above the sole plane.
+        height: In mm; infinite for dimensions alone.
+        triangles: Surface (n, 3, 3); None with just an outline.
+        support: Part touching a flat floor; None for all.
+        mass: Robot's in kg.
+        links: Points (n, 3) of other robot links as the ankle moves; None if unknown.
     """
 
     name: str
@@ -45,7 +45,7 @@ class Foot:
     links: NDArray[np.float64] | None = None
 
     def passing(self, height: float) -> Any:
-        """Outline of all of the foot up to a height in mm: what passes there while the shoe is pushed on from below."""
+        """Outline of the foot up to a height in mm, which passes there while the shoe is pushed on."""
         return self._passing(round(height, 4))
 
     @cached_property
@@ -62,18 +62,18 @@ def foot_from_dimensions(
     corner_radius: float = 0.0,
     mass: float | None = None,
 ) -> Foot:
-    """A foot with a rectangular sole and straight sides.
+    """Foot with rectangular sole and straight sides.
 
     Args:
-        name: Name of the robot.
-        length: Extent along x in m.
-        width: Extent along y in m.
-        sole_center: Middle (2,) of the left foot's box against the ankle in m.
+        name: Robot.
+        length: Along x in m.
+        width: Along y in m.
+        sole_center: Middle (2,) of the left foot's box from the ankle in m.
         corner_radius: In m.
-        mass: Mass of the robot in kg.
+        mass: Robot's in kg.
 
     Returns:
-        The left foot.
+        Left foot.
 
     Raises:
         FootError: If a dimension is out of range.
@@ -103,11 +103,10 @@ def foot_from_dimensions(
 
 
 def foot_from_outline(name: str, outline: Any, notes: tuple[str, ...] = ()) -> Foot:
-    """Gives a foot with straight sides and a name from the outline of its sole, a shapely polygon in mm about the
-    ankle; notes are kept.
+    """Gives straight-sided foot with a name from a sole outline, shapely in mm about the ankle; notes are kept.
 
     Raises:
-        FootError: If the outline is not of a foot's size.
+        FootError: If not foot-sized.
     """
     sole = tidy(outline)
     low_x, low_y, high_x, high_y = sole.bounds

@@ -1,4 +1,4 @@
-"""A foot from its surface: its unit, which way is up, its sole and what touches the floor."""
+"""Foot from its surface: unit, upright direction, sole and floor contact."""
 
 from __future__ import annotations
 
@@ -51,22 +51,22 @@ def foot_from_mesh(
     forward: Axis | None = None,
     sole_band: float = 5.0,
 ) -> Foot:
-    """Read a foot's mesh, watertight or not, and find its sole.
+    """Read a foot's mesh, watertight or not; find its sole.
 
     Args:
         path: STL, OBJ, PLY, OFF, 3MF or STEP file.
-        mesh_side: Which foot the mesh shows; a right foot is mirrored.
-        unit: Unit of the file; None detects it from the size.
-        up: Axis that points up; None takes z, or the one axis with a sole.
-        sole_z: Height of the sole plane in mm; None takes the lowest point.
-        forward: Axis to the toes once z is up; None finds it.
-        sole_band: Height in mm of the lowest part that counts as sole.
+        mesh_side: Shown foot; a right one is mirrored.
+        unit: Of the file; None detects it by size.
+        up: Upward axis; None takes z, or the one with a sole.
+        sole_z: Sole plane in mm; None takes the lowest point.
+        forward: Axis to the toes, z up; None finds it.
+        sole_band: Sole height in mm from the lowest point.
 
     Returns:
-        The left foot; `notes` show what was detected.
+        Left foot; `notes` show what was detected.
 
     Raises:
-        FootError: If the file is no mesh, or its geometry is no foot.
+        FootError: If no mesh, or no foot.
     """
     triangles, file_unit = read_mesh(path)
     return foot_from_triangles(
@@ -97,26 +97,26 @@ def foot_from_triangles(
     sole_band: float = 5.0,
     links: Triangles | None = None,
 ) -> Foot:
-    """A foot from its triangles; options as in `foot_from_mesh`.
+    """Foot from triangles; options as in `foot_from_mesh`.
 
     Args:
-        name: Name of the foot.
-        triangles: Triangles (n, 3, 3), the ankle at the origin.
-        where: Their source, for messages.
-        mesh_side: Which foot they show.
-        unit: Unit given by the user.
-        file_unit: Unit stated in the file.
-        up: Axis that points up.
-        sole_z: Height of the sole plane in mm.
+        name: Of the foot.
+        triangles: (n, 3, 3), ankle at the origin.
+        where: Source, for messages.
+        mesh_side: Shown foot.
+        unit: User's.
+        file_unit: File's.
+        up: Upward axis.
+        sole_z: Sole plane in mm.
         forward: Axis to the toes.
-        sole_band: Height of the sole in mm.
-        links: Points (n, 3) of the robot's other links, likewise.
+        sole_band: Sole height in mm.
+        links: Points (n, 3) of other robot links, likewise.
 
     Returns:
-        The left foot.
+        Left foot.
 
     Raises:
-        FootError: If the geometry is no foot.
+        FootError: If no foot.
     """
     if forward is not None and forward not in AXES[:4]:
         raise InputError(f"forward axis is {forward!r}; allowed: {', '.join(AXES[:4])}")
@@ -173,7 +173,7 @@ def _standing(
     links: Triangles | None,
     up_given: bool = False,
 ) -> Foot:
-    """The foot from triangles in mm with z up; the links move as the surface does from `read`."""
+    """Foot from triangles in mm, z up; links move as the surface does from `read`."""
     notes = list(notes)
     if sole_z is None:
         triangles, tilt = levelled(triangles)
@@ -258,11 +258,11 @@ def _check_height(triangles: Triangles, where: str) -> None:
 
 
 def unit_scale(extent: float, unit: Unit | None, file_unit: Unit | None, where: str) -> tuple[float, str]:
-    """Gives scale to mm and a note for a foot of an extent: the unit given by the user, the file_unit stated in the
-    file, or one detected; where is the file's name.
+    """Gives scale to mm and a note for a foot of an extent: user's unit, the file_unit stated in the file, or detected;
+    where is the file's name.
 
     Raises:
-        FootError: If the foot is of no foot's size.
+        FootError: If not foot-sized.
     """
     low, high = FOOT_LENGTHS
     allowed = f"allowed: a foot of {low:g} to {high:g} mm"

@@ -1,6 +1,4 @@
-"""Foot files that libraries read, each called in a process apart (`plantar.files.confined`): meshes, solids and DXF
-drawings.
-"""
+"""Foot files read by libraries in a separate process (`plantar.files.confined`): meshes, solids, DXF."""
 
 from __future__ import annotations
 
@@ -17,11 +15,11 @@ __all__ = ["lines_of_dxf", "triangles_of_step", "triangles_of_trimesh"]
 
 
 def triangles_of_trimesh(path: Path) -> dict[str, NDArray[Any]]:
-    """Triangles (n, 3, 3) of a mesh file, as "triangles": in the file's unit; of COLLADA in m, its up axis ignored as
-    in viewers of robots.
+    """Triangles (n, 3, 3) of a mesh file, as "triangles": in file units; of COLLADA in m, its up axis ignored as in
+    robot viewers.
 
     Raises:
-        DependencyError: If trimesh is not installed.
+        DependencyError: If trimesh is missing.
     """
     with optional_library("trimesh", "shoes"):
         import trimesh
@@ -39,11 +37,11 @@ _CHORD, _ANGLE = 0.05, 0.2  # share of an edge, and rad: how far triangles may l
 
 
 def triangles_of_step(path: Path) -> dict[str, NDArray[Any]]:
-    """Triangles (n, 3, 3) in mm of all shapes of a STEP or IGES file, as "triangles".
+    """Triangles (n, 3, 3) in mm of all STEP or IGES shapes, as "triangles".
 
     Raises:
-        DependencyError: If OpenCascade is not installed.
-        ValueError: If the file cannot be read.
+        DependencyError: If OpenCascade is missing.
+        ValueError: If unreadable.
     """
     with optional_library("OCP", "shoes"):
         from OCP.BRepMesh import BRepMesh_IncrementalMesh
@@ -94,8 +92,8 @@ _FINE = 0.002  # of the drawing's size: how far a curve's chord may lie from it
 
 
 def lines_of_dxf(path: Path) -> dict[str, NDArray[Any]]:
-    """Lines of a DXF's model space, blocks expanded: "points" (n, 2) of all, y upwards; "counts" (k,) of each; "unit",
-    its $INSUNITS.
+    """Lines of a DXF's model space, blocks expanded: all "points" (n, 2), y upwards; "counts" (k,) of each; "unit", its
+    $INSUNITS.
     """
     with optional_library("ezdxf", "shoes"):
         from ezdxf import path as paths

@@ -1,5 +1,4 @@
-"""Triangle meshes from files: STL, OBJ and 3MF are parsed here, other formats by libraries in a process apart
-(`plantar.files.gate`)."""
+"""Triangle meshes from files: STL, OBJ and 3MF here, others by libraries apart (`plantar.files.gate`)."""
 
 from __future__ import annotations
 
@@ -42,13 +41,13 @@ _LARGEST = 100e6  # bytes: so many triangles in binary, a third of them as text
 
 
 def read_mesh(path: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Unit | None]:
-    """Read the triangles of a mesh file; parts of a scene are joined.
+    """Read a mesh file's triangles; scene parts are joined.
 
     Returns:
-        Triangles (n, 3, 3) in the file's unit, and that unit where the file states it.
+        Triangles (n, 3, 3) in the file's unit, and that unit if stated.
 
     Raises:
-        FootError: If the file cannot be read, is too large, cut short or foreign, or holds no finite triangles.
+        FootError: If unreadable or too large.
     """
     file = Path(path)
     kind = file.suffix.lower()
@@ -98,7 +97,7 @@ def _read(file: Path, kind: str) -> tuple[NDArray[np.float64], Unit | None]:
 
 
 def _check_off(file: Path) -> None:
-    """Refuse an OFF file whose head states too many faces, before a library allocates them."""
+    """Refuse OFF files stating too many faces, before a library allocates them."""
     with file.open("rb") as opened:
         head = opened.read(4096)
     words = [w for line in head.splitlines() for w in line.partition(b"#")[0].split()]
@@ -177,7 +176,7 @@ def _lines(data: bytes) -> Iterator[bytes]:
 
 
 def _add_fan(faces: array[int], line: bytes, known: int) -> None:
-    """Triangles of a face "f 1/1/1 2/2/2 -1": numbers from 1, or back from the last corner so far."""
+    """Triangles of a face "f 1/1/1 2/2/2 -1": numbers from 1, or back from the last corner."""
     named = [int(item.partition(b"/")[0]) for item in line.partition(b"#")[0].split()[1:]]
     if 0 in named:
         raise ValueError("a face names vertex 0")

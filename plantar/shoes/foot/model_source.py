@@ -1,6 +1,4 @@
-"""A robot's model through MuJoCo's reader: shapes and places of bodies, and mass; only the parts in question are
-compiled.
-"""
+"""Robot model through MuJoCo's reader: body shapes, places, mass; only needed parts are compiled."""
 
 from __future__ import annotations
 
@@ -47,17 +45,17 @@ Spec = Any  # a `mujoco.MjSpec`
 
 
 class _NotCompiled(FootError):
-    """A model that MuJoCo cannot compile, possibly for a mesh of a kind that it does not read."""
+    """Model that MuJoCo cannot compile, possibly for an unreadable mesh kind."""
 
 
 class BodyPlace(NamedTuple):
-    """A body at the zero pose.
+    """Body in the zero pose.
 
     Attributes:
         shaped: Whether it, or what is fixed to it, has a shape.
-        carries: Whether a body that moves against it hangs on it.
+        carries: Whether a moving body hangs on it.
         depth: Bodies above it.
-        height: Height of its origin in m.
+        height: Origin in m.
     """
 
     shaped: bool
@@ -68,12 +66,12 @@ class BodyPlace(NamedTuple):
 
 @dataclass(frozen=True)
 class ModelSource:
-    """An MJCF or URDF file that MuJoCo reads.
+    """MJCF or URDF file read by MuJoCo.
 
     Attributes:
-        urdf: A URDF's text for MuJoCo; None of an MJCF.
-        mesh_names: Names of a URDF's meshes by those in its text.
-        folders: Folders of an MJCF and of the models it attaches, for meshes.
+        urdf: Text for MuJoCo; None of an MJCF.
+        mesh_names: URDF meshes by names in its text.
+        folders: Mesh folders of an MJCF and attached models.
     """
 
     file: Path
@@ -82,10 +80,10 @@ class ModelSource:
     folders: tuple[Path, ...] = ()
 
     def spec(self) -> Spec:
-        """The model for editing, without what has neither mass nor shape.
+        """Editable model, without what lacks mass and shape.
 
         Raises:
-            FootError: If MuJoCo cannot read the file.
+            FootError: If MuJoCo cannot read.
         """
         with optional_library("mujoco", "sim"):
             import mujoco
@@ -110,10 +108,10 @@ class ModelSource:
         return spec
 
     def bodies(self) -> dict[str, BodyPlace]:
-        """All bodies of the robot by name.
+        """All robot bodies by name.
 
         Raises:
-            FootError: If MuJoCo cannot read the file.
+            FootError: If MuJoCo cannot read.
         """
         spec = self.spec()
         parts = {body.name: list(_fixed_to(body)) for body in spec.bodies[1:]}
@@ -134,11 +132,11 @@ class ModelSource:
         }
 
     def shapes(self, name: str, most: int) -> tuple[list[Array], list[Array]]:
-        """Gives drawn and colliding surfaces of the body of a name and of what is fixed to it, most in number:
-        triangles (n, 3, 3) in m about its origin, turned as at the zero pose.
+        """Gives drawn and colliding surfaces of the body of a name and what is fixed to it, most in number: triangles
+        (n, 3, 3) in m about its origin, turned as in the zero pose.
 
         Raises:
-            FootError: If a mesh cannot be read, or there are more shapes.
+            FootError: If unreadable or too many.
         """
         try:
             return self._shapes(name, most, read_all=False)
@@ -146,7 +144,7 @@ class ModelSource:
             return self._shapes(name, most, read_all=True)
 
     def mass(self, name: str) -> tuple[float | None, str]:
-        """Mass in kg of the robot that a body belongs to, None if unknown; and a note."""
+        """Mass in kg of a body's robot, None if unknown; and a note."""
         import mujoco
 
         model, problem = None, ""
@@ -205,18 +203,18 @@ class ModelSource:
         return drawn, colliding
 
     def links_above(self, name: str, count: int) -> tuple[list[Array], list[tuple[float, float]], Poses]:
-        """Shapes of the links above a body, and how the ankle moves them.
+        """Shapes of links above a body, and how the ankle moves them.
 
         Args:
-            name: The body.
-            count: Number of moving links.
+            name: Body.
+            count: Moving links.
 
         Returns:
-            Triangles (n, 3, 3) in m of each shape; ranges in rad of the last two hinges above the body; and a function
-            from angles of these to each shape's rotation (3, 3) and place (3,) in the body's frame at the zero pose.
+            Triangles (n, 3, 3) in m of each shape; ranges in rad of the last two hinges above; function from their
+            angles to each shape's rotation (3, 3) and place (3,), body frame at the zero pose.
 
         Raises:
-            FootError: If a mesh cannot be read.
+            FootError: If unreadable.
         """
         import mujoco
 
@@ -256,7 +254,7 @@ class ModelSource:
         return [_surface(model, g, str(self.file)) for g in geoms], ranges, poses
 
     def _few_enough(self, model: Any, name: str) -> None:
-        """Refuse too many triangles before they are made: a mesh may be used many times."""
+        """Refuse too many triangles before making them: meshes may be reused many times."""
         meshes = model.geom_dataid >= 0
         faces = np.zeros(model.ngeom, dtype=np.int64)
         faces[meshes] = model.mesh_facenum[model.geom_dataid[meshes]]
@@ -268,7 +266,7 @@ class ModelSource:
             )
 
     def _give_meshes(self, spec: Spec, read_all: bool) -> None:
-        """Remove unused meshes; hand those to MuJoCo that it does not read itself."""
+        """Remove unused meshes; give MuJoCo those it cannot read."""
         used = {g.meshname for g in spec.geoms if g.meshname}
         for mesh in list(spec.meshes):
             if mesh.name not in used:
@@ -314,10 +312,10 @@ class ModelSource:
 
 
 def read_model_source(file: Path) -> ModelSource:
-    """A robot's model, once its outermost element and the names of its files are allowed.
+    """Robot model, once its outermost element and file names are allowed.
 
     Raises:
-        FootError: If it is neither MJCF nor URDF, or names files outside its folders.
+        FootError: If foreign, or outside its folders.
     """
     root = parsed_model(file, FootError)
     check_model_size(root, FootError, str(file))
@@ -340,7 +338,7 @@ def read_model_source(file: Path) -> ModelSource:
 
 
 def _compiler(spec: Spec, element: Any) -> Any:
-    """Compiler settings for an element: those of its own file; older MuJoCo has one set for all."""
+    """Compiler settings of an element's own file; older MuJoCo has one set."""
     return getattr(element, "compiler", spec.compiler)
 
 
@@ -409,10 +407,10 @@ BELOW = "plantar_world"  # name of the link that is put below the outermost ones
 
 
 def urdf_for_mujoco(root: ElementTree.Element) -> tuple[str | None, dict[str, str]]:
-    """The text of a URDF for MuJoCo's reader, None where every link hangs on another; and the URDF's name of each mesh.
+    """URDF text for MuJoCo's reader, None where every link hangs on another; and each mesh's URDF name.
 
-    MuJoCo merges the root link into the world, and meshes of the same file name; it knows no packages. So the root
-    hangs on a link above, and each mesh gets a name.
+    MuJoCo merges the root link into the world, and meshes of equal file name, and knows no packages. So the root hangs
+    on a link above, and each mesh gets a name.
 
     Example:
         >>> link = '<link name="a"><visual><geometry><mesh filename="package://b/c.dae"/></geometry></visual></link>'
@@ -442,7 +440,7 @@ def urdf_for_mujoco(root: ElementTree.Element) -> tuple[str | None, dict[str, st
 
 
 def _rename_world(root: ElementTree.Element) -> None:
-    """Rename a link called "world", a name that MuJoCo reserves."""
+    """Rename a link called "world", reserved by MuJoCo."""
     places = [(e, "name") for e in root.findall("link")]
     places += [(e, "link") for tag in ("parent", "child") for e in root.iterfind(f"joint/{tag}")]
     for element, key in places:

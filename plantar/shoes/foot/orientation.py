@@ -1,4 +1,4 @@
-"""Orientation of a foot: which way is up, whether its sole is tilted, where the toes are. Triangles (n, 3, 3) in mm."""
+"""Orientation of a foot: up, tilt and toes. Triangles (n, 3, 3) in mm."""
 
 from __future__ import annotations
 
@@ -64,14 +64,14 @@ def _direction(axis: Axis) -> Array:
 
 
 def rotation_up(up: Axis) -> Array:
-    """Rotation (3, 3) that turns an axis of the mesh to +z; x stays where it can."""
+    """Rotation (3, 3) of a mesh axis to +z; x stays if possible."""
     z = _direction(up)
     x = np.array([1.0, 0.0, 0.0]) if abs(z[0]) < 0.5 else np.array([0.0, 1.0, 0.0])
     return np.stack([x, np.cross(z, x), z])
 
 
 def rotation_forward(forward: Axis) -> Array:
-    """Rotation (3, 3) about z that turns a horizontal axis of the mesh to +x."""
+    """Rotation (3, 3) about z of a horizontal mesh axis to +x."""
     x, z = _direction(forward), np.array([0.0, 0.0, 1.0])
     return np.stack([x, np.cross(z, x), z])
 
@@ -85,7 +85,7 @@ def _thinned(points: Array) -> Array:
 
 
 def _plane(points: Array, highest: float) -> tuple[Array, float]:
-    """Normal and area in mm^2 of the largest plane of the convex hull whose normal rises by a share at most."""
+    """Normal and area in mm^2 of the convex hull's largest plane whose normal rises by a share at most."""
     with optional_library("scipy", "shoes"):
         from scipy.spatial import ConvexHull, QhullError
     down = np.array([0.0, 0.0, -1.0])
@@ -105,14 +105,14 @@ def _plane(points: Array, highest: float) -> tuple[Array, float]:
 
 
 def _resting_plane(triangles: Array) -> tuple[Array, float]:
-    """Normal of the largest plane of the convex hull's lower side, and its share of the silhouette."""
+    """Normal of the largest plane on the hull's lower side, and its silhouette share."""
     points = _thinned(triangles.reshape(-1, 3))
     normal, area = _plane(points, -math.cos(_TILT_MOST))
     return normal, area / convex_outline(points[:, :2]).area if area > 0.0 else 0.0
 
 
 def _area_in_plane(triangles: Array, normal: Array, *, inwards: bool = False) -> float:
-    """Area in mm^2 of faces in the outermost plane with a normal, of those that look inwards too."""
+    """Area in mm^2 of faces in the outermost plane with a normal, inward ones too."""
     cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     double, depth, along = np.linalg.norm(cross, axis=1), triangles @ normal, cross @ normal
     flat = (np.abs(along) if inwards else along) > _SAME_PLANE * double
@@ -125,13 +125,13 @@ def _flat_area(triangles: Array, normal: Array) -> float:
 
 
 def flat_share(triangles: Array) -> float:
-    """Share of the silhouette from above, 0..1, of the plane on which the foot would come to rest."""
+    """Silhouette share from above, 0..1, of the foot's resting plane."""
     return _resting_plane(triangles)[1]
 
 
 def levelled(triangles: Array) -> tuple[Array, float]:
-    """Gives triangles, z about up, turned so that the resting plane is level, and the tilt removed in degrees, 0 if
-    small or uncertain.
+    """Gives triangles, z about up, with the resting plane level, and the removed tilt in degrees, 0 if small or
+    uncertain.
     """
     normal, share = _resting_plane(triangles)
     tilt = math.acos(min(1.0, -float(normal[2])))
@@ -146,17 +146,16 @@ def levelled(triangles: Array) -> tuple[Array, float]:
 
 
 def check_upright(triangles: Array, where: str) -> list[str]:
-    """Refuse triangles in mm of a foot on its side, one with a face much larger than what lies below; where is the
-    file's name.
+    """Refuse triangles in mm of a foot on its side, one with a face much larger than below; where is the file's name.
 
-    Faces are compared by the hull of the points near them, along the axes and along the largest plane of the convex
-    hull; those above do not count, since a deck may be larger than the sole.
+    Faces are compared by the hull of nearby points, along the axes and the hull's largest plane; those above do not
+    count, since a deck may exceed the sole.
 
     Returns:
-        A note where a side is about as large.
+        Note where a side is about as large.
 
     Raises:
-        FootError: If a face on a side is larger by half.
+        FootError: If a side exceeds by half.
     """
     points = triangles.reshape(-1, 3)
     points = points if len(points) <= _MANY else thinned(points, _COLUMN)
@@ -178,13 +177,13 @@ def check_upright(triangles: Array, where: str) -> list[str]:
 
 
 def check_level(triangles: Array, where: str) -> list[str]:
-    """Refuse triangles in mm of a foot without a resting plane whose upper side is tilted; where is the file's name.
+    """Refuse triangles in mm of a foot without resting plane and with tilted upper side; where is the file's name.
 
     Returns:
-        Notes on what cannot be detected: a rounded sole's level, and a foot upside down.
+        Notes on the undetectable: a rounded sole's level, and a foot upside down.
 
     Raises:
-        FootError: If the upper side is tilted by 3 to 25 degrees.
+        FootError: If tilted 3 to 25 degrees.
     """
     below, share = _resting_plane(triangles)
     if share < _RESTS or _flat_area(triangles, below) < _RESTS * share:
@@ -205,7 +204,7 @@ def check_level(triangles: Array, where: str) -> list[str]:
 
 
 def _face_area(points: Array, outward: Array, deep: float) -> float:
-    """Area in mm^2 of the hull of the points within `deep` mm of the farthest one in a direction."""
+    """Hull area in mm^2 of points within `deep` mm of the farthest in a direction."""
     depth = points @ outward
     near = points[depth > depth.max() - deep]
     across = np.linalg.svd(outward[None])[2][1:]
@@ -216,7 +215,7 @@ def check_one_body(triangles: Array, where: str) -> None:
     """Refuse triangles in mm that show two feet; where is the file's name.
 
     Raises:
-        FootError: If they fall into two bodies of similar size seen from above.
+        FootError: For two similar bodies.
     """
     with optional_library("scipy", "shoes"):
         from scipy.sparse import coo_array
@@ -245,13 +244,12 @@ def check_one_body(triangles: Array, where: str) -> None:
 
 
 def straightened(triangles: Array, where: str = "the mesh") -> tuple[Array, list[str]]:
-    """Gives triangles turned so that a foot's length lies along x or y, and notes; where is the file's name.
+    """Gives triangles with the foot's length along x or y, and notes; where is the file's name.
 
-    The direction is the one within 25 degrees of the outline's long axis about which the outline is most like its
-    mirror image.
+    The direction within 25 degrees of the outline's long axis with the best mirror symmetry.
 
     Raises:
-        FootError: If it is about as wide as long, and askew so far that it could point along either axis.
+        FootError: If the axis is ambiguous.
     """
     hull = convex_outline(triangles.reshape(-1, 3)[:, :2])
     if hull.geom_type != "Polygon":
@@ -293,11 +291,11 @@ def _likeness(outline: Any, degrees: float) -> float:
 
 
 def forward_axis(triangles: Array, where: str = "the mesh") -> tuple[Axis, str]:
-    """Gives the horizontal axis of triangles to the toes, the longer one, away from the ankle (the origin, or a block
-    on top), and a note; where is the file's name.
+    """Gives horizontal axis of triangles to the toes, the longer one, away from the ankle (origin, or a block on top),
+    and a note; where is the file's name.
 
     Raises:
-        FootError: If origin and block show opposite directions.
+        FootError: If origin and block disagree.
     """
     points = triangles.reshape(-1, 3)
     low, high = points.min(axis=0), points.max(axis=0)

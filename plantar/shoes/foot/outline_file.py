@@ -1,4 +1,4 @@
-"""The outline of a sole from a drawing: DXF, SVG or GeoJSON."""
+"""Outline of a sole from a drawing: DXF, SVG or GeoJSON."""
 
 from __future__ import annotations
 
@@ -47,19 +47,19 @@ def foot_from_drawing(
     unit: Unit | None = None,
     forward: Axis | None = None,
 ) -> Foot:
-    """A foot with straight sides from a drawing of its sole, seen from above.
+    """Straight-sided foot from a drawing of its sole from above.
 
     Args:
-        path: DXF, SVG or GeoJSON file with one or more closed lines.
-        mesh_side: Which foot it shows; a right foot is mirrored.
-        unit: Unit of the file; None takes the stated one, or detects it.
-        forward: Axis of the drawing to the toes; None takes the longer one.
+        path: DXF, SVG or GeoJSON with closed lines.
+        mesh_side: Shown foot; a right one is mirrored.
+        unit: Of the file; None takes the stated one, or detects it.
+        forward: Axis to the toes; None takes the longer one.
 
     Returns:
-        The left foot; its origin is the drawing's if inside the sole, otherwise the sole's middle.
+        Left foot; origin is the drawing's if inside the sole, else its middle.
 
     Raises:
-        FootError: If the file cannot be read, or holds no closed line of a foot's size.
+        FootError: If unreadable or not foot-sized.
     """
     if forward is not None and forward not in AXES[:4]:
         raise InputError(f"forward axis is {forward!r}; allowed: {', '.join(AXES[:4])}")
@@ -88,11 +88,10 @@ def foot_from_drawing(
 
 
 def read_outline(path: str | os.PathLike[str]) -> tuple[Lines, Unit | None, float]:
-    """Read the lines of a DXF, SVG or GeoJSON file: points (k, 2), y upwards; the stated unit or None; and the size of
-    a number in it.
+    """Read lines of a DXF, SVG or GeoJSON file: points (k, 2), y upwards; stated unit or None; size of a number in it.
 
     Raises:
-        FootError: If the file cannot be read.
+        FootError: If unreadable.
     """
     file = Path(path)
     kind = file.suffix.lower()
@@ -237,7 +236,7 @@ _PER_PX: dict[Unit, float] = {"mm": 25.4 / 96.0, "cm": 2.54 / 96.0, "in": 1.0 / 
 
 
 def _lines_of_svg(file: Path) -> tuple[Lines, Unit | None, float]:
-    """Lines (k, 2), y upwards; the stated unit or None; and the size of a number in it."""
+    """Lines (k, 2), y upwards; stated unit or None; size of a number in it."""
     with optional_library("fontTools", "shoes"):
         from fontTools.pens.recordingPen import DecomposingRecordingPen
         from fontTools.svgLib.path import parse_path
@@ -296,7 +295,7 @@ def _plain_length(name: str, value: str) -> str:
 
 
 def _svg_unit(root: ElementTree.Element) -> tuple[Unit | None, float, NDArray[np.float64]]:
-    """The unit, the size of a number in it, and the turn that points y upwards."""
+    """Unit, size of a number in it, and the turn to y upwards."""
     upright = np.diag([1.0, -1.0, 1.0])
     box = [float(v) for v in re.split(r"[\s,]+", root.get("viewBox", "").strip()) if v]
     match = re.fullmatch(r"\s*([0-9.eE+-]+)\s*([a-z]*)\s*", root.get("width", ""))

@@ -1,4 +1,4 @@
-"""3MF packages: triangles of all build items, with transforms, from all model parts."""
+"""3MF packages: triangles of all build items from all model parts."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class _Object:
 
 
 class _Model:
-    """The model parts of a package, read element by element without a tree."""
+    """Model parts of a package, read by element without a tree."""
 
     def __init__(self, most: int, where: str) -> None:
         self.unit = "millimeter"
@@ -126,12 +126,12 @@ class _Model:
 
 
 def triangles_of_3mf(path: Path, most: int) -> tuple[Array, str]:
-    """Gives the triangles (n, 3, 3) of all build items of the 3MF package at a path, most in number with repeated
-    components, and their unit.
+    """Gives triangles (n, 3, 3) of all build items of the 3MF package at a path, most in number with repeats, and their
+    unit.
 
     Raises:
-        FootError: If it is no such package, or holds more.
-        ValueError: If a number is damaged; LookupError or ExpatError for other damage.
+        FootError: If foreign, or more.
+        ValueError: Damaged number; other damage: LookupError, ExpatError.
     """
     with open_archive(path, FootError, _LARGEST) as (package, _):
         names = [i for i in package.infolist() if i.filename.lower().endswith(".model")]
@@ -157,7 +157,7 @@ def _plain(part: str) -> str:
 
 
 def _matrix(transform: str | None) -> Array:
-    """A 3MF transform: twelve numbers, rows of a 4 x 3 matrix that multiplies row vectors."""
+    """3MF transform: twelve numbers, rows of a 4 x 3 matrix for row vectors."""
     out = np.eye(4)
     if transform is not None:
         out[:, :3] = np.array([float(v) for v in transform.split()[:13]]).reshape(4, 3)

@@ -1,4 +1,4 @@
-"""The outer geometry of a robot's foot, and the robot's mass, from an MJCF or URDF model."""
+"""Robot foot geometry and robot mass from MJCF or URDF."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class BodyGeometry:
-    """The surface of a body about its origin, turned as in the model's zero pose.
+    """Body surface about its origin, zero pose.
 
     Attributes:
-        triangles: Triangles (n, 3, 3) in m, z up.
-        side: Side shown by the body's name.
-        mass: Mass of the robot in kg, None if unknown.
-        links: Points (n, 3) in m of the moving links above; None if unknown.
+        triangles: (n, 3, 3) in m, z up.
+        side: By the body's name.
+        mass: Robot's in kg, or None.
+        links: Points (n, 3) in m of moving links above, or None.
     """
 
     triangles: Array
@@ -47,7 +47,7 @@ class BodyGeometry:
 
 
 def side_of_name(name: str) -> Literal["left", "right"] | None:
-    """Side shown by a body's name.
+    """Side in a body's name.
 
     Example:
         >>> side_of_name("leg_left_6_link"), side_of_name("R_ANKLE_P_S"), side_of_name("LeftFoot"), side_of_name("sole")
@@ -63,12 +63,12 @@ def side_of_name(name: str) -> Literal["left", "right"] | None:
 
 
 def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeometry:
-    """Gives the geometry of a robot's foot, drawn or else colliding, with what is fixed to it, from the body of an MJCF
-    or URDF file at a path.
+    """Gives geometry of a robot foot, drawn or else colliding, with what is fixed to it, from the body of an MJCF or
+    URDF file at a path.
 
     Raises:
-        FootError: If the file or a mesh cannot be read, the body is missing, or has no geometry.
-        DependencyError: If MuJoCo is not installed.
+        FootError: If unreadable or without geometry.
+        DependencyError: If MuJoCo is missing.
     """
     source = read_model_source(Path(path))
     bodies = source.bodies()
@@ -123,8 +123,8 @@ _SPACING = 0.004  # m between points
 
 
 def swept_points(source: ModelSource, name: str, surface: Array) -> tuple[Array | None, str]:
-    """Gives points (n, 3) in m, None if unknown, of the links above a foot over the range of its last two hinges, and a
-    note: source is the model, name the foot's body, surface its triangles (k, 3, 3), near which points are kept.
+    """Gives points (n, 3) in m, or None, of links above a foot over the range of its last two hinges, and a note:
+    source is the model, name the foot's body, surface its triangles (k, 3, 3), near which points are kept.
     """
     try:
         surfaces, ranges, poses = source.links_above(name, _LINKS)

@@ -1,4 +1,4 @@
-"""Where a foot comes from: a mesh, a robot's model, a drawing, a built-in robot, or dimensions."""
+"""Foot sources: mesh, robot model, drawing, built-in robot, or dimensions."""
 
 from __future__ import annotations
 
@@ -28,13 +28,12 @@ _ALLOWED = {
 
 
 def read_foot(source: FootSource, *, sole_band: float) -> tuple[Foot, int | None]:
-    """Gives the left foot of a source, sole_band in mm the height of a mesh's sole, and the number of taxels in a
-    robot's file, or None.
+    """Gives left foot of a source, sole_band in mm a mesh's sole height, and a robot file's taxel count, or None.
 
     Raises:
-        InputError: If it is not one source, or an option is not allowed; the message names the command's option.
-        FootError: If what a file holds is no foot.
-        RobotError: If a robot's file cannot be used.
+        InputError: If options conflict.
+        FootError: If no foot.
+        RobotError: If its file is unusable.
 
     Example:
         >>> foot, taxels = read_foot(FootSource(dimensions="240x95"), sole_band=5.0)
@@ -104,12 +103,11 @@ def _box_foot(text: str) -> Foot:
 
 
 def foot_of_robot(name: str) -> tuple[Foot, int | None]:
-    """The left foot of a built-in robot and its number of taxels or None, from its file alone: the simulator is not
-    loaded.
+    """Left foot of a built-in robot and its taxel count or None, without loading the simulator.
 
     Raises:
-        InputError: If there is no such robot; the message names all.
-        RobotError: If its file cannot be used.
+        InputError: If unknown; lists all robots.
+        RobotError: If its file is unusable.
 
     Example:
         >>> foot_of_robot("h1")[1]

@@ -1,4 +1,4 @@
-"""Outlines in the sole plane in mm: shapely polygons, counter-clockwise, without holes, on a grid of 1 micrometre."""
+"""Sole plane outlines in mm: shapely, counter-clockwise, without holes, on a micrometre grid."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _EXACT = 1e-9  # mm: what lies nearer to a line lies on it
 
 
 def tidy(polygon: Any) -> Any:
-    """A polygon on the grid, counter-clockwise and without collinear points: the largest part, holes filled."""
+    """Polygon on the grid, counter-clockwise, without collinear points: largest part, holes filled."""
     shape = shapely.set_precision(polygon, GRID)
     parts = [p for p in getattr(shape, "geoms", [shape]) if p.geom_type == "Polygon" and not p.is_empty]
     if not parts:
@@ -48,9 +48,7 @@ def tidy(polygon: Any) -> Any:
 
 
 def grown(shape: Any, distance: float) -> Any:
-    """Gives a shapely shape with its edges moved outwards by a distance in mm; a corner moves at most CORNER times as
-    far.
-    """
+    """Gives shapely shape with edges moved outwards by a distance in mm; corners at most CORNER times as far."""
     if distance <= 0.0:
         return shape
     out = shape.buffer(distance, join_style="mitre", mitre_limit=CORNER - 0.05)
@@ -73,21 +71,20 @@ def _pointed(polygon: Any) -> Any:
 
 
 def ring(polygon: Any) -> NDArray[np.float64]:
-    """Corners (k, 2) of a polygon in mm, counter-clockwise, without the repeated last point."""
+    """Polygon corners (k, 2) in mm, counter-clockwise, last point not repeated."""
     corners = np.array(polygon.exterior.coords, dtype=float)[:-1, :2]
     return corners if polygon.exterior.is_ccw else corners[::-1].copy()
 
 
 def apart(outer: Any, inner: Any) -> Any:
-    """Gives what an outer outline has beyond an inner one, hair-wide parts left out, grown by a hair."""
+    """Gives an outer outline beyond an inner one, hair-wide parts left out, grown by a hair."""
     return outer.difference(inner).buffer(-_HAIR).buffer(2.0 * _HAIR, quad_segs=1)
 
 
 def flush(outer: Any, inner: Any) -> Any:
-    """Gives an outer outline, a shapely polygon in mm, that is identical to the inner one which it takes in wherever
-    both are about the same.
+    """Gives outer outline, shapely in mm, made identical to the enclosed inner one wherever both nearly agree.
 
-    Walls a hair apart give faces of no width, which the CAD kernel loses. Where the two part, the result is not on the
+    Walls a hair apart give zero-width faces, which the CAD kernel loses. Where the two part, the result is off the
     grid.
 
     Example:
@@ -115,7 +112,7 @@ def flush(outer: Any, inner: Any) -> Any:
 
 
 def rounded_rectangle(length: float, width: float, centre: tuple[float, float], radius: float) -> Any:
-    """Gives a shapely rectangle of length (x) and width (y) about a centre, its corners of a radius, all in mm.
+    """Gives shapely rectangle of length (x) and width (y) about a centre, with corners of a radius, in mm.
 
     Example:
         >>> rounded_rectangle(200.0, 100.0, (20.0, 0.0), 10.0).bounds
@@ -129,7 +126,7 @@ def rounded_rectangle(length: float, width: float, centre: tuple[float, float], 
 
 
 def outline_below(triangles: NDArray[np.float64], height: float) -> Any:
-    """Gives the outline of triangles (n, 3, 3) in mm, cut at a height above the sole plane, see `single_outline`.
+    """Gives outline of triangles (n, 3, 3) in mm, cut at a height above the sole plane, by `single_outline`.
 
     Raises:
         FootError: If it has no area.
@@ -139,7 +136,7 @@ def outline_below(triangles: NDArray[np.float64], height: float) -> Any:
 
 
 def outline_of(below: NDArray[np.float64], height: float) -> Any:
-    """Gives the outline of triangles (n, 3, 3) in mm that lie below a height in mm, see `single_outline`.
+    """Gives outline of triangles (n, 3, 3) in mm below a height in mm, by `single_outline`.
 
     Raises:
         FootError: If it has no area.
@@ -154,7 +151,7 @@ def outline_of(below: NDArray[np.float64], height: float) -> Any:
 
 
 def touching(triangles: NDArray[np.float64], height: float) -> Any:
-    """Gives the area, in parts and with holes, that triangles (n, 3, 3) below a height in mm cover of the floor."""
+    """Gives floor area, in parts and with holes, under triangles (n, 3, 3) below a height in mm."""
     return _projected(cut_below(triangles, height))
 
 
@@ -163,11 +160,11 @@ def _projected(triangles: NDArray[np.float64]) -> Any:
 
 
 def single_outline(union: Any, hull: Any, *, detail: float = _SIMPLIFY) -> Any:
-    """Gives one outline of a sole from the union of touching areas and their hull, shapely geometries in mm; less than
-    a detail in mm is dropped.
+    """Gives one sole outline from the union of touching areas and their hull, shapely in mm; less than a detail in mm
+    is dropped.
 
-    Several patches, or a nearly convex shape, give the hull; one patch with a waist or notch keeps it, with holes
-    filled and grooves bridged.
+    Several patches, or a nearly convex shape, give the hull; one patch with a waist or notch keeps it, holes filled and
+    grooves bridged.
     """
     filled = shapely.union_all([shapely.Polygon(p.exterior) for p in getattr(union, "geoms", [union]) if p.area > 1.0])
     bridged = filled.buffer(_GROOVE).buffer(-_GROOVE)
@@ -178,7 +175,7 @@ def single_outline(union: Any, hull: Any, *, detail: float = _SIMPLIFY) -> Any:
 
 
 def cut_below(triangles: NDArray[np.float64], height: float) -> NDArray[np.float64]:
-    """Gives the parts (m, 3, 3) of triangles (n, 3, 3) at or below a height z, all in mm."""
+    """Gives parts (m, 3, 3) of triangles (n, 3, 3) at or below a height z, all in mm."""
     z = triangles[..., 2]
     inside = z <= height
     count = inside.sum(axis=1)

@@ -1,4 +1,4 @@
-"""Plane sections of a closed surface, and the thickness of walls measured in them. Lengths in mm."""
+"""Plane sections of a closed surface, and wall thickness in them. In mm."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ Bands = tuple[tuple[float, float], ...]
 
 
 def cut_segments(triangles: Array, height: float) -> tuple[Array, Array]:
-    """Gives segments (m, 2, 2) where triangles (n, 3, 3) cross a height without corners, and the outward unit normal
-    (m, 3) at each.
+    """Gives segments (m, 2, 2) where triangles (n, 3, 3) cross a height without corners, and outward unit normals (m,
+    3).
     """
     z = triangles[..., 2]
     above = z > height
@@ -42,22 +42,21 @@ def cut_segments(triangles: Array, height: float) -> tuple[Array, Array]:
 
 
 def section(triangles: Array, height: float) -> Any:
-    """Gives the section of closed triangles (n, 3, 3) at a height in mm where no corner lies: a shapely geometry."""
+    """Gives shapely section of closed triangles (n, 3, 3) at a height in mm without corners."""
     segments, _ = cut_segments(triangles, height)
     return shapely.build_area(shapely.union_all(shapely.linestrings(segments))) if len(segments) else shapely.Polygon()
 
 
 def section_along(triangles: Array, axis: int, at: float) -> Any:
-    """Gives the section of closed triangles (n, 3, 3) at x (axis 0) or y (axis 1), at a place in mm: shapely, over (y,
-    z) or (x, z).
+    """Gives section of closed triangles (n, 3, 3) at x (axis 0) or y (axis 1), at a place in mm: shapely, over (y, z)
+    or (x, z).
     """
     return section(triangles[..., [1, 2, 0] if axis == 0 else [0, 2, 1]], at)
 
 
 def wall_thickness(segments: Array, outwards: Array, leave_out: tuple[int, Bands] | None = None) -> float:
-    """Gives the smallest thickness in mm between two faces that look away from each other: segments (m, 2, 2) of a
-    section's border, outwards their unit normals (m, 3), leave_out an axis and bands where nothing is measured;
-    infinite for no segments.
+    """Gives smallest thickness in mm between opposite faces: segments (m, 2, 2) of a section's border, outwards their
+    unit normals (m, 3), leave_out an axis and unmeasured bands; infinite without segments.
 
     Example:
         >>> square = np.array([[[0, 0], [3, 0]], [[3, 0], [3, 9]], [[3, 9], [0, 9]], [[0, 9], [0, 0]]], dtype=float)
@@ -94,7 +93,7 @@ def wall_thickness(segments: Array, outwards: Array, leave_out: tuple[int, Bands
 def _first_met(
     start: Array, inwards: Array, segments: Array, along: Array, normal: Array, length: Array
 ) -> tuple[Array, NDArray[np.int64]]:
-    """Way from each start inwards to the first segment it meets, infinite for none, and which segment that is."""
+    """Distance from each start inwards to the first segment met, or infinity, and its number."""
     facing = inwards @ normal.T  # > 0: the ray leaves the solid there
     offset = segments[None, :, 0] - start[:, None]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -107,8 +106,8 @@ def _first_met(
 
 
 def thinnest_wall(triangles: Array, engraved: Bands = ()) -> float:
-    """Gives the thinnest wall, floor or bar in mm of closed triangles (n, 3, 3), in sections along all three axes but
-    for engraved bands of z.
+    """Gives thinnest wall, floor or bar in mm of closed triangles (n, 3, 3), in sections along all axes except engraved
+    bands of z.
     """
     thinnest = math.inf
     for order, count in (((0, 1, 2), None), ((1, 2, 0), 17), ((2, 0, 1), 13)):

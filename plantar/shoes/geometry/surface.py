@@ -1,6 +1,4 @@
-"""Surfaces of up to a million triangles, on a grid of a micrometre: whether they are closed, what they cover, and their
-hull.
-"""
+"""Surfaces of up to a million triangles on a micrometre grid: closure, cover, hull."""
 
 from __future__ import annotations
 
@@ -28,7 +26,7 @@ Numbers = NDArray[np.int64]
 
 
 def corner_numbers(points: Array) -> Numbers:
-    """A number for each point (..., 2) or (..., 3) in mm, equal for points of one place on the grid.
+    """Number for each point (..., 2) or (..., 3) in mm, equal at one grid place.
 
     Example:
         >>> corner_numbers(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1e-6]])).tolist()
@@ -46,13 +44,13 @@ def corner_numbers(points: Array) -> Numbers:
 
 
 def thinned(points: Array, spacing: float) -> Array:
-    """Gives the first of the points (n, 2) or (n, 3) in each cell of a grid with a spacing in their unit."""
+    """Gives first of points (n, 2) or (n, 3) in each grid cell of a spacing in their unit."""
     _, first = np.unique(corner_numbers(points * (_GRID / spacing)), return_index=True)
     return np.asarray(points[first])
 
 
 def is_closed(triangles: Array) -> bool:
-    """Whether every edge of triangles (n, 3, 3) in mm belongs to exactly two of them."""
+    """Whether every edge of triangles (n, 3, 3) in mm has exactly two."""
     corners = corner_numbers(triangles)
     start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
     long = start != end
@@ -61,7 +59,7 @@ def is_closed(triangles: Array) -> bool:
 
 
 def convex_outline(points: Array) -> Any:
-    """The convex hull of points (n, 2) in mm, a shapely geometry; inner points are left out first."""
+    """Shapely convex hull of points (n, 2) in mm; inner points are left out first."""
     if len(points) > _FEW:
         x, y = np.ascontiguousarray(points[:, 0]), np.ascontiguousarray(points[:, 1])
         extreme: list[int] = []
@@ -77,10 +75,10 @@ def convex_outline(points: Array) -> Any:
 
 
 def covered_area(flat: Array) -> Any:
-    """What triangles (n, 3, 2) in mm cover together, in any order and direction: a shapely geometry.
+    """Shapely cover of triangles (n, 3, 2) in mm, in any order and direction.
 
     Raises:
-        FootError: If they do not join and overlap many times.
+        FootError: If unjoined and overlapping.
     """
     flat = np.rint(flat / _GRID) * _GRID
     u, v = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
@@ -100,7 +98,7 @@ def covered_area(flat: Array) -> Any:
 
 
 def _united(flat: Array) -> Any:
-    """What triangles (n, 3, 2) that do not join cover; holes of less than a millimetre count as covered."""
+    """Cover of unjoined triangles (n, 3, 2); holes under a millimetre count as covered."""
     parts = shapely.polygons(np.concatenate([flat, flat[:, :1]], axis=1))
     if shapely.area(parts).sum() > _MOST_TIMES * convex_outline(flat.reshape(-1, 2)).area:
         raise FootError("its triangles overlap without joining; give a surface")
@@ -121,7 +119,7 @@ def _united(flat: Array) -> Any:
 
 
 def _left_over(flat: Array) -> tuple[Array, Numbers]:
-    """Directed edges (m, 2, 2) of triangles that no others cancel, and how many times each is left."""
+    """Directed triangle edges (m, 2, 2) that no others cancel, and each one's count."""
     corners = corner_numbers(flat)
     start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
     count = int(corners.max()) + 1
@@ -152,7 +150,7 @@ def _winding(points: Array, edges: Array, times: Numbers) -> Numbers:
 
 
 def surface_points(triangles: Array, spacing: float) -> Array:
-    """Gives points (n, 3) all over triangles (k, 3, 3), about `spacing` apart, their corners included."""
+    """Gives points (n, 3) all over triangles (k, 3, 3), about `spacing` apart, corners included."""
     size = np.linalg.norm(np.stack([triangles[:, i] - triangles[:, i - 1] for i in range(3)]), axis=-1).max(axis=0)
     steps = np.clip(np.ceil(size / spacing), 1, 120).astype(int)
     out = [triangles.reshape(-1, 3)]
@@ -168,11 +166,11 @@ _SIZES = {"box": 3, "sphere": 1, "cylinder": 2, "capsule": 2, "ellipsoid": 3}
 
 
 def primitive(kind: str, size: NDArray[np.float64], where: str) -> NDArray[np.float64]:
-    """Gives the triangles (n, 3, 3) of a "box", "sphere", "cylinder", "capsule" or "ellipsoid" (kind) about the origin,
-    its axis along z, of a size as in MJCF; where is for messages.
+    """Gives triangles (n, 3, 3) of a "box", "sphere", "cylinder", "capsule" or "ellipsoid" (kind) about the origin,
+    axis z, of a size as in MJCF; where is for messages.
 
     Raises:
-        FootError: If there is no such shape, or its size is not above 0.
+        FootError: If unknown, or size not positive.
     """
     if kind not in _SIZES:
         raise FootError(f"{where}: '{kind}' is no shape that is read; allowed: mesh, {', '.join(_SIZES)}")

@@ -1,1 +1,1 @@
-"""What is written: drawing, picture, bill of parts, printable files."""
+"""Written files: drawing, picture, bill of parts, printable files."""

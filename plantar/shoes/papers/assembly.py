@@ -1,4 +1,4 @@
-"""How a shoe is put together: a page of numbered steps, each with a picture of its own solids. Lengths in mm."""
+"""Assembly page: numbered steps with pictures of the shoe's own solids. In mm."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ code { overflow-wrap: anywhere; }
 
 
 def assembly_page(build: ShoeBuild, checks: Mapping[str, ShoeCheck], bills: Mapping[str, Sequence[Part]]) -> str:
-    """Gives the HTML page of a build with its solids, checks and bills by side; it needs no network."""
+    """Gives HTML page of a build with solids, checks and bills by side, without network."""
     shoe = build.shoes[0]
     sides = " and ".join(s.side for s in build.shoes)
     kind = build.kind if len(build.shoes) == 1 else f"{build.kind}s"

@@ -1,4 +1,4 @@
-"""Bill of parts of a pair or a single shoe: what is printed, cut and bought, and what it weighs."""
+"""Bill of parts: what is printed, cut and bought, with weights."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ WINDOW = 5.0  # diameter in mm of a hole in the pad through which a taxel's infr
 
 @dataclass(frozen=True)
 class Part:
-    """One line of the bill, for one shoe; mass in g of all its parts, None if unknown."""
+    """Bill line for one shoe; mass in g of all its parts, or None."""
 
     part: str
     quantity: int
@@ -33,7 +33,7 @@ class Part:
 
 
 def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
-    """Gives the parts of one shoe of a build with its weights."""
+    """Gives parts of a build's shoe with weights."""
     p, plan, side = build.parameters, shoe.plan, shoe.side
     low_x, low_y, high_x, high_y = plan.contact.bounds
     outline = f"{high_x - low_x:.1f} x {high_y - low_y:.1f}"
@@ -111,6 +111,6 @@ def _holding(build: ShoeBuild, width: float) -> list[Part]:
 
 
 def bill_text(bills: dict[str, list[Part]]) -> str:
-    """Bills of parts of each side as CSV."""
+    """Each side's bill of parts as CSV."""
     rows = ([side, *asdict(part).values()] for side, parts in bills.items() for part in parts)
     return csv_text(["side", *Part.__dataclass_fields__], rows)

@@ -1,6 +1,6 @@
-"""The drawing of a shoe for a workshop: an A3 sheet to ISO 128, 129, 5459, 1101 and 7200. Lengths in mm.
+"""Workshop drawing of a shoe: A3 sheet to ISO 128, 129, 5459, 1101 and 7200. In mm.
 
-Datum A is the printed lower face, B the plane y = 0 and C the plane x = 0 below the ankle.
+Datum A is the printed lower face, B plane y = 0 and C plane x = 0 below the ankle.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ Array = NDArray[np.float64]
 
 
 def draw_shoe(shoe: Shoe, build: ShoeBuild, triangles: Array, paths: Sequence[str | os.PathLike[str]]) -> list[Path]:
-    """Draw a shoe of a build with its triangles (n, 3, 3) in mm to paths: .pdf, .svg, .png, .dxf; returns these."""
+    """Draw a build's shoe with triangles (n, 3, 3) in mm to paths: .pdf, .svg, .png, .dxf; returns these."""
     sheet = sheet_of(shoe, build, triangles)
     return [sheet.write(path) for path in paths]
 
 
 def sheet_of(shoe: Shoe, build: ShoeBuild, triangles: Array) -> Sheet:
-    """Gives the sheet of a shoe of a build with its triangles, as `draw_shoe` writes it."""
+    """Gives sheet of a build's shoe with triangles, as written by `draw_shoe`."""
     sheet, body = Sheet(), triangles.reshape(-1, 3)
     low, high = body.min(axis=0), body.max(axis=0)
     size = high - low

@@ -1,4 +1,4 @@
-"""Files of a shoe: STL, STEP, 3MF, layout, pad, drawing, picture, bill of parts, and the checks of them."""
+"""Files of a shoe: STL, STEP, 3MF, layout, pad, papers, and their checks."""
 
 from __future__ import annotations
 
@@ -37,12 +37,12 @@ __all__ = ["ShoeReport", "export_shoe", "failed_checks", "shoe_text"]
 
 @dataclass(frozen=True)
 class ShoeReport:
-    """What was exported and measured, by side.
+    """Exported and measured, by side.
 
     Attributes:
-        checks: Empty for layouts alone.
-        files: Names of the files in the folder.
-        plan_checks: Checks for layouts alone.
+        checks: Empty for layouts.
+        files: Names in the folder.
+        plan_checks: For layouts.
     """
 
     build: ShoeBuild
@@ -58,7 +58,7 @@ class ShoeReport:
         return plans and all(c.holds for c in self.checks.values())
 
     def as_dict(self) -> dict[str, Any]:
-        """Plain JSON values; of a pair the top level holds the worse figure, `sides` each shoe's own."""
+        """Plain JSON values; a pair's top level holds the worse figure, `sides` each shoe's own."""
         build, fit, first = self.build, self.build.fit, self.build.shoes[0]
         out: dict[str, Any] = {
             "name": first.layout.name,
@@ -151,18 +151,18 @@ def _layout_text(shoe: Shoe, build: ShoeBuild, weights: Weights | None) -> str:
 
 
 def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: Progress | None = None) -> ShoeReport:
-    """Write the files of every shoe and check them.
+    """Write and check every shoe's files.
 
     Args:
-        build: The shoes; without solids, only their layouts are written.
-        folder: An existing folder; files of the same name are replaced.
+        build: Shoes; without solids, only layouts are written.
+        folder: Existing; equal names are replaced.
         progress: Receives fraction and text.
 
     Returns:
-        Measures, checks and file names.
+        Measures, checks, file names.
 
     Raises:
-        InputError: If a file cannot be written.
+        InputError: If unwritable.
     """
     target = Path(folder)
     report_progress = progress or (lambda fraction, text: None)
@@ -252,7 +252,7 @@ def _draw(shoe: Shoe, build: ShoeBuild, surface: NDArray[np.float64], target: Pa
 
 
 def shoe_text(summary: Mapping[str, Any]) -> str:
-    """The shoe's figures for people."""
+    """Shoe's figures for people."""
     lines = [f"  {note}" for note in summary["notes"]]
     bound = summary["whole_taxels_bound"]
     size = f"{summary['cell_area_mm2']:g} mm^2{' or less' if summary['smallest_cell_share'] < 1.0 else ''}"
@@ -274,7 +274,7 @@ def shoe_text(summary: Mapping[str, Any]) -> str:
 
 
 def failed_checks(summary: Mapping[str, Any]) -> list[str]:
-    """A line for each check that does not hold: side, name, value and what is allowed."""
+    """Line for each failed check: side, name, value, allowed."""
     return [
         f"{side}: {check['name']} is {check['value']}, allowed {check['allowed']}"
         for side, shoe in summary.get("sides", {}).items()

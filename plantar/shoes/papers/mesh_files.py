@@ -1,4 +1,4 @@
-"""Triangles as STL and 3MF files; the same triangles give the same bytes."""
+"""Triangles as STL and 3MF files, byte for byte reproducible."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _DATE = (2000, 1, 1, 0, 0, 0)  # the same input gives the same bytes
 
 @dataclass(frozen=True)
 class NamedBody:
-    """A body of an assembly: closed triangles (n, 3, 3) in mm, outward counter-clockwise, and its colour "#RRGGBB"."""
+    """Assembly body: closed triangles (n, 3, 3) in mm, outward counter-clockwise, and colour "#RRGGBB"."""
 
     name: str
     material: str
@@ -39,15 +39,13 @@ class NamedBody:
 
 
 def write_3mf(triangles: NDArray[np.float64], name: str, path: str | os.PathLike[str]) -> Path:
-    """Write closed triangles (n, 3, 3) in mm with a name as a 3MF package; returns the path."""
+    """Write closed triangles (n, 3, 3) in mm with a name as 3MF; returns the path."""
     title = _plain(name)
     return _write(f'{_object(1, title, triangles)}</resources><build><item objectid="1"/></build></model>', title, path)
 
 
 def write_assembly(bodies: Sequence[NamedBody], name: str, path: str | os.PathLike[str]) -> Path:
-    """Write bodies, each with its name and material, as one named assembly in a 3MF package; name is the assembly's;
-    returns the path.
-    """
+    """Write bodies with names and materials as one 3MF assembly; name is the assembly's; returns the path."""
     title, first = _plain(name), 2
     kinds = dict.fromkeys((b.material, b.colour) for b in bodies)
     bases = "".join(f'<base name="{_plain(m)}" displaycolor="{c}"/>' for m, c in kinds)

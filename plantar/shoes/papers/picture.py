@@ -1,4 +1,4 @@
-"""Pictures without a display: a foot as it was read, and a shoe in parallel projection, shaded, edges drawn."""
+"""Pictures without a display: foot and shoe in shaded parallel projection."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ def render(
     """Render triangles in parallel projection.
 
     Args:
-        bodies: Triangles (n, 3, 3), outward counter-clockwise, and the colour (r, g, b) 0..1 of each body.
+        bodies: Triangles (n, 3, 3), outward counter-clockwise, and colour (r, g, b) 0..1 of each.
         azimuth: Of the eye, in degrees about z from +x.
         elevation: Of the eye, in degrees.
-        width: Width in pixels.
+        width: In pixels.
         margin: Empty share at each side.
 
     Returns:
@@ -71,7 +71,7 @@ def render(
 
 
 def _nearest(pixel: Array, height: int, width: int) -> tuple[Array, NDArray[np.int64]]:
-    """Depth of the nearest triangle at each pixel, and its number; -1 for none."""
+    """Nearest triangle's depth and number at each pixel; -1 for none."""
     depth = np.full(height * width, -np.inf)
     which = np.full(height * width, -1, dtype=np.int64)
     y = pixel[..., 1]
@@ -104,7 +104,7 @@ def _nearest(pixel: Array, height: int, width: int) -> tuple[Array, NDArray[np.i
 
 
 def _spread(first: NDArray[np.int64], count: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Ranges of `count` numbers from `first` on: the number of the range, and the number in it."""
+    """Ranges of `count` numbers from `first`: range number, and number in it."""
     which = np.repeat(np.arange(len(count)), count)
     return which, np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count) + first[which]
 
@@ -131,9 +131,7 @@ def _halved(view: Picture) -> Picture:
 def rendered_png(
     bodies: list[tuple[Array, tuple[float, float, float]]], *, azimuth: float, elevation: float, width: int = 480
 ) -> bytes:
-    """Gives the bytes of a PNG of bodies seen from azimuth and elevation, of a width in pixels, as `render` does;
-    deterministic.
-    """
+    """Gives PNG bytes of bodies from azimuth and elevation, of a width in pixels, as `render` does; deterministic."""
     seen = render(bodies, azimuth=azimuth, elevation=elevation, width=2 * width)
     return png_of(_halved(seen).astype(np.float64))
 
@@ -174,9 +172,7 @@ _RIM = 12.0  # mm: height up to which the outline is drawn
 
 
 def draw_preview(foot: Foot, path: str | os.PathLike[str]) -> Path:
-    """Draw a foot to a path, from above and from its right side, with toes, left side, sole plane and origin; returns
-    the path.
-    """
+    """Draw a foot to a path, from above and right, with toes, left side, sole plane and origin; returns the path."""
     figure, (top, side) = new_figure(9.0, 7.5, rows=2, height_ratios=(3.0, 2.0))
     outline = foot.passing(min(_RIM, foot.height))
     _surface(foot, top, 1)

@@ -1,6 +1,4 @@
-"""A drawing sheet: lines, areas and texts in mm on paper, written as PDF, SVG, PNG and DXF (ISO 128 lines, ISO 129
-dimensions).
-"""
+"""Drawing sheet in mm on paper, as PDF, SVG, PNG and DXF (ISO 128 lines, ISO 129 dimensions)."""
 
 from __future__ import annotations
 
@@ -41,11 +39,11 @@ Point = tuple[float, float]
 
 @dataclass
 class Sheet:
-    """A sheet that is being drawn, A3, its origin at the lower left.
+    """A3 sheet, origin at the lower left.
 
     Attributes:
-        lines: Kind and points (k, 2) of each line.
-        areas: Colour and corners of each area.
+        lines: Kind and points (k, 2).
+        areas: Colour and corners.
         texts: Place, text, height in mm, angle in degrees, alignment.
     """
 
@@ -54,26 +52,26 @@ class Sheet:
     texts: list[tuple[Point, str, float, float, str]] = field(default_factory=list)
 
     def line(self, points: Any, kind: str = "THIN") -> None:
-        """A line of a kind through points (k, 2)."""
+        """Line of a kind through points (k, 2)."""
         self.lines.append((kind, np.asarray(points, dtype=float)))
 
     def box(self, low: Point, high: Point, kind: str = "THIN") -> None:
-        """A rectangle from low to high, in lines of a kind."""
+        """Rectangle from low to high, in lines of a kind."""
         self.line([low, (high[0], low[1]), high, (low[0], high[1]), low], kind)
 
     def text(self, at: Point, text: str, height: float = 2.5, *, turn: float = 0.0, align: str = "left") -> None:
-        """A text of a height in mm, turn in degrees; align: left, right or center at a place."""
+        """Writes text of a height in mm, turn in degrees; align left, right or center at a place."""
         self.texts.append((at, text, height, turn, align))
 
     def arrow(self, tip: Point, way: Point) -> None:
-        """A filled arrow head whose tip points along a way."""
+        """Filled arrow head, tip along a way."""
         x, y = np.array(way) / math.hypot(*way)
         back = np.array(tip) - _ARROW * np.array([x, y])
         side = _ARROW / 6.0 * np.array([-y, x])
         self.areas.append(("#111111", np.array([tip, back + side, back - side])))
 
     def dimension(self, start: Point, end: Point, text: str, off: float) -> None:
-        """A level or upright dimension from start to end with a text, so far off the start, up or to the right."""
+        """Level or upright dimension from start to end with a text, so far off the start, up or right."""
         level = abs(end[0] - start[0]) >= abs(end[1] - start[1])
         a, b = (
             ((start[0], start[1] + off), (end[0], start[1] + off))
@@ -99,7 +97,7 @@ class Sheet:
             self.text((middle[0] - 2.2, middle[1]), text, turn=90.0, align="center")
 
     def datum(self, tip: Point, letter: str, way: Point) -> None:
-        """A datum's triangle with its tip on a line, and its letter in a box (ISO 5459) along a way from there."""
+        """Datum triangle, tip on a line, with boxed letter (ISO 5459) along a way."""
         x, y = np.array(way) / math.hypot(*way)
         across = 1.3 * np.array([-y, x])
         at = np.array(tip)
@@ -111,7 +109,7 @@ class Sheet:
         self.text((float(middle[0]), float(middle[1]) - 1.2), letter, align="center")
 
     def table(self, at: Point, widths: Iterable[float], rows: Iterable[Iterable[str]], step: float = 4.0) -> None:
-        """A table at its upper left corner: widths of columns, rows, the first a head, step of each, in mm."""
+        """Table at its upper left corner: column widths, rows, first a head, row step, in mm."""
         columns, lines = list(widths), [list(row) for row in rows]
         edges, text = np.cumsum([at[0], *columns]), 0.55 * step
         for i, row in enumerate(lines):
@@ -125,7 +123,7 @@ class Sheet:
         self.box((at[0], bottom), (float(edges[-1]), at[1]))
 
     def write(self, path: str | os.PathLike[str]) -> Path:
-        """Write the sheet in the format of the path's ending: .pdf, .svg, .png or .dxf."""
+        """Write the sheet by the path's ending: .pdf, .svg, .png or .dxf."""
         if Path(path).suffix == ".dxf":
             return write_text(Path(path), self._dxf())
         figure, axes = new_figure(_SIZE[0] / _INCH, _SIZE[1] / _INCH)
@@ -157,7 +155,7 @@ class Sheet:
 
 
 def dxf_text(lines: Iterable[tuple[str, Any]], more: Iterable[str] = (), *, closed: bool = False) -> str:
-    """Gives lines, layer and points (k, 2) of each, and more codes and values as DXF (R12, mm); closed lines return to
+    """Gives lines, layer and points (k, 2) of each, and more codes and values as DXF (R12, mm); closed lines end at
     their first point.
     """
     out = ["0", "SECTION", "2", "HEADER", "9", "$INSUNITS", "70", "4", "0", "ENDSEC", "0", "SECTION", "2", "ENTITIES"]
@@ -171,7 +169,7 @@ def dxf_text(lines: Iterable[tuple[str, Any]], more: Iterable[str] = (), *, clos
 
 @dataclass(frozen=True)
 class View:
-    """A view of a part: its point `of` in mm lies at `origin` on the sheet, at a scale of paper over part."""
+    """Part view: point `of` in mm lies at `origin` on the sheet, at a scale paper over part."""
 
     sheet: Sheet
     scale: float
@@ -179,16 +177,16 @@ class View:
     of: Point = (0.0, 0.0)
 
     def at(self, points: Any) -> Array:
-        """Points (..., 2) of the part on the sheet."""
+        """Part points (..., 2) on the sheet."""
         return np.asarray(self.origin + self.scale * (np.asarray(points, dtype=float) - self.of))
 
     def place(self, x: float, y: float) -> Point:
-        """Gives a point x, y of the part on the sheet."""
+        """Gives part point x, y on the sheet."""
         u, v = self.at((x, y)).tolist()
         return u, v
 
     def draw(self, shape: Any, kind: str = "THIN") -> None:
-        """The border of a shapely shape, in lines of a kind."""
+        """Border of a shapely shape, in a line kind."""
         for part in shapely.get_parts(shape):
             rings = [part.exterior, *part.interiors] if part.geom_type == "Polygon" else [part]
             for line in rings:
@@ -196,7 +194,7 @@ class View:
                     self.sheet.line(self.at(np.asarray(line.coords)[:, :2]), kind)
 
     def hatch(self, shape: Any) -> None:
-        """A cut area: its border, and lines at 45 degrees."""
+        """Cut area: border, and lines at 45 degrees."""
         self.draw(shape, "OUTLINE")
         if shape.is_empty:
             return

@@ -1,4 +1,4 @@
-"""The parts of a shoe in their places, as named bodies of a STEP assembly. Lengths in mm."""
+"""Shoe parts in place, as named bodies of a STEP assembly. In mm."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _HERE = (0.0, 0.0, 0.0)
 
 
 def assembly_parts(shoe: Shoe, build: ShoeBuild) -> list[StepPart]:
-    """Gives the parts of a shoe of a build: the printed one first, taxels, pad, board, straps; in the sole frame."""
+    """Gives parts of a build's shoe, printed first, taxels, pad, board, straps; in the sole frame."""
     assert shoe.solid is not None
     plan, p, name = shoe.plan, build.parameters, f"{build.kind} {shoe.side}"
     parts = [StepPart(f"{shoe.layout.name} {name}", shoe.solid, {name: _HERE}), *_taxels(plan, p)]
@@ -46,7 +46,7 @@ def _solid(*blocks: Block) -> Polyhedron:
 
 
 def _taxels(plan: ShoePlan, p: ShoeParameters) -> list[StepPart]:
-    """Taxels as they are in the layout; those of one shape are one product in several places."""
+    """Taxels as in the layout; equal shapes are one product in several places."""
     what = "taxel" if not plan.lands else "sheet" if plan.lines is not None else "cell"
     shapes: dict[bytes, tuple[list[Block], dict[str, tuple[float, float, float]]]] = {}
     for number, blocks in zip(plan.layout.ids.tolist(), taxel_blocks(plan, p), strict=False):  # or one sheet

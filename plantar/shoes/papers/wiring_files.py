@@ -1,6 +1,6 @@
-"""A shoe's wiring: a list of the cells, their outlines as DXF, and a flexible board in KiCad's formats. Lengths in mm.
+"""Shoe's wiring: cell list, outlines as DXF, flexible board for KiCad. In mm.
 
-Each taxel, or of a sheet each row and column, has its own line to the connector at the heel. KiCad's y points down.
+Each taxel, or sheet row and column, has its own line to the heel connector. KiCad's y points down.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ _SHEET_HEADER = ("row", "column")
 
 
 def wiring_text(shoes: tuple[Shoe, ...], parameters: ShoeParameters) -> str:
-    """Gives the cells of each of the shoes in the order of the cable as CSV, by parameters. A wire runs from the centre
-    of the cell before it through the port to its own; of a connector along its channel.
+    """Gives cells of each of the shoes in cable order as CSV, by parameters. Wires run from the last cell's centre
+    through the port; a connector's along its channel.
     """
     rows: list[list[Any]] = []
     sheet = shoes[0].plan.lines is not None
@@ -62,8 +62,8 @@ def wiring_text(shoes: tuple[Shoe, ...], parameters: ShoeParameters) -> str:
 
 
 def cells_dxf(shoe: Shoe, build: ShoeBuild) -> str:
-    """Gives outlines for flexible boards of a shoe of a build as DXF (R12, mm): layers CELLS, POCKETS, BASES, WINDOWS
-    (holes of the pad), OUTLINE, KEEPOUT (where no board may be), and of a sheet ROWS and COLUMNS.
+    """Gives outlines for flexible boards of a build's shoe as DXF (R12, mm): layers CELLS, POCKETS, BASES, WINDOWS (pad
+    holes), OUTLINE, KEEPOUT (no board), and of a sheet ROWS and COLUMNS.
     """
     p, plan = build.parameters, shoe.plan
     flip = 1.0 if shoe.side == "left" else -1.0
@@ -104,7 +104,7 @@ _LAYERS = '(0 "F.Cu" signal) (31 "B.Cu" signal) (37 "F.SilkS" user) (44 "Edge.Cu
 
 
 def board_nets(shoe: Shoe) -> dict[str, list[str]]:
-    """Nets by name, each with the references of its taxels; taxel k of the layout is T<k>."""
+    """Nets by name with taxel references; layout taxel k is T<k>."""
     plan, ids = shoe.plan, shoe.layout.ids.tolist()
     if plan.lines is None:
         return {f"TAXEL_{k}": [f"T{k}"] for k in ids} | {"GND": [f"T{k}" for k in ids]}
@@ -116,13 +116,13 @@ def board_nets(shoe: Shoe) -> dict[str, list[str]]:
 
 
 def board_outlines(shoe: Shoe, parameters: ShoeParameters) -> list[Any]:
-    """Gives the board's outlines of a shoe and its parameters, shapely polygons in mm, one for each patch."""
+    """Gives board outlines of a shoe and its parameters, shapely in mm, one a patch."""
     found = [q.buffer(-parameters.made_by.slide) for q in pocket_outlines(shoe.plan, parameters)]
     return [part for q in found for part in getattr(q, "geoms", [q]) if not part.is_empty]
 
 
 def board_text(shoe: Shoe, parameters: ShoeParameters) -> str:
-    """Gives a shoe's board by its parameters as .kicad_pcb, taxels and connector as footprints."""
+    """Gives a shoe's board by parameters as .kicad_pcb, taxels and connector as footprints."""
     nets = board_nets(shoe)
     number = {name: i for i, name in enumerate(nets, start=1)}
     lines = [
@@ -162,7 +162,7 @@ def _footprint(
 
 
 def net_list_text(shoe: Shoe) -> str:
-    """The nets as KiCad's .net file: pins of taxels and of the connector J1."""
+    """Nets as KiCad's .net file: pins of taxels and connector J1."""
     nets = board_nets(shoe)
     on = {f"T{k}": [name for name, parts in nets.items() if f"T{k}" in parts] for k in shoe.layout.ids.tolist()}
     parts = [f'(comp (ref "{r}") (value "taxel") (footprint "plantar:taxel"))' for r in on]

@@ -1,1 +1,1 @@
-"""Every dimension of the shoe decided: block, heel, wiring."""
+"""Dimensions decided: block, heel, wiring."""

@@ -1,4 +1,4 @@
-"""Blocks that a shoe is put together from: outlines at two heights and what is between. Lengths in mm."""
+"""Shoe blocks: outlines at two heights and what is between. In mm."""
 
 from __future__ import annotations
 
@@ -16,9 +16,7 @@ __all__ = ["Block", "Groove", "Step", "box_block", "mirrored_block", "mirrored_s
 
 @dataclass(frozen=True)
 class Block:
-    """A body between two heights: outlines `low` and `high` (shapely polygons with parallel edges), or a prism without
-    `high`, which may have holes.
-    """
+    """Body between outlines `low` and `high` (shapely, parallel edges), or a prism without `high`, maybe with holes."""
 
     low: Any
     z_low: float
@@ -28,9 +26,7 @@ class Block:
 
 @dataclass(frozen=True)
 class Groove:
-    """Half of a V groove on the inner side of a closed `line`, its upper edge; `edge` is the lower one, with parallel
-    edges.
-    """
+    """Half V groove on the inner side of a closed `line`, its upper edge; `edge` is the lower, parallel one."""
 
     line: Any
     edge: Any
@@ -40,7 +36,7 @@ class Groove:
 
 @dataclass(frozen=True)
 class Step:
-    """Blocks that are added to the body so far, or cut from it, limited to an outline `within`."""
+    """Blocks added to or cut from the body, limited to an outline `within`."""
 
     kind: Literal["add", "cut"]
     name: str
@@ -49,12 +45,12 @@ class Step:
 
 
 def box_block(low: tuple[float, float, float], high: tuple[float, float, float]) -> Block:
-    """Gives the box with corners low and high (x, y, z) in mm."""
+    """Gives box of corners low and high (x, y, z) in mm."""
     return Block(shapely.box(low[0], low[1], high[0], high[1]), low[2], high[2])
 
 
 def mirrored_block(block: Block | Groove) -> Block | Groove:
-    """The block with y reversed."""
+    """Block with y reversed."""
     if isinstance(block, Groove):
         return replace(block, line=_flipped(block.line), edge=_flipped(block.edge))
 
@@ -62,7 +58,7 @@ def mirrored_block(block: Block | Groove) -> Block | Groove:
 
 
 def mirrored_step(step: Step) -> Step:
-    """The step with y reversed."""
+    """Step with y reversed."""
     blocks = tuple(mirrored_block(b) for b in step.blocks)
     return replace(step, blocks=blocks, within=None if step.within is None else _flipped(step.within))
 
@@ -74,7 +70,7 @@ def _flipped(polygon: Any) -> Any:
 
 
 def moved_edges(points: NDArray[np.float64], distance: float) -> NDArray[np.float64] | None:
-    """Gives points (k, 2), counter-clockwise, with each edge moved outwards by a distance in mm, or None where an edge
+    """Gives points (k, 2), counter-clockwise, with edges moved outwards by a distance in mm, or None where an edge
     would vanish or the ring cross itself.
 
     Example:
@@ -98,8 +94,8 @@ def moved_edges(points: NDArray[np.float64], distance: float) -> NDArray[np.floa
 
 
 def tapered(polygon: Any, start: float, end: float, z_low: float, z_high: float) -> Block | None:
-    """Gives the block from z_low to z_high of a polygon moved outwards by start mm below and end mm above, or None
-    where an edge would vanish.
+    """Gives block from z_low to z_high of a polygon moved outwards by start mm below and end mm above, or None where an
+    edge would vanish.
     """
     low, high = moved_edges(ring(polygon), start), moved_edges(ring(polygon), end)
     if low is None or high is None:

@@ -1,4 +1,4 @@
-"""Room of a cell's body in the shoe: depth of its pocket, width for its leads or tail. Lengths in mm."""
+"""Cell room in the shoe: pocket depth, width for leads or tail. In mm."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _DEEPEST = 8.0  # mm: of a pocket that is deepened for leads
 
 @dataclass(frozen=True)
 class LeadRoom:
-    """A narrow place of the leads: area in mm^2 that they need, each a square of its diameter, and area there is."""
+    """Narrow place of leads: area in mm^2 needed, each a square of its diameter, and present."""
 
     name: str
     needed: float
@@ -32,7 +32,7 @@ class LeadRoom:
 
 
 def cell_parameters(cell: Cell | None, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Gives parameters whose pockets hold a cell's body, grooves only for tiles, and notes on what was changed."""
+    """Gives parameters whose pockets hold a cell's body, grooves only for tiles, and notes on changes."""
     p = parameters
     if cell is None:
         return p, ()
@@ -49,18 +49,18 @@ def cell_parameters(cell: Cell | None, parameters: ShoeParameters) -> tuple[Shoe
 
 
 def tail_lines(plan: ShoePlan) -> int:
-    """Lines in the tail of a sheet: one for each row and column, and one more."""
+    """Sheet tail lines: one a row and column, and one more."""
     return sum(plan.sheet_lines) + 1
 
 
 def led_parameters(
     plan: ShoePlan, parameters: ShoeParameters, *, deepen: bool = True
 ) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Gives parameters whose channel, ports and pockets (with deepen) let a sheet's tail or the cells' own leads of a
-    plan pass, and notes.
+    """Gives parameters whose channel, ports and pockets (with deepen) pass a sheet's tail or the cells' leads of a
+    plan, and notes.
 
     Raises:
-        FootError: If a sheet's tail is wider than a channel can be.
+        FootError: If the tail is too wide.
     """
     p, cell = parameters, plan.cell
     if cell is None or not plan.connectors:
@@ -96,7 +96,7 @@ def led_parameters(
 
 
 def lead_rooms(plan: ShoePlan, parameters: ShoeParameters) -> tuple[LeadRoom, ...]:
-    """Gives the fullest port, pocket and channel of a plan and its parameters where cells have their own leads."""
+    """Gives fullest port, pocket and channel of a plan and parameters where cells have leads."""
     p, cell = parameters, plan.cell
     if cell is None or not cell.leads or not plan.connectors:
         return ()

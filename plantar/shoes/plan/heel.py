@@ -1,4 +1,4 @@
-"""Where the cable leaves the shoe and the connection board is held: a place at the rear wall. Lengths in mm."""
+"""Cable exit and connection board: a place at the rear wall. In mm."""
 
 from __future__ import annotations
 
@@ -26,9 +26,7 @@ _REAR = 4.0  # mm: how much of the rim counts as its rear edge
 
 @dataclass(frozen=True)
 class Heel:
-    """A place on the outside of the rear wall, and a frame there, turned by an angle in rad: x into the shoe, y to the
-    left.
-    """
+    """Place outside the rear wall, and a frame there, turned by an angle in rad: x into the shoe, y left."""
 
     x: float
     y: float
@@ -36,29 +34,29 @@ class Heel:
     board: bool
 
     def placed(self, shape: Any) -> Any:
-        """A shapely shape of this frame in the sole frame."""
+        """Shapely shape from this frame to the sole frame."""
         turned = shapely.affinity.rotate(shape, self.turn, origin=(0.0, 0.0), use_radians=True) if self.turn else shape
         return shapely.affinity.translate(turned, self.x, self.y)
 
     def point(self, x: float, y: float) -> NDArray[np.float64]:
-        """Gives a point x, y of this frame, (2,) in mm in the sole frame."""
+        """Gives point x, y of this frame, (2,) in mm in the sole frame."""
         c, s = math.cos(self.turn), math.sin(self.turn)
         return np.array([self.x + c * x - s * y, self.y + s * x + c * y])
 
     def mirrored(self) -> Heel:
-        """The place on the other foot's shoe."""
+        """Place on the other foot's shoe."""
         return replace(self, y=-self.y, turn=-self.turn)
 
 
 def holder_depth(parameters: ShoeParameters) -> float:
-    """Reach of the board's holder behind the wall, in mm."""
+    """Board holder's reach behind the wall, in mm."""
     p = parameters
     return p.board_gap + p.board_thickness + 2.0 * p.made_by.slide + LIP
 
 
 def find_heel(rim: Any, foot: Any, parameters: ShoeParameters) -> tuple[Heel, str | None]:
-    """Gives the place where the board's holder reaches the least beyond the foot, turned up to 60 degrees, by rim and
-    foot (shapely polygons) and parameters; and a note where it is left out.
+    """Gives place where the board's holder reaches least beyond the foot, turned up to 60 degrees, by rim and foot
+    (shapely) and parameters; and a note if left out.
     """
     half = 0.5 * parameters.board_length + POST + parameters.made_by.slide
     depth = holder_depth(parameters)

@@ -1,6 +1,6 @@
-"""Plan of an insole: a flat sheet with cells below a person's foot, laid into a shoe. Lengths in mm.
+"""Plan of an insole: a flat sheet with cells in a person's shoe. In mm.
 
-Foot and shoe are soft: pressure next to the cells is not measured, so the cells go up to the edge.
+Foot and shoe are soft: pressure beside cells is not measured, so cells reach the edge.
 """
 
 from __future__ import annotations
@@ -43,9 +43,7 @@ def person_mass(length: float) -> float:
 
 
 def insole_foot(foot: Foot) -> Foot:
-    """A foot whose sole is the outline of its lowest 15 mm, arch and gaps of toes filled: the lowest 5 mm lack the
-    arch.
-    """
+    """Foot whose sole outlines its lowest 15 mm, arch and toe gaps filled: the lowest 5 mm lack the arch."""
     if foot.triangles is None:
         return foot
     outline = foot.passing(min(_UP_TO, foot.height))
@@ -58,11 +56,11 @@ def insole_foot(foot: Foot) -> Foot:
 def insole_parameters(
     foot: Foot, thickness: float, parameters: ShoeParameters
 ) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Gives parameters of an insole for a foot: those left at their defaults share its thickness in mm, the floor takes
-    the rest; and what was assumed.
+    """Gives insole parameters for a foot: defaults share its thickness in mm, the floor takes the rest; and
+    assumptions.
 
     Raises:
-        InputError: If the thickness is out of its range, leaves no floor, or the material is stiff.
+        InputError: If thickness or material unfit.
 
     Example:
         >>> from plantar.shoes.foot.foot import foot_from_dimensions
@@ -101,11 +99,11 @@ def insole_parameters(
 def fit_insole(
     foot: Foot, parameters: ShoeParameters, *, cell_area: float, fine: bool, cell: Cell | None = None
 ) -> TaxelFit:
-    """Gives cells up to the edge of an insole, within a foot's outline by parameters: hexagons of cell_area in mm^2,
-    with a fine rim or whole ones, or another cell.
+    """Gives cells up to an insole's edge, within a foot's outline by parameters: hexagons of cell_area in mm^2, fine
+    rim or whole, or another cell.
 
     Raises:
-        FootError: If none fit, or they would carry less than `EVEN_SHARE` of an even pressure.
+        FootError: If cells carry below `EVEN_SHARE`.
     """
     room = _within(foot, parameters.clearance + parameters.border)
     if cell is not None:
@@ -130,9 +128,7 @@ def fit_insole(
 
 
 def even_share(cells: Iterable[Any], sole: Any) -> float:
-    """Gives the share, 0..1, of a sole that cells, polygons or their corners (k, 2), cover: that of an even pressure
-    which they carry.
-    """
+    """Gives share, 0..1, of a sole covered by cells, polygons or corners (k, 2): their part of an even pressure."""
     covered = shapely.union_all([shapely.Polygon(c) for c in cells]).intersection(sole)
     return float(covered.area / sole.area)
 
@@ -145,10 +141,10 @@ def _within(foot: Foot, distance: float) -> Any:
 
 
 def plan_insole(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: str | None = None) -> ShoePlan:
-    """Gives the plan of the left insole of a foot, fit and parameters; its layout takes a name or the foot's.
+    """Gives left insole plan of a foot, fit and parameters; its layout takes a name or the foot's.
 
     Raises:
-        FootError: If the cells leave no pocket between the ribs.
+        FootError: If no pocket is left.
     """
     face = _within(foot, parameters.clearance)
     return plan_face(foot.sole, face, face, face, fit, parameters, name=name or foot.name)

@@ -1,7 +1,7 @@
-"""Where the robot's other links pass, and whether a strap, a lug or a clip would be in their way. Lengths in mm.
+"""Ways of other robot links, and whether straps, lugs or clips block them. In mm.
 
-Without a robot's model a shank is assumed on the block on top of the foot, or on the ankle at the origin, that leans by
-20 degrees every way.
+Without a robot model a shank is assumed on the block on top of the foot, or on the ankle at the origin, leaning by 20
+degrees every way.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class KeepOut:
-    """Points (n, 3) in mm that other links of the robot pass through, known from its model or not, and the foot's
-    surface (k, 3), if known.
+    """Points (n, 3) in mm that other robot links pass, known from its model or not, and the foot's surface (k, 3), if
+    known.
     """
 
     links: Array
@@ -43,16 +43,16 @@ class KeepOut:
 
     @property
     def note(self) -> str:
-        """Where the links are from."""
+        """Source of the links."""
         return "" if self.known else "the shank is taken to stand on the ankle: no robot's model shows where it passes"
 
     def meets(self, low: tuple[float, float, float], high: tuple[float, float, float]) -> int:
-        """Gives the number of points within 2 mm of the box with corners low and high (3,)."""
+        """Gives number of points within 2 mm of a box with corners low and high (3,)."""
         a, b = np.array(low) - _ROOM, np.array(high) + _ROOM
         return int(((self.links > a) & (self.links < b)).all(axis=1).sum())
 
     def strap_meets(self, x: float, width: float, lugs: tuple[float, float], slot: float, thickness: float) -> int:
-        """Gives the number of points below or in a strap of a width and thickness over the foot at x: lugs are y of the
+        """Gives number of points below or in a strap of a width and thickness over the foot at x: lugs are y of the
         slots, right and left, slot their height.
         """
         half = 0.5 * width
@@ -67,7 +67,7 @@ class KeepOut:
 
 
 def strap_path(surface: Array | None, x: float, width: float, lugs: tuple[float, float], slot: float) -> Array:
-    """Gives the way (k, 2) in y, z of a strap over a surface; x, width, lugs, slot as in `KeepOut.strap_meets`."""
+    """Gives way (k, 2) in y, z of a strap over a surface; x, width, lugs, slot as in `KeepOut.strap_meets`."""
     ends = np.array([[lugs[0], slot], [lugs[1], slot]])
     below = np.empty((0, 2)) if surface is None else surface[np.abs(surface[:, 0] - x) < 0.5 * width, 1:]
     inside = (below[:, 0] > lugs[0]) & (below[:, 0] < lugs[1])
@@ -88,7 +88,7 @@ def _turns_left(a: Array, b: Array, c: Array) -> bool:
 
 
 def keep_out(foot: Foot) -> KeepOut:
-    """Where other links pass around a foot."""
+    """Where other links pass a foot."""
     surface = None if foot.triangles is None else surface_points(foot.triangles, _SPACING)
     if foot.links is not None:
         return KeepOut(foot.links, surface, True)

@@ -1,7 +1,7 @@
-"""The share of the load on the taxels: print and ground as rigid plates, springs between them.
+"""Load share on taxels: rigid print and ground, springs between.
 
-Under a taxel the pad's sheet and the taxel are in series; next to the taxels the pad carries once the relief below the
-print is closed. Each is a bonded layer of rubber with the apparent modulus
+Under a taxel the pad's sheet and the taxel are in series; beside taxels the pad carries once the relief below the print
+closes. Each is a bonded rubber layer with the apparent modulus
 
     E_c = E (1 + 2 k S^2)                                                        (Gent and Lindley 1959, eq. 11)
 
@@ -10,7 +10,7 @@ natural rubber", table 3), and for H degrees Shore A
 
     E = 0.0981 (56 + 7.62336 H) / (0.137505 (254 - 2.54 H))  in MPa              (Gent 1958)
 
-Foam has no shape factor; its cells hold gas, so that a pressure s at a compression per thickness of e follows
+Foam has no shape factor; its gas cells give a pressure s at a compression per thickness of e
 
     s = E e / (1 - e)     with the secant modulus     s / e = E + s
 
@@ -57,13 +57,13 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class LoadShare:
-    """The share of the load that the taxels carry.
+    """Load share of the taxels.
 
     Attributes:
         flat: On flat ground, 0..1.
-        half: On the worst of four half footholds: heel, toes, left, right; 0..1.
-        compression: Travel of the print on flat ground in mm.
-        rim_stiffness: Effective stiffness next to the taxels, per area, over that of a taxel, on flat ground.
+        half: On the worst half foothold of four: heel, toes, left, right; 0..1.
+        compression: Print's travel on flat ground in mm.
+        rim_stiffness: Stiffness per area beside the taxels over a taxel's, on flat ground.
     """
 
     flat: float
@@ -74,7 +74,7 @@ class LoadShare:
 
 
 def shore_modulus(hardness: float) -> float:
-    """Young's modulus in MPa of a rubber of a hardness in degrees Shore A.
+    """Young's modulus in MPa of rubber by degrees Shore A.
 
     Example:
         >>> round(shore_modulus(40.0), 2), round(shore_modulus(60.0), 2)
@@ -84,8 +84,8 @@ def shore_modulus(hardness: float) -> float:
 
 
 def apparent_modulus(hardness: float, area: float, perimeter: float, thickness: float) -> float:
-    """Gives the modulus in MPa of a bonded rubber layer: hardness in degrees Shore A, area in mm^2, perimeter and
-    thickness in mm.
+    """Gives modulus in MPa of a bonded rubber layer: hardness in degrees Shore A, area in mm^2, perimeter and thickness
+    in mm.
     """
     shape = area / (perimeter * thickness)
     factor = float(np.interp(hardness, _HARDNESS, _FACTOR))
@@ -93,8 +93,8 @@ def apparent_modulus(hardness: float, area: float, perimeter: float, thickness: 
 
 
 def pad_modulus(parameters: ShoeParameters, area: float, perimeter: float, thickness: float, pressure: float) -> float:
-    """Gives the modulus in MPa of a layer of the pad by parameters, loaded area in mm^2, perimeter and thickness in mm,
-    and for foam the pressure in MPa.
+    """Gives modulus in MPa of a pad layer by parameters, loaded area in mm^2, perimeter and thickness in mm, and for
+    foam pressure in MPa.
     """
     if parameters.pad_foam > 0.0:
         return 3e-3 * parameters.pad_foam + pressure
@@ -102,8 +102,8 @@ def pad_modulus(parameters: ShoeParameters, area: float, perimeter: float, thick
 
 
 def taxel_stiffness(plan: ShoePlan, parameters: ShoeParameters, pressure: float) -> float:
-    """Gives pressure over compression, in N/mm^3, of a median taxel of a plan and the pad in series (of films and
-    sheets body, land and pad), by parameters and pressure in MPa.
+    """Gives pressure over compression, in N/mm^3, of a plan's median taxel and pad in series (of films and sheets body,
+    land and pad), by parameters and pressure in MPa.
     """
     p, blocks = parameters, plan.lands or plan.cells
     area = float(np.median([c.area for c in blocks]))
@@ -124,9 +124,7 @@ def taxel_stiffness(plan: ShoePlan, parameters: ShoeParameters, pressure: float)
 
 
 def relieved(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Gives parameters with the pad's relief raised until a plan's taxels carry the load, in steps of 0.1 mm, and a
-    note.
-    """
+    """Gives parameters with the pad's relief raised by 0.1 mm until a plan's taxels carry the load, and a note."""
     p = parameters
     if p.strengthen == "no":
         return p, ()
@@ -145,9 +143,7 @@ def relieved(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tupl
 
 
 def check_load_share(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> LoadShare:
-    """Gives the taxels' share of a load in the middle of the ground on flat ground and half footholds, by plan and
-    parameters.
-    """
+    """Gives taxels' share of a load in the middle of the ground, flat and half footholds, by plan and parameters."""
     springs = _Springs.of(plan, parameters, load.force / sum(c.area for c in plan.cells))
     x, y = springs.points.T
     low_x, low_y, high_x, high_y = plan.contact.bounds
@@ -163,7 +159,7 @@ def check_load_share(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters)
 
 @dataclass(frozen=True)
 class _Springs:
-    """Springs (n,) on a grid: place, whether of a taxel, free travel in mm, stiffness in N/mm."""
+    """Springs (n,) on a grid: place, whether a taxel's, free travel in mm, stiffness in N/mm."""
 
     points: Array
     taxel: NDArray[np.bool_]
@@ -200,9 +196,9 @@ class _Springs:
 
 
 def spring_forces(points: Array, stiffness: Array, gaps: Array, force: float) -> tuple[Array, Array]:
-    """Gives the force (k, n) in N and travel (k,) in mm of k rigid plates on springs that do not pull: points (n, 2)
-    from the load in mm, stiffness (n,) in N/mm, gaps (k, n) of free travel in mm, force in N; Newton's method on the
-    convex energy, with a line search.
+    """Gives force (k, n) in N and travel (k,) in mm of k rigid plates on pushing springs: points (n, 2) from the load
+    in mm, stiffness (n,) in N/mm, gaps (k, n) of free travel in mm, force in N; Newton's method on the convex energy
+    with line search.
     """
     u = np.column_stack([np.ones(len(points)), points / max(1.0, float(np.abs(points).max()))])
     load, sunk = np.array([force, 0.0, 0.0]), np.zeros((len(gaps), 3))

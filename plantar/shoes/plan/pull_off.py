@@ -32,14 +32,14 @@ SNAP_MOST = 200.0  # force in N that a person pushes with his body at most, at w
 
 @dataclass(frozen=True)
 class PullOff:
-    """Holding forces against needed ones.
+    """Holding and needed forces.
 
     Attributes:
-        force: Force in N that pulls the shoe off downwards.
-        swing: Needed force in N: 5 g on the worn mass.
-        moment: Moment in N m about the heel's edge that the holders take.
-        scuff: Needed moment in N m.
-        snap: Force in N that snaps the stiffest clip on; 0 without clips.
+        force: Force in N to pull off downwards.
+        swing: Needed in N: 5 g on the worn mass.
+        moment: Held in N m about the heel's edge.
+        scuff: Needed in N m.
+        snap: Force in N to snap on the stiffest clip; 0 without clips.
     """
 
     force: float
@@ -50,7 +50,7 @@ class PullOff:
 
 
 def clip_force(length: float, parameters: ShoeParameters) -> float:
-    """Gives the force in N that pulls off one clip with an arm of a free length in mm, by parameters.
+    """Gives pull-off force in N of a clip with an arm of a free length in mm, by parameters.
 
     Example:
         >>> round(clip_force(28.0, ShoeParameters()), 1)
@@ -65,16 +65,16 @@ def pull_off(
     kind: str, places: tuple[tuple[float, float], ...], width: float, heel: float, worn: float, mass: float,
     parameters: ShoeParameters,
 ) -> PullOff:  # fmt: skip
-    """Holding forces of one shoe.
+    """Holding forces of a shoe.
 
     Args:
         kind: "clips", "straps" or "screws".
-        places: x in mm, and of clips the arm's length in mm, of each holder.
-        width: Width of a strap in mm.
-        heel: x of the foot's rear edge in mm.
-        worn: Worn mass in kg.
-        mass: Mass of the robot in kg.
-        parameters: Dimensions as used.
+        places: Each holder's x in mm, and a clip's arm length in mm.
+        width: Strap's in mm.
+        heel: Foot's rear edge x in mm.
+        worn: Mass in kg.
+        mass: Robot's in kg.
+        parameters: As used.
 
     Returns:
         Holding and needed forces.

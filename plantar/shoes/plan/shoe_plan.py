@@ -1,4 +1,4 @@
-"""The sole seen from above: contact face, rim, taxel pockets and the cable's way, in mm, and its layout."""
+"""Sole from above in mm: contact face, rim, pockets, cable, and layout."""
 
 from __future__ import annotations
 
@@ -37,19 +37,19 @@ _PASSABLE = 6.0  # mm of a shared edge: a port in a shorter one is narrow for a 
 
 @dataclass(frozen=True)
 class ShoePlan:
-    """Outlines of one shoe in its sole frame, and its layout. Outlines are shapely polygons in mm.
+    """One shoe's shapely outlines in mm in its sole frame, and its layout.
 
     Attributes:
-        foot: Outline of the foot below the rim's upper edge.
-        contact: Outline of the pad, and of the plate but for heel shelf and lugs.
+        foot: Below the rim's upper edge.
+        contact: Pad, and plate but for heel shelf and lugs.
         cavity: Inside of the rim at its upper edge.
         rim: Outside of the rim.
-        cells: Cells in the order of the layout's taxels.
-        pockets: Cells moved in by half a rib, or bodies with their play; of a sheet its recess.
-        route: Pairs of taxel indices that the cable joins, from the connectors outwards.
-        connectors: Index of the taxel of each patch at which its cable leaves, the heel's first.
-        lines: Row and column (n, 2) of a sheet's cells.
-        crossings: Crossings (n, 2) in mm of these.
+        cells: In the layout's taxel order.
+        pockets: Cells less half a rib, or bodies with play; a sheet's recess.
+        route: Pairs of taxel indices joined by cable, from the connectors outwards.
+        connectors: Taxel index of each patch's cable exit, the heel's first.
+        lines: Row and column (n, 2) of sheet cells.
+        crossings: Of these, (n, 2) in mm.
     """
 
     side: Side
@@ -70,7 +70,7 @@ class ShoePlan:
 
     @cached_property
     def lands(self) -> tuple[Any, ...]:
-        """Parts of the pad that press on films, or on a sheet: shapely polygons."""
+        """Shapely pad parts that press on films or a sheet."""
         if self.cell is None or self.cell.kind == "tile":
             return ()
         if self.cell.kind == "film":
@@ -81,11 +81,10 @@ class ShoePlan:
         return tuple(shapely.geometry.polygon.orient(q) for q in parts if q.geom_type == "Polygon")
 
     def port(self, i: int, j: int) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-        """Where the cable passes from taxel i to taxel j.
+        """Cable passage from taxel i to j.
 
         Returns:
-            Ends (2, 2) of the way through the rib between the two pockets; the unit vector (2,) across it; and its most
-            width in mm.
+            Ends (2, 2) of the way through the rib between the pockets; unit vector (2,) across; most width in mm.
         """
         if self.cell is None:
             edge = self.shared_edge(i, j)
@@ -110,16 +109,16 @@ class ShoePlan:
 
     @property
     def overhang(self) -> float:
-        """Reach of the contact face beyond the foot, in mm."""
+        """Contact face's reach beyond the foot, in mm."""
         return float(max(self.foot.distance(shapely.points(ring(self.contact)))))
 
     @property
     def blind_rim(self) -> float:
-        """Widest place of the contact face beyond the hull of the taxels' centres, in mm."""
+        """Contact face's widest place beyond the hull of taxel centres, in mm."""
         return blind_rim(self.contact, to_mm(self.layout.positions[:, :2]))
 
     def shared_edge(self, i: int, j: int) -> NDArray[np.float64]:
-        """Gives the ends (2, 2) in mm of the longest line that neighbouring cells i and j share, up to rounding."""
+        """Gives ends (2, 2) in mm of the longest line shared by cells i and j, up to rounding."""
         common = self.cells[i].exterior.intersection(self.cells[j].buffer(_TOUCH))
         lines = [shapely.get_coordinates(line) for line in shapely.get_parts(shapely.line_merge(common))]
         ends = [np.stack(pair) for line in lines for pair in pairwise(line)]
@@ -127,8 +126,8 @@ class ShoePlan:
 
     @property
     def fewest_taxels(self) -> tuple[int, str]:
-        """Taxels in the barest of five places, and its name: thirds along the foot, and bands left and right, a third
-        of the width or a taxel wide.
+        """Taxels in the barest of five places, and its name: thirds along the foot, and left and right bands of a third
+        of the width or a taxel.
         """
         x, y = to_mm(self.layout.positions[:, :2]).T
         low_x, low_y, high_x, high_y = self.contact.bounds
@@ -145,11 +144,11 @@ class ShoePlan:
 
 
 def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: str | None = None) -> ShoePlan:
-    """Gives the left plan of a foot and fit by parameters, its face around the foot's rim and the taxels' border, its
-    layout with a name or the foot's.
+    """Gives left plan of a foot and fit by parameters, its face around the foot's rim and taxels' border, layout with a
+    name or the foot's.
 
     Raises:
-        FootError: If the cells leave no pocket between the ribs.
+        FootError: If no pocket is left.
     """
     outline = foot.passing(parameters.rim_height)
     cavity = tidy(grown(outline, parameters.clearance))
@@ -165,8 +164,8 @@ def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: st
 def plan_face(
     outline: Any, contact: Any, cavity: Any, rim: Any, fit: TaxelFit, parameters: ShoeParameters, *, name: str
 ) -> ShoePlan:
-    """Gives the left plan with pockets, layout of a name and cable of a contact face, by the foot's outline, cavity and
-    rim (inside and outside of the wall), fit and parameters.
+    """Gives left plan with pockets, layout of a name and cable of a contact face, by foot outline, cavity and rim
+    (inside and outside of the wall), fit and parameters.
     """
     cells = tuple(shapely.Polygon(c) for c in fit.cells)
     if fit.pockets is not None:
@@ -248,7 +247,7 @@ def _layout(contact: Any, fit: TaxelFit, name: str) -> SoleLayout:
 def _route(
     layout: SoleLayout, neighbours: Sequence[Sequence[int]], heel: tuple[float, float]
 ) -> tuple[tuple[int, ...], tuple[tuple[int, int], ...]]:
-    """The taxel of each patch nearest to the heel, and the tree of fewest hops from it."""
+    """Each patch's taxel nearest the heel, and the tree of fewest hops from it."""
     centres = layout.positions[:, :2]
     start = np.array([to_m(heel[0]), to_m(heel[1])])
     distance = np.hypot(*(centres - start).T)
@@ -304,7 +303,7 @@ def _groups(neighbours: Sequence[Sequence[int]]) -> int:
 
 
 def mirrored_plan(plan: ShoePlan) -> ShoePlan:
-    """The plan of the other foot's shoe: y changes sign, taxel ids stay."""
+    """Plan of the other shoe: y changes sign, taxel ids stay."""
 
     def flip(polygon: Any) -> Any:
         return shapely.geometry.polygon.orient(shapely.Polygon(ring(polygon) * np.array([1.0, -1.0])))
@@ -334,9 +333,7 @@ _LEAST = 2.0  # mm: a narrower rim is left out
 
 
 def pad_rim(plan: ShoePlan, parameters: ShoeParameters) -> Any:
-    """Gives the pad's rim by plan and parameters: the contact face next to the taxels where it is wide enough, a
-    shapely geometry, possibly empty.
-    """
+    """Gives pad rim by plan and parameters: the contact face beside taxels where wide enough, shapely, possibly empty."""
     if parameters.pad_rim_height <= 0.0:
         return shapely.Polygon()
     beside = plan.contact.difference(shapely.union_all(plan.cells).buffer(_PLAY, join_style="mitre"))

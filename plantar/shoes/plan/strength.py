@@ -32,12 +32,12 @@ _MOST_MASS = 150.0  # kg: what a robot is estimated to weigh at most
 
 @dataclass(frozen=True)
 class LoadCase:
-    """The load.
+    """Load.
 
     Attributes:
-        mass: Mass of the robot in kg.
+        mass: Robot's in kg.
         force: Load in N.
-        pressure: On the share of the sole that carries it, in MPa.
+        pressure: On its share of the sole, in MPa.
     """
 
     mass: float
@@ -48,7 +48,7 @@ class LoadCase:
 
 @dataclass(frozen=True)
 class Member:
-    """One member of the part under the load: lengths in mm, stresses in MPa, deflection of its end or middle in mm."""
+    """Loaded member: lengths in mm, stresses in MPa, deflection of its end or middle in mm."""
 
     name: str
     model: str
@@ -77,7 +77,7 @@ def estimated_mass(length: float) -> float:
 
 
 def load_case(foot: Foot, parameters: ShoeParameters) -> LoadCase:
-    """Gives the load on one foot: parameters may state the robot's mass."""
+    """Gives one foot's load: parameters may state the robot's mass."""
     p = parameters
     low, _, high, _ = foot.sole.bounds
     if p.robot_mass > 0.0:
@@ -91,7 +91,7 @@ def load_case(foot: Foot, parameters: ShoeParameters) -> LoadCase:
 
 
 def check_strength(foot: Foot, contact: Any, parameters: ShoeParameters) -> tuple[LoadCase, tuple[Member, ...]]:
-    """Gives the load and the stresses in plate and wall of a foot with a contact face, by parameters."""
+    """Gives load and stresses in plate and wall of a foot with a contact face, by parameters."""
     p, material = parameters, parameters.printed
     load = load_case(foot, p)
     allowed = material.strength / p.safety
@@ -136,8 +136,8 @@ def _unsupported_span(foot: Foot) -> float:
 
 
 def strengthened(foot: Foot, contact: Any, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Gives parameters with floor and wall raised in steps of 0.1 mm until they carry the load of a foot with a contact
-    face, and notes.
+    """Gives parameters with floor and wall raised by 0.1 mm until they carry the load of a foot with a contact face,
+    and notes.
     """
     if parameters.strengthen == "no":
         return parameters, ()

@@ -1,8 +1,7 @@
-"""Measuring quality of a sole: taxels that touch when their seats scatter, and observability of the center of pressure.
-Lengths in mm.
+"""Measuring quality of a sole: touching taxels with scattered seats, CoP observability. In mm.
 
-Print and ground are rigid, each taxel with the pad below it is a spring. A load beyond the hull of the taxels' centres
-is reported at that hull.
+Print and ground are rigid, each taxel with its pad is a spring. Loads beyond the hull of taxel centres are reported at
+it.
 """
 
 from __future__ import annotations
@@ -45,15 +44,15 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Touching:
-    """Taxels that touch flat rigid ground at half the robot's weight, seats scattered.
+    """Taxels touching flat rigid ground at half the robot's weight, seats scattered.
 
     Attributes:
-        scatter: Standard deviation of the seats' heights in mm.
-        stiffness: Of a median taxel with its pad in N/mm.
-        active: Mean share of taxels above their threshold, 0..1.
-        touching: Mean share of loaded ones, 0..1.
-        area: Mean share of the active cells' area, 0..1.
-        cop_error: Error of the active taxels' center of pressure in mm, 95th percentile.
+        scatter: Seat height's standard deviation in mm.
+        stiffness: Median taxel with pad in N/mm.
+        active: Mean taxel share above threshold, 0..1.
+        touching: Mean loaded share, 0..1.
+        area: Mean area share of active cells, 0..1.
+        cop_error: Active taxels' CoP error in mm, 95th percentile.
     """
 
     scatter: float
@@ -64,13 +63,13 @@ class Touching:
     cop_error: float
 
     def holds(self, reserve: float = 0.0) -> bool:
-        """Whether enough of them are active, by a reserve."""
+        """Whether enough are active, by a reserve."""
         good = self.active >= ACTIVE_LEAST + reserve and self.area >= 1.0 - AREA_OFF + reserve
         return good and self.cop_error <= COP_OFF * (1.0 - 10.0 * reserve)
 
 
 def check_touching(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> Touching:
-    """Gives what touches in drawn shoes whose seats scatter, by plan, load and parameters; deterministic."""
+    """Gives what touches in drawn shoes with scattered seats, by plan, load and parameters; deterministic."""
     force, area = 0.5 * load.mass * GRAVITY, np.array([c.area for c in plan.cells])
     points = np.array([c.centroid.coords[0] for c in plan.cells])
     bed = taxel_stiffness(plan, parameters, force / float(area.sum()))
@@ -94,7 +93,7 @@ def check_touching(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -
 
 
 def softened(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Gives parameters with the thinnest, then firmest foam of the pad with which enough taxels of a plan touch under a
+    """Gives parameters with the thinnest, then firmest pad foam with which enough of a plan's taxels touch under a
     load, and a note.
     """
     p = parameters
@@ -122,13 +121,13 @@ ALONG, ACROSS, ERROR = 0.55, 0.45, 0.40
 
 @dataclass(frozen=True)
 class Observability:
-    """How well the taxels observe the center of pressure.
+    """CoP observability by the taxels.
 
     Attributes:
-        along: Longer side of the smallest rectangle around the centres, over the face's length.
-        across: Its shorter side, over the face's width; 0 for taxels in a line.
-        error: Largest error in mm for a load anywhere on the face.
-        width: Width of the face in mm.
+        along: Longer side of the centres' smallest rectangle, over the face's length.
+        across: Shorter side, over the face's width; 0 for a line.
+        error: Largest in mm for a load anywhere on the face.
+        width: Face's in mm.
     """
 
     along: float
@@ -142,7 +141,7 @@ class Observability:
 
 
 def observability(plan: ShoePlan) -> Observability:
-    """How well the taxels of a sole observe the center of pressure."""
+    """How well a sole's taxels observe the CoP."""
     low_x, low_y, high_x, high_y = plan.contact.bounds
     box = shapely.MultiPoint(to_mm(plan.layout.positions[:, :2])).minimum_rotated_rectangle
     corners = shapely.get_coordinates(box)

@@ -1,4 +1,4 @@
-"""The way of the cable: through the ribs from taxel to taxel, to the heel, and the holder of the connection board."""
+"""Cable's way through the ribs to the heel, and the board's holder."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _SQUARE_ENDS = 1.45  # ends of ribs at a right angle stay, sharper ones are cut 
 
 
 def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
-    """Gives the pockets of a plan by parameters, joined where the cable passes: shapely polygons."""
+    """Gives shapely pockets of a plan by parameters, joined where the cable passes."""
     cable = cable_outlines(plan, parameters)
     openings = shapely.union_all([*plan.pockets, *cable])
     ways, wall = shapely.union_all(cable), parameters.wall_min
@@ -52,7 +52,7 @@ def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
 
 
 def _gathered(points: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points (n, 2), those next to a pocket's corner (k, 2) moved there: no edge is too short to be made."""
+    """Points (n, 2), those near a pocket's corner (k, 2) moved there: no unmakeably short edges."""
     from scipy.spatial import cKDTree
 
     gaps, nearest = cKDTree(corners).query(points)
@@ -67,9 +67,7 @@ def _slivers(openings: Any, near: Any, thin: float, least: float) -> list[Any]:
 
 
 def cable_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
-    """Gives the cable's ways of a plan by parameters, shapely polygons: ports, channels between patches, and the
-    channel to the heel.
-    """
+    """Gives shapely cable ways of a plan by parameters: ports, channels between patches and to the heel."""
     if not plan.connectors:
         return []
     parts = []
@@ -90,8 +88,8 @@ def cable_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
 
 
 def channel_lines(plan: ShoePlan, parameters: ShoeParameters) -> list[NDArray[np.float64]]:
-    """Gives points (k, 2) in mm along the middle of each connector's channel, by plan and parameters: to the heel, or
-    to the nearest pocket of an earlier patch.
+    """Gives points (k, 2) in mm along each connector's channel, by plan and parameters: to the heel, or the nearest
+    pocket of an earlier patch.
     """
     if not plan.connectors:
         return []
@@ -109,13 +107,13 @@ def channel_lines(plan: ShoePlan, parameters: ShoeParameters) -> list[NDArray[np
 
 
 def wire_lines(plan: ShoePlan) -> dict[int, NDArray[np.float64]]:
-    """Way (3, 2) in mm of each wire of `plan.route`, by its second cell: from centre through port to centre."""
+    """Way (3, 2) in mm of each wire of `plan.route`, by second cell: centre, port, centre."""
     centres = [np.array(c.centroid.coords[0]) for c in plan.cells]
     return {j: np.stack([centres[i], plan.port(i, j)[0].mean(axis=0), centres[j]]) for i, j in plan.route}
 
 
 def length_of(line: NDArray[np.float64]) -> float:
-    """Length in mm of a line of points (k, 2) in mm.
+    """Length in mm of a line (k, 2) in mm.
 
     Example:
         >>> length_of(np.array([[0.0, 0.0], [3.0, 4.0], [3.0, 5.0]]))
@@ -125,7 +123,7 @@ def length_of(line: NDArray[np.float64]) -> float:
 
 
 def hole_outline(plan: ShoePlan, parameters: ShoeParameters) -> Any:
-    """Gives the cable's hole behind the wall, by plan and parameters: a shapely polygon, empty without a board."""
+    """Gives shapely cable hole behind the wall, by plan and parameters; empty without a board."""
     if not plan.heel.board:
         return shapely.Polygon()
 
@@ -146,9 +144,7 @@ def _patch_of(plan: ShoePlan, connector: int) -> list[int]:
 
 
 def wiring_steps(plan: ShoePlan, parameters: ShoeParameters) -> tuple[list[Block], list[Step]]:
-    """Gives the blocks of the board's holder behind the heel, and the steps that cut slot and hole, by plan and
-    parameters.
-    """
+    """Gives blocks of the board's holder behind the heel, and steps that cut slot and hole, by plan and parameters."""
     p, heel = parameters, plan.heel
     if not heel.board:
         return [], []

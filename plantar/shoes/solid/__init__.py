@@ -1,1 +1,1 @@
-"""The solids, built with OpenCascade: body, arcs, STEP, pad, retention, lettering."""
+"""Solids by OpenCascade: body, arcs, STEP, pad, retention, lettering."""

@@ -1,4 +1,4 @@
-"""Runs of narrow facets replaced by arcs: walls of many corners become cylinders and cones. Lengths in mm."""
+"""Runs of narrow facets replaced by cylinders and cones. In mm."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Arc:
-    """A level arc between two corners: centre (2,), radius, and its point (3,) halfway."""
+    """Level arc between two corners: centre (2,), radius, midpoint (3,)."""
 
     centre: tuple[float, float]
     radius: float
@@ -36,12 +36,12 @@ class Arc:
 
 @dataclass(frozen=True)
 class CurvedSolid:
-    """A solid with arcs.
+    """Solid with arcs.
 
     Attributes:
-        body: Corners and loops; a curved face has four corners.
-        arcs: Arcs by their two corners, the smaller number first.
-        curved: Numbers of the curved faces.
+        body: Corners and loops; curved faces have four corners.
+        arcs: By their two corners, smaller number first.
+        curved: Curved face numbers.
     """
 
     body: Polyhedron
@@ -50,7 +50,7 @@ class CurvedSolid:
 
 
 def with_arcs(body: Polyhedron) -> CurvedSolid:
-    """Replace strips of facets by curved faces wherever their corners lie on arcs."""
+    """Replace facet strips by curved faces where corners lie on arcs."""
     removed: set[int] = set()
     dropped: set[int] = set()
     added: list[Loops] = []
@@ -94,7 +94,7 @@ def _face_of(body: Polyhedron, a: int, b: int, above: int) -> int:
 
 
 def _chains(body: Polyhedron) -> Iterator[list[list[int]]]:
-    """Corners of strips, by level from below and along the strip; those between the ends may vanish."""
+    """Strip corners, by level from below and along the strip; inner ones may vanish."""
     near: dict[int, list[int]] = defaultdict(list)
     for a, b in body.neighbours:
         near[a].append(b)
@@ -131,7 +131,7 @@ def _chains(body: Polyhedron) -> Iterator[list[list[int]]]:
 
 
 def _column(body: Polyhedron, near: dict[int, list[int]], start: int) -> tuple[int, ...] | None:
-    """Corners above each other about which outlines bend gently, from below; None where one has to stay."""
+    """Stacked corners about which outlines bend gently, from below; None if one must stay."""
     corners, found = body.corners, [start]
     for v in found:
         level = [u for u in near[v] if abs(corners[u, 2] - corners[v, 2]) < _LEVEL]
@@ -150,7 +150,7 @@ def _column(body: Polyhedron, near: dict[int, list[int]], start: int) -> tuple[i
 def _sides(
     body: Polyhedron, near: dict[int, list[int]], column: tuple[int, ...]
 ) -> tuple[tuple[int, ...], tuple[int, ...]] | None:
-    """The corners next to a column on its two sides; None where a face between is no facet."""
+    """Corners beside a column on its two sides; None where a face between is no facet."""
     sides: tuple[list[int], list[int]] = ([], [])
     for low, high in itertools.pairwise(column):
         pairs = []
@@ -175,7 +175,7 @@ def _sides(
 
 
 def _arcs(corners: Array, chain: list[list[int]]) -> Iterator[tuple[int, int, list[Arc]]]:
-    """Longest parts of a chain whose corners lie on arcs at every level: first and last place, and the arcs."""
+    """Longest chain parts with corners on arcs at every level: first and last place, and arcs."""
     points = [corners[level] for level in chain]
     start, count = 0, len(chain[0])
     while start + _FEWEST < count:
@@ -195,7 +195,7 @@ def _arcs(corners: Array, chain: list[list[int]]) -> Iterator[tuple[int, int, li
 
 
 def _arc(points: Array) -> Arc | None:
-    """The best arc through the ends of a line of corners (k, 3); None if those between are not near."""
+    """Best arc through the ends of corners (k, 3); None if those between are not near."""
     a, b, flat = points[0, :2], points[-1, :2], points[1:-1, :2]
     chord = b - a
     length = float(np.hypot(*chord))

@@ -1,4 +1,4 @@
-"""The printed body as steps of adding and cutting blocks: plate, wall, pockets, holders, cable and mark."""
+"""Printed body as added and cut blocks."""
 
 from __future__ import annotations
 
@@ -29,9 +29,7 @@ _MARK_OFF = 4.0  # mm from walls and from what rises below an arch
 
 
 def shoe_steps(foot: Foot, plan: ShoePlan, retention: Retention, parameters: ShoeParameters) -> tuple[Step, ...]:
-    """Gives the steps of the left shoe's body of a foot, plan, retention and parameters, without its mark; the first
-    adds.
-    """
+    """Gives body steps of the left shoe by foot, plan, retention and parameters, without mark; the first adds."""
     p = parameters
     holding, after = retention_steps(foot, plan, retention, p)
     holder, holes = wiring_steps(plan, p)
@@ -54,7 +52,7 @@ def shoe_steps(foot: Foot, plan: ShoePlan, retention: Retention, parameters: Sho
 
 
 def insole_steps(plan: ShoePlan, parameters: ShoeParameters) -> tuple[Step, ...]:
-    """Gives the steps of the left insole's body of a plan and parameters, without its mark; the first adds."""
+    """Gives body steps of the left insole by plan and parameters, without mark; the first adds."""
     plate = Block(plan.contact, parameters.bottom, parameters.thickness)
     return (Step("add", "plate", (plate,)), *_cell_steps(plan, parameters))
 
@@ -69,7 +67,7 @@ def _cell_steps(plan: ShoePlan, p: ShoeParameters) -> tuple[Step, Step]:
 
 def cavity_levels(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> list[tuple[float, float, Any]]:
     """Gives lower and upper heights above the foot's face and outlines of the foot's place in a plan, from below, by
-    parameters: the foot's outline up to each level, grown by the clearance.
+    parameters: the foot's outline to each level, grown by the clearance.
     """
     p = parameters
     outlines = [plan.cavity]
@@ -91,7 +89,7 @@ def cavity_levels(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> lis
 
 
 def _within(above: Any, outline: Any) -> Any:
-    """An outline within the one above it, and identical wherever they are about the same."""
+    """Outline within the one above, identical wherever nearly so."""
     lower = above.difference(apart(above, outline).difference(outline))
     return max(getattr(lower, "geoms", [lower]), key=lambda g: float(g.area))
 
@@ -103,7 +101,7 @@ def _wall(plan: ShoePlan, p: ShoeParameters) -> list[Block]:
 
 
 def _fillet(plan: ShoePlan, p: ShoeParameters) -> list[Block]:
-    """Three facets of a quarter circle; smaller where a bend of the wall has no room for it."""
+    """Three facets of a quarter circle; smaller where the wall bends tightly."""
     angles = np.radians([0.0, 30.0, 60.0, 90.0])
     for radius in min(p.fillet, 0.5 * p.rim_height) * np.array([1.0, 0.5, 0.25]):
         out, up = radius * (1.0 - np.sin(angles)), p.thickness + radius * (1.0 - np.cos(angles))
@@ -123,14 +121,14 @@ def _scribe(cell: Any, p: ShoeParameters) -> Block | Groove:
 
 
 def bare_floor(steps: tuple[Step, ...]) -> Any | None:
-    """The floor not covered by what rises below the arch, a shapely polygon; None if all is bare."""
+    """Shapely floor without what rises below the arch; None if all is bare."""
     place = (b for s in steps if s.name == _PLACE for b in s.blocks)  # from below: the first stands on the floor
     return next((b.low for b in place if isinstance(b, Block)), None)
 
 
 def mark_outline(plan: ShoePlan, parameters: ShoeParameters, side: Side, floor: Any | None = None) -> Any:
-    """Gives letters of the mark, L or R and the name, on a plan of a side, by parameters, within its bare floor or
-    everywhere: a shapely multipolygon read with the toes to the right.
+    """Gives letters of the mark, L or R and name, on a plan of a side, by parameters, within its bare floor or
+    everywhere: shapely, read with toes to the right.
     """
     from shapely.ops import polylabel
 

@@ -1,4 +1,4 @@
-"""Blocks added and cut by OpenCascade: the only file that runs its booleans. Lengths in mm."""
+"""Blocks added and cut: the only file running OpenCascade booleans. In mm."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ __all__ = ["build_solid", "load_kernel", "parts_of", "points_of"]
 
 @cache
 def load_kernel() -> Any:
-    """OpenCascade's module with all of its packages; loading it takes a second.
+    """OpenCascade's module with all packages; loading takes a second.
 
     Raises:
-        DependencyError: If it is not installed or cannot be loaded.
+        DependencyError: If missing or unloadable.
     """
     with optional_library("OCP", "shoes"):
         import OCP
@@ -36,7 +36,7 @@ def load_kernel() -> Any:
 
 
 class _Kernel:
-    """OpenCascade's packages, loaded at their first use."""
+    """OpenCascade's packages, loaded at first use."""
 
     def __getattr__(self, package: str) -> Any:
         return getattr(load_kernel(), package)
@@ -51,10 +51,10 @@ Points = Sequence[Any] | NDArray[np.float64]
 
 
 def build_solid(steps: Sequence[Step]) -> Polyhedron:
-    """The solid of one shoe in the sole frame: blocks added and cut in order; the first step adds.
+    """One shoe's solid in the sole frame: blocks added and cut in order; the first step adds.
 
     Raises:
-        FootError: If the blocks do not give one solid.
+        FootError: If not one solid.
     """
     load_kernel()
     try:
@@ -92,7 +92,7 @@ def _assembled(steps: Sequence[Step]) -> Any:
 
 
 def _combined(operation: Any, arguments: Iterable[Any], tools: Sequence[Any]) -> Any:
-    """The result of a boolean of the kernel; without its history and copies, which take a fifth of the time."""
+    """Kernel boolean without history and copies, which take a fifth of the time."""
     if not tools:
         return next(iter(arguments))
     lists = ocp.TopTools.TopTools_ListOfShape(), ocp.TopTools.TopTools_ListOfShape()
@@ -161,14 +161,14 @@ def _solid(faces: list[Any]) -> Any:
 
 
 def parts_of(shape: Any, kind: Any) -> list[Any]:
-    """Gives the different parts of a kind (a `TopAbs` type) of a shape of the kernel."""
+    """Gives different parts of a kind (a `TopAbs` type) of a kernel shape."""
     found = ocp.TopTools.TopTools_IndexedMapOfShape()
     ocp.TopExp.TopExp.MapShapes_s(shape, kind, found)
     return [found.FindKey(i + 1) for i in range(found.Size())]
 
 
 def points_of(shape: Any) -> NDArray[np.float64]:
-    """Corners (n, 3) in mm of a shape of the kernel."""
+    """Kernel shape's corners (n, 3) in mm."""
     corners = parts_of(shape, ocp.TopAbs.TopAbs_VERTEX)
     return np.array([ocp.BRep.BRep_Tool.Pnt_s(ocp.TopoDS.TopoDS.Vertex_s(v)).Coord() for v in corners])
 

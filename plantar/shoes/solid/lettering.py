@@ -1,4 +1,4 @@
-"""Letters of a stroke font as outlines, for marks that print the same on every machine. Lengths in mm."""
+"""Stroke font letters as outlines, equal on every machine. In mm."""
 
 from __future__ import annotations
 
@@ -58,8 +58,7 @@ _LAND = 1.3  # mm: what is narrower between two strokes is filled
 
 
 def lettering(text: str, height: float) -> Any:
-    """Gives a line of text as outlines of a height in mm, a shapely multipolygon with its lower left corner at the
-    origin.
+    """Gives line of text as shapely outlines of a height in mm, lower left corner at the origin.
 
     Example:
         >>> outline = lettering("L", 6.0)

@@ -1,4 +1,4 @@
-"""The replaceable silicone pad: a sheet under the taxels, its rim around them ends below the print. Lengths in mm."""
+"""Replaceable silicone pad: a sheet under the taxels, with a rim. In mm."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ Array = NDArray[np.float64]
 
 
 def pad_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
-    """Gives the closed surface (n, 3, 3) of the pad of a plan and parameters, outward counter-clockwise, its lower face
-    at z = 0.
+    """Gives closed surface (n, 3, 3) of the pad of a plan and parameters, outward counter-clockwise, lower face at z =
+    0.
     """
     faces, tops = _faces(plan, parameters)
     return _height_field(faces, tops)
 
 
 def mould_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
-    """Gives the closed surface (n, 3, 3) of an open mould for the pad of a plan and parameters, on z = 0, turned about
-    x against the pad.
+    """Gives closed surface (n, 3, 3) of an open pad mould of a plan and parameters, on z = 0, turned about x against
+    the pad.
     """
     faces, tops = _faces(plan, parameters, _MOULD_WALL)
     height = max(tops) + _MOULD_FLOOR
@@ -57,13 +57,13 @@ def _faces(plan: ShoePlan, p: ShoeParameters, around: float = 0.0) -> tuple[list
 
 
 def land_top(plan: ShoePlan, parameters: ShoeParameters) -> float:
-    """Gives the height in mm above the sole frame of the lands under films or a sheet, by plan and parameters."""
+    """Gives height in mm above the sole frame of lands under films or a sheet, by plan and parameters."""
     assert plan.cell is not None
     return parameters.ceiling - plan.cell.thickness
 
 
 def _height_field(faces: Sequence[Any], tops: Sequence[float]) -> Array:
-    """Closed surface over z = 0 of polygons that share their corners, each up to its own height."""
+    """Closed surface over z = 0 of polygons sharing corners, each to its own height."""
     parts = []
     owners: dict[tuple[tuple[float, float], tuple[float, float]], float] = {}
     for face, top in zip(faces, tops, strict=True):
@@ -83,8 +83,8 @@ def _height_field(faces: Sequence[Any], tops: Sequence[float]) -> Array:
 
 
 def taxel_blocks(plan: ShoePlan, parameters: ShoeParameters) -> list[list[Block]]:
-    """Gives the blocks of each taxel of a plan, by parameters: head below the print and base in the pocket, or the body
-    of a film or sheet.
+    """Gives blocks of each taxel of a plan, by parameters: head below the print and base in the pocket, or a film's or
+    sheet's body.
     """
     p = parameters
     bodies = [[Block(q, land_top(plan, p) if plan.lands else p.bottom, p.ceiling)] for q in plan.pockets]
@@ -94,7 +94,7 @@ def taxel_blocks(plan: ShoePlan, parameters: ShoeParameters) -> list[list[Block]
 
 
 def taxel_surfaces(plan: ShoePlan, parameters: ShoeParameters) -> list[Array]:
-    """Gives the surfaces (n, 3, 3) of each taxel, by plan and parameters; without a pad with its lands."""
+    """Gives surfaces (n, 3, 3) of each taxel, by plan and parameters; without a pad with lands."""
     blocks = taxel_blocks(plan, parameters)
     if plan.lands and parameters.pad_thickness <= 0.0:
         lands = [Block(q, 0.0, land_top(plan, parameters)) for q in plan.lands]
@@ -104,7 +104,7 @@ def taxel_surfaces(plan: ShoePlan, parameters: ShoeParameters) -> list[Array]:
 
 
 def prism_surface(polygon: Any, low: float, high: float) -> Array:
-    """Gives the closed surface (n, 3, 3) of a shapely polygon without holes between low and high in mm."""
+    """Gives closed surface (n, 3, 3) of a shapely polygon without holes between low and high in mm."""
     flat = _triangles(polygon)
     a = ring(polygon)
     b = np.roll(a, -1, axis=0)

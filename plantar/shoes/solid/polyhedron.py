@@ -1,4 +1,4 @@
-"""A solid of flat faces: corners, and the loops of each face; its triangles. Lengths in mm."""
+"""Solid of flat faces: corners, face loops and triangles. In mm."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ Loops = tuple[tuple[int, ...], ...]
 
 @dataclass(frozen=True)
 class Polyhedron:
-    """A closed solid of flat faces that share their edges: corners (n, 3) in mm, and loops of each face."""
+    """Closed solid of flat faces sharing edges: corners (n, 3) in mm, and face loops."""
 
     corners: Array
     faces: tuple[Loops, ...]
 
     @cached_property
     def surface(self) -> Array:
-        """Triangles (k, 3, 3) in mm, outward counter-clockwise, with the solid's corners alone."""
+        """Triangles (k, 3, 3) in mm, outward counter-clockwise, on the solid's corners alone."""
         quads = [f[0] for f in self.faces if len(f) == 1 and len(f[0]) == 4]
         others = [f for f in self.faces if len(f) > 1 or len(f[0]) != 4]
         numbers = [np.array(_of_quads(self.corners, np.array(quads, dtype=np.int64).reshape(-1, 4)))]
@@ -63,13 +63,13 @@ class Polyhedron:
 
 
 def volume_of(surface: Array) -> float:
-    """Volume in mm^3 that a closed surface (n, 3, 3) in mm encloses."""
+    """Volume in mm^3 enclosed by a closed surface (n, 3, 3) in mm."""
     a, b, c = np.moveaxis(surface, 1, 0)
     return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
 
 
 def _of_quads(corners: Array, quads: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Two triangles of each quadrangle, cut at the diagonal on whose both sides it turns left."""
+    """Two triangles of each quadrangle, cut at the diagonal with left turns on both sides."""
     at = corners[quads]
     whole = np.cross(at[:, 2] - at[:, 0], at[:, 3] - at[:, 1])
     first = np.einsum("ij,ij->i", np.cross(at[:, 1] - at[:, 0], at[:, 2] - at[:, 0]), whole)
@@ -95,7 +95,7 @@ def _triangles(corners: Array, face: Loops) -> NDArray[np.int64]:
 
 
 def _flattened(corners: Array, face: Sequence[Sequence[int]]) -> tuple[list[Array], bool]:
-    """A face's loops in the two axes in which it is largest, and whether it turns left there."""
+    """Face loops in their two largest axes, and whether they turn left."""
     at = corners[list(face[0])]
     normal = np.cross(at - at[0], np.roll(at, -1, axis=0) - at[0]).sum(axis=0)
     axis = int(np.abs(normal).argmax())
@@ -104,14 +104,14 @@ def _flattened(corners: Array, face: Sequence[Sequence[int]]) -> tuple[list[Arra
 
 
 def without_short_edges(body: Polyhedron, least: float) -> Polyhedron:
-    """Contract edges shorter than a length; faces bent by it are cut into triangles.
+    """Contract edges below a length; bent faces are cut into triangles.
 
     Args:
-        body: The solid.
-        least: Shortest edge in mm that stays; no corner moves farther.
+        body: Solid.
+        least: Shortest kept edge in mm; no corner moves farther.
 
     Returns:
-        The solid; an edge stays where the solid would touch itself without it.
+        Solid; edges stay whose loss would make it touch itself.
     """
     faces = [[list(loop) for loop in face] for face in body.faces]
     normals = body.normals
@@ -190,7 +190,7 @@ def _contracted(face: list[list[int]], lost: int, kept: int) -> list[list[int]]:
 
 
 def _closed(faces: list[list[list[int]]], changed: dict[int, list[list[int]]], near: set[int]) -> bool:
-    """Whether no directed edge occurs twice, and no loop meets itself."""
+    """Whether no directed edge repeats, and no loop meets itself."""
     edges = set()
     for i in near:
         for loop in changed.get(i, faces[i]):

@@ -1,4 +1,4 @@
-"""What holds the shoe on the foot without a change to the robot: clips, lugs for straps, or clamping screws."""
+"""What holds the shoe on an unchanged robot: clips, strap lugs, or screws."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _PLAY = 0.2  # mm between a clip's hook and the foot's edge
 
 @dataclass(frozen=True)
 class _Place:
-    """A place on the left (+1) or right (-1) wall: its middle x, and for a clip the height of the foot's edge there."""
+    """Place on the left (+1) or right (-1) wall: middle x, and for a clip the foot edge's height."""
 
     x: float
     side: int
@@ -48,10 +48,10 @@ class Retention:
     """How the shoe is held.
 
     Attributes:
-        places: Places on the left shoe.
-        width: Strap's or clip's width, or screw's diameter in mm.
-        strain: Strain of a clip's arm while it snaps over the edge; 0 without clips.
-        note: The choice and its reason.
+        places: On the left shoe.
+        width: Of strap or clip, or screw's diameter in mm.
+        strain: Of a clip's arm snapping on; 0 without clips.
+        note: Choice and reason.
     """
 
     kind: Literal["clips", "straps", "screws", "none"]
@@ -65,7 +65,7 @@ class Retention:
         return len(self.places) // 2 if self.kind == "straps" else 0
 
     def top(self, parameters: ShoeParameters) -> float:
-        """Height of the highest part above the face that the foot stands on, in mm."""
+        """Highest part above the foot's face, in mm."""
         p = parameters
         if self.kind == "straps":
             return p.rim_height + p.strap_thickness + _SLOT_PLAY + _BAR + 1.0
@@ -74,17 +74,16 @@ class Retention:
         return p.rim_height
 
     def pull_off(self, foot: Foot, worn: float, mass: float, parameters: ShoeParameters) -> PullOff:
-        """Gives the holding forces of a shoe of worn mass in kg on a foot of a robot of a mass in kg, by parameters."""
+        """Gives holding forces of a shoe of worn mass in kg on a foot of a robot of a mass in kg, by parameters."""
         arms = tuple((q.x, q.edge + 0.5 * _hook_height(parameters)) for q in self.places)
         return pull_off(self.kind, arms, self.width, foot.sole.bounds[0], worn, mass, parameters)
 
 
 def choose_retention(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> Retention:
-    """Gives clips where a foot has edges for them, lugs for straps otherwise, or the kind in the parameters; plan is
-    the left sole.
+    """Gives clips where a foot has edges, else strap lugs, or the kind in the parameters; plan is the left sole.
 
     Raises:
-        FootError: If clips are requested and the foot has no edge for them.
+        FootError: If clips lack an edge.
     """
     p = parameters
     length = plan.foot.bounds[2] - plan.foot.bounds[0]
@@ -126,7 +125,7 @@ def _screw_places(plan: ShoePlan, p: ShoeParameters) -> tuple[_Place, ...]:
 
 
 def _strap_places(foot: Foot, plan: ShoePlan, width: float, p: ShoeParameters) -> tuple[_Place, ...]:
-    """Lugs at the usual places, or as far apart as other links leave room."""
+    """Lugs at usual places, or as far apart as other links allow."""
     low, _, high, _ = plan.foot.bounds
     length, middle = high - low, 0.5 * (low + high)
     two = length >= 6.0 * p.strap_width + 4.0 * _LUG_END
@@ -146,8 +145,8 @@ def _strap_places(foot: Foot, plan: ShoePlan, width: float, p: ShoeParameters) -
 
 
 def strap_meets(others: KeepOut, outline: Any, x: float, width: float, parameters: ShoeParameters) -> int:
-    """Gives the number of points of the robot's others links in the way of a strap at x of a width in mm and its lugs,
-    by the foot's outline and parameters.
+    """Gives number of points of others (robot links) in the way of a strap at x of a width in mm and its lugs, by foot
+    outline and parameters.
     """
     p, y = parameters, outline.centroid.y
     half, top = 0.5 * (width + _SLOT_PLAY) + _LUG_END, p.rim_height + p.strap_thickness + _SLOT_PLAY + _BAR + 1.0
@@ -159,7 +158,7 @@ def strap_meets(others: KeepOut, outline: Any, x: float, width: float, parameter
 
 
 def slot_lines(outline: Any, x: float, width: float, parameters: ShoeParameters) -> tuple[float, float]:
-    """Gives the outer y of the right and left lug; outline, x, width, parameters as in `strap_meets`."""
+    """Gives outer y of right and left lug; outline, x, width, parameters as in `strap_meets`."""
     p, half = parameters, 0.5 * (width + _SLOT_PLAY) + _LUG_END
     out = p.clearance + p.strap_thickness + p.rim_thickness
     right, left = (_wall_line(outline, x, side, half, outline.centroid.y)[0] for side in (-1, 1))
@@ -221,7 +220,7 @@ def _window(x: float, side: int, half: float, y: float) -> Any:
 
 
 def _wall_line(outline: Any, x: float, side: int, half: float, y: float) -> tuple[float, float]:
-    """Outermost y of an outline within a window, and how much less it is at its ends."""
+    """Outermost y of an outline within a window, and how much less at its ends."""
     strip = outline.intersection(_window(x, side, half, y))
     if strip.is_empty:
         return y, math.inf
@@ -233,7 +232,7 @@ def _wall_line(outline: Any, x: float, side: int, half: float, y: float) -> tupl
 
 
 def _edge_height(samples: Any, outline: Any, p: ShoeParameters, x: float, side: int) -> float | None:
-    """Height of the foot's upper edge at a place of its outline; None where the outline is not straight there."""
+    """Foot's upper edge height at a place of its outline; None if not straight."""
     half = 0.5 * p.clip_width
     farthest, bend = _wall_line(outline, x, side, half, outline.centroid.y)
     if bend > 1.0:
@@ -251,8 +250,8 @@ def _hook_height(p: ShoeParameters) -> float:
 def retention_steps(
     foot: Foot, plan: ShoePlan, retention: Retention, parameters: ShoeParameters
 ) -> tuple[list[Block], list[Step]]:
-    """Gives the holders' blocks of the left shoe's body, and the steps after the foot's place is cut, by foot, plan,
-    retention and parameters.
+    """Gives holders' blocks of the left shoe's body, and steps after the foot's place is cut, by foot, plan, retention
+    and parameters.
     """
     if retention.kind == "straps":
         return _lugs(foot, plan, retention, parameters)
@@ -354,7 +353,7 @@ def _bosses(plan: ShoePlan, retention: Retention, p: ShoeParameters) -> tuple[li
 
 
 def _hole(place: _Place, middle: float, radius: float, height: float) -> list[Block]:
-    """Eight-sided, so that its roof supports itself."""
+    """Eight-sided, so that the roof supports itself."""
     y = sorted((middle, middle + place.side * 1000.0))
     narrow = radius * math.tan(math.pi / 8.0)
 

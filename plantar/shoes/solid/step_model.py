@@ -1,4 +1,4 @@
-"""Solids as STEP files with named products, and what is read back from one. Lengths in mm."""
+"""Solids as STEP files with named products, and reading them back. In mm."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class StepPart:
-    """A part of an assembly.
+    """Part of an assembly.
 
     Attributes:
         name: Of the product.
-        places: Shifts (3,) in mm by the name of each instance.
+        places: Shifts (3,) in mm by instance name.
     """
 
     name: str
@@ -43,21 +43,21 @@ class StepPart:
 
     @cached_property
     def shape(self) -> Any:
-        """The kernel's solid, with arcs."""
+        """Kernel solid, with arcs."""
         return _solid(with_arcs(self.body))
 
 
 @dataclass(frozen=True)
 class StepSolid:
-    """The solid of a STEP file.
+    """Solid of a STEP file.
 
     Attributes:
-        valid: Whether the kernel finds no fault.
+        valid: Without faults, by the kernel.
         volume: In mm^3.
         corners: Points (n, 3).
-        circles: Centre and radius (m, 4) of each arc.
-        shortest: Length of the shortest edge.
-        flat: Area in mm^2 of flat facets of bent walls, within `BULGE` of an arc.
+        circles: Arc centre and radius (m, 4).
+        shortest: Shortest edge.
+        flat: Area in mm^2 of bent walls' flat facets, within `BULGE` of an arc.
         round: Area of cylinders and cones.
     """
 
@@ -72,8 +72,8 @@ class StepSolid:
 
 
 def write_step(parts: Sequence[StepPart], path: str | os.PathLike[str], name: str) -> None:
-    """Write parts, one or an assembly of a name, as STEP (mm) to a path; the date is SOURCE_DATE_EPOCH or the release's
-    year, so that the same parts give the same file.
+    """Write parts, one or an assembly of a name, as STEP (mm) to a path; dated SOURCE_DATE_EPOCH or the release's year,
+    for reproducible files.
     """
     plain = _plain(name)
     document = ocp.TDocStd.TDocStd_Document(ocp.TCollection.TCollection_ExtendedString("XmlOcaf"))
@@ -109,7 +109,7 @@ def _plain(name: str) -> str:
 
 
 def release_date() -> str:
-    """Date and time in written files, the same for the same release."""
+    """Date and time in written files, fixed for a release."""
     seconds = os.environ.get("SOURCE_DATE_EPOCH", "")
     when = datetime.fromtimestamp(int(seconds), UTC) if seconds.isdigit() else datetime(2026, 1, 1, tzinfo=UTC)
     return when.strftime("%Y-%m-%dT%H:%M:%S")
