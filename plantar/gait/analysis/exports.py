@@ -96,7 +96,7 @@ def write_external_loads(analysis: Analysis, path: Path, motion: str) -> None:
 
     Args:
         path: File, for `analysis`.
-        motion: Name of the motion file beside it.
+        motion: Name of the motion file next to it.
     """
     root = ElementTree.Element("OpenSimDocument", Version="40000")
     loads = ElementTree.SubElement(root, "ExternalLoads", name="externalloads")

@@ -169,7 +169,7 @@ class Cell:
         return share * along * across
 
     def as_dict(self) -> dict[str, float | str]:
-        """Set values by its shape's keys, as in TOML."""
+        """Values that are set, by its shape's keys, as in TOML."""
         every = {f.name: f.default for f in fields(self) if f.name in KEYS[self.shape]}
         return {k: getattr(self, k) for k, d in every.items() if d not in (0.0, "") or getattr(self, k) != d}
 

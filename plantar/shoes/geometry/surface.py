@@ -50,7 +50,7 @@ def thinned(points: Array, spacing: float) -> Array:
 
 
 def is_closed(triangles: Array) -> bool:
-    """Whether every edge of triangles (n, 3, 3) in mm has exactly two."""
+    """Whether every edge of triangles (n, 3, 3) in mm is in exactly two."""
     corners = corner_numbers(triangles)
     start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
     long = start != end

@@ -60,7 +60,7 @@ class Sheet:
         self.line([low, (high[0], low[1]), high, (low[0], high[1]), low], kind)
 
     def text(self, at: Point, text: str, height: float = 2.5, *, turn: float = 0.0, align: str = "left") -> None:
-        """Writes text of a height in mm, turn in degrees; align left, right or center at a place."""
+        """Write text of a height in mm, turn in degrees; align left, right or center at a place."""
         self.texts.append((at, text, height, turn, align))
 
     def arrow(self, tip: Point, way: Point) -> None:

@@ -1,6 +1,6 @@
 """Plan of an insole: a flat sheet with cells in a person's shoe. In mm.
 
-Foot and shoe are soft: pressure beside cells is not measured, so cells reach the edge.
+Foot and shoe are soft: pressure next to cells is not measured, so cells reach the edge.
 """
 
 from __future__ import annotations

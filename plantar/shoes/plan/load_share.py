@@ -1,6 +1,6 @@
 """Load share on taxels: rigid print and ground, springs between.
 
-Under a taxel the pad's sheet and the taxel are in series; beside taxels the pad carries once the relief below the print
+Under a taxel the pad's sheet and the taxel are in series; next to taxels the pad carries once the relief below the print
 closes. Each is a bonded rubber layer with the apparent modulus
 
     E_c = E (1 + 2 k S^2)                                                        (Gent and Lindley 1959, eq. 11)
@@ -63,7 +63,7 @@ class LoadShare:
         flat: On flat ground, 0..1.
         half: On the worst half foothold of four: heel, toes, left, right; 0..1.
         compression: Print's travel on flat ground in mm.
-        rim_stiffness: Stiffness per area beside the taxels over a taxel's, on flat ground.
+        rim_stiffness: Stiffness per area next to the taxels over a taxel's, on flat ground.
     """
 
     flat: float

@@ -150,7 +150,7 @@ def _column(body: Polyhedron, near: dict[int, list[int]], start: int) -> tuple[i
 def _sides(
     body: Polyhedron, near: dict[int, list[int]], column: tuple[int, ...]
 ) -> tuple[tuple[int, ...], tuple[int, ...]] | None:
-    """Corners beside a column on its two sides; None where a face between is no facet."""
+    """Corners next to a column on its two sides; None where a face between is no facet."""
     sides: tuple[list[int], list[int]] = ([], [])
     for low, high in itertools.pairwise(column):
         pairs = []

@@ -261,7 +261,7 @@ def _longer_side(points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _line_of_walking(along: NDArray[np.float64], offset: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Straight line between the feet, halfway between the outermost footprints beside its slope."""
+    """Straight line between the feet, halfway between the outermost footprints on either side of its slope."""
     slope = np.polyfit(along, offset, 1)[0] if len(along) >= 4 and np.ptp(along) > 1.0 else 0.0
     level = offset - slope * along
     return np.asarray(slope * along + 0.5 * (level.min() + level.max()))
