@@ -253,7 +253,7 @@ def descriptor(schema: str) -> bytes:
 
 
 def frame_transform(frame: str, translation: Numbers, rotation: Numbers, parent: str = "world") -> Part:
-    """Returns `transforms` field of foxglove.FrameTransforms: `translation` and `rotation` of `frame` in its `parent`."""
+    """Returns foxglove.FrameTransforms `transforms`: `translation` and `rotation` of `frame` in its `parent`."""
     return nested(1, timestamp(1), text(2, parent), text(3, frame), numbers(4, translation), numbers(5, rotation))
 
 

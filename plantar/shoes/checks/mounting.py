@@ -62,7 +62,7 @@ class Mounting:
 def check_mounting(
     foot: Foot, side: Side, surface: Array, retention: Retention, parameters: ShoeParameters
 ) -> Mounting:
-    """Gives gaps of the left foot in an exported shoe's surface (n, 3, 3) in mm of a side, by retention and parameters."""
+    """Gives left foot's gaps in an exported surface (n, 3, 3) in mm of a side, by retention and parameters."""
     p = parameters
     flip = np.array([1.0, 1.0, 1.0]) if side == "left" else np.array([1.0, -1.0, 1.0])
     shoe = surface * flip  # the left foot is put into either

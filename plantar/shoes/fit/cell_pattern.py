@@ -106,7 +106,7 @@ class RowLattice:
         return self._placed(self._flat(axial)[:, None, :] + shape)
 
     def cells_near(self, lower: Any, upper: Any) -> NDArray[np.int64]:
-        """Gives cells (n, 2), by row, with centres within about a cell of a box with corners lower (2,) and upper (2,)."""
+        """Gives cells (n, 2), by row, centred within about a cell of a box with corners lower (2,) and upper (2,)."""
         p = self.pattern
         box = np.array([[lower[0], lower[1]], [upper[0], lower[1]], [upper[0], upper[1]], [lower[0], upper[1]]])
         box = box - np.array(self.origin)

@@ -1,7 +1,7 @@
 """Load share on taxels: rigid print and ground, springs between.
 
-Under a taxel the pad's sheet and the taxel are in series; next to taxels the pad carries once the relief below the print
-closes. Each is a bonded rubber layer with the apparent modulus
+Under a taxel the pad's sheet and the taxel are in series; next to taxels the pad carries once the relief below the
+print closes. Each is a bonded rubber layer with the apparent modulus
 
     E_c = E (1 + 2 k S^2)                                                        (Gent and Lindley 1959, eq. 11)
 

@@ -333,7 +333,7 @@ _LEAST = 2.0  # mm: a narrower rim is left out
 
 
 def pad_rim(plan: ShoePlan, parameters: ShoeParameters) -> Any:
-    """Gives pad rim by plan and parameters: the contact face next to taxels where wide enough, shapely, possibly empty."""
+    """Gives pad rim by plan and parameters: the contact face next to taxels, shapely, possibly empty."""
     if parameters.pad_rim_height <= 0.0:
         return shapely.Polygon()
     beside = plan.contact.difference(shapely.union_all(plan.cells).buffer(_PLAY, join_style="mitre"))

@@ -185,7 +185,7 @@ def _loading(time: NDArray[np.float64], force: NDArray[np.float64], strike: floa
 
 
 def landing_impact(time: NDArray[np.float64], force: NDArray[np.float64], strike: float) -> float:
-    """Returns largest vertical force (n,) in N within 50 ms of a heel strike in s, at time (n,) in s; NaN if unknown."""
+    """Returns largest vertical force (n,) in N within 50 ms of a strike in s, at time (n,) in s; NaN if unknown."""
     end = strike + IMPACT_WINDOW
     after = int(np.searchsorted(time, end, side="right"))
     window = force[np.searchsorted(time, strike) : after]
