@@ -46,7 +46,8 @@ def custom_measures(
     """Returns values (steps,) of user-defined functions for each foot's complete steps.
 
     Args:
-        measures: Functions by name of `analysis`; each gives a number, NaN if unknown.
+        analysis: Analysis.
+        measures: Functions by name; each gives a number, NaN if unknown.
     """
     out: dict[Side, dict[str, NDArray[np.float64]]] = {}
     for side, gait in analysis.feet.items():
@@ -59,7 +60,8 @@ def mask_measures(analysis: Analysis, masks: Mapping[str, ArrayLike]) -> dict[Si
     """Returns each foot's `REGION_MEASURES` of each mask with cells, for complete steps.
 
     Args:
-        masks: Polygon corners (n, 2) in foot coordinates, by name, for `analysis`. May overlap.
+        analysis: Analysis.
+        masks: Polygon corners (n, 2) in foot coordinates, by name. May overlap.
 
     Raises:
         InputError: If a mask is no polygon.
@@ -83,8 +85,8 @@ def mask_measures(analysis: Analysis, masks: Mapping[str, ArrayLike]) -> dict[Si
 def mask_cells(analysis: Analysis, side: Side, corners: ArrayLike) -> NDArray[np.int64]:
     """Returns indices of cells with their centre in a mask.
 
-    analysis: Of insoles or soles.
-        analysis: Analysis of insoles or soles.
+    Args:
+        analysis: Of insoles or soles.
         side: Foot.
         corners: Mask (n, 2) in foot coordinates.
 

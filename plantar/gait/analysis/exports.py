@@ -95,7 +95,8 @@ def write_external_loads(analysis: Analysis, path: Path, motion: str) -> None:
     """Write OpenSim's description (.xml) of a motion file's columns and bodies.
 
     Args:
-        path: File, for `analysis`.
+        analysis: Analysis.
+        path: File.
         motion: Name of the motion file next to it.
     """
     root = ElementTree.Element("OpenSimDocument", Version="40000")

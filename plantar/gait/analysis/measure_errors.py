@@ -25,7 +25,8 @@ def errors_of_foot(recording: PressureRecording, gait: FootGait) -> dict[str, fl
     A mean over n steps errs by 1 / sqrt(n) of noise and frames, and fully of cells and definitions.
 
     Args:
-        gait: Foot of `recording`, its steps measured.
+        recording: Recording.
+        gait: One foot, its steps measured.
     """
     levels, used = gait.levels, gait.used
     if levels is None or not used:

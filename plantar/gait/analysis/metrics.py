@@ -41,7 +41,8 @@ def metrics_of(
     Raw counts' keys end in "_raw" in place of a unit of force or pressure.
 
     Args:
-        feet: Gait of each foot of `recording`.
+        recording: Recording.
+        feet: Gait of each foot.
         subject: Person, if known.
     """
     warnings = list(recording.warnings)

@@ -91,6 +91,7 @@ def cells_of_prints(load: PlatformLoad, threshold: float) -> list[PrintCells]:
     """Returns pieces of each footprint by a platform's load, in order; with 5 % of the largest piece's load or more.
 
     Args:
+        load: Load.
         threshold: Cell counts as loaded above this force in N.
     """
     pieces = list(_pieces(load, load.force > threshold))

@@ -30,7 +30,8 @@ def step_measures(
     """Returns one step's known measures by key that need no other steps.
 
     Args:
-        gait: Foot of `recording`.
+        recording: Recording.
+        gait: Foot.
         contact: Complete step.
         print_: Of lengths and regions; None without geometry.
         pressures: Pressure measures.

@@ -93,6 +93,7 @@ class OtherFoot:
     """Other foot's contacts, as sorted arrays.
 
     Args:
+        recording: Recording.
         side: Other foot.
         contacts: In order.
     """
