@@ -1,1 +1,1 @@
-"""The robot's sensors: what they read of the simulated truth."""
+"""What the robot's sensors read of the simulated truth."""

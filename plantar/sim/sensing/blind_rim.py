@@ -1,4 +1,4 @@
-"""What a shoe without a relieved pad carries past its taxels (docs/shoes.md)."""
+"""What an unrelieved pad carries past its taxels (docs/shoes.md)."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ _MOST_PATCHES = 256
 
 
 class BlindRim:
-    """The sole next to the taxels as springs. The taxels carry the share A_taxels / (A_taxels + k A_rim) of a patch's
-    load, with the patch's areas over and next to taxels, and k the rim's stiffness per area over a taxel's.
+    """Springs next to the taxels. The taxels carry A_taxels / (A_taxels + k A_rim) of a patch's load, areas over and
+    next to taxels, k the stiffness per area over a taxel's.
 
     Args:
         layout: The sole.
-        stiffness: k, as `rim_stiffness` of the table `shoe` in a layout file.
-        rubber: Half width in m of what a line or point contact presses on.
+        stiffness: k.
+        rubber: Half width in m of a line contact.
 
     Raises:
-        InputError: If the stiffness is not a finite value of 0 or more.
+        InputError: If k is negative or not finite.
 
     Example:
         >>> from plantar import hex_layout
@@ -50,9 +50,7 @@ class BlindRim:
         self._patches = Patches(self._make_share, _GRID, _MOST_PATCHES)
 
     def share(self, patch: Sequence[tuple[float, float]]) -> float:
-        """Share, 0..1, of a load that the taxels carry on the convex hull of contact points (k, 2) in the sole frame in
-        m.
-        """
+        """Share 0..1 of a load that the taxels carry under contact points (k, 2) in m."""
         return self._patches.of(patch)
 
     def _make_share(self, points: NDArray[np.float64]) -> float:

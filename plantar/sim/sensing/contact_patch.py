@@ -1,4 +1,4 @@
-"""The patch of a sole that contact points span, and where on it a load can act."""
+"""The patch of a sole that contact points span."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ _INSIDE = 2e-3  # of a patch's half extent: how far inside its outermost cells a
 
 
 class Patches(Generic[T]):
-    """Keeps what was computed of the latest patches.
+    """Keeps results of the latest patches.
 
     Args:
-        make: Computes it from a patch's contact points (k, 2) in m.
+        make: Computes it from contact points (k, 2) in m.
         grid: Distance in m within which patches are the same.
         most: Largest number kept.
     """
@@ -34,7 +34,7 @@ class Patches(Generic[T]):
         self._made: dict[tuple[tuple[int, int], ...], T] = {}
 
     def of(self, points: Sequence[tuple[float, float]]) -> T:
-        """Returns what was computed of the patch with contact `points` (k, 2) in m, in any order."""
+        """Returns the result of contact `points` (k, 2) in m, in any order."""
         key = patch_key(points, self._grid)
         if key not in self._made:
             if len(self._made) >= self._most:
@@ -44,16 +44,16 @@ class Patches(Generic[T]):
 
 
 def patch_polygon(points: NDArray[np.float64], half_width: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Hull of contact points, or, where it is thinner than a line presses wide, the rectangle around it.
+    """Hull of contact points, or the rectangle around a thinner one.
 
     Args:
-        points: Contact points (k, 2) in m, at least one.
-        half_width: Half the width in m that a line presses on; a point presses on `_POINT` times that. A sole of
-            stiffness k in Pa/m on a sphere of radius R carries F on a disc of radius a = (4 R F / (pi k))^(1/4); the
-            square with the same second moments is a / sqrt(2) wide each way.
+        points: (k, 2) in m, at least one.
+        half_width: Of a line in m; a point's is `_POINT` times that. A sole of stiffness k in Pa/m on a sphere of
+            radius R carries F on a disc of radius a = (4 R F / (pi k))^(1/4); the square with the same second moments
+            is a / sqrt(2) wide each way.
 
     Returns:
-        Convex polygon (m, 2) in m, counter-clockwise, and its half-planes (m, 3), as of `half_planes_of`.
+        Counter-clockwise polygon (m, 2) in m, and its half-planes (m, 3) (`half_planes_of`).
     """
     polygon = np.asarray(convex_hull(points))
     axis = np.array([1.0, 0.0])
@@ -90,12 +90,11 @@ def half_planes_of(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def reach_of(hull: NDArray[np.float64], inside: float = _INSIDE) -> NDArray[np.float64]:
-    """Where a load can act that several cells carry: their hull with its edges moved inward, shrunk where it is
-    thinner.
+    """Where a load of several cells can act: their hull moved inward, shrunk where thinner.
 
     Args:
-        hull: Convex hull (k, 2) of the cells' places.
-        inside: How far inward, in the hull's unit.
+        hull: (k, 2) of the cells' places.
+        inside: Distance in the hull's unit.
 
     Returns:
         Polygon (m, 2) in the same unit.

@@ -1,8 +1,7 @@
-"""How an elastic layer, bonded to a rigid foot and free of friction on its face, gives way, and the contact that
-follows.
+"""Contact with an elastic layer that is bonded to a rigid foot and frictionless on its face.
 
-A uniformly pressed square moves the surface by Love's closed form for the half-space, less what the foot behind the
-layer holds back. With E* = E / (1 - nu^2), thickness d and wave number q, a pressure p moves the surface by
+Displacement of a pressed square: Love's for the half-space, less what the foot holds back. With E* = E / (1 - nu^2),
+thickness d and wave number q, a pressure p moves the surface by
 
     u(q) = 2 M(q d) p(q) / (E* q),
     M(s) = ((3 - 4 nu) sinh 2s - 2s) / ((3 - 4 nu) cosh 2s + 2 s^2 + 5 - 12 nu + 8 nu^2),
@@ -11,8 +10,7 @@ so the difference to the half-space (M = 1) at a distance r is
 
     g(r) = 1 / (pi E*) int_0^inf (1 - M(q d)) J0(q r) dq.
 
-Sources: K. L. Johnson, Contact Mechanics (1985), 3.25 and 5.8; A. E. H. Love, The stress produced in a semi-infinite
-solid by pressure on part of the boundary (1929).
+Sources: Johnson, Contact Mechanics (1985), 3.25, 5.8; Love, The stress produced in a semi-infinite solid (1929).
 """
 
 from __future__ import annotations
@@ -42,13 +40,13 @@ def influence(points: ArrayLike, sides: ArrayLike, thickness: float, poisson: fl
     """Displacement of each point by a unit force on each square, for E* = 1.
 
     Args:
-        points: Points (n, 2) in m where displacements count.
-        sides: Side (m,) in m of the square about each of the first m points, on which its force acts evenly.
-        thickness: Of the layer in m; infinity for the half-space.
-        poisson: Poisson's ratio, at least 0 and below 0.5.
+        points: (n, 2) in m.
+        sides: (m,) in m of squares about the first m points, evenly pressed.
+        thickness: In m; infinity for the half-space.
+        poisson: Poisson's ratio, 0 to below 0.5.
 
     Returns:
-        Displacements (n, m) in m for 1 N and E* of 1 Pa: divide by E*.
+        (n, m) in m for 1 N and E* of 1 Pa: divide by E*.
 
     Example:
         >>> round(float(influence([(0.0, 0.0)], [1.0], math.inf)[0, 0] * math.pi), 4)  # 4 ln(1 + sqrt 2)
@@ -80,7 +78,7 @@ def influence(points: ArrayLike, sides: ArrayLike, thickness: float, poisson: fl
 
 
 def _love(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Corner function of Love's solution: its second difference over a square's corners is the displacement."""
+    """Love's corner function; its second difference over corners is the displacement."""
     with np.errstate(divide="ignore", invalid="ignore"):
         first = np.where(x == 0.0, 0.0, x * np.arcsinh(y / np.abs(x)))
         second = np.where(y == 0.0, 0.0, y * np.arcsinh(x / np.abs(y)))
@@ -115,9 +113,9 @@ class Contact(NamedTuple):
     """A rigid body pressed on the layer.
 
     Attributes:
-        forces: Force (n,) on each square in N, none negative.
-        field: Approach (3,): displacement at the origin in m times E*, and its slopes along x and y.
-        on: Squares (n,) that touch.
+        forces: (n,) in N, none negative.
+        field: (3,): approach at the origin in m times E*, and its slopes along x, y.
+        on: (n,) that touch.
         settled: Whether no square pulls and none is penetrated.
     """
 
@@ -131,16 +129,15 @@ class LayerContact:
     """Presses rigid bodies on a layer of n squares, E* = 1.
 
     With forces F, approach f, gap g before, and depth s by which squares that do not touch lie under the body, C F = U
-    f - g - s, U = (1, x, y). A primal-dual active set finds the squares that touch: F = 0 where s < 0. With B the
-    inverse of C, squares off the body cost a factor of their own number, s_off = B_off,off^-1 (B (U f - g))_off; where
-    most are off, those that touch are solved instead.
+    f - g - s, U = (1, x, y). A primal-dual active set finds the squares that touch: F = 0 where s < 0. With B = C^-1,
+    s_off = B_off,off^-1 (B (U f - g))_off; where most are off, those that touch are solved instead.
 
     Args:
         compliance: Symmetric (n, n), see `influence`.
-        points: Where the squares' forces act (n, 2) in m.
+        points: (n, 2) in m.
 
     Raises:
-        numpy.linalg.LinAlgError: If the compliance is not positive definite.
+        numpy.linalg.LinAlgError: If not positive definite.
     """
 
     def __init__(self, compliance: NDArray[np.float64], points: NDArray[np.float64]) -> None:
@@ -158,11 +155,11 @@ class LayerContact:
     def press(
         self, load: NDArray[np.float64], gap: NDArray[np.float64] | None = None, start: NDArray[np.bool_] | None = None
     ) -> Contact:
-        """Press a body with a given load: no square pulls, none is penetrated, no force across a gap.
+        """Press a body with a given load.
 
         Args:
-            load: Normal force in N, and force times x and y of where it acts in N m; inside the hull of the points.
-            gap: Distance (n,) in m of the undeformed body from the layer, times E*; None for 0.
+            load: Force in N, and times its x and y in N m, inside the points' hull.
+            gap: Undeformed (n,) in m times E*; None for 0.
             start: Squares (n,) expected to touch; None for all.
 
         Returns:
@@ -181,7 +178,7 @@ class LayerContact:
     def _settled(
         self, load: NDArray[np.float64], gap: NDArray[np.float64] | None, on: NDArray[np.bool_], together: int
     ) -> Contact | None:
-        """The contact from squares expected to touch; None where fewer than three are left."""
+        """The contact from squares expected to touch; None below three."""
         forces, field = np.zeros(len(on)), np.zeros(3)
         for i in range(_ROUNDS):
             gains, apart = self.gains(on, gap)
@@ -209,11 +206,10 @@ class LayerContact:
 
         Args:
             on: Squares (n,) that touch.
-            gap: Distance (n,) in m of the undeformed body times E*; None for 0.
+            gap: Undeformed (n,) in m times E*; None for 0.
 
         Returns:
-            Forces (n, 4) on the squares, and depth (n, 4) of those that do not touch under the body; each 0 for the
-            others.
+            Forces (n, 4) on touching squares, and depth (n, 4) of the others, else 0.
         """
         off = np.flatnonzero(~on)
         rest = np.zeros(len(on)) if gap is None else gap

@@ -1,11 +1,7 @@
-"""Spread a normal load over the taxels of a sole that is an elastic layer: the simulator's second taxel model.
+"""Spread a normal load over taxels of an elastic layer: the second taxel model.
 
-Unlike the springs of `SolePressure`, neighbours move each other (`plantar.sim.sensing.elastic_layer`), so pressure
-gathers at edges of contact and does not fit what the controller assumes. Squares finer than the taxels carry exactly
-MuJoCo's wrench; a taxel reports its part of the squares.
-
-While the same squares touch, forces are linear in the wrench: a patch keeps that small matrix and recomputes it only
-where the squares or the patch change.
+Unlike the springs of `SolePressure`, neighbours move each other (`plantar.sim.sensing.elastic_layer`), which the
+controller does not assume. Forces are linear in the wrench while the same squares touch; that matrix is kept.
 """
 
 from __future__ import annotations
@@ -46,12 +42,12 @@ class _Squares(NamedTuple):
 
 
 class _Patch:
-    """What does not depend on the load, and how the squares that carried last answer one.
+    """What does not depend on the load, and how the touching squares answer.
 
     Attributes:
-        contact: The k covered squares.
-        shares: Share (taxels, k) of each square's force on each taxel.
-        reach: Polygon of the places where the squares can carry a load.
+        contact: Of the k covered squares.
+        shares: (taxels, k) of each square's force.
+        reach: Polygon in which a load can act.
     """
 
     def __init__(
@@ -86,17 +82,17 @@ class _Patch:
 
 
 class ElasticPressure:
-    """Spreads a normal load over the taxels of an elastic layer; the interface is that of `SolePressure`.
+    """Spreads a normal load over an elastic layer's taxels; interface of `SolePressure`.
 
     Args:
         layout: The sole.
-        thickness: Of the layer between foot and ground in m; infinity for the half-space.
-        rubber: Half width in m of what a line or point contact presses on.
+        thickness: Of the layer in m; infinity for the half-space.
+        rubber: Half width in m of a line contact.
         poisson: Poisson's ratio: 0.4 for foams and soft prints, near 0.5 for silicone.
 
     Raises:
         LayoutError: If a taxel does not face the ground.
-        InputError: If a thickness is not above 0, or Poisson's ratio not from 0 to 0.499.
+        InputError: If thickness or ratio is invalid.
 
     Example:
         >>> from plantar import hex_layout
@@ -126,12 +122,12 @@ class ElasticPressure:
         """Taxel forces of a load on a patch.
 
         Args:
-            patch: Contact points (k, 2) in the sole frame in m; the patch is their convex hull.
+            patch: Contact points (k, 2) in the sole frame in m.
             force: Normal force in N; 0 or less loads no taxel.
-            center_of_pressure: Point (2,) in the sole frame in m, moved to the nearest that the squares can carry.
+            center_of_pressure: (2,) in the sole frame in m, moved to the nearest possible.
 
         Returns:
-            Forces (n,) in N, none negative, whose vertical parts add up to `force`.
+            (n,) in N, none negative, with vertical sum `force`.
         """
         if not (0.0 < force < math.inf) or not len(patch):
             return np.zeros(len(self.layout))
@@ -155,8 +151,7 @@ class ElasticPressure:
             center_of_pressure: See `spread`.
 
         Returns:
-            Centroid (k, 2) of the covered part of each square in m, and its force (k,) in N; empty for a load on the
-            bare rim.
+            Centroids (k, 2) of the squares' covered parts in m, and forces (k,) in N; empty on the bare rim.
         """
         shape = self._patches.of(patch)
         if shape is None:

@@ -1,7 +1,6 @@
-"""Simulated proximity of a sole: one ray a taxel along its -z against ground geoms, and what the electronics deliver.
+"""Simulated proximity of a sole: one ray a taxel along its -z, and its electronics.
 
-Rays cost most of all sensors, so none is cast for a sole that is not asked for, or that is out of range of the highest
-ground.
+Rays are costly: none for a sole not asked for or out of range.
 """
 
 from __future__ import annotations
@@ -34,16 +33,16 @@ class SoleProximity:
     """Distances from the taxels of one sole to the ground.
 
     Args:
-        model: The MjModel; its ground geoms are those of group `GROUND_GROUP`.
+        model: With ground geoms in group `GROUND_GROUP`.
         layout: The sole.
-        site: Name of the site that is the sole frame.
+        site: Name of the sole frame's site.
         sensing_range: In m.
-        ground_top: Height in m that no ground exceeds.
-        colours: How light the ground is; None for as light as at calibration.
+        ground_top: Largest ground height in m.
+        colours: None: as light as at calibration.
 
     Raises:
-        RobotError: If the model has no such site.
-        InputError: If the range is not a finite value above 0.
+        RobotError: If there is no such site.
+        InputError: If the range is invalid.
     """
 
     def __init__(
@@ -85,18 +84,18 @@ class SoleProximity:
         return self._rays
 
     def within_range(self, data: Any) -> bool:
-        """Whether any ground can be in range of the soles' place in MjData."""
+        """Whether any ground can be in range."""
         return bool(self._rays_in(data).lies_below(self._reach, self._top + self.range))
 
     def distances(self, data: Any) -> NDArray[np.float64]:
-        """Distance (n,) to the ground in m as its colour shows it, without noise, from MjData after a step.
+        """Noise-free distance (n,) to the ground in m as its colour shows it.
 
-        inf out of range; negative for a taxel up to 20 mm inside the ground.
+        inf out of range; negative up to 20 mm inside the ground.
         """
         return np.array(self.look(data).distances)
 
     def look(self, data: Any) -> SoleRays:
-        """Cast the rays where any ground can be in range; returns them, with their `distances`."""
+        """Cast rays where ground can be in range; returns them with `distances`."""
         rays = self._rays_in(data)
         if not self.within_range(data):
             rays.see_nothing()
@@ -120,10 +119,10 @@ class ProximitySensor:
 
     Args:
         proximity: The noise-free sensor.
-        noise_std: Standard deviation of each distance in m.
-        bias: Added to every distance in m.
-        rng: Source of the noise; it advances at each `read`, whether rays are cast or not.
-        dead: Indices of taxels that read NaN.
+        noise_std: In m.
+        bias: In m.
+        rng: Advances at each `read`, with or without rays.
+        dead: Indices that read NaN.
     """
 
     def __init__(
@@ -147,12 +146,12 @@ class ProximitySensor:
         """One sample.
 
         Args:
-            data: The MjData after `mj_step` or `mj_forward`.
-            wanted: Whether this sole is asked for.
+            data: MjData after a step.
+            wanted: Whether this sole is due.
             everything: Cast the rays in any case.
 
         Returns:
-            Distances (n,) in m, inf out of range, NaN for a dead taxel; None where the sole is not asked for.
+            (n,) in m, inf out of range, NaN for a dead taxel; None where not wanted.
         """
         row, count = self._noise.advance(), self._count
         if not (wanted or everything):

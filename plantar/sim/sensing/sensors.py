@@ -1,4 +1,4 @@
-"""What the robot's sensors deliver: encoders, IMU, ankles and soles, with their noise."""
+"""Encoders, IMU, ankles and soles, with their noise."""
 
 from __future__ import annotations
 
@@ -35,14 +35,10 @@ class SensorSuite:
     Args:
         world: The world.
         sensing: Rates, noise and delay.
-        seed: Of all noise; each sensor draws from its own stream.
-        proximity: Whether the soles have proximity sensors.
-        force_torque: Whether the ankles have force-torque sensors.
-        plant: How sensors differ from their model; None for no difference.
-
-    Attributes:
-        body_skin: Reads the skin of the upper body, or None.
-        body_links: Reads where moving links with skin are on the base.
+        seed: Of all noise; one stream a sensor.
+        proximity: Whether the soles have it.
+        force_torque: Whether the ankles have it.
+        plant: None: sensors as modelled.
     """
 
     def __init__(
@@ -98,14 +94,14 @@ class SensorSuite:
         self.body_links: Callable[[], Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]]] | None = None
 
     def read_skins(self, near: Collection[Side] = SIDES, everything: bool = False) -> tuple[FootContacts, ...]:
-        """Read the soles, which is due every `skin_every` physics steps.
+        """Read the soles, every `skin_every` physics steps.
 
         Args:
             near: Soles whose proximity is asked for.
-            everything: Measure all proximity; readings stay the same.
+            everything: Measure all; same readings.
 
         Returns:
-            The contacts of both soles from which the skins were read.
+            The contacts of both soles.
         """
         data = self._world.data
         feet = self._contacts.read()
@@ -114,7 +110,7 @@ class SensorSuite:
         return feet
 
     def read_body(self) -> Sensors:
-        """What has arrived by now of encoders, IMU and the soles' latest readings."""
+        """What has arrived of encoders, IMU and soles."""
         read = self._read_now()
         if self._line is None:
             return read
@@ -136,7 +132,7 @@ class SensorSuite:
         )
 
     def _ankles(self) -> dict[Side, NDArray[np.float64]]:
-        """Wrench (6,) of each foot on its leg, in the sensor's frame; empty without sensors."""
+        """Wrench (6,) of each foot in the sensor's frame; empty without sensors."""
         if self._ankle_noise is None:
             return {}
         s, data = self._sensing, self._world.data.sensordata
@@ -191,7 +187,7 @@ def _proximity(
 
 
 def _imu_to_base(world: World) -> NDArray[np.float64] | None:
-    """Rotation (3, 3) from the IMU's frame to that of the base; None where they are the same."""
+    """Rotation (3, 3) from IMU to base; None where equal."""
     model = world.model
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)

@@ -1,4 +1,4 @@
-"""What the sensors do to the truth: a scene's `[sensing]` table."""
+"""What sensors do to the truth: a scene's `[sensing]` table."""
 
 from __future__ import annotations
 
@@ -8,24 +8,24 @@ __all__ = ["Sensing"]
 
 
 class Sensing(Settings):
-    """Standard deviations (1 sigma) of white noise, rates and delays, SI.
+    """White noise (1 sigma), rates and delays, SI.
 
-    Skin and ankle sensors scale with the robot's weight and leg; an IMU and an encoder are the same for every robot.
+    Skin and ankle sensors scale with the robot; IMU and encoder do not.
 
     Attributes:
-        taxels: Springs side by side ("winkler"), or an elastic layer ("elastic"), which no fit of the controller knows.
-        layer: Thickness of that layer in m: the H1's shoe is 12 mm thick.
-        skin_rate: Sampling rate of the soles in Hz.
-        force_noise: Of each taxel in N: 0.15 kg on a robot of 86 kg.
-        delay_periods: Whole skin periods between sampling and delivery.
+        taxels: Springs ("winkler") or an elastic layer ("elastic").
+        layer: Its thickness in m; H1's shoe has 12 mm.
+        skin_rate: Of the soles in Hz.
+        force_noise: Of each taxel in N.
+        delay_periods: Skin periods from sampling to delivery.
         proximity_range: In m.
         proximity_noise: Of each reading in m.
-        proximity_bias: Added to every reading in m.
-        dead_taxels: Share of each sole's taxels; the seed chooses which.
+        proximity_bias: Of every reading in m.
+        dead_taxels: Share of each sole's taxels, seeded.
         encoder_noise: Of each joint in rad.
         gyro_noise: Of each axis in rad/s.
         accelerometer_noise: Of each axis in m/s^2.
-        body_skin: Whether the skin of the upper body is read, in a scene with touch.
+        body_skin: Whether upper body skin is read, with touch.
         force_torque: Whether the ankles have force-torque sensors.
         ankle_force_noise: Of each axis in N.
         ankle_torque_noise: Of each axis in N m.

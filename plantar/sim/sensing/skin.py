@@ -1,7 +1,7 @@
-"""Simulated sole skin: the force on each taxel from MuJoCo's contacts, and what the electronics deliver.
+"""Simulated sole skin: taxel forces of MuJoCo's contacts, and electronics.
 
-A rigid box under an eccentric load lifts a corner by micrometres, where rubber stays pressed. Give the sole's geoms a
-`gap` of 1 mm: MuJoCo then reports such corners, and those within REACH belong to the patch.
+A rigid box lifts a corner by micrometres where rubber stays pressed: with a `gap` of 1 mm MuJoCo reports such corners,
+and those within REACH belong to the patch.
 """
 
 from __future__ import annotations
@@ -36,24 +36,21 @@ __all__ = ["SkinElectronics", "SkinSensor", "SoleSkin"]
 
 
 class SoleSkin:
-    """The skin of one sole in a simulation.
+    """The skin of one sole.
 
     Args:
-        model: The MjModel.
+        model: MjModel.
         layout: The sole.
-        site: Name of the site that is the sole frame, for example "left_sole".
-        geoms: Names of the sole's collision geoms.
+        site: Name of the sole frame's site.
+        geoms: Names of its collision geoms.
         rubber: Thickness in m, see `SolePressure`.
         reach: Largest gap in m that the rubber closes.
-        layer: Thickness in m of an elastic layer, see `ElasticPressure`; None for springs.
+        layer: Thickness in m of an elastic layer; None for springs.
         rim_stiffness: See `BlindRim`.
 
     Raises:
-        RobotError: If the model has no such site or geom.
-        LayoutError: If a taxel does not face the ground.
-
-    Attributes:
-        springs: Kernel of cells that carry all as springs, or None.
+        RobotError: If site or geom is missing.
+        LayoutError: If a taxel faces away.
     """
 
     def __init__(
@@ -105,14 +102,14 @@ class SoleSkin:
         return foot_contacts(self.model, data, self.geom_ids)
 
     def taxel_forces(self, data: Any, contacts: FootContacts | None = None) -> NDArray[np.float64]:
-        """Normal force on each taxel, free of noise.
+        """Normal taxel forces without noise.
 
         Args:
-            data: The MjData after `mj_step` or `mj_forward`.
-            contacts: The sole's contacts where known already.
+            data: MjData after a step.
+            contacts: The sole's, where known.
 
         Returns:
-            Forces (n,) in N, none negative; zeros in the air.
+            (n,) in N, none negative.
         """
         if data is not self._data:
             self._look_in(data)
@@ -130,11 +127,11 @@ class SoleSkin:
         return out
 
     def sampled(self, data: Any, contacts: FootContacts | None, sample: TaxelSample) -> NDArray[np.float64]:
-        """What electronics read of the springs, without an array of the forces in between.
+        """What electronics read of the springs.
 
         Args:
-            data: The MjData after `mj_step` or `mj_forward`.
-            contacts: The sole's contacts where known already.
+            data: MjData after a step.
+            contacts: The sole's, where known.
             sample: Samples the taxels.
 
         Returns:
@@ -158,13 +155,12 @@ class SkinElectronics:
 
     Attributes:
         rate_hz: Sampling rate in Hz.
-        noise_std_N: Standard deviation on each taxel in N (0.15 kg by default, T Table 2).
-        delay_periods: Whole sampling periods between sample and delivery; the first sample is delivered until one
-            arrives.
-        dead: Indices of taxels that read NaN.
+        noise_std_N: Of each taxel in N (0.15 kg by default, T Table 2).
+        delay_periods: Periods from sample to delivery; until then the first sample.
+        dead: Indices that read NaN.
 
     Raises:
-        InputError: If a value is out of range.
+        InputError: If out of range.
     """
 
     rate_hz: float = 250.0
@@ -182,18 +178,18 @@ class SkinElectronics:
 
 
 class SkinSensor:
-    """A skin as its electronics deliver it: sampled, noisy, clipped to its range, late.
+    """A skin as delivered: sampled, noisy, clipped, late.
 
-    A sample is taken at the first physics step at or after each multiple of the period, counted from the first call.
+    Samples are due at multiples of the period from the first call.
 
     Args:
         skin: The noise-free skin.
-        rng: Source of the noise; None needs electronics without noise.
-        proximity: Of the same sole, sampled with the forces, or None.
-        errors: What the taxels make of the forces, or None.
+        rng: None only without noise.
+        proximity: Sampled with the forces, or None.
+        errors: Of the taxels, or None.
 
     Raises:
-        InputError: If there is noise and no source, or a dead taxel does not exist.
+        InputError: If source or taxel is missing.
     """
 
     def __init__(
@@ -237,16 +233,16 @@ class SkinSensor:
     def read(
         self, data: Any, contacts: FootContacts | None = None, *, near: bool = True, everything: bool = False
     ) -> Reading:
-        """What the electronics deliver now; call it at every physics step.
+        """What is delivered now; call at every physics step.
 
         Args:
-            data: The MjData after `mj_step` or `mj_forward`.
-            contacts: The sole's contacts where known already.
-            near: Whether this sole's proximity is asked for.
-            everything: Measure proximity in any case; the reading holds it only where asked for.
+            data: MjData after a step.
+            contacts: The sole's, where known.
+            near: Whether proximity is wanted.
+            everything: Measure it always; the reading holds it where wanted.
 
         Returns:
-            The reading, with the sample's time in s; the same object until a newer sample arrives.
+            The reading; the same object until a newer sample arrives.
         """
         now = float(data.time)
         if not self._queue:
@@ -265,7 +261,7 @@ class SkinSensor:
     def _sampled(
         self, now: float, data: Any, contacts: FootContacts | None, distance: NDArray[np.float64] | None
     ) -> NDArray[np.float64]:
-        """Sampled force (n,) in N with the taxels' errors; distances that they silence become NaN."""
+        """Sampled forces (n,) in N with taxel errors; silenced distances become NaN."""
         force = self.skin.taxel_forces(data, contacts)
         if self._errors is not None:
             force = self._errors.read(force, now)

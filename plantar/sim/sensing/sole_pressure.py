@@ -1,15 +1,12 @@
 """Spread a normal load over the taxels of a sole (model "contact patches").
 
-MuJoCo's rigid box carries its load on a few corner points, rubber on an area. The contact points of each geom pair span
-a patch, over whose cells the pair's exact normal wrench (fz, tx, ty) is spread as by an elastic foundation that cannot
-pull (Winkler):
+The contact points of each geom pair span a patch, whose cells share the pair's exact normal wrench (fz, tx, ty) as an
+elastic foundation that cannot pull (Winkler):
 
-    f_i = A_i max(0, a + b x_i + c y_i)      with a, b, c such that the forces have the pair's wrench,
+    f_i = A_i max(0, a + b x_i + c y_i)      with a, b, c fitted to the wrench,
 
-A_i the covered area of cell i and (x_i, y_i) its centroid; a cut cell still reports at its centre. A load beyond the
-outermost centroids goes to the nearest point among them, a line or point contact presses on the strip or square that
-the rubber's thickness makes of it, and one on the bare rim on the nearest cells. Taxel forces always add up to the true
-normal force.
+A_i the covered area of cell i and (x_i, y_i) its centroid. A load beyond the outermost centroids goes to the nearest
+point among them, one on the bare rim to the nearest cells. Forces add up to the true one.
 """
 
 from __future__ import annotations
@@ -39,18 +36,18 @@ _LEAST_SHARE = 0.01  # of a cell: less cover than this carries nothing
 
 
 class SolePressure:
-    """Spreads a normal load over the taxels of a sole; geometry is computed once a patch.
+    """Spreads a normal load over the taxels of a sole.
 
     Args:
         layout: The sole.
-        rubber: Thickness in m of the sole's rubber: half width of what a line or point contact presses on.
+        rubber: Its thickness in m: half width of a line contact.
 
     Raises:
-        LayoutError: If a taxel does not face the ground.
+        LayoutError: If a taxel faces away.
         InputError: If the thickness is not above 0.
 
     Attributes:
-        springs: The cells, each a spring, that contacts press on.
+        springs: Kernel of the cells.
 
     Example:
         >>> from plantar import hex_layout
@@ -88,12 +85,12 @@ class SolePressure:
         """Taxel forces of a load on a patch.
 
         Args:
-            patch: Contact points (k, 2) in the sole frame in m; the patch is their convex hull.
+            patch: Contact points (k, 2) in the sole frame in m.
             force: Normal force in N; 0 or less loads no taxel.
-            center_of_pressure: Point (2,) in the sole frame in m where the load acts.
+            center_of_pressure: (2,) in the sole frame in m.
 
         Returns:
-            Forces (n,) in N, none negative, whose vertical parts add up to `force`.
+            (n,) in N, none negative, with vertical sum `force`.
         """
         if not (0.0 < force < math.inf) or not len(patch):
             return np.zeros(len(self.layout))
@@ -101,21 +98,21 @@ class SolePressure:
         return out
 
     def press(self, contacts: FootContacts, vectors: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
-        """Taxel forces of all contacts of a foot; those of the same pair of geoms span a patch together.
+        """Taxel forces of a foot's contacts, one patch a geom pair.
 
         Args:
-            contacts: The contacts.
-            vectors: Position, force and torque of each in turn in the sole frame (at least 3 k, 3).
-            reach: Gap in m beyond which a contact without load is left out.
+            contacts: Of the foot.
+            vectors: Positions, forces, torques in turn in the sole frame (at least 3 k, 3).
+            reach: Gap in m beyond which unloaded contacts are left out.
 
         Returns:
-            Forces (n,) in N, none negative.
+            (n,) in N, none negative.
         """
         out: NDArray[np.float64] = self.springs.press(contacts, vectors, reach)
         return out
 
     def along_taxels(self, force: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Forces (n,) in N along the taxels' axes of vertical ones (n,)."""
+        """Forces (n,) in N along taxel axes of vertical ones (n,)."""
         return force if self._gain is None else np.asarray(force * self._gain)
 
     def _make_patch(self, points: NDArray[np.float64]) -> PressedPatch:
@@ -156,7 +153,7 @@ class SolePressure:
     def _nearest_cells(
         self, polygon: NDArray[np.float64]
     ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
-        """The cells (m,) nearest to a patch's edge, how many of its points each has (m,), and their means (m, 2)."""
+        """Cells (m,) nearest to a patch's edge, points of each (m,), and means (m, 2)."""
         import shapely
 
         rim = shapely.get_coordinates(shapely.segmentize(shapely.Polygon(polygon), 0.5 * self.rubber))
@@ -170,7 +167,7 @@ class SolePressure:
 
 
 def _spread_slowly(shape: PressedPatch, force: float, out: NDArray[np.float64]) -> None:
-    """Spread a load over `out` (n,) by the cells that carry it if all are held, else by those of `_damped`."""
+    """Spread a load over `out` (n,) by all cells, else by `_damped`."""
     u, area, carried = np.asarray(shape.u), np.asarray(shape.area), np.asarray(shape.carried)
     inverse, load = np.asarray(shape.inverse), np.array([1.0, shape.x, shape.y])
     if not carried.any():
@@ -187,7 +184,7 @@ def _spread_slowly(shape: PressedPatch, force: float, out: NDArray[np.float64]) 
 def _damped(
     u: NDArray[np.float64], area: NDArray[np.float64], inverse: NDArray[np.float64], load: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Pressures (m,) of a unit load by Newton's method with a line search on the convex problem
+    """Pressures (m,) of a unit load by damped Newton on the convex problem
 
         minimise  1/2 sum_i A_i max(0, u_i . field)^2 - load . field
 
@@ -225,7 +222,7 @@ def _damped(
 
 
 def _pseudo_inverse(matrix: NDArray[np.float64], least: float) -> NDArray[np.float64]:
-    """Pseudo-inverse of a symmetric semidefinite matrix (n, n), in a fifth of `np.linalg.pinv`'s time."""
+    """Pseudo-inverse of a symmetric semidefinite matrix (n, n), faster than `np.linalg.pinv`."""
     values, vectors = np.linalg.eigh(matrix)
     values, vectors = values[::-1], np.ascontiguousarray(vectors[:, ::-1])
     limit = least * values[0]
@@ -238,7 +235,7 @@ def _largest(residual: NDArray[np.float64]) -> float:
 
 
 def _solve_symmetric(m: list[float], b: list[float], share: float) -> NDArray[np.float64]:
-    """Solve a symmetric 3 x 3 system given as (11, 12, 13, 22, 23, 33), regularised by a share of its trace."""
+    """Solve a regularised symmetric 3 x 3 system (11, 12, 13, 22, 23, 33)."""
     ridge = share * (m[0] + m[3] + m[5]) + 1e-300
     a, d, f = m[0] + ridge, m[3] + ridge, m[5] + ridge
     c, e, g = m[1], m[2], m[4]  # [[a, c, e], [c, d, g], [e, g, f]]

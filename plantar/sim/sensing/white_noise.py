@@ -1,4 +1,4 @@
-"""White noise of a sensor, drawn many samples at a time."""
+"""White noise of a sensor, drawn in blocks."""
 
 from __future__ import annotations
 
@@ -13,10 +13,9 @@ _TOGETHER = 64  # samples that are drawn at once: a draw of forty numbers costs 
 
 
 def white_noise(rng: np.random.Generator, mean: float, std: float | NDArray[np.float64], count: int) -> NoiseRows:
-    """Yields samples (count,) without end: the numbers of repeated `rng.normal(mean, std, count)`, drawn many at a
-    time.
+    """Yields samples (count,) without end, those of repeated `rng.normal(mean, std, count)`.
 
-    No other caller may draw from `rng`; `std` is one number or one of each.
+    No other caller may draw from `rng`.
 
     Example:
         >>> samples = white_noise(np.random.default_rng(1), 0.0, 2.0, 3)
