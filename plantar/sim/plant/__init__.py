@@ -1,1 +1,1 @@
-"""Differences of the true robot, its sensors and the ground from the controller's model."""
+"""Differences of the true robot, sensors and ground from the controller's model."""

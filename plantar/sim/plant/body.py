@@ -1,6 +1,4 @@
-"""The true robot in the simulator: mass and CoM, stiffness of servos, friction of joints; the controller's model stays
-nominal.
-"""
+"""The true robot: mass, CoM, servo stiffness, joint friction; the controller's model stays nominal."""
 
 from __future__ import annotations
 
@@ -26,15 +24,15 @@ def make_true(
     touching: Sequence[str],
     body: BodyScale,
 ) -> None:
-    """Change a compiled model of the world into that of the true plant.
+    """Change a compiled world model into the true plant.
 
     Args:
-        model: The MjModel, changed in place.
+        model: Changed in place.
         plant: The true plant.
         torso: Body id.
-        servos: Indices of the legs' actuators.
-        touching: Names of the geoms of soles and ground.
-        body: Size of the robot, by its file.
+        servos: Of the legs' actuators.
+        touching: Geom names of soles and ground.
+        body: Size by its file.
     """
     _scale_mass(model, plant.mass_ratio, torso)
     _move_com(model, plant.com_offset, torso)
@@ -54,7 +52,7 @@ def _scale_mass(model: Any, ratio: float, torso: int) -> None:
 
 
 def _move_com(model: Any, offset: NDArray[np.float64], torso: int) -> None:
-    """Move the centres of mass of all bodies fixed to the torso, and with them the robot's."""
+    """Move the CoM of all that is fixed to the torso."""
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     moved = data.xmat[torso].reshape(3, 3) @ offset

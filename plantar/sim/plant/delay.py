@@ -1,4 +1,4 @@
-"""A line that delays what is sent through it."""
+"""A delay line."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ T = TypeVar("T")
 
 
 class Delay(Generic[T]):
-    """Returns the newest item that was sent at least a `delay` in s ago.
+    """Returns the newest item sent at least `delay` in s ago.
 
     Example:
         >>> line = Delay(0.01)
@@ -26,7 +26,7 @@ class Delay(Generic[T]):
         self._sent: deque[tuple[float, T]] = deque()
 
     def passed(self, time: float, item: T) -> T:
-        """Send an `item` at `time` in s, never decreasing; returns the one that arrives, at first the first."""
+        """Send an `item` at `time` in s, never decreasing; returns the one that arrives."""
         self._sent.append((time, item))
         while len(self._sent) > 1 and self._sent[1][0] <= time - self._delay + SAME_TIME:
             self._sent.popleft()

@@ -1,4 +1,4 @@
-"""The true plant of a run: values of a `[plant]` table, and those that the seed draws."""
+"""The true plant of a run: stated and drawn values."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def _up_to(chance: np.random.Generator, limit: float) -> float:
 
 
 def _whole(chance: np.random.Generator, limit: float) -> float:
-    """The limit or more: a spread, whose members are drawn, or an item that is hardest at its limit."""
+    """The limit or more: a spread, or an item hardest at its limit."""
     return limit
 
 
@@ -53,9 +53,9 @@ class Range(NamedTuple):
     """Range that an item is drawn from.
 
     Attributes:
-        limit: Largest difference from nominal at level 2; proportional at other levels.
-        unit: Unit of the limit; one of the body's grows with the robot.
-        draw: Draws it from a generator and the limit in SI.
+        limit: Largest difference at level 2; proportional at others.
+        unit: Of the limit; body units grow with the robot.
+        draw: By a generator and the limit in SI.
     """
 
     limit: float
@@ -91,12 +91,11 @@ every robot the same; a length of the robot has one that grows with it."""
 
 @dataclass(frozen=True)
 class TruePlant:
-    """Differences of a run's true plant in SI; each item as of `Plant`, drawn for joints (k,), taxels (n,) of each
-    sole, or axes (3,).
+    """A run's differences in SI (`Plant`), of joints (k,), each sole's taxels (n,), or axes (3,).
 
     Attributes:
         gyro_bias: (3,) in rad/s, in the IMU's frame.
-        com_offset: (3,) of the upper body in m, in the torso's frame.
+        com_offset: (3,) in m, in the torso's frame.
         encoder_offsets: (k,) in rad.
         softness: Time constant in s.
         taxel_gains: (n,) of each sole.
@@ -106,7 +105,7 @@ class TruePlant:
         backlash: In rad.
         taxel_drifts: Final drift (n,) in N.
         rubber: Thickness in m.
-        seed: Of pieces of ground and of random events during the run.
+        seed: Of ground pieces and random events.
     """
 
     gyro_bias: NDArray[np.float64]
@@ -134,7 +133,7 @@ class TruePlant:
     seed: int
 
     def summary(self) -> dict[str, Any]:
-        """The differences that are not nominal, for a run's summary."""
+        """The differences that are not nominal."""
         gains, drifts = (
             np.concatenate([of_soles[side] for side in SIDES]) for of_soles in (self.taxel_gains, self.taxel_drifts)
         )
@@ -174,17 +173,17 @@ def drawn_plant(
 ) -> TruePlant | None:
     """The true plant of a run.
 
-    Each item has a random stream of its own: its value does not depend on the other items, and scales with the level.
+    Each item has its own random stream and scales with the level.
 
     Args:
-        plant: Settings of the scene.
+        plant: The scene's settings.
         seed: Seed of the rest.
-        body: Size of the robot.
-        joints: Number of leg joints.
+        body: The robot's size.
+        joints: Of leg joints.
         layouts: The soles.
 
     Returns:
-        The plant; None where it is the nominal one.
+        The plant; None where nominal.
     """
     plant = plant.for_body(body)
     values = {name: _value(plant, name, seed) for name in (*plant.items(), *STATED)}
@@ -212,10 +211,10 @@ def _value(plant: Plant, name: str, seed: int) -> Any:
 
 
 def _of_each_taxel(chance: np.random.Generator, layouts: Mapping[Side, SoleLayout]) -> dict[Side, NDArray[np.float64]]:
-    """A number of the standard normal distribution for each taxel (n,) of each sole."""
+    """Standard normal numbers (n,) for each sole."""
     return {side: chance.standard_normal(len(layouts[side])) for side in SIDES}
 
 
 def stream(seed: int, name: str) -> np.random.Generator:
-    """The random generator of the item `name` of a run with a `seed`; returns another for every name."""
+    """Returns the random generator of item `name` of a run with `seed`."""
     return np.random.default_rng([seed, 0x91, zlib.crc32(name.encode())])

@@ -1,4 +1,4 @@
-"""True drives of the leg joints: encoders with zero errors, delay, gears with play and ripple, torque-speed curves."""
+"""True leg drives: encoder zeros, delay, play, ripple, torque-speed curves."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ RIPPLES = 200.0
 
 
 class TorqueCurve:
-    """Torque limits that fall with the speed at which a motor drives its joint; a brake keeps its full torque.
+    """Torque limits that fall with driving speed; a brake keeps full torque.
 
     Args:
-        model: The MjModel of the world, whose force ranges are written.
-        servos: Indices (k,) of the motors' actuators.
-        speeds: Speed limits (k,) of the joints in rad/s; empty without.
-        corner: Share of those up to which a motor has its full torque.
+        model: The world's, whose force ranges are written.
+        servos: Actuator indices (k,).
+        speeds: Limits (k,) in rad/s; empty without.
+        corner: Share up to which torque is full.
     """
 
     def __init__(self, model: Any, servos: NDArray[np.int64], speeds: NDArray[np.float64], corner: float) -> None:
@@ -40,15 +40,14 @@ class TorqueCurve:
 
 
 class TrueDrives:
-    """Turns what drives are asked for into the torque offset with which ideal actuators behave as the true drives.
+    """Torque offset with which ideal actuators behave as the true drives.
 
     A drive exerts stiffness (q* - q) + damping (v* - v) + tau_ff = offset - stiffness q - damping v; of a position
-    servo with the set-point u the offset is stiffness u. A gear with the play b passes no spring torque while the shaft
-    moves between its flanks, then that of the excess over b / 2. One with torque ripple passes (1 + r sin(n q)) times
-    the torque.
+    servo with the set-point u the offset is stiffness u. A gear with play b passes the spring torque of the excess over
+    b / 2, one with ripple (1 + r sin(n q)) times the torque.
 
     Args:
-        plant: The true plant; None for the nominal one.
+        plant: None for the nominal one.
         stiffness: True position gains (k,) in N m/rad.
         damping: Velocity gains (k,) in N m s/rad.
     """
@@ -64,16 +63,16 @@ class TrueDrives:
     def offset(
         self, time: float, asked: NDArray[np.float64], joints: NDArray[np.float64], speeds: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """Torque offset of the actuators.
+        """The actuators' torque offset.
 
         Args:
             time: Time in s, never decreasing.
-            asked: stiffness q* + damping v* + tau_ff (k,) in N m, which arrives late.
+            asked: stiffness q* + damping v* + tau_ff (k,) in N m, delayed.
             joints: True joint angles (k,) in rad.
             speeds: True joint speeds (k,) in rad/s.
 
         Returns:
-            The offset (k,) in N m.
+            (k,) in N m.
         """
         arrived = asked if self._line is None else self._line.passed(time, asked)
         offset = arrived - self._zero

@@ -1,4 +1,4 @@
-"""The true ground in the simulator: friction, softness and colours by place, and the foam under the soles."""
+"""True ground: friction, softness and colours by place, and foam under soles."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _TILES = 64  # patches after which the colours repeat: 3.2 m
 class GroundColours:
     """Square patches of random reflectance on the world's plane.
 
-    An optical sensor calibrated at reflectance 1 measures d / sqrt(rho), its intensity being proportional to rho / d^2.
+    A sensor calibrated at reflectance 1 measures d / sqrt(rho), by an intensity of rho / d^2.
     """
 
     def __init__(self, plant: TruePlant) -> None:
@@ -32,7 +32,7 @@ class GroundColours:
         self._stretch = 1.0 / np.sqrt(lightness)
 
     def stretch(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Measured distance over the true one (n,) at points (n, 3) of the ground in the world in m."""
+        """Measured over true distance (n,) at world points (n, 3) in m."""
         tiles = np.floor(points[:, :2] / PATCH).astype(np.int64) % _TILES
         return np.asarray(self._stretch[tiles[:, 0], tiles[:, 1]])
 
@@ -42,23 +42,21 @@ FOAM_MODULUS = 3e5
 
 
 def foam_time(thickness: float, body: BodyScale) -> float:
-    """Returns the time constant sqrt(m / k) in s of a `body` on foam of `thickness` in m, k = E A / thickness, A a
-    whole sole.
-    """
+    """Returns sqrt(m / k) in s of a `body` on foam of `thickness` in m, k = E A / thickness for one sole."""
     return math.sqrt(body.mass * thickness / (FOAM_MODULUS * body.sole * body.sole_width))
 
 
 def make_ground_true(model: Any, plant: TruePlant, touching: Sequence[int], body: BodyScale) -> None:
-    """Change friction and softness of contacts into those of the true plant.
+    """Change contact friction and softness into the true plant's.
 
-    Time constants add in squares, as of springs in series. MuJoCo takes the larger friction of two geoms and the mean
-    of their time constants; where pieces of ground differ, the piece's own apply.
+    Time constants add in squares, as springs in series. MuJoCo takes a pair's larger friction and mean time constant;
+    differing ground pieces override both.
 
     Args:
-        model: The MjModel of the world, changed in place.
+        model: Changed in place.
         plant: The true plant.
-        touching: Geom ids of soles and ground.
-        body: Size of the robot, by its file.
+        touching: Geom ids of soles, ground.
+        body: Size by its file.
     """
     foam = foam_time(plant.rubber, body)
     before = model.geom_solref[touching, 0]

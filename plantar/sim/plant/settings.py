@@ -1,4 +1,4 @@
-"""Differences of the true plant from the controller's model, as a scene's `[plant]` table gives them."""
+"""A scene's `[plant]` table: differences of the true plant from the controller's model."""
 
 from __future__ import annotations
 
@@ -28,47 +28,39 @@ _LARGEST = {"gyro_bias": ("rad/s", 1.0), "com_offset": ("m", 0.5)}
 
 
 class Plant(Settings):
-    """Differences of the true plant from the controller's model; none by default.
+    """Differences of the true plant; none by default.
 
-    Each may be a number, or "random": then the seed draws it from a range that grows with `level`
-    (`plantar.sim.plant.draw.RANGES`). They apply to robot, sensors and ground; the controller does not receive them.
+    Each is a number, or "random": drawn from a range that grows with `level` (`plantar.sim.plant.draw.RANGES`). The
+    controller does not receive them.
 
     Attributes:
-        draw: "random" draws what a carefully built and calibrated robot has (all down to `actuation_delay`), as far as
-            the table does not state it: `plant = "random"` in a scene, `--set plant=random`. "everything" also draws
-            wear and poor ground.
-        level: Size of what is drawn, in proportion: 2 is a robot built and calibrated with ordinary care, 1 half of
-            that; 0 is nominal.
-        gyro_bias: Offset of the gyro about each of its axes, [x, y, z] in rad/s.
-        com_offset: Offset of the upper body's centre of mass (all that is fixed to the torso), [forward, left, up] in
-            the torso's frame in m.
-        mass_ratio: True mass over the model's, of each link; inertias scale with it.
-        encoder_offset: Error of the joints' zeros: each joint's is drawn up to this, either way. Its servo follows the
-            same encoder.
-        stiffness_ratio: True stiffness of the servos over the model's; their damping is the model's.
-        friction_ratio: True coefficient of friction of the ground over the scene's.
-        softness: Time constant in s with which the ground yields, in series with that of the contact.
-        taxel_gain: Standard deviation of the taxels' gains about 1, drawn for each, at most 0.9 either way.
-        crosstalk: Share of each taxel's force that its neighbours read instead, in equal parts; the sum stays.
-        sensor_delay: Time in s from a reading of encoders, IMU, ankles and soles until the controller has it, rounded
-            up to a control tick; added to `sensing.delay_periods`.
-        actuation_delay: Time in s from a set-point until its servo follows it, rounded up to a physics step.
-        joint_friction: Dry friction of each leg joint in N m, added to the model's.
-        backlash: Play of each leg joint's gear, in which it passes no torque.
-        torque_ripple: Share by which a servo's torque varies as its joint turns, with the teeth of its gear.
-        hysteresis: Share by which a taxel reads too little under rising load, and too much under falling load.
-        taxel_drift: Standard deviation in N of the taxels' drifts as they warm up, within minutes; drawn for each.
-        dropout: Share of the time for which each connector of the soles has no contact, a tenth of a second at a time:
-            its taxels are silent.
-        rubber: Thickness in m of a layer of foam at the bottom of each sole, within its height: it yields, and spreads
-            the pressure at edges and points by as much.
-        patchiness: Share by which friction and softness of the ground may be lower from one of its pieces (floor,
-            stone, beam) to the next; drawn for each.
-        reflectance: Share by which patches of the ground may be lighter or darker than in the proximity sensors'
-            calibration; drawn for each. Dark ground appears farther away.
-        joint_damping: Viscous friction of each leg joint's gear, added to the model's; stated only.
-        corner_speed: Share of a joint's speed limit up to which its motor has its full torque, which falls to zero at
-            the limit; 1 for full torque at any speed. Stated only, for robots whose files give both limits.
+        draw: "random" draws what the table does not state, down to `actuation_delay`, as of a calibrated robot (`--set
+            plant=random`); "everything" also wear and poor ground.
+        level: Size of what is drawn: 2 for ordinary care, 1 half of that, 0 nominal.
+        gyro_bias: Offset [x, y, z] in rad/s.
+        com_offset: Offset of the upper body's CoM, [forward, left, up] in the torso's frame in m.
+        mass_ratio: True over model mass of each link, with inertia.
+        encoder_offset: Largest zero error of a joint, either way; its servo follows that encoder.
+        stiffness_ratio: True over model stiffness of the servos, at the same damping.
+        friction_ratio: True over scene's ground friction.
+        softness: Ground's time constant in s, in series with the contact's.
+        taxel_gain: Standard deviation about 1 of each taxel's gain, at most 0.9 either way.
+        crosstalk: Share of a taxel's force that its neighbours read in equal parts.
+        sensor_delay: Time in s from any reading to the controller, rounded up to a control tick; added to
+            `sensing.delay_periods`.
+        actuation_delay: Time in s from set-point to servo, rounded up to a physics step.
+        joint_friction: Added dry friction of each leg joint in N m.
+        backlash: Torque-free play of each leg gear.
+        torque_ripple: Share by which servo torque varies with the gear's teeth.
+        hysteresis: Share that taxels read too little under rising load, too much under falling.
+        taxel_drift: Standard deviation in N of each taxel's warm-up drift, within minutes.
+        dropout: Share of time without contact at each sole connector, 0.1 s at a time: its taxels are silent.
+        rubber: Thickness in m of foam within each sole's height: it yields, and spreads pressure at edges by as much.
+        patchiness: Share by which ground pieces (floor, stone, beam) may be lower in friction and softness.
+        reflectance: Share by which ground patches may be lighter, or darker (appearing farther), than in calibration.
+        joint_damping: Added viscous friction of each leg gear; stated only.
+        corner_speed: Share of a speed limit up to which torque is full, falling to zero at the limit; 1: always full.
+            Stated only, for robots with both limits.
     """
 
     draw: str = choice("nominal", RANDOM, EVERYTHING)
@@ -114,40 +106,40 @@ class Plant(Settings):
 
     @classmethod
     def items(cls) -> tuple[str, ...]:
-        """Names of the items that a seed may draw."""
+        """Items that a seed may draw."""
         return tuple(name for name in cls.names()[2:] if name not in STATED)
 
     @classmethod
     def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:
-        """Make the settings from a table; stated values stay as stated, also if nominal, where `draw` draws the rest.
+        """Make the settings from a table; `draw` draws only what is not stated.
 
         Args:
             table: Values by name.
-            where: Name of the table, for messages.
+            where: Table name, for messages.
             error: Error class to raise.
-            note: What decides on the allowed keys, for messages.
+            note: What decides on keys, for messages.
 
         Returns:
             The settings.
 
         Raises:
-            PlantarError: Of the class `error`: a key is unknown or a value not allowed; the message names it.
+            PlantarError: Of class `error`: invalid key or value.
         """
         if isinstance(table, Mapping) and (drawn := cls._drawn_by(table.get("draw"))):
             table = {**dict.fromkeys(drawn, RANDOM), **table, "draw": "nominal"}
         return super().from_table(table, where, error, note)
 
     def vector(self, name: str) -> tuple[float, ...]:
-        """Three numbers in SI for the body that the settings apply to.
+        """Three numbers in SI for the settings' body.
 
         Args:
-            name: Name of the setting, which is not "random".
+            name: Setting that is not "random".
 
         Returns:
-            The numbers; zeros where none are given, or the seed draws them.
+            The numbers; zeros where not given or drawn.
 
         Raises:
-            InputError: If there are not three of them, or one is not a number in its range.
+            InputError: If not three allowed numbers.
         """
         values, (unit, most) = getattr(self, name), _LARGEST[name]
         if not values or values == RANDOM:

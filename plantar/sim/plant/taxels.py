@@ -1,4 +1,4 @@
-"""True taxels: crosstalk, hysteresis, gains, zeros and loose connectors."""
+"""True taxels: crosstalk, hysteresis, gains, zeros, loose connectors."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SILENCE = 0.1
 
 
 class TaxelErrors:
-    """Errors of one sole's taxels (`plantar.sensing.taxel_faults`), and connectors that lose contact."""
+    """One sole's taxel errors (`plantar.sensing.taxel_faults`) and loose connectors."""
 
     def __init__(self, layout: SoleLayout, plant: TruePlant, side: Side) -> None:
         faults = TaxelFaults(hysteresis=plant.hysteresis, crosstalk=plant.crosstalk)
@@ -37,10 +37,9 @@ class TaxelErrors:
         return self._faults.read(time, force)
 
     def silence(self, time: float, *readings: NDArray[np.float64] | None) -> None:
-        """Set `readings` (n,), changed in place, of taxels without contact at `time` in s, never decreasing, to NaN.
+        """Set `readings` (n,) of taxels without contact at `time` in s, never decreasing, to NaN.
 
-        A connector loses and finds contact at constant rates: 0.1 s without contact, and with it as long as gives the
-        plant's share.
+        Connectors lose and find contact at constant rates: 0.1 s without it, by the plant's share.
         """
         if not self._loses:
             return
