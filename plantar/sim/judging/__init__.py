@@ -1,1 +1,1 @@
-"""What really happened: the judge and what it sees. No controller imports it."""
+"""What really happened: the judge and its truth; no controller imports it."""

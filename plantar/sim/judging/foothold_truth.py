@@ -1,4 +1,4 @@
-"""Errors of the footholds that the controller found."""
+"""Errors of the controller's footholds."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _LEVEL = 0.01  # leg: faces within this of the sole are under it
 
 
 class FootholdTruth:
-    """Compares the footholds that the controller found with the level boxes and floor of a `ground` in a `world`."""
+    """Compares found footholds with the level boxes and floor of a `ground` in a `world`."""
 
     def __init__(self, world: World, ground: Ground) -> None:
         import shapely
@@ -37,7 +37,7 @@ class FootholdTruth:
         self._found: dict[int, tuple[float, float, float]] = {}
 
     def update(self, footholds: tuple[FootholdFound, ...]) -> None:
-        """Compare the footholds of this tick; the last one of a step counts."""
+        """Compare this tick's footholds; a step's last counts."""
         for foothold in footholds if self._only_level else ():
             true = self._under(foothold.side)
             if len(true) < 3 or len(foothold.polygon) < 3:
@@ -53,7 +53,7 @@ class FootholdTruth:
             )
 
     def summary(self) -> Mapping[str, Any]:
-        """Errors of the centroids in m, and true and found shares of the sole's area, per step."""
+        """Errors of centroids in m, and true and found area shares, per step."""
         rows = [self._found[k] for k in sorted(self._found)]
         if not rows:
             return {}
@@ -68,7 +68,7 @@ class FootholdTruth:
         }
 
     def _under(self, side: Side) -> NDArray[np.float64]:
-        """True support polygon (k, 2) of a level sole in the world: hull of the part of its outline over ground."""
+        """True support polygon (k, 2) of a level sole in the world."""
         import shapely
 
         site = self._world.sole_sites[side]

@@ -1,4 +1,4 @@
-"""How far arm and feet of a robot followed the hand that leads it."""
+"""How arm and feet of a led robot followed the hand."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ class GuideTruth:
 
     Args:
         world: The world.
-        link: Link of the arm that is held.
-        point: Point (3,) in its frame in m at which it is held.
-        joints: Names of the arm's joints.
-        posture: Their angles (k,) in rad at rest.
-        way: How far the hand goes in m along the world's x axis.
-        starts: Time in s from which it moves.
+        link: Held link of the arm.
+        point: Held point (3,) in its frame in m.
+        joints: The arm's.
+        posture: Angles (k,) in rad at rest.
+        way: The hand's along the world's x axis in m.
+        starts: When it moves in s.
     """
 
     def __init__(
@@ -60,7 +60,7 @@ class GuideTruth:
         self.yielded = self.followed = self.astray = self.turned = 0.0
 
     def update(self, time: float) -> None:
-        """Measure arm and feet at the tick at `time` in s, after its physics step."""
+        """Measure arm and feet at `time` in s, after its physics step."""
         data = self._world.data
         held = data.xpos[self._link] + data.xmat[self._link].reshape(3, 3) @ self._point
         trunk = data.xmat[self._base].reshape(3, 3)
@@ -95,9 +95,7 @@ class GuideTruth:
         return found
 
     def summary(self) -> dict[str, Any]:
-        """Largest way that the arm yielded, final way of the feet and across it in m, and largest turn of an arm's
-        joint in degrees.
-        """
+        """Arm's largest yield, feet's final way and across in m, and an arm joint's largest turn in degrees."""
         if not self._sampled:
             return dict.fromkeys(("arm_yielded_m", "feet_followed_m", "feet_astray_m", "arm_turned_deg"))
         return {

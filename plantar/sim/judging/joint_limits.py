@@ -1,4 +1,4 @@
-"""Whether joints stay within their limits of speed and torque, by the simulator's state."""
+"""Whether joints stay within their true speed and torque limits."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class JointLimits:
 
     Attributes:
         limited: Whether their speeds have limits.
-        extremes: Takes in speeds and torques after each physics step.
+        extremes: Takes speeds and torques each physics step.
     """
 
     def __init__(self, world: World) -> None:
@@ -50,11 +50,11 @@ class JointLimits:
 
     @property
     def longest(self) -> NDArray[np.float64]:
-        """Longest time in s in a row for which each joint (k,) was faster than its limit."""
+        """Longest time in s in a row for which each joint (k,) was too fast."""
         return np.asarray(self.extremes.longest) * self._period
 
     def first_held(self, since: float, lasting: float = 0.015) -> str | None:
-        """Returns the first joint at its torque limit for `lasting` s in a row, from `since` s on; None for none."""
+        """Returns the first joint at its torque limit for `lasting` s, from `since` s on, or None."""
         first, steps = 1 + round(since / self._period), round(lasting / self._period)
         stays = [(max(begin, first), end, joint) for joint, begin, end in self.extremes.all_stays()]
         long = [(begin, joint) for begin, end, joint in stays if end - begin + 1 >= steps]

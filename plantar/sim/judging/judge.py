@@ -1,6 +1,6 @@
-"""The judge: what really happened, from MuJoCo's state and contact forces. The controller never sees it.
+"""The judge: what really happened, by MuJoCo's state and contact forces.
 
-After a physics step, contacts, forces and poses in MuJoCo's data belong to the instant at which the step began.
+After a physics step MuJoCo's contacts, forces and poses belong to its beginning.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _LEVEL = 0.9999  # cosine of the tilt up to which a face is level
 
 
 class PlainGround:
-    """The true geometry of a `ground` under soles with `outlines` (k, 2) in m and `around` them, in m."""
+    """A `ground` under soles with `outlines` (k, 2) in m and `around` them, in m."""
 
     def __init__(self, ground: Ground, outlines: Mapping[Side, NDArray[np.float64]], around: float) -> None:
         import shapely
@@ -46,7 +46,7 @@ class PlainGround:
         ]
 
     def under(self, side: Side, x: float, y: float, yaw: float) -> bool:
-        """Returns whether the sole of a `side` at `x`, `y` in m and heading `yaw` in rad is on one level face."""
+        """Returns whether the `side`'s sole at `x`, `y` in m and `yaw` in rad is on one level face."""
         import shapely
 
         c, s = math.cos(yaw), math.sin(yaw)
@@ -72,10 +72,10 @@ class Landing:
     """One landing of one foot.
 
     Attributes:
-        time: In s of the first physics step with ground force after 0.6 beats or more in the air.
+        time: First ground force in s after 0.6 beats or more in the air.
         impact: Largest vertical ground force in N within 0.2 beats.
-        area: Largest contact area in m^2 (hull of the contact points) within 2.4 beats.
-        angle: In degrees between the sole and the face that it touched first; None on round ground.
+        area: Largest contact hull in m^2 within 2.4 beats.
+        angle: In degrees between sole and first touched face; None on round ground.
         margin: Smallest true ZMP margin in m until the next landing, or None.
     """
 
@@ -92,9 +92,9 @@ class Judge:
     """Follows a run.
 
     Attributes:
-        standing_height: CoM height above the ground at the start in m.
+        standing_height: CoM above the ground at the start in m.
         goal: The footsteps to take.
-        ground: Where the ground is plain; None for everywhere.
+        ground: None where all is plain.
         fall: The fall as (criterion's value, limit, text), or None.
     """
 
@@ -161,17 +161,17 @@ class Judge:
 
     @property
     def loads(self) -> tuple[float, float]:
-        """Vertical ground force in N on the left and right foot at the last physics step."""
+        """Vertical ground force in N on the left and right foot."""
         return self._reaction.loads[0], self._reaction.loads[1]
 
     @property
     def estimate_error_max(self) -> list[float]:
-        """Largest errors (3,) in m of the controller's CoM."""
+        """Largest CoM errors (3,) in m of the controller."""
         return [float(off) for off in self._estimates.com]
 
     @property
     def zmp_error(self) -> float | None:
-        """Root mean square error in m of the controller's ZMP; None without a comparison."""
+        """RMS error in m of the controller's ZMP, or None."""
         compared = self._estimates.compared
         return math.sqrt(self._estimates.squares / compared) if compared else None
 
@@ -193,7 +193,7 @@ class Judge:
         return seen
 
     def _angle(self, side: Side) -> float | None:
-        """Angle in degrees between a sole and the flat face that carries most of it."""
+        """Angle in degrees between a sole and its most loaded flat face."""
         model, data = self.world.model, self.world.data
         contacts = foot_contacts(model, data, self._geoms[side])
         if not contacts.size:
@@ -213,8 +213,8 @@ class Judge:
         moved: Sequence[MovedStep] = (),
         pushed: bool = False,
     ) -> None:
-        """Take the estimated `com` (3,) and `zmp` (2,) in m or None at `time` in s, the footsteps `moved`, and whether
-        the robot is truly `pushed`.
+        """Take estimated `com` (3,) and `zmp` (2,) in m or None at `time` in s, footsteps `moved`, and whether truly
+        `pushed`.
         """
         if pushed:
             self._pushed.append(time)
@@ -223,9 +223,7 @@ class Judge:
             self.goal.move(time, moved)
 
     def _justified(self, stand: Stand, way: Way, before: tuple[float, float, float]) -> bool:
-        """Whether a push in the last three steps, or uneven ground under the plan or the foothold before, justify a
-        move.
-        """
+        """Whether a push in the last three steps or uneven ground justify a move."""
         since = stand.touchdown - _PUSH_LASTS * self.world.body.beat
         if any(since <= time <= stand.touchdown for time in self._pushed):
             return True
@@ -237,7 +235,7 @@ class Judge:
         return not (self.ground.under(stand.side, *place) and self.ground.under(other_side(stand.side), *before))
 
     def truth(self) -> GroundTruth:
-        """Ground reaction, true ZMP and true support polygon at the last physics step."""
+        """Ground reaction, true ZMP and support polygon at the last physics step."""
         return GroundTruth(*self._reaction.found_now())
 
     def _look_for_fall(self) -> None:
@@ -254,7 +252,7 @@ class Judge:
 
 
 def is_ground(world: World) -> NDArray[np.bool_]:
-    """Mask (geoms,) of the ground's geoms in a `world`: those fixed in the world, and moving pieces of ground."""
+    """Mask (geoms,) of the ground's geoms in a `world`, moving pieces too."""
     model = world.model
     moving = [model.body_mocapid.tolist().index(i) for i, _ in world.moving_ground]
     fixed = model.body_weldid == 0

@@ -10,7 +10,7 @@ __all__ = ["LegContact", "legs_that_touch"]
 
 
 def legs_that_touch(world: World) -> tuple[str, str] | None:
-    """Left and right link of the first contact between the legs in a `world` now, or None."""
+    """Both links of the first contact between the legs in a `world`, or None."""
     model = world.model
     for pair in world.data.contact.geom.tolist():
         sides = {int(model.geom_contype[g]): g for g in pair if g >= 0}
@@ -22,7 +22,7 @@ def legs_that_touch(world: World) -> tuple[str, str] | None:
 
 
 class LegContact:
-    """Follows whether the legs or soles touch each other in a `world`.
+    """Follows contacts between legs or soles in a `world`.
 
     Attributes:
         duration: In s, in all.

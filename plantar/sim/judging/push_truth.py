@@ -1,6 +1,6 @@
-"""True effects of pushes on the upper body: which steps they changed, and how they accelerated the CoM.
+"""True effects of pushes: changed steps and accelerated CoM.
 
-Steps are compared from stance foot to landed foot, so that dead reckoning does not count.
+Steps count from stance foot to landed foot, without dead reckoning.
 """
 
 from __future__ import annotations
@@ -31,8 +31,7 @@ _AFTER = 3  # steps after the one that a push falls into that it may still chang
 
 
 class Pushed(NamedTuple):
-    """A push for the judge: its `step`, `start` and `end` in s, true `impulse` (2,) in N s, and whether it is `small`
-    enough that steps must stay."""
+    """A push: its `step`, `start` and `end` in s, true `impulse` (2,) in N s, and whether too `small` to change steps."""
 
     step: int
     start: float
@@ -42,7 +41,7 @@ class Pushed(NamedTuple):
 
 
 class Stride(NamedTuple):
-    """The way (x, y) in m from a foot's stand to its next one: the `true` one, and as `planned` at the start."""
+    """The way (x, y) in m between a foot's stands, `true` and as `planned` at the start."""
 
     true: tuple[float, float]
     planned: tuple[float, float]
@@ -58,9 +57,9 @@ class _Sample:
 
 
 def step_changes(stands: Sequence[Stand], feet: Mapping[Side, Footstep], steps: Sequence[Footstep]) -> list[float]:
-    """Returns the distance in m of each taken step from its plan, until feet no longer take turns.
+    """Returns each taken step's distance in m from its plan while feet take turns.
 
-    Arguments are the `stands` of the `feet` at the start, and the `steps` as planned then.
+    By the `stands`, and the `feet` and planned `steps` at the start.
     """
     return [math.dist(*way) for way in _ways(stands, feet, steps, other_side)]
 
@@ -87,9 +86,7 @@ def _ways(
 
 
 class PushTruth:
-    """Follows a run with pushes on a robot of a `mass` in kg and `leg` in m; `stride` is the time in s between steps of
-    a foot, 0 for standing.
-    """
+    """Follows pushes on a robot of a `mass` in kg and `leg` in m; `stride` in s is of a foot, 0 for standing."""
 
     def __init__(self, mass: float, leg: float, stride: float = 0.0) -> None:
         self._mass, self._leg, self._stride = mass, leg, stride
@@ -98,8 +95,8 @@ class PushTruth:
     def update(
         self, time: float, com: NDArray[np.float64], zmp: NDArray[np.float64] | None, wrench: NDArray[np.float64]
     ) -> None:
-        """Take the true `com` (3,) and `zmp` (2,) in m or None, and the `wrench` (6,) of the pushes about the world's
-        origin, at `time` in s.
+        """Take true `com` (3,) and `zmp` (2,) in m or None, and pushes' `wrench` (6,) about the world's origin, at
+        `time` in s.
         """
         if zmp is None:
             return
@@ -109,12 +106,11 @@ class PushTruth:
         self._samples.append(_Sample(time, com.copy(), np.array(zmp), wrench[:2].copy(), leverage))
 
     def accelerations(self, pushes: Sequence[Pushed]) -> list[dict[str, float]]:
-        """What each of the `pushes` gave the CoM, less what the ground gave it, against the model of K.
+        """What the `pushes` gave the CoM without the ground, against K's model.
 
         For an upright body, m h com'' = m g (com - zmp) + F (h + d) for a horizontal force F that acts d above a CoM at
         height h (K 9-11, corrected): m dv less the ground's share is the integral of F (1 + d / h), by the printed
-        signs of F (1 - d / h). The angular momentum of swinging legs and trunk, 1.2 N s in 0.24 s of H1's steps in
-        place, is subtracted by its value one stride before.
+        signs of F (1 - d / h). The angular momentum of legs and trunk one stride before is subtracted.
 
         Returns for each "measured_Ns", "predicted_Ns", "printed_Ns" along it, "above_com_m", and "ratio" of the first
         two.
@@ -149,7 +145,7 @@ class PushTruth:
         return [s for s in self._samples if start - 0.02 <= s.time <= end + 0.02]
 
     def _unexplained(self, chosen: Sequence[_Sample], way: NDArray[np.float64]) -> float:
-        """Momentum in N s that the CoM gained along a way, less what the ground gives a pendulum."""
+        """Momentum in N s along a way beyond what the ground gives a pendulum."""
         times, com = np.array([s.time for s in chosen]), np.array([s.com for s in chosen])
         along, zmp = com[:, :2] @ way, np.array([s.zmp for s in chosen]) @ way
         speed = np.gradient(along, times)
@@ -157,9 +153,7 @@ class PushTruth:
         return float(self._mass * (speed[-2] - speed[1]) - np.trapezoid(ground[1:-1], times[1:-1]))
 
     def steps_reasons(self, pushes: Sequence[Pushed], changes: Sequence[float]) -> list[dict[str, Any]]:
-        """Returns the failed criteria where small `pushes` must leave steps alone and large ones change one, by
-        `changes` in m.
-        """
+        """Returns failed criteria where only large `pushes` must change steps, by `changes` in m."""
         limit, found = CHANGED * self._leg, []
         for i, push in enumerate(pushes):
             until = pushes[i + 1].step if i + 1 < len(pushes) else push.step + _AFTER + 1
@@ -176,7 +170,7 @@ class PushTruth:
         return found
 
     def stride_reasons(self, pushes: Sequence[Pushed], ways: Sequence[Stride]) -> list[dict[str, Any]]:
-        """Returns the failed criteria where each of the `pushes` must lengthen its step, by the strides `ways`."""
+        """Returns failed criteria where each of the `pushes` must lengthen its step, by strides `ways`."""
         limit, reacted = CHANGED * self._leg, 0
         for push in pushes:
             if push.step < len(ways):
@@ -189,7 +183,7 @@ class PushTruth:
         return [{"criterion": "strides", "value": reacted, "limit": len(pushes), "text": text}]
 
     def acceleration_reasons(self, pushes: Sequence[Pushed]) -> list[dict[str, Any]]:
-        """Failed criteria where the CoM under `pushes` must follow the model of K."""
+        """Failed criteria where `pushes` must move the CoM as K's model."""
         found = []
         for row in self.accelerations(pushes):
             off = abs(row["ratio"] - 1.0)

@@ -1,4 +1,4 @@
-"""How a standing robot takes pushes: how far its true ZMP moves, and when it is at rest again."""
+"""How a standing robot takes pushes: true ZMP motion, and time to rest."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _CALM = 2.02  # beats for which it has to stay: half a second
 
 
 class Recovery:
-    """Follows the true ZMP and CoM of a robot of size `body` through pushes `shoves`, until `end` in s."""
+    """Follows true ZMP and CoM of a robot of size `body` through `shoves`, until `end` in s."""
 
     def __init__(self, shoves: Sequence[Shove], end: float, body: BodyScale = REFERENCE_BODY) -> None:
         self._body = body
@@ -62,10 +62,9 @@ class Recovery:
             self._last_off[i] = time
 
     def summary(self, applied: Sequence[NDArray[np.float64]]) -> dict[str, Any]:
-        """Direction, impulse, largest ZMP deviation and time to rest of each push, by the `applied` impulses (3,) in N
-        s.
+        """Direction, impulse, largest ZMP deviation and time to rest by `applied` impulses (3,) in N s.
 
-        None where a push never began, without ZMP, or without rest.
+        None without a begun push, ZMP, or rest.
         """
         pushes: list[dict[str, Any]] = []
         for i, shove in enumerate(self.shoves):

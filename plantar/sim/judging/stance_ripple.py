@@ -1,4 +1,4 @@
-"""How steadily the ground carries: a walk over flickering contacts does not measure its controller."""
+"""How steadily the ground carries: flickering contacts do not measure a controller."""
 
 from __future__ import annotations
 
@@ -24,9 +24,7 @@ SPAN = 0.01
 
 
 class StanceRipple:
-    """Watches the ground's `reaction` in single support in a `world`; a foot touches from `least` in N of vertical
-    force.
-    """
+    """Watches the `reaction` in single support in a `world`; feet touch from `least` in N."""
 
     def __init__(self, world: World, reaction: GroundReaction, least: float) -> None:
         steps = max(1, round(SPAN / world.period)), round(SETTLED / world.period)
@@ -37,7 +35,7 @@ class StanceRipple:
 
     @property
     def rms(self) -> float | None:
-        """Root mean square of the force less m (g + z''), over the weight; None without a comparison."""
+        """RMS of the force less m (g + z''), over the weight, or None."""
         return float(self.watch.rms()) / self._weight if self.watch.compared else None
 
     @property

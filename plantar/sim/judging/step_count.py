@@ -1,4 +1,4 @@
-"""Count the steps of a walk: by side, order and place, from where the feet truly stood."""
+"""Counts the steps of a walk by side, order and true place."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ which turns by 0.007."""
 
 @dataclass(frozen=True)
 class Stand:
-    """A stand of the foot of a `side`, from its `touchdown` in s, at a `place`: its sole's origin (x, y) in m and
-    heading in rad when it last carried a quarter of the weight.
+    """A stand of the `side`'s foot from `touchdown` in s; its `place`, (x, y) in m and heading in rad, when last
+    carrying a quarter of the weight.
     """
 
     side: Side
@@ -43,9 +43,9 @@ class Count:
 
     Attributes:
         stands: The stands that were steps, in order.
-        missed: Why the first missing step did not count, or empty.
-        drift: Summed differences in m (forward, left, in the plan's frame) from the planned ways between footholds.
-        turned: The same of the heading in rad.
+        missed: Why the first missing step failed, or empty.
+        drift: Summed differences in m (forward, left, in the plan's frame) from planned ways.
+        turned: The same in rad.
     """
 
     stands: tuple[Stand, ...]
@@ -61,16 +61,14 @@ class Count:
 class StepCount:
     """Follows both feet through a walk.
 
-    A step is taken when its foot, after all steps before it, stands at its place where it was last before the other
-    foot touched down, so that taps do not count. Its place is relative to the foothold before it, so that drift of dead
-    reckoning does not count; the sum of the differences is limited by the way.
+    A step is taken where its foot, last before the other touches down, stands at its place relative to the foothold
+    before: taps and dead reckoning do not count, but the way limits summed differences.
 
     Args:
         goal: The footsteps.
         weight: In N.
-        time_of: Time in s of a physics step by its number.
-        justified: Whether ground or a push justify a moved step, by the stand, its planned way, and the true foothold
-            before.
+        time_of: Time in s of a physics step.
+        justified: Whether ground or push justify a moved step, by stand, planned way, and true foothold before.
     """
 
     def __init__(
@@ -87,16 +85,16 @@ class StepCount:
 
     @property
     def slip(self) -> float:
-        """Largest slip in m of a foot while it carried a quarter of the weight."""
+        """Largest slip in m of a foot with a quarter of the weight."""
         return float(self.watch.slip)
 
     def last_stands(self) -> list[Stand]:
-        """The stands that can be steps: each foot's last before the other touches down."""
+        """Each foot's last stands before the other touches down."""
         rows = [list(group)[-1] for _, group in groupby(self.watch.stands(), key=lambda row: row[1])]
         return [Stand(SIDES[foot], self._time_of(step), (x, y, yaw)) for step, foot, x, y, yaw in rows]
 
     def count(self) -> Count:
-        """The steps that were taken one after the other."""
+        """The steps taken in order."""
         steps, start = self.goal.steps, self.goal.start() if self.goal.steps else None
         stands, missed = self.last_stands(), ""
         taken: list[Stand] = []

@@ -1,4 +1,4 @@
-"""True speed of a walk against its command, and whether the robot stood still at a stop."""
+"""True walking speed against its command, and standing at a stop."""
 
 from __future__ import annotations
 
@@ -29,15 +29,14 @@ _ORIGIN = np.zeros(2)
 class VelocityTruth:
     """Follows a walk at the commanded velocities of a `table`.
 
-    The way in the torso's heading, from the first lift-off on, is compared with the command one step before, since a
-    foot in the air keeps its target.
+    The way in the torso's heading counts against the command one step before, as a foot in the air keeps its target.
 
     Args:
-        timing: Durations of the walk's phases.
-        begin: Middle of the feet (2,) in m and heading in rad at the start.
+        timing: Of the walk's phases.
+        begin: Middle (2,) in m and heading in rad at the start.
 
     Attributes:
-        course: Place (2,) in m and heading in rad of the commanded course so far.
+        course: Commanded place (2,) in m and heading in rad.
     """
 
     def __init__(
@@ -87,7 +86,7 @@ class VelocityTruth:
             self._turn[1] += abs(command.turn) * period
 
     def summary(self, landings: list[float]) -> dict[str, Any]:
-        """Shares of the commanded speeds, and what followed the last stop, by touchdowns `landings` in s."""
+        """Shares of commanded speeds, and the last stop, by touchdowns `landings` in s."""
         stops = [t for t, c in zip(self._table.times, self._table.commands, strict=True) if c is None]
         return {
             "speed_ratio": round(self._way[0] / self._way[1], 4) if self._way[1] > 0.0 else None,

@@ -1,4 +1,4 @@
-"""The verdict on a run: every criterion that failed, with its value and its limit."""
+"""The verdict on a run: each failed criterion, value and limit."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ class Ending:
         fall: (criterion's value, limit, text), or None.
         stopped: The controller's final safe state, or None.
         steps: Taken and planned.
-        missed: Why the first missing step did not count.
-        position: Distance in m of the CoM from the walk's end, or None.
+        missed: Why the first missing step failed.
+        position: CoM's distance in m from the walk's end, or None.
         heading: Heading error in degrees, or None.
         tilt: Of the torso in degrees.
         pushes: Recovered from, and all.
-        overrun: Time in s of the cut, and the first planned end; or None.
+        overrun: Cut and first planned end in s, or None.
     """
 
     fall: tuple[float, float, str] | None
@@ -54,8 +54,8 @@ class Ending:
 
 
 def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[str, Any]]:
-    """Returns the criteria that failed of an `ending`, contacts of `legs` and speeds of `joints`: "criterion", "value",
-    "limit" and "text" each.
+    """Returns failed criteria of an `ending`, contacts of `legs` and speeds of `joints`: "criterion", "value", "limit",
+    "text".
     """
     found: list[dict[str, Any]] = []
 
@@ -111,9 +111,9 @@ before they touch and to a partner that swings back towards where it rests."""
 
 
 def partner_reasons(role: str, way: float, moved: float) -> list[dict[str, Any]]:
-    """Returns the failed criteria, as `verdict.reasons`, of a planned `way` in m towards a partner that `moved` so far.
+    """Returns failed criteria, as `verdict.reasons`, of a planned `way` in m towards a partner that `moved`.
 
-    With a `role` "leader" only a completed walk is asked.
+    A `role` "leader" asks only a completed walk.
     """
     needed = LED * way
     if role == "leader" or -moved >= needed:

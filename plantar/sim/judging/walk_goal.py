@@ -1,7 +1,6 @@
-"""The goal of a walk: its footsteps as planned at the start, which of them were moved, and why.
+"""The goal of a walk: footsteps planned at the start, and moves.
 
-A controller can move a footstep only by a report before the foot lands, with a reason, to a place that a detour
-explains.
+A move needs a report before landing, a reason, and a place that a detour explains.
 """
 
 from __future__ import annotations
@@ -50,17 +49,17 @@ class _Move:
 
 
 class WalkGoal:
-    """Where feet must be put down, in which order.
+    """Where feet must be put down, in order.
 
     Args:
-        feet: Where the feet are at the start.
-        steps: The footsteps as planned at the start.
-        leg: Length of the legs in m, the scale of distances.
-        led: How far in m the robot is led; steps may be moved by as much more.
+        feet: At the start.
+        steps: As planned at the start.
+        leg: Leg length in m.
+        led: How far in m the robot is led; moves may add that.
 
     Attributes:
-        near: Distance in m within which a foot has reached a place.
-        refused: Number of refused moves: without a reason, not finite, or too far.
+        near: Distance in m that counts as reached.
+        refused: Moves without reason, not finite, or too far.
     """
 
     def __init__(
@@ -89,7 +88,7 @@ class WalkGoal:
         return ways
 
     def move(self, time: float, moved: Sequence[MovedStep]) -> None:
-        """Take the footsteps that a controller reports as `moved` at `time` in s by the judge's clock."""
+        """Take footsteps `moved` by the controller at `time` in s (judge's clock)."""
         wanted = list(self._now)
         known = [m for m in moved if 0 <= m.step < len(wanted) and m.reason.strip()]
         known = [m for m in known if math.isfinite(m.x) and math.isfinite(m.y) and math.isfinite(m.yaw)]
@@ -118,10 +117,9 @@ class WalkGoal:
         return math.dist(there, planned) <= detour and away <= most and turned <= _DETOUR_YAW
 
     def ways(self, step: int, time: float, before: float) -> tuple[Way, Way | None]:
-        """Returns how a `step` may lead on from the foothold before it: as planned at the start, and as moved last or
-        None.
+        """Returns a `step` from the foothold before: as planned at the start, and as moved last or None.
 
-        Moves reported after `time` in s, its touchdown, do not count, nor those of the step before after `before`.
+        Moves after its touchdown `time` in s do not count, nor the step before's after `before`.
         """
         planned = _way(self._before(step), self.steps[step])
         if self._last_move(step, time) is None:
@@ -141,7 +139,7 @@ class WalkGoal:
         return self.steps[step] if move is None else move.place
 
     def reason(self, step: int, time: float) -> str:
-        """Returns why a `step` was moved last, until `time` in s, or an empty text."""
+        """Returns why a `step` was moved last until `time` in s, or ""."""
         move = self._last_move(step, time)
         return "" if move is None else move.reason
 
@@ -150,15 +148,13 @@ class WalkGoal:
         return self._before(0)
 
     def way_to(self, step: int) -> float:
-        """How far in m the middle between the feet is planned to have moved with a step."""
+        """Planned way in m of the feet's middle with a step."""
         return self._way[step]
 
     def end(
         self, centers: Mapping[Side, NDArray[np.float64]], *, at_start: bool = False
     ) -> tuple[NDArray[np.float64], float]:
-        """Returns the end: point (2,) in m between the soles' `centers` (2,) and heading in rad, as planned last or
-        `at_start`.
-        """
+        """Returns point (2,) in m between soles' `centers` (2,) and heading in rad, as planned last or `at_start`."""
         last, steps = dict(self._feet), self.steps if at_start else self._now
         for step in steps:
             last[step.side] = step
@@ -166,7 +162,7 @@ class WalkGoal:
         return np.asarray(middle), steps[-1].yaw if steps else self._feet["left"].yaw
 
     def summary(self) -> list[dict[str, object]]:
-        """Footsteps that were moved: how far in m, when last, and why."""
+        """Moved footsteps: how far in m, when last, why."""
         rows: list[dict[str, object]] = []
         for k, moves in sorted(self._moves.items()):
             move, planned = moves[-1], self.steps[k]

@@ -1,7 +1,6 @@
-"""ZMP from the skin against ZMP from force-torque sensors at the ankles (T 4.3.1, Fig. 42-43).
+"""ZMP from skin against force-torque sensors at the ankles (T 4.3.1, Fig. 42-43).
 
-Both pass the same first-order low pass and use the controller's estimate of the feet; the taxels' means are corrected
-for the bias of clipped noise (`plantar.gait.estimate.skin_load`).
+Both share a low pass and the controller's feet; clipped noise is corrected (`plantar.gait.estimate.skin_load`).
 """
 
 from __future__ import annotations
@@ -29,10 +28,10 @@ class ZmpComparison:
     """Follows both ZMPs through a run.
 
     Args:
-        layouts: Sole layout of each side.
+        layouts: Of each side.
         noise: Standard deviation of a taxel in N.
         period: Control period in s.
-        begin: Time in s from which differences count.
+        begin: Time in s from which it counts.
 
     Attributes:
         latest: World ZMP (2,) in m from the skin and from the ankles, None without load.
@@ -47,7 +46,7 @@ class ZmpComparison:
         self.latest: tuple[NDArray[np.float64] | None, NDArray[np.float64] | None] = (None, None)
 
     def update(self, time: float, command: Command) -> None:
-        """Take the `command` of the tick at `time` in s, with its sensor data and ankle loads."""
+        """Take the tick's `command` at `time` in s, with sensor data and ankle loads."""
         skin: list[NDArray[np.float64] | None] = []
         ankle: list[NDArray[np.float64] | None] = []
         skin_loads: list[float] = []
@@ -71,7 +70,7 @@ class ZmpComparison:
         self.latest = (one, other)
 
     def summary(self) -> dict[str, Any]:
-        """RMS and largest distance between the two ZMPs in m, and the mean difference (x, y)."""
+        """RMS, largest and mean (x, y) distance between the ZMPs in m."""
         if not self._differences:
             return {"samples": 0, "rms_m": None, "max_m": None, "mean_m": None}
         rows = np.array(self._differences)
