@@ -31,7 +31,7 @@ _AFTER = 3  # steps after the one that a push falls into that it may still chang
 
 
 class Pushed(NamedTuple):
-    """A push: its `step`, `start` and `end` in s, true `impulse` (2,) in N s, and whether too `small` to change steps."""
+    """A push: its `step`, `start` and `end` in s, true `impulse` (2,) in N s, whether too `small` to change steps."""
 
     step: int
     start: float
