@@ -1,1 +1,1 @@
-"""Arms of a robot that walks: how it wears one that moves, and how that yields to contact."""
+"""Arms of a walking robot, and how they yield to contact."""

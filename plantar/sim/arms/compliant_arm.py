@@ -1,4 +1,4 @@
-"""A walking robot's arm that yields to contact, by whole-body tasks on its joints."""
+"""A walking robot's arm that yields to contact."""
 
 from __future__ import annotations
 
@@ -25,21 +25,20 @@ _DAMPED = 0.1  # s: damping there over its stiffness
 
 
 class CompliantArm:
-    """The arm in a world: encoders, motors and tasks. It assumes an upright base and does not know the walk.
+    """Encoders, motors and tasks of the arm; an upright base is assumed.
 
-    Joints keep off the ends of their range; below that springs hold a posture and the skin's forces move it (A 13-14,
-    18).
+    Joints avoid their limits; below that springs hold a posture and skin forces move it (A 13-14, 18).
 
     Args:
         skin: The robot's skin, or None.
-        settings: Settings of the tasks, for the same robot.
-        world: The world with the arm in it.
+        settings: Of the tasks, for the same robot.
+        world: With the arm in it.
         period: Control period in s.
         encoder_noise: Standard deviation in rad.
 
     Attributes:
-        angles: Joint angles (k,) in rad as last measured.
-        posture: Joint angles (k,) in rad of the springs at rest.
+        angles: Last measured (k,) in rad.
+        posture: Of the springs at rest (k,) in rad.
     """
 
     def __init__(
@@ -89,7 +88,7 @@ class CompliantArm:
         """Read the encoders.
 
         Returns:
-            Origin (3,) in m and rotation (3, 3) in the base frame of each link with skin, by its name.
+            Origin (3,) in m and rotation (3, 3) in the base frame of each skinned link, by name.
         """
         data, rng, k = self._world.data, self._rng, len(self._places)
         self.angles = data.qpos[self._places] + self._encoder_noise * rng.standard_normal(k)
@@ -103,7 +102,7 @@ class CompliantArm:
         self.step(None)
 
     def step(self, measured: SkinReading | None) -> None:
-        """Set the motors' torques for a control period from the last encoder reading and a skin reading `measured`."""
+        """Set motor torques for a control period by encoders and the skin's `measured`."""
         external = None
         if measured is not None and self._skin is not None:
             self._force = self._force + self._share * (np.nan_to_num(measured.force) - self._force)

@@ -1,4 +1,4 @@
-"""Settings of the arm that a walking robot moves: a scene's table `[arm]`."""
+"""A scene's table `[arm]`: the arm that a walking robot moves."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ __all__ = ["ArmSettings"]
 
 
 class ArmSettings(Settings):
-    """An arm whose joints move under the companion's tasks (A 13-14, 18): springs to a posture, and yielding skin.
+    """An arm under the companion's tasks (A 13-14, 18): springs to a posture, yielding skin.
 
     Attributes:
-        side: Which arm moves; with "none" both are part of the chest.
-        posture: Angle in degrees of each joint from shoulder to wrist; empty: those of the machine's file.
-        spring: Torque of the springs, as a share of a joint's largest per rad.
-        damper: Torque against a joint's speed, likewise, in s/rad. Above 0.3 the wrist of h1 shakes at 200 Hz.
-        gain: Factor on the measured force; 1 yields as without friction and gears, 0 holds against it.
-        filter: Time constant in s of the low pass on each taxel's force.
-        speed_noise: Standard deviation in rad/s of the joints' speeds; their angles have the noise of the legs'.
+        side: Which moves; with "none" both belong to the chest.
+        posture: Degrees from shoulder to wrist; empty: the machine file's.
+        spring: Share of a joint's largest torque per rad.
+        damper: Likewise, in s/rad; above 0.3 h1's wrist shakes.
+        gain: Factor on measured force; 1 yields as without friction and gears, 0 holds.
+        filter: Low pass of taxel forces in s.
+        speed_noise: Standard deviation in rad/s; angles have the legs' noise.
     """
 
     side: str = choice("none", "left", "right")

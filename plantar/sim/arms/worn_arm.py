@@ -1,4 +1,4 @@
-"""An arm that a walking robot wears: taken from a machine with the same base and out of the robot's chest."""
+"""An arm taken from a machine with the same base and out of the robot's chest."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ _PREFIX = "arm/"
 
 
 class WornArm:
-    """One arm of a robot, to be added to its model (`plantar.sim.model.world.Visitor`).
+    """One arm to be added to a robot's model (`plantar.sim.model.world.Visitor`).
 
     Args:
-        posture: Angle in degrees of each joint from shoulder to wrist; empty: those of the machine's file.
+        posture: Degrees from shoulder to wrist; empty: the machine file's.
 
     Attributes:
-        joints: What each joint can do, by name, from shoulder to wrist.
-        links: Names from shoulder to hand.
-        posture: Joint angles (k,) in rad.
-        model: MjModel of the arm alone, on an upright base in the world's origin.
+        joints: Limits by name, from shoulder to wrist.
+        links: From shoulder to hand.
+        posture: (k,) in rad.
+        model: Of the arm alone, on an upright base in the world's origin.
 
     Raises:
-        RobotError: If the machine is unknown or not valid, or lacks the arm.
-        SceneError: If the robot has no such arm, or the joints cannot take the posture.
+        RobotError: If machine or arm is invalid.
+        SceneError: If arm or posture is impossible.
     """
 
     def __init__(self, robot: Robot, side: Side, posture: Sequence[float] = ()) -> None:
@@ -74,10 +74,10 @@ class WornArm:
         return np.asarray(np.radians(degrees))
 
     def surface(self, patch: str) -> tuple[str, NDArray[np.float64], float]:
-        """The part of a link that carries a patch of skin wrapped around its z axis.
+        """The part of a link under a patch wrapped around its z axis.
 
         Returns:
-            The link, the patch's middle (3,) in the link's frame in m, and its largest radius in m.
+            The link, the patch's middle (3,) in its frame in m, and largest radius in m.
 
         Raises:
             InputError: If there is no such patch.
@@ -99,10 +99,10 @@ class WornArm:
         return low, high
 
     def add_to(self, spec: Any) -> None:
-        """Take the arm out of the chest of an editable `spec` and hang it on the base.
+        """Move the arm from the chest of a `spec` to the base.
 
         Raises:
-            RobotError: If the robot has no such chest, or it weighs less than the arm.
+            RobotError: If there is no such chest.
         """
         chest, base = spec.body(self._chest), spec.body(self._torso)
         while base.parent is not None and base.parent.name != "world":
@@ -162,7 +162,7 @@ class WornArm:
 
 
 def _shoulder(whole: Any, root: str, base: str) -> NDArray[np.float64]:
-    """Place (3,) in m of an arm's first link on its base with all joints at 0."""
+    """Place (3,) in m of an arm's first link on its base, joints at 0."""
     data = mujoco.MjData(whole)
     mujoco.mj_kinematics(whole, data)
     turn = data.body(base).xmat.reshape(3, 3)
@@ -170,7 +170,7 @@ def _shoulder(whole: Any, root: str, base: str) -> NDArray[np.float64]:
 
 
 def _place_on_base(chest: Any, base: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Place (3,) in m and rotation (3, 3) of a body that is welded to the base."""
+    """Place (3,) in m and rotation (3, 3) of a body welded to the base."""
     place, turn = np.zeros(3), np.eye(3)
     body = chest
     while body is not None and body.name != base:
