@@ -1,1 +1,1 @@
-"""Skin anywhere on a body: where its taxels are, what presses on them, and what they measure."""
+"""Skin anywhere on a body: its taxels, what presses, what they measure."""

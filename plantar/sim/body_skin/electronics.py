@@ -1,4 +1,4 @@
-"""What a skin's electronics deliver: saturating signals, noise, gain errors, resolution, rate and delay."""
+"""A skin's electronics: saturation, noise, gain errors, resolution, rate, delay."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ __all__ = ["SkinElectronics", "SkinElectronicsSettings"]
 
 
 class SkinElectronicsSettings(Settings):
-    """Quality of a skin's readings; white noise (1 sigma).
+    """Quality of readings; white noise (1 sigma).
 
-    Force and proximity are normalised signals that saturate, as in A: f / (f + half_force) and half_distance / (d +
-    half_distance). Readers know the nominal curve alone.
+    Normalised signals saturate as in A: f / (f + half_force) and half_distance / (d + half_distance). Readers know only
+    the nominal curve.
 
     Attributes:
         rate: Sampling rate in Hz.
-        delay_periods: Whole sampling periods between sample and delivery.
-        half_force: Force in N at which the signal is one half.
-        half_distance: Distance in m at which the signal is one half.
+        delay_periods: Sampling periods from sample to delivery.
+        half_force: In N, where the signal is one half.
+        half_distance: In m, where the signal is one half.
         noise: Of the normalised signals.
-        gain_error: Of each taxel's half_force and half_distance, as a share; drawn once.
+        gain_error: Share of each taxel's half_force and half_distance.
         bits: Resolution of the normalised signals.
-        dead_taxels: Share of taxels that read NaN; the seed chooses which.
+        dead_taxels: Share that reads NaN, seeded.
     """
 
     rate: float = number(500.0, "Hz", 10.0, 1000.0)
@@ -43,7 +43,7 @@ class SkinElectronicsSettings(Settings):
 
 
 class SkinElectronics:
-    """Samples the truth and delivers readings; `seed` draws noise, gain errors and dead taxels."""
+    """Samples and delivers; `seed` draws noise, gain errors, dead taxels."""
 
     def __init__(self, skin: BodySkin, settings: SkinElectronicsSettings, seed: int) -> None:
         self.settings = settings
@@ -65,16 +65,16 @@ class SkinElectronics:
         distance: NDArray[np.float64],
         temperature: NDArray[np.float64] | None = None,
     ) -> SkinReading:
-        """The reading that is delivered at a time; a new sample is taken where one is due.
+        """The reading delivered at a time; samples where due.
 
         Args:
             time: In s.
-            force: True normal force (N,) on each taxel in N.
-            distance: True distance (N,) in m, inf out of range, negative where pressed in.
-            temperature: True temperature (N,) in degC, or None.
+            force: True normal (N,) in N.
+            distance: True (N,) in m, inf out of range, negative where pressed in.
+            temperature: True (N,) in degC, or None.
 
         Returns:
-            The latest sample that is old enough; until one is, the first.
+            The latest sample old enough, or the first.
         """
         if time >= self._due - 1e-9 or self._delivered is None:
             period = 1.0 / self.settings.rate

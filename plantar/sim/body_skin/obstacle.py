@@ -1,4 +1,4 @@
-"""One obstacle as skin measures it: how far rays go until they meet it, and how fast its points move."""
+"""One obstacle as skin measures it: ray lengths and point velocities."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ _PIECES = (_KINDS["cylinder"], _KINDS["sphere"], _KINDS["sphere"])
 
 
 class Obstacle:
-    """A geom that skin measures. Its velocity comes from its motion, since a mocap body has none.
+    """A geom that skin measures; its velocity is that of its motion.
 
     Attributes:
         name: Of the geom.
-        geom: Index of the geom.
-        body: Index of its body.
+        geom: Geom id.
+        body: Body id.
 
     Raises:
-        SceneError: If it is neither a plane, sphere, capsule, ellipsoid, cylinder, box nor mesh.
+        SceneError: If its shape is unsupported.
     """
 
     def __init__(self, model: Any, geom: int) -> None:
@@ -56,16 +56,16 @@ class Obstacle:
         before: tuple[NDArray[np.float64], NDArray[np.float64]],
         period: float,
     ) -> NDArray[np.float64]:
-        """Velocity of its points, by where it is and where it was.
+        """Velocity of its points by two poses.
 
         Args:
-            points: Points (m, 3) in the world in m.
-            now: Its middle (3,) in m and its rotation (9,) to the world, row by row.
+            points: (m, 3) in the world in m.
+            now: Middle (3,) in m and rotation (9,) to the world.
             before: Both, `period` earlier.
             period: In s; 0 for zero velocity.
 
         Returns:
-            Velocity (m, 3) in m/s.
+            (m, 3) in m/s.
         """
         if not period or ((now[0] == before[0]).all() and (now[1] == before[1]).all()):
             return np.zeros_like(points)
@@ -76,16 +76,16 @@ class Obstacle:
     def lengths(
         self, data: Any, starts: NDArray[np.float64], ways: NDArray[np.float64], reach: float
     ) -> NDArray[np.float64]:
-        """How far rays go until they meet it.
+        """Lengths of rays that meet it.
 
         Args:
             data: The MjData.
-            starts: Starts of the rays (n, 3) in the world in m.
-            ways: Unit vectors (n, 3) along them.
-            reach: Length in m beyond which a meeting need not be found.
+            starts: (n, 3) in the world in m.
+            ways: Unit vectors (n, 3).
+            reach: Length in m that matters.
 
         Returns:
-            Lengths (n,) in m; -1 for a ray that misses.
+            (n,) in m; -1 for a miss.
         """
         found = np.empty(len(starts))
         if self._mesh:

@@ -1,8 +1,7 @@
-"""Simulated skin on any link: what obstacles press on each taxel, and how the skin presses back.
+"""Simulated skin on any link, and how it presses back on obstacles.
 
-Skin is an elastic foundation. A ray of each taxel along its normal measures how deep an obstacle has sunk in; pressure
-follows from depth and rate, friction from the sliding velocity, and both act on link and obstacle, whose MuJoCo
-contacts are off.
+An elastic foundation: each taxel's ray measures depth; pressure follows from depth and rate, friction from sliding.
+Both act on link and obstacle, whose MuJoCo contacts are off.
 """
 
 from __future__ import annotations
@@ -31,14 +30,14 @@ _LONGEST_STEP = 0.02  # s between two physics steps over which an obstacle's vel
 
 
 class SkinSensing(SkinElectronicsSettings):
-    """What the skin is made of, and how well it measures.
+    """Material and quality of a skin.
 
     Attributes:
-        stiffness: In Pa/m; the default is foam of 100 kPa, 10 mm thick.
+        stiffness: In Pa/m; by default 10 mm of 100 kPa foam.
         damping: In Pa s/m.
-        friction: Coulomb's coefficient between skin and obstacles.
-        slip_speed: Sliding velocity in m/s at which friction has reached 71 % of Coulomb's.
-        everything: Cast all rays always, for comparison; readings stay the same.
+        friction: Coulomb's coefficient.
+        slip_speed: In m/s, where friction reaches 71 % of Coulomb's.
+        everything: Cast all rays, for comparison; same readings.
     """
 
     stiffness: float = number(1e7, "Pa/m", 1e4, 1e10)
@@ -60,27 +59,27 @@ class _Patch(NamedTuple):
 
 
 class SkinSensor:
-    """The skin of a machine or robot in a world with obstacles.
+    """The skin of a machine or robot among obstacles.
 
     Args:
-        model: The MjModel of the world, in which contacts between skinned links and obstacles are switched off.
-        skin: The skin, on links of the model.
-        settings: What the skin is made of and how well it measures.
+        model: The world's; contacts between skinned links and obstacles are switched off.
+        skin: On links of the model.
+        settings: Its material and quality.
         seed: Of noise, gain errors and dead taxels.
-        obstacles: Ids of the geoms that it measures; None for all of `OBSTACLE_GROUP`.
+        obstacles: Measured geom ids; None for all of `OBSTACLE_GROUP`.
 
     Attributes:
-        force: True normal force (N,) in N at the last `apply`.
-        distance: True distance (N,) in m; inf out of range, negative where pressed in.
-        wrenches: True wrench (L, 6) on each of `skin.links` about the link's origin, in the world frame.
-        on_obstacles: True wrench (6,) on each obstacle about its geom's middle in the world frame, by name.
-        temperature: True temperature (N,) in degC, set by a model of heat; None without.
-        cast: Taxels, summed over the steps, for which a ray was cast.
-        skipped: Those without.
+        force: True normal (N,) in N at the last `apply`.
+        distance: True (N,) in m; inf out of range, negative where pressed in.
+        wrenches: True (L, 6) on `skin.links` about their origins, world frame.
+        on_obstacles: True (6,) about each geom's middle, world frame, by name.
+        temperature: True (N,) in degC of a heat model, or None.
+        cast: Rays cast, over all steps.
+        skipped: Rays not cast.
 
     Raises:
-        RobotError: If the model lacks a link of the skin.
-        SceneError: If an obstacle is of a kind that cannot be measured.
+        RobotError: If a link is missing.
+        SceneError: If an obstacle is unsupported.
     """
 
     def __init__(
@@ -112,9 +111,9 @@ class SkinSensor:
         self._electronics = SkinElectronics(skin, settings, seed)
 
     def apply(self, data: Any) -> None:
-        """Press obstacles and links apart: once a physics step, after `mj_step1` or `mj_forward`.
+        """Press obstacles and links apart, once a physics step after `mj_step1` or `mj_forward`.
 
-        Sets `data.xfrc_applied` of every skinned link and obstacle; other pushes use `data.qfrc_applied`.
+        Sets their `data.xfrc_applied`; other pushes use `data.qfrc_applied`.
         """
         period = float(data.time) - self._time
         self._time = float(data.time)
@@ -136,7 +135,7 @@ class SkinSensor:
         return self._electronics.read(float(data.time), self.force, self.distance, self.temperature)
 
     def patch_force(self, patch: str) -> float:
-        """Sum of the true normal forces on a patch in N."""
+        """True normal force on a patch in N."""
         return float(self.force[self.skin.slices[patch]].sum())
 
     def _clear(self, data: Any) -> None:
@@ -167,7 +166,7 @@ class SkinSensor:
         pressed: NDArray[np.int64],
         contact: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
     ) -> None:
-        """Normal force and friction at contact points (m, 3) with inward normals (m, 3) and depths (m,)."""
+        """Normal and friction forces at points (m, 3) by inward normals (m, 3) and depths (m,)."""
         points, normals, depths = contact
         obstacle = self._obstacles[index]
         now, before = (tuple(part[index] for part in where) for where in (self._now, self._before))
@@ -194,7 +193,7 @@ class SkinSensor:
 
 
 class _BroadPhase:
-    """Which patches are near to which obstacles: each one's sphere against the other's box."""
+    """Which patches are near obstacles: spheres against boxes."""
 
     def __init__(self, model: Any, patches: list[_Patch], geoms: list[int]) -> None:
         self.everything = [(i, list(range(len(geoms)))) for i in range(len(patches))]

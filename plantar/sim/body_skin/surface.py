@@ -1,7 +1,7 @@
-"""Patches of skin on a model's links: a lattice of taxels laid on the surface of a link's geoms or meshes.
+"""Patches of skin: lattices of taxels laid on a link's geoms or meshes.
 
-A patch's frame has its z axis into the body. A flat lattice is shot along z; a wrapped one goes around the x axis, and
-is shot towards it. Each taxel sits where it met the surface, turned to the normal.
+A patch's z points into the body. A flat lattice is shot along z, a wrapped one towards the x axis; taxels sit where
+they meet the surface, turned to its normal.
 """
 
 from __future__ import annotations
@@ -35,15 +35,15 @@ class PatchShape(Settings):
     Attributes:
         name: Of the patch.
         link: Link that carries it.
-        position: Origin of the patch's frame in the link's frame.
-        rotation: Roll, pitch, yaw in degrees of the patch's frame in the link's frame.
-        size: Extent of the lattice along x and y; with wrap, y goes around (0: all around).
-        wrap: Radius of the lattice around the frame's x axis; 0 for a flat lattice.
+        position: Frame's origin in the link's frame.
+        rotation: Roll, pitch, yaw in degrees in the link's frame.
+        size: Extent along x and y; with wrap, y goes around (0: all around).
+        wrap: Radius around the x axis; 0 for a flat lattice.
         cell_area: Area of a taxel in m^2.
-        taxels: Most taxels, those nearest to the middle; 0 for as many as fit.
-        reach: How far from the frame's plane, or outside the radius, rays begin.
+        taxels: Most, nearest to the middle; 0 for all that fit.
+        reach: How far outside plane or radius rays begin.
         range: Of the proximity sensors; 0 without.
-        threshold: Force in N from which a taxel is active.
+        threshold: In N, from which a taxel is active.
     """
 
     name: str = text("")
@@ -60,19 +60,19 @@ class PatchShape(Settings):
 
 
 def skin_from_tables(model: Any, patches: Iterable[Mapping[str, Any]], where: str) -> BodySkin:
-    """Lay the patches of a machine's file on the model's links.
+    """Lay a machine file's patches on the model's links.
 
     Args:
-        model: The MjModel; obstacles in it carry no skin.
+        model: Its obstacles carry no skin.
         patches: The `[[patch]]` tables.
-        where: Name of the file, for messages.
+        where: File name, for messages.
 
     Returns:
         The skin.
 
     Raises:
-        RobotError: If a value is missing or not allowed or a link unknown.
-        LayoutError: If no taxel of a patch meets its link, or two patches have one name.
+        RobotError: If value or link is invalid.
+        LayoutError: If a patch misses, or names repeat.
     """
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
@@ -112,7 +112,7 @@ def _patch(model: Any, data: Any, shape: PatchShape, where: str) -> SkinPatch:
 
 
 def _rays(shape: PatchShape, where: str) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Starts (n, 3) and directions (n, 3) of the rays in the link's frame, and the patch's rotation (3, 3) to it."""
+    """Starts (n, 3) and directions (n, 3) in the link's frame, and the patch's rotation (3, 3)."""
     origin = _vector(shape.position, "position", 3, where)
     roll, pitch, yaw = np.radians(_vector(shape.rotation, "rotation", 3, where)).tolist()
     turn = rotation_from_angles(yaw, pitch, roll)
@@ -144,7 +144,7 @@ def _rays(shape: PatchShape, where: str) -> tuple[NDArray[np.float64], NDArray[n
 def _meet(
     model: Any, data: Any, body: int, starts: NDArray[np.float64], ways: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Length (n,) of rays in a body's frame to its first geom, -1 for none, and the surface's normal (n, 3) there."""
+    """Lengths (n,) of rays in a body's frame, -1 for misses, and surface normals (n, 3)."""
     place, turn = data.xpos[body], data.xmat[body].reshape(3, 3)
     begin = model.body_geomadr[body]
     geoms = [g for g in range(begin, begin + model.body_geomnum[body]) if model.geom_group[g] != OBSTACLE_GROUP]
@@ -163,7 +163,7 @@ def _meet(
 
 
 def _frames(inward: NDArray[np.float64], forward: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rotations (n, 3, 3) with z along `inward` (n, 3) and x as near to `forward` (3,) as possible."""
+    """Rotations (n, 3, 3) with z along `inward` (n, 3) and x near `forward` (3,)."""
     x = forward - (inward @ forward)[:, None] * inward
     lost = np.linalg.norm(x, axis=1) < 1e-6
     x[lost] = np.cross(inward[lost], [[0.3, 0.5, 0.8]])

@@ -1,7 +1,6 @@
-"""Skin around the upper body of a robot that walks: a box of taxels about all that is welded to its base.
+"""A box of taxels about all that is welded to a walking robot's base.
 
-A force on a face acts along its normal, so the wrench is that on the surface. Taxels have 691 mm^2 on H1, and are as
-many on any robot of its shape.
+Forces act along a face's normal. Taxels have 691 mm^2 on H1, and scale with the robot.
 """
 
 from __future__ import annotations
@@ -32,16 +31,16 @@ def upper_body_skin(model: Any, base: int, *, leg: float, weight: float) -> Body
     """Lay skin around all that is welded to the base.
 
     Args:
-        model: The MjModel of the robot alone.
-        base: Id of the body that floats.
-        leg: Length of the legs in m.
+        model: Of the robot alone.
+        base: Id of the floating body.
+        leg: Leg length in m.
         weight: In N.
 
     Returns:
-        The skin: a patch of each name of `FACES`, on the base, in its frame.
+        A patch of each of `FACES`, in the base frame.
 
     Raises:
-        RobotError: If what is welded to the base has no extent.
+        RobotError: If there is no extent.
     """
     low, high = _extent(model, base)
     if (high - low < _SMALLEST * leg).any():
@@ -77,7 +76,7 @@ def upper_body_skin(model: Any, base: int, *, leg: float, weight: float) -> Body
 
 
 def _extent(model: Any, base: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Lowest and highest coordinates (3,) in the base frame of all welded shapes, or of the links' inertial boxes."""
+    """Lowest and highest coordinates (3,) in the base frame of welded shapes, or inertial boxes."""
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     turn, origin = data.xmat[base].reshape(3, 3), data.xpos[base]
@@ -105,7 +104,7 @@ def _corners(model: Any, data: Any, geom: int) -> NDArray[np.float64]:
 
 
 def _inertial_box(model: Any, data: Any, body: int) -> NDArray[np.float64]:
-    """Corners (8, 3) in the world of the solid box with the mass and inertia of a link."""
+    """Corners (8, 3) in the world of the solid box with a link's mass and inertia."""
     inertia, mass = model.body_inertia[body], float(model.body_mass[body])
     half = np.sqrt(np.maximum(1.5 / mass * (inertia.sum() - 2.0 * inertia), 0.0))
     return np.asarray(_SIGNS * half @ data.ximat[body].reshape(3, 3).T + data.xipos[body])
