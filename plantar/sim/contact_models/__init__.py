@@ -1,1 +1,1 @@
-"""How a simulated sole can touch the ground and measure it: a study, which `plantar bench contact` runs."""
+"""How a simulated sole can touch and measure ground (`plantar bench contact`)."""

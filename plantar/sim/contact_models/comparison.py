@@ -1,6 +1,6 @@
-"""Comparison of contact models on a free body of 43 kg with one sole, pushed with known wrenches.
+"""Contact models compared on a pushed free body of 43 kg with one sole.
 
-The truth is MuJoCo's own contact wrench of the same step, summed over all contacts of the sole.
+The truth is MuJoCo's contact wrench of the same step.
 """
 
 from __future__ import annotations
@@ -36,19 +36,19 @@ BEAM_OFFSETS = (-0.031, -0.013, 0.0, 0.009, 0.027)
 
 @dataclass(frozen=True)
 class ContactRow:
-    """Figures of one contact model; inf: it toppled, or it did not tip over.
+    """Figures of one contact model; inf: it toppled, or did not tip.
 
     Attributes:
         contacts: In full-sole stance.
-        cop_median_mm: Error of the taxels' centre of pressure there, over the loads; `cop_max_mm` the largest.
+        cop_median_mm: Taxel CoP error there; `cop_max_mm` the largest.
         moment_max_Nm: Largest error of (tx, ty).
-        edge_x_mm: True CoP at which the sole tips over along x, less the true edge: negative tips early.
-        seen_x_mm: CoP of the taxels at that instant, less the true edge.
-        beam_contact_ratio: Area of the contact points' hull over the true contact area; mean over the beams.
+        edge_x_mm: True CoP at tipping along x, less the true edge: negative tips early.
+        seen_x_mm: Taxel CoP then, less the true edge.
+        beam_contact_ratio: Contact hull over true contact area; mean over the beams.
         beam_taxel_ratio: The same of the active cells' corners.
         beam_wrong_cells: Active cells that do not touch the beam.
-        beam_silent_cells: Inactive cells with a quarter of their area or more on the beam.
-        step_us: Median time of a physics step in full-sole stance; `read_us` of a taxel reading.
+        beam_silent_cells: Inactive cells with a quarter or more on the beam.
+        step_us: Median of a full-sole physics step; `read_us` of a taxel reading.
     """
 
     name: str
@@ -70,11 +70,11 @@ class ContactRow:
 
     @property
     def millisecond_us(self) -> float:
-        """Cost in us of a simulated ms: a physics step and a quarter of a reading (a skin of 250 Hz)."""
+        """Cost in us of a simulated ms: a step and a quarter reading (250 Hz)."""
         return self.step_us + 0.25 * self.read_us
 
     def as_dict(self) -> dict[str, Any]:
-        """Plain numbers and text; None where the sole toppled or did not tip."""
+        """Plain values; None where the sole toppled or did not tip."""
         return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(self).items()}
 
 
@@ -94,8 +94,8 @@ class Rig:
         tangential: tuple[float, float] = (0.0, 0.0),
         twist: float = 0.0,
     ) -> None:
-        """Push so that a sole at rest has a normal `force` in N, carried at a `point` (2,) in the sole frame in m,
-        under a `tangential` push in N and a `twist` in N m.
+        """Push to a normal `force` in N at a `point` (2,) in the sole frame in m, with `tangential` in N and `twist` in
+        N m.
         """
         data = self.data
         at = data.site_xpos[self.sole.site]
@@ -130,14 +130,14 @@ def compare_contact_models(
     contact: Contact | None = None,
     progress: Callable[[float, str], None] | None = None,
 ) -> list[ContactRow]:
-    """Measure contact models against MuJoCo's exact contact wrench.
+    """Measure contact models against MuJoCo's contact wrench.
 
     Args:
-        layout: The sole; its outline's bounding rectangle is the true edge.
+        layout: Its bounding rectangle is the true edge.
         candidates: What to compare.
-        seeds: Random load cases at each of the 25 centres of pressure in full-sole stance.
+        seeds: Random load cases at each of 25 CoPs in full-sole stance.
         contact: Contact parameters.
-        progress: Called with the fraction done and a text.
+        progress: Called with fraction and text.
 
     Returns:
         A row a candidate.
@@ -164,10 +164,9 @@ def compare_contact_models(
 
 
 def full_stance(sole: Sole, layout: SoleLayout, seeds: int) -> dict[str, Any]:
-    """Errors in full-sole stance: the CoP over the inner 70 % of the sole, 200-844 N, tangential loads and twist.
+    """Errors in full-sole stance: CoP over the inner 70 %, 200-844 N, tangential loads, twist.
 
-    Returns the fields of `ContactRow` that it measures, for a `sole` of a `layout` on flat ground, with `seeds` load
-    cases at each CoP.
+    Returns its fields of `ContactRow` for a `sole` of a `layout` on flat ground, with `seeds` load cases a CoP.
     """
     middle, half = _rectangle(layout)
     targets = [middle + half * (x, y) for x in np.linspace(-INNER, INNER, 5) for y in np.linspace(-INNER, INNER, 5)]
@@ -205,7 +204,7 @@ def _standing(sole: Sole, layout: SoleLayout, load: float) -> Rig:
 
 
 def _loaded(rig: Rig, target: NDArray[np.float64], rng: np.random.Generator) -> NDArray[np.float64] | None:
-    """True wrench (6,) under a random load with a given CoP (2,); None where the sole topples."""
+    """True wrench (6,) under a random load with a CoP (2,); None where toppled."""
     load = float(rng.uniform(200.0, 844.0))
     angle = float(rng.uniform(0.0, 2.0 * math.pi))
     side = float(rng.uniform(0.0, 0.3)) * load
@@ -218,9 +217,9 @@ def _loaded(rig: Rig, target: NDArray[np.float64], rng: np.random.Generator) -> 
 
 
 def tip_over(sole: Sole, layout: SoleLayout) -> dict[str, Any]:
-    """Where the sole tips over as the load moves out at 40 mm/s: the true CoP stops at the pivot.
+    """Where the sole tips as the load moves out at 40 mm/s.
 
-    Returns the fields of `ContactRow` that it measures, for a `sole` of a `layout` on flat ground.
+    Returns its fields of `ContactRow` for a `sole` of a `layout` on flat ground.
     """
     out: dict[str, Any] = {}
     for name, direction in (("x", np.array([1.0, 0.0])), ("y", np.array([0.0, 1.0]))):
@@ -231,7 +230,7 @@ def tip_over(sole: Sole, layout: SoleLayout) -> dict[str, Any]:
 
 
 def _edge(sole: Sole, layout: SoleLayout, direction: NDArray[np.float64]) -> tuple[float, float]:
-    """Distance beyond the true edge in mm, in a direction, at which the sole tips, and at which the taxels show it."""
+    """Distances beyond the true edge in mm, in a direction, where the sole tips, truly and by taxels."""
     middle, half_sizes = _rectangle(layout)
     half = float(half_sizes @ np.abs(direction))
     rig = _standing(sole, layout, _TIPPING_LOAD)

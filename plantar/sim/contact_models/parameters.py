@@ -1,4 +1,4 @@
-"""Contact parameters of the box sole: what they do to slip, penetration, landing and run time."""
+"""Effects of contact parameters on slip, penetration, landing and run time."""
 
 from __future__ import annotations
 
@@ -44,14 +44,14 @@ class ParameterRow:
     """Figures of one set of contact parameters on the box sole.
 
     Attributes:
-        name: What differs from the recommended values.
+        name: What differs from recommended values.
         penetration_mm: Of the sole under 844 N.
-        slip_mm_s: Creep under a horizontal push of half the friction limit.
+        slip_mm_s: Creep under half the friction limit.
         twist_deg_s: Creep about z under 5 N m at 422 N.
-        landing_N: Peak force of a foot of 3 kg that lands at 0.15 m/s with 40 kg on a stiff servo above it.
-        rebounds: How often that foot leaves the ground again within 0.3 s.
-        ripple_N: Standard deviation of the normal force in quiet stance.
-        step_us: Median time of a physics step.
+        landing_N: Peak of a 3 kg foot landing at 0.15 m/s under 40 kg on a stiff servo.
+        rebounds: How often it lifts off within 0.3 s.
+        ripple_N: Of the normal force in quiet stance.
+        step_us: Median of a physics step.
     """
 
     name: str
@@ -67,9 +67,7 @@ class ParameterRow:
 def study_contact_parameters(
     layout: SoleLayout, progress: Callable[[float, str], None] | None = None
 ) -> list[ParameterRow]:
-    """Returns a row for each of `PARAMETERS` on the box sole of a `layout`; `progress` gets the fraction done and a
-    text.
-    """
+    """Returns a row for each of `PARAMETERS` on a `layout`'s box; `progress` gets fraction and text."""
     rows = []
     for i, (name, contact) in enumerate(PARAMETERS):
         if progress is not None:
@@ -125,7 +123,7 @@ def _creep(rig: Rig, middle: Any, tangential: tuple[float, float], twist: float)
 
 
 def _land(contact: Contact, layout: SoleLayout) -> tuple[float, int]:
-    """Peak force in N and rebounds of a foot on a stiff servo (2e5 N/m, as of a bent leg with kp 8000 N m/rad)."""
+    """Peak force in N and rebounds of a foot on a 2e5 N/m servo."""
     low, high = layout.outline.min(axis=0), layout.outline.max(axis=0)
     half = 0.5 * (high - low)
     model = mujoco.MjModel.from_xml_string(

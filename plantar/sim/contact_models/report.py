@@ -1,4 +1,4 @@
-"""The comparison of contact models: requirements, text, page, tables and figure."""
+"""The comparison of contact models as text, page, tables and figure."""
 
 from __future__ import annotations
 
@@ -36,18 +36,18 @@ def holds(row: ContactRow) -> bool:
 
 
 def measure_contact(folder: Path, layout: Path | None, progress: Callable[[float, str], None]) -> dict[str, Any]:
-    """Compare the contact models on a sole, study the contact parameters, and write the report.
+    """Compare contact models and parameters, and write the report.
 
     Args:
         folder: Existing folder.
-        layout: Layout file of the sole; None for one of 250 x 155 mm with taxels of 691 mm^2.
-        progress: Called with the fraction done and a text.
+        layout: Layout file; None for 250 x 155 mm with taxels of 691 mm^2.
+        progress: Called with fraction and text.
 
     Returns:
-        Name of the chosen model, whether it meets the requirements, rows of models and parameters, names of the files.
+        Chosen model's name, whether it meets the requirements, rows of models and parameters, file names.
 
     Raises:
-        LayoutError: If the layout file cannot be used.
+        LayoutError: If the file is invalid.
     """
     sole = hex_layout(_SOLE) if layout is None else read_layout(layout)
     rows = compare_contact_models(sole, progress=lambda share, text: progress(0.9 * share, text))
@@ -62,7 +62,7 @@ def measure_contact(folder: Path, layout: Path | None, progress: Callable[[float
 
 
 def contact_text(result: Mapping[str, Any]) -> str:
-    """The comparison's main figures as text."""
+    """The comparison's main figures."""
     lines = [f"{'contact model':24}{'CoP max mm':>12}{'edge mm':>10}{'step us':>10}{'read us':>10}"]
     for row in result["models"]:
         x, y = row["edge_x_mm"], row["edge_y_mm"]
@@ -78,8 +78,7 @@ def write_contact_report(
 ) -> list[str]:
     """Write contact.csv, contact_parameters.csv, contact_models.md and contact_models.png into an existing `folder`.
 
-    Returns the files' names, for the `rows` of models on the sole `layout`, the chosen one first, and the rows of
-    `parameters`.
+    Returns their names; `rows` of models on `layout` have the chosen one first, then rows of `parameters`.
     """
     write_rows(folder / "contact.csv", [r.as_dict() for r in rows])
     write_rows(folder / "contact_parameters.csv", [asdict(r) for r in parameters])

@@ -1,4 +1,4 @@
-"""A free body with one sole, compiled, and how taxel forces are read from it."""
+"""A compiled free body with one sole, and its taxel reader."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ class Sole(NamedTuple):
     """A compiled rig with one sole and its reader.
 
     Attributes:
-        site: Site id of the sole frame.
-        geoms: Ids of the geoms that touch.
+        site: Id of the sole frame.
+        geoms: Ids that touch.
         read: Taxel forces (n,) in N from the MjData.
     """
 
@@ -50,18 +50,18 @@ def build_sole(
     """Compile a free body with one sole over some ground.
 
     Args:
-        candidate: Contact model of the sole.
-        layout: The sole; its outline's bounding rectangle is the box.
-        ground: MJCF of the ground's geoms with a placeholder {contact} for contact parameters.
+        candidate: Contact model.
+        layout: Its bounding rectangle is the box.
+        ground: MJCF of ground geoms with placeholder {contact}.
         mass: In kg.
-        com_height: CoM above the sole in m.
+        com_height: Above the sole in m.
         contact: Contact parameters.
 
     Returns:
-        The compiled rig with its reader.
+        The compiled rig.
 
     Raises:
-        InputError: If the candidate's kind or reading is unknown.
+        InputError: If kind or reading is unknown.
     """
     contact = contact or Contact()
     attributes = contact.geom_attributes()
@@ -110,7 +110,7 @@ def _tactile(candidate: Candidate, model: Any, layout: SoleLayout, geoms: frozen
 
 
 def _fitted(depth: NDArray[np.float64], layout: SoleLayout, wrench: NDArray[np.float64]) -> NDArray[np.float64]:
-    """depth_i max(0, a + b x_i + c y_i) with the wrench's three normal parts."""
+    """depth_i max(0, a + b x_i + c y_i) by the wrench's normal parts."""
     u = np.column_stack([np.ones(len(layout)), layout.positions[:, :2]])
     load = np.array([wrench[2], -wrench[4], wrench[3]])
     active = np.ones(len(layout), dtype=bool)

@@ -1,4 +1,4 @@
-"""Ways to model a sole, contact parameters, and the MJCF of a sole whose outer face is the plane z = 0 of its body."""
+"""Contact models and parameters, and a sole's MJCF: its outer face is z = 0."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ class Candidate:
     """One way to model a sole.
 
     Attributes:
-        name: Short name, as in the tables.
-        text: What it is, in a few words.
+        name: As in the tables.
+        text: Short description.
         kind: "box", "spheres" or "prisms": what touches the ground.
         count: Spheres a taxel.
         reading: "patches", "tactile" or "contacts": where taxel forces come from.
@@ -50,7 +50,7 @@ CANDIDATES: tuple[Candidate, ...] = (
 
 
 class Contact(NamedTuple):
-    """Contact parameters of all geoms; by default those recommended on stiff position servos."""
+    """Contact parameters of all geoms; defaults for stiff position servos."""
 
     time_constant: float = 0.005
     damping_ratio: float = 1.0
@@ -77,7 +77,7 @@ SPHERE_RADIUS = 0.004
 
 
 class SoleMjcf(NamedTuple):
-    """MJCF of what goes under <asset>, in the foot's body, and under <sensor>."""
+    """MJCF under <asset>, in the foot's body, and under <sensor>."""
 
     assets: str
     geoms: str
@@ -85,11 +85,10 @@ class SoleMjcf(NamedTuple):
 
 
 def sole_mjcf(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
-    """Returns the MJCF of a sole with a `layout` by a contact model `candidate`, with `attributes` of every geom that
-    touches.
+    """Returns the MJCF of a `layout` by a contact model `candidate`, with `attributes` of touching geoms.
 
     Raises:
-        InputError: If the candidate's kind or reading is unknown.
+        InputError: If kind or reading is unknown.
     """
     make = _MAKERS.get((candidate.kind, candidate.reading))
     if make is None or (candidate.kind == "spheres" and candidate.count < 1):
@@ -149,9 +148,7 @@ _MAKERS: dict[tuple[str, str], Callable[[Candidate, SoleLayout, str], SoleMjcf]]
 
 
 def support_points(ring: NDArray[np.float64], count: int) -> NDArray[np.float64]:
-    """Returns `count` points (count, 2) in m that support a cell `ring` (k, 2): its middle, or evenly along its edge
-    moved inwards.
-    """
+    """Returns `count` points (count, 2) in m of a cell `ring` (k, 2): its middle, or along its edge moved inwards."""
     edge = np.roll(ring, -1, axis=0) - ring
     length = np.hypot(edge[:, 0], edge[:, 1])
     cross = ring[:, 0] * np.roll(ring[:, 1], -1) - np.roll(ring[:, 0], -1) * ring[:, 1]
