@@ -1,4 +1,4 @@
-"""Gymnasium environments of robots with plantar skin: `gymnasium.make("PlantarWalk-v0", robot="my_robot.toml")`."""
+"""Gymnasium environments with plantar skin: `gymnasium.make("PlantarWalk-v0", robot="my_robot.toml")`."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ _STEPS = 500  # of 20 ms: episodes of 10 s
 
 
 def register() -> None:
-    """Add the environments to Gymnasium's registry, once, where its entry point has not.
+    """Add the environments to Gymnasium's registry, once.
 
     Raises:
-        DependencyError: If Gymnasium or MuJoCo is missing.
+        DependencyError: If one is missing.
     """
     need_libraries("gym", "gymnasium", "mujoco")
     import gymnasium

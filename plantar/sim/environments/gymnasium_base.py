@@ -1,4 +1,4 @@
-"""Gymnasium's classes; without it, stand-ins that can be imported but not constructed."""
+"""Gymnasium's classes, or stand-ins that cannot be constructed."""
 
 from __future__ import annotations
 

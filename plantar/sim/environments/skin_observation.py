@@ -1,4 +1,4 @@
-"""Adds plantar skin to the observation of any Gymnasium environment that simulates with MuJoCo."""
+"""Adds plantar skin to observations of any MuJoCo Gymnasium environment."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ __all__ = ["SkinObservation"]
 class SkinObservation(ObservationWrapper[Any, Any, Any]):
     """Adds the forces on skins to the observation, which becomes a Dict.
 
-    The environment's own observation is under its keys where it is a Dict, else under "observation"; each skin is under
-    its name: the force (n,) in N, float32. Physics are unchanged.
+    Other observations keep their keys, or "observation" if not a Dict; each skin's name has the force (n,) in N,
+    float32.
 
     Args:
-        env: An environment whose `unwrapped` has `model` and `data`.
-        skins: The skins by name.
-        faults: Of the taxels, drawn again at each reset; None without.
+        env: Its `unwrapped` has `model` and `data`.
+        skins: By name.
+        faults: Of taxels, drawn at each reset, or None.
 
     Attributes:
-        readings: What each skin read last, without faults (`plantar.mujoco.SkinReading`).
+        readings: Latest, without faults (`plantar.mujoco.SkinReading`).
 
     Raises:
-        InputError: If the environment has no MuJoCo model, or a name is taken.
-        RobotError: If a skin cannot be on its body.
+        InputError: If model or name is invalid.
+        RobotError: If a skin misses its body.
     """
 
     def __init__(self, env: Any, skins: Mapping[str, Skin], faults: TaxelFaults | None = None) -> None:
@@ -57,7 +57,7 @@ class SkinObservation(ObservationWrapper[Any, Any, Any]):
         self.observation_space = spaces.Dict(boxes)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Reset with `seed`, which also draws the taxels' faults, and `options`; returns observation and info."""
+        """Reset with `seed`, also of taxel faults, and `options`; returns observation and info."""
         observation, info = self.env.reset(seed=seed, options=options)
         if self._faults is not None:
             rng = self.env.unwrapped.np_random
@@ -67,7 +67,7 @@ class SkinObservation(ObservationWrapper[Any, Any, Any]):
         return self.observation(observation), info
 
     def observation(self, observation: Any) -> dict[str, Any]:
-        """The environment's `observation` with the force (n,) on the taxels of each skin, 0 for a dead one."""
+        """The environment's `observation` with forces (n,) of each skin, 0 for dead taxels."""
         data = self.env.unwrapped.data
         self.readings = {name: skin(data) for name, skin in self._skins.items()}
         seen = dict(observation) if self._is_dict else {"observation": observation}

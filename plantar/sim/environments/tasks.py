@@ -1,7 +1,6 @@
-"""Tasks of a robot in a Gymnasium environment: ground, disturbances, observation and reward.
+"""Tasks of a Gymnasium environment: ground, disturbances, observation and reward.
 
-Velocities are in sqrt(g l), lengths in legs l and times in beats sqrt(l / g), so that a task is as hard for every
-robot. Each reward is at most 1 a step.
+Velocities are in sqrt(g l), lengths in legs l, times in beats sqrt(l / g). Rewards are at most 1 a step.
 """
 
 from __future__ import annotations
@@ -64,7 +63,7 @@ class Task:
         self.beat = math.sqrt(self.leg / GRAVITY)
 
     def ground(self) -> Ground:
-        """The ground as the model is compiled with it."""
+        """The ground to compile."""
         return Ground((), 0.0, _FRICTION)
 
     def reset(self, rng: np.random.Generator) -> None:
@@ -88,12 +87,12 @@ class Task:
 
     @property
     def upright(self) -> float:
-        """1 for an upright torso, 0.37 where it tilts by 0.2 rad."""
+        """1 for an upright torso, 0.37 at 0.2 rad."""
         return math.exp(-2.0 * (1.0 - self.env.up) / 0.04)
 
 
 class Stand(Task):
-    """Stand still; every 8 beats a push changes the velocity by up to 0.1 sqrt(g l) in any direction."""
+    """Stand still; each 8 beats a push changes the velocity by up to 0.1 sqrt(g l)."""
 
     def reset(self, rng: np.random.Generator) -> None:
         self._next = 8.0 * self.beat
@@ -107,11 +106,11 @@ class Stand(Task):
 
 
 class Step(Task):
-    """Step onto targets: each 3 beats one foot, left first, up to a sixth of a leg ahead of the other one.
+    """Step onto targets: each 3 beats one foot, left first, up to a sixth of a leg ahead.
 
-    Observed are the swing foot (1 left, -1 right), the share of its time that has passed, and the target (2,) in the
-    torso's heading, from the swing foot's sole, in legs. Reward: 0.2 for the unloaded swing foot, 0.4 for being
-    upright, 0.4 for the sole near its target at the end. `info` has "steps": landings within 0.1 leg of it.
+    Observed: swing foot (1 left, -1 right), passed share of its time, and target (2,) in the torso's heading, from the
+    swing sole, in legs. Reward: 0.2 unloaded swing foot, 0.4 upright, 0.4 sole near its target at the end. `info` has
+    "steps": landings within 0.1 leg.
     """
 
     size = 4
@@ -169,10 +168,10 @@ class Step(Task):
 
 
 class Walk(Task):
-    """Walk at a velocity on square tiles that are up to a fortieth of a leg higher or lower, with friction 0.5 to 1.
+    """Walk at a velocity on square tiles within a fortieth of a leg, friction 0.5 to 1.
 
-    Every 16 beats a velocity is drawn: forward -0.1 to 0.3, left -0.1 to 0.1 sqrt(g l), turn -0.1 to 0.1 sqrt(g / l).
-    Observed is the velocity (3,) in these units.
+    Drawn every 16 beats and observed (3,): forward -0.1 to 0.3, left -0.1 to 0.1 sqrt(g l), turn -0.1 to 0.1 sqrt(g /
+    l).
     """
 
     size = 3
@@ -217,7 +216,7 @@ class Walk(Task):
 
 
 class Board(Task):
-    """Stand on a board that tilts about both horizontal axes by up to 5 degrees, at 0.05 to 0.15 swings a beat."""
+    """Stand on a board that tilts about both horizontal axes by up to 5 degrees, 0.05 to 0.15 swings a beat."""
 
     def ground(self) -> Ground:
         half = (1.5 * self.leg, 1.5 * self.leg, 0.05)

@@ -41,31 +41,31 @@ _FALLEN_HEIGHT = 0.7  # of the height of the torso when standing
 class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
     """A robot with skin under its soles, and a task.
 
-    An action (k,) of -1 to 1 moves the set-points of the k leg joints from the standing posture by `scale` rad. An
-    observation is a Dict of float32, SI:
+    An action (k,) of -1 to 1 moves the leg joints' set-points from standing by `scale` rad. An observation is a Dict of
+    float32, SI:
 
-    - joints (2 k,): angles from the standing posture in rad, then velocities in rad/s;
-    - imu (9,): gyro in rad/s, accelerometer in m/s^2, direction of gravity, in the sensor's and the torso's frame;
-    - skin_left, skin_right (n,): force on each taxel in shares of the body weight, unless without skin;
+    - joints (2 k,): angles from standing in rad, then velocities in rad/s;
+    - imu (9,): gyro in rad/s, accelerometer in m/s^2 in the sensor's, gravity's direction in the torso's frame;
+    - skin_left, skin_right (n,): force on each taxel in body weights, with skin;
     - task (m,): see `plantar.sim.environments.tasks`.
 
     An episode ends where the torso tilts by 40 degrees or sinks by 30 %. `info` has "time" in s, "velocity" (2,) in m/s
-    in the torso's heading, "load" of both soles in shares of the weight, and the task's figures.
+    in the torso's heading, "load" of both soles in body weights, and the task's figures.
 
     Args:
         task: "stand" (pushed), "step" (onto targets), "walk" (at a velocity, on uneven tiles) or "board" (it tilts).
         robot: Built-in name or robot file.
-        period: Time of a step in s.
-        physics_period: Time step of the physics in s.
-        skin: Whether the observation holds the skin.
-        faults: Of the taxels, drawn again at each reset; None without.
-        scale: Joint angle in rad of an action of 1.
-        difficulty: Scales pushes, ground and commands; at 1 as the tasks describe.
+        period: Of a step in s.
+        physics_period: Physics step in s.
+        skin: Whether it is observed.
+        faults: Of taxels, drawn at each reset, or None.
+        scale: Angle in rad of an action of 1.
+        difficulty: Scales pushes, ground and commands; 1 as described.
         render_mode: "rgb_array" or None.
 
     Raises:
-        InputError: If an argument is not valid.
-        RobotError: If the robot is not.
+        InputError: If an argument is invalid.
+        RobotError: If the robot is invalid.
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 50}  # noqa: RUF012
@@ -131,9 +131,9 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, NDArray[np.float32]], dict[str, Any]]:
-        """Returns observation and info of the standing robot on newly drawn ground, its joints off by 0.01 rad.
+        """Returns observation and info of the robot standing on newly drawn ground, joints off by 0.01 rad.
 
-        `seed` seeds all draws from now on; there are no `options`.
+        `seed` is of all later draws; `options` are unused.
         """
         super().reset(seed=seed)
         data, world = self.data, self.world
@@ -157,7 +157,7 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
             action: Set-points (k,), clipped to -1..1.
 
         Returns:
-            Observation, reward, whether the robot fell, False (`TimeLimit` truncates), and info.
+            Observation, reward, whether it fell, False (`TimeLimit` truncates), and info.
         """
         moved = np.clip(np.asarray(action, dtype=np.float32), -1.0, 1.0)
         if moved.shape != self.last_action.shape or not np.isfinite(moved).all():
@@ -189,7 +189,7 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
 
     @property
     def velocity(self) -> NDArray[np.float64]:
-        """Velocity of the torso (forward, left) in m/s in its heading, and its turn in rad/s."""
+        """The torso's velocity (forward, left) in m/s in its heading, and turn in rad/s."""
         turn = self.data.xmat[self.world.torso].reshape(3, 3)
         c, s = turn[0, 0], turn[1, 0]
         length = math.hypot(c, s) or 1.0
