@@ -1,4 +1,4 @@
-"""A run for a 3D viewer: topics of Foxglove's schemas in its recording, from a tick's existing data."""
+"""A run for a 3D viewer: Foxglove topics in its recording."""
 
 from __future__ import annotations
 
@@ -54,16 +54,16 @@ FULL_COLOUR = 0.1
 
 
 def scale_colours(largest: float) -> NDArray[np.float64]:
-    """Red, green and blue (64, 3) of viridis from zero force to FULL_COLOUR; `largest` is the full value."""
+    """Viridis (64, 3) from zero force to FULL_COLOUR; `largest` is the full value."""
     shares, steps = np.linspace(0.0, 1.0, 64), np.linspace(0.0, 1.0, len(_VIRIDIS))
     return largest * np.column_stack([np.interp(shares, steps, column) for column in zip(*_VIRIDIS, strict=True)])
 
 
 class DrawnRun:
-    """Writes the viewer topics of a run in a `world` to a `recorder`.
+    """Writes viewer topics of a `world` to a `recorder`.
 
-    "/tf" has the poses of bodies, soles and CoM, "/scene/world" shapes and ground, "/scene/soles" forces,
-    "/scene/balance" CoM, ZMP and support polygon, "/scene/footsteps" the plan, and "/log" why it changed.
+    "/tf" has poses of bodies, soles and CoM, "/scene/world" shapes, "/scene/soles" forces, "/scene/balance" CoM, ZMP
+    and support polygon, "/scene/footsteps" the plan, "/log" its changes.
     """
 
     def __init__(self, recorder: Recorder, world: World) -> None:
@@ -93,7 +93,7 @@ class DrawnRun:
         self._latest = readings
 
     def tick(self, time: float, command: Command, plan: PlanView, truth: GroundTruth, loads: Sequence[float]) -> None:
-        """Draw the tick at `time` in s, if due: `command`, `plan`, `truth` and vertical `loads` in N on both feet."""
+        """Draw the tick at `time` in s, if due: `command`, `plan`, `truth`, both feet's vertical `loads` in N."""
         if self._next_frame == -math.inf:
             self._draw_shapes(time)
         if time >= self._next_frame:
@@ -112,7 +112,7 @@ class DrawnRun:
             self._steps.write(time, self._footsteps(plan, self._step).filled(time))
 
     def log(self, time: float, text: str, level: str = "info") -> None:
-        """Log a `text` at `time` in s with a `level`: "info", "warning" or "error"."""
+        """Log a `text` at `time` in s with `level` "info", "warning" or "error"."""
         self._log.write(time, log_message(time, text, level))
 
     def _draw_shapes(self, time: float) -> None:
@@ -130,7 +130,7 @@ class DrawnRun:
         return Template(*parts)
 
     def _frame_values(self) -> NDArray[np.float64]:
-        """Position and quaternion (x, y, z, w) of each body, each sole and the CoM, flat."""
+        """Flat position and quaternion (x, y, z, w) of bodies, soles and CoM."""
         data, n = self._world.data, len(self._bodies)
         out = np.zeros((n + 3, 7))
         out[-1, :3], out[-1, 6] = data.subtree_com[self._world.torso], 1.0
@@ -145,9 +145,9 @@ class DrawnRun:
         return out.ravel()
 
     def _sole(self, side: Side, number: int) -> list[Part]:
-        """Entities of a sole in its own frame: its taxels, and its CoP with the force there.
+        """Entities of a sole in its own frame: taxels, CoP and force.
 
-        Slots: three a taxel of the left sole, then of the right one, then four for each sole's force.
+        Slots: three a taxel, left sole first, then four a sole's force.
         """
         layout = self._layouts[side]
         first = 3 * len(self._layouts["left"]) * number
@@ -164,7 +164,7 @@ class DrawnRun:
         ]
 
     def _sole_values(self, rows: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The values (m, k) of the slots of `_sole` of the forces (m, n) of both soles in N."""
+        """Values (m, k) of `_sole`'s slots by forces (m, n) of both soles in N."""
         forces = np.nan_to_num(rows)
         places = np.clip(forces / self._full * len(self._colours), 0, len(self._colours) - 1).astype(np.intp)
         values = [self._colours[places].reshape(len(rows), -1)]
@@ -176,7 +176,7 @@ class DrawnRun:
         return np.hstack(values)
 
     def _balance_template(self) -> Template:
-        """CoM, ZMP and polygon: slots 0 to 2 the CoM, 3 to 6 the ZMP and its opacity, then the corners and theirs."""
+        """Slots: 0 to 2 CoM, 3 to 6 ZMP and opacity, then corners and opacities."""
         com = sphere(pose([Slot(i) for i in range(3)]), (2.0 * self._unit,) * 3, _COM)
         zmp = sphere(pose([Slot(i) for i in range(3, 6)]), (1.2 * self._unit,) * 3, (*_ZMP, Slot(6)))
         corners = [[Slot(7 + 3 * i + j) for j in range(3)] for i in range(_CORNERS)]
@@ -220,7 +220,7 @@ class DrawnRun:
 
 
 def _taxels(layout: SoleLayout, first: int) -> list[Part]:
-    """A flat cylinder for each taxel, with slots from `first`, three a taxel; drawn faster than polygons."""
+    """A flat cylinder a taxel, with three slots each from `first`."""
     parts = []
     for i, corners in enumerate(layout.corners):
         cell = layout.vertices[list(corners), :2]
@@ -233,7 +233,7 @@ def _taxels(layout: SoleLayout, first: int) -> list[Part]:
 
 
 def change_text(applied: AppliedChange) -> str:
-    """A change of the plan in a line: which step, why, and what changed."""
+    """A change of the plan in a line: step, reason, change."""
     change = applied.change
     parts = [f"step {change.step}: {change.reason}"]
     known = [moved for moved in applied.moved if moved.before is not None]

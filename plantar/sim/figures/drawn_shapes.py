@@ -1,4 +1,4 @@
-"""A model's shapes as primitives of a 3D viewer, each body's in its own frame."""
+"""A model's shapes as 3D viewer primitives in body frames."""
 
 from __future__ import annotations
 
@@ -21,18 +21,17 @@ _Geom = mujoco.mjtGeom
 
 
 def frame_name(model: Any, body: int) -> str:
-    """Returns the name of a `body`, its number where it has none; "world" for the world of a `model`."""
+    """Returns the name of a `body` of a `model`, else its number; "world" for the world."""
     return str(model.body(body).name) or f"body_{body}"
 
 
 def drawn_bodies(model: Any) -> list[int]:
-    """Ids of the bodies, the world excepted, that are visible."""
+    """Ids of visible bodies, without the world."""
     return sorted({int(model.geom_bodyid[i]) for i in range(model.ngeom) if _is_shown(model, i)} - {0})
 
 
 def body_entity(model: Any, body: int) -> Part:
-    """Returns the visible geoms of a `body` of a `model` as an entity (`plantar.recordings.foxglove.entity`) in its
-    frame."""
+    """Returns visible geoms of a `body` of a `model` as an entity (`plantar.recordings.foxglove.entity`) in its frame."""
     name = frame_name(model, body)
     geoms = [i for i in range(model.ngeom) if model.geom_bodyid[i] == body and _is_shown(model, i)]
     return entity(name, name, *(part for i in geoms for part in _primitives(model, i)))
@@ -86,7 +85,7 @@ def _primitives(model: Any, geom: int) -> list[Part]:
 
 
 def _axis(model: Any, geom: int) -> NDArray[np.float64]:
-    """The z axis (3,) of a geom in its body's frame."""
+    """A geom's z axis (3,) in its body's frame."""
     return _rotation(model.geom_quat[geom])[:, 2]
 
 
@@ -112,7 +111,7 @@ def _mesh(model: Any, geom: int, colour: tuple[float, ...]) -> Part:
 def coarse_mesh(
     vertices: NDArray[np.float64], faces: NDArray[np.int64], most: int
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Returns corners and triangles of a mesh `vertices` (v, 3) in m, `faces` (f, 3), with at most `most` faces.
+    """Returns corners and triangles of `vertices` (v, 3) in m and `faces` (f, 3), at most `most`.
 
     Vertices in one cell of a lattice merge (Rossignac and Borrel, 1993).
     """

@@ -1,4 +1,4 @@
-"""Videos of a run: the world, the forces on it, and its taxels."""
+"""Videos of a run: world, forces and taxels."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class _Filmed:
 
 
 class Film(_Filmed):
-    """A video at `path` (MP4) of a walking robot in a `world`, following its torso."""
+    """A video at `path` (MP4) that follows a robot's torso in a `world`."""
 
     def __init__(self, path: str | os.PathLike[str], world: World) -> None:
         super().__init__(path, world.model, world.torso)
@@ -59,7 +59,7 @@ class Film(_Filmed):
         self._inset = SoleInset(world.robot.layouts, world.body.weight, round(_INSET * _HEIGHT))
 
     def add(self, readings: Mapping[Side, Reading]) -> None:
-        """Add a frame of the world now, with the soles' readings or None."""
+        """Add a frame with the soles' readings or None."""
         layouts = self._world.robot.layouts
         if set(readings) != set(layouts):
             self._writer.add(self._camera.picture(self._world.data))
@@ -86,7 +86,7 @@ class Film(_Filmed):
 
 
 class BodyFilm(_Filmed):
-    """A video at `path` (MP4) of a machine with `skin`: taxels coloured by force, and the force on each patch.
+    """A video at `path` (MP4) of a machine with `skin`: taxels and patch forces.
 
     The camera follows a `body` of `model` and `data` from a `view`.
     """

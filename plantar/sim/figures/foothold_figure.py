@@ -1,6 +1,4 @@
-"""The walk in the plane: footholds, VRPs, DCM, CoM and ZMP, over the ground; the ZMP of skin and ankles (T 4.3.1,
-61-64).
-"""
+"""The walk in the plane, and the ZMP of skin and ankles (T 4.3.1, 61-64)."""
 
 from __future__ import annotations
 
@@ -22,7 +20,7 @@ _PAD = 0.06  # m around what is drawn
 
 
 def draw_footholds(run: Recording) -> Any:
-    """Figure of the found supports and the trajectories in the plane, and of the ZMP against footholds over time.
+    """Figure of found supports, trajectories, and the ZMP against footholds.
 
     The `run` is a recording with topic "/foothold".
     """
@@ -42,8 +40,8 @@ class _View:
     """The supports of a walk and the plane around them.
 
     Attributes:
-        last: Index of the last message of each step on "/foothold".
-        rings: Corners (k, 2) in m of the support found for each step.
+        last: Of each step's last message on "/foothold".
+        rings: Corners (k, 2) in m found for each step.
         plane: What of the ground is shown.
     """
 
@@ -122,7 +120,7 @@ _FROM = 1.0  # s: before, filters and estimator settle
 
 
 def draw_zmps(run: Recording) -> Any:
-    """Figure of both ZMPs and their difference over time, from a recording with /zmp."""
+    """Figure of both ZMPs over time, from a recording with /zmp."""
     topic = run.topics["/zmp"]
     counts = topic.time >= _FROM
     time = topic.time[counts]
@@ -145,7 +143,7 @@ def draw_zmps(run: Recording) -> Any:
 
 
 def draw_zmp_plane(run: Recording) -> Any:
-    """Figure of both ZMPs in the plane with soles and support polygon, from a standing robot's recording with /zmp."""
+    """Figure of a standing robot's ZMPs with soles and support polygon, from a recording with /zmp."""
     topic = run.topics["/zmp"]
     counts = topic.time >= _FROM
     figure, axis = new_figure(6.0, 6.0)

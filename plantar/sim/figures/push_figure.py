@@ -1,4 +1,4 @@
-"""Figures of a run with touches on the robot: pushes and a partner after K's Fig. 7, 8, 10, 13 and 14, and a guide."""
+"""Figures of pushes and a partner after K's Fig. 7, 8, 10, 13 and 14, and of a guide."""
 
 from __future__ import annotations
 
@@ -22,8 +22,7 @@ _STEPS_A_PANEL = 6
 
 
 def draw_pushes(run: Recording) -> Any:
-    """Figure of CoM, DCM, VRP, ZMP and footsteps over time, and the measured skin force (K Fig. 7, 14), from
-    "/touch"."""
+    """Figure of CoM, DCM, VRP, ZMP, footsteps and skin force over time (K Fig. 7, 14), from "/touch"."""
     figure, axes = new_figure(11.0, 7.0, 2, 1, sharex=True)
     time = run.topics["/truth/body"].time
     for i, axis in enumerate(axes):
@@ -37,7 +36,7 @@ def draw_pushes(run: Recording) -> Any:
 
 
 def draw_swing(run: Recording) -> Any:
-    """Figure of the swing foot's commanded and true path over time (K Fig. 8), from a recording with "/touch"."""
+    """Figure of the swing foot's commanded and true path (K Fig. 8), from "/touch"."""
     figure, axes = new_figure(11.0, 8.0, 3, 1, sharex=True)
     for side in SIDES:
         true = run.topics[f"/truth/{side}"]
@@ -53,7 +52,7 @@ def draw_swing(run: Recording) -> Any:
 
 
 def draw_partner(run: Recording) -> Any:
-    """Figure of robot and partner: their ways, force, and durations of supports (K Fig. 10), from "/partner"."""
+    """Figure of robot and partner: ways, force, support durations (K Fig. 10), from "/partner"."""
     figure, axes = new_figure(11.0, 8.0, 3, 1, sharex=True)
     _draw_body(axes[0], run, 0)
     partner = run.topics["/partner"]
@@ -72,8 +71,7 @@ def draw_partner(run: Recording) -> Any:
 
 
 def draw_strides(run: Recording) -> Any:
-    """Figure of the CoM's path and footholds from above, six steps a panel, with body forces (K Fig. 13), from
-    "/touch"."""
+    """Figure of CoM path and footholds from above, with body forces (K Fig. 13), from "/touch"."""
     step = run.values("/reference", "step")[:, 0]
     rounds = (int(step.max()) + 1) // _STEPS_A_PANEL
     columns = max(1, min(rounds, 4))
@@ -174,7 +172,7 @@ _TURNED = 1.0  # degrees that a joint has to turn by to be named
 
 
 def draw_guide(run: Recording) -> Any:
-    """Figure of hand, arm, CoM and feet along the hand's way, the force between them, and the arm's joints.
+    """Figure of hand, arm, CoM and feet along the hand's way, force, and arm joints.
 
     The `run` is a recording with "/guide" and "/arm".
     """

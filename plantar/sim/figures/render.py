@@ -1,4 +1,4 @@
-"""Pictures and videos of a run. Without a display MuJoCo needs MUJOCO_GL=egl before it is first imported."""
+"""Pictures of a run; without a display set MUJOCO_GL=egl before MuJoCo's import."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FRAME_RATE = 25.0
 
 @dataclass(frozen=True)
 class Line:
-    """A rod in a picture from `start` to `end` (3,) with a `radius` in m and a `colour`: red, green, blue, opacity."""
+    """A rod from `start` to `end` (3,) with `radius` in m and `colour` (red, green, blue, opacity)."""
 
     start: NDArray[np.float64]
     end: NDArray[np.float64]
@@ -34,13 +34,13 @@ class Line:
 
 @dataclass(frozen=True)
 class View:
-    """A camera's position relative to a body; by default the robot's right front side.
+    """A camera's position relative to a body; by default right front.
 
     Attributes:
         distance: Of the eye in m.
-        azimuth: Viewing direction about z in degrees.
-        elevation: Viewing direction against the horizon in degrees.
-        below: How far below the body's origin the picture's middle is in m.
+        azimuth: About z in degrees.
+        elevation: Against the horizon in degrees.
+        below: Picture middle below the body's origin in m.
     """
 
     distance: float = 2.6
@@ -54,15 +54,15 @@ class Camera:
 
     Args:
         model: MuJoCo model.
-        body: Id of the body.
+        body: Body id.
         width: In pixels.
         height: In pixels.
-        view: The camera's position.
-        groups: Groups of geoms to show next to 0, 1 and 2.
-        fast: Whether to skip smoothing and halve shadows: a third of the time without a GPU.
+        view: Its position.
+        groups: Geom groups shown next to 0, 1 and 2.
+        fast: Whether to skip smoothing and halve shadows.
 
     Raises:
-        InputError: If no renderer can be made; the message names the cause.
+        InputError: If no renderer can be made.
     """
 
     def __init__(
@@ -109,7 +109,7 @@ class Camera:
     ) -> NDArray[np.uint8]:
         """Returns the RGB picture (height, width, 3) of the state `data`, with `lines` and `dots`.
 
-        Dots are places (n, 3) in m, red, green and blue (n, 3), and half a side in m.
+        Dots: places (n, 3) in m, colours (n, 3), half a side in m.
         """
         import mujoco
 
@@ -131,7 +131,7 @@ class Camera:
         return np.asarray(self._renderer.render())
 
     def pixels(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Pixels (n, 2), x to the right and y down, of points (n, 3) in m in the last picture."""
+        """Pixels (n, 2), x right and y down, of points (n, 3) in m in the last picture."""
         left, right = self._renderer.scene.camera
         forward, up = np.array(left.forward), np.array(left.up)
         offset = points - 0.5 * (np.array(left.pos) + np.array(right.pos))
@@ -155,7 +155,7 @@ def opencv() -> Any:
 
 
 def save_picture(picture: NDArray[np.uint8], path: str | os.PathLike[str]) -> Path:
-    """Save an RGB `picture` (height, width, 3) at `path` as PNG or JPEG, whole or not at all. Returns the path."""
+    """Save an RGB `picture` (height, width, 3) at `path` as PNG or JPEG; returns the path."""
     cv2 = opencv()
     with replacing(path) as temporary:
         cv2.imwrite(str(temporary), picture[:, :, ::-1])
@@ -163,10 +163,10 @@ def save_picture(picture: NDArray[np.uint8], path: str | os.PathLike[str]) -> Pa
 
 
 class VideoWriter:
-    """Writes an MP4 at `path` with `rate` frames a second; a context manager, after which the file has its name.
+    """Writes an MP4 at `path`, `rate` frames a second; a context manager.
 
     Raises:
-        InputError: If the name does not end in .mp4 or the file cannot be written.
+        InputError: If the path is unusable.
     """
 
     def __init__(self, path: str | os.PathLike[str], rate: float = FRAME_RATE) -> None:

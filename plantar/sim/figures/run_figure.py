@@ -1,4 +1,4 @@
-"""Figures of a run, drawn from its recording: balance over time, the walk in the plane, forces and foot heights."""
+"""Figures of a run, drawn from its recording."""
 
 from __future__ import annotations
 
@@ -21,11 +21,10 @@ _PAD = 0.03  # m: what is shown around the walk
 
 
 def plot_run(recording: str | Path | Recording, folder: str | Path) -> list[Path]:
-    """Draw the figures of a `recording`, an MCAP file or its content, into an existing `folder`.
+    """Draw figures of a `recording`, an MCAP file or its content, into a `folder`.
 
-    Returns the files: balance.png, plane.png, feet.png; footholds.png with found footholds, zmp.png and zmp_plane.png
-    with ankle sensors, pushes.png, swing.png and strides.png with touches, partner.png with a mobile robot, guide.png
-    with a leading hand.
+    Returns the files: balance.png, plane.png, feet.png; footholds.png; zmp.png and zmp_plane.png with ankle sensors;
+    pushes.png, swing.png and strides.png with touches; partner.png; guide.png.
     """
     run = recording if isinstance(recording, Recording) else read_mcap(recording)
     folder = Path(folder)

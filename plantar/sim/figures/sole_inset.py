@@ -1,4 +1,4 @@
-"""The soles' readings in the corner of a video: taxels, CoP, and the last seconds of each force."""
+"""Sole readings in a video's corner: taxels, CoP and forces."""
 
 from __future__ import annotations
 
@@ -24,9 +24,7 @@ _COP = (217, 26, 77)
 
 
 class SoleInset:
-    """Draws both soles of `layouts`, seen from above with the toes up, `height` pixels high, and their forces over the
-    `weight` in N.
-    """
+    """Draws the soles of `layouts` from above, `height` pixels high, and their forces over the `weight` in N."""
 
     def __init__(self, layouts: Mapping[Side, SoleLayout], weight: float, height: int) -> None:
         self._cv2 = opencv()
@@ -57,9 +55,7 @@ class SoleInset:
         return [self._pixels(side, layout.vertices[list(ring), :2]) for ring in layout.corners]
 
     def draw(self, picture: NDArray[np.uint8], readings: Mapping[Side, Reading], time: float) -> None:
-        """Draw the `readings` at `time` in s into the upper left corner of an RGB `picture` (height, width, 3), in
-        place.
-        """
+        """Draw `readings` at `time` in s into the upper left of an RGB `picture` (height, width, 3), in place."""
         cv2 = self._cv2
         inset = np.full((self._height, self._width, 3), _PAPER, dtype=np.uint8)
         totals = []

@@ -1,4 +1,4 @@
-"""The ground plane of a figure, with the longer direction of the walk to the right."""
+"""A figure's ground plane, with the walk's longer direction to the right."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ AXES = ("x forward [m]", "y left [m]")
 
 @dataclass(frozen=True, eq=False)
 class WalkPlane:
-    """A part of the plane from `low` to `high` (2,) in m; a walk along y is drawn with y to the right and x down."""
+    """The plane from `low` to `high` (2,) in m; a walk along y has y to the right, x down."""
 
     low: NDArray[np.float64]
     high: NDArray[np.float64]
 
     @classmethod
     def around(cls, points: NDArray[np.float64], pad: float) -> WalkPlane:
-        """Returns the plane around `points` (n, 2) in m, NaN left out, with a margin `pad` in m."""
+        """Returns the plane around `points` (n, 2) in m, without NaN, with margin `pad` in m."""
         return cls(np.nanmin(points, axis=0) - pad, np.nanmax(points, axis=0) + pad)
 
     @property
