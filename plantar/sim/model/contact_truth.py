@@ -1,7 +1,6 @@
-"""Contact truth: MuJoCo's own contacts of the feet, for skins and judges; no controller sees it.
+"""MuJoCo's own contacts of the feet, for skins and judges alone.
 
-Everything reads `MjModel` and `MjData` after `mj_step` or `mj_forward`. Wrenches are [fx, fy, fz, tx, ty, tz], exerted
-BY the world ON the robot.
+MjData is read after a step; wrenches are [fx, fy, fz, tx, ty, tz] BY the world ON the robot.
 """
 
 from __future__ import annotations
@@ -37,8 +36,8 @@ class ContactSet(NamedTuple):
     """The k contacts of one foot with everything else.
 
     Attributes:
-        own_geoms: Geom id (k,) on the foot's side; `other_geoms`, -1 for a flex.
-        positions: Contact point (k, 3) in the world in m.
+        own_geoms: Geom ids (k,) of the foot; `other_geoms`, -1 for a flex.
+        positions: (k, 3) in the world in m.
         forces: On the foot (k, 3) in the world in N; `torques` in N m.
         distances: Gap (k,) in m, negative in penetration.
         carries: Mask (k,): the solver may put a force there; False within `gap` only.
@@ -83,14 +82,14 @@ def _set_of(foot: FootContacts) -> ContactSet:
 
 
 class GroundTruth(NamedTuple):
-    """What the ground does to all feet together, in the world frame.
+    """What the ground does to all feet, world frame.
 
     Attributes:
-        wrench: Wrench (6,) about the world's origin.
+        wrench: (6,) about the world's origin.
         zmp: True ZMP (2,) in m; None below the minimum force.
-        ring: Corners (x, y) in m of the true support polygon, counter-clockwise; empty in the air.
-        margin: Signed distance in m of the ZMP to its edge, positive inside, or None.
-        points: Points (x, y) in m of each foot that carry or could.
+        ring: Corners (x, y) in m of the true support polygon, counter-clockwise, or empty.
+        margin: ZMP's distance in m to its edge, positive inside, or None.
+        points: Each foot's (x, y) in m that carry or could.
     """
 
     wrench: NDArray[np.float64]
@@ -106,21 +105,21 @@ class GroundTruth(NamedTuple):
 
 
 def foot_contacts(model: Any, data: Any, geom_ids: Collection[int]) -> ContactSet:
-    """Returns the contacts of one foot, `feet_contacts` of its `geom_ids`, from `model` and `data`."""
+    """Returns one foot's `feet_contacts`, by its `geom_ids`, from `model` and `data`."""
     return feet_contacts(model, data, (geom_ids,))[0]
 
 
 def feet_contacts(model: Any, data: Any, feet: Sequence[Collection[int]]) -> tuple[ContactSet, ...]:
-    """Returns a set of contacts with the world's forces for each of several `feet`, ids of each one's geoms.
+    """Returns contacts and forces for each of `feet`, given by geom ids.
 
-    MuJoCo's contact force is that on geom 2; where the foot is geom 1 the sign changes. Contacts within a foot are left
-    out; one between two feet belongs to both. `model` and `data` are MuJoCo's after a step.
+    MuJoCo's force acts on geom 2; where the foot is geom 1 the sign changes. Contacts within a foot are left out; one
+    between feet belongs to both. `model` and `data` are MuJoCo's after a step.
     """
     return tuple(_set_of(foot) for foot in ContactReader(model, data, feet).read())
 
 
 def contact_wrench_in_world(contacts: ContactSet, point: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Returns the wrench (6,) in N and N m of `contacts` about a `point` (3,) in m, along the world's axes."""
+    """Returns the wrench (6,) in N, N m of `contacts` about a `point` (3,) in m, world axes."""
     out = np.zeros(6)
     if contacts.size:
         f = contacts.forces
@@ -137,18 +136,17 @@ def contact_wrench_in_world(contacts: ContactSet, point: NDArray[np.float64]) ->
 def contact_wrench_in_frame(
     contacts: ContactSet, position: NDArray[np.float64], rotation_to_world: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Returns the wrench (6,) in N and N m of `contacts` about a frame's `position` (3,) in m, along the columns of
-    `rotation_to_world` (3, 3) or (9,).
+    """Returns the wrench (6,) in N, N m of `contacts` about `position` (3,) in m, along columns of `rotation_to_world`
+    (3, 3) or (9,).
     """
     world = contact_wrench_in_world(contacts, position)
     return (world.reshape(2, 3) @ rotation_to_world.reshape(3, 3)).reshape(6)
 
 
 def support_polygon_of_contacts(feet: Sequence[ContactSet], reach: float = REACH) -> NDArray[np.float64]:
-    """Returns the true support polygon (m, 2) in m of all `feet`, counter-clockwise; fewer than three points for less.
+    """Returns the true support polygon (m, 2) in m of all `feet`, counter-clockwise.
 
-    It is the hull of points that carry or could: with a gap up to `reach` in m, since rubber stays pressed where a
-    rigid sole lifts a corner by micrometres.
+    The hull of points that carry or could, with a gap up to `reach` in m, as rubber stays pressed.
     """
     points: list[tuple[float, float]] = []
     for contacts in feet:
@@ -164,10 +162,10 @@ def ground_truth(
     """Wrench, ZMP, support polygon and margin of all feet together (T 4.5-4.8), in the world frame.
 
     Args:
-        feet: Contacts of each foot.
-        plane_height: Height in m of the ZMP's plane; None for the mean contact height weighted by force.
-        minimum_force: Vertical force in N below which there is no ZMP.
-        reach: Largest gap in m of a point that could carry a force.
+        feet: Of each foot.
+        plane_height: Of the ZMP in m; None: force-weighted contact height.
+        minimum_force: Vertical in N, below which there is no ZMP.
+        reach: Largest gap in m of a point that could carry.
 
     Returns:
         The truth.

@@ -1,4 +1,4 @@
-"""A push on a body: what it does over time."""
+"""A push on a body over time."""
 
 from __future__ import annotations
 
@@ -13,9 +13,7 @@ __all__ = ["Shove"]
 
 @dataclass(frozen=True)
 class Shove:
-    """A push from `start` to `end` in s of an `impulse` (3,) in N s in the world frame; a half sine if `smooth`, else
-    constant.
-    """
+    """A push from `start` to `end` in s of `impulse` (3,) in N s, world frame; half sine if `smooth`, else constant."""
 
     start: float
     end: float
@@ -23,7 +21,7 @@ class Shove:
     smooth: bool
 
     def force(self, time: float, lasting: float) -> NDArray[np.float64]:
-        """Returns the mean force (3,) in N in the world from `time` over `lasting` in s."""
+        """Returns the mean force (3,) in N, world frame, from `time` over `lasting` in s."""
         return np.asarray(self.impulse * ((self._given(time + lasting) - self._given(time)) / lasting))
 
     def _given(self, time: float) -> float:

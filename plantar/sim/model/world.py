@@ -1,4 +1,4 @@
-"""The world that is simulated: a robot, its ground and others as one MuJoCo model."""
+"""The simulated world: robot, ground and others as one MuJoCo model."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ DIVERGED = (
 
 
 def check_stable(warnings: NDArray[np.int32]) -> None:
-    """A SceneError where MuJoCo's `data.warning.number` shows a diverged state, which MuJoCo answers by a restart."""
+    """A SceneError where MuJoCo's `data.warning.number` shows a diverged state."""
     if warnings[list(DIVERGED)].any():
         raise SceneError(
             "the simulated physics became unstable: forces too large for its time step (control.physics_period); "
@@ -53,7 +53,7 @@ def check_stable(warnings: NDArray[np.int32]) -> None:
 
 
 def add_looks(spec: Any, torso: str) -> None:
-    """Add sky, light that follows a `torso`, and the material "ground" of pictures to a `spec`."""
+    """Add sky, light that follows a `torso`, and material "ground" to a `spec`."""
     spec.add_texture(
         name="sky",
         type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
@@ -98,7 +98,7 @@ def add_looks(spec: Any, torso: str) -> None:
 
 
 def _add_touch(spec: Any, sole: Any, name: str) -> None:
-    """Add a touch site with 10 mm to spare on a sole box."""
+    """Add a touch site on a sole box, 10 mm larger."""
     site = sole.parent.add_site(name=name, type=mujoco.mjtGeom.mjGEOM_BOX, pos=sole.pos, quat=sole.quat, group=5)
     site.size = np.asarray(sole.size) + 0.01
     spec.add_sensor(name=name, type=mujoco.mjtSensor.mjSENS_TOUCH, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=name)
@@ -122,20 +122,20 @@ def _add_leg_contact(spec: Any, robot: Robot) -> None:
 
 @dataclass(frozen=True)
 class World:
-    """A compiled world and the addresses in it; legs' arrays are the left one's, then the right's.
+    """A compiled world and its addresses; left leg first.
 
     Attributes:
         joint_qpos: Addresses of the leg joints in qpos; `joint_qvel` in qvel.
         servos: Indices of the legs' actuators in ctrl.
         sole_geoms: Geom ids of each sole.
         sole_sites: Site id of each sole frame.
-        stiffness: Servo position gains (k,) in N m/rad, of the robot's file; `damping` in N m s/rad.
+        stiffness: Servo gains (k,) in N m/rad of the robot's file; `damping` in N m s/rad.
         joint_damping: Of the robot's model (k,) in N m s/rad; `joint_friction` in N m.
         gyro: Address in sensordata, like `accelerometer`, `ankle_wrench` (force, torque), `touch` (force on each sole),
             and `leg_contact`, above 0 where the legs touch.
-        period: Time step of the physics in s.
-        moving_ground: Moving pieces of ground with their number among the mocap bodies.
-        ground_top: Height in m that no ground ever exceeds.
+        period: Physics step in s.
+        moving_ground: Moving pieces with mocap numbers.
+        ground_top: Largest ground height in m, ever.
     """
 
     model: Any
@@ -179,20 +179,20 @@ def build_world(
     plant: TruePlant | None = None,
     others: Sequence[Visitor] = (),
 ) -> World:
-    """Build and compile the world, in its reference configuration.
+    """Build and compile the world in its reference configuration.
 
     Args:
         robot: The robot.
         ground: The ground.
-        period: Time step of the physics in s.
-        plant: How the true robot and ground differ; None for no difference.
-        others: Other bodies; their coordinates come after the robot's.
+        period: Physics step in s.
+        plant: True differences, or None.
+        others: Bodies with coordinates after the robot's.
 
     Returns:
         The world.
 
     Raises:
-        RobotError: If the model cannot be read or simulated.
+        RobotError: If the model is unusable.
     """
     spec = robot_spec(robot)
     _set_solver(spec, period)
@@ -234,7 +234,7 @@ def _set_contacts(spec: Any, friction: float) -> list[str]:
 
 
 def _soften(model: Any, names: Sequence[str], body: BodyScale, period: float, damping: float) -> None:
-    """Contact parameters of soles and ground (`plantar.sim.contact_models`): 5 ms and 1 mm for H1."""
+    """Contact parameters of soles and ground (`plantar.sim.contact_models`)."""
     ids = [model.geom(name).id for name in names]
     model.geom_solref[ids] = [max(_CONTACT_TIME, _CONTACT_STEPS * period), damping]
     model.geom_solimp[ids] = [0.95, 0.99, _SOFT * body.leg, 0.5, 2]
