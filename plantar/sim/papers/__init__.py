@@ -1,1 +1,1 @@
-"""The papers that this project follows: what each of them sets, and its experiments as they are run here."""
+"""The papers that this project follows: presets and experiments."""

@@ -1,6 +1,6 @@
-"""Presets by source: `--set paper=K` sets what a paper states of the method, rates, sensors and robot of a scene.
+"""Presets by source: `--set paper=K` sets what a paper states of a scene.
 
-A preset is a TOML file of this folder. Each of its tables `[[settings]]` cites where the paper states what it sets.
+Each table `[[settings]]` of this folder's TOML files cites its source.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ class PaperSettings(NamedTuple):
     """What a paper states.
 
     Attributes:
-        source: Where, such as "K Table 1", and what for.
-        scenes: Names of the scenes that it holds for.
-        robot: Name of the only robot that it holds for; empty for every one.
+        source: Such as "K Table 1", and what for.
+        scenes: Names that it holds for.
+        robot: The only one it holds for; empty for every one.
         settings: "key=value" each.
     """
 
@@ -38,13 +38,13 @@ def paper_files() -> dict[str, Path]:
 
 
 def paper_settings(paper: str) -> tuple[PaperSettings, ...]:
-    """What a paper states, in the order in which it counts.
+    """What a paper states, in order.
 
     Args:
         paper: Its mark.
 
     Raises:
-        SceneError: If there is no such paper.
+        SceneError: If it is unknown.
 
     Example:
         >>> paper_settings("K")[1].settings[1]
@@ -63,7 +63,7 @@ def paper_rows(paper: str) -> list[dict[str, object]]:
 
 
 def paper_text(paper: str) -> str:
-    """What a paper states, for people: each source with the scenes that it holds for and what it sets."""
+    """What a paper states: sources, scenes and settings."""
     lines = []
     for found in paper_settings(paper):
         robot = f" with {found.robot}" if found.robot else ""
@@ -72,18 +72,18 @@ def paper_text(paper: str) -> str:
 
 
 def with_paper(settings: Sequence[str], scene: str, robot: str) -> tuple[str, list[str]]:
-    """Replace "paper=K" by what that paper states of a scene; own settings count after it, wherever they are.
+    """Replace "paper=K" by what that paper states; own settings count after it.
 
     Args:
         settings: "key=value" each.
-        scene: Name of the scene.
-        robot: Robot that the scene runs with where no setting names one.
+        scene: Scene name.
+        robot: The scene's, where no setting names one.
 
     Returns:
-        The mark of the paper, empty without one, and the settings.
+        The paper's mark, or empty, and the settings.
 
     Raises:
-        SceneError: For no such paper, more than one, or one that states nothing of the scene.
+        SceneError: If not one paper fits.
 
     Example:
         >>> paper, found = with_paper(["paper=K", "walk.confidence=1"], "push-step", "h1")
