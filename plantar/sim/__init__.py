@@ -1,1 +1,1 @@
-"""Simulation: robots, terrain, skin and scenes in MuJoCo, and the truth that judges them."""
+"""MuJoCo simulation of robots, terrain, skin and scenes, and its truth."""

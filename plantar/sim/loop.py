@@ -1,4 +1,4 @@
-"""The loop of every run, a walk or an experiment on a machine with skin: sensors, control and physics in turn."""
+"""The loop of every run: sensors, control and physics in turn."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Result:
     Attributes:
         ticks_us: Wall time of each control tick in us.
         wall_time: Of the run in s.
-        overrun: Time in s at which the run was cut off, and its first planned end; or None.
+        overrun: Cut and first planned end in s, or None.
     """
 
     ticks_us: list[float]
@@ -45,9 +45,9 @@ class Run(ABC):
     """A scene that is built and ready to run.
 
     Attributes:
-        seed: Of sensor noise and of what the scene leaves open.
+        seed: Of noise and open choices.
         periods: Physics step and control period in s.
-        skipped: How often what was not computed.
+        skipped: Counts of what was not computed.
     """
 
     seed: int
@@ -62,7 +62,7 @@ class Run(ABC):
     @property
     @abstractmethod
     def ended(self) -> bool:
-        """Whether it is over before, for example by a fall."""
+        """Whether it ended early, for example by a fall."""
 
     @abstractmethod
     def sense(self, k: int) -> None:
@@ -70,18 +70,18 @@ class Run(ABC):
 
     @abstractmethod
     def control(self) -> float:
-        """One control tick; returns the wall time in us that the controller took."""
+        """One control tick; returns the controller's wall time in us."""
 
     @abstractmethod
     def advance(self) -> None:
-        """One physics step with drives, disturbances, and the judge."""
+        """One physics step with drives, disturbances, judge."""
 
     def after_tick(self) -> None:  # noqa: B027
-        """Work after the physics step that began with a control tick."""
+        """Work after a control tick's physics step."""
 
     @abstractmethod
     def state_text(self) -> str:
-        """Progress of the run, for the progress bar."""
+        """Progress text of the run."""
 
     @abstractmethod
     def open_log(self, path: Path, files: ExitStack) -> None:
@@ -89,15 +89,15 @@ class Run(ABC):
 
     @abstractmethod
     def open_film(self, path: Path, files: ExitStack) -> Callable[[], None]:
-        """Begin a video at `path`, closed with `files`; returns a function that adds a frame."""
+        """Begin a video at `path`, closed with `files`; returns its frame function."""
 
     @abstractmethod
     def summary(self, result: Result) -> dict[str, Any]:
-        """The run's summary from the loop's `result`, as `plantar sim --json` prints it."""
+        """The summary of the loop's `result`, as `plantar sim --json` prints it."""
 
     @abstractmethod
     def plot(self, folder: Path, recording: Path) -> Sequence[Path]:
-        """Draw the figures of a finished run into `folder` from its `recording`; returns their files."""
+        """Draw figures from a `recording` into `folder`; returns their files."""
 
     def run(
         self,
@@ -106,12 +106,12 @@ class Run(ABC):
         video: str | os.PathLike[str] | None = None,
         progress: Progress | None = None,
     ) -> dict[str, Any]:
-        """Run to the end or to the fall; returns the summary, or raises a SceneError if the physics becomes unstable.
+        """Run to the end or fall; returns the summary, or raises a SceneError for unstable physics.
 
         Args:
-            record: MCAP file to write; a killed run leaves what was flushed.
-            video: MP4 file to write, in real time.
-            progress: Called about ten times a second with the fraction done and a text.
+            record: MCAP file; a killed run leaves what was flushed.
+            video: MP4 file, in real time.
+            progress: Called ten times a second with fraction and text.
         """
         with ExitStack() as files:
             if record is not None:
@@ -127,14 +127,14 @@ class Run(ABC):
             record: Recording, .mcap, or None.
             video: Video, .mp4, or None.
             plot: Folder of the figures, or None.
-            progress: Called with the fraction done and a text.
+            progress: Called with fraction and text.
 
         Returns:
-            The summary, with the paths of the figures under "figures".
+            The summary, with figure paths under "figures".
 
         Raises:
-            SceneError: If the scene cannot be run.
-            InputError: If a file or folder cannot be written.
+            SceneError: If it cannot run.
+            InputError: If a file cannot be written.
         """
         with ExitStack() as files:
             folder = None if plot is None else files.enter_context(output_folder(plot))
@@ -181,10 +181,10 @@ class Run(ABC):
     def common(
         self, result: Result, names: tuple[str, str], reasons: list[dict[str, Any]], fell: bool, time: float
     ) -> dict[str, Any]:
-        """Returns the part of a summary that all kinds of runs share.
+        """Returns the summary part of all runs.
 
-        It takes the loop's `result`, the `names` of scene and robot, failed `reasons`, whether the robot `fell`, and
-        simulated `time` in s.
+        By the loop's `result`, `names` of scene and robot, failed `reasons`, whether it `fell`, and simulated `time` in
+        s.
         """
         ticks = np.array(result.ticks_us or [0.0])
         return {
