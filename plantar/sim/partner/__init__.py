@@ -1,1 +1,1 @@
-"""Who touches a robot that walks: moving bodies that push on the skin of its upper body."""
+"""Moving bodies that push on a walking robot's upper body skin."""

@@ -1,7 +1,7 @@
-"""A hand that takes a robot by its forearm and leads it: two fingers about the arm.
+"""A hand that leads a robot by its forearm, with two fingers.
 
-It is a body with mass but no weight. Along its way it follows a path by a spring, with no more force than a person's
-arm; otherwise it goes along with the forearm. It acts through the arm's skin alone (`plantar.sim.body_skin`).
+It has mass but no weight, follows its path by a spring of limited force, else the forearm, and acts through skin alone
+(`plantar.sim.body_skin`).
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _COLOUR = (0.85, 0.6, 0.45, 1.0)
 
 
 class Grip(NamedTuple):
-    """Where an arm is taken: name of the `link`, middle of the arm `point` (3,) in its frame, and `radius`, in m."""
+    """Held `link`, middle of the arm `point` (3,) in its frame, and `radius`, in m."""
 
     link: str
     point: NDArray[np.float64]
@@ -39,14 +39,14 @@ class Grip(NamedTuple):
 
 
 class Guide(Partner):
-    """The hand; `seed` chooses when it sets out, and an open direction.
+    """The hand; `seed` chooses start and open direction.
 
     Attributes:
         grip: Where it takes the arm.
-        sign: 1 where it leads forward, -1 where backward.
-        starts: Time in s from which it leads.
-        moved: True way in m so far; `reference` the wanted one.
-        force: True force in N along its way; negative where it holds the arm back.
+        sign: 1 forward, -1 backward.
+        starts: When it leads in s.
+        moved: True way in m; `reference` the wanted one.
+        force: True force in N along its way.
     """
 
     def __init__(self, settings: GuideSettings, grip: Grip, body: BodyScale, seed: int) -> None:
@@ -96,7 +96,7 @@ class Guide(Partner):
         return tuple(int(world.model.geom(name).id) for name in ("guide_behind", "guide_before"))
 
     def place(self, world: World) -> None:
-        """Put its fingers about the forearm in a `world` in which the robot stands."""
+        """Put fingers about the forearm of a standing robot in a `world`."""
         world.data.qpos[self._places] = self.held(world)[0]
         world.data.qvel[self._axes] = 0.0
 
@@ -105,11 +105,11 @@ class Guide(Partner):
         return np.array(world.data.qpos[self._places])
 
     def held(self, world: World) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """True middle of the held arm (3,) in the world in m, and its velocity (3,) in m/s."""
+        """Held arm's true middle (3,) in m and velocity (3,) in m/s, world frame."""
         return body_point(world.data, self._link, self._root, self.grip.point)
 
     def drive(self, world: World, skin: SkinSensor) -> None:
-        """Set its forces in the `world` for the next physics step, after the `skin` pressed back."""
+        """Set its forces in the `world` for a physics step, after `skin`."""
         data, s, time = world.data, self.settings, float(world.data.time)
         self.force = -self.sign * sum(float(skin.on_obstacles[f"guide_{side}"][0]) for side in ("behind", "before"))
         self._forces.append(self.force)
@@ -129,7 +129,7 @@ class Guide(Partner):
         data.qfrc_applied[self._axes] = force
 
     def summary(self) -> dict[str, Any]:
-        """Direction, begin in s, wanted and true way in m, and the largest force in N."""
+        """Direction, begin in s, wanted and true way in m, largest force in N."""
         return {
             "direction": "forward" if self.sign > 0.0 else "backward",
             "set_out_s": round(self.starts, 3),

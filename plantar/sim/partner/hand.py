@@ -1,7 +1,6 @@
-"""A flat hand that follows a point of a robot's upper body and presses on it with a given force.
+"""A flat hand that follows and presses a robot's upper body.
 
-It is a body with mass but no weight, which slides along the world's axes and turns about the vertical. It acts through
-the robot's skin alone.
+It has mass but no weight, slides along the world's axes and turns about the vertical, and acts through skin alone.
 """
 
 from __future__ import annotations
@@ -24,13 +23,13 @@ def body_point(
     """Position and velocity of a point of a body.
 
     Args:
-        data: The MjData.
-        body: Id of the body.
-        root: Id of its tree's root, about whose CoM MuJoCo gives velocities.
-        local: The point (3,) in the body's frame in m.
+        data: MjData.
+        body: Body id.
+        root: Tree root id, of whose CoM MuJoCo gives velocities.
+        local: (3,) in the body's frame in m.
 
     Returns:
-        Position (3,) in m and velocity (3,) in m/s in the world.
+        (3,) in m and (3,) in m/s in the world.
     """
     place = data.xpos[body] + data.xmat[body].reshape(3, 3) @ local
     # The cross product in full: np.cross takes ten times as long, and this runs once a physics step.
@@ -48,11 +47,11 @@ class HandTarget(NamedTuple):
     """Where a hand should be.
 
     Attributes:
-        position: Of its palm's face (3,) in the world in m.
+        position: Of its palm (3,) in the world in m.
         velocity: Of that point (3,) in m/s.
-        yaw: Heading of the robot in rad.
-        inward: Unit vector (3,) in the world along which it presses.
-        force: In N along that; None to hold the position in that direction, too.
+        yaw: Robot heading in rad.
+        inward: Pressing direction (3,) in the world.
+        force: In N along that; None to hold position.
     """
 
     position: NDArray[np.float64]
@@ -66,9 +65,9 @@ class Hand:
     """A hand for one face of the upper body.
 
     Attributes:
-        face: Name of the face (`plantar.sim.body_skin.upper_body.FACES`).
-        name: Of its body and of its palm's geom.
-        half: Half edge of its palm in m.
+        face: One of `plantar.sim.body_skin.upper_body.FACES`.
+        name: Of body and palm geom.
+        half: Half its palm's edge in m.
     """
 
     def __init__(self, face: str, body: BodyScale) -> None:
@@ -124,7 +123,7 @@ class Hand:
         data.qvel[self._axes] = 0.0
 
     def drive(self, data: Any, target: HandTarget) -> None:
-        """Set its forces in `data` towards a `target`: once a physics step."""
+        """Set its forces in `data` towards a `target`, once a physics step."""
         place, motion = data.qpos[self._places], data.qvel[self._axes]
         force = self._stiffness * (self._middle(target) - place[:3]) + self._damping * (target.velocity - motion[:3])
         if target.force is not None:

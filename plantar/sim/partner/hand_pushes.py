@@ -1,8 +1,7 @@
-"""Flat hands that push a robot that walks, one on each face of its upper body.
+"""Flat hands that push a walking robot, one a face of its upper body.
 
-Each component of a push, forward and left, is the work of one hand, so that no friction is needed and the force passes
-the robot's axis. A hand waits out of the skin's range, approaches, presses with a half sine, and stops when the impulse
-that it measures is reached.
+One hand does each component of a push, forward and left, without friction and through the robot's axis. It waits out of
+range, approaches, presses with a half sine, and stops at the impulse.
 """
 
 from __future__ import annotations
@@ -41,11 +40,11 @@ class HandPush:
     Attributes:
         impulse: (2,) in N s, forward and to the left in the robot's frame.
         duration: In s of its half sine.
-        when: Returns when it begins in s, as planned now.
-        step: Step that it falls into, for the judge; -1 for none.
+        when: Returns its planned begin in s.
+        step: Its step, for the judge; -1 for none.
         start: In s, like `end`; infinite before.
-        delivered: True impulse (3,) on the robot in N s, world frame.
-        peak: Largest true force on the robot in N.
+        delivered: True impulse (3,) in N s, world frame.
+        peak: Largest true force in N.
     """
 
     impulse: NDArray[np.float64]
@@ -58,14 +57,14 @@ class HandPush:
     peak: float = 0.0
 
     def shares(self) -> dict[str, float]:
-        """Impulse in N s of each hand that takes part, by its face."""
+        """Impulse in N s of each hand, by face."""
         forward, left = self.impulse.tolist()
         found = {"back": forward, "front": -forward, "right": left, "left": -left}
         return {face: share for face, share in found.items() if share > _LEAST}
 
 
 def faces_of(pushes: Sequence[HandPush]) -> tuple[str, ...]:
-    """Faces that hands are needed for, in the order of `FACES`."""
+    """Faces that need hands, in the order of `FACES`."""
     needed = {face for push in pushes for face in push.shares()}
     return tuple(face for face in FACES if face in needed)
 
@@ -75,12 +74,12 @@ class HandPushes:
 
     Args:
         pushes: In the order of time.
-        skin: Skin of the upper body, in the base frame.
-        height: Returns the height above the base's origin in m at which the standing robot is pushed.
+        skin: In the base frame.
+        height: Returns the pushed height above the base's origin in m.
 
     Attributes:
-        hands: By the face that each presses on.
-        height: Above the base's origin in m; not a number before they are placed.
+        hands: By face.
+        height: Above the base's origin in m; NaN before placing.
     """
 
     def __init__(
@@ -102,7 +101,7 @@ class HandPushes:
             hand.add_to(spec)
 
     def bind(self, world: World) -> tuple[int, ...]:
-        """Find the hands in the compiled world; returns the ids of their palms, which the skin measures."""
+        """Find the hands in the compiled world; returns their palms' ids."""
         self._base = int(world.model.body_rootid[world.torso])
         for hand in self.hands.values():
             hand.bind(world.model)
@@ -112,7 +111,7 @@ class HandPushes:
         """Put the hands where they wait, once the robot stands.
 
         Raises:
-            SceneError: If the middle of a palm would be above or below the skin.
+            SceneError: If a palm misses the skin.
         """
         self.height = self._ask(world)
         frame = _Frame(world.data, self._base)
@@ -127,14 +126,14 @@ class HandPushes:
             hand.place(world.data, self._target(frame, face, _APART * self._body.leg))
 
     def near(self, time: float) -> bool:
-        """Whether a hand approaches, pushes or goes back at a time in s."""
+        """Whether a hand is near at a time in s."""
         way = _APPROACH * self._body.beat
         if self._next and time <= self.pushes[self._next - 1].end + way:
             return True
         return self._next < len(self.pushes) and time >= self.pushes[self._next].when() - way
 
     def drive(self, world: World, skin: SkinSensor) -> None:
-        """Move the hands in the `world` for the next physics step, after the `skin` pressed back."""
+        """Move hands in the `world` for a physics step, after `skin`."""
         time = float(world.data.time) + SAME_TIME
         push = self.pushes[self._next] if self._next < len(self.pushes) else None
         if push is not None and push.start == math.inf and time >= push.when():
@@ -158,9 +157,7 @@ class HandPushes:
         return (_NEAR if time >= push.when() - _APPROACH * self._body.beat else _APART), None
 
     def summary(self) -> dict[str, Any]:
-        """Height in m, and of each push that began: begin, duration, wanted impulse in the robot's frame, true one in
-        the world's, and largest force.
-        """
+        """Height in m, and of each push begin, duration, wanted (robot frame) and true impulse (world), largest force."""
         rows: list[dict[str, Any]] = [
             {
                 "step": push.step,
@@ -187,7 +184,7 @@ class HandPushes:
             self._given[face] -= float(skin.on_obstacles[hand.name][:3] @ frame.inward(face)) * period
 
     def _force(self, push: HandPush, face: str, time: float) -> float | None:
-        """Force in N with which a hand presses; None where it has delivered its share or given up."""
+        """Pressing force in N; None when done or given up."""
         share, since = push.shares()[face], (time - push.start) / push.duration
         if self._given[face] >= share or since >= _LONGEST:
             return None
@@ -214,5 +211,5 @@ class _Frame:
         return np.asarray(-forward * self._rotation[:, 0] - left * self._rotation[:, 1])
 
     def point(self, local: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Place in m and velocity in m/s (3,) of a point (3,) of the base in the world."""
+        """Place in m and velocity in m/s (3,) of a base point (3,), in the world."""
         return body_point(self._data, self._base, self._base, local)

@@ -1,7 +1,7 @@
-"""A mobile robot on the ground before the robot that walks, with its hand at the height of the CoM (K Fig. 9).
+"""A mobile robot before the walking one, with its hand at CoM height (K Fig. 9).
 
-Its wheels roll along the robot's heading at the start; its arm is a spring. It measures the force on its hand and
-follows its impedance controller (K 39-41) with a limited force.
+It rolls along the robot's initial heading, its arm is a spring, and it follows an impedance controller (K 39-41) with
+limited force.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ __all__ = ["Impedance", "MobileRobot"]
 
 
 class Impedance:
-    """Reference motion of a mobile robot along one axis.
+    """A mobile robot's reference motion along one axis.
 
-    M x'' + D x' + K x = f_ex + f_in + K x_r (K 39). The rest x_r moves by the stride S as soon as x is farther than
-    that from it, either way (K 41, whose second case has to read x < x_r - S).
+    M x'' + D x' + K x = f_ex + f_in + K x_r (K 39). The rest x_r moves by the stride S once x is farther off (K 41,
+    whose second case must read x < x_r - S).
 
     Args:
-        settings: M, D, K, S and f_in; the force is a leader's alone.
+        settings: M, D, K, S, and a leader's f_in.
 
     Attributes:
         position: x in m.
@@ -50,7 +50,7 @@ class Impedance:
         self.position = self.velocity = self.rest = 0.0
 
     def update(self, force: float, period: float) -> None:
-        """Advance by a `period` in s under an external `force` f_ex in N, by semi-implicit Euler (K 40)."""
+        """Advance by `period` in s under external `force` f_ex in N, by semi-implicit Euler (K 40)."""
         law = self._law
         pull = law.virtual_stiffness * (self.position - self.rest)
         acceleration = (force + self._built_in - law.virtual_damping * self.velocity - pull) / law.virtual_mass
@@ -72,12 +72,12 @@ _TOUCHES = 0.00237  # weight: force on the hand that counts as contact, 2 N for 
 
 
 class MobileRobot(Partner):
-    """The partner; the `skin` is in the base frame, its hand at a `height` in the world in m.
+    """The partner; `skin` is in the base frame, its hand at `height` in the world in m.
 
     Attributes:
-        law: Its impedance controller, whose axis points at the robot.
-        moved: True way in m towards the robot.
-        force: True force on its hand in N, positive towards the robot.
+        law: Impedance controller, its axis towards the robot.
+        moved: True way to the robot in m.
+        force: True hand force in N, positive towards the robot.
     """
 
     def __init__(self, settings: PartnerSettings, skin: BodySkin, body: BodyScale, height: float, seed: int) -> None:
@@ -121,20 +121,20 @@ class MobileRobot(Partner):
             geom.rgba = colour
 
     def bind(self, world: World) -> tuple[int, ...]:
-        """Find it in the compiled world; returns its hand's geom id."""
+        """Find it in the compiled world; returns its hand geom's id."""
         joint = world.model.joint("partner_x")
         self._place, self._axis = int(joint.qposadr[0]), int(joint.dofadr[0])
         return (int(world.model.geom("partner_hand").id),)
 
     def place(self, world: World) -> None:
-        """Put its hand before the robot that stands in the `world`."""
+        """Put its hand before the robot standing in the `world`."""
         base = int(world.model.body_rootid[world.torso])
         self._start = float(world.data.xpos[base, 0]) + self._front + self.settings.apart
         world.data.qpos[self._place] = self._start
         world.data.qvel[self._axis] = 0.0
 
     def drive(self, world: World, skin: SkinSensor) -> None:
-        """Measure, move the reference and follow it in the `world`, after the `skin` pressed back."""
+        """Measure, then follow the reference in the `world`, after `skin`."""
         data, s = world.data, self.settings
         true = -float(skin.on_obstacles["partner_hand"][0])  # its axis points at the robot, against the world's x
         self.force = true
@@ -148,7 +148,7 @@ class MobileRobot(Partner):
         data.qfrc_applied[self._axis] = -min(max(wanted, -s.drive_force), s.drive_force)
 
     def summary(self) -> dict[str, Any]:
-        """Its role, its way towards the robot and its rest's, the largest force in N and the share of time in touch."""
+        """Role, its and its rest's way to the robot, largest force in N, share of time in touch."""
         forces = np.abs(np.array(self._forces or [0.0]))
         return {
             "role": self.settings.role,

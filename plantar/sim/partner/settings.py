@@ -1,4 +1,4 @@
-"""Settings of a robot's partner: a scene's tables `[partner]` and `[guide]`."""
+"""A scene's tables `[partner]` and `[guide]`."""
 
 from __future__ import annotations
 
@@ -8,23 +8,23 @@ __all__ = ["GuideSettings", "PartnerSettings"]
 
 
 class PartnerSettings(Settings):
-    """A mobile robot before the robot, pushed by it or pushing it (K, appendix B).
+    """A mobile robot that is pushed or pushes (K, appendix B).
 
-    Numbers of K's Table 2 are those of H1; they scale with weight, mass and leg.
+    K's Table 2 is for H1; numbers scale with weight, mass and leg.
 
     Attributes:
         kind: Whether there is one.
-        role: A "leader" has a built-in force, a "follower" has none.
+        role: Only a "leader" has a built-in force.
         virtual_mass: M of K 39.
         virtual_damping: D of K 39.
         virtual_stiffness: K of K 39.
-        stride: S of K 41: distance from its rest at which the rest moves.
-        built_in_force: f_in of K 39, of a leader alone.
-        starts: Time in s from which a leader's force acts, and a follower is moved.
-        apart: Distance in m of its hand from the robot's skin at the start.
-        body_mass: TIAGo's of 70 kg next to H1.
-        drive_force: Largest force of its drive.
-        hand_noise: Standard deviation in N of the force-torque sensor in its hand.
+        stride: S of K 41: distance at which its rest moves.
+        built_in_force: A leader's f_in of K 39.
+        starts: Time in s from which it leads or follows.
+        apart: Hand's initial distance in m from the skin.
+        body_mass: TIAGo's 70 kg for H1.
+        drive_force: Its drive's largest.
+        hand_noise: Of its hand's force-torque sensor in N.
     """
 
     kind: str = choice("none", "mobile_robot")
@@ -42,16 +42,16 @@ class PartnerSettings(Settings):
 
 
 class GuideSettings(Settings):
-    """A hand that takes the forearm of the arm that moves (`[arm]`), and leads the robot.
+    """A hand that leads the robot by its moving arm (`[arm]`).
 
     Attributes:
-        way: How far it goes in m; 0 for no guide.
-        toward: Direction in the robot's frame at the start; with "seeded" the seed chooses.
-        sets_out: Time in s from which it leads; until then it goes along with the arm.
-        within: The seed adds up to this many s: by default any phase of a stride.
+        way: In m; 0 for no guide.
+        toward: Direction in the robot's initial frame; "seeded": drawn.
+        sets_out: Time in s until which it goes along with the arm.
+        within: Seconds that the seed adds at most, by default a stride.
         hand_speed: Mean speed in m/s.
-        hand_spring: Stiffness in N/m of the spring by which it follows its way.
-        hand_force: Largest force in N with which it leads.
+        hand_spring: Stiffness in N/m along its way.
+        hand_force: Largest leading force in N.
     """
 
     way: float = number(0.0, "m", 0.0, 10.0)

@@ -1,4 +1,4 @@
-"""Partners that touch a walking robot: skin in the world, what presses on it, and the physics step with both."""
+"""Skin in the world, partners that press on it, and their physics step."""
 
 from __future__ import annotations
 
@@ -28,24 +28,24 @@ class Partner(Protocol):
         """Add it to a world."""
 
     def bind(self, world: World) -> tuple[int, ...]:
-        """Find it in the compiled world; returns the ids of the geoms that the skin measures."""
+        """Find it in the compiled world; returns the geom ids that skin measures."""
 
     def place(self, world: World) -> None:
-        """Put it at its start in a `world` in which the robot stands."""
+        """Put it at its start in a `world` where the robot stands."""
 
     def near(self, time: float) -> bool:
-        """Whether the skin may measure it at a time in s; one that is farther off costs no rays."""
+        """Whether the skin may measure it at a time in s."""
         return True
 
     def drive(self, world: World, skin: SkinSensor) -> None:
-        """Set its forces in the `world` for the next physics step, after the `skin` pressed back."""
+        """Set its forces in the `world` for a physics step, after `skin`."""
 
 
 def skin_material(body: BodyScale) -> SkinSensing:
-    """Skin for a robot of some size: the companion's on H1, by dynamic similarity.
+    """Skin for a robot's size: the companion's on H1, scaled.
 
-    Stiffness scales with weight / leg^3, damping with weight beat / leg^3, the signals' half force with weight and half
-    distance with leg. Friction sets in over a higher speed, for partners with mass.
+    Stiffness scales with weight / leg^3, damping with weight beat / leg^3, half force with weight, half distance with
+    leg. Friction's slip speed is higher, for partners with mass.
     """
     weight, leg, beat = (getattr(body, name) / getattr(REFERENCE_BODY, name) for name in ("weight", "leg", "beat"))
     given = SkinSensing()
@@ -59,7 +59,7 @@ def skin_material(body: BodyScale) -> SkinSensing:
 
 
 class Touch:
-    """Skin of the upper body in a `world`, and the partners that press on it."""
+    """Upper body skin in a `world`, and partners that press on it."""
 
     def __init__(self, world: World, skin: BodySkin, partners: Sequence[Partner], seed: int) -> None:
         self._world = world
@@ -80,19 +80,19 @@ class Touch:
 
     @property
     def force(self) -> NDArray[np.float64]:
-        """True force (3,) on the robot in N, world frame, at the last physics step."""
+        """True force (3,) on the robot in N, world frame, last step."""
         return np.asarray(self.sensor.wrenches[:, :3].sum(axis=0))
 
     @property
     def wrench(self) -> NDArray[np.float64]:
-        """True wrench (6,) on the robot about the world's origin in N and N m, at the last physics step."""
+        """True wrench (6,) on the robot about the world's origin in N and N m, last step."""
         found = self.sensor.wrenches.sum(axis=0)
         for link, wrench in zip(self.sensor.skin.links, self.sensor.wrenches, strict=True):
             found[3:] += np.cross(self._world.data.body(link).xpos, wrench[:3])
         return np.asarray(found)
 
     def step(self) -> None:
-        """One physics step, with the forces on the skin and the partners that press on it."""
+        """One physics step with skin forces and partners."""
         world = self._world
         mujoco.mj_step1(world.model, world.data)
         near = any(partner.near(float(world.data.time)) for partner in self.partners)
