@@ -1,4 +1,4 @@
-"""Terrain: the ground that the controller does not know. A kind of ground is one file."""
+"""Terrain: ground unknown to the controller, one kind a file."""
 
 from plantar.sim.terrain.beam import Beam
 from plantar.sim.terrain.block import Block

@@ -1,4 +1,4 @@
-"""A beam between two platforms, along the walk (T 4.4.5.3)."""
+"""A beam between platforms, along the walk (T 4.4.5.3)."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ class Beam(Terrain):
 
     Attributes:
         width: In m.
-        length: Distance in m between the platforms.
-        start: Distance in m from the middle of the standing feet to the beam, longer where a foot would be on it.
-        offset: Of the middle line from the soles' centres in m, positive to the left.
-        offset_range: Largest offset in m that the seed adds, either way.
-        yaw: Angle in degrees to the walk, about the near end.
-        depth: Depth of the floor below in m.
+        length: In m, between platforms.
+        start: Distance in m from the standing feet's middle, longer where a foot would be on it.
+        offset: In m from the soles' centres, positive left.
+        offset_range: Largest seeded offset in m, either way.
+        yaw: In degrees to the walk, about the near end.
+        depth: Floor below in m.
     """
 
     width: float = share(0.52, "sole", 0.005, 2)
@@ -72,6 +72,6 @@ class Beam(Terrain):
 
 
 def _foremost(feet: PlannedFeet, begin: np.ndarray, along: np.ndarray) -> float:
-    """Largest distance in m of the standing soles from a point (2,) along a direction (2,)."""
+    """Largest distance in m of standing soles from a point (2,) along a direction (2,)."""
     corners = [foot.place(a * foot.half[0], b * foot.half[1]) for foot in feet.standing.values() for a, b in _CORNERS]
     return float(max((corner - begin) @ along for corner in corners))

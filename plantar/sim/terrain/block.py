@@ -1,4 +1,4 @@
-"""An obstacle on level ground where a foot is planned to land."""
+"""An obstacle on level ground under a planned step."""
 
 from __future__ import annotations
 
@@ -20,21 +20,20 @@ class Block(Terrain):
     """A slab, wedge, small block or pebbles under one step.
 
     Attributes:
-        step: The step (from 0) under which it lies.
-        top: Height in m of its upper face's middle.
+        step: Step (from 0) above it.
+        top: Height in m of its upper middle.
         length: In m along the foot.
         width: In m across the foot.
-        along: Its middle in m from the sole's centre, forward.
+        along: Its middle in m, forward.
         across: The same, outward.
-        pitch: Slope in degrees along the foot; positive falls to the front.
-        roll: Slope in degrees across the foot; positive rises to the left.
-        slope: Slope in degrees that the seed adds forward, backward, inward or outward.
-        shape: "box", or "spheres": three in a triangle of that length and width.
+        pitch: In degrees along the foot; positive falls to the front.
+        roll: In degrees across the foot; positive rises to the left.
+        slope: Degrees that the seed adds forward, backward, inward or outward.
+        shape: "box", or "spheres": three in a triangle of that size.
         at: Origin of `along` and `across`: the sole's "center" or the "ankle".
-        clear: Distance in m that a box keeps from the same foot's neighbouring footholds by being shorter; 0: not
-            shortened.
-        slide: Distance in m from outside, from which it slides in during the swing; 0 for a fixed one.
-        height_range: Largest height in m that the seed adds to `top`, either way.
+        clear: Distance in m from the foot's neighbouring footholds, by shortening; 0: not shortened.
+        slide: Distance in m it slides in from outside during the swing; 0: fixed.
+        height_range: Largest seeded change of `top` in m, either way.
     """
 
     step: int = whole(2, "step", 0, 100000)

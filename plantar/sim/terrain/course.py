@@ -23,7 +23,7 @@ class Course(Terrain):
     """Solids on a floor, listed as `[[terrain.solid]]` tables.
 
     Attributes:
-        floor: Height in m of the floor under them.
+        floor: Floor height in m.
         solid: Tables of `shape` (box, sphere, ellipsoid, cylinder), `size` (half sizes in m; radius; radius and half
             height), `position` of the centre in m, and `angles` (roll, pitch, yaw) in degrees.
     """

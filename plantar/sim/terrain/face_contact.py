@@ -1,7 +1,6 @@
-"""Continuous contacts of marked boxes and cylinders, such as a sole, in MuJoCo's table of collision functions.
+"""Continuous contacts of marked boxes and cylinders in MuJoCo's collision table.
 
-MuJoCo's own contacts of two nearly parallel boxes change with a nanometre of motion: one instead of four for single
-steps. Rays, distances and pictures still see boxes and cylinders.
+MuJoCo's own contacts of nearly parallel boxes jump between one and four with a nanometre of motion.
 """
 
 from __future__ import annotations
@@ -31,10 +30,10 @@ _installed: list[Any] = []  # the functions in the table, which must live as lon
 
 
 def install_face_contacts() -> None:
-    """Put the contacts of marked geoms into MuJoCo's table of collision functions, once a process.
+    """Put marked geoms' contacts into MuJoCo's collision table, once a process.
 
     Raises:
-        InputError: If MuJoCo's library has no such table.
+        InputError: If there is no table.
     """
     if _installed:
         return
@@ -49,7 +48,7 @@ def install_face_contacts() -> None:
 
 
 class _Addresses:
-    """Offsets in bytes of the arrays' addresses in MuJoCo's structures."""
+    """Byte offsets of array addresses in MuJoCo's structures."""
 
     def __init__(self) -> None:
         model, data = _spheres()
@@ -60,7 +59,7 @@ class _Addresses:
 
 
 def _offset(structure: Any, array: Any) -> int:
-    """Distance in bytes of an array's address from the head of its structure."""
+    """Bytes from the head of a structure to an array's address."""
     wanted = array.ctypes.data
     word = ctypes.sizeof(ctypes.c_size_t)
     for offset in range(0, _SEARCHED, word):
@@ -76,7 +75,7 @@ def _stride() -> int:
 
 
 def _spheres() -> tuple[Any, Any]:
-    """Smallest model and data of two touching spheres; MuJoCo's empty arrays have the address of the next array."""
+    """Smallest model and data of touching spheres: MuJoCo's empty arrays share addresses with the next."""
     sphere = "<geom size='1'/>"
     model = mujoco.MjModel.from_xml_string(
         f"<mujoco><worldbody>{sphere}<body><freejoint/>{sphere}</body></worldbody></mujoco>"
@@ -94,7 +93,7 @@ def _library() -> ctypes.CDLL:
 
 
 def _collide(find: Callable[..., int], other: Any, where: _Addresses) -> Callable[..., int]:
-    """A collision function: `find` where one geom of the pair is marked, else MuJoCo's own."""
+    """A collision function: `find` for marked geoms, else MuJoCo's own."""
     word, whole = ctypes.c_size_t.from_address, ctypes.c_int.from_address
 
     def collide(model: int, data: int, contacts: int, first: int, second: int, margin: float) -> int:

@@ -1,7 +1,7 @@
-"""Solids, their motion and the planned footprints: common to all kinds of ground.
+"""Solids, motion and planned footprints of all kinds of ground.
 
 A kind is a frozen dataclass of a scene's `[terrain]` table that turns footprints and a random generator into a
-`Ground`; only `Ground.add_to` knows the simulator.
+`Ground`.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ class Footprint:
 
     Attributes:
         side: Which foot.
-        center: Centre (2,) of the sole's rectangle in the world in m.
+        center: Of the sole's rectangle (2,) in the world in m.
         yaw: Heading in rad.
         half: Half length and half width in m.
-        ankle: The sole frame's origin (2,) in the world in m.
-        lift_off: Planned start of the swing in s; -inf for a foot that stands at the start.
-        touchdown: Planned end of the swing in s.
+        ankle: Sole frame's origin (2,) in the world in m.
+        lift_off: Planned in s; -inf for a foot that stands at the start.
+        touchdown: Planned in s.
     """
 
     side: Side
@@ -47,20 +47,20 @@ class Footprint:
     touchdown: float = -math.inf
 
     def place(self, along: float, across: float) -> NDArray[np.float64]:
-        """Returns the point (2,) in the world, `along` in m forward and `across` in m left of the centre."""
+        """Returns the point (2,) in the world, `along` forward and `across` left of the centre in m."""
         c, s = math.cos(self.yaw), math.sin(self.yaw)
         return np.asarray(self.center + np.array([c * along - s * across, s * along + c * across]))
 
 
 @dataclass(frozen=True)
 class PlannedFeet:
-    """The planned footprints: of each foot `standing` at the start, and of the `steps` in order."""
+    """Planned footprints: of each foot `standing` at the start, and of `steps` in order."""
 
     standing: Mapping[Side, Footprint]
     steps: tuple[Footprint, ...]
 
     def middle(self, last: bool = False) -> NDArray[np.float64]:
-        """Middle (2,) in m between the soles' centres at the start, or with `last` at the end of the walk."""
+        """Middle (2,) in m between soles' centres at the start, or with `last` at the end."""
         feet = dict(self.standing)
         if last:
             for step in self.steps:
@@ -70,12 +70,12 @@ class PlannedFeet:
 
 @dataclass(frozen=True)
 class Motion:
-    """A move of a solid to another place, at constant speed.
+    """A move of a solid at constant speed.
 
     Attributes:
         start: Time in s.
         duration: In s; 0 jumps.
-        position: The solid's centre (3,) in m at the end.
+        position: Final centre (3,) in m.
     """
 
     start: float
@@ -89,9 +89,9 @@ class Solid:
 
     Attributes:
         shape: "box", "sphere", "ellipsoid" or "cylinder" (along z).
-        size: Half sizes (3,) in m; a sphere's radius; a cylinder's radius and half height.
+        size: Half sizes (3,) in m; radius; radius and half height.
         position: Centre (3,) in the world in m.
-        rotation: Rotation (3, 3) to the world.
+        rotation: (3, 3) to the world.
         motions: In order of time.
     """
 
@@ -102,7 +102,7 @@ class Solid:
     motions: tuple[Motion, ...] = ()
 
     def at(self, time: float) -> NDArray[np.float64]:
-        """Centre (3,) in the world in m at a time in s."""
+        """Centre (3,) in the world in m at a time."""
         position = self.position
         for motion in self.motions:
             if time < motion.start:
@@ -113,7 +113,7 @@ class Solid:
 
     @property
     def top(self) -> float:
-        """Height in m that no part of it ever exceeds."""
+        """Largest height in m of any part, ever."""
         up = np.abs(self.rotation[2])
         size = np.array(self.size)
         if self.shape == "box":
@@ -133,9 +133,9 @@ class Ground:
 
     Attributes:
         solids: Its pieces.
-        floor: Height in m of the infinite plane under them.
-        friction: Sliding friction coefficient of sole on ground.
-        facts: Random choices, for the summary.
+        floor: Height in m of the plane below.
+        friction: Sliding coefficient of sole on ground.
+        facts: Random choices.
     """
 
     solids: tuple[Solid, ...]
@@ -144,7 +144,7 @@ class Ground:
     facts: Mapping[str, float] = field(default_factory=dict)
 
     def seen_from_above(self) -> list[list[list[float]]]:
-        """Corners [[x, y], ...] in the world in m of each solid's upper face; a round one is a 16-gon."""
+        """Corners [[x, y], ...] in the world in m of solids' upper faces; round ones are 16-gons."""
         rings = []
         turns = np.linspace(0.0, 2.0 * math.pi, 17)[:-1]
         for solid in self.solids:
@@ -159,16 +159,16 @@ class Ground:
 
     @property
     def moving(self) -> tuple[tuple[int, Solid], ...]:
-        """Solids that move, with their number."""
+        """Moving solids with their number."""
         return tuple((i, s) for i, s in enumerate(self.solids) if s.motions)
 
     @property
     def top(self) -> float:
-        """Height in m that no part of the ground ever exceeds."""
+        """Largest height in m of any part, ever."""
         return max([self.floor, *(solid.top for solid in self.solids)])
 
     def add_to(self, spec: Any) -> None:
-        """Add the floor as geom "ground" and the solids as "ground_0", "ground_1"... to a `mujoco.MjSpec`."""
+        """Add floor geom "ground" and solids "ground_0", "ground_1"... to a `mujoco.MjSpec`."""
         import mujoco
 
         from plantar.sim.terrain.face_contact import MARK, install_face_contacts
@@ -217,8 +217,8 @@ class Terrain(Settings):
 
     Attributes:
         kind: Name of the kind.
-        friction: Sliding friction coefficient of sole on ground.
-        height: Height in m of the ground at the start, which the plan expects.
+        friction: Sliding coefficient of sole on ground.
+        height: Ground height in m at the start, as planned.
     """
 
     kind: str = text("flat")
@@ -226,7 +226,7 @@ class Terrain(Settings):
     height: float = number(0.0, "m", -10, 10)
 
     def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        """Returns the ground for planned `feet`, with the scene's random choices drawn from `rng`."""
+        """Returns the ground for planned `feet`, with choices drawn from `rng`."""
         return self._laid_out(feet, rng)
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:

@@ -1,4 +1,4 @@
-"""The kinds of ground: classes of this package's modules, and entry points of other packages (`plantar.terrain`)."""
+"""The kinds of ground: this package's, and entry points `plantar.terrain`."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ __all__ = ["terrain_kinds"]
 
 @cache
 def terrain_kinds() -> dict[str, type[Terrain]]:
-    """Kinds of ground by their name in a scene: the class's in lower case; "flat", the default, comes first.
+    """Kinds of ground by lower-case class name; "flat", the default, first.
 
-    A kind is a `Terrain` in a module of this folder or an entry point `plantar.terrain` of another package.
+    A kind is a `Terrain` of this folder or of an entry point `plantar.terrain`.
 
     Example:
         >>> list(terrain_kinds())[:3]

@@ -1,4 +1,4 @@
-"""A mixed course: the seed draws the kind of ground under each step."""
+"""A mixed course: the seed draws the ground under each step."""
 
 from __future__ import annotations
 
@@ -20,17 +20,16 @@ _PARTS = ("rear", "front", "inner", "outer")
 class Mixed(Terrain):
     """Level stones, partial, higher and lower ones, slopes, slabs and pieces of a beam across the walk.
 
-    Level are those under the standing feet, the last two steps, and steps whose stone would overlap with these or the
-    last one of the same foot.
+    Level are standing feet, the last two steps, and stones that would overlap these or the same foot's last.
 
     Attributes:
-        share_min: Smallest share of the sole's rectangle that a partial stone carries.
-        height_range: Largest difference in m from the expected ground.
-        slope_range: Largest slope in degrees, in any direction.
+        share_min: Smallest share of the sole on a partial stone.
+        height_range: Largest in m from expected ground.
+        slope_range: Largest in degrees, any direction.
         slab: Height in m.
         beam_width: Width in m along the foot.
-        beam_offset: Largest distance in m of its middle from the sole's, either way.
-        depth: Depth of the floor below in m.
+        beam_offset: Largest in m from the sole's middle, either way.
+        depth: Floor below in m.
     """
 
     share_min: float = number(0.5, "1", 0.02, 1)

@@ -1,4 +1,4 @@
-"""Stones, one under each planned footprint: partial, uneven or bumpy footholds."""
+"""Stones, one under each planned footprint: partial, uneven or bumpy."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ _PARTS = ("rear", "front", "inner", "outer")
 
 
 class Partial(Terrain):
-    """Stones of which one carries only a part of the sole.
+    """Stones, one of which carries only part of the sole.
 
     Attributes:
-        step: The step (from 0) with the partial foothold.
-        share: Share of the sole's rectangle that it carries.
-        part: Which part of the sole it carries.
+        step: Step (from 0) on the partial foothold.
+        share: Carried share of the sole's rectangle.
+        part: Carried part of the sole.
         rise: Its height in m above the others.
-        depth: Depth of the floor below in m.
+        depth: Floor below in m.
     """
 
     step: int = whole(2, "step", 0, 100000)
@@ -52,12 +52,12 @@ class Partial(Terrain):
 
 
 class Stones(Terrain):
-    """Stones that each carry a random part of the sole; the first and the last two carry all of it.
+    """Stones that carry random parts of soles; all at the first and last two.
 
     Attributes:
-        share_min: Smallest share of the sole's rectangle that a stone carries.
+        share_min: Smallest carried share of the sole's rectangle.
         share_max: Largest share.
-        depth: Depth of the floor below in m.
+        depth: Floor below in m.
     """
 
     share_min: float = number(0.3, "1", 0.02, 1)
@@ -80,17 +80,15 @@ class Stones(Terrain):
 
 
 class Uneven(Terrain):
-    """Stones of random height under each step; where steps are taken in place, the stone moves while the foot is in the
-    air.
+    """Stones of random height; for steps in place they move while the foot is in the air.
 
-    A footprint that overlaps the last one of the same foot, as those of the first and the last step do, has its height.
+    A footprint that overlaps the same foot's last has its height.
 
     Attributes:
-        height_range: Largest difference in m from the expected ground.
-        slope_range: Largest slope in degrees, in any direction; only where the stones do not move.
-        gap: Free width in m between the stones of the two feet: dead reckoning drifts sideways in a long walk, and a
-            foot must not stand on two heights.
-        depth: Depth of the floor below in m.
+        height_range: Largest in m from expected ground.
+        slope_range: Largest in degrees, any direction, of fixed stones.
+        gap: Free width in m between both feet's stones, as dead reckoning drifts sideways.
+        depth: Floor below in m.
     """
 
     height_range: float = share_of_body(0.025, "leg", 0, 0.1)
@@ -123,15 +121,15 @@ class Uneven(Terrain):
 
 
 class Pebbles(Terrain):
-    """Sloping stones with bumps; level under the standing feet, the last two steps, and steps that overlap with those.
+    """Sloping stones with bumps; level under standing feet, the last two steps, and overlapping ones.
 
     Attributes:
-        bump_min: Smallest height in m of a bump.
+        bump_min: Smallest height in m.
         bump_max: Largest height.
-        bump_radius: Radius in m of the sphere that a bump is a cap of.
+        bump_radius: Sphere radius in m of its cap.
         bumps: Number on a stone.
-        slope_range: Largest slope in degrees, in any direction.
-        depth: Depth of the floor below in m.
+        slope_range: Largest in degrees, any direction.
+        depth: Floor below in m.
     """
 
     bump_min: float = share_of_body(1 / 120, "leg", 0, 0.05)
@@ -174,18 +172,18 @@ class Pebbles(Terrain):
 
 
 def drawn_slope(rng: np.random.Generator, largest: float) -> tuple[float, float]:
-    """Returns pitch and roll in rad of a slope of at most `largest` degrees in a random direction of `rng`."""
+    """Returns pitch and roll in rad of a slope up to `largest` degrees, direction by `rng`."""
     size, way = math.radians(largest) * float(rng.uniform()), float(rng.uniform(0.0, 2.0 * math.pi))
     return size * math.cos(way), size * math.sin(way)
 
 
 def same_place(foot: Footprint, other: Footprint) -> bool:
-    """Returns whether `foot` and `other` are footprints of one foot at the same place, to a millimetre."""
+    """Returns whether `foot` and `other`, of one foot, coincide to a millimetre."""
     return foot.side == other.side and bool(np.hypot(*(foot.center - other.center)) < 1e-3)
 
 
 def overlapping(foot: Footprint, other: Footprint) -> bool:
-    """Returns whether the stones of `foot` and `other`, footprints of one foot, overlap along the feet."""
+    """Returns whether stones of `foot` and `other`, of one foot, overlap along the feet."""
     dx, dy = (other.center - foot.center).tolist()
     along = math.cos(foot.yaw) * dx + math.sin(foot.yaw) * dy
     return bool(abs(along) < (1.0 + _MARGIN) * (foot.half[0] + other.half[0]))
@@ -200,7 +198,7 @@ def _distinct(feet: PlannedFeet) -> list[Footprint]:
 
 
 def _lane(foot: Footprint, feet: PlannedFeet, gap: float) -> float:
-    """Distance in m from a footprint's centre, inward, to half way to the other foot's."""
+    """Distance in m from a footprint's centre half way to the other foot's."""
     inward = -1.0 if foot.side == "left" else 1.0
     gaps = []
     others: Sequence[Footprint] = [*feet.standing.values(), *feet.steps]
@@ -225,18 +223,18 @@ def stone_under(
     roll: float = 0.0,
     gap: float = _GAP,
 ) -> Solid:
-    """A box whose upper face carries a share of the footprint: all of it with a margin around, or a part.
+    """A box that carries the footprint with a margin, or a part.
 
     Args:
         foot: The footprint.
-        feet: All footprints, which the box keeps clear of.
-        height: Height of the upper face in m.
-        depth: Depth of the box in m.
-        share: Share of the footprint that is carried.
+        feet: All footprints, to keep clear of.
+        height: Of the upper face in m.
+        depth: Of the box in m.
+        share: Carried share of the footprint.
         part: "rear", "front", "inner" or "outer".
-        pitch: Slope of the upper face along the foot in rad.
+        pitch: Slope along the foot in rad.
         roll: Slope across it in rad.
-        gap: Distance between the boxes of both feet in m.
+        gap: Between both feet's boxes in m.
 
     Returns:
         The box.
