@@ -31,7 +31,7 @@ def drawn_bodies(model: Any) -> list[int]:
 
 
 def body_entity(model: Any, body: int) -> Part:
-    """Returns visible geoms of a `body` of a `model` as an entity (`plantar.recordings.foxglove.entity`) in its frame."""
+    """Returns a `body` of a `model`, its visible geoms, as `plantar.recordings.foxglove.entity` in its frame."""
     name = frame_name(model, body)
     geoms = [i for i in range(model.ngeom) if model.geom_bodyid[i] == body and _is_shown(model, i)]
     return entity(name, name, *(part for i in geoms for part in _primitives(model, i)))
