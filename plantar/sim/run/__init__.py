@@ -1,1 +1,1 @@
-"""One scenario from scene to summary, and many of them."""
+"""Scenarios from scene to summary."""

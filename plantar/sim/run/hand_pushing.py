@@ -1,4 +1,4 @@
-"""The pushes by hands of a scene, and when they come."""
+"""A scene's pushes by hands, and their times."""
 
 from __future__ import annotations
 
@@ -34,20 +34,20 @@ Steps = tuple[Mapping[Side, Footstep], Sequence[Footstep]]
 def upper_body_skin_of(
     scene: Scene, robot: Robot, model: Any, body: BodyScale, worn: WornArm | None = None
 ) -> BodySkin | None:
-    """Skin of a robot's upper body in a scene; None where it is not touched.
+    """A robot's upper body skin in a scene; None where not touched.
 
     Args:
         scene: For the same body.
         robot: The robot.
-        model: The MjModel of the robot alone.
+        model: Of the robot alone.
         body: The robot's size.
-        worn: Its arm that moves, with skin of its own; or None.
+        worn: Its moving arm with skin, or None.
 
     Returns:
-        The skin, in the frames of the base and of the arm's links.
+        The skin, in frames of base and arm links.
 
     Raises:
-        SceneError: If a hand leads a robot whose arms do not move.
+        SceneError: If led arms do not move.
     """
     if scene.guide.way > 0.0 and worn is None:
         raise SceneError("[guide] way is above 0 and arm.side 'none'; allowed: with an arm that moves, left or right")
@@ -63,21 +63,21 @@ def upper_body_skin_of(
 def hand_pushes(
     push: Push, schedule: Callable[[], WalkSchedule], steps: Steps, skin: BodySkin, body: BodyScale, seed: int
 ) -> HandPushes:
-    """Hands and their pushes of a scene.
+    """A scene's hands and pushes.
 
     Args:
-        push: Pushes of the scene.
-        schedule: Returns the phases of the walk as planned now.
-        steps: The standing feet and the footsteps as planned at the start.
-        skin: Skin of the upper body.
+        push: The scene's.
+        schedule: Returns the walk's planned phases.
+        steps: Standing feet and planned steps at the start.
+        skin: Of the upper body.
         body: The robot's size.
-        seed: Chooses an open direction and step.
+        seed: Of open direction and step.
 
     Returns:
         The hands.
 
     Raises:
-        SceneError: If the scene pushes at a step that the walk does not have.
+        SceneError: If the walk lacks the step.
     """
     made = []
     for first, share in _pushed_steps(push, schedule(), np.random.default_rng([seed, 0xB0])):
@@ -109,7 +109,7 @@ def _pushed_steps(push: Push, schedule: WalkSchedule, rng: np.random.Generator) 
 
 
 def _with_swing(steps: Steps, k: int, direction: tuple[float, float]) -> int:
-    """Step k, or the next one where a push goes rather to the side of that one's foot."""
+    """Step k, or the next where a push goes to that foot's side."""
     ahead, left = direction
     out = left if steps[1][k].side == "left" else -left
     return k if out >= 0.0 or abs(ahead) > abs(left) or k + 1 >= len(steps[1]) else k + 1
@@ -155,9 +155,9 @@ def _along(steps: Steps, k: int) -> NDArray[np.float64]:
 
 
 def pushed_height(push: Push, skin: BodySkin, faces: Sequence[str], world: World) -> float:
-    """Returns the height above the base's origin in m at which hands push a robot that stands in a `world`.
+    """Returns the pushed height above the base's origin in m of a robot standing in a `world`.
 
-    Named heights of a `push` are as near as all palms on the `faces` find `skin`.
+    Named heights of a `push` move until all palms on `faces` find `skin`.
     """
     model, data = world.model, world.data
     base = float(data.xpos[model.body_rootid[world.torso], 2])

@@ -1,4 +1,4 @@
-"""Names of robots and machines, scenes, papers and formats; read without a simulator."""
+"""Names of robots, machines, scenes, papers and formats, without a simulator."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ __all__ = ["listed"]
 
 
 def listed(what: str) -> dict[str, str]:
-    """Names with a line that describes each.
+    """Names with a line on each.
 
     Args:
         what: "robots", "scenes", "papers" or "formats".
@@ -19,7 +19,7 @@ def listed(what: str) -> dict[str, str]:
         Descriptions by name.
 
     Raises:
-        InputError: If something else is asked for.
+        InputError: If it is another.
 
     Example:
         >>> "h1" in listed("robots"), "beam" in listed("scenes")

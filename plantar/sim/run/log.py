@@ -37,10 +37,10 @@ class RunLog:
     Args:
         path: MCAP file.
         world: The world.
-        metadata: What identifies the run.
-        zmps: Whether the ZMPs of skin and ankles are recorded.
-        touch: Partners and the skin that they press on, or None.
-        arm: The arm that moves, or None.
+        metadata: The run's identity.
+        zmps: Whether to record skin and ankle ZMPs.
+        touch: Partners and their skin, or None.
+        arm: The moving arm, or None.
     """
 
     def __init__(
@@ -98,15 +98,13 @@ class RunLog:
         self._recorder.__exit__(*error)
 
     def skin(self, readings: Mapping[Side, Reading]) -> None:
-        """Record the soles' latest readings at the time of their samples."""
+        """Record the soles' latest readings at their sample times."""
         for side, channel in self._skin.items():
             channel.write(readings[side].time, readings[side].force)
         self._drawn.skin(readings)
 
     def zmps(self, time: float, skin: NDArray[np.float64] | None, force_torque: NDArray[np.float64] | None) -> None:
-        """Record the filtered ZMPs (2,) in m of the `skin` and of the ankles (`force_torque`) at `time` in s; NaN for
-        none.
-        """
+        """Record filtered ZMPs (2,) in m of `skin` and ankles (`force_torque`) at `time` in s; NaN for none."""
         if self._zmps is not None:
             row = [_NAN2 if zmp is None else zmp for zmp in (skin, force_torque)]
             self._zmps.write(time, np.concatenate(row))
@@ -135,12 +133,12 @@ class RunLog:
         """Record one control tick, after its physics step.
 
         Args:
-            sensors: Input of the controller.
+            sensors: The controller's input.
             command: Its output.
             plan: Of the walk.
-            joints: Joint references (k,) in rad.
+            joints: References (k,) in rad.
             truth: Of the judge.
-            loads: Vertical ground force in N on the left and the right foot.
+            loads: Vertical in N on left and right foot.
         """
         w, time = self._world, sensors.time
         data, state, reference = w.data, command.state, command.reference

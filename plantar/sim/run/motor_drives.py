@@ -1,4 +1,4 @@
-"""Leg joints driven by motors with gains and feed-forward torques in place of stiff position servos."""
+"""Leg joints driven by motors with gains and feed-forward torques."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ __all__ = ["MotorDrives"]
 
 
 class MotorDrives:
-    """Hands each command's joint targets to the motors, and moves the angles on between control ticks.
+    """Hands joint targets to motors, and moves angles on between control ticks.
 
     Args:
-        world: The world; its actuators become sources of torque with the gains.
-        motors: What solved the commands.
-        plant: How the true motors differ; None for no difference.
+        world: Its actuators become torque sources with the gains.
+        motors: Solver of the commands.
+        plant: True differences, or None.
 
     Attributes:
-        out_of_reach_since: Time in s at which something was first asked for that the legs do not reach; None if never.
+        out_of_reach_since: Time in s of the first unreachable command, or None.
     """
 
     def __init__(self, world: World, motors: CommandMotors, plant: TruePlant | None = None) -> None:

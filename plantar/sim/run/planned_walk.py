@@ -1,4 +1,4 @@
-"""The footprints of a planned walk, by which its ground is laid out."""
+"""A planned walk's footprints, by which its ground is laid out."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["planned_feet"]
 def planned_feet(
     robot: Robot, feet: Mapping[Side, Footstep], steps: Sequence[Footstep], schedule: WalkSchedule
 ) -> PlannedFeet:
-    """Returns the footprints of `steps` at the times of a `schedule`, of a `robot` whose `feet` stand at the start."""
+    """Returns footprints of `steps` at times of a `schedule`, of a `robot` with `feet` at the start."""
     swings = {p.step: p for p in schedule.phases if p.swing is not None}
 
     def footprint(foot: Footstep, step: int | None) -> Footprint:

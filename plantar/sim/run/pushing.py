@@ -1,4 +1,4 @@
-"""Pushes on the base: one in a step of a walk, or several while the robot stands."""
+"""Pushes on the base, in a step or standing."""
 
 from __future__ import annotations
 
@@ -30,21 +30,20 @@ class Pusher:
     """Applies pushes to the torso.
 
     Args:
-        push: Pushes of the scene.
+        push: The scene's.
         schedule: Phases of the walk.
-        seed: In a step: seeds 0-3 push forward, backward, left and right, seeds 4-7 again, and so on; the step is
-            drawn. While standing: draws each direction, and strength from 0.6 times the scene's impulse up to all of
-            it.
+        seed: In a step: seeds 0-3 push forward, backward, left and right, and so on; the step is drawn. Standing: draws
+            directions, and strengths of 0.6 to 1 of the impulse.
 
     Attributes:
         direction: In words.
-        step: Step that the push falls into, or None.
+        step: Of the push, or None.
         shoves: The pushes.
-        pushing: Whether a push acts in the present physics step.
-        applied: Impulse (3,) in N s of each push that began.
+        pushing: Whether a push acts now.
+        applied: Impulse (3,) in N s of each begun push.
 
     Raises:
-        SceneError: If the walk lacks that step, or the robot no longer stands.
+        SceneError: If step or stand is missing.
     """
 
     def __init__(self, push: Push, schedule: WalkSchedule, seed: int) -> None:
@@ -72,7 +71,7 @@ class Pusher:
         self.shoves = (Shove(start, start + push.duration, impulse, smooth=False),)
 
     def apply(self, world: World) -> None:
-        """Set the external force on the torso for the next physics step."""
+        """Set the torso's external force for a physics step."""
         if self._next >= len(self.shoves) and not self.pushing:
             return
         time, period = world.data.time + SAME_TIME, world.period
@@ -92,12 +91,12 @@ class Pusher:
 
 
 def direction_name(push: Push, seed: int) -> str:
-    """Returns forward, backward, left or right by the `seed` of a `push`, or "angle" or "step"."""
+    """Returns forward, backward, left or right by `seed` of a `push`, or "angle" or "step"."""
     return tuple(_DIRECTIONS)[seed % len(_DIRECTIONS)] if push.direction == "seeded" else push.direction
 
 
 def direction_of(push: Push, seed: int) -> tuple[float, float]:
-    """Returns the unit vector (2,), forward and left, of a `push`; the `seed` chooses an open one."""
+    """Returns unit vector (2,), forward and left, of a `push`; `seed` chooses an open one."""
     if push.direction == "angle":
         return math.cos(math.radians(push.angle)), math.sin(math.radians(push.angle))
     return _DIRECTIONS[direction_name(push, seed)]

@@ -1,4 +1,4 @@
-"""The summary of a run, from its parts when it is over."""
+"""The summary of a finished run."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ __all__ = ["FinishedRun", "shares_of", "size_of", "summary_of"]
 
 
 class FinishedRun(Protocol):
-    """The parts of a run that its summary reads."""
+    """Parts of a run that its summary reads."""
 
     scene: Scene
     robot: Robot
@@ -68,7 +68,7 @@ class FinishedRun(Protocol):
 
 
 def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
-    """Returns the summary of a `run` by its loop's `result`, as `plantar sim --json` prints it; None: not measured."""
+    """Returns the summary of a `run` by its loop's `result`; None: not measured."""
     judge, stopped, late = run.judge, run.controller.safe_state, run.servos.out_of_reach_since
     count = judge.steps.count()
     balance = {} if run.recovery is None else run.recovery.summary(run.pusher.applied)
@@ -195,7 +195,7 @@ def _of_parts(run: FinishedRun, balance: dict[str, Any]) -> dict[str, Any]:
 
 
 def _over_feet(run: FinishedRun, count: Count) -> tuple[NDArray[np.float64], float]:
-    """Middle (2,) in m between the soles' centres at their last steps, and the last heading in rad."""
+    """Middle (2,) in m between soles' centres at their last steps, and last heading in rad."""
     feet = dict(run.feet)
     for stand in count.stands:
         feet[stand.side] = Footstep(stand.side, *stand.place)
@@ -204,10 +204,9 @@ def _over_feet(run: FinishedRun, count: Count) -> tuple[NDArray[np.float64], flo
 
 
 def _final_error(run: FinishedRun, ends: Sequence[tuple[NDArray[np.float64], float]]) -> tuple[float, float]:
-    """Distance in m and heading error in degrees of the true torso from the nearest end of the walk.
+    """The true torso's distance in m and heading error in degrees from the walk's nearest end.
 
-    A walk ends as planned at the start or last: steps moved against drift of dead reckoning lie where they were planned
-    first.
+    A walk ends as planned first or last: steps moved against drift lie as planned first.
     """
     world, data = run.world, run.world.data
     com = data.subtree_com[world.torso, :2]
@@ -217,7 +216,7 @@ def _final_error(run: FinishedRun, ends: Sequence[tuple[NDArray[np.float64], flo
 
 
 def size_of(body: BodyScale) -> dict[str, float]:
-    """Size of a body by name and unit, as plain JSON values."""
+    """Size of a body by name and unit, for JSON."""
     return {
         "mass_kg": round(body.mass, 4),
         "weight_N": round(body.weight, 3),
@@ -230,9 +229,9 @@ def size_of(body: BodyScale) -> dict[str, float]:
 
 
 def shares_of(scene: Scene) -> dict[str, dict[str, Any]]:
-    """ "share", "value" in SI and "unit" of a scene's settings that are shares of a body, by dotted name.
+    """ "share", "value" in SI and "unit" of a scene's body shares, by dotted name.
 
-    The scene is one of a robot (`Scene.for_body`).
+    The scene is a robot's (`Scene.for_body`).
 
     Example:
         >>> from plantar.sim.run.scene import load_scene

@@ -26,7 +26,7 @@ _COMMON |= {"control_us", "control_us_by_active", "skipped", "figures"}
 
 
 def run_text(summary: Summary) -> str:
-    """A run's `summary` as lines of text, of a walk or of an experiment."""
+    """A walk's or experiment's `summary` as lines of text."""
     tick, walked = summary["control_us"], "steps_planned" in summary
     parts = (_shares, _plant, _body, _joints, _balance) if walked else (_figures,)
     return "\n".join(
@@ -41,9 +41,7 @@ def run_text(summary: Summary) -> str:
 
 
 def demo_text(made: Mapping[str, Any], output: Path) -> str:
-    """Returns the demonstration's lines, from the results `made` ("shoe", "walk", "analysis", "files") in the folder
-    `output`.
-    """
+    """Returns the demonstration's lines, from results `made` ("shoe", "walk", "analysis", "files") in folder `output`."""
     shoe, steps = made["shoe"], {side: foot["steps"] for side, foot in made["analysis"]["feet"].items()}
     return (
         f"shoe: {shoe['taxels']} taxels, {shoe['mass_g']:.0f} g, "

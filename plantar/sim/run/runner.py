@@ -1,4 +1,4 @@
-"""A walk that is built and ready to run: its robot, ground, controller, sensors and judge."""
+"""A walk ready to run: robot, ground, controller, sensors and judge."""
 
 from __future__ import annotations
 
@@ -68,12 +68,12 @@ class Simulation(Run):
 
     Args:
         scene: The scene.
-        seed: Of sensor noise and of what the scene leaves open.
-        layouts: Sole layouts instead of the robot's own.
+        seed: Of noise and open choices.
+        layouts: Instead of the robot's own.
 
     Raises:
-        RobotError: If the robot is unknown or not valid.
-        SceneError: If the robot cannot do what the scene asks for.
+        RobotError: If the robot is invalid.
+        SceneError: If the scene is impossible.
     """
 
     def __init__(self, scene: Scene, seed: int = 0, layouts: Mapping[Side, SoleLayout] | None = None) -> None:
@@ -166,7 +166,7 @@ class Simulation(Run):
         self.judge = Judge(self.world, self.settings.com_height, goal, plain)
 
     def build_world(self, others: Sequence[Visitor]) -> World:
-        """The world of this run, with the robot, its ground and others."""
+        """The run's world, with robot, ground and others."""
         return build_world(self.robot, self.ground, self.scene.control.physics_period, self.plant, others)
 
     def _arm(self, skin: BodySkin | None) -> CompliantArm | None:
@@ -179,7 +179,7 @@ class Simulation(Run):
         return arm
 
     def start_walk(self) -> Start:
-        """The feet at the start, and the planned and commanded walk."""
+        """Feet at the start, and planned and commanded walk."""
         scene, height = self.scene, com_height_of(self.scene.walk, self.robot)
         try:
             return start_of_walk(scene.walk, self.robot, height, scene.terrain.height, self.velocities)
@@ -247,7 +247,7 @@ class Simulation(Run):
             check_stable(self.world.data.warning.number)
 
     def step_physics(self) -> None:
-        """One step of the physics with the present set-points and pushes."""
+        """One physics step with present set-points and pushes."""
         if self.touch is None:
             mujoco.mj_step(self.world.model, self.world.data)
         else:
@@ -281,9 +281,7 @@ class Simulation(Run):
             self.recovery.update(time, judge.truth().zmp, com, plan.vrp, plan.com)
 
     def compute_rest(self, command: Command, everything: bool) -> int:
-        """Returns how many members of the percepts of a `command` were not computed; with `everything` computes them
-        all.
-        """
+        """Returns how many percepts of a `command` were not computed; `everything` computes them all."""
         count = 0
         for percept in command.percepts.values():
             if everything:
@@ -319,9 +317,8 @@ def run_scene(
     video: str | os.PathLike[str] | None = None,
     progress: Progress | None = None,
 ) -> dict[str, Any]:
-    """Returns the summary (see `Simulation.run`) of a `scene` with a `seed`, and other sole `layouts` than the robot's.
+    """Returns the summary (`Simulation.run`) of a `scene` with a `seed`, and `layouts` in place of the robot's.
 
-    `record` and `video` are files to write, or None; `progress` gets the fraction done and a text about ten times a
-    second.
+    `record` and `video` are files or None; `progress` gets fraction and text.
     """
     return Simulation(scene, seed, layouts).run(record=record, video=video, progress=progress)

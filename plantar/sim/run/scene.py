@@ -1,4 +1,4 @@
-"""A scene is data: a TOML of terrain, robot, gait, sensing and disturbances; no simulator is needed to read it."""
+"""A scene: a TOML of terrain, robot, gait, sensing and disturbances, read without a simulator."""
 
 from __future__ import annotations
 
@@ -31,34 +31,30 @@ _FOLDER = Path(__file__).parent.parent / "scenes"
 
 
 class Push(Settings):
-    """Pushes on the base: one in a step, one in each of several steps, or several while the robot stands.
+    """Pushes on the base: in one or several steps, or while the robot stands.
 
     Attributes:
-        dv: Velocity in m/s that the push gives to a free body; 0 for no push.
-        impulse: Impulse in N s instead of `dv`, the same for every robot; 0: by `dv`.
+        dv: Velocity in m/s given to a free body; 0: no push.
+        impulse: In N s instead of `dv`, the same for every robot; 0: by `dv`.
         duration: In s.
-        by: A bare "force" on the torso, or "hands" that press on the skin of the upper body (`sensing.body_skin`).
-        direction: In the robot's frame; "angle" uses `angle`, "step" is along the step that it falls into, and with
-            "seeded" the seed chooses.
-        angle: Direction in degrees from forward to the left, where `direction` is "angle".
-        step: Step in whose single support it comes; -1 lets the seed choose.
-        phase: Share of the single support at which it begins.
-        cycle: Share of the stride from the begin of that single support at which it begins instead; -1: by `phase`. Of
-            pushes by hands.
-        with_swing: Whether a push to a side waits for a step whose foot swings to that side, at most one step. (Over
-            the outer edge of the standing foot no step catches more than 37 N s on h1, see
-            `benchmarks/capture_limit.py`.) Of pushes by hands.
-        repeat: In how many steps, from that one on, one push each comes. Of pushes by hands.
-        small: Impulse of one more push some steps earlier, as a share of the impulse; 0 for none. Of pushes by hands.
-        small_before: So many steps earlier.
-        count: Number of pushes on a robot that stands; 0 pushes once, in a step.
-        interval: Time in s from one such push to the next.
-        sideways: Strength of a push to the side, as a share of one forward; in between along an ellipse.
-        height: Height in m of the push above the torso's centre of mass; 0.6 is about the neck.
-        place: Where hands push: at `height`, or at the height of the CoM, the hips or the shoulders.
-        verdict: Further criterion: "steps", small pushes change no step and others do; "stride", each pushed step
-            becomes longer along its push; "acceleration", the CoM is accelerated as a force at that height has to. Of
-            pushes by hands.
+        by: A "force" on the torso, or "hands" on the upper body's skin (`sensing.body_skin`).
+        direction: In the robot's frame; "angle" uses `angle`, "step" is along its step, "seeded" is drawn.
+        angle: In degrees from forward to the left, for `direction` "angle".
+        step: Step of its single support; -1: drawn.
+        phase: Share of single support at its begin.
+        cycle: Share of the stride from that single support's begin instead; -1: by `phase`. By hands only.
+        with_swing: Whether a push to a side waits, at most one step, for a foot that swings to that side (no step
+            catches more than 37 N s over the standing foot on h1, `benchmarks/capture_limit.py`). By hands only.
+        repeat: Number of steps, from that one on, with a push each. By hands only.
+        small: Share of the impulse of one more push some steps earlier; 0: none. By hands only.
+        small_before: How many steps earlier.
+        count: Number on a standing robot; 0: once, in a step.
+        interval: Time in s between those.
+        sideways: Strength to the side as a share of forward; an ellipse in between.
+        height: In m above the torso's CoM; 0.6 is about the neck.
+        place: Where hands push: `height`, CoM, hips or shoulders.
+        verdict: Further criterion: "steps", only larger pushes change steps; "stride", pushed steps become longer;
+            "acceleration", the CoM is accelerated as by a force at that height. By hands only.
     """
 
     dv: float = number(0.0, "m/s", 0, 10)
@@ -83,7 +79,7 @@ class Push(Settings):
 
     @property
     def strength(self) -> float:
-        """Impulse in N s, for the body that the settings count for."""
+        """Impulse in N s, for the settings' body."""
         return self.impulse or self.dv * self.body.mass
 
 
@@ -119,12 +115,12 @@ class Scene:
 
     Attributes:
         description: One line.
-        robot: Name or TOML file of the robot.
-        controller: Given settings of the controller's parts by table and name (`plantar.gait.controller_tables`).
-        plant: Difference of the true robot and ground from the controller's model.
-        partner: Mobile robot in front of the robot.
-        arm: Arm that moves.
-        guide: Hand that leads the robot by that arm.
+        robot: Name or TOML file.
+        controller: Given controller settings by table and name (`plantar.gait.controller_tables`).
+        plant: True differences from the controller's model.
+        partner: Mobile robot in front.
+        arm: Moving arm.
+        guide: Hand that leads by that arm.
     """
 
     name: str
@@ -149,7 +145,7 @@ class Scene:
         """Full name of a setting's key, "section.key", or "robot".
 
         Raises:
-            SceneError: If the scene has no such key.
+            SceneError: If there is no such key.
 
         Example:
             >>> load_scene("flat").setting_name("t_ss")
@@ -168,10 +164,10 @@ class Scene:
         raise SceneError(f"scene '{self.name}' has no setting '{key}'")
 
     def for_body(self, body: BodyScale) -> Scene:
-        """The scene with shares of a body in numbers of this one.
+        """The scene with body shares as numbers.
 
         Raises:
-            SceneError: If a share comes to a number that is not allowed.
+            SceneError: If a number is not allowed.
         """
         sections: dict[str, Any] = {}
         for name in SECTIONS:
@@ -192,15 +188,15 @@ def override(source: Mapping[str, Any], settings: Sequence[str]) -> dict[str, An
     """Apply `key=value` settings to a scene's tables.
 
     Args:
-        source: The scene as read from TOML.
-        settings: "section.key=value" or, where the key is unique, "key=value"; values are TOML, bare words texts. A
-            scene's own key is preferred to one of the controller's parts.
+        source: As read from TOML.
+        settings: "section.key=value" or, for a unique key, "key=value"; values are TOML, bare words texts. A scene's
+            own key comes before a controller's.
 
     Returns:
         A changed copy.
 
     Raises:
-        SceneError: If a key is unknown or a setting is not of that form.
+        SceneError: If a setting is invalid.
 
     Example:
         >>> override({"walk": {"steps": 20}}, ["steps=4", "control.feedback=false"])
@@ -242,7 +238,7 @@ def _terrain_kind(source: Mapping[str, Any]) -> dict[str, type[Settings]]:
 
 
 def scene_file(name: str | os.PathLike[str]) -> Path:
-    """File of a scene's built-in name (`builtin_scenes()`) or path.
+    """A scene's file, by built-in name (`builtin_scenes()`) or path.
 
     Raises:
         SceneError: If there is none.
@@ -270,15 +266,15 @@ def load_scene(name: str | os.PathLike[str], settings: Sequence[str] = (), robot
     """Load a scene.
 
     Args:
-        name: A built-in name (`builtin_scenes()`) or the path of a scene TOML.
-        settings: `key=value` settings that override the file's.
-        robot: Robot to use instead of the file's.
+        name: Built-in (`builtin_scenes()`) or a TOML's path.
+        settings: `key=value`, overriding the file's.
+        robot: Instead of the file's.
 
     Returns:
         The scene.
 
     Raises:
-        SceneError: If the name is unknown or a field is not valid.
+        SceneError: If name or field is invalid.
 
     Example:
         >>> load_scene("flat", ["steps=4"]).walk.steps
@@ -289,19 +285,19 @@ def load_scene(name: str | os.PathLike[str], settings: Sequence[str] = (), robot
 
 
 def scene_of(source: Mapping[str, Any], path: Path, settings: Sequence[str] = (), robot: str | None = None) -> Scene:
-    """Make a scene of a TOML file's content.
+    """Make a scene of TOML content.
 
     Args:
-        source: The content.
-        path: The file, for names and messages.
-        settings: `key=value` settings that override the file's.
-        robot: Robot to use instead of the file's.
+        source: TOML content.
+        path: For names and messages.
+        settings: `key=value`, overriding the file's.
+        robot: Instead of the file's.
 
     Returns:
         The scene.
 
     Raises:
-        SceneError: If a field is not valid.
+        SceneError: If a field is invalid.
     """
     given = set(source)
     paper, settings = with_paper(settings, path.stem, robot or str(source.get("robot", "h1")))

@@ -1,4 +1,4 @@
-"""Scenes of either kind: a walk on plantar feedback, or an experiment of the companion; each is loaded when needed."""
+"""Scenes of a walk or a companion experiment, each loaded when needed."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ __all__ = ["open_scene", "robot_file_of", "run", "simulation_of"]
 def open_scene(
     name: str | os.PathLike[str], settings: Sequence[str] = (), robot: str | None = None
 ) -> Scene | CompanionScene:
-    """Load a scene; one that names an experiment is the companion's.
+    """Load a scene, of a walk or an experiment.
 
     Args:
-        name: A built-in name or the path of a scene TOML.
-        settings: `key=value` settings that override the file's.
-        robot: Robot or machine to use instead of the file's.
+        name: Built-in or a TOML's path.
+        settings: `key=value`, overriding the file's.
+        robot: Or machine, instead of the file's.
 
     Returns:
         The scene.
 
     Raises:
-        SceneError: If the name is unknown or a field is not valid.
+        SceneError: If name or field is invalid.
 
     Example:
         >>> open_scene("flat", ["steps=4"]).walk.steps
@@ -51,7 +51,7 @@ def robot_file_of(scene: Scene | CompanionScene) -> Path:
     """The TOML of a scene's robot or machine.
 
     Raises:
-        RobotError: If it is unknown, or not valid.
+        RobotError: If it is invalid.
     """
     if isinstance(scene, Scene):
         from plantar.robots import load_robot
@@ -63,11 +63,11 @@ def robot_file_of(scene: Scene | CompanionScene) -> Path:
 
 
 def simulation_of(scene: Scene | CompanionScene, seed: int) -> Run:
-    """Returns the run, not begun, of a `scene` of either kind with a `seed`.
+    """Returns the run, not begun, of a `scene` with a `seed`.
 
     Raises:
-        SceneError: If the scene cannot be simulated.
-        RobotError: If the robot is unknown or not valid.
+        SceneError: If it cannot be simulated.
+        RobotError: If the robot is invalid.
     """
     if isinstance(scene, Scene):
         from plantar.sim.run.runner import Simulation
@@ -87,23 +87,23 @@ def run(
     plot: Path | None = None,
     progress: Callable[[float, str], None] | None = None,
 ) -> dict[str, Any]:
-    """Simulate a scene, judge the run by the true contact forces, and write the files that are asked for.
+    """Simulate a scene, judge it by true contact forces, and write files.
 
     Args:
-        scene: The scene, its built-in name or the path of its TOML file.
-        seed: Of sensor noise and what the scene leaves open.
+        scene: Scene, built-in name or TOML path.
+        seed: Of noise and open choices.
         record: Recording, .mcap, or None.
         video: Video, .mp4, or None.
-        plot: Folder of the figures, or None.
-        progress: Called with the fraction done and a text.
+        plot: Figure folder, or None.
+        progress: Called with fraction and text.
 
     Returns:
-        The summary, as `plantar sim --json` prints it: "completed", "reasons" (each criterion that failed), "fell" and
-        more, with the paths of figures under "figures".
+        The summary, as `plantar sim --json` prints it: "completed", "reasons" (failed criteria), "fell" and more,
+        figure paths under "figures".
 
     Raises:
-        SceneError: If the scene cannot be run.
-        InputError: If a file or folder cannot be written.
+        SceneError: If it cannot run.
+        InputError: If a file cannot be written.
 
     Example:
         >>> run("flat", 0)["completed"]  # doctest: +SKIP

@@ -1,4 +1,4 @@
-"""Joint servos: position set-points with velocity and torque feed-forward, interpolated at the servo's own rate."""
+"""Position servos with velocity and torque feed-forward, interpolated at their own rate."""
 
 from __future__ import annotations
 
@@ -22,22 +22,21 @@ _SLOW = 0.0247  # rad/beat from which a joint moves against its friction: 0.1 ra
 
 
 class LegServos:
-    """Turns commands of the walking controller into servo set-points.
+    """Turns walking commands into servo set-points.
 
-    A servo computes torque = kp (u - q) - kv q'. With u = q_d + ((kv + d) q'_d + tau_ff) / kp, where d is the joint's
-    damping and its friction counts as load, it follows q_d without lag. Between ticks u moves at q'_d, and changes of a
-    tick pass a low pass at the servo's rate: held set-points would make a saw tooth of kp q'_d dt in every torque, and
-    steps of kv times a change of q'_d. At a speed limit all joints move by the same smaller share of their way, and
-    catch up later.
+    A servo computes torque = kp (u - q) - kv q'. With u = q_d + ((kv + d) q'_d + tau_ff) / kp, d the joint's damping
+    and friction a load, it follows q_d without lag. Between ticks u moves at q'_d, and a tick's changes are low-passed:
+    held set-points would make a saw tooth of kp q'_d dt in torque. At a speed limit all joints move by the same share
+    of their way.
 
     Args:
         world: The world.
-        legs: Kinematics of the robot.
+        legs: Its kinematics.
         period: Control period in s.
-        plant: How the true drives differ from these servos; None for no difference.
+        plant: True differences, or None.
 
     Attributes:
-        out_of_reach_since: Time in s of the first command that the legs do not reach, or None.
+        out_of_reach_since: Time in s of the first unreachable command, or None.
     """
 
     def __init__(self, world: World, legs: LegModel, period: float, plant: TruePlant | None = None) -> None:
@@ -69,12 +68,12 @@ class LegServos:
         self.out_of_reach_since: float | None = None
 
     def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
-        """Hold a posture of `joints` (k,) in rad with feed-forward `torques` (k,) in N m."""
+        """Hold `joints` (k,) in rad with feed-forward `torques` (k,) in N m."""
         self._setpoints.hold(joints, torques)
         self._write()
 
     def command(self, command: Command) -> NDArray[np.float64]:
-        """Returns the joint reference (k,) in rad of a command, within the speed limits."""
+        """Returns a command's joint references (k,) in rad, within speed limits."""
         missed = follow_command(self._legs, command)
         if not missed <= _REACH_ERROR and self.out_of_reach_since is None:
             self.out_of_reach_since = float(self._world.data.time)

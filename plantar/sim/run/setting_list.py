@@ -1,4 +1,4 @@
-"""Every dotted setting of a scene, `--set`, a sweep or a robot file."""
+"""Every dotted setting of scenes, `--set`, sweeps and robot files."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ def settings_listed(name: str | None = None, body: BodyScale = REFERENCE_BODY) -
     """The settings by their dotted names.
 
     Args:
-        name: A table such as "estimator" or "terrain.beam", a setting's dotted name, or its last part; None lists all.
-        body: Its defaults are given in SI.
+        name: Table such as "estimator" or "terrain.beam", dotted name, or its last part; None: all.
+        body: For defaults in SI.
 
     Returns:
-        Descriptions; those of a kind of terrain are listed under "terrain.KIND.", which a scene writes as
-        `terrain.kind` and the last part; those of an experiment under its name.
+        Descriptions; a terrain's under "terrain.KIND." (in a scene `terrain.kind` and the last part), an experiment's
+        under its name.
 
     Raises:
-        InputError: If there is no such table or setting.
+        InputError: If there is none.
 
     Example:
         >>> settings_listed("estimator.gravity")["estimator.gravity"][1:4]
@@ -57,11 +57,11 @@ def settings_listed(name: str | None = None, body: BodyScale = REFERENCE_BODY) -
 
 
 def settings_of_robot(name: str | None, robot: str | None) -> dict[str, Setting]:
-    """Returns the settings of a `name` (see `settings_listed`) with the numbers of a `robot`, H1's for None.
+    """Returns settings of a `name` (`settings_listed`) with numbers of a `robot`, H1's for None.
 
     Raises:
-        InputError: If there is no such table or setting.
-        RobotError: If the robot is unknown or its model cannot be read.
+        InputError: If there is none.
+        RobotError: If the robot is invalid.
     """
     if robot is None:
         return settings_listed(name)

@@ -1,4 +1,4 @@
-"""Put a robot on its feet: solve the standing posture and let the contacts settle."""
+"""Puts a robot on its feet and lets contacts settle."""
 
 from __future__ import annotations
 
@@ -34,21 +34,20 @@ def stand(
     com_height: float,
     hold: Callable[[], None] | None = None,
 ) -> None:
-    """Stand the robot on its footholds, CoM between the sole centres, and let it settle until time 0.
+    """Stand the robot on its footholds, and let it settle until time 0.
 
     Args:
         world: Its state is replaced.
-        legs: Kinematics, which start from this posture.
-        servos: Servos, which hold this posture.
+        legs: Kinematics, started from this posture.
+        servos: Hold this posture.
         feet: Places of the soles.
-        centers: Point (2,) of each sole in the world frame in m that carries half of the weight.
-        com_height: CoM height above the soles in m.
-        hold: Holds other moving parts, called before each physics step; or None.
+        centers: (2,) of each sole in the world frame in m, carrying half the weight.
+        com_height: Above the soles in m.
+        hold: Holds other moving parts each physics step, or None.
 
     Raises:
-        RobotError: If the left foot is to the right of the other.
-        SceneError: If the legs cannot reach that stance or touch each other in it, it is not kept, or the physics
-            becomes unstable.
+        RobotError: If the feet are crossed.
+        SceneError: If the stance is impossible.
     """
     joints, torques = solve_standing(world.robot, legs, feet, centers, com_height)
     ground = float(np.mean([feet[s].z for s in SIDES]))

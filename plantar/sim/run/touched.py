@@ -1,4 +1,4 @@
-"""Hands that push or lead in a run, a partner, the skin under them, and their judge."""
+"""Hands, guide and partner of a run, their skin and judge."""
 
 from __future__ import annotations
 
@@ -32,24 +32,24 @@ __all__ = ["Touched"]
 
 
 class Touched:
-    """Hands and partner of a run, from the plan to the verdict.
+    """Hands and partner, from plan to verdict.
 
     Args:
         scene: For the same body.
-        skin: Skin of the robot's upper body.
-        schedule: Returns the phases of the walk as planned now.
+        skin: Of the upper body.
+        schedule: Returns the walk's planned phases.
         feet: At the start.
         steps: As planned at the start.
-        seed: Of open choices and noise.
-        reach: Height in the world in m of a partner's hand.
-        worn: The arm that moves, or None.
+        seed: Of noise and open choices.
+        reach: A partner's hand height in the world in m.
+        worn: The moving arm, or None.
 
     Attributes:
         partners: To be added to the world.
-        touch: The skin in the world; None before `enter`.
+        touch: In the world; None before `enter`.
 
     Raises:
-        SceneError: If the scene pushes at a step that the walk does not have.
+        SceneError: If the walk lacks the step.
     """
 
     def __init__(
@@ -86,7 +86,7 @@ class Touched:
             self.partners.append(self.guide)
 
     def enter(self, world: World) -> Touch:
-        """Find skin and partners in the compiled world; returns the skin in it."""
+        """Find skin and partners in the compiled world; returns the skin."""
         self.touch = Touch(world, self._skin, self.partners, self._seed)
         if self.guide is not None and self._worn is not None:
             way, worn = self.guide.sign * self.guide.settings.way, self._worn
@@ -95,7 +95,7 @@ class Touched:
         return self.touch
 
     def update(self, world: World, time: float, zmp: NDArray[np.float64] | None) -> None:
-        """Take the true `zmp` (2,) in m, or None, at a tick at `time` in s in the `world`, after its physics step."""
+        """Take true `zmp` (2,) in m, or None, at `time` in s in the `world`, after its physics step."""
         if self.touch is not None and self.hands is not None:
             com = world.data.subtree_com[world.torso]
             self._truth.update(time, com, zmp, self.touch.wrench)
@@ -103,7 +103,7 @@ class Touched:
             self._led.update(time)
 
     def reasons(self, stands: Sequence[Stand]) -> list[dict[str, Any]]:
-        """Failed criteria of what the scene asks besides a completed walk, by the `stands` of the feet."""
+        """Failed further criteria of the scene, by the feet's `stands`."""
         found: list[dict[str, Any]] = []
         verdict = self._scene.push.verdict if self.hands is not None else "walk"
         if verdict == "steps":
@@ -121,9 +121,7 @@ class Touched:
         return found
 
     def summary(self, stands: Sequence[Stand], walked: float) -> dict[str, Any]:
-        """Returns "push", "partner" and "guide", where the scene has them, by the feet's `stands` and the CoM's way
-        `walked` in m.
-        """
+        """Returns the scene's "push", "partner" and "guide", by feet's `stands` and CoM way `walked` in m."""
         found: dict[str, Any] = {}
         if self.hands is not None:
             push, figures = self._scene.push, self.hands.summary()
