@@ -157,7 +157,7 @@ class HandPushes:
         return (_NEAR if time >= push.when() - _APPROACH * self._body.beat else _APART), None
 
     def summary(self) -> dict[str, Any]:
-        """Height in m, and of each push begin, duration, wanted (robot frame) and true impulse (world), largest force."""
+        """Height in m; of each push begin, duration, wanted (robot frame) and true impulse (world), largest force."""
         rows: list[dict[str, Any]] = [
             {
                 "step": push.step,
