@@ -18,7 +18,7 @@ class PartnerSettings(Settings):
         virtual_mass: M of K 39.
         virtual_damping: D of K 39.
         virtual_stiffness: K of K 39.
-        stride: S of K 41: distance at which its rest moves.
+        stride: S of K 41: distance from the rest at which it moves.
         built_in_force: A leader's f_in of K 39.
         starts: Time in s from which it leads or follows.
         apart: Hand's initial distance in m from the skin.

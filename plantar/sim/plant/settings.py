@@ -39,8 +39,8 @@ class Plant(Settings):
         level: Size of what is drawn: 2 for ordinary care, 1 half of that, 0 nominal.
         gyro_bias: Offset [x, y, z] in rad/s.
         com_offset: Offset of the upper body's CoM, [forward, left, up] in the torso's frame in m.
-        mass_ratio: True over model mass of each link, with inertia.
-        encoder_offset: Largest zero error of a joint, either way; its servo follows that encoder.
+        mass_ratio: True over model mass of each link; inertias scale alike.
+        encoder_offset: Largest zero error of each joint, either way; its servo follows that encoder.
         stiffness_ratio: True over model stiffness of the servos, at the same damping.
         friction_ratio: True over scene's ground friction.
         softness: Ground's time constant in s, in series with the contact's.

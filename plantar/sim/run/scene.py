@@ -38,23 +38,24 @@ class Push(Settings):
         impulse: In N s instead of `dv`, the same for every robot; 0: by `dv`.
         duration: In s.
         by: A "force" on the torso, or "hands" on the upper body's skin (`sensing.body_skin`).
-        direction: In the robot's frame; "angle" uses `angle`, "step" is along its step, "seeded" is drawn.
+        direction: In the robot's frame; "angle" uses `angle`, "step" is along its step, with "seeded" the seed draws
+            it.
         angle: In degrees from forward to the left, for `direction` "angle".
-        step: Step of its single support; -1: drawn.
-        phase: Share of single support at its begin.
-        cycle: Share of the stride from that single support's begin instead; -1: by `phase`. By hands only.
+        step: Step in whose single support it comes; -1: drawn.
+        phase: Share of single support at which it begins.
+        cycle: Share of the stride from that single support's begin, instead of `phase`; -1: by `phase`. By hands only.
         with_swing: Whether a push to a side waits, at most one step, for a foot that swings to that side (no step
             catches more than 37 N s over the standing foot on h1, `benchmarks/capture_limit.py`). By hands only.
         repeat: Number of steps, from that one on, with a push each. By hands only.
         small: Share of the impulse of one more push some steps earlier; 0: none. By hands only.
-        small_before: How many steps earlier.
-        count: Number on a standing robot; 0: once, in a step.
-        interval: Time in s between those.
+        small_before: How many steps earlier `small` comes.
+        count: Pushes on a standing robot; 0: once, in a step.
+        interval: Time in s between such pushes.
         sideways: Strength to the side as a share of forward; an ellipse in between.
         height: In m above the torso's CoM; 0.6 is about the neck.
         place: Where hands push: `height`, CoM, hips or shoulders.
-        verdict: Further criterion: "steps", only larger pushes change steps; "stride", pushed steps become longer;
-            "acceleration", the CoM is accelerated as by a force at that height. By hands only.
+        verdict: Further criterion: "steps", only larger pushes change steps; "stride", pushed steps become longer along
+            the push; "acceleration", the CoM is accelerated as by a force at that height. By hands only.
     """
 
     dv: float = number(0.0, "m/s", 0, 10)

@@ -14,14 +14,14 @@ class Sensing(Settings):
 
     Attributes:
         taxels: Springs ("winkler") or an elastic layer ("elastic").
-        layer: Its thickness in m; H1's shoe has 12 mm.
+        layer: Thickness in m of an elastic layer; H1's shoe has 12 mm.
         skin_rate: Of the soles in Hz.
         force_noise: Of each taxel in N.
         delay_periods: Skin periods from sampling to delivery.
         proximity_range: In m.
         proximity_noise: Of each reading in m.
         proximity_bias: Of every reading in m.
-        dead_taxels: Share of each sole's taxels, seeded.
+        dead_taxels: Share of each sole's taxels; the seed chooses which.
         encoder_noise: Of each joint in rad.
         gyro_noise: Of each axis in rad/s.
         accelerometer_noise: Of each axis in m/s^2.

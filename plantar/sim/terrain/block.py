@@ -21,7 +21,7 @@ class Block(Terrain):
 
     Attributes:
         step: Step (from 0) above it.
-        top: Height in m of its upper middle.
+        top: Height in m of its upper face's middle.
         length: In m along the foot.
         width: In m across the foot.
         along: Its middle in m, forward.
