@@ -39,6 +39,9 @@ class SensorSuite:
         proximity: Whether the soles have it.
         force_torque: Whether the ankles have it.
         plant: None: sensors as modelled.
+
+    Attributes:
+        body_skin: Upper body skin reader, or None.
     """
 
     def __init__(
