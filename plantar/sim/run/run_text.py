@@ -41,7 +41,7 @@ def run_text(summary: Summary) -> str:
 
 
 def demo_text(made: Mapping[str, Any], output: Path) -> str:
-    """Returns the demonstration's lines, by results `made` ("shoe", "walk", "analysis", "files") and folder `output`."""
+    """Returns demonstration lines, by results `made` ("shoe", "walk", "analysis", "files") and folder `output`."""
     shoe, steps = made["shoe"], {side: foot["steps"] for side, foot in made["analysis"]["feet"].items()}
     return (
         f"shoe: {shoe['taxels']} taxels, {shoe['mass_g']:.0f} g, "

@@ -38,7 +38,7 @@ class SensorSuite:
         seed: Of all noise; one stream a sensor.
         proximity: Whether the soles have it.
         force_torque: Whether the ankles have it.
-        plant: None: sensors as modelled.
+        plant: True differences; None for sensors as modelled.
 
     Attributes:
         body_skin: Upper body skin reader, or None.
