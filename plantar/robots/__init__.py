@@ -1,4 +1,4 @@
-"""Robots as data: built-in ones in a folder each, others from a TOML of the same form."""
+"""Robots as data: built-in ones, others from TOML files."""
 
 from plantar.robots.robot import FootShape, LegNames, Robot
 from plantar.robots.robot_file import builtin_robots, load_robot

@@ -1,7 +1,7 @@
 """MJCF of a parametric biped: 6-DoF legs with position servos, upper body welded to the base.
 
-Axes: hip yaw about z, hip roll about x, hip pitch, knee and ankle pitch about y, ankle roll about x; the three hip axes
-meet in one point, the two ankle axes in another. The right leg mirrors the left one.
+Hip yaw about z, hip roll about x, hip pitch, knee and ankle pitch about y, ankle roll about x; the hip axes meet in one
+point, the ankle axes in another.
 """
 
 from __future__ import annotations
@@ -31,23 +31,23 @@ class BipedParameters:
     """Dimensions of a generated biped. Lengths in m, masses in kg, angles in degrees.
 
     Attributes:
-        total_mass: Mass with skin and shoes; the chest has the rest.
-        base_mass: Mass of the pelvis.
-        com_height: Height of the CoM above the outer sole in the given posture.
+        total_mass: With skin and shoes; the chest has the rest.
+        base_mass: Pelvis.
+        com_height: Above the outer sole in the given posture.
         hip_offset: Left hip (3,) in the base frame.
-        ankle_offset: Left ankle against the left hip (x, y) at zero angles.
+        ankle_offset: Left ankle against left hip (x, y) at zero angles.
         thigh_length: Hip to knee.
         shank_length: Knee to ankle.
         ankle_height: Ankle axes above the bare sole.
-        link_masses: Six link masses from hip yaw to foot (without shoe).
-        joint_lower: Six lower joint limits of the left leg; `joint_upper` likewise.
-        effort_limits: Six joint torque limits in N m.
-        velocity_limits: Six joint velocity limits in rad/s.
+        link_masses: Six, hip yaw to foot (without shoe).
+        joint_lower: Six limits of the left leg; `joint_upper` likewise.
+        effort_limits: Six, in N m.
+        velocity_limits: Six, in rad/s.
         chest_size: Box (3,) of the upper body.
         armature: Reflected rotor inertia of a joint in kg m^2.
 
     Raises:
-        RobotError: If a dimension has another number of values, or is not finite.
+        RobotError: If a dimension is not valid.
     """
 
     total_mass: float
@@ -68,7 +68,7 @@ class BipedParameters:
 
     @classmethod
     def from_table(cls, table: Mapping[str, Any], where: str) -> BipedParameters:
-        """Read and check the `[biped]` table of a robot file, named `where` in a RobotError. Returns the dimensions."""
+        """Read and check the `[biped]` table of a file, named `where` in a RobotError. Returns the dimensions."""
         fields = list(cls.__dataclass_fields__)
         refuse_unknown_keys(table, fields, f"{where}: [biped]", RobotError)
         missing = next((key for key in fields if key not in table), None)
@@ -182,7 +182,7 @@ def _leg(side: Side, p: BipedParameters, sole: Mapping[str, Any], shoe_mass: flo
 
 
 def _chest_height(p: BipedParameters, posture: NDArray[np.float64], shoe_mass: float, thickness: float) -> float:
-    """Height of the chest's center of mass above the base that puts the whole CoM at `com_height`."""
+    """Chest's center of mass above the base that puts the whole CoM at `com_height`."""
     hip, knee = math.radians(posture[2]), math.radians(posture[3])
     hip_z = p.hip_offset[2]
     knee_z = hip_z - p.thigh_length * math.cos(hip)
@@ -219,20 +219,20 @@ def biped_mjcf(
     Args:
         p: Dimensions.
         name: Model name.
-        posture: Six joint angles of the left leg in degrees for `com_height`.
-        sole_center: Center (x, y) of the left sole's contact rectangle against the ankle in m.
-        sole_half_size: Half lengths (x, y) of the contact rectangle in m.
+        posture: Six left-leg joint angles in degrees for `com_height`.
+        sole_center: Center (x, y) of the left contact rectangle against the ankle in m.
+        sole_half_size: Its half lengths (x, y) in m.
         shoe_thickness: Outer contact face below the bare sole in m.
-        shoe_mass: Mass of one shoe in kg.
-        stiffness: Position gain of each of a leg's six servos in N m/rad.
-        damping: Velocity gain of each in N m s/rad.
+        shoe_mass: One shoe, in kg.
+        stiffness: Position gains of a leg's six servos in N m/rad.
+        damping: Velocity gains in N m s/rad.
 
     Returns:
-        The MJCF, with bodies "base", "<side>_foot", sites "<side>_sole" and "imu", geoms "<side>_sole_box" and one
-        position actuator a joint.
+        MJCF with bodies "base", "<side>_foot", sites "<side>_sole", "imu", geoms "<side>_sole_box" and a position
+        actuator a joint.
 
     Raises:
-        RobotError: If the links are heavier than the whole robot.
+        RobotError: If links outweigh the robot.
     """
     chest = p.total_mass - p.base_mass - 2.0 * (sum(p.link_masses) + shoe_mass)
     if chest <= 0.0:

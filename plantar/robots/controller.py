@@ -1,4 +1,4 @@
-"""A robot's walking controller with the kinematics of its legs, for your own control loop, without a simulator."""
+"""A robot's walking controller and leg kinematics, for your own control loop, without a simulator."""
 
 from __future__ import annotations
 
@@ -40,13 +40,10 @@ class RobotController:
     """A walking controller and the legs that follow it. Made by `load_controller`.
 
     Attributes:
-        robot: The robot.
-        legs: Kinematics of its legs.
-        controller: The controller.
-        joints: Names of the leg joints, in the order of every joint vector.
+        joints: Leg joint names, in the order of every joint vector.
         period: Control period in s; call `step` once in each.
         stance: Joint angles and torques before the start.
-        base_position: Position (3,) in m of the base in that stance, world frame.
+        base_position: Base position (3,) in m in that stance, world frame.
 
     Example:
         >>> walker = load_controller("h1", {"walk": {"steps": 4}})
@@ -69,7 +66,7 @@ class RobotController:
     def joint_targets(self, command: Command) -> JointTargets:
         """Inverse kinematics of a command, within joint limits; returns the targets.
 
-        Those of the command where motors are driven (`control.drives`). Out of reach, the unloaded foot misses first.
+        Those of the command where motors are driven. Out of reach, the unloaded foot misses first.
         """
         if command.joints is not None:
             return command.joints
@@ -87,9 +84,9 @@ def load_controller(
     """Load the walking controller of a robot.
 
     Args:
-        robot: A built-in name (`plantar list robots`) or the path of a robot TOML.
-        tables: Settings as the tables of a scene file: "walk" (steps or velocity), "control" (which parts run) and
-            those of the controller's parts, such as "estimator" (`plantar list settings`). Default: 20 steps forward.
+        robot: Built-in name (`plantar list robots`) or path of a robot TOML.
+        tables: Tables of a scene file: "walk", "control", and those of the controller's parts (`plantar list
+            settings`). Default: 20 steps forward.
         seed: Draws the velocities of a walk that wanders.
 
     Returns:

@@ -1,4 +1,4 @@
-"""The controller's settings of a run: defaults, then the robot's tables, then the scene's."""
+"""Controller settings of a run: defaults, then the robot's tables, then the scene's."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Task(Protocol):
 
     @property
     def controller(self) -> Mapping[str, Mapping[str, Any]]:
-        """Settings of the controller's parts by table and name, as far as given."""
+        """Settings of parts by table and name, as far as given."""
 
     @property
     def proximity_range(self) -> float:
@@ -66,18 +66,18 @@ def controller_settings(
     """Settings of the walking controller for a scene.
 
     Args:
-        scene: The scene, with its shares as those of the same body.
+        scene: The scene, with shares of the same body.
         robot: The robot.
         body: Its size, for shares.
-        ankles: Force-torque sensor of each ankle, if any.
-        limits: Where its weight may act on one foot (`plantar.robots.kinematics.ankle_limits`); None for anywhere.
-        skin: Skin of its upper body, in the base frame; None without.
+        ankles: Force-torque sensors, if any.
+        limits: Where its weight may act on one foot (`ankle_limits`); None for anywhere.
+        skin: Skin of its upper body, base frame; None without.
 
     Returns:
         The settings.
 
     Raises:
-        SceneError: If the scene sets something unused, or asks for parts that need another one.
+        SceneError: If a setting is unused or lacks a part.
     """
     walk = scene.walk
     _refuse_unused(scene, robot)
@@ -127,7 +127,7 @@ def controller_settings(
 
 
 def com_height_of(walk: Walk, robot: Robot) -> float:
-    """CoM height in m above the soles for a gait, over footholds that carry the whole sole; returns it.
+    """CoM height in m above fully carrying soles; returns it.
 
     Args:
         walk: The gait.
@@ -163,7 +163,7 @@ def _given(scene: Task, robot: Robot) -> dict[str, dict[str, Any]]:
 
 
 def _value(key: str, control: Control, tables: Mapping[str, Mapping[str, Any]]) -> Any:
-    """Value of a setting by its dotted name, of `[control]` or of a part."""
+    """Value of a setting by its dotted name."""
     table, _, name = key.partition(".")
     if table == "control":
         return getattr(control, name)

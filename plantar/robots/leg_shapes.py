@@ -1,4 +1,4 @@
-"""Collision shapes between the legs: the model's own, or else capsules along the links, without mass."""
+"""Collision shapes between the legs: the model's own, or massless capsules along the links."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _KINDS = tuple(
 
 
 def add_leg_shapes(spec: Any, robot: Robot, own: Collection[str] = ()) -> None:
-    """Give both legs shapes that collide with the other leg's only.
+    """Give each leg shapes that collide only with the other's.
 
     Takes `spec`, `robot` and `own`.
     """
@@ -56,7 +56,7 @@ def _links(spec: Any, robot: Robot, side: Side) -> list[Any]:
 
 
 def _add_capsule(body: Any, end: NDArray[np.float64], side: Side, least: float) -> None:
-    """A link's shape up to the next link at `end` (3,) in m of its frame; none if shorter than `least` in m."""
+    """A link's shape up to the next link at `end` (3,) in m; none below `least` in m."""
     length = float(np.linalg.norm(end))
     if length < least:
         return
@@ -68,7 +68,7 @@ def _add_capsule(body: Any, end: NDArray[np.float64], side: Side, least: float) 
 
 
 def _add_foot(spec: Any, side: Side, height: float) -> None:
-    """The foot from its sole's lower face to a height in m above the shoe, as a box."""
+    """A box from the sole's lower face to a height in m above the shoe."""
     sole = spec.geom(f"{side}_sole_box")
     half = np.array(sole.size)
     half[2] += 0.5 * height
@@ -86,7 +86,7 @@ def _collide(geom: Any, side: Side) -> None:
 
 
 def keep_apart(model: Any, robot: Robot) -> None:
-    """Shrink the legs' shapes, but not the feet, until they are apart in the robot's posture; disable those that fail.
+    """Shrink the legs' shapes, except feet, until apart in the robot's posture; disable those that fail.
 
     Takes `model`.
     """
@@ -104,7 +104,7 @@ def keep_apart(model: Any, robot: Robot) -> None:
 
 
 def _clear(model: Any, data: Any, pair: tuple[int, int], free: list[int], least: float) -> None:
-    """Shrink two geoms as far as allowed until they are `least` m apart; disable them if that fails."""
+    """Shrink two geoms until `least` m apart; disable them if that fails."""
     for _ in range(_TRIES):
         if mujoco.mj_geomDistance(model, data, *pair, least, None) >= least:
             return

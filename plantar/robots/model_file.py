@@ -1,8 +1,6 @@
-"""A robot from a model file (MJCF or URDF): its legs kept, its upper body welded, its soles and sensors added.
+"""A robot from an MJCF or URDF: legs kept, upper body welded, soles and sensors added.
 
-Every robot has a free base, six or more leg joints a side with position servos, a shoe on each foot whose contact box
-is the sole layout's rectangle, and an IMU. The rest of the file (other joints, actuators, sensors, keyframes, contacts
-and options) is dropped.
+Other joints, actuators, sensors, keyframes, contacts and options of the file are dropped.
 """
 
 from __future__ import annotations
@@ -28,12 +26,11 @@ def spec_from_file(robot: Robot) -> Any:
     """Read a robot's model file and make it a walking robot.
 
     Returns:
-        An editable `mujoco.MjSpec` with sites "<side>_sole" and the IMU's, geoms "<side>_sole_box", one position
-        actuator a leg joint, and the sensors "imu_gyro", "imu_accelerometer", "<side>_ankle_force" and
-        "<side>_ankle_torque".
+        An editable `mujoco.MjSpec` with sites "<side>_sole" and the IMU's, geoms "<side>_sole_box", a position actuator
+        a leg joint, and sensors "imu_gyro", "imu_accelerometer", "<side>_ankle_force" and "<side>_ankle_torque".
 
     Raises:
-        RobotError: If the file cannot be read, or lacks a joint or body that the robot's TOML names.
+        RobotError: If the file is unreadable or incomplete.
     """
     spec = _parsed(robot)
     forget_own_simulation(spec)
@@ -64,7 +61,7 @@ def _parsed(robot: Robot) -> Any:
 
 
 def forget_own_simulation(spec: Any) -> None:
-    """Drop the file's own simulation options, such as no gravity or contacts."""
+    """Drop the file's simulation options, such as no gravity."""
     for part in ("keys", "equalities", "tendons", "pairs", "excludes", "sensors", "actuators", "lights"):
         for element in list(getattr(spec, part)):
             spec.delete(element)
@@ -144,7 +141,7 @@ def _check_joints(spec: Any, robot: Robot, wanted: set[str]) -> None:
 
 
 def _check_leg(spec: Any, robot: Robot, side: str, leg: LegNames) -> None:
-    """Refuse joints that do not move the foot or are not hinges, and a torso or IMU below the leg."""
+    """Refuse joints that do not move the foot or are not hinges, and torso or IMU below the leg."""
     where = f"robot '{robot.name}': [legs.{side}]"
     foot = _body(spec, robot, leg.foot_body, f"[legs.{side}] foot_body")
     chain = [j.name for body in reversed(_upwards(foot)) for j in body.joints if j.type != mujoco.mjtJoint.mjJNT_FREE]
@@ -175,7 +172,7 @@ def _upwards(body: Any) -> list[Any]:
 
 
 def _make_room(spec: Any, robot: Robot) -> None:
-    """Rename elements of the model that have the names of the shoes' parts."""
+    """Rename elements that have names of the shoes' parts."""
     for side in SIDES:
         for element in (
             spec.site(robot.legs[side].sole_site),
@@ -188,7 +185,7 @@ def _make_room(spec: Any, robot: Robot) -> None:
 
 
 def _put_on_shoe(spec: Any, robot: Robot, side: Any) -> None:
-    """A shoe as a body: mass, the sole frame's site, and the contact box below the foot."""
+    """A shoe as a body: mass, sole frame's site, contact box."""
     foot = _body(spec, robot, robot.legs[side].foot_body, f"[legs.{side}] foot_body")
     center, half = robot.sole_rectangle(side)
     ankle = f"{side}_ankle_force_torque"

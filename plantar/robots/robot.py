@@ -1,4 +1,4 @@
-"""A robot as data: what its TOML file states, checked. `plantar.robots.robot_file` reads it."""
+"""A robot as data: what its TOML states, checked."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class LegNames:
     """Names of one leg in the robot's model.
 
     Attributes:
-        joints: Joint names from hip to ankle.
+        joints: From hip to ankle.
         foot_body: Body that wears the shoe.
         sole_site: Site that is the sole frame.
     """
@@ -34,14 +34,14 @@ class LegNames:
 
 @dataclass(frozen=True)
 class FootShape:
-    """The bare left foot as a rounded box, for the shoe builder. SI.
+    """The bare left foot as a rounded box, for the shoe builder.
 
     Attributes:
-        length: Length in m.
-        width: Width in m.
-        center: Centre (x, y) against the ankle in m.
-        corner_radius: Radius of the corners in m.
-        taxels: Number of taxels that the sole carries.
+        length: In m.
+        width: In m.
+        center: (x, y) against the ankle in m.
+        corner_radius: In m.
+        taxels: Number on the sole.
     """
 
     length: float
@@ -53,11 +53,11 @@ class FootShape:
 
 @dataclass(frozen=True)
 class Arms:
-    """Arms that a robot may wear in a scene with moving ones; else they are part of its chest.
+    """Arms that a robot may wear in scenes with moving ones; else part of its chest.
 
     Attributes:
-        machine: Name or TOML file of the machine that has them (`plantar.sim.companion.machine`), with the same base.
-        chest: Body of the robot whose mass, center and inertia include them.
+        machine: Name or TOML of the machine that has them (`plantar.sim.companion.machine`), with the same base.
+        chest: Body whose mass, center and inertia include them.
         roots: First link of each arm in the machine.
     """
 
@@ -71,48 +71,44 @@ class Robot:
     """A robot as its TOML describes it.
 
     Attributes:
-        name: Name.
         description: One line for people.
         kind: "biped" (generated from `biped`), "mjcf" or "urdf" (read from `model_file`).
         biped: Dimensions of a generated robot, else None.
-        model_file: Path of the model file, else None.
+        model_file: Path, else None.
         foot: Shape of the bare foot, if given.
         shoe_thickness: Outer contact face below the bare sole in m.
-        shoe_mass: Mass of one shoe in kg.
-        rim_stiffness: Stiffness of the shoe next to its taxels over theirs; 0 with a relieved pad.
-        contact_damping: Damping ratio of the shoe on the ground; 1 is critical for a sole alone.
-        sole_origins: Sole frame's origin (3,) of each foot in the frame of its body in m.
-        sole_rotations: Rotation (3, 3) of each foot from the sole frame to the frame of its body.
-        effort_limits: Torque limit of each leg joint in N m for a robot from a model file; empty for none.
-        velocity_limits: Speed limit of each leg joint in rad/s; empty for none.
+        shoe_mass: One shoe, in kg.
+        rim_stiffness: Shoe next to its taxels over theirs; 0 with a relieved pad.
+        contact_damping: Damping ratio of the shoe on the ground; 1 is critical.
+        sole_origins: Sole frame's origin (3,) in its body's frame in m.
+        sole_rotations: Rotation (3, 3) from sole frame to body.
+        effort_limits: Of each leg joint in N m, from a model file; empty for none.
+        velocity_limits: In rad/s; empty for none.
         layouts: Sole layout of each side.
         legs: Names of each leg.
         torso_body: Body that is kept upright.
         imu_site: Site of the IMU.
         posture: Joint angles of each leg in rad when standing.
-        com_height: CoM height above the outer soles when walking in m.
-        stance_width: Distance of the sole frames' origins with the feet together in m.
-        leg_length: Length of a leg from hip over knee to ankle in m, for shares; 0 for the model's.
-        largest_crouch: How much lower than `com_height` a scene may make the robot walk in m.
-        largest_crouch_partial: The same for a walk on parts of its soles, where a center of pressure at the heel loads
-            the knee more.
+        com_height: Above the outer soles when walking in m.
+        stance_width: Distance of the sole origins with feet together in m.
+        leg_length: From hip over knee to ankle in m, for shares; 0 for the model's.
+        largest_crouch: How much lower than `com_height` it may walk in m.
+        largest_crouch_partial: The same on parts of its soles, where a heel load strains the knee more.
         trunk_lean: Roll of the torso over the stance foot in rad per metre of lateral CoM motion.
-        single_support: t_ss in s where the scene gives none; 0 for the same number of beats of the leg for every robot.
+        single_support: t_ss in s where the scene gives none; 0 for the same beats of the leg for every robot.
         double_support: t_ds likewise.
         approach_support: Least t_ss in s of a walk with slow approach, for weak motors; else 0.
-        ankle_reach: Largest distance in m along the sole from its frame's origin at which the ankle's motor carries the
-            robot.
-        rocks: Whether it steps in its own time and without a slow approach: legs without ankle roll rock from foot to
-            foot.
-        pace: Beats of the leg that a pace lasts, the time unit of quick steps (`plantar.settings.body_scale`).
-        stiffness: Servo position gain of each leg joint in N m/rad, the same for both legs.
-        damping: Servo velocity gain of each leg joint in N m s/rad.
-        own_stiffness: Position gain of each leg joint's own motor in N m/rad (`control.drives`).
-        own_damping: Velocity gain of each in N m s/rad.
-        balance: Balance law and its gains.
-        controller: Settings of the controller's other parts by table and name (`plantar.gait.controller_tables`).
+        ankle_reach: Largest distance in m from the sole's origin at which the ankle motor carries the robot.
+        rocks: Whether legs without ankle roll rock from foot to foot: own timing, no slow approach.
+        pace: Beats of the leg in the time unit of quick steps (`plantar.settings.body_scale`).
+        stiffness: Servo position gain of each leg joint in N m/rad.
+        damping: Servo velocity gain in N m s/rad.
+        own_stiffness: Position gain of each joint's own motor in N m/rad (`control.drives`).
+        own_damping: Velocity gain in N m s/rad.
+        balance: Balance law and gains.
+        controller: Settings of other parts by table and name (`plantar.gait.controller_tables`).
         path: The TOML file.
-        arms: Arms that it may wear; None for none.
+        arms: Arms that it may wear, or None.
     """
 
     name: str
@@ -156,7 +152,7 @@ class Robot:
     arms: Arms | None = None
 
     def sole_rectangle(self, side: Side) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Bounding rectangle of a sole's outline: center (x, y) and half size (x, y) in the sole frame in m."""
+        """Bounding rectangle of a sole: center (x, y), half size (x, y), sole frame, in m."""
         outline = self.layouts[side].outline
         low, high = outline.min(axis=0), outline.max(axis=0)
         center, half = 0.5 * (low + high), 0.5 * (high - low)

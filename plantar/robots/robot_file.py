@@ -1,4 +1,4 @@
-"""Robots from TOML files: each table is read and checked by one function, and errors name table and field."""
+"""Robots from TOML files; errors name table and field."""
 
 from __future__ import annotations
 
@@ -78,10 +78,10 @@ def load_robot(name: str | os.PathLike[str]) -> Robot:
     """Load a robot by its built-in name or from a TOML file.
 
     Args:
-        name: A built-in name (`builtin_robots()`) or the path of a robot TOML.
+        name: Built-in name (`builtin_robots()`) or path.
 
     Raises:
-        RobotError: If the name is unknown or the file is not valid; the message names the field.
+        RobotError: If unknown or not valid.
 
     Example:
         >>> load_robot("h1").biped.total_mass
@@ -110,7 +110,7 @@ class RobotTables:
         return f"{self.where}: [{'.'.join(tables)}]" if tables else self.where
 
     def table(self, *tables: str) -> Mapping[str, Any]:
-        """A table of the file, or a table in one; the file itself for no name."""
+        """A table, or a table in one; the file itself for no name."""
         found = self.source
         for i, name in enumerate(tables):
             inner = found.get(name)
@@ -124,8 +124,8 @@ class RobotTables:
 
         Args:
             field: Its name.
-            tables: Names of its table, and of those around it; none for the file itself.
-            default: Default; required if None.
+            tables: Names of its table and those around it; none for the file itself.
+            default: Required if None.
 
         Returns:
             The text.
@@ -151,9 +151,9 @@ class RobotTables:
         Args:
             field: Its name.
             table: Name of its table.
-            low: Smallest allowed value.
-            high: Largest allowed value.
-            default: Default; required if None.
+            low: Smallest allowed.
+            high: Largest allowed.
+            default: Required if None.
 
         Returns:
             The number.
@@ -171,7 +171,7 @@ class RobotTables:
         return tuple(_checked_number(v, field, self.place(table), low, high) for v in value)
 
     def number_each(self, field: str, table: str, count: int, low: float, high: float) -> tuple[float, ...]:
-        """So many numbers of a table within limits, or one for all of them.
+        """So many numbers within limits, or one for all.
 
         Takes `field`, `count`, `low` and `high`; returns the numbers.
         """
@@ -248,7 +248,7 @@ class _RobotFile(RobotTables):
         )
 
     def _legs(self) -> dict[Side, LegNames]:
-        """The joint names of both legs, as many each, shared by none."""
+        """Joint names of both legs, as many each, none shared."""
         legs = {side: self._leg(side) for side in SIDES}
         shared = set(legs["left"].joints) & set(legs["right"].joints)
         if shared:
@@ -278,7 +278,7 @@ class _RobotFile(RobotTables):
         return tuple(math.radians(v) for v in degrees)
 
     def _shoe(self, kind: str) -> dict[str, Any]:
-        """Layouts, and the shoe's mass, thickness and place, as written by `plantar shoe` or given in the file."""
+        """Layouts, mass, thickness and place of the shoe, by `plantar shoe` or the file."""
         exported = _exported_shoe(self._layout_file("left"))
         places = self._sole_frames(kind)
         return {
@@ -292,9 +292,7 @@ class _RobotFile(RobotTables):
         }
 
     def _sole_frames(self, kind: str) -> dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]]:
-        """Origin (3,) in m and rotation (3, 3) of each sole frame in its foot's body; by default the right mirrors the
-        left.
-        """
+        """Origin (3,) in m and rotation (3, 3) of each sole frame; the right mirrors the left by default."""
         if kind == "biped":
             return {side: (np.zeros(3), np.eye(3)) for side in SIDES}
         given = self.table("shoe")
@@ -340,7 +338,7 @@ class _RobotFile(RobotTables):
         return {"torso_body": self.text("body", "torso"), "imu_site": imu_site}
 
     def _arms(self) -> Arms:
-        """Arms that it may wear: of a built-in machine, or of a file next to the robot's."""
+        """Arms of a built-in machine, or of a file next to the robot's."""
         machine = self.text("machine", "arms")
         if machine.endswith(".toml"):
             path = self.path.parent / machine
@@ -401,7 +399,7 @@ class _RobotFile(RobotTables):
 
 
 def _exported_shoe(layout: Path) -> dict[str, Any]:
-    """Mass in kg, thickness in m and rim stiffness that `plantar shoe` wrote next to a layout."""
+    """Mass in kg, thickness in m and rim stiffness by `plantar shoe`."""
     found = read_json(layout, RobotError, str(layout)).get("shoe", {})
     names = ("mass", "thickness", "rim_stiffness")
     return {k: found[k] for k in names if k in found} if isinstance(found, dict) else {}

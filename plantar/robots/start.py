@@ -1,4 +1,4 @@
-"""Start of a robot's walk: feet, planned footsteps, and commanded velocities."""
+"""Start of a walk: feet, planned footsteps, commanded velocities."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ def start_of_walk(
     Args:
         walk: The gait, for the same body (`Walk.for_body`).
         robot: The robot.
-        com_height: CoM height above the soles in m.
-        height: Height of the ground in m.
-        velocities: Commanded velocities over time, `walk.velocities`; None for a number of steps.
+        com_height: Above the soles in m.
+        height: Of the ground in m.
+        velocities: Commanded over time, `walk.velocities`; None for a number of steps.
 
     Returns:
         The start.
@@ -62,14 +62,14 @@ _CORNERS = ((1.0, 0.0), (1.0, 1.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0), (0.0, 0.
 def box_plan(
     steps: int, *, stride: float, width: float, first: Side = "left", height: float = 0.0
 ) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
-    """A box step: the first foot forward, the other one forward and to its side, the first closes; back the same way.
+    """A box step: the first foot forward, the other forward and aside, the first closes; back likewise.
 
     Args:
-        steps: Number of steps, a whole number of rounds.
+        steps: Number of steps, whole rounds.
         stride: Side of the box in m, above 0.
-        width: Distance in m of the sole frames' origins with the feet together.
-        first: The foot that moves first; the box is on the other one's side.
-        height: Height of the ground in m.
+        width: Distance in m of the sole origins with feet together.
+        first: Foot that moves first; the box is on the other's side.
+        height: Of the ground in m.
 
     Returns:
         The standing feet at the start, and the steps in order.

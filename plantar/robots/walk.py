@@ -1,4 +1,4 @@
-"""The task of a walking controller: its gait and which of its parts run."""
+"""A walking controller's task: its gait and running parts."""
 
 from __future__ import annotations
 
@@ -37,35 +37,32 @@ class Walk(Settings):
 
     Attributes:
         steps: Number of steps; the last one closes the feet.
-        pattern: Where the steps go: "straight", or in a "box" of six steps a round whose side is `length`.
+        pattern: "straight", or a "box" of six steps a round whose side is `length`.
         length: Distance by which a step leads the other foot.
-        sideways: Lateral distance by which each opening step leads, positive to the left.
-        stance_width: Distance of the ankles with the feet together; 0 for the robot's own.
+        sideways: Lateral lead of each opening step, positive to the left.
+        stance_width: Distance of the ankles with feet together; 0 for the robot's own.
         wider: Additional distance of the ankles.
         first: Foot that moves first.
         single_support: t_ss; 0 for the robot's own.
         double_support: t_ds; 0 for the robot's own.
         swing_height: Clearance of the swing foot.
-        lean: Whether the trunk leans over the stance foot, which unloads the hip roll joints (see the robot's
-            `trunk_lean`).
-        crouch: How much lower than its own CoM height the robot walks, to reach further and lower ground; as far as it
-            can (its `largest_crouch`, or `largest_crouch_partial` on parts of its soles).
+        lean: Whether the trunk leans over the stance foot, which unloads hip roll (`trunk_lean`).
+        crouch: How much lower than its own CoM height the robot walks, to reach further and lower ground; up to its
+            `largest_crouch`, or `largest_crouch_partial` on parts of its soles.
         approach_height: Height above the expected ground from which a blind swing foot goes down slowly, after ground
-            that was elsewhere; it then aims as far below it.
-        approach_speed: Speed of that in m/s.
+            that was elsewhere; it then aims as far below.
+        approach_speed: Its speed in m/s.
         start: Duration of the first weight shift.
         end: Duration of the last weight shift.
-        confidence: Whether the robot keeps its own steps (1) or follows a push (0), within balance
-            (`step_adjustment.confidence`).
-        yielding: How far its steps follow a push (`step_adjustment.yielding`).
-        led: Whether somebody leads it by its arm: proximity to its skin is no push then.
-        settle: Standing time that is simulated after the walk.
+        confidence: Keep the robot's own steps (1) or follow a push (0), within balance (`step_adjustment.confidence`).
+        yielding: How far steps follow a push (`step_adjustment.yielding`).
+        led: Whether a person leads it by its arm: proximity to its skin is no push then.
+        settle: Standing time simulated after the walk.
         begin: Standing time before the walk; the CoM leads the first weight shift by about 1 s.
-        velocity: Walk at this velocity [forward, left, turn] in m/s, m/s and rad/s, or in texts with units, instead of
-            a number of steps; zeros step in place.
+        velocity: Velocity [forward, left, turn] in m/s, m/s and rad/s, or texts with units, instead of a number of
+            steps; zeros step in place.
         commands: Such velocities over time: each [time, forward, left, turn], or [time, "stop"], in s after `begin`.
-        wander: Largest velocity [forward, left, turn], either way, of those that the seed draws, a new one each
-            `change_every`.
+        wander: Largest velocity [forward, left, turn], either way, that the seed draws each `change_every`.
         change_every: Time from one such velocity to the next.
         until: Time after which a walk at a velocity is asked to stop.
     """
@@ -110,7 +107,7 @@ class Walk(Settings):
         return bool(self.velocity or self.commands or self.wander)
 
     def velocities(self, seed: int) -> VelocityTable | None:
-        """The commanded velocities over time in s; None for a walk of a number of steps."""
+        """Commanded velocities over time in s; None for a number of steps."""
         rows: list[Sequence[float | str]] = [self._in_si(row) for row in self.commands]
         if self.velocity:
             rows = [self._in_si([0.0, *self.velocity])]
@@ -144,32 +141,30 @@ class Control(Settings):
     Attributes:
         feedback: False walks the plan in open loop.
         zmp_source: Source of loads and ZMP: "skin", or "force_torque" at the ankles.
-        footholds: Source of the carrying part of a foothold: "off" assumes a whole sole; "force" uses the taxels'
-            forces, "skin" their proximity, too.
-        pfc: Preemptive foot compliance: proximity stops the swing before the impact and turns the sole to the ground.
-        feasibility: Rule by which a foothold is refused that is higher than expected: "off", "skin" (supported area) or
-            "force_torque" (moment at the ankle). Of a robot with pfc.
-        conform: Feet follow the ground's shape: standing soles turn until the ground carries them where they should be
-            loaded. For bumps; of a robot with pfc.
-        identify: The controller identifies differences of robot and sensors from its model, such as the gyro's bias.
-        step_timing: The controller ends a single support sooner or later than planned where the DCM asks for it; not of
-            a robot that rocks.
+        footholds: Source of a foothold's carrying part: "off" assumes a whole sole; "force" uses the taxels' forces,
+            "skin" their proximity, too.
+        pfc: Preemptive foot compliance: proximity stops the swing before impact and turns the sole to the ground.
+        feasibility: Rule that refuses a foothold higher than expected: "off", "skin" (supported area) or "force_torque"
+            (moment at the ankle). Of a robot with pfc.
+        conform: Standing soles turn until the ground carries them where they should be loaded. For bumps; of a robot
+            with pfc.
+        identify: Identify differences of robot and sensors from the model, such as the gyro's bias.
+        step_timing: End a single support sooner or later where the DCM asks for it; not of a robot that rocks.
         step_adjustment: Footsteps move for balance, in place and time; not of a robot that rocks, and only in time on
             ground that does not carry everywhere.
-        learn_strides: Strides become longer by the extra length of pushed steps; needs `step_adjustment`.
+        learn_strides: Strides grow by the extra length of pushed steps; needs `step_adjustment`.
         push_estimate: Source of a push on the body: "off"; "soles", the acceleration that the ZMP does not explain;
             "skin" on the upper body, or the soles where that measures none.
-        dcm_estimate: Estimator of the CoM's velocity, and so the DCM: "observer", or "kalman", a Kalman filter that
-            counts what neither ZMP nor push explain as a push.
+        dcm_estimate: Estimator of the CoM's velocity, so the DCM: "observer", or "kalman", a Kalman filter that counts
+            what neither ZMP nor push explain as a push.
         swing_shape: Path of the swing foot: "polynomial" changes only with the plan; "fit" is fitted at every tick to
-            where and when the foot should land; other packages may bring more ("plantar.swings").
-        drives: What drives the leg joints: "servo", position servos with the gains of the robot's file; "own", its
-            motors' own gains with the torques that the planned motion and ground forces take; "torque", torques of a
-            whole-body controller, with those gains about its motion.
+            landing place and time; packages may add more ("plantar.swings").
+        drives: "servo", position servos with the robot file's gains; "own", motors' own gains with torques of the
+            planned motion and ground forces; "torque", whole-body torques, with those gains about the motion.
         joint_stiffness: Stiffness of every joint in place of the motors' own, for "own" and "torque"; 0 keeps those.
         period: Control period in s.
-        physics_period: Time step of the simulated physics in s; a contact takes five of them.
-        skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.
+        physics_period: Time step of the simulated physics in s; a contact takes five.
+        skip: "auto" computes what is needed; "none" everything, for comparison. The motion is the same.
     """
 
     feedback: bool = switch(True)
@@ -197,9 +192,9 @@ CONTROL_PERIOD = Control().period
 
 
 def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
-    """Durations of a walk's phases: the scene's, else the robot's, else the same number of beats for every robot.
+    """Durations of a walk's phases: the scene's, else the robot's, else equal beats for every robot.
 
-    A robot that rocks has its own. Takes `body`; returns the durations.
+    Takes `body`; returns the durations.
     """
     stated = (0.0, 0.0) if robot.rocks else (walk.single_support, walk.double_support)
     if walk.commanded and not robot.rocks:

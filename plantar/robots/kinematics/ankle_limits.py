@@ -1,4 +1,4 @@
-"""How far from its ankle a foot can carry the whole robot, by the torque limits of ankle and knee."""
+"""How far from its ankle a foot carries the robot, by torque limits."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ __all__ = ["ankle_limits"]
 def ankle_limits(
     robot: Robot, model: mujoco.MjModel, weight: float, crouch: float = 0.0
 ) -> dict[Side, NDArray[np.float64]]:
-    """Where the weight may act on each sole in single support, without a joint beyond its torque limit.
+    """Where weight may act on each sole in single support, within the joints' torque limits.
 
     The weight W e_z at p has the torque a . ((p - c) x W e_z) on a joint with axis a through c: a strip of the sole for
-    each joint. The ankle's joints are the last that pitches and the last that rolls. For the knee see `_knee_strip`.
+    each joint. The ankle's joints are the last that pitches and the last that rolls.
 
     Args:
         robot: The robot.
         model: A model with the robot in it.
-        weight: Its weight in N.
+        weight: In N.
         crouch: How much lower in m than in its posture it walks.
 
     Returns:
-        Strips (m, 4) in each sole's frame: a unit normal (x, y), and the strip's middle and half width along it in m;
-        none for a joint without a limit.
+        Strips (m, 4) in each sole's frame: unit normal (x, y), the strip's middle and half width along it in m; none
+        without limits.
     """
     data = stood(robot, model)
     limits = _torque_limits(model)
@@ -55,11 +55,10 @@ def ankle_limits(
 
 
 def _knee_strip(places: NDArray[np.float64], reach: float, crouch: float) -> list[float]:
-    """Strip of the sole, across it, in which the knee's lever is at most `reach` in m.
+    """Strip across the sole in which the knee's lever is at most `reach` in m.
 
-    With the hip above p and the ankle at a the knee is a share s of the way from a to p, and k ahead of that line, the
-    height of the triangle of thigh and shank: |p - (a + s (p - a) + k)| <= r. `places` (3, 2) are hip, knee and ankle
-    in m.
+    With the hip above p and the ankle at a the knee is a share s of the way from a to p, and k ahead of that line: |p -
+    (a + s (p - a) + k)| <= r. `places` (3, 2) are hip, knee and ankle in m.
     """
     (hip, knee, ankle), up = places, places[0] - places[2]
     thigh, shank = float(np.linalg.norm(hip - knee)), float(np.linalg.norm(knee - ankle))

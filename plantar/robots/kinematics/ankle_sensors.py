@@ -1,4 +1,4 @@
-"""Force-torque sensors of the ankles, as a robot's model has them."""
+"""Force-torque sensors of the ankles in a robot's model."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ __all__ = ["ankle_sensors"]
 
 
 def ankle_sensors(model: Any, robot: Robot) -> dict[Side, AnkleSensor]:
-    """Place of each ankle's force-torque sensor in `model`, and the mass below it.
+    """Place of each ankle's force-torque sensor, and the mass below it.
 
-    Takes `model` and `robot`; returns the sensors, for the controller.
+    Takes `model` and `robot`; returns the sensors.
     """
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)

@@ -34,11 +34,11 @@ def body_of(robot: Robot, model: mujoco.MjModel) -> BodyScale:
 def leg_length(robot: Robot, model: mujoco.MjModel) -> float:
     """Length in m of a straight leg from hip to ankle, the mean of both.
 
-    Summed over the pitching joints, hip, knee and ankle, in the plane in which they bend the leg, which does not depend
-    on the posture. A leg with fewer than two of them counts from its first to its last joint. Returns the length.
+    Summed over the pitching joints in the plane in which they bend the leg, independent of posture; with fewer than
+    two, from first to last joint. Returns the length.
 
     Args:
-        robot: The robot, with joint names and posture.
+        robot: The robot.
         model: A model with the robot in it.
     """
     data = stood(robot, model)
@@ -55,7 +55,7 @@ def hanging_on(model: Any, body: int) -> list[int]:
 
 
 def stood(robot: Robot, model: mujoco.MjModel) -> mujoco.MjData:
-    """Returns data of a model whose legs are in the robot's posture, with kinematics."""
+    """Returns data of a model with legs in the robot's posture."""
     data = mujoco.MjData(model)
     for side in SIDES:
         for name, angle in zip(robot.legs[side].joints, robot.posture[side], strict=True):
@@ -65,7 +65,7 @@ def stood(robot: Robot, model: mujoco.MjModel) -> mujoco.MjData:
 
 
 def pitching_joints(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco.MjData) -> list[int]:
-    """Joints of a leg that turn mostly about the torso's y axis: hip, knee and ankle.
+    """Joints of a leg that turn mostly about the torso's y axis.
 
     Takes `robot`, `side`, `model` and `data`; returns their ids from hip to ankle.
     """
@@ -73,7 +73,7 @@ def pitching_joints(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoc
 
 
 def rolling_joints(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco.MjData) -> list[int]:
-    """Joints of a leg that turn mostly about the torso's x axis: hip and, if there is one, ankle.
+    """Joints of a leg that turn mostly about the torso's x axis.
 
     Takes `robot`, `side`, `model` and `data`; returns their ids from hip to ankle.
     """
@@ -81,7 +81,7 @@ def rolling_joints(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco
 
 
 def _turning_joints(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco.MjData, axis: int) -> list[int]:
-    """Ids of a leg's joints, from hip to foot, that turn about an axis of the torso."""
+    """Leg joints, hip to foot, that turn about an axis of the torso."""
     way = data.xmat[model.body(robot.torso_body).id].reshape(3, 3)[:, axis]
     ids = [int(model.joint(name).id) for name in robot.legs[side].joints]
     return [i for i in ids if abs(float(data.xaxis[i] @ way)) > _ALONG]

@@ -1,4 +1,4 @@
-"""A walking controller's command as joint angles and torques of the legs."""
+"""A walking command as joint angles and torques of the legs."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def follow_command(legs: LegModel, command: Command) -> float:
     """Solve a command for the joints; the angles are `legs.joints`.
 
     Returns:
-        The largest task error before the last step, in units of length or rad; NaN if a target is.
+        Largest task error before the last step, in units of length or rad; NaN if a target is.
     """
     left, right = command.feet["left"], command.feet["right"]
     return legs.follow(
@@ -36,7 +36,7 @@ def follow_command(legs: LegModel, command: Command) -> float:
 
 
 def carry_command(legs: LegModel, command: Command) -> None:
-    """Torques that hold the last solution under the forces of a command; they are `legs.torques`."""
+    """Torques that hold the last solution under a command's forces: `legs.torques`."""
     left, right = command.feet["left"], command.feet["right"]
     legs.carry(
         {"left": left.force, "right": right.force},

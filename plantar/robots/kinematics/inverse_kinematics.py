@@ -1,28 +1,28 @@
-"""Inverse kinematics of a list of tasks: Newton steps that are stable near singularities, at limits and out of reach.
+"""Inverse kinematics of tasks: Newton steps, stable near singularities, at limits and out of reach.
 
-A step solves J dq = e by J^T J dq = J^T e, with 1e-8 on the diagonal. It is taken as it is where the equations are well
-conditioned, no joint leaves its limits and no entry is larger than allowed, as almost always. Otherwise:
+A step solves J^T J dq = J^T e, with 1e-8 on the diagonal. It is taken as it is where the equations are well
+conditioned, no joint leaves its limits and no entry is too large. Otherwise:
 
-- **Levels.** The tasks of a level are solved in the null space of the levels before (Siciliano and Slotine 1991): an
-  unloaded foot misses its target rather than move the foot that carries the robot.
+- **Levels.** A level is solved in the null space of the levels before (Siciliano and Slotine 1991): an unloaded foot
+  misses its target first.
 - **Damping.** With the singular values s of a level and near = max(0, 1 - (s / EPSILON)^2), each direction moves by s r
   / (s^2 + d) for the residual r along it, with
 
       d = near EPSILON^2 + S R.
 
-The first term damps near singularities alone (Maciejewski and Klein 1988, Chiaverini 1997): the inverse rises to 1 /
-EPSILON without a jump. R is the length of the residual that no step removes, in the share `near` along directions near
-a singularity and whole at joint limits: out of reach, Newton's step would oscillate (Sugihara 2011). A limb bent by x
-near straight loses reach c x^2 / 2, s = c x, and x goes to 0 where d >= c R / 2. S is the level's largest singular
-value: c is 2 S or less for a limb of up to 8 equal links with parallel axes.
+The first term damps near singularities alone (Maciejewski and Klein 1988, Chiaverini 1997). R is the length of the
+residual that no step removes, in the share `near` along directions near a singularity and whole at joint limits: out of
+reach, Newton's step would oscillate (Sugihara 2011). A limb bent by x near straight loses reach c x^2 / 2, s = c x, and
+x goes to 0 where d >= c R / 2. S is the level's largest singular value: c is 2 S or less for a limb of up to 8 equal
+links with parallel axes.
 - The residual of a level counts with a length of 1 (m and rad) at most.
 - The largest step L must not carry a limb across the damped zone: c L / 2 <= EPSILON; c is 0.13 m for a leg of 0.8 m.
-- **Posture.** The share `near` of a direction, and what no task uses, is drawn to the reference posture, so that a
-  straight knee bends again.
-- **Scale.** One factor scales a level's step for all joints, until no entry of the sum is larger than allowed.
-- **Unit of length.** 1 rad counts as 1 m for a leg of 0.6 m, and in proportion to the leg, so that robots of one shape
-  take the same steps.
-- **Limits.** A joint that would leave its limits stops there, the farthest first, and the step is solved again.
+- **Posture.** The share `near` of a direction, and what no task uses, is drawn to the reference posture: a straight
+  knee bends again.
+- **Scale.** One factor scales a level's step until no entry of the sum is too large.
+- **Unit of length.** 1 rad counts as 1 m for a leg of 0.6 m, in proportion to the leg: robots of one shape take the
+  same steps.
+- **Limits.** Joints that would leave their limits stop there, the farthest first, and the step is solved again.
 """
 
 from __future__ import annotations
@@ -55,15 +55,15 @@ class InverseKinematics:
 
     Args:
         model: The model.
-        data: Its data, with the configuration, to which the tasks are bound; call `move` after a change from outside.
+        data: Its data, to which the tasks are bound; call `move` after a change from outside.
         tasks: The tasks.
-        posture: Reference posture, for directions that the tasks leave free.
+        posture: Reference posture, for free directions.
         columns: Velocities (n,) of the model that a step may use, in order.
-        unit: Length in m that counts as much as 1 rad.
+        unit: Length in m that counts as 1 rad.
 
     Attributes:
         plain: Number of steps by the normal equations.
-        careful: Number of steps with null-space projectors, damping or limits.
+        careful: Number of the other steps.
     """
 
     def __init__(
@@ -124,10 +124,10 @@ class InverseKinematics:
 
         Args:
             iterations: Number of steps.
-            largest_step: Largest entry of a step in units of length and rad.
+            largest_step: Largest entry in units of length and rad.
 
         Returns:
-            The largest task error before the last step (units of length or rad); NaN if a target is.
+            Largest task error before the last step (units of length or rad); NaN if a target is.
         """
         kernel = self._step_kernel
         for _ in range(iterations):
@@ -145,7 +145,7 @@ class InverseKinematics:
         return worst
 
     def place(self) -> None:
-        """Update the data's poses to its configuration, unless done, which spares the next solution its kinematics."""
+        """Update the data's poses, unless done; spares the next solution its kinematics."""
         if not self._placed:
             mujoco.mj_kinematics(self._model, self._data)
             mujoco.mj_comPos(self._model, self._data)
@@ -169,7 +169,7 @@ class InverseKinematics:
         kernel.move()
 
     def _careful(self, jacobian: NDArray[np.float64], largest: float) -> NDArray[np.float64]:
-        """Step (n,) by levels, damped, scaled and within the limits; none if a target is NaN."""
+        """Step (n,) by levels, damped, scaled, within limits; none if a target is NaN."""
         count = jacobian.shape[1]
         if not np.isfinite(self._error).all():
             return np.zeros(count)
@@ -201,7 +201,7 @@ class InverseKinematics:
         free: NDArray[np.bool_],
         largest: float,
     ) -> NDArray[np.float64]:
-        """Step (n,) level by level, with given steps of the stopped joints."""
+        """Step (n,) level by level, given steps of stopped joints."""
         step = stop.copy()
         basis = np.eye(len(step))[:, free]  # of what the levels so far leave free
         for rows in self._rows_by_level():
@@ -244,8 +244,8 @@ def _amounts(
 
     Args:
         values: Singular values (k,).
-        along: Residual (m,) along the left singular vectors.
-        pulled: Way (k,) to the posture along the right singular vectors.
+        along: Residual (m,) along left singular vectors.
+        pulled: Way (k,) to the posture.
     """
     count = len(values)
     near = np.maximum(0.0, 1.0 - (values / _EPSILON) ** 2)
@@ -255,7 +255,7 @@ def _amounts(
 
 
 def _add(step: NDArray[np.float64], more: NDArray[np.float64], largest: float) -> None:
-    """Add as large a share of `more`, up to 1, as keeps every entry within the largest."""
+    """Add the largest share of `more` that keeps entries allowed."""
     room = np.where(more > 0.0, largest - step, largest + step)
     share = np.divide(room, np.abs(more), out=np.full(len(step), np.inf), where=more != 0.0).min(initial=1.0)
     step += max(0.0, float(share)) * more

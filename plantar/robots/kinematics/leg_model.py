@@ -26,14 +26,14 @@ _FULL_LEG = 6  # joints of a leg that can give its sole any pose
 
 
 class LegModel:
-    """Kinematics of a free-floating robot that moves its legs; other joints stay where they are set.
+    """Kinematics of a free-floating robot that moves its legs only.
 
     Args:
         model: The robot alone, first joint free, one hinge a leg joint.
-        joints: Names of the leg joints in the order of all joint vectors.
+        joints: Leg joint names in the order of all joint vectors.
         soles: Name of each sole's site.
-        torso: Name of the body that is kept upright.
-        unit: Length in m that counts as much as 1 rad out of reach (`InverseKinematics`).
+        torso: Body that is kept upright.
+        unit: Length in m that counts as 1 rad out of reach (`InverseKinematics`).
 
     Attributes:
         joints: Joint angles (k,) in rad of the last `follow`, overwritten by the next.
@@ -94,7 +94,7 @@ class LegModel:
         )
 
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
-        """Forward kinematics in the base frame (see `plantar.gait.estimate.estimator.LegKinematics`)."""
+        """Forward kinematics, base frame (see `plantar.gait.estimate.estimator.LegKinematics`)."""
         posture = self.live_posture(joint_positions)
         places, turns = posture.positions, posture.rotations
         return Posture(
@@ -114,10 +114,10 @@ class LegModel:
     def set_configuration(
         self, position: NDArray[np.float64], quaternion: NDArray[np.float64], joints: NDArray[np.float64]
     ) -> None:
-        """Set the start of the next `solve`, whose joints are the reference posture.
+        """Set the start of the next `solve`; its joints are the reference posture.
 
         Args:
-            position: Base position (3,) in the world frame in m.
+            position: Base position (3,) in the world in m.
             quaternion: Base orientation (4,), w first.
             joints: Joint angles (k,) in rad.
         """
@@ -131,7 +131,7 @@ class LegModel:
         """Set the joints of no leg.
 
         Args:
-            joints: Their positions (o,) in the model's order in rad or m.
+            joints: Positions (o,) in the model's order in rad or m.
         """
         self._data.qpos[self._others] = joints
         self.inverse.move()
@@ -152,22 +152,22 @@ class LegModel:
         yielding: Collection[Side] = (),
         largest_step: float = 0.5,
     ) -> tuple[NDArray[np.float64], float]:
-        """Joint angles for CoM, torso orientation and both soles: Newton steps from the last solution.
+        """Joint angles for CoM, torso orientation and both soles, from the last solution.
 
         The 18 task rows (CoM 3, torso 3, two soles 6 each) meet the 18 unknowns of a 12-joint biped; legs of five
-        joints leave the soles' roll to the ground. For limits see `plantar.robots.kinematics.inverse_kinematics`.
+        joints leave the soles' roll to the ground.
 
         Args:
-            com: CoM (3,) in the world frame in m.
-            rotation_torso: Rotation (3, 3) from the torso to the world frame.
+            com: CoM (3,) in the world in m.
+            rotation_torso: Rotation (3, 3) from torso to world.
             positions: Sole frame origin (3,) of each foot in m; `rotations` (3, 3) to the world.
             iterations: Newton steps.
             yielding: Feet that miss their targets first: the unloaded ones.
-            largest_step: Largest change of a joint in rad, or of the base in units of length or rad, in a step.
+            largest_step: Largest change in rad or units of length in a step.
 
         Returns:
-            Joint angles (k,) in rad within their limits, and the largest task error before the last step (units of
-            length or rad), NaN if a target is.
+            Joint angles (k,) in rad within limits, and the largest task error before the last step (units of length or
+            rad), NaN if a target is.
         """
         missed = self.follow(com, rotation_torso, positions, rotations, iterations, yielding, largest_step)
         return self.joints.copy(), missed
@@ -182,7 +182,7 @@ class LegModel:
         yielding: Collection[Side] = (),
         largest_step: float = 0.5,
     ) -> float:
-        """`solve` without a copy, for a caller that reads `joints` at once.
+        """`solve` without a copy: read `joints` at once.
 
         Takes `com`, `rotation_torso`, `positions`, `rotations`, `iterations`, `yielding` and `largest_step`; returns
         the error.
@@ -206,8 +206,8 @@ class LegModel:
         """Joint torques (k,) in N m that hold the last solution: tau = g(q) - sum J^T f.
 
         Args:
-            forces: Force (3,) in N that the ground exerts on each sole, world frame.
-            points: Point (3,) in m at which it acts, world frame.
+            forces: Ground force (3,) in N on each sole, world frame.
+            points: Point (3,) in m where it acts, world frame.
 
         Returns:
             The torques.
@@ -216,7 +216,7 @@ class LegModel:
         return self.torques.copy()
 
     def carry(self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]) -> None:
-        """`static_torques` without a copy, for a caller that reads `torques` at once.
+        """`static_torques` without a copy: read `torques` at once.
 
         Takes `forces` and `points`.
         """

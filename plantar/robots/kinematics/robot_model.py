@@ -75,13 +75,13 @@ def build_leg_model(robot: Robot, worn: Sequence[Visitor] = ()) -> LegModel:
 
     Args:
         robot: The robot.
-        worn: Additional parts, such as an arm that moves.
+        worn: Additional parts, such as a moving arm.
 
     Returns:
         The model.
 
     Raises:
-        RobotError: If the model cannot be read or simulated.
+        RobotError: If the model is not valid.
     """
     spec = robot_spec(robot)
     for part in worn:

@@ -25,17 +25,17 @@ def solve_standing(
     centers: Mapping[Side, NDArray[np.float64]],
     com_height: float,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Stand on given footholds, with the CoM midway between the soles' centers.
+    """Stand on given footholds, CoM midway between the soles' centers.
 
     Args:
         robot: The robot.
         legs: Its kinematics, which start from this posture afterwards.
         feet: Poses of the soles.
-        centers: Point (2,) of each sole in the world frame in m that carries half the weight.
-        com_height: CoM height above the soles in m.
+        centers: Point (2,) of each sole in the world in m that carries half the weight.
+        com_height: Above the soles in m.
 
     Returns:
-        Joint angles (k,) in rad, and the torques (k,) in N m that hold them.
+        Joint angles (k,) in rad, and torques (k,) in N m that hold them.
 
     Raises:
         RobotError, SceneError: If an argument is not valid.

@@ -1,1 +1,1 @@
-"""How a command becomes targets and torques of the leg joints' own motors."""
+"""How a command becomes targets and torques of the leg motors."""

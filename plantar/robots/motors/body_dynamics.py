@@ -1,4 +1,4 @@
-"""Dynamics of a free-floating robot that moves its legs, by its controller's model."""
+"""Dynamics of a free-floating robot that moves its legs."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ _BASE = 6  # velocities of the free base: three of its origin in the world frame
 
 
 class BodyDynamics:
-    """M(q) a + h(q, v) = [0, tau] + sum J^T w over the base (6) and the leg joints (k); joints of no leg stay at rest.
+    """M(q) a + h(q, v) = [0, tau] + sum J^T w over the base (6) and leg joints (k); other joints rest.
 
     Args:
         model: The robot alone, first joint free.
-        dofs: Place (k,) of each leg joint among the model's velocities.
+        dofs: Place (k,) of each leg joint among the velocities.
         sites: Sole site of each side.
 
     Attributes:
-        rows: Places (6 + k,) of the base's and the joints' velocities.
+        rows: Places (6 + k,) of base's and joints' velocities.
         mass: M (6 + k, 6 + k), with rotors, after `place`; its first three rows over the mass are the CoM's Jacobian.
-        bias: h (6 + k,), after `move`: Coriolis, centrifugal and gravity terms and what damps the joints.
+        bias: h (6 + k,), after `move`: Coriolis, centrifugal, gravity and damping terms.
         soles: Jacobian (6, 6 + k) of each sole site's velocity and turn, world frame.
         drifts: Acceleration (6,) of each sole site for a = 0, after `move`.
     """
@@ -45,7 +45,7 @@ class BodyDynamics:
         self.drifts: dict[Side, NDArray[np.float64]] = {s: np.zeros(6) for s in SIDES}
 
     def place(self, configuration: NDArray[np.float64]) -> None:
-        """Compute mass matrix and Jacobians at a configuration (nq,) of the model; `move` has to follow."""
+        """Compute mass matrix and Jacobians at a configuration (nq,); `move` has to follow."""
         model, data = self._model, self.data
         data.qpos[:] = configuration
         mujoco.mj_kinematics(model, data)
@@ -75,11 +75,11 @@ class BodyDynamics:
         """Inverse dynamics: M a + h - sum J^T w.
 
         Args:
-            acceleration: a (6 + k,) of the base and the joints.
-            wrenches: Wrench (6,) of the ground on each sole in N and N m about its site, world frame.
+            acceleration: a (6 + k,).
+            wrenches: Ground wrench (6,) on each sole in N and N m about its site, world frame.
 
         Returns:
-            Forces (6 + k,): what the base lacks, 0 for a motion that the wrenches explain, then the joints' torques.
+            Forces (6 + k,): what the base lacks (0 if the wrenches explain the motion), then joint torques.
         """
         found = self.mass @ acceleration + self.bias
         for side, wrench in wrenches.items():

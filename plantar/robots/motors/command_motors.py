@@ -1,8 +1,7 @@
-"""A walking controller's command as targets, torques and gains of the leg joints' own motors.
+"""A walking command as targets, torques and gains of the leg motors.
 
-With "own" drives the torques are those of the planned motion, by inverse dynamics along the joint solutions with the
-ground forces that the balance law plans: tau = M(q*) a* + h(q*, v*) - sum J^T w, so that the gains have to correct
-only what the plan does not know. With "torque" they are those of `plantar.robots.motors.torque_control`.
+"own" drives take inverse dynamics along the joint solutions with planned ground forces: tau = M(q*) a* + h(q*, v*) -
+sum J^T w; "torque" drives `plantar.robots.motors.torque_control`.
 """
 
 from __future__ import annotations
@@ -47,7 +46,7 @@ def motor_gains(robot: Robot, stiffness: float) -> MotorGains:
 
     Args:
         robot: The robot.
-        stiffness: Stiffness in N m/rad of every joint instead, damped as near to critical as its own; 0 for its own.
+        stiffness: In N m/rad of every joint instead, damped in proportion to critical; 0 for its own.
     """
     own, damping = np.array([*robot.own_stiffness] * 2), np.array([*robot.own_damping] * 2)
     if not stiffness:
@@ -56,7 +55,7 @@ def motor_gains(robot: Robot, stiffness: float) -> MotorGains:
 
 
 def planned_wrenches(command: Command) -> dict[Side, NDArray[np.float64]]:
-    """Wrench (6,) on each sole that a command loads, about its target's origin, in the frame of the command."""
+    """Wrench (6,) on each loaded sole, about its target's origin, in the command's frame."""
     wrenches = {}
     for side in SIDES:
         foot = command.feet[side]
@@ -68,17 +67,17 @@ def planned_wrenches(command: Command) -> dict[Side, NDArray[np.float64]]:
 
 
 class PlannedMotion:
-    """Velocity and acceleration of solutions that follow each other by a control period.
+    """Velocity and acceleration of solutions a control period apart.
 
     Args:
         model: The robot alone.
-        rows: Places (6 + k,) of the base's and the leg joints' velocities.
+        rows: Places (6 + k,) of base's and leg joints' velocities.
         period: Control period in s.
-        beat: Time scale sqrt(leg / g) of the robot in s.
+        beat: Time scale sqrt(leg / g) in s.
 
     Attributes:
-        velocity: Velocity (6 + k,) of the last solution in m/s and rad/s; 0 at the first one.
-        acceleration: Its acceleration (6 + k,), low-passed.
+        velocity: Of the last solution (6 + k,) in m/s and rad/s; 0 at the first.
+        acceleration: (6 + k,), low-passed.
     """
 
     def __init__(self, model: mujoco.MjModel, rows: NDArray[np.int_], period: float, beat: float) -> None:
@@ -105,14 +104,14 @@ class CommandMotors:
     Args:
         robot: The robot.
         legs: Kinematics of its legs.
-        body: How large it is.
+        body: Its size.
         gains: Gains of the motors.
         period: Control period in s.
 
     Attributes:
-        stiffness: Position gains (k,) in N m/rad of the motors.
-        damping: Velocity gains (k,) in N m s/rad of the motors.
-        out_of_reach: Whether the legs did not reach the last command.
+        stiffness: Position gains (k,) in N m/rad.
+        damping: Velocity gains (k,) in N m s/rad.
+        out_of_reach: Whether the legs missed the last command.
     """
 
     def __init__(self, robot: Robot, legs: LegModel, body: BodyScale, gains: MotorGains, period: float) -> None:
@@ -150,9 +149,9 @@ class CommandMotors:
         return self.dynamics.forces(self.motion.acceleration, planned_wrenches(command))[6:]
 
     def followed(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Angles (k,) in rad and rates (k,) in rad/s that the motors' gains follow, within the joints' speed limits.
+        """Angles (k,) in rad and rates (k,) in rad/s that the gains follow, within speed limits.
 
-        Where a joint would have to be faster, all move by the same smaller share of their way, and catch up later.
+        Beyond a limit, all joints move by the same smaller share and catch up later.
         """
         last = self._legs.joints.copy() if self._angles is None else self._angles
         way = self._legs.joints - last

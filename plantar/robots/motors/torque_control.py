@@ -1,10 +1,9 @@
 """Whole-body torque control of a walk: the measured body follows the command by inverse dynamics.
 
-Its tasks, as accelerations of the measured state: the CoM by the pendulum c'' = w^2 (c - p) with the desired ZMP p of
-the balance law, and back to its height; the base to its planned orientation; the joints of a leg that swings to its
-planned motion; soles that stand stay where they are, with the wrenches that the balance law plans as far as the motion
-leaves them free (`plantar.robots.motors.torque_program`). Where the program has no solution, and while the robot
-stands without feedback before its walk, torques are those of the planned motion within their limits.
+Tasks, as accelerations of the measured state: CoM by the pendulum c'' = w^2 (c - p) with the balance law's ZMP p, and
+its height; base orientation; swing leg joints; soles that stand, with planned wrenches
+(`plantar.robots.motors.torque_program`). Without a solution, or standing before the walk without feedback, torques are
+those of the planned motion.
 """
 
 from __future__ import annotations
@@ -47,7 +46,7 @@ class TorqueControl(CommandMotors):
     Takes what `CommandMotors` takes.
 
     Attributes:
-        unsolved: How many ticks had no solution.
+        unsolved: Ticks without a solution.
     """
 
     def __init__(self, robot: Robot, legs: LegModel, body: BodyScale, gains: MotorGains, period: float) -> None:
@@ -173,7 +172,7 @@ class TorqueControl(CommandMotors):
     def _upright(
         self, planned: NDArray[np.float64], turn: float, rotation: NDArray[np.float64], speed: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """Angular acceleration (3,) of the base in its own frame that brings it to the planned orientation."""
+        """Angular acceleration (3,) towards the planned orientation, base frame."""
         wanted, inverse, error, way = np.zeros(4), np.zeros(4), np.zeros(4), np.zeros(3)
         mujoco.mju_mulQuat(wanted, np.array([math.cos(0.5 * turn), 0.0, 0.0, math.sin(0.5 * turn)]), planned)
         mujoco.mju_mat2Quat(inverse, rotation.T.ravel())
@@ -183,7 +182,7 @@ class TorqueControl(CommandMotors):
         return np.asarray(rate * rate * way + 2.0 * rate * (self.motion.velocity[3:6] - speed))
 
     def _bounds(self, angles: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Least and largest accelerations (2, k) that keep the joints' limits of angle and speed."""
+        """Least and largest accelerations (2, k) within limits of angle and speed."""
         least = np.maximum(-self._fastest, (self._low - angles) / _SLOW_DOWN)
         most = np.minimum(self._fastest, (self._high - angles) / _SLOW_DOWN)
         return np.asarray(np.clip((np.array([least, most]) - self._speeds) / _REACH, -_FASTEST, _FASTEST))
@@ -194,7 +193,7 @@ def command_motors(
 ) -> CommandMotors | None:
     """What drives a robot.
 
-    Takes `robot`, its `legs`, `body`, `control` and the control `period` in s; returns None for position servos.
+    Takes `robot`, `legs`, `body`, `control` and control `period` in s; returns None for position servos.
     """
     if control.drives == "servo":
         return None

@@ -1,15 +1,16 @@
-"""Torques of a whole body that stands on its soles: inverse dynamics as one quadratic program.
+"""Torques of a whole body on its soles: inverse dynamics as one quadratic program.
 
-Unknown are the acceleration a (6 + k) and the wrench w_i (6) of each standing sole in its frame, in body weights. Of
+Unknown are the acceleration a (6 + k) and the wrench w_i (6) of each standing sole in its frame, in body weights. The
+program minimizes
 
     sum_j d_j (a_j - a*_j)^2 + c |J_c a + drift_c - c*|^2 + sum_i |w_i - w*_i|^2_W
 
-the program finds the least subject to
-- the dynamics of the base, M_b a + h_b = sum J_b,i^T w_i, which no motor drives;
-- soles that stay: J_i a + drift_i = their wanted acceleration (0, or what brings a sole to rest);
-- the wrench cones of the soles: friction pyramid, centre of pressure in the sole, limits of the yaw moment;
-- torque limits, |M_k a + h_k - sum J_k,i^T w_i| <= tau, and bounds of the joints' accelerations, which keep their
-  limits of speed and position and give way where nothing else is possible.
+subject to
+- dynamics of the base, M_b a + h_b = sum J_b,i^T w_i;
+- soles that stay: J_i a + drift_i = their wanted acceleration;
+- wrench cones: friction pyramid, centre of pressure in the sole, yaw moment limits;
+- torque limits, |M_k a + h_k - sum J_k,i^T w_i| <= tau, and soft bounds of joint accelerations, for limits of speed and
+  position.
 """
 
 from __future__ import annotations
@@ -39,12 +40,12 @@ class Standing:
     """A sole that stands.
 
     Attributes:
-        rotation: Rotation (3, 3) from the sole to the world frame.
-        rectangle: The part of the sole that may carry.
+        rotation: Rotation (3, 3) from sole to world.
+        rectangle: Part of the sole that may carry.
         friction: Coefficient of its friction pyramid.
-        acceleration: Wanted acceleration (6,) of its site, world frame.
-        wrench: Preferred wrench (6,) in its frame about its origin in N and N m.
-        most: Largest normal force in N: one that is still to find the ground carries little.
+        acceleration: Wanted (6,) of its site, world frame.
+        wrench: Preferred (6,) in its frame about its origin in N and N m.
+        most: Largest normal force in N, small while it still finds the ground.
     """
 
     rotation: Array
@@ -60,13 +61,13 @@ class Wish:
     """What the body should do.
 
     Attributes:
-        acceleration: a* (6 + k,) of the base and the joints.
-        weights: d (6 + k,) of each.
-        com: Acceleration (3,) of the CoM in m/s^2.
+        acceleration: a* (6 + k,) of base and joints.
+        weights: d (6 + k,).
+        com: CoM acceleration (3,) in m/s^2.
         com_weight: c.
-        torque: Limits (k,) of the torques in N m; inf without.
-        slowest: Least accelerations (k,) of the joints in rad/s^2.
-        fastest: Largest accelerations (k,).
+        torque: Limits (k,) in N m; inf without.
+        slowest: Least joint accelerations (k,) in rad/s^2.
+        fastest: Largest (k,).
         standing: The soles that stand.
     """
 
@@ -82,12 +83,12 @@ class Wish:
 
 @dataclass(frozen=True)
 class Torques:
-    """Torques, and the motion and wrenches that belong to them.
+    """Torques with their motion and wrenches.
 
     Attributes:
-        torques: Torques (k,) in N m.
-        acceleration: Acceleration (6 + k,).
-        wrenches: Wrench (6,) of each standing sole in its frame in N and N m.
+        torques: (k,) in N m.
+        acceleration: (6 + k,).
+        wrenches: (6,) of each standing sole in its frame in N and N m.
     """
 
     torques: Array
@@ -101,15 +102,15 @@ _TOLERANCE = 1e-10  # of rows in N, N m, m/s^2 and rad/s^2, of cones in body wei
 
 
 def torques_of(dynamics: BodyDynamics, wish: Wish, gravity: float) -> Torques | None:
-    """Torques for a wish; `gravity` in m/s^2.
+    """Torques for a wish.
 
     Args:
         dynamics: Dynamics of the body where it is.
         wish: What it should do.
-        gravity: Acceleration of a falling body in m/s^2.
+        gravity: In m/s^2.
 
     Returns:
-        The torques; None where no motion keeps the constraints, or a number is not finite.
+        The torques; None without a feasible, finite solution.
     """
     mass, bias, size = dynamics.mass, dynamics.bias, len(dynamics.bias)
     count, total = 6 * len(wish.standing), float(mass[0, 0])

@@ -1,1 +1,1 @@
-"""Tasks of inverse kinematics, one a file: each states its error and its Jacobian."""
+"""Tasks of inverse kinematics, one a file."""

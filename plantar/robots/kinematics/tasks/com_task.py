@@ -13,10 +13,10 @@ __all__ = ["ComTask"]
 
 
 class ComTask(Task):
-    """The CoM of a body and its descendants should be at a point of the world.
+    """A body and its descendants have their CoM at a point of the world.
 
     Attributes:
-        target: The point (3,) in m, copied where it is set.
+        target: Point (3,) in m, copied where it is set.
     """
 
     rows = 3

@@ -15,11 +15,11 @@ __all__ = ["OrientationTask", "PoseTask", "RollingPoseTask"]
 
 
 class PoseTask(Task):
-    """A site should be at a position and an orientation of the world.
+    """A site at a position and an orientation of the world.
 
     Attributes:
-        position: Its origin (3,) in m, copied where it is set.
-        rotation: Rotation (3, 3) from the site to the world frame, likewise.
+        position: Origin (3,) in m, copied where it is set.
+        rotation: Rotation (3, 3) from site to world, likewise.
     """
 
     rows = 6
@@ -55,10 +55,10 @@ class PoseTask(Task):
 
 
 class OrientationTask(Task):
-    """A body should have an orientation in the world.
+    """A body at an orientation in the world.
 
     Attributes:
-        target: Rotation (3, 3) from the body to the world frame, copied where it is set.
+        target: Rotation (3, 3) from body to world, copied where it is set.
     """
 
     rows = 3
@@ -70,7 +70,7 @@ class OrientationTask(Task):
         self.target = self._rotation
 
     def error(self, out: NDArray[np.float64]) -> None:
-        """Missing turn (3,) in the world frame (see `plantar.mechanics.rotation.rotation_error`)."""
+        """Missing turn (3,) in the world (see `plantar.mechanics.rotation.rotation_error`)."""
         if not missing_turn(self.target, self._rotation, out):
             out[:] = rotation_error(self.target, self._rotation)
 
@@ -89,7 +89,7 @@ class OrientationTask(Task):
 
 
 class RollingPoseTask(PoseTask):
-    """A site should be at a position and an orientation of the world, with any roll about its own x axis.
+    """A pose of a site, with any roll about its own x axis.
 
     See `PoseTask` for attributes and arguments.
     """
@@ -101,17 +101,17 @@ class RollingPoseTask(PoseTask):
         self._turns = np.zeros((3, model.nv))
 
     def error(self, out: NDArray[np.float64]) -> None:
-        """Missing way (3,) in m, in the world frame, and turn (2,) about the site's own y and z axes."""
+        """Missing way (3,) in m, world frame, and turn (2,) about the site's y and z axes."""
         np.subtract(self.position, self._position, out=out[:3])
         out[3:] = (self._rotation.T @ rotation_error(self.rotation, self._rotation))[1:]
 
     def jacobian(self, out: NDArray[np.float64]) -> None:
-        """Velocity of the site (3, nv) in the world frame, and its rate of turn (2, nv) about its own y and z axes."""
+        """Velocity of the site (3, nv), world frame, and turn rate (2, nv) about its y and z axes."""
         mujoco.mj_jacSite(self._model, self._data, out[:3], self._turns, self._site)
         out[3:] = self._rotation.T[1:] @ self._turns
 
     def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> None:
-        """None: this task has no kernel.
+        """None: no kernel.
 
         Takes `error` and `jacobian`.
         """

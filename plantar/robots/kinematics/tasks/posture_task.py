@@ -14,10 +14,10 @@ __all__ = ["PostureTask"]
 
 
 class PostureTask(Task):
-    """Hinge and slide joints should have given positions.
+    """Hinge and slide joints at given positions.
 
     Attributes:
-        target: Their positions (k,) in rad or m.
+        target: Positions (k,) in rad or m.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, joints: Sequence[int]) -> None:

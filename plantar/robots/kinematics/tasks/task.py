@@ -14,7 +14,7 @@ __all__ = ["Target", "Task", "chain"]
 
 
 class Target:
-    """A task's target: an array of its own at one place, where a kernel reads it, of the shape that is set first."""
+    """A task's target array at one fixed place for kernels, of the shape first set."""
 
     def __set_name__(self, owner: type[Task], name: str) -> None:
         self._name = name
@@ -37,8 +37,8 @@ class Task(ABC):
     `mj_kinematics` and `mj_comPos`.
 
     Attributes:
-        rows: Number of rows of error and Jacobian.
-        lengths: Number of the first ones that are lengths in m; the others are angles in rad.
+        rows: Rows of error and Jacobian.
+        lengths: Number of first rows in m; the others are in rad.
         level: Priority where tasks conflict, lower first.
     """
 
@@ -55,10 +55,10 @@ class Task(ABC):
         """Write the Jacobian (rows, nv), contiguous, in m and rad over the model's velocities."""
 
     def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
-        """A kernel that writes both at once, or None for a task without one.
+        """A kernel that writes both at once, or None.
 
         Args:
-            error: Receives the error (rows,), but for a turn of more than a quarter, which `error` writes.
+            error: Receives the error (rows,), but for turns over 90 degrees, which `error` writes.
             jacobian: Receives the Jacobian (rows, nv); zeros without another writer.
 
         Returns:
@@ -68,7 +68,7 @@ class Task(ABC):
 
 
 def chain(model: mujoco.MjModel, body: int) -> NDArray[np.intp]:
-    """Returns indices (c,) of the velocities of a model that move a body, from the body to the root."""
+    """Returns indices (c,) of the velocities that move a body, from it to the root."""
     while body and not model.body_dofnum[body]:  # fixed to its parent
         body = int(model.body_parentid[body])
     moving: list[int] = []
