@@ -1,1 +1,1 @@
-"""Machines with skin on any of their links, and the experiments of whole-body skin tasks on them."""
+"""Machines with skin on any link, and experiments of whole-body skin tasks."""

@@ -1,4 +1,4 @@
-"""Encoders and drives of a machine's joints: motors, or servos behind a torque resolver."""
+"""Encoders and drives of a machine's joints: motors or servos."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ __all__ = ["Drives", "Encoders"]
 
 
 class Encoders:
-    """Measures positions and velocities with white noise. A floating base's place is known as well as a joint's, by the
-    kinematics of the standing feet; its orientation is the IMU's.
+    """Measures positions and velocities with white noise. A floating base's place is as well known as a joint's; its
+    orientation is the IMU's.
     """
 
     def __init__(self, world: World, settings: CompanionControl, seed: int) -> None:
@@ -25,7 +25,7 @@ class Encoders:
         self._rng = np.random.default_rng([seed, 0xEC])
 
     def read(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Positions (nq,) and velocities (nv,) of the machine alone, in its own model's order."""
+        """Positions (nq,) and velocities (nv,) of the machine, in its own model's order."""
         world, s = self._world, self._settings
         qpos = world.data.qpos[world.positions]
         qvel = world.data.qvel[world.speeds]
@@ -46,7 +46,7 @@ _FASTEST = 1e3  # rad/s or m/s of a joint without a speed limit
 
 
 class Drives:
-    """The machine's drives, of kind and stiffness `servo`, commanded once a `period` in s."""
+    """The drives, of kind and stiffness `servo`, commanded once a `period` in s."""
 
     def __init__(self, world: World, servo: ServoTable, period: float) -> None:
         machine = world.machine
@@ -62,7 +62,7 @@ class Drives:
             self._hold_speeds_implicitly()
 
     def _hold_speeds_implicitly(self) -> None:
-        """Let MuJoCo apply the servos' damping implicitly: explicit, it shakes a light wrist."""
+        """Let MuJoCo apply servo damping implicitly: explicit, it shakes a light wrist."""
         model, motors = self._world.model, self._world.motors
         model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
         model.actuator_biastype[motors] = mujoco.mjtBias.mjBIAS_AFFINE
@@ -72,9 +72,7 @@ class Drives:
         model.actuator_forcerange[motors] = np.column_stack([-self._efforts, self._efforts])
 
     def command(self, robot: MujocoDynamics, torque: NDArray[np.float64]) -> None:
-        """Take the `torque` (k,) in N m or N, bias included, of each joint of a `robot` as measured, for the next
-        period.
-        """
+        """Take the `torque` (k,) in N m or N, bias included, for the next period of the measured `robot`."""
         if self._resolver is None:
             self._torque = torque
         else:
@@ -82,7 +80,7 @@ class Drives:
             self._bias = robot.bias[robot.joints]
 
     def drive(self) -> None:
-        """Set the motors' torques for a physics step; servos know their joint's true motion."""
+        """Set motor torques for a physics step; servos know their joint's true motion."""
         world = self._world
         if self._goal is not None:
             wanted = self._goal.velocity

@@ -19,15 +19,15 @@ _NAMED = 5  # links in an error where none has a similar name
 class MujocoDynamics:
     """`plantar.wholebody.dynamics.RobotDynamics` from a MuJoCo model of the robot alone.
 
-    A stage of MuJoCo's forward dynamics runs when its result is read. The angular velocity of a free base, and its
-    Jacobians, are in the base's frame.
+    Each stage of MuJoCo's dynamics runs when its result is read. A free base's angular velocity and its Jacobians are
+    in the base's frame.
 
     Attributes:
-        joints: Indices (k,) of the coordinates with an actuator, ascending; of all hinges and slides without actuators.
-        jacobians: How many Jacobians of links were computed.
+        joints: Indices (k,) of coordinates with an actuator, ascending; without actuators, of all hinges and slides.
+        jacobians: Number of computed link Jacobians.
 
     Raises:
-        InputError: If the model has no joint that could be moved.
+        InputError: If no joint can move.
     """
 
     def __init__(self, model: Any) -> None:
@@ -51,7 +51,7 @@ class MujocoDynamics:
         mujoco.mj_kinematics(model, self.data)
 
     def update(self, qpos: NDArray[np.float64], qvel: NDArray[np.float64], time: float) -> None:
-        """Take over positions `qpos` (nq,) in MuJoCo's order and velocities `qvel` (nv,) at `time` in s."""
+        """Take positions `qpos` (nq,) in MuJoCo's order and velocities `qvel` (nv,) at `time` in s."""
         self.data.qpos[:] = qpos
         self.data.qvel[:] = qvel
         self.time = time
@@ -65,7 +65,7 @@ class MujocoDynamics:
         self._made: dict[int, NDArray[np.float64]] = {}
 
     def _place(self) -> None:
-        """Axes of all joints about the centre of mass, for every Jacobian."""
+        """Axes of all joints about the centre of mass."""
         if not self._placed:
             mujoco.mj_comPos(self.model, self.data)
             self._placed = True
@@ -98,7 +98,7 @@ class MujocoDynamics:
 
     @property
     def bias(self) -> NDArray[np.float64]:
-        """C q' + g (n,) of T 3.1, without friction of joints."""
+        """C q' + g (n,) of T 3.1, without joint friction."""
         if self._bias is None:
             self._move()
             self._bias = np.zeros(self.model.nv)
@@ -106,7 +106,7 @@ class MujocoDynamics:
         return self._bias
 
     def pose(self, link: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Origin (3,) of a link in the world in m and its rotation (3, 3) to the world; an InputError for no link."""
+        """Origin (3,) in m and rotation (3, 3) of a link to the world; an InputError for no link."""
         body = self._body(link)
         return self._places_of_links[body].copy(), self._turns_of_links[body].copy()
 
@@ -118,10 +118,10 @@ class MujocoDynamics:
             point: (3,) in the link's frame in m; None for its origin, computed once an update.
 
         Returns:
-            Rows (6, n) of its linear, then its angular velocity in the world; read-only.
+            Rows (6, n) of linear, then angular velocity in the world; read-only.
 
         Raises:
-            InputError: If there is no such link.
+            InputError: If the link is unknown.
         """
         body = self._body(link)
         if point is None and body in self._made:
@@ -135,7 +135,7 @@ class MujocoDynamics:
         return found
 
     def drift(self, link: str, point: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """Returns J' q' (6,) in m/s^2 and rad/s^2 of the Jacobian of `link` and `point`, as of `jacobian`."""
+        """Returns J' q' (6,) in m/s^2 and rad/s^2 for `link` and `point`, as of `jacobian`."""
         body = self._body(link)
         self._move()
         rate = np.zeros((6, self.model.nv))

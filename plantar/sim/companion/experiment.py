@@ -1,6 +1,4 @@
-"""An experiment of the companion, one file in `sim/companion/experiments`: surroundings, actors, success, and its
-scene.
-"""
+"""An experiment of the companion: surroundings, actors, success, and its scene."""
 
 from __future__ import annotations
 
@@ -47,15 +45,15 @@ __all__ = [
 
 
 class CompanionControl(Settings):
-    """How the machine is controlled, and how well it knows its own motion.
+    """How the machine is controlled, and how well it knows its motion.
 
     Attributes:
         period: Control period.
         servo: Input of the drives; "machine": as in the machine's file.
         encoder_noise: Standard deviation of joint positions, in rad or m.
-        velocity_noise: Standard deviation of joint speeds, in rad/s or m/s.
-        gyro_noise: Standard deviation of its angular velocity.
-        model_error: Standard deviation of the error of each link's mass and inertia, as a share; drawn once.
+        velocity_noise: Of joint speeds, in rad/s or m/s.
+        gyro_noise: Of its angular velocity.
+        model_error: Standard deviation of each link's mass and inertia error, as a share; drawn once.
     """
 
     period: float = number(0.002, "s", 0.001, 0.1)
@@ -71,7 +69,7 @@ class Controller(Protocol):
     """What drives the machine."""
 
     def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
-        """Returns the torque (k,) of each joint in N m or N for the next period, gravity included, in the order of
+        """Returns each joint's torque (k,) in N m or N for the next period, gravity included, in the order of
         `robot.joints`.
 
         `robot` is at the measured state, `reading` that of the skin.
@@ -79,17 +77,17 @@ class Controller(Protocol):
 
 
 class LidarController(Controller, Protocol):
-    """A controller of an experiment with distance sensors in the base."""
+    """A controller with distance sensors in the base."""
 
     def scan(self, points: NDArray[np.float64]) -> None:
-        """Take a scan: nearest points (m, 2) of the seen things, in the base's frame in m."""
+        """Take a scan: nearest points (m, 2) of things, base frame, in m."""
 
 
 class Verdict(NamedTuple):
-    """What an experiment came to.
+    """Outcome of an experiment.
 
     Attributes:
-        reasons: Every criterion that unmet, of `unmet`.
+        reasons: Criteria that are not met, of `unmet`.
         figures: The experiment's own figures by name; JSON values.
     """
 
@@ -100,7 +98,7 @@ class Verdict(NamedTuple):
 def unmet(*criteria: tuple[bool, str, float, float, str]) -> list[dict[str, Any]]:
     """Those of the `criteria` that are not met, for summaries.
 
-    Each is whether it is met, its name, words joined by underscores, value (not finite becomes None), limit and text.
+    Each is: whether met, its name (words joined by underscores), value (not finite becomes None), limit and text.
     """
     return [
         {
@@ -116,12 +114,12 @@ def unmet(*criteria: tuple[bool, str, float, float, str]) -> list[dict[str, Any]
 
 @dataclass(frozen=True)
 class World:
-    """The simulated machine and what is around it; `model` and `data` are the truth.
+    """The simulated machine and its surroundings; `model` and `data` are the truth.
 
     Attributes:
         positions: Places (nq of the machine alone,) of its coordinates in `data.qpos`, in its own model's order;
             `speeds` in `data.qvel`.
-        motors: Places (k,) of its motors in `data.ctrl`; `joints` of the motors' joints in `data.qvel`.
+        motors: Places (k,) of its motors in `data.ctrl`; `joints` of their joints in `data.qvel`.
     """
 
     machine: Machine
@@ -138,7 +136,7 @@ class World:
         return found.xpos.copy(), found.xmat.reshape(3, 3).copy()
 
     def velocity(self, body: str) -> NDArray[np.float64]:
-        """True velocity (6,) of a body's origin in the world: linear in m/s, then angular in rad/s."""
+        """True velocity (6,) of a body's origin in the world: linear in m/s, angular in rad/s."""
         found = np.zeros(6)
         number = self.model.body(body).id
         mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, number, found, 0)
@@ -151,7 +149,7 @@ class Experiment:
     Attributes:
         duration: Simulated time in s.
         fell: Whether the machine fell, which ends the run.
-        done: Whether all is finished, which ends the run.
+        done: Whether all is finished, likewise.
         rng: Random numbers of the seed.
     """
 
@@ -173,22 +171,20 @@ class Experiment:
         self.rng = np.random.default_rng([seed, 0xE])
 
     def add_to(self, spec: Any) -> None:
-        """Add obstacles and probes to the machine's `mujoco.MjSpec`; skin measures those of `OBSTACLE_GROUP`."""
+        """Add obstacles and probes to the `mujoco.MjSpec`; skin measures those of `OBSTACLE_GROUP`."""
 
     def start(self, world: World) -> None:
-        """Put everything in its first place, with the machine in its posture."""
+        """Put everything in its first place, the machine in its posture."""
 
     def controller(self, machine: Machine, skin: BodySkin) -> Controller:
-        """Returns the controller of a `machine` with `skin`; called once, before the first step."""
+        """Returns the controller of a `machine` with `skin`; called once."""
         raise NotImplementedError
 
     def act(self, world: World, time: float) -> None:
-        """Move actors in the `world` at `time` in s, before every physics step; their forces go into
-        `data.qfrc_applied`.
-        """
+        """Move actors in the `world` at `time` in s, before every physics step; forces go into `data.qfrc_applied`."""
 
     def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
-        """Look at the true state of the `world` and the skin `sensor` at `time` in s, at every physics step."""
+        """Look at the true `world` and the skin `sensor` at `time` in s, every physics step."""
 
     def verdict(self) -> Verdict:
         """The verdict, after the run."""
@@ -200,17 +196,17 @@ class Experiment:
 
 
 def experiment_names() -> tuple[str, ...]:
-    """Names of all experiments: of this package, and of entry points `plantar.experiments` of other packages."""
+    """Names of all experiments: built-in, and of entry points `plantar.experiments`."""
     package = Path(__file__).parent / "experiments"
     own = [found.name.replace("_", "-") for found in pkgutil.iter_modules([str(package)])]
     return tuple(sorted([*own, *extensions("plantar.experiments", Experiment)]))
 
 
 def experiment_class(name: str) -> type[Experiment]:
-    """The class of an experiment, by the name of its file with hyphens.
+    """The class of an experiment, by its file's name with hyphens.
 
     Raises:
-        SceneError: If there is none of that name.
+        SceneError: If unknown.
     """
     known = experiment_names()
     if name not in known:
@@ -233,7 +229,7 @@ def experiment_class(name: str) -> type[Experiment]:
 
 @dataclass(frozen=True)
 class CompanionScene:
-    """A scene of the companion: a machine `robot`, an experiment's `kind`, and settings of both."""
+    """A scene: a machine `robot`, an experiment's `kind`, settings of both."""
 
     name: str
     description: str
@@ -248,7 +244,7 @@ class CompanionScene:
         """Full name "table.name" of a setting's key, or "robot".
 
         Raises:
-            SceneError: If the scene has no such key.
+            SceneError: If unknown.
         """
         if key.strip() in ("robot", "machine"):
             return "robot"
@@ -262,10 +258,10 @@ class CompanionScene:
 
 
 def companion_tables(kind: str) -> dict[str, type[Settings]]:
-    """Settings class of each table of a scene with an experiment, by the table's name.
+    """Settings class of each table of a scene, by the table's name.
 
     Raises:
-        SceneError: If there is no such experiment.
+        SceneError: If the experiment is unknown.
     """
     found = experiment_class(kind)
     tables: dict[str, type[Settings]] = {
@@ -285,7 +281,7 @@ def companion_scene(
         source: The content; its `experiment` is a name, or a table whose `kind` is the name.
         path: The file, for names and messages.
         settings: `key=value` settings that override the file's.
-        machine: Machine to use instead of the file's.
+        machine: Used instead of the file's.
 
     Returns:
         The scene.

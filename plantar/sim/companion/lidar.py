@@ -1,4 +1,4 @@
-"""Distance sensors of a mobile base: a level scan, and the nearest point of each thing (A 3.2.4)."""
+"""Distance sensors of a mobile base: a level scan (A 3.2.4)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _NO_ECHO = 1e6  # m: distance of a ray that meets nothing
 
 
 class LidarSettings(Settings):
-    """The distance sensors, after laser scanners of safety class on mobile bases.
+    """The distance sensors, after safety laser scanners of mobile bases.
 
     Attributes:
         rate: Scans a second.
@@ -50,7 +50,7 @@ class Lidar:
         self._own = own
 
     def scan(self, data: Any) -> NDArray[np.float64]:
-        """Nearest point (m, 2) of each thing in reach, in the base's frame in m."""
+        """Nearest point (m, 2) of each thing in reach, base frame, in m."""
         s = self.settings
         rotation = data.xmat[self._base].reshape(3, 3)
         origin = data.xpos[self._base] + rotation @ np.array([0.0, 0.0, s.height])

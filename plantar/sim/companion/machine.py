@@ -1,4 +1,4 @@
-"""Machines with skin: an MJCF, and a TOML with the kind of base, joints' limits and posture, drives, and skin."""
+"""Machines with skin: an MJCF, and a TOML with base, joints, drives and skin."""
 
 from __future__ import annotations
 
@@ -35,11 +35,10 @@ class BaseTable(Settings):
     """What carries the joints. Lengths in m.
 
     Attributes:
-        kind: "fixed"; "mobile", whose first three joints move it on the ground along x, along y and about z; or
-            "floating", which has a free joint.
+        kind: "fixed"; "mobile", whose first three joints move it along x, along y and about z; or "floating", with a
+            free joint.
         link: Link that is the base; empty takes the first.
-        footprint: Corners [x, y] in the base link's frame of its area on the ground, counter-clockwise, kept away from
-            obstacles.
+        footprint: Corners [x, y] in its frame of its area on the ground, counter-clockwise, kept away from obstacles.
     """
 
     kind: str = choice("fixed", "mobile", "floating")
@@ -65,9 +64,9 @@ class JointTable(Settings):
     """Limits of a joint and its position in the posture.
 
     Attributes:
-        effort: Largest torque in N m, or force in N of a joint that slides; 0 for no limit.
+        effort: Largest torque in N m, or force in N of a slide; 0 for no limit.
         velocity: Largest speed in rad/s or m/s; 0 for no limit.
-        posture: Position in degrees, or in m of a joint that slides.
+        posture: In degrees, or in m of a slide.
     """
 
     effort: float = number(0.0, "N m")
@@ -83,8 +82,8 @@ class Machine:
         description: One line.
         base: What carries the joints.
         servo: How joints are commanded.
-        joints: Limits of each joint with one degree of freedom, by its name.
-        patches: The unread `[[patch]]` tables, for `plantar.sim.body_skin.surface`.
+        joints: Limits of each joint, by name.
+        patches: Unread `[[patch]]` tables, for `plantar.sim.body_skin.surface`.
     """
 
     name: str
@@ -108,16 +107,16 @@ class Machine:
 
     @property
     def posture(self) -> NDArray[np.float64]:
-        """Position (k,) of each joint in the posture in rad or m."""
+        """Joint positions (k,) of the posture in rad or m."""
         slides = {j.name for j in self.spec().joints if j.type == mujoco.mjtJoint.mjJNT_SLIDE}
         return np.array([t.posture if n in slides else math.radians(t.posture) for n, t in self.joints.items()])
 
     def spec(self) -> Any:
-        """The machine alone as a new `mujoco.MjSpec`: a motor a joint, named as it, without the file's surroundings,
-        actuators and sensors. Its geoms touch obstacles, not each other.
+        """The machine alone as a new `mujoco.MjSpec`: a motor a joint, without the file's surroundings, actuators and
+        sensors. Its geoms touch obstacles, not each other.
 
         Raises:
-            RobotError: If the model cannot be read.
+            RobotError: If the model is unreadable.
         """
         spec = _parsed(self.model_file, f"machine '{self.name}'")
         for part in ("keys", "equalities", "tendons", "pairs", "excludes", "sensors", "actuators", "lights"):
@@ -141,9 +140,7 @@ class Machine:
         return spec
 
     def ranges(self, model: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Lowest and highest position (k,) of each joint in rad or m, of an MjModel with the machine; infinite without
-        a stop.
-        """
+        """Lowest and highest position (k,) of each joint in rad or m, of an MjModel; infinite without a stop."""
         joints = [model.joint(name) for name in self.joints]
         held = np.array([bool(joint.limited[0]) for joint in joints])
         low, high = np.array([joint.range for joint in joints]).T
@@ -156,10 +153,10 @@ def builtin_machines() -> tuple[str, ...]:
 
 
 def load_machine(name: str | os.PathLike[str]) -> Machine:
-    """Load a machine by its built-in name (`builtin_machines()`) or the path of a TOML.
+    """Load a machine by built-in name (`builtin_machines()`) or TOML path.
 
     Raises:
-        RobotError: If the name is unknown, or the file or its model is not valid; the message names the field.
+        RobotError: If unknown or not valid.
 
     Example:
         >>> load_machine("planar-arm").base.kind

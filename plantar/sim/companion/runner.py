@@ -29,14 +29,14 @@ __all__ = ["Companion"]
 
 
 class Companion(Run):
-    """A scene of the companion, built and ready to run; `seed` draws sensor noise and what the experiment leaves open.
+    """A scene, ready to run; `seed` draws sensor noise and what the experiment leaves open.
 
     Attributes:
         skin: The machine's skin sensor.
 
     Raises:
         RobotError: If the machine is not valid.
-        SceneError: If the scene cannot be simulated.
+        SceneError: If it cannot be simulated.
     """
 
     def __init__(self, scene: CompanionScene, seed: int) -> None:

@@ -1,4 +1,4 @@
-"""A hand, and then an object without mass, come near the robot's hand: it is repelled and never touched (T 3.3.1.1)."""
+"""A hand, then an object without mass, come near the robot's hand, which is repelled and never touched (T 3.3.1.1)."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class FeatherSettings(Settings):
         speed: Mean speed; each seed has its own.
         beyond: How far they go beyond the hand's first place.
         moved: Least way of the repelled hand.
-        early: Largest way of the hand before a visitor is within the range.
+        early: Largest way of the hand before a visitor is in range.
     """
 
     speed: float = number(0.05, "m/s", 0.001, 1.0)
@@ -48,7 +48,7 @@ class FeatherControl(StandingControl):
     """How the machine is repelled.
 
     Attributes:
-        proximity: Whether what is near repels it.
+        proximity: Whether nearness repels it.
         range: Distance from which it does.
         stiffness: Virtual force of one taxel per metre of used range.
     """
@@ -60,7 +60,7 @@ class FeatherControl(StandingControl):
 
 
 class Feather(StandingExperiment):
-    """Two visitors of one of the hands, each towards a random taxel of palm or back, in the order of T 3.3.1.1."""
+    """Two visitors of one hand, each towards a random taxel of palm or back, in T 3.3.1.1's order."""
 
     settings_type: ClassVar = FeatherSettings
     control_type: ClassVar = FeatherControl

@@ -42,7 +42,7 @@ class ForceTrackingSettings(Settings):
         force: Mean of the wanted force.
         amplitude: Amplitude of its sine.
         distance: Wanted distance before contact.
-        contact: Time at which the contact phase is activated; 0 for never.
+        contact: When the contact phase is activated; 0 for never.
         gap: Distance of hand and object at first.
         pitch: Range of the object's lean back in degrees, drawn by the seed; below 0 it hangs over.
         yaw: Range of its first turn about the vertical in degrees, drawn by the seed.
@@ -54,10 +54,10 @@ class ForceTrackingSettings(Settings):
         person: Windows in which a person comes near the base.
         turn: When the object is turned about the vertical, and back.
         turn_angle: In degrees.
-        largest_free: Limit of the RMS error of the force without interactions; 0 for none.
-        largest_disturbed: Limit of it with interactions; 0 for none.
+        largest_free: Limit of the force's RMS error without interactions; 0 for none.
+        largest_disturbed: The same with interactions; 0 for none.
         tolerance: Limit of the distance's error where the hand stays without contact.
-        guided: Least distance by which touches before contact should guide the hand.
+        guided: Least distance by which touches before contact guide the hand.
     """
 
     duration: float = number(30.0, "s", 0.5, 600)
@@ -138,7 +138,7 @@ class ForceTracking(Experiment):
         self._places: dict[str, NDArray[np.float64]] = {}
 
     def _pushes(self) -> list[Push]:
-        """Touches in pairs that cancel: the same force, time and place, from opposite sides."""
+        """Touches in pairs that cancel, from opposite sides."""
         found: list[Push] = []
         for begin, end in self.settings.touch:
             time = begin
@@ -274,7 +274,7 @@ class ForceTracking(Experiment):
         return any(begin <= time < end + _AFTER for begin, end in spans)
 
     def _clearance(self, world: World) -> float:
-        """Distance in m of the person from the base's footprint, negative inside."""
+        """Distance in m of person and base footprint, negative inside."""
         place = world.data.body("person").xpos[:2]
         base, rotation = world.pose(self.machine.base.link)
         local = rotation[:2, :2].T @ (place - base[:2])

@@ -1,4 +1,4 @@
-"""Many hands press on a standing robot, and hug it; it yields and keeps its balance (T 3.2.3.1)."""
+"""Many hands press on a standing robot, and hug it; it keeps its balance (T 3.2.3.1)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _HANDS = ("hand palm", "hand back")
 
 
 class Hug(PressedExperiment):
-    """Pads press on all ten instances in turn, then those on torso, hips and arms together (T 3.2.3.1)."""
+    """Pads press on ten instances in turn, then on torso, hips and arms together."""
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
         super().__init__(machine, settings, control, seed)

@@ -1,4 +1,4 @@
-"""Intentional contact (T 3.4.2): the tip of an arm reaches its goal among things that it may push, gently."""
+"""Intentional contact (T 3.4.2): an arm's tip reaches its goal among things that it may push gently."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ class ReachSettings(Settings):
         tip_link: Link of the tip.
         tip: The tip in its frame in m.
         layout: Kind of layout; "any" takes them in turn by the seed.
-        force_limit: epsilon_c of T Table 1: the tolerable force on what is touched.
+        force_limit: epsilon_c of T Table 1: tolerable force on what is touched.
         near: Least distance of the goal.
         far: Largest.
-        least_angle: Least direction to the goal from the tip, counter-clockwise from x.
+        least_angle: Least direction from tip to goal, counter-clockwise from x.
         largest_angle: Largest.
-        half_height: Half height of the obstacles, whose middle is at the tip's height.
-        tolerance: Distance from the goal at which it is reached.
+        half_height: Of the obstacles, whose middle is at the tip's height.
+        tolerance: Distance at which the goal is reached.
     """
 
     duration: float = number(40.0, "s", 1.0, 600.0)
@@ -61,7 +61,7 @@ class ReachSettings(Settings):
 
 
 class IntentionalContactExperiment(Experiment):
-    """A layout drawn by the seed; done when the tip has stayed at the goal for half a second."""
+    """A layout drawn by the seed; done once the tip stays at the goal for half a second."""
 
     settings_type = ReachSettings
     control_type = ReachControl
@@ -111,7 +111,7 @@ class IntentionalContactExperiment(Experiment):
         return self._hand
 
     def act(self, world: World, time: float) -> None:
-        """Note the force of parts without skin on the posts in the `world` at `time` in s, before the next step."""
+        """Note the force of parts without skin on the posts in the `world` at `time` in s."""
         posts = list(self._posts.values())
         found = feet_contacts(world.model, world.data, [{geom} for geom in posts])
         for name, contacts in zip(self._posts, found, strict=True):

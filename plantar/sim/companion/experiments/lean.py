@@ -1,8 +1,4 @@
-"""A robot leans on a table with one forearm and reaches farther than its feet can hold, one of them on an edge.
-
-The forearm is lowered until its skin measures the table; then it is a contact like the feet. The soles' taxels measure
-which part of them is on the ground.
-"""
+"""A robot leans on a table with one forearm and reaches beyond its feet, one of them on an edge."""
 
 from __future__ import annotations
 
@@ -38,7 +34,7 @@ class LeanSettings(Settings):
 
     Attributes:
         beyond: Distance of the centre of mass beyond the front of the ground under the soles.
-        reach: Distance of the left hand's target from the middle of the feet, forward.
+        reach: Forward distance of the left hand's target from the middle of the feet.
     """
 
     table_height: ClassVar[float] = 1.05  # m: height of the table's top that the robot expects
@@ -51,12 +47,12 @@ class LeanSettings(Settings):
 
     @property
     def hand_target(self) -> NDArray[np.float64]:
-        """Target (3,) of the left hand, from the middle of the feet in m."""
+        """Left hand's target (3,) from the middle of the feet in m."""
         return np.array([self.reach, 0.42, 1.15])
 
 
 class Lean(StandingExperiment):
-    """A table, ground under one sole and under 30 % of the other."""
+    """A table, ground under one sole and 30 % of the other."""
 
     settings_type: ClassVar = LeanSettings
     control_type: ClassVar = LeanControl

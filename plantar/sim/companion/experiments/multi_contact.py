@@ -1,4 +1,4 @@
-"""Thirteen contacts on a robot on its left leg: it yields to each and keeps its balance (T 3.2.4.1)."""
+"""Thirteen contacts on a robot on its left leg: it yields and keeps its balance (T 3.2.4.1)."""
 
 from __future__ import annotations
 
@@ -13,11 +13,10 @@ _LEG = {f"right {part.replace('_', ' ')}": (f"right_{part}",) for part in ("uppe
 
 
 class MultiContact(PressedExperiment):
-    """Pads press on thirteen instances, one after the other, then on all of them.
+    """Pads press on thirteen instances in turn, then on all.
 
-    T 3.2.4.1 has the center of mass below the skin, where thirteen links with six rows leave no direction for it: the
-    free leg drifts until the standing hip cannot hold it. Here it shares the level of the support, and skin and posture
-    the last one, as in T 3.2.3.1.
+    T 3.2.4.1 has the center of mass below the skin, where thirteen links leave no direction for it. Here it shares the
+    level of the support, skin and posture the last one.
     """
 
     sides: ClassVar = ("left",)

@@ -1,7 +1,7 @@
 """A painful pressure makes the robot give up its hand's pose: a seventh of the area needs a seventh of the force.
 
-T 3.4.1.1: support; the right hand's position; its orientation; pressure-driven compliance; posture. Above 10 N of
-virtual force both tasks of the hand are dropped until it is calm again.
+T 3.4.1.1: support; right hand's position; its orientation; pressure-driven compliance; posture. Above 10 N of virtual
+force the hand's tasks are dropped until it is calm.
 """
 
 from __future__ import annotations
@@ -43,9 +43,9 @@ class NociceptionSettings(Settings):
     """Requirements of the reflex.
 
     Attributes:
-        tolerance: Largest deviation of the ratio of threshold forces from that of the areas.
-        jump: Largest change of any joint's torque in one period while priorities change, as a share of its limit; noise
-            of the sensors alone makes 8 %.
+        tolerance: Largest deviation of the threshold forces' ratio from that of the areas.
+        jump: Largest change of a joint's torque in one period while priorities change, as a share of its limit; sensor
+            noise alone makes 8 %.
         retreat: How far the hand has to give way.
     """
 
@@ -82,7 +82,7 @@ class _Probe:
 
 
 class Nociception(StandingExperiment):
-    """Two probes, in an order of the seed, press harder and harder on the back of the right hand until it gives way."""
+    """Two probes, in an order of the seed, press harder and harder on the right hand's back until it gives way."""
 
     settings_type: ClassVar = NociceptionSettings
     control_type: ClassVar = NociceptionControl

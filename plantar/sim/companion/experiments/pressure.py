@@ -1,4 +1,4 @@
-"""A probe of one taxel and one of a hundred press on the torso with the same force: the area decides (T 3.2.5.1)."""
+"""Probes of one and a hundred taxels press on the torso with the same force: the area decides (T 3.2.5.1)."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class PressureSettings(Settings):
     """Force of the probes.
 
     Attributes:
-        force: Mean force of both probes as a share of body weight; each seed has its own.
+        force: Mean force of both as a share of body weight; each seed has its own.
         tolerance: Largest deviation from the area law.
     """
 
@@ -53,7 +53,7 @@ class PressureControl(StandingControl):
     """How the machine yields.
 
     Attributes:
-        by_pressure: Whether the area counts; otherwise the force alone, as if it were on `sensitivity_taxels`.
+        by_pressure: Whether the area counts; otherwise the force alone, as if on `sensitivity_taxels`.
     """
 
     by_pressure: bool = switch(True)
@@ -78,16 +78,16 @@ class _Push:
 
     @property
     def speed(self) -> float:
-        """Norm of the velocities of the waist's joints in rad/s, fitted in the window, or NaN."""
+        """Norm of the waist joints' velocities in rad/s, fitted in the window, or NaN."""
         if len(self.times) < 2:
             return float("nan")
         return float(np.linalg.norm(np.polyfit(self.times, np.array(self.joints), 1)[0]))
 
 
 class Pressure(StandingExperiment):
-    """Two probes in a random order and place, with T 3.2.5.1's order of tasks.
+    """Two probes in random order and place, with T 3.2.5.1's order of tasks.
 
-    The balance holds the base: the torso then moves about the waist alone.
+    The balance holds the base: the torso moves about the waist alone.
     """
 
     settings_type: ClassVar = PressureSettings

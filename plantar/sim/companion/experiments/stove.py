@@ -1,7 +1,7 @@
 """A hand that works over a hot plate draws back when its skin gets warm (T 3.3.2.1).
 
-The order is T's: support; temperature-driven compliance; the right hand's pose; posture. The posture also shares the
-level of heat: skin cools slowly, and a repelled hand would drift.
+T's order: support; temperature-driven compliance; right hand's pose; posture, here also at the level of heat, or a
+repelled hand would drift.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ class StoveControl(StandingControl):
 
 
 class Stove(StandingExperiment):
-    """The right palm circles over the plate at a random height and radius, from a random side."""
+    """The right palm circles over the plate at random height, radius and side."""
 
     settings_type: ClassVar = StoveSettings
     control_type: ClassVar = StoveControl
@@ -131,7 +131,7 @@ class Stove(StandingExperiment):
         self._silent = silent
 
     def _target(self, time: float) -> Any:
-        """Wanted place (3,) of the palm: on its way to the plate, then on a circle above it."""
+        """Wanted place (3,) of the palm: towards the plate, then on a circle."""
         share = min(1.0, max(0.0, (time - _BEGIN) / _WAY))
         angle = self._phase + 2.0 * math.pi * time / _CIRCLE
         circle = np.array([self._radius * math.cos(angle), self._radius * math.sin(angle), self.height])

@@ -1,1 +1,1 @@
-"""A hand that works on surfaces: controller, actors and record."""
+"""A hand that works on surfaces: controller, actors, record."""

@@ -1,4 +1,4 @@
-"""Hands that push a machine's links, and a person who walks up to its base."""
+"""Hands that push a machine's links, and a person at its base."""
 
 from __future__ import annotations
 
@@ -45,10 +45,9 @@ class Push:
     Attributes:
         start: In s.
         end: In s.
-        link: Body that is pushed.
         along: Place in m along the link's z axis.
-        angle: Direction about it from which the push comes, in rad from the link's x axis.
-        radius: Distance of the surface from the axis in m.
+        angle: Direction about it of the push, in rad from the link's x axis.
+        radius: Distance of surface and axis in m.
         force: In N.
     """
 
@@ -66,7 +65,7 @@ class Push:
 
 
 class Fist:
-    """A person's hand, which pushes with a force and follows what it pushes."""
+    """A person's hand that pushes and follows what it pushes."""
 
     def __init__(self, pushes: list[Push]) -> None:
         self.pushes = pushes
@@ -80,7 +79,7 @@ class Fist:
         shape.contype = shape.conaffinity = 0  # it pushes skin alone
 
     def act(self, world: World, time: float, measured: float) -> None:
-        """Move in the `world` for a physics step at `time` in s, by its own `measured` force in N."""
+        """Move in the `world` for a physics step at `time` in s, by its `measured` force in N."""
         push = next((p for p in self.pushes if p.start <= time < p.end), None)
         place = world.model.body("fist").mocapid[0]
         if push is None:
@@ -109,7 +108,7 @@ class Visit:
         end: In s.
         goal: Nearest place (2,) in m, in the base's frame at the start.
         far: First place (2,), likewise.
-        speed: Walking speed in m/s.
+        speed: In m/s.
     """
 
     start: float
@@ -126,7 +125,7 @@ class Visit:
 
 
 class Visitor:
-    """A person who walks up to the base and leaves: an upright cylinder for the distance sensors."""
+    """A person who walks up to the base and leaves: an upright cylinder."""
 
     def __init__(self, visits: list[Visit]) -> None:
         self.visits = visits

@@ -1,4 +1,4 @@
-"""What happens to a hand over time, drawn like A's Figures 5 to 8."""
+"""A hand over time, drawn like A's Figures 5 to 8."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class ForceRecord:
             path: File of the figure.
             title: Its title.
             windows: Begin and end in s of each kind of interaction; shaded.
-            force: Whether there is a contact phase, and the force is drawn.
+            force: Whether there is a contact phase.
 
         Returns:
             The path.

@@ -1,4 +1,4 @@
-"""The hierarchy of A (Table 1) for a hand with skin on a mobile base, in its two phases."""
+"""The hierarchy of A (Table 1) for a hand with skin on a mobile base, in two phases."""
 
 from __future__ import annotations
 
@@ -42,8 +42,8 @@ class HandControl(CompanionControl):
     Attributes:
         approach_speed: Speed of the hand towards the surface.
         free_damping: D_1 / Lambda_1 while the hand measures zero.
-        guidance_stiffness: Stiffness that keeps the hand's place before contact while the arm is not touched; critical,
-            D_3^2 / (4 Lambda_3). At 0 it drifts with errors of the arm's weight.
+        guidance_stiffness: Keeps the hand's place before contact while the arm is not touched; critical, D_3^2 / (4
+            Lambda_3). At 0 it drifts with errors of the arm's weight.
         base_stiffness: K_c of the base along x and y, and in N m/rad about z.
         base_damping: D_c of the base likewise.
         wrist: Whether the wrist complies (ablation).
@@ -91,17 +91,16 @@ class HandControl(CompanionControl):
 
 
 class HandController:
-    """Controls distance or force of the hand, turns it to the surface, and lets it be guided or keeps its place; base
-    and posture have the rest.
+    """Controls distance or force of the hand, turns it to the surface, and lets it be guided or keeps its place.
 
     Args:
-        machine: A mobile base, and patches "hand" on the hand's link and others on the arm.
+        machine: A mobile base, patches "hand" on the hand's link and others on the arm.
 
     Attributes:
         force: First task: force or distance.
         posture: Task of the lowest level; its target and target velocity may be changed.
         wanted_force: f_d in N.
-        phases: The present arrangement of tasks.
+        phases: Present arrangement of tasks.
     """
 
     def __init__(self, machine: Machine, skin: BodySkin, settings: HandControl) -> None:
@@ -152,24 +151,24 @@ class HandController:
         self.wanted_force = 0.0
 
     def _distance_stiffness(self) -> float:
-        """Newtons per metre, so that the distance's error decays at its rate against the damping."""
+        """Stiffness in N/m at which the distance's error decays at its rate."""
         s = self.settings
         return s.distance_rate * s.force_damping / s.force_gain
 
     def enter_contact(self, time: float) -> None:
-        """The user activates the contact phase at a time in s (A 4.2.2)."""
+        """Activate the contact phase at a time in s (A 4.2.2)."""
         if self.phases.enter(True, time):
             self._stack.levels = [list(level) for level in self.phases.levels]
             self._place.target_position = None
             self._change.begin(time)
 
     def scan(self, points: NDArray[np.float64]) -> None:
-        """Take the nearest points (m, 2) of obstacles in the base's frame in m."""
+        """Take the nearest points (m, 2) of obstacles, base frame, in m."""
         self._keep_clear.obstacles = points
 
     def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
-        """Returns the torque (k,) in N m or N of each joint for the next period, by the `robot` as measured and its
-        skin's `reading`.
+        """Returns each joint's torque (k,) in N m or N for the next period, by the measured `robot` and its skin's
+        `reading`.
         """
         self.force.weight = self.wrist.weight = self.phases.weight(robot.time)
         self.force.target_force = self.wanted_force
@@ -179,7 +178,7 @@ class HandController:
         return self._change.blend(torque, robot.time)
 
     def _known(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64] | None:
-        """Generalized force (n,) of the wanted force on the hand, and of the arm's skin."""
+        """Generalized force (n,) of the hand's wanted force and the arm's skin."""
         if not self._feeds_forward:
             return None
         step = self.settings.period / _TAKEN_OVER
@@ -195,7 +194,7 @@ class HandController:
 
 
 class _BentElbow(Task):
-    """Keeps the elbow off the ends of its range, critically damped for an inertia of 1 kg m^2."""
+    """Keeps the elbow off its range's ends, critically damped for an inertia of 1 kg m^2."""
 
     def __init__(self, joint: int, settings: HandControl) -> None:
         self._joint = joint

@@ -1,1 +1,1 @@
-"""Reaching a goal among obstacles that may be touched: layouts, controller and record."""
+"""Reaching a goal among obstacles that may be touched."""

@@ -1,4 +1,4 @@
-"""Random layouts of obstacles between a tip and its goal, each solvable by pushing what can be moved."""
+"""Random layouts of obstacles between a tip and its goal, each solvable by pushing."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Post:
         name: Of its body and geom.
         place: (2,) at first in m.
         radius: In m.
-        friction: Force in N below which it does not slide; 0 for one that is fixed.
+        friction: Force in N below which it does not slide; 0 if fixed.
     """
 
     name: str
@@ -38,7 +38,7 @@ class Post:
     friction: float = 0.0
 
     def add_to(self, spec: Any, height: float, half: float) -> None:
-        """Add it to an `mujoco.MjSpec` `spec`, its middle at a `height` and with half its height `half`, in m."""
+        """Add it to a `mujoco.MjSpec` `spec`, its middle at a `height`, with half height `half`, in m."""
         body = spec.worldbody.add_body(name=self.name, pos=[*self.place, height])
         size = [self.radius, half, 0.0]
         shape = body.add_geom(name=self.name, type=mujoco.mjtGeom.mjGEOM_CYLINDER, size=size)
@@ -68,10 +68,10 @@ def random_layout(
     reach: tuple[tuple[float, float], tuple[float, float]],
     friction: tuple[float, float],
 ) -> Layout:
-    """A layout whose fixed posts leave room for the tip along the straight way to the goal.
+    """A layout whose fixed posts leave room for the tip along the straight way.
 
-    Three posts in a bow, too close for the tip to pass between, are a pocket in which a potential field has its
-    minimum. An outer one is fixed in the second kind.
+    Three posts in a bow, too close for the tip, are a pocket in which a potential field has its minimum. An outer one
+    is fixed in the second kind.
 
     Args:
         rng: Random numbers.

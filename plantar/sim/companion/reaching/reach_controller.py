@@ -1,4 +1,4 @@
-"""A tip that goes to its goal among unknown things: avoided, touched on purpose, or both added up (T 3.4.2)."""
+"""A tip that goes to its goal among unknown things (T 3.4.2)."""
 
 from __future__ import annotations
 
@@ -40,14 +40,14 @@ class ReachControl(CompanionControl):
         policy: "intentional" for T Table 1; "avoid" for its first arrangement alone; "fields" for attraction and
             repulsion added up.
         speed: V_max of T 3.44 while it avoids.
-        range: Sensing range that is used, d_range of T 3.30.
+        range: Used sensing range, d_range of T 3.30.
         proximity: k_prox of T 3.30 of a taxel.
         yielding: Gain on contact forces, tau_c of T 3.41.
         slow: epsilon_v of T Table 1.
-        stuck: Time for which it has to be slow before it approaches.
+        stuck: How long it has to be slow before it approaches.
         transition: Time in which priorities change.
-        acceleration: Largest acceleration of a joint: things on two sides leave the goal almost no direction.
-        joint_speed: Largest speed of a joint, so that no link strikes an unseen thing.
+        acceleration: Largest of a joint: things on two sides leave the goal almost no direction.
+        joint_speed: Largest of a joint, so that no link strikes an unseen thing.
         upright: Whether the tip's orientation is held, on the last level.
     """
 
@@ -74,12 +74,12 @@ class ReachController:
     """Tasks, policy and transitions.
 
     Args:
-        machine: The machine; the joints of a mobile base are held.
+        machine: The machine; joints of a mobile base are held.
         tip: Link of the tip, and the tip (3,) in its frame in m.
         force_limit: Tolerable force in N.
 
     Attributes:
-        goal: The task of the tip's position.
+        goal: Task of the tip's position.
         signs: Inputs of the policy's choice.
     """
 
@@ -121,8 +121,8 @@ class ReachController:
         self._stack = TaskStack([], fusion=weighted_sum if s.policy == "fields" else within)
 
     def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
-        """Returns torques or forces (k,) for the next period, gravity included, by the `robot` as measured and its
-        skin's `reading`.
+        """Returns torques or forces (k,) for the next period, gravity included, by the measured `robot` and its skin's
+        `reading`.
         """
         self.signs = self._look(robot, reading)
         if self.settings.policy == "intentional" and self.policy.update(self.signs, robot.time):
@@ -135,9 +135,7 @@ class ReachController:
         return self._blend.blend(self._stack.step(robot, reading).torque, robot.time)
 
     def _look(self, robot: RobotDynamics, reading: SkinReading) -> ContactSigns:
-        """Signs of skin and tip (T Table 1); speed and nearness are smoothed, since both flicker at the end of the
-        range.
-        """
+        """Signs of skin and tip (T Table 1); speed and nearness are smoothed against flicker."""
         period = robot.time - self._time if np.isfinite(self._time) else 0.0
         self._time = robot.time
         share = period / (_SMOOTHED + period)

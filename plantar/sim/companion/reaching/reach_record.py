@@ -1,4 +1,4 @@
-"""What happened while a tip reached for its goal, and the figure of it."""
+"""A tip's way to its goal, and its figure."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _POSES = 6  # of the arm that are drawn
 
 
 class ReachRecord:
-    """Notes of a run of a `machine`, whose links are drawn, with a tolerable force `limit` in N."""
+    """Notes of a run of a `machine`, with a tolerable force `limit` in N."""
 
     def __init__(self, machine: Machine, layout: Layout, limit: float) -> None:
         self._layout, self._limit = layout, limit
@@ -33,9 +33,7 @@ class ReachRecord:
         self._posts: list[NDArray[np.float64]] = []
 
     def add(self, world: World, time: float, tip: NDArray[np.float64], force: float, hand: ReachController) -> None:
-        """Note the true state of the `world` at `time` in s, the `tip` (3,) in m, the true `force` in N and the
-        controller `hand`.
-        """
+        """Note the true `world` at `time` in s, the `tip` (3,) in m, the true `force` in N and the controller `hand`."""
         signs = hand.signs
         share = hand.policy.range_share
         self._rows.append((time, force, signs.contact, signs.near, min(signs.speed, 1.0), share))
@@ -48,8 +46,8 @@ class ReachRecord:
         return [name for name, _ in groupby(self._arrangements)]
 
     def plot(self, path: Path, title: str) -> Path:
-        """Draw T Figures 24-25 at `path` with a `title`: the way from above, and force, nearness, speed and arrangement
-        over time. Returns the path.
+        """Draw T Figures 24-25 at `path` with a `title`: the way from above, force, nearness, speed and arrangement.
+        Returns the path.
         """
         figure, axes = new_figure(12.0, 6.5, 4, 2, squeeze=False, gridspec_kw={"width_ratios": [1.2, 1.0]})
         for axis in axes[:, 0]:

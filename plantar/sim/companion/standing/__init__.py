@@ -1,1 +1,1 @@
-"""A machine that stands on its feet: state, contacts and judge."""
+"""A machine that stands on its feet: state, contacts, judge."""

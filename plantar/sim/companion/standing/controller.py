@@ -1,4 +1,4 @@
-"""The controller of a machine that stands: base, filtered skin, and a stack of tasks."""
+"""The controller of a machine that stands: base, filtered skin, tasks."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ class StandingControl(CompanionControl):
     """How a standing machine is controlled.
 
     Attributes:
-        skin: Whether the skin's tasks are in the stack and contact forces are accounted for.
+        skin: Whether skin tasks are in the stack and contact forces are accounted for.
         gain: Factor on contact forces by which the robot yields; 1 as without friction and gears.
         lean: Share of the contacts' moment about the feet that the centre of mass is shifted against.
         lean_limit: Largest shift in m.
-        filter: Time constant in s of the low pass on each taxel's force.
+        filter: Time constant in s of each taxel force's low pass.
         balance: Stiffness of the centre of mass over the feet.
-        posture: Stiffness of the posture in N m/rad for a joint of 75 N m; others by their torque.
-        posture_damping: Damping of the posture likewise, in N m s/rad.
+        posture: Stiffness in N m/rad for a joint of 75 N m; others by their torque.
+        posture_damping: Likewise, in N m s/rad.
     """
 
     skin: bool = switch(True)
@@ -55,11 +55,11 @@ class StandingController:
     Args:
         stance: The standing feet, fixed to their first places.
         levels: Tasks by priority, below the support.
-        balance: The task of the centre of mass, which leans against contacts; or None.
-        before: Called with the machine and the filtered reading before each step, to change targets or levels.
+        balance: Task of the centre of mass, which leans against contacts; or None.
+        before: Called with machine and filtered reading before each step, to change targets or levels.
 
     Attributes:
-        active: Instances that were active at each step.
+        active: Active instances at each step.
         took: Time of each step in us.
         torque: Torque (k,) of the last step in N m.
     """
@@ -89,8 +89,8 @@ class StandingController:
         self._weight = GRAVITY * float(stance.model.body_subtreemass[0])
 
     def step(self, robot: Any, reading: SkinReading) -> NDArray[np.float64]:
-        """Returns the torque (k,) in N m for the next period, by the `robot` as measured, whose base is put on the
-        feet, and the skin's `reading`.
+        """Returns the torque (k,) in N m for the next period, by the measured `robot`, whose base is put on the feet,
+        and the skin's `reading`.
         """
         began = perf_counter()
         self.stance.locate(robot)
@@ -110,7 +110,7 @@ class StandingController:
         return self.torque
 
     def _filtered(self, reading: SkinReading) -> SkinReading:
-        """The reading with low-passed forces, so that yielding does not beat against the skin's stiffness."""
+        """The reading with low-passed forces, against beating with the skin's stiffness."""
         force = reading.force
         if np.isnan(force.sum()):
             force = np.nan_to_num(force)
@@ -125,7 +125,7 @@ class StandingController:
     def _external(
         self, robot: MujocoDynamics, measured: SkinReading
     ) -> tuple[NDArray[np.float64] | None, NDArray[np.float64]]:
-        """Generalized force (n,) on the skin, or None, and its moments (2,) about x and y at the feet."""
+        """Generalized force (n,) on the skin, or None, and moments (2,) about x and y at the feet."""
         wrenches = link_wrenches(self.skin, measured.force, measured.force >= self.skin.thresholds)
         self.active.append(len(wrenches))
         if not wrenches:
@@ -143,7 +143,7 @@ class StandingController:
         return total, np.array([mx, my])
 
     def _lean(self, balance: CenterOfMass, moment: NDArray[np.float64]) -> None:
-        """Shift the centre of mass until its weight balances moments (2,) about the feet (K 9 corrected)."""
+        """Shift the centre of mass until its weight balances moments (2,) at the feet (K 9 corrected)."""
         s = self.settings
         wanted = s.lean / self._weight * np.array([-moment[1], moment[0]])
         wanted *= min(1.0, s.lean_limit / max(float(np.hypot(*wanted)), 1e-9))

@@ -1,8 +1,8 @@
 """How a hot plate warms taxels: radiation, and the warm air above it.
 
-A taxel is a layer of temperature T: C T' = eps^2 sigma F (T_p^4 - T^4) - h (T - T_air), with the view factor F of the
-plate's disc, summed over small areas as cos cos dA / (pi r^2) (Incropera, Fundamentals of heat and mass transfer, ch.
-13). Radiation to the room is part of h.
+A taxel's temperature T: C T' = eps^2 sigma F (T_p^4 - T^4) - h (T - T_air), with the view factor F of the plate's disc,
+summed over small areas as cos cos dA / (pi r^2) (Incropera, Fundamentals of heat and mass transfer, ch. 13). h includes
+radiation to the room.
 """
 
 from __future__ import annotations
@@ -29,9 +29,8 @@ class PlateSettings(Settings):
         room: Of the room.
         radius: Of the plate: a cooker's small plate.
         emissivity: Of plate and skin: oxidised iron and dark silicone rubber.
-        capacity: Heat capacity of a taxel's area: 0.5 mm of silicone rubber (1100 kg/m^3, 1460 J/(kg K)) and its
-            substrate.
-        loss: Heat transfer to the air: natural convection of a small plate and radiation to the room.
+        capacity: Heat capacity of a taxel's area: 0.5 mm of silicone rubber (1100 kg/m^3, 1460 J/(kg K)) and substrate.
+        loss: Heat transfer to the air: natural convection and radiation to the room.
         plume: Height above the plate at which the air's excess temperature has fallen to 37 %.
     """
 
@@ -45,7 +44,7 @@ class PlateSettings(Settings):
 
 
 class HotPlate:
-    """A level round plate, with its upper face about `middle` (3,) in m, that warms taxels.
+    """A level round plate, upper face about `middle` (3,) in m, that warms taxels.
 
     Attributes:
         temperature: Of the taxels (count,) in degC.
@@ -61,9 +60,7 @@ class HotPlate:
         self._areas = r * (settings.radius / _RINGS) * (2.0 * math.pi / _SECTORS)
 
     def view_factors(self, points: NDArray[np.float64], outward: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Returns the share (n,) of the plate in the view of taxels at `points` (n, 3) in m with normals `outward` (n,
-        3).
-        """
+        """Returns the plate's share (n,) of the view of taxels at `points` (n, 3) in m with normals `outward` (n, 3)."""
         to = self._spots - points[:, None]
         square = np.maximum(np.einsum("nsi,nsi->ns", to, to), 1e-8)
         at_taxel = np.maximum(np.einsum("nsi,ni->ns", to, outward), 0.0)
@@ -72,7 +69,7 @@ class HotPlate:
 
     def step(self, points: NDArray[np.float64], outward: NDArray[np.float64], period: float) -> NDArray[np.float64]:
         """Warm taxels at `points` (n, 3) in m with normals `outward` (n, 3) for a `period` in s, short against C / h.
-        Returns their temperatures (n,) in degC.
+        Returns temperatures (n,) in degC.
         """
         s = self.settings
         hot, own = s.temperature + _KELVIN, self.temperature + _KELVIN

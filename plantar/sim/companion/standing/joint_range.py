@@ -1,4 +1,4 @@
-"""Keeps joints off the ends of their range by a repulsive field at each end."""
+"""Keeps joints off their range's ends by repulsive fields."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ __all__ = ["JointRange"]
 
 
 class JointRange(Task):
-    """Pushes joints back that are near an end of their range, one row each.
+    """Pushes back joints near an end of their range, one row each.
 
     Args:
         low: Lower ends (k,) in rad or m, in the order of `RobotDynamics.joints`; -inf for none.
         high: Upper ends (k,).
-        margin: Distance to an end in rad or m from which on a joint is pushed back.
+        margin: Distance to an end in rad or m where pushing begins.
         stiffness: Torque in N m per rad of used margin, one or (k,).
         damping: Torque in N m per rad/s towards the end, one or (k,).
     """

@@ -1,4 +1,4 @@
-"""The controller of a robot that leans on a table with one forearm (see `plantar.sim.companion.experiments.lean`)."""
+"""The controller of a robot that leans on a table with one forearm."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class LeanControl(StandingControl):
 
 
 class Aim:
-    """Integrates the error of a soft task: 20 N of difference between plan and measurement move it by a centimetre.
+    """Integrates the error of a soft task: 20 N of deviation move it by a centimetre.
 
     Args:
         axes: Factor (3,) of each axis; 0 for none.
@@ -74,7 +74,7 @@ class Aim:
 
     def at(self, target: NDArray[np.float64], reached: NDArray[np.float64], period: float) -> NDArray[np.float64]:
         """Returns the aim (3,) in m for a `target` (3,) of which `reached` (3,) is reached, a `period` in s after the
-        last call.
+        last.
         """
         self.ahead += period / _CATCHING_UP * (target - reached) * self._axes
         self.ahead *= min(1.0, _MOST_AHEAD / max(float(np.linalg.norm(self.ahead)), _MOST_AHEAD))
@@ -84,13 +84,13 @@ class Aim:
 class LeanController:
     """Settle, bring the forearm over the table, lower it until it touches, lean, reach.
 
-    The load is shared among feet and forearm within their friction cones; the forearm presses with its share as its
-    skin measures it. Without skin it is held where the table is expected. Of the `experiment` only stance and first
-    posture are used.
+    Feet and forearm share the load within their friction cones; the forearm presses with its share as its skin measures
+    it. Without skin it is held at the table's expected place. Of the `experiment` only stance and first posture are
+    used.
 
     Attributes:
         began: Begin of each phase in s by its name.
-        areas: The supported part of each sole as measured, about its middle.
+        areas: Supported part of each sole as measured, about its middle.
     """
 
     def __init__(self, experiment: StandingExperiment, skin: BodySkin) -> None:
@@ -125,7 +125,7 @@ class LeanController:
         self._paths: dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]] = {}
 
     def step(self, robot: Any, reading: SkinReading) -> NDArray[np.float64]:
-        """Returns torques (k,) for the next period in N m, by the `robot` as measured and its skin's `reading`."""
+        """Returns torques (k,) for the next period in N m, by the measured `robot` and its skin's `reading`."""
         self.stance.locate(robot)
         self._see_ground(reading)
         measured = float(np.nan_to_num(reading.force[self.skin.slices[PATCH]]).sum())
@@ -213,7 +213,7 @@ class LeanController:
         return places / total
 
     def _see_ground(self, reading: SkinReading) -> None:
-        """Find the supported part of each sole, and limit its load to it; all before the first touch."""
+        """Find the supported part of each sole, and limit its load to it."""
         for link, middle in self.stance.feet.items():
             own = self.skin.slices[f"{link}_sole"]
             places = self.skin.positions[own][reading.distance[own] < _NEAR] - middle
@@ -229,7 +229,7 @@ class LeanController:
 
 
 def _foremost(polygon: NDArray[np.float64], y: float) -> float:
-    """Largest x of a convex polygon (m, 2) at some y; of all where y is outside its range."""
+    """Largest x of a convex polygon (m, 2) at some y, or of all outside its range."""
     found = []
     for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
         if min(a[1], b[1]) <= y <= max(a[1], b[1]) and a[1] != b[1]:

@@ -1,4 +1,4 @@
-"""Pads that press on a link along its normal and follow it, and their contacts over time."""
+"""Pads that press on a link along its normal and follow it."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ _COLOUR = (0.85, 0.6, 0.45, 1.0)
 
 
 class Pad:
-    """A cylinder or a box that is moved; its face stays on a taxel's normal.
+    """A moved cylinder or box; its face stays on a taxel's normal.
 
     Args:
         name: Body and geom are called "pad " and this.
-        taxel: Index in the patch of the taxel in the middle of its face.
-        face: Radius of its face in m.
-        stiffness: In N/m of the skin under its face, about.
+        taxel: Index in the patch of the taxel at the middle of its face.
+        face: Radius in m.
+        stiffness: Of the skin under its face in N/m, about.
 
     Attributes:
         wanted: Force in N; 0 or less lifts it off.
         parked: Whether it is far away.
-        middle: Place (3,) on the link of the middle of its face, in the link's frame in m.
+        middle: Middle (3,) of its face on the link, link frame, in m.
     """
 
     def __init__(self, name: str, patch: SkinPatch, taxel: int, face: float, stiffness: float) -> None:
@@ -68,9 +68,7 @@ class Pad:
         )
 
     def act(self, world: Any, force: float, period: float) -> None:
-        """Move it in the `world`, once a physics step, by its `force` in N now and the `period` in s since the last
-        call.
-        """
+        """Move it in the `world`, once a physics step, by its `force` in N and the `period` in s since the last call."""
         if self.wanted > 0.0:
             rate = np.clip((force - self.wanted) * _SETTLE / self._stiffness, -_APPROACH, _APPROACH)
             rate = rate if force > 0.0 else -min(_SEARCH, _SOFTLY * self.wanted / self._stiffness)
@@ -94,13 +92,13 @@ class Pad:
         mujoco.mju_mat2Quat(world.data.mocap_quat[number], np.ascontiguousarray(turned @ self._turn).ravel())
 
     def touching(self, world: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Target (3,) of its face in the world in m, and the direction (3,) into the link."""
+        """Target (3,) of its face in the world in m, and direction (3,) into the link."""
         origin, rotation = world.pose(self.patch.link)
         return origin + rotation @ self.middle, rotation @ self.inward
 
     def force(self, on_obstacles: dict[str, NDArray[np.float64]], rotation: NDArray[np.float64]) -> float:
-        """Returns the force in N along its axis, from the skin's wrenches `on_obstacles` and the pressed link's
-        `rotation` (3, 3).
+        """Returns the force in N along its axis, from the skin's wrenches `on_obstacles` and the link's `rotation` (3,
+        3).
         """
         return float(-on_obstacles[self.name][:3] @ (rotation @ self.inward))
 
@@ -115,7 +113,7 @@ class PlannedContact:
     Attributes:
         begin: In s; `hold` for how long.
         force: In N.
-        swell: Time in s over which its force grows; it fades in that time, and in 0.6 s at least.
+        swell: Time in s over which its force grows; it fades in that time, and 0.6 s at least.
         against: Link against which the yield is measured; empty for the centre of mass.
         yielded: Largest yield in m along the pad's first direction.
         measured: Largest true force in N.
@@ -133,7 +131,7 @@ class PlannedContact:
     _first: tuple[NDArray[np.float64], NDArray[np.float64]] | None = field(default=None, repr=False)
 
     def act(self, time: float, measured: float) -> None:
-        """Set the pad's wanted force at `time` in s, which grows from the first touch on, by the `measured` one."""
+        """Set the pad's wanted force at `time` in s, which grows from first touch, by the `measured` one."""
         left = self.begin + self.hold - time
         if time <= self.begin or left <= 0.0:
             self.pad.wanted = 0.0
@@ -165,9 +163,7 @@ class PlannedContact:
 
 
 def outer_taxel(robot: MujocoDynamics, patch: SkinPatch, trunk: str, rng: np.random.Generator) -> int:
-    """Returns a random taxel, of `rng`, in the middle of a `patch` that faces away from the `trunk` of a `robot` in its
-    posture.
-    """
+    """Returns a random taxel, of `rng`, in the middle of a `patch` that faces away from the `trunk` of a `robot`."""
     origin, rotation = robot.pose(patch.link)
     places = patch.positions @ rotation.T + origin
     outward = -(patch.rotations[:, :, 2] @ rotation.T)

@@ -1,4 +1,4 @@
-"""A standing machine under pads at many places: it yields to each and keeps its balance."""
+"""A standing machine under pads: it yields and keeps its balance."""
 
 from __future__ import annotations
 
@@ -49,12 +49,10 @@ class PressedSettings(Settings):
     """Forces, and limits of yielding.
 
     Attributes:
-        strength: Factor on the force of single contacts; 1 presses with up to 3 % of body weight on an upper arm and 4
-            % on the torso.
-        moment: Moment of all common contacts about the middle of the feet, as the shift of the centre of pressure of a
-            robot that does not lean against it.
-        yield_median: Median yield of limbs over that of the posture's springs alone: half of the gain of the skin's
-            forces.
+        strength: Factor on single contacts' force; 1 presses with up to 3 % of body weight on an upper arm and 4 % on
+            the torso.
+        moment: Of all common contacts about the middle of the feet, as the centre of pressure's shift without leaning.
+        yield_median: Median yield of limbs over that of the posture's springs alone: half of the skin forces' gain.
         yield_least: Least yield of every limb, likewise.
     """
 
@@ -114,7 +112,7 @@ class PressedExperiment(StandingExperiment):
     def press_together(self, names: Sequence[str]) -> None:
         """Plan common contacts after the single ones, those on the trunk from front or back.
 
-        They grow slowly, and exceed the moment that feet alone can balance: the robot has to lean.
+        They grow slowly beyond the moment that feet alone balance: the robot has to lean.
         """
         over = max(c.begin + c.hold for c in self.contacts)
         self.duration = over + _TOGETHER + 0.5
@@ -132,7 +130,7 @@ class PressedExperiment(StandingExperiment):
             contact.force *= min(factor, _STRONGEST)
 
     def _moment(self, contacts: Sequence[PlannedContact]) -> NDArray[np.float64]:
-        """Shift (2,) in m of the centre of pressure by contacts on the robot in its first posture."""
+        """Shift (2,) in m of the centre of pressure by contacts in the first posture."""
         middle = np.mean(list(self.stance.places.values()), axis=0)
         moment = np.zeros(3)
         for contact in contacts:
@@ -141,7 +139,7 @@ class PressedExperiment(StandingExperiment):
         return np.array([moment[1], -moment[0]]) / self.weight
 
     def _on_springs(self, contact: PlannedContact) -> float:
-        """Compliance in mm/N along a pad's normal of the posture's springs between the limb's root and its link."""
+        """Compliance in mm/N along a pad's normal of the posture's springs up to its link."""
         robot, pad = self.robot, contact.pad
         place = pad.touching(robot)[0]
         origin, rotation = robot.pose(contact.against)
@@ -220,6 +218,6 @@ class PressedExperiment(StandingExperiment):
 
 
 def _reaching(fixed: NDArray[np.float64], scaled: NDArray[np.float64], length: float) -> float:
-    """Factor k of the second vector (2,) with which |fixed + k scaled| is a length; 0 where it is longer without."""
+    """Factor k of the second vector (2,) at which |fixed + k scaled| is a length; 0 where already longer."""
     a, b, c = float(scaled @ scaled), float(fixed @ scaled), float(fixed @ fixed) - length**2
     return max(0.0, (-b + math.sqrt(max(0.0, b * b - a * c))) / a)

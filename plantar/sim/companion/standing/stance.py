@@ -1,4 +1,4 @@
-"""Feet on the ground: support, and the base's place that follows."""
+"""Feet on the ground: support, and the base's place."""
 
 from __future__ import annotations
 
@@ -33,15 +33,15 @@ class Stance:
     """Feet at known places on the ground.
 
     Args:
-        model: The MjModel of the machine alone.
+        model: MjModel of the machine alone.
         sides: Standing feet: "left", "right" or both.
 
     Attributes:
-        feet: Middle (3,) of each standing sole by its link, in the link's frame in m.
+        feet: Middle (3,) of each standing sole by its link, link frame, in m.
         places: That point (3,) in the world in m.
 
     Raises:
-        RobotError: If the machine has no such foot.
+        RobotError: If the foot is missing.
     """
 
     def __init__(self, model: Any, sides: Sequence[str]) -> None:
@@ -63,7 +63,7 @@ class Stance:
         return Support({link: Standing(link, point) for link, point in self.feet.items()})
 
     def locate(self, robot: MujocoDynamics) -> None:
-        """Set the base's position and linear velocity of a measured `robot` so that the feet rest."""
+        """Set base position and linear velocity of a measured `robot` so that the feet rest."""
         qpos, qvel = robot.data.qpos.copy(), robot.data.qvel.copy()
         off, slip = np.zeros(3), np.zeros(3)
         for link, point in self.feet.items():
@@ -86,8 +86,8 @@ class Stance:
         Args:
             robot: The machine in a near posture; it is updated.
             com: Wanted centre of mass (3,) in m.
-            base: The base link and its wanted rotation (3, 3) to the world.
-            lifted: Wanted place (3,) in m of the origin of further links, which stay level.
+            base: Base link and wanted rotation (3, 3) to the world.
+            lifted: Wanted origin (3,) in m of further links, which stay level.
 
         Returns:
             Positions (nq,).
@@ -121,11 +121,10 @@ class Stance:
 
 
 def sole_point(model: Any, side: str) -> tuple[str, NDArray[np.float64]]:
-    """Returns the link of the foot of a `side` of the MjModel `model`, and the middle (3,) of its sole in the link's
-    frame in m.
+    """Returns the foot link of a `side` of the MjModel `model`, and its sole's middle (3,), link frame, in m.
 
     Raises:
-        RobotError: If the machine has no such foot.
+        RobotError: If the foot is missing.
     """
     site = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, SOLE_SITE.format(side=side))
     geom = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, f"{side}_sole_box")

@@ -1,4 +1,4 @@
-"""What all experiments of a standing machine share: ground, first posture, and balance."""
+"""What standing experiments share: ground, first posture, balance."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ class StandingExperiment(Experiment):
         self._forces: dict[str, float] = {}
 
     def _first_posture(self) -> NDArray[np.float64]:
-        """Positions (nq,) with the feet on the ground and the centre of mass over them."""
+        """Positions (nq,) with feet on the ground and the centre of mass over them."""
         robot, model = self.robot, self.robot.model
         qpos = model.qpos0.copy()
         qpos[7:] = self.machine.posture
@@ -125,21 +125,21 @@ class StandingExperiment(Experiment):
         return CartesianPose(self.machine.base.link, gains=PoseGains(stiff, damp, stiff, damp))
 
     def posture_task(self, share: float = 1.0, stiffness: float = 1.0) -> Posture:
-        """Returns springs and dampers of the joints towards the first posture, by each motor's torque: a `share` of the
-        settings', and a further share of the `stiffness`.
+        """Returns springs and dampers towards the first posture, by each motor's torque: a `share` of the settings',
+        and a further share of the `stiffness`.
         """
         strength = share * self.machine.efforts / 75.0
         stiff, damp = self.control.posture * stiffness * strength, self.control.posture_damping * strength
         return Posture(self.first[7:], stiff, damp, torques=True)
 
     def joint_range_task(self) -> JointRange:
-        """Keeps joints 5 degrees off the ends of their range, with half of a joint's effort at the end."""
+        """Keeps joints 5 degrees off their range's ends, with half their effort at the end."""
         low, high = self.machine.ranges(self.robot.model)
         stiff = 0.5 * self.machine.efforts / _MARGIN
         return JointRange(low, high, _MARGIN, stiff, 0.1 * stiff)
 
     def self_collision_task(self) -> SelfCollision:
-        """Keeps hands and forearms from the trunk, the legs and each other."""
+        """Keeps hands and forearms from trunk, legs and each other."""
         trunk = [Sphere("torso", np.array([0.0, y, z]), 0.13) for y in (-0.07, 0.07) for z in (0.18, 0.32, 0.46)]
         trunk.append(Sphere("base", np.array([0.0, 0.0, -0.06]), 0.14))
         hands = [Sphere(f"{s}_hand", np.array([0.0, 0.0, -0.09]), 0.06) for s in ("left", "right")]
@@ -188,8 +188,8 @@ class StandingExperiment(Experiment):
             pad.act(world, self.pressing(pad), world.model.opt.timestep)
 
     def _cop_margin(self, world: World) -> float:
-        """Distance in m of the true centre of pressure, over 20 ms, to the edge of the rectangle about both level
-        soles, negative outside.
+        """Distance in m of the true centre of pressure, over 20 ms, to the edge of the rectangle about both soles,
+        negative outside.
         """
         model, data = world.model, world.data
         floor = model.geom("floor").id
@@ -225,6 +225,6 @@ class StandingExperiment(Experiment):
 
 
 def by_active(took: Sequence[float], active: Sequence[int]) -> dict[str, float]:
-    """Returns the median time in us of ticks, of `took`, by the number of `active` links, a JSON key."""
+    """Returns the median time in us of ticks, of `took`, by the number of `active` links."""
     counts, times = np.array(active), np.array(took[: len(active)])
     return {str(n): round(float(np.median(times[counts == n])), 1) for n in np.unique(counts).tolist()}

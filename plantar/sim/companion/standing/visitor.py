@@ -1,4 +1,4 @@
-"""A hand, or an object without mass, that comes along a straight line towards a link and goes back."""
+"""A hand or a massless object that comes straight towards a link and goes back."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ class Visitor:
     """A moved body without weight or collision, which only skin measures.
 
     Args:
-        name: Of its body and geom.
-        size: Of its geom (3,) in m.
-        face: Distance in m from its middle to its front.
+        name: Of body and geom.
+        size: Of the geom (3,) in m.
+        face: Distance in m from middle to front.
     """
 
     def __init__(self, name: str, kind: Any, size: tuple[float, float, float], face: float) -> None:
@@ -48,12 +48,12 @@ class Visitor:
         """Plan its visit.
 
         Args:
-            target: Point (3,) in the world in m at which its face would arrive.
+            target: Point (3,) in the world in m where its face would arrive.
             way: Direction (3,) in which it comes.
             begin: Start in s.
             speed: In m/s.
             far: Distance in m from which it comes.
-            beyond: How far in m beyond the point it goes.
+            beyond: How far in m it goes beyond the point.
 
         Returns:
             Time in s at which it is back.
