@@ -171,7 +171,7 @@ class RobotTables:
         return tuple(_checked_number(v, field, self.place(table), low, high) for v in value)
 
     def number_each(self, field: str, table: str, count: int, low: float, high: float) -> tuple[float, ...]:
-        """So many numbers within limits, or one for all.
+        """So many numbers of a table within limits, or one for all.
 
         Takes `field`, `count`, `low` and `high`; returns the numbers.
         """

@@ -1,1 +1,1 @@
-"""What the time of a scene goes to, how it compares with the physics alone, and what is skipped."""
+"""What a scene's time goes to, and what is skipped."""

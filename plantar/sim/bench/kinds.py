@@ -1,4 +1,4 @@
-"""The kinds of `plantar bench`, a function each, loaded when needed."""
+"""The kinds of `plantar bench`, loaded when needed."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ class BenchOptions:
         scenarios: Number of scenarios of the whole loop.
         first: Number of the first one.
         scene: Walks to run; all where empty.
-        robot: Robots to run them with; all where empty.
+        robot: Robots for them; all where empty.
         quick: Run the most informative cases, once.
-        policy: Python file of the policy, or None for the built-in controller.
+        policy: Python file, or None for the built-in controller.
         seeds: Runs of each trial.
     """
 
@@ -46,7 +46,7 @@ class BenchOptions:
 
 
 class Measured(NamedTuple):
-    """Plain JSON values, with the names of written files under "files", and what failed, a line each."""
+    """Plain JSON values, written files under "files", and what failed, a line each."""
 
     result: dict[str, Any]
     text: str
@@ -57,7 +57,7 @@ def measure(what: str, options: BenchOptions, output: Path) -> Measured:
     """Returns what came of a kind `what`, or of "all", with `options`; files go to the folder `output`.
 
     Raises:
-        InputError: If there is no such kind, or it does not take an option that was given.
+        InputError: If kind or option is wrong.
         DependencyError: If a library is missing.
     """
     allowed = (*_PARTS, *_TABLES, "all")
@@ -160,7 +160,7 @@ _PARTS: Mapping[str, Callable[[Path, BenchOptions, Progress], Measured]] = {
 
 
 def _measure_parts(what: str, options: BenchOptions, output: Path, progress: Progress) -> Measured:
-    """One part, or all with scenes, the papers' experiments and the page; and bench.json."""
+    """One part, or all; and bench.json."""
     names = tuple(_PARTS) if what == "all" else (what,)
     count = len(names) + (2 if what == "all" else 0)
     shares = [part_of(progress, i / count, 1 / count) for i in range(count)]

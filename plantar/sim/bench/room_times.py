@@ -1,4 +1,4 @@
-"""Share of each room of the program in the time of a run, sampled a thousand times a second."""
+"""Share of each room of the program in a run's time."""
 
 from __future__ import annotations
 
@@ -47,12 +47,12 @@ def room_of(path: str) -> str | None:
 
 
 class RoomTimes:
-    """Counts the present room; a context manager for the main thread.
+    """Samples the present room a thousand times a second; a context manager for the main thread.
 
-    At each timer signal the innermost function of a room is counted; one in another language counts for its caller.
+    A timer signal counts the innermost function of a room; other languages count for their caller.
 
     Raises:
-        InputError: On a system whose Python has no such timer (Windows).
+        InputError: Without such a timer (Windows).
     """
 
     def __init__(self) -> None:
@@ -91,6 +91,6 @@ class RoomTimes:
 
     @property
     def shares(self) -> dict[str, float]:
-        """Share of each room in the time, in the order of `ROOMS`; empty without a sample."""
+        """Share of each room in the time, ordered as `ROOMS`; empty without a sample."""
         total = sum(self._counts.values())
         return {room: self._counts[room] / total for room in ROOMS} if total else {}

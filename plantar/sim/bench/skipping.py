@@ -1,4 +1,4 @@
-"""`plantar bench skip`: each scene with and without skipping, its physics alone, and the time by room."""
+"""`plantar bench skip`: scenes with and without skipping, physics alone, time by room."""
 
 from __future__ import annotations
 
@@ -39,8 +39,8 @@ class WatchedSimulation(Simulation):
     """A simulation that keeps its controls and hashes its motion.
 
     Attributes:
-        controls: Set-points of the servos at each physics step.
-        members: How often each member of a percept was computed, over both soles and all ticks.
+        controls: Servo set-points at each physics step.
+        members: How often each member of a percept was computed.
         percepts: Number of percepts.
     """
 
@@ -55,13 +55,13 @@ class WatchedSimulation(Simulation):
         self._motion = hashlib.sha256()
 
     def step_physics(self) -> None:
-        """One step of the physics, whose controls and positions are kept."""
+        """One physics step, whose controls and positions are kept."""
         self.controls.append(self.world.data.ctrl.copy())
         super().step_physics()
         self._motion.update(self.world.data.qpos.tobytes())
 
     def compute_rest(self, command: Command, everything: bool) -> int:
-        """Returns as the runner's of `command` and `everything`, and counts what was computed."""
+        """Returns as the runner's of `command` and `everything`; counts what was computed."""
         left_out = super().compute_rest(command, everything)
         for percept in command.percepts.values():
             self.members.update(percept.__dict__.keys() & set(percept.members()))
@@ -75,14 +75,12 @@ class WatchedSimulation(Simulation):
 
     @property
     def replays(self) -> bool:
-        """Whether the controls alone repeat the motion: without pushes and moving ground."""
+        """Whether controls alone repeat the motion: no pushes or moving ground."""
         return self.touch is None and not self.pusher.shoves and not self.world.moving_ground
 
 
 def replay_physics(run: WatchedSimulation) -> tuple[float, str]:
-    """The physics alone of a finished run that `replays`: CPU time in s, and hash of the motion in an untimed second
-    loop.
-    """
+    """The physics alone of a finished run that `replays`: CPU time in s, and motion hash of an untimed second loop."""
     model = run.world.model
     data = mujoco.MjData(model)
     mujoco.mj_copyData(data, model, run._began)
@@ -116,17 +114,17 @@ _SHAPES = ("polygon", "outline", "box", "rectangle", "circle", "triangle", "para
 
 @dataclass(frozen=True)
 class SkipRow:
-    """Cost of one scene with one robot. CPU times in s, medians of interleaved rounds.
+    """Cost of a scene with a robot. CPU times in s, medians of interleaved rounds.
 
     Attributes:
         settings: Changes of the scene.
         everything_s: With all percepts, rays and the recording.
         physics_s: Of the same motion by `mj_step` in a loop.
-        factor: Everything but the physics over the physics, in the run.
-        saved: Everything but the physics with all computed, over that of the run.
-        same_motion: Whether both runs and the physics alone had the same motion, to the last bit.
-        shares: Of each room in the time of the run.
-        skipped: Counts of what was left out; `computed` of what was not.
+        factor: Everything but the physics over the physics.
+        saved: The same with all computed, over the run's.
+        same_motion: Whether both runs and the physics alone moved alike, to the last bit.
+        shares: Of each room in the run's time.
+        skipped: Counts of what was left out; `computed` of the rest.
     """
 
     scene: str
@@ -153,17 +151,17 @@ def compare_skipping(
 
     Args:
         scene: Name of a scene without pushes and moving ground.
-        robot: Name of the robot.
+        robot: Name.
         settings: Changes of the scene, as `key=value`.
-        rounds: Rounds to take the medians over; 1 or more.
+        rounds: Rounds of the medians; 1 or more.
         seed: Of the runs.
 
     Returns:
         The comparison.
 
     Raises:
-        SceneError: If there is no such scene, or it has no such setting.
-        InputError: On a system without a timer signal (see `RoomTimes`).
+        SceneError: If scene or setting is unknown.
+        InputError: Without a timer signal (see `RoomTimes`).
     """
     needed, everything = load_scene(scene, tuple(settings), robot), load_scene(scene, (*settings, _NONE), robot)
     watched, full = WatchedSimulation(needed, seed), WatchedSimulation(everything, seed)

@@ -24,7 +24,7 @@ Triangles = NDArray[np.float64]
 
 
 def shapes_of(model: Any, bodies: Collection[int]) -> tuple[list[int], list[int]]:
-    """Ids of the drawn geoms of `bodies` of a `model`, without markers, and of those that collide; planes are neither.
+    """Ids of the drawn geoms of `bodies` of a `model`, without markers, and of colliding ones; no planes.
 
     Returns both lists.
     """
@@ -53,7 +53,7 @@ def geom_triangles(model: Any, data: Any, geom: int) -> Triangles:
 
 
 def convex_surface(points: NDArray[np.float64]) -> Triangles:
-    """Triangles (n, 3, 3) of the convex hull of points (m, 3), counter-clockwise from outside; none where flat."""
+    """Triangles (n, 3, 3) of the hull of points (m, 3), counter-clockwise from outside; none where flat."""
     try:
         hull = ConvexHull(points)
     except (QhullError, ValueError):
@@ -66,11 +66,11 @@ def convex_surface(points: NDArray[np.float64]) -> Triangles:
 
 
 def resting_plane(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
-    """The plane on which a body with surface points (n, 3), z up, would come to rest.
+    """The plane on which a body with surface points (n, 3), z up, would rest.
 
     Returns:
-        Outward normal (3,) of the largest plane on the lower side of their convex hull, and its area over that of the
-        silhouette from above: straight down and 0 where there is none within 45 degrees.
+        Outward normal (3,) of the largest lower plane of their convex hull, and its area over the silhouette's from
+        above: straight down and 0 without one within 45 degrees.
     """
     down = np.array([0.0, 0.0, -1.0])
     try:
@@ -96,7 +96,7 @@ def resting_plane(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], flo
 
 
 def _points_of(kind: int, size: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points whose hull is a shape of MuJoCo's about the origin, its axis along z."""
+    """Points whose hull is a MuJoCo shape about the origin, its axis along z."""
     types = mujoco.mjtGeom
     if kind == types.mjGEOM_BOX:
         return _BOX * size

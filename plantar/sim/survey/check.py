@@ -1,4 +1,4 @@
-"""Obstacles to a robot's walk in a scene, measured without physics, each with the value that works."""
+"""Obstacles to a robot's walk in a scene, measured without physics."""
 
 from __future__ import annotations
 
@@ -48,10 +48,9 @@ class Finding:
     """One measured thing.
 
     Attributes:
-        limit: What the value may be at most or has to be at least.
-        unit: Of both.
+        limit: Most or least that the value may be.
         holds: Whether it is within.
-        text: The same in words, with the value that works.
+        text: In words, with the value that works.
     """
 
     name: str
@@ -93,11 +92,11 @@ class RobotCheck:
 
 
 def check_robot(file: str | os.PathLike[str], scene: str) -> RobotCheck:
-    """Returns what was measured of a robot `file`, or built-in name, that has to walk the plan of a `scene`.
+    """Returns what was measured of a robot `file`, or built-in name, for the plan of a `scene`.
 
     Raises:
-        RobotError: If the robot cannot be read or simulated.
-        SceneError: If the scene cannot be read.
+        RobotError: If the robot is not valid.
+        SceneError: If the scene is not valid.
     """
     robot = load_robot(file)
     return _Checked(robot, load_scene(scene, robot=str(file))).result()
@@ -179,7 +178,7 @@ class _Checked:
     def _roll_most(self) -> float:
         """How far in rad a sole that carries alone may be off level.
 
-        Legs of a robot that rocks lean with their soles, up to where the CoM comes over the middle of the sole.
+        Rocking legs lean with their soles until the CoM is over the sole's middle.
         """
         if not self.robot.rocks:
             return ROLL_MOST
@@ -345,7 +344,7 @@ def _foot_parts(model: Any, name: str, site: str) -> set[int]:
 
 
 def _levelled(normal: Any) -> Any:
-    """Rotation (3, 3) from a frame on the plane with an outward normal (3,) to the present sole frame."""
+    """Rotation (3, 3) from a frame on the plane with an outward normal (3,) to the sole frame."""
     up = -np.asarray(normal)
     forward = np.array([1.0, 0.0, 0.0]) - up[0] * up
     forward /= float(np.linalg.norm(forward))

@@ -1,4 +1,4 @@
-"""A walk that fits a robot: posture, height of the CoM, stance, pace and gains."""
+"""A walk that fits a robot: posture, stance, pace and gains."""
 
 from __future__ import annotations
 
@@ -103,12 +103,10 @@ class FittedGait:
     """A robot with numbers that fit, and their reasons.
 
     Attributes:
-        robot: The robot.
-        body: Its size.
         inertia: About the joints of a leg.
         reach: Demands of level steps of a third of a leg.
-        notes: What was not met, and what was assumed.
-        rotors: Rotor inertia in kg m^2 about each joint of a leg that the copy of the model has in addition.
+        notes: What was not met or was assumed.
+        rotors: Additional rotor inertia in kg m^2 about each leg joint of the model's copy.
     """
 
     def __init__(
@@ -125,13 +123,13 @@ class FittedGait:
 
 
 def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int = 6) -> Walked:
-    """Returns level steps of a third of a leg at the pace of a `robot`, which leans its trunk as scenes demand.
+    """Returns level steps of a third of a leg at a `robot`'s pace, its trunk leaning as scenes demand.
 
     Args:
         robot: The robot.
         body: Its size.
-        com_height: Of its CoM in m.
-        steps: Number of steps.
+        com_height: In m.
+        steps: Their number.
     """
     feet, plan = straight_plan(steps, length=STEP_SHARE * body.leg, width=robot.stance_width)
     walk = Walk().for_body(body)
@@ -143,14 +141,14 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
 
     Args:
         draft: The robot; its posture, gait and gains are replaced.
-        gains: The model's own stiffness in N m/rad and damping in N m s/rad of each joint of a leg, or empty.
-        rotors: Assumed rotor inertia in kg m^2 about each joint of a leg, or None.
+        gains: The model's stiffness in N m/rad and damping in N m s/rad of each leg joint, or empty.
+        rotors: Assumed rotor inertia in kg m^2 about each leg joint, or None.
 
     Returns:
         The robot with its numbers.
 
     Raises:
-        RobotError: If the legs cannot stand on both soles.
+        RobotError: If it cannot stand.
     """
     legs = build_leg_model(draft)
     robot = replace(draft, posture=_bent(draft, legs))
@@ -233,7 +231,7 @@ def _gains(
 
 
 def _own_gains(inertia: JointInertia, gains: Sequence[tuple[float, float]]) -> Array:
-    """Stiffness and damping (2, k) of the model's own servos; a damping below 0 is a ratio of critical damping."""
+    """Stiffness and damping (2, k) of the model's servos; damping below 0 is a ratio of critical."""
     stiffness, damping = np.array(gains).T
     critical = 2.0 * np.sqrt(stiffness * inertia.swing)
     return np.array([stiffness, np.where(damping < 0.0, -damping * critical, damping)])
@@ -268,8 +266,8 @@ def _bent(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
 
 
 def stance_width(robot: Robot, legs: LegModel) -> float:
-    """Returns the distance in m of the feet of a `robot` side by side: as in the model of its `legs`, or wider where
-    soles would touch.
+    """Returns the distance in m of the feet of a `robot` side by side: as in the model of its `legs`, or wider for the
+    soles.
     """
     angles = np.array([*robot.posture["left"], *robot.posture["right"]])
     feet = legs.posture(angles).positions
@@ -287,9 +285,7 @@ def _seed_height(robot: Robot, legs: LegModel) -> float:
 
 
 def _paced(robot: Robot, height: float, slower: float) -> Robot:
-    """The robot with the pace of a pendulum of its height in m: h1's in sqrt(h / g), or slower, or that of one that
-    rocks.
-    """
+    """The robot with the pace of a pendulum of its height in m, or a slower or rocking one."""
     if robot.rocks:
         return rocking(robot, height)
     unit = slower * math.sqrt(height / GRAVITY)
@@ -427,13 +423,13 @@ def _nearest(robot: Robot, legs: LegModel, body: BodyScale, seed: float) -> str:
 
 
 def _rocking_share(robot: Robot, body: BodyScale, height: float) -> float:
-    """Share of the leg that scales a rocking robot's steps: short as they are quick, so that it walks as fast as h1."""
+    """Share of the leg that scales a rocking robot's steps, so that it walks as fast as h1."""
     rocks = rocking(robot, height)
     return min(1.0, (rocks.single_support + rocks.double_support) / (_H1_STEP * body.beat))
 
 
 def _pace(robot: Robot, legs: LegModel, body: BodyScale) -> float:
-    """The least number of beats a pace at which quick steps leave the motors a reserve for balance, or the largest."""
+    """Least beats a pace at which quick steps leave the motors a reserve, or the largest."""
     if robot.rocks:
         step = robot.single_support + robot.double_support
         return float(f"{step / ((QUICK_SINGLE + QUICK_DOUBLE) * body.beat):.3g}")
@@ -452,7 +448,7 @@ def _pace(robot: Robot, legs: LegModel, body: BodyScale) -> float:
 
 
 def _approach_support(robot: Robot, legs: LegModel, body: BodyScale) -> float:
-    """The least t_ss in s at which a swing that comes down slowly leaves the motors a reserve; 0: the robot's own."""
+    """Least t_ss in s at which a slow landing leaves the motors a reserve; 0: the robot's own."""
     if robot.rocks or not robot.effort_limits:
         return 0.0
     limits = np.array(robot.effort_limits)
@@ -478,7 +474,7 @@ def _angles(robot: Robot, legs: LegModel, configuration: Array) -> dict[Side, tu
 
 
 def _crouch(robot: Robot, legs: LegModel, body: BodyScale, asked: float) -> float:
-    """How much lower in m the robot can walk, within its joints' range and three quarters of their torque."""
+    """How much lower in m it can walk, within joint ranges and three quarters of their torque."""
     limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
     fits = 0.0
     for lower in _CROUCHES:

@@ -1,4 +1,4 @@
-"""From a model file to a robot that walks: survey, shoes, gait, robot file and picture."""
+"""From a model file to a robot that walks."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class ShoesMade(Protocol):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Findings, assumptions and decisions."""
+        """Findings, assumptions, decisions."""
         ...
 
 
@@ -70,9 +70,9 @@ class Introduced:
     """A robot that was introduced.
 
     Attributes:
-        survey: What was found in its model.
+        survey: Findings in its model.
         fitted: Its walk.
-        files: Names of all written files.
+        files: Names of written files.
     """
 
     robot: Robot
@@ -132,7 +132,7 @@ def introduce(
     make_shoes: MakeShoes,
     progress: Callable[[float, str], None] | None = None,
 ) -> Introduced:
-    """Write a robot file, a copy of the model, shoes and a picture for a robot; returns the robot and its reasons.
+    """Write robot file, model copy, shoes and picture of a robot; returns it with reasons.
 
     Args:
         file: The model, MJCF or URDF.
@@ -141,7 +141,7 @@ def introduce(
         progress: Called with the fraction done and a text.
 
     Raises:
-        RobotError: If the file holds no robot that can walk on two legs; the message explains why.
+        RobotError: If the file holds no biped; the message explains why.
         FootError: If a foot cannot carry taxels.
     """
     report = progress or (lambda fraction, text: None)

@@ -1,4 +1,4 @@
-"""The legs of a model, found without names: two alike chains of hinges from the body to the lowest link."""
+"""The legs of a model, found without names: two alike chains of hinges."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ class Leg:
     Attributes:
         joints: Ids of its hinges from hip to ankle.
         foot: Id of the body that the last one moves.
-        parts: Ids of all bodies that move with the foot, toes included.
-        toes: Names of hinges below the foot, which are held.
-        ankle: Point (3,) of the model's world in m that the foot turns about.
+        parts: Ids of all bodies that move with the foot.
+        toes: Names of held hinges below the foot.
+        ankle: Point (3,) in m that the foot turns about, model's world.
     """
 
     joints: tuple[int, ...]
@@ -49,10 +49,9 @@ class Leg:
 
 @dataclass(frozen=True)
 class Legs:
-    """Both legs, and the model's rotation to stand upright and look along x.
+    """Both legs, and the model's rotation to stand upright along x.
 
     Attributes:
-        by_side: The legs.
         pelvis: Id of the body that both hang on.
         rotation: Rotation (3, 3) from the model's world to x forward, y left, z up.
         notes: How that was found.
@@ -68,7 +67,7 @@ def find_legs(model: Any, data: Any, where: str) -> Legs:
     """Returns the legs of a `model` in the state `data`; errors name the file `where`.
 
     Raises:
-        RobotError: If there are not just two legs of four hinges or more; the message shows what there is.
+        RobotError: Unless two legs of four or more hinges are found.
     """
     tree = _Tree(model, data)
     up, how = _upwards(tree, where)
@@ -118,7 +117,7 @@ class _Tree:
 
 
 def _upwards(tree: _Tree, where: str) -> tuple[Array, tuple[str, ...]]:
-    """Up (3,) in the model's world: away from what hangs farthest from the body."""
+    """Up (3,) in the model's world: away from the farthest hanging part."""
     model, data = tree.model, tree.data
     ends = [i for i in tree.points if len(tree.hinges(tree.chain(i))) >= LEAST_JOINTS]
     if not ends:
@@ -197,7 +196,7 @@ def _apart(tree: _Tree, a: int, b: int) -> tuple[list[int], list[int]]:
 
 
 def _leg(tree: _Tree, up: Array, chain: list[int], where: str) -> Leg:
-    """The leg of a chain of links: the foot is the highest one on the floor, with toes below."""
+    """The leg of a chain of links: the foot is the highest one on the floor."""
     model, data = tree.model, tree.data
     up = _above_sole(tree.points[chain[-1]], up)
     floor = float((tree.points[chain[-1]] @ up).min())
@@ -220,7 +219,7 @@ def _leg(tree: _Tree, up: Array, chain: list[int], where: str) -> Leg:
 
 
 def _above_sole(points: Array, up: Array) -> Array:
-    """Direction (3,) up from the plane that a foot would rest on."""
+    """Direction (3,) up from the plane that a foot rests on."""
     side = np.eye(3)[int(np.abs(up).argmin())]
     level = np.stack([np.cross(side, up), np.cross(up, np.cross(side, up)), up])
     level /= np.linalg.norm(level, axis=1, keepdims=True)
@@ -229,7 +228,7 @@ def _above_sole(points: Array, up: Array) -> Array:
 
 
 def _ankle(data: Any, hinges: list[int], foot: Array) -> Array:
-    """Where the last two axes of a leg meet, or the middle of the last one over the foot where parallel."""
+    """Where a leg's last two axes meet, or the middle of the last over the foot if parallel."""
     a, b = hinges[-1], hinges[-2]
     p, u, q, v = data.xanchor[a], data.xaxis[a], data.xanchor[b], data.xaxis[b]
     parallel = float(u @ v)
@@ -263,7 +262,7 @@ def _facing(tree: _Tree, up: Array, legs: list[Leg], where: str) -> tuple[Array,
 
 
 def _forward_votes(tree: _Tree, legs: list[Leg], forward: Array, up: Array) -> tuple[float, str]:
-    """Positive where toes and knees show that a direction is forward, negative for the opposite."""
+    """Positive where toes and knees indicate forward, negative for backward."""
     toes = knees = 0.0
     for leg in legs:
         foot = np.concatenate([tree.points[i] for i in tree.below(leg.foot) if i in tree.points]) @ forward
@@ -275,7 +274,7 @@ def _forward_votes(tree: _Tree, legs: list[Leg], forward: Array, up: Array) -> t
 
 
 def _knee_vote(tree: _Tree, leg: Leg, left: Array) -> float:
-    """1 where the knee's range bends it forward for a robot whose left is given, -1 for backward, else 0."""
+    """1 where the knee's range bends it forward, -1 for backward, else 0."""
     model, data = tree.model, tree.data
     pitch = [j for j in leg.joints if abs(float(data.xaxis[j] @ left)) > 0.7]
     if len(pitch) < 3:

@@ -1,7 +1,4 @@
-"""A copy of a robot's model as it walks: one upright floating base, the legs' joints, all else held.
-
-It is an MJCF complete in its folder: inertias as MuJoCo compiled them, feet unchanged, other meshes in fewer triangles.
-"""
+"""A copy of a robot's model as it walks: upright floating base, leg joints, the rest held."""
 
 from __future__ import annotations
 
@@ -46,10 +43,10 @@ def write_model_copy(
     held: Mapping[str, float],
     imu: tuple[str, str, str] | None,
 ) -> str:
-    """Write the copy and its meshes; returns the name of the body that is kept upright.
+    """Write the copy and its meshes, in fewer triangles except the feet; returns the name of the upright body.
 
     Args:
-        model: The compiled model with all of its joints.
+        model: The compiled model with all joints.
         legs: Its legs.
         folder: For "model.xml" and the meshes.
         name: Name of the robot.
@@ -60,7 +57,7 @@ def write_model_copy(
 
 
 def add_rotors(file: Path, rotors: Mapping[str, float]) -> None:
-    """Give joints of the copy `file` the inertia `rotors` in kg m^2, by the joint's name."""
+    """Give joints of the copy `file` the inertia `rotors` in kg m^2, by name."""
     root = ElementTree.fromstring(file.read_text(encoding="utf-8"))
     for joint in root.iter("joint"):
         if joint.get("name") in rotors:

@@ -1,4 +1,4 @@
-"""A robot's model as its author left it, MJCF or URDF, with the motors and sensors of its file."""
+"""A robot's model as its author left it, MJCF or URDF."""
 
 from __future__ import annotations
 
@@ -44,19 +44,18 @@ _LOOPS = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
 
 @dataclass(frozen=True)
 class ModelSource:
-    """A compiled model, and what its file states besides bodies, joints and shapes; dictionaries are by joint.
+    """A compiled model, and what else its file states; dictionaries are by joint.
 
     Attributes:
-        model: The compiled model with all of its joints, without motors or constraints.
-        efforts: Largest torque in N m, where there is a limit.
-        speeds: Largest speed in rad/s, where there is a limit.
+        model: The model with all joints, without motors or constraints.
+        efforts: Largest torque in N m, where limited.
+        speeds: Largest speed in rad/s, where limited.
         gains: Stiffness in N m/rad and damping in N m s/rad of position servos.
-        imus: Sites and bodies that may be the IMU, "site" or "body" and the name, the likeliest first: with a gyro,
-            with an accelerometer, called IMU.
-        coupled: Pairs of joint names of which the first follows the second.
-        loops: Pairs of bodies tied together outside the tree of joints.
+        imus: "site" or "body" and name of possible IMUs: with a gyro, with an accelerometer, called IMU.
+        coupled: Pairs of joint names, of which the first follows the second.
+        loops: Pairs of bodies tied outside the tree of joints.
         upper_posture: Joint angles of the first keyframe, or empty.
-        notes: What was left out or changed in reading.
+        notes: What was left out or changed.
     """
 
     file: Path
@@ -85,14 +84,14 @@ def read_model(file: Path, folder: Path) -> ModelSource:
     """Read a robot's model.
 
     Args:
-        file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) file, or a scene that includes the robot.
+        file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) of the robot or a scene with it.
         folder: For meshes that have to be converted.
 
     Returns:
         The model.
 
     Raises:
-        RobotError: If it cannot be read, or names files outside of where they may be.
+        RobotError: If unreadable, or with files outside its place.
     """
     check_model(file, RobotError)
     stated = _Stated()
@@ -165,10 +164,10 @@ def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, stated: _Sta
 
 
 def _locked(joint: ElementTree.Element, file: Path) -> str:
-    """Name of a joint whose limits leave no range, which MuJoCo would take as one without limits; empty for others.
+    """Name of a joint whose limits leave no range, which MuJoCo takes as unlimited; else empty.
 
     Raises:
-        RobotError: If the limits contradict each other, or hold it at another angle than 0.
+        RobotError: If limits contradict, or hold another angle than 0.
     """
     name, limit = joint.get("name", ""), joint.find("limit")
     if joint.get("type") not in ("revolute", "prismatic") or limit is None:

@@ -1,4 +1,4 @@
-"""Demands of a walk's plan on the legs, without physics: knees, joint ranges and torques over all its instants."""
+"""Demands of a walk's plan on the legs, without physics."""
 
 from __future__ import annotations
 
@@ -44,11 +44,11 @@ class Walked:
     Attributes:
         feet: At the start.
         steps: The footsteps.
-        timing: Its durations.
-        swing_height: Clearance of the swing foot in m.
-        com_height: Of the CoM above the soles in m.
+        timing: Durations.
+        swing_height: Clearance in m.
+        com_height: Above the soles in m.
         lean: Roll of the torso over the stance foot in rad per metre of lateral CoM motion.
-        approach_height: Height in m above the ground from which the swing foot comes down slowly.
+        approach_height: Height in m above the ground where a slow approach begins.
         approach_speed: In m/s.
     """
 
@@ -68,13 +68,12 @@ class PlanReach:
 
     Attributes:
         missed: Largest distance in m by which CoM or a standing sole misses its place, or a tenth of a swinging one's.
-        knee: Least bend of a knee in rad; negative where it would bend backwards.
+        knee: Least bend of a knee in rad; negative backwards.
         straightest: Time in s of that.
-        spare: Least distance of each joint of a carrying leg to its limits in rad, over both legs.
-        torque: Largest torque in N m of each joint of a leg, over both legs: to carry, and to move against damping and
-            inertia.
+        spare: Least distance in rad of each joint of a carrying leg to its limits, over both legs.
+        torque: Largest torque in N m of each joint, over both legs: to carry, and against damping and inertia.
         carrying: The same to carry alone.
-        roll: Largest angle in rad by which a sole that carries alone is off level: of legs without ankle roll.
+        roll: Largest angle in rad of a sole that carries alone off level, without ankle roll.
     """
 
     missed: float
@@ -92,8 +91,8 @@ def standing_feet(width: float) -> dict[Side, Footstep]:
 
 
 def settled(robot: Robot, legs: LegModel, feet: Mapping[Side, Footstep], com_height: float) -> float:
-    """Stand the `legs` of a `robot` on `feet` with the CoM at `com_height` in m; returns the error in m or rad that is
-    left.
+    """Stand the `legs` of a `robot` on `feet` with the CoM at `com_height` in m; returns the remaining error in m or
+    rad.
     """
     middle = np.mean([vrp_of_step(feet[s], middle_of_sole(robot.layouts[s], robot.ankle_reach)) for s in SIDES], axis=0)
     com = np.array([middle[0], middle[1], feet["left"].z + com_height])
@@ -119,10 +118,10 @@ def plan_reach(
         robot: The robot.
         legs: Its kinematics.
         walked: The walk.
-        bears: Given `missed`, `knee` and `spare` so far, which only get worse, after each instant; False ends the pass.
+        bears: Given `missed`, `knee` and `spare` so far, which only worsen; False ends the pass.
 
     Returns:
-        Demands on the legs; torques of a pass that was ended are infinite.
+        Demands on the legs; infinite torques if ended early.
     """
     found = _Pass(robot, legs, walked)
     for time in np.arange(_BEGIN, found.plan.schedule.walking_end + found.every, found.every).tolist():
@@ -241,7 +240,7 @@ class _Probe:
                 self._pitch.append((pitch[0], pitch[-2], pitch[-1]))
 
     def knees(self, legs: LegModel) -> float:
-        """Least bend of a knee in rad: the angle from thigh to shank about the torso's y axis."""
+        """Least bend of a knee in rad, from thigh to shank about the torso's y axis."""
         self._data.qpos[:] = legs.configuration
         mujoco.mj_kinematics(self._model, self._data)
         across = self._data.xmat[self._torso].reshape(3, 3)[:, 1]

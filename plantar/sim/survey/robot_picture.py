@@ -1,4 +1,4 @@
-"""A picture of a robot that stands, from the front and the side, with the frames of its soles."""
+"""A picture of a standing robot with its sole frames."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ _COLOURS = ((0.85, 0.2, 0.2, 1.0), (0.2, 0.65, 0.25, 1.0), (0.2, 0.35, 0.85, 1.0
 
 
 def draw_robot(robot: Robot, path: Path) -> Path:
-    """Draw the `robot` in its posture at `path`, with x, y and z of each sole's frame in red, green and blue; returns
-    the path.
+    """Draw the `robot` in its posture at `path`, x, y and z of the sole frames in red, green and blue; returns the
+    path.
 
     Raises:
-        InputError: If no renderer can be made here; the message names the cause.
+        InputError: If no renderer works; the message names the cause.
     """
     legs = build_leg_model(robot)
     settled(robot, legs, standing_feet(robot.stance_width), robot.com_height)

@@ -1,4 +1,4 @@
-"""The robot file that is written: every value with its reason."""
+"""The written robot file: every value with its reason."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Inertia about each joint of a leg, and gains of its servos from inertia, weight and control period."""
+"""Inertia about each leg joint, and servo gains."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ __all__ = [
 
 @dataclass(frozen=True)
 class JointInertia:
-    """Inertia about each joint of a leg in kg m^2, the lesser of both legs, with the rotor's.
+    """Inertia about each leg joint in kg m^2, the lesser of both legs, with rotor.
 
     Attributes:
-        swing: With the robot floating freely: 1 / (M^-1)_jj.
+        swing: Robot floating freely: 1 / (M^-1)_jj.
         stance: Of all above a joint whose foot stands still.
         armature: The rotor's share.
         damping: The joint's own in N m s/rad.
@@ -44,9 +44,7 @@ class JointInertia:
 
 
 def joint_inertia(robot: Robot, model: Any, configuration: NDArray[np.float64]) -> JointInertia:
-    """Returns the inertia about the legs' joints of a `robot` in a `configuration` (nq,) of its `model` alone, with
-    shoes.
-    """
+    """Returns the inertia about leg joints of a `robot` in a `configuration` (nq,) of its `model` alone, with shoes."""
     data = _at(model, configuration)
     free = _floating(model, data)
     found = []
@@ -60,7 +58,7 @@ def joint_inertia(robot: Robot, model: Any, configuration: NDArray[np.float64]) 
 
 
 def floating_inertia(model: Any, configuration: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Returns the inertia (nv,) in kg m^2, or kg, of a `model` that floats freely in a `configuration` (nq,): 1 /
+    """Returns the inertia (nv,) in kg m^2, or kg, of a freely floating `model` in a `configuration` (nq,): 1 /
     (M^-1)_jj.
     """
     return _floating(model, _at(model, configuration))
@@ -80,7 +78,7 @@ def _floating(model: Any, data: Any) -> NDArray[np.float64]:
 
 
 def _above(model: Any, data: Any, joint: int) -> float:
-    """Inertia in kg m^2 about a joint's axis of all bodies that do not hang on it."""
+    """Inertia in kg m^2 about a joint's axis of all bodies above it."""
     axis, anchor = data.xaxis[joint], data.xanchor[joint]
     hanging = set(hanging_on(model, int(model.jnt_bodyid[joint])))
     total = 0.0
@@ -109,21 +107,20 @@ _LEAD = 0.076  # damping over stiffness, in beats of the leg; h1 has 0.01875 s
 def servo_gains(
     inertia: JointInertia, mass: float, com_height: float, beat: float, period: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Gains of the servos of a leg.
+    """Gains of a leg's servos.
 
-    Stiffness is 12 m g h, as of h1; for a light joint only so much that the foot's own swing, of frequency sqrt(k / I),
-    moves by 1.5 rad in a control period. Damping is critical for the swing, or as of h1 where that is more, less the
-    joint's own.
+    Stiffness is 12 m g h, as of h1; for a light joint only until the foot's own swing, of frequency sqrt(k / I), moves
+    by 1.5 rad in a control period. Damping is critical for the swing, or as of h1 if more, less the joint's own.
 
     Args:
         inertia: About each joint of a leg.
-        mass: Of the robot in kg.
-        com_height: Of its CoM in m.
+        mass: In kg.
+        com_height: In m.
         beat: Time scale sqrt(leg / g) in s.
         period: Control period in s.
 
     Returns:
-        Stiffness in N m/rad and damping in N m s/rad of each joint of a leg, of two digits.
+        Stiffness in N m/rad and damping in N m s/rad of each joint, of two digits.
     """
     wanted = STIFFNESS * mass * GRAVITY * com_height
     least = LEAST_STIFFNESS * mass * GRAVITY * com_height
@@ -134,19 +131,19 @@ def servo_gains(
 
 
 def rotor_inertia(inertia: JointInertia, mass: float, com_height: float, period: float) -> NDArray[np.float64]:
-    """Rotor inertia to assume where a model states none and a joint would be too light for its servo.
+    """Rotor inertia to assume where a model states none and a joint is too light for its servo.
 
-    It keeps a bare foot's swing under the least stiffness that holds the robot to `SAMPLED` in a control period; more
-    would chatter. For Unitree's G1, whose URDF states none, 0.0035 and 0.0066 kg m^2 about the ankle, which has 0.007.
+    It keeps a bare foot's swing under the least holding stiffness to `SAMPLED` in a control period. For Unitree's G1,
+    whose URDF states none: 0.0035 and 0.0066 kg m^2 about the ankle, which has 0.007.
 
     Args:
         inertia: About each joint of a leg.
-        mass: Of the robot in kg.
-        com_height: Of its CoM in m.
+        mass: In kg.
+        com_height: In m.
         period: Control period in s.
 
     Returns:
-        Inertia in kg m^2 to add about each joint of a leg, of two digits; 0 where none is missing.
+        Inertia in kg m^2 to add about each joint, of two digits; 0 if none is missing.
     """
     least = LEAST_STIFFNESS * mass * GRAVITY * com_height
     missing = least * (period / SAMPLED) ** 2 - inertia.swing

@@ -1,4 +1,4 @@
-"""The sole of a foot: the plane that the foot would come to rest on, and its frame."""
+"""The sole of a foot: the plane it rests on, and its frame."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Sole:
-    """The bare sole of a foot. Its frame: x forward, y left, z up, origin on the sole plane below the ankle.
+    """The bare sole of a foot. Frame: x forward, y left, z up, origin on the sole plane below the ankle.
 
     Attributes:
-        origin: (3,) in the frame of the foot's body in m.
-        rotation: Rotation (3, 3) from the sole frame to that of the foot's body.
+        origin: (3,) in the foot body's frame in m.
+        rotation: Rotation (3, 3) from the sole frame to the foot body's.
         triangles: The foot's surface (n, 3, 3) in the sole frame in m.
         low: Least x and y (2,) of the sole in m; `high` the greatest.
-        turn: Angle in rad between the sole's normal and the nearest axis of the body's frame.
+        turn: Angle in rad from the sole's normal to the nearest body axis.
         area: Of the outline's convex hull in m^2.
         notes: How it was found.
     """
@@ -58,9 +58,9 @@ class Rested:
 
     Attributes:
         kind: "drawn" or "colliding".
-        surface: Triangles (n, 3, 3) of those shapes in m, in the wanted axes.
-        normal: Outward normal (3,) of the plane that they would rest on.
-        share: Area of that plane over the silhouette from above.
+        surface: Triangles (n, 3, 3) in m, in the wanted axes.
+        normal: Outward normal (3,) of the plane that they rest on.
+        share: That plane's area over the silhouette from above.
     """
 
     kind: str
@@ -70,7 +70,7 @@ class Rested:
 
 
 def rested(model: Any, data: Any, parts: Collection[int], rotation: Array) -> Rested | None:
-    """Returns the plane that a foot of bodies `parts` of `model` in state `data` would rest on; None without shapes.
+    """Returns the plane that a foot of bodies `parts` of `model` in state `data` rests on; None without shapes.
 
     Drawn shapes count, or colliding ones where only these are flat below. `rotation` (3, 3) is from the model's world
     to axes with z up.
@@ -94,7 +94,7 @@ def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> S
     `rotation` (3, 3) is from the model's world to x forward, y left, z up.
 
     Raises:
-        RobotError: If the foot has no shape to stand on.
+        RobotError: If the foot has no shape.
     """
     name = model.body(leg.foot).name
     found = rested(model, data, leg.parts, rotation)
@@ -149,7 +149,7 @@ def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> S
 
 
 def _axes(surface: Array, normal: Array) -> tuple[Array, float]:
-    """Rotation (3, 3) from the sole's axes to the robot's, and the turn of the foot's long side in rad."""
+    """Rotation (3, 3) from the sole's axes to the robot's, and turn of the long side in rad."""
     up = -normal
     forward = np.array([1.0, 0.0, 0.0]) - up[0] * up
     forward /= float(np.linalg.norm(forward))
@@ -164,7 +164,7 @@ def _axes(surface: Array, normal: Array) -> tuple[Array, float]:
 
 
 def _long_side(points: Array) -> float:
-    """Angle in rad, within a quarter turn, of the long side of the smallest rectangle around points (n, 2)."""
+    """Angle in rad, within a quarter turn, of the long side of the least rectangle around points (n, 2)."""
     try:
         corners = points[ConvexHull(points).vertices]
     except (QhullError, ValueError):
@@ -184,7 +184,7 @@ def _long_side(points: Array) -> float:
 
 
 def _covered(triangles: Array) -> float:
-    """Share of the silhouette that faces of the lowest band cover: small for balls and bars, 1 for a plate."""
+    """Share of the silhouette that lowest faces cover: small for balls and bars, 1 for a plate."""
     flat = triangles[(triangles[..., 2] <= _BAND).all(axis=1)][..., :2]
     a, b = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
     cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]

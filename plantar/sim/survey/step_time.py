@@ -1,16 +1,14 @@
-"""How long a robot's steps take: those of legs without ankle roll, and those whose swinging leg would turn the sole.
+"""How long a robot's steps take, without ankle roll or with sole-turning swing legs.
 
-A sole without ankle roll is level only where its leg is vertical in the frontal plane. A pendulum of height h that is
-carried at p to the side, half the feet's distance, swings towards the foot and back in a time T, and leans by atan(y /
-h), with
+A sole without ankle roll is level only where its leg is vertical in the frontal plane. A pendulum of height h carried
+at p to the side, half the feet's distance, swings to the foot and back in a time T, and leans by atan(y / h), with
 
     y = p (1 - 1 / cosh(w T / 2)),    w = sqrt(g / h)
 
 (Kajita et al., "The 3D linear inverted pendulum mode", IROS 2001). Quick steps keep that small.
 
-A leg thrown forward pushes the robot back about the vertical through the standing sole; friction has to hold that.
-Unitree's G1, whose legs are a fifth of its mass each, turns its sole by one or two degrees a step where the leg takes a
-sixth of friction, and by seven once it has stepped down.
+A leg thrown forward turns the robot about the vertical through the standing sole, against friction. Unitree's G1 turns
+its sole by one or two degrees a step where the leg takes a sixth of friction, by seven after a step down.
 """
 
 from __future__ import annotations
@@ -42,12 +40,12 @@ _SHORTEST = 0.2  # s: the least that the timing of a walk allows
 
 
 def has_ankle_roll(robot: Robot, legs: LegModel, side: Side = "left") -> bool:
-    """Returns whether the leg of a `side` of `legs` of a `robot` has two joints that roll, in hip and ankle."""
+    """Returns whether the leg of a `side` of `legs` of a `robot` rolls in hip and ankle."""
     return len(rolling_joints(robot, side, legs.model, stood(robot, legs.model))) >= 2
 
 
 def rocking(robot: Robot, com_height: float) -> Robot:
-    """Returns the `robot`, whose CoM is at `com_height` in m, with the time of a step in which its legs lean little."""
+    """Returns the `robot`, with CoM at `com_height` in m, with a step time at which its legs lean little."""
     beat = math.sqrt(com_height / GRAVITY)
     near = min(_NEAR, com_height * math.tan(LEAN_MOST) / (0.5 * robot.stance_width))
     step = 2.0 * beat * math.acosh(1.0 / (1.0 - near))
@@ -58,8 +56,8 @@ def rocking(robot: Robot, com_height: float) -> Robot:
 
 
 def ankle_reach(robot: Robot, weight: float, ankle: int) -> float | None:
-    """Returns how far from itself along the sole in m joint `ankle` of a `robot` bears its `weight` in N; None: up to
-    the toes.
+    """Returns how far from itself along the sole in m joint `ankle` of a `robot` bears its `weight` in N; None: to the
+    toes.
     """
     if not robot.effort_limits:
         return None
@@ -82,8 +80,8 @@ _PEAK = 10.0 / math.sqrt(3.0)
 
 
 def swinging_mass(robot: Robot, legs: LegModel) -> float:
-    """Returns the mass in kg of `legs` of a `robot` that goes forward as the foot: each part by how far below the hip
-    it is.
+    """Returns the mass in kg of `legs` of a `robot` that goes forward as the foot, parts weighted by depth below the
+    hip.
     """
     model, data = legs.model, stood(robot, legs.model)
     hip = int(model.joint(robot.legs["left"].joints[0]).bodyid[0])
@@ -94,15 +92,13 @@ def swinging_mass(robot: Robot, legs: LegModel) -> float:
 
 
 def least_single_support(robot: Robot, legs: LegModel, body: BodyScale, step: float) -> float:
-    """The least t_ss in s, in hundredths, at which friction holds the standing sole with plenty to spare.
-
-    Returns it from:
+    """Returns the least t_ss in s, in hundredths, at which friction amply holds the standing sole.
 
     Args:
-        robot: The robot, with its stance and layouts.
+        robot: The robot, with stance and layouts.
         legs: Its kinematics.
         body: Its mass and leg.
-        step: Length of a step in m; the foot goes twice as far.
+        step: Length in m; the foot goes twice as far.
     """
     length, width = np.ptp(robot.layouts["left"].outline, axis=0)
     holds = _FRICTION * body.mass * GRAVITY * _ARM * math.hypot(length, width)

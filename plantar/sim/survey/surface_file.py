@@ -1,4 +1,4 @@
-"""Surfaces from mesh files: Collada and text STL, which MuJoCo does not read, become binary STL."""
+"""Mesh files that MuJoCo does not read (Collada, text STL) as binary STL."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Triangles = NDArray[np.float64]
 
 
 def mesh_for_mujoco(path: Path, folder: Path) -> Path | None:
-    """Returns the file `path`, one converted into `folder`, or None where it is missing or cannot be read."""
+    """Returns the file `path`, one converted into `folder`, or None if missing or unreadable."""
     kind = path.suffix.lower()
     if not path.is_file():
         return None
@@ -58,7 +58,7 @@ def stl_bytes(triangles: Triangles) -> bytes:
 
 
 def simplified(triangles: Triangles, cells: int) -> Triangles:
-    """Returns fewer `triangles` (n, 3, 3): corners drawn together on a lattice of `cells` along the longest side.
+    """Returns fewer `triangles` (n, 3, 3): corners merged on a lattice of `cells` along the longest side.
 
     Example:
         >>> fine = np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [1e-3, 0, 0], [0, 1e-3, 0]]], dtype=float)
@@ -95,7 +95,7 @@ def _text_stl(data: bytes) -> Triangles:
 def _collada(path: Path) -> Triangles:
     """Triangles of a Collada file in m, its nodes in place.
 
-    Its up axis is ignored, as RViz and Gazebo do (github.com/ros-visualization/rviz/issues/1045).
+    Its up axis is ignored, as in RViz and Gazebo (github.com/ros-visualization/rviz/issues/1045).
     """
     root = parse_xml(read_input(path, RobotError, _MOST_BYTES), RobotError, str(path))
     for element in root.iter():

@@ -1,4 +1,4 @@
-"""Legs, feet, torso and motors of a robot's model, before decisions."""
+"""Legs, feet, torso and motors of a robot's model."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ class Survey:
     Attributes:
         held: Angles in rad by name of other joints.
         imu: "site" or "body" of the IMU, and its name; or None.
-        efforts: Largest torque in N m of each joint of a leg, or None; `speeds` in rad/s, or empty.
-        gains: Stiffness in N m/rad and damping in N m s/rad of each joint of the left leg, or empty.
+        efforts: Largest torque in N m of each leg joint, or None; `speeds` in rad/s, or empty.
+        gains: Stiffness in N m/rad and damping in N m s/rad of each left leg joint, or empty.
         notes: For the user, each a sentence.
     """
 
@@ -62,7 +62,7 @@ def survey_model(file: Path, folder: Path) -> Survey:
     """Returns legs, soles, IMU and limits of the robot in `file`; converted meshes go to `folder`.
 
     Raises:
-        RobotError: If the file cannot be read, or holds no robot on two legs.
+        RobotError: If the file holds no biped.
     """
     source = read_model(file, folder)
     model = source.model

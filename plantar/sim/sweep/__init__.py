@@ -1,4 +1,4 @@
-"""Many runs of a scene: over a grid and seeds, at random or towards a limit, on this machine or on a Dask cluster."""
+"""Many runs of a scene, on this machine or a Dask cluster."""
 
 from plantar.sim.sweep.limit_search import LimitSearch
 from plantar.sim.sweep.loop import SweepStopped, run_sweep

@@ -1,4 +1,4 @@
-"""Workers of a Dask cluster, and which addresses of its scheduler are allowed."""
+"""Workers of a Dask cluster, and allowed scheduler addresses."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _VARIABLE = "DASK_DISTRIBUTED__COMM__TLS__"
 
 
 def check_address(address: str) -> str:
-    """The address with its scheme; an InputError for other addresses.
+    """The address with its scheme; an InputError for others.
 
     Example:
         >>> check_address("192.0.2.1:8786")
@@ -47,10 +47,10 @@ def check_address(address: str) -> str:
 
 
 def tls_files(environment: Mapping[str, str] = os.environ) -> dict[str, str]:
-    """Paths of the certificates of authority and client and of the client's key, from Dask's environment variables.
+    """Paths of authority and client certificates and client key, from Dask's environment variables.
 
     Raises:
-        InputError: If one is not named or not a file.
+        InputError: If one is missing.
     """
     found = {}
     for key, name in _FILES.items():
@@ -63,7 +63,7 @@ def tls_files(environment: Mapping[str, str] = os.environ) -> dict[str, str]:
 
 
 def network_note(address: str) -> str:
-    """A warning about a scheduler on a network without authentication, or an empty text.
+    """A warning about an unauthenticated scheduler on a network, or an empty text.
 
     Example:
         >>> network_note("tcp://127.0.0.1:8786")
@@ -89,13 +89,13 @@ _LOGS = ("distributed", "distributed.client", "tornado", "tornado.application", 
 
 
 class ClusterWorkers:
-    """The workers of a Dask scheduler at an `address` such as tcp://host:8786 or tls://host:8786.
+    """Workers of a Dask scheduler at an `address` such as tcp://host:8786 or tls://host:8786.
 
-    Dask restarts the run of a dead worker on another one, as often as its setting `allowed-failures` allows.
+    Dask restarts a dead worker's run on another, as often as its setting `allowed-failures` allows.
 
     Raises:
-        DependencyError: If Dask's `distributed` is not installed.
-        InputError: If the address is not a scheduler's, certificates are missing, or no scheduler answers.
+        DependencyError: If Dask's `distributed` is missing.
+        InputError: If address, certificates or scheduler fail.
     """
 
     def __init__(self, address: str) -> None:
@@ -132,7 +132,7 @@ class ClusterWorkers:
 
     @property
     def room(self) -> int:
-        """How many more tasks can be taken: two for each thread of a worker, so that none waits."""
+        """How many more tasks fit: two for each worker thread."""
         return max(1, 2 * self._threads) - len(self._tasks)
 
     def submit(self, task: Task) -> None:

@@ -1,4 +1,4 @@
-"""The figures of a sweep, drawn from its table alone."""
+"""Figures of a sweep, drawn from its table alone."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def figures_of(plan: Plan, found: Mapping[str, Any], rows: Rows) -> dict[str, An
 
     Returns:
         Figures by name: "limit" of a limit search; else "completed", "map" over the first two numeric settings, and
-        "distributions" over the grid's points.
+        "distributions".
     """
     scene = plan.checked.scene
     if isinstance(plan, LimitSearch):
@@ -50,7 +50,7 @@ def figures_of(plan: Plan, found: Mapping[str, Any], rows: Rows) -> dict[str, An
 
 
 def bars_of(points: Sequence[Mapping[str, Any]], scene: str) -> Any:
-    """Returns a figure of completed runs at all `points` of a sweep with Wilson's 95 % intervals, titled `scene`."""
+    """Returns a figure of completed runs at all `points` with Wilson's 95 % intervals, titled `scene`."""
     figure, axis = new_figure(min(max(5.0, 1.2 + 1.05 * len(points)), _WIDEST), 4.0)
     names = ["\n".join(f"{k}={v}" for k, v in p["settings"].items()) or scene for p in points]
     shares = np.array([100.0 * p["completed"] / p["runs"] if p["runs"] else 0.0 for p in points])

@@ -1,4 +1,4 @@
-"""File contents and versions that the rows of a sweep depend on."""
+"""File contents and versions that sweep rows depend on."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def inputs_of(scene: str, robot: str) -> dict[str, str]:
 
     Raises:
         SceneError: If the scene is unknown.
-        RobotError: If the robot is unknown or invalid.
+        RobotError: If the robot is not valid.
 
     Example:
         >>> sorted(inputs_of("flat", "h1"))[:3]

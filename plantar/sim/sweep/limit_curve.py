@@ -1,9 +1,8 @@
-"""Where the outcome of runs changes along a setting, and how well their outcomes show it.
+"""Where the outcome of runs changes along a setting, and how certainly.
 
 The share of completed runs is a logistic curve between a lapse and one less the lapse; the limit is at one half. Limit,
-width and lapse have a probability on a grid, at first flat in the limit, in the logarithm of the width and over three
-lapses. (Kontsevich and Tyler, Bayesian adaptive estimation of psychometric slope and threshold, Vision Research 39,
-1999.)
+width and lapse have a probability on a grid, at first flat in the limit, the logarithm of the width and three lapses
+(Kontsevich and Tyler, Bayesian adaptive estimation of psychometric slope and threshold, Vision Research 39, 1999).
 """
 
 from __future__ import annotations
@@ -32,11 +31,11 @@ class LimitCurve:
     """What outcomes show of a limit.
 
     Attributes:
-        rising: Whether more runs are completed at larger values.
-        limits: Possible limits (n,) in the unit of the setting, ascending.
+        rising: Whether larger values complete more runs.
+        limits: Possible limits (n,) in the setting's unit, ascending.
         probability: Probability (n,) of each.
         widths: Possible widths (k,) in that unit.
-        joint: Probability (k, n, lapses) of width, limit and lapse together.
+        joint: Probability (k, n, lapses) of width, limit and lapse.
 
     Example:
         >>> curve = limit_curve([1.0, 2.0, 3.0, 4.0] * 5, [True, True, False, False] * 5, 0.0, 5.0)
@@ -57,26 +56,26 @@ class LimitCurve:
 
     @property
     def interval(self) -> tuple[float, float]:
-        """The 95 % interval of the limit, for a number of runs that was chosen before."""
+        """The 95 % interval of the limit, for a number of runs chosen before."""
         return self.quantile(0.025), self.quantile(0.975)
 
     @property
     def interval_of_search(self) -> tuple[float, float]:
         """The 95 % interval of a search that ended because it was narrow enough: a probability of 98 %.
 
-        Such a search ends early where chance makes the curve look too steep: `interval` holds the limit in only 90 of
-        100 (`tests/sim/sweep/test_limit_search.py` counts).
+        Such a search ends early by chance: `interval` holds the limit in only 90 of 100
+        (`tests/sim/sweep/test_limit_search.py` counts).
         """
         return self.quantile(0.01), self.quantile(0.99)
 
     def quantile(self, probability: float) -> float:
-        """The value below which the limit is with a probability, 0 to 1."""
+        """The value below which the limit is with a probability."""
         step = self.limits[1] - self.limits[0]
         ends = np.concatenate([[self.limits[0] - step / 2.0], self.limits + step / 2.0])
         return float(np.interp(probability, np.concatenate([[0.0], np.cumsum(self.probability)]), ends))
 
     def inside(self, low: float, high: float) -> float:
-        """Returns the probability, 0 to 1, that the limit is between `low` and `high`."""
+        """Returns the probability of a limit between `low` and `high`."""
         return float(self.probability[(low <= self.limits) & (self.limits <= high)].sum())
 
     def share(self, value: float) -> float:
@@ -85,7 +84,7 @@ class LimitCurve:
         return rising if self.rising else 1.0 - rising
 
     def agreement(self, values: Sequence[float], completed: Sequence[bool]) -> float:
-        """Probability, 0 to 1, that runs of this curve are as far from it as these: tiny where no curve explains them.
+        """Probability that runs of this curve are as far from it as these: tiny where no curve explains them.
 
         Returns Pearson's chi square of groups of ten runs or more by `values`, with whether each was `completed`; 1
         below 40 runs.
@@ -117,7 +116,7 @@ class LimitCurve:
 
 def limit_curve(values: Sequence[float], completed: Sequence[bool], low: float, high: float) -> LimitCurve:
     """Returns what `values` and whether each was `completed` show of a limit between `low` and `high`, in the likelier
-    direction; a ValueError where `low` is not below `high`.
+    direction; a ValueError unless `low` is below `high`.
     """
     if not low < high:
         raise ValueError(f"range {low} to {high} is empty")
@@ -146,7 +145,7 @@ def _log_likelihoods(
     limits: NDArray[np.float64],
     widths: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Log likelihood (widths, limits, lapses) of the runs, of a rising curve and of a falling one."""
+    """Log likelihood (widths, limits, lapses) of a rising curve and of a falling one."""
     up = np.zeros((len(widths), len(limits), len(_LAPSES)))
     down = np.zeros_like(up)
     for value, completed, failed in zip(tried, good, bad, strict=True):

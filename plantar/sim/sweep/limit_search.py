@@ -1,4 +1,4 @@
-"""Search the limit of one setting with the most informative runs, until it is known well enough."""
+"""Search the limit of one setting with the most informative runs."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _SURE = 0.95
 
 @dataclass(frozen=True)
 class LimitSearch:
-    """The value of a setting at which half of the runs are completed, at each point of a grid.
+    """The value of a setting at which half of the runs are completed, at each grid point.
 
     Attributes:
         sweep: Scene, grid and, as "seeds", the most runs at each point; every run has its own seed.
@@ -35,8 +35,8 @@ class LimitSearch:
         within: Width of the limit's 95 % interval, as a share of the limit, that ends the search.
 
     Raises:
-        InputError: If the share is not above 0 and below 1, or the setting is given twice.
-        SceneError: If the setting is unknown, or an end of its range not allowed.
+        InputError: If share or settings are not valid.
+        SceneError: If setting or range is not allowed.
     """
 
     sweep: Sweep
@@ -53,7 +53,7 @@ class LimitSearch:
 
     @cached_property
     def checked(self) -> Sweep:
-        """The checked sweep of both ends of the range."""
+        """The checked sweep of both range ends."""
         ends = (self.limit.text(self.limit.low), self.limit.text(self.limit.high))
         return self.sweep.with_axes([(self.limit.name, ends)])
 
@@ -85,24 +85,24 @@ class LimitSearch:
             "limits": for each grid point its settings, the searched setting ("setting", "unit", "range"), its "limit",
             the 95 % "interval" and its "width" as a share of the limit (None outside of the range), whether it is known
             well enough ("reached"), whether larger values hold ("rising"), how well one curve explains the runs
-            ("agreement"), runs, completed, and the errors of impossible runs.
+            ("agreement"), runs, completed, and errors of impossible runs.
         """
         return {"limits": [self._found(point, rows) for point in self.sweep.points()]}
 
     def progress(self, rows: Rows) -> tuple[float, str]:
-        """Progress, 0 to 1, and in words: the needed runs go with the square of 1 / width."""
+        """Progress, 0 to 1, and in words: runs go with the square of 1 / width."""
         widths = [_width(self.curve(self.tried(point, rows), rows)) for point in self.sweep.points()]
         widest = max(widths)
         words = f"{100.0 * widest:.0f} %" if widest < 10.0 else "its range"
         return min(1.0, (self.within / widest) ** 2), f"{len(rows)} rows (limit known within {words})"
 
     def tried(self, point: Sequence[str], rows: Rows) -> list[Key]:
-        """Returns the keys of the runs of a grid `point` in `rows`, by their seeds."""
+        """Returns keys of a grid `point`'s runs in `rows`, by seed."""
         values = tuple(settings_of(point).values())
         return sorted((key for key in rows if key[0][:-1] == values), key=lambda key: key[1])
 
     def curve(self, keys: Sequence[Key], rows: Rows) -> LimitCurve:
-        """Returns the curve of the outcomes of the runs `keys` in `rows`, without impossible runs."""
+        """Returns the curve of the runs `keys` in `rows`, without impossible ones."""
         return limit_curve(*self._outcomes(keys, rows), self.limit.low, self.limit.high)
 
     def _outcomes(self, keys: Sequence[Key], rows: Rows) -> tuple[list[float], list[bool]]:

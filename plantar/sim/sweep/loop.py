@@ -1,7 +1,4 @@
-"""Many runs of a scene, on this machine's cores or on a Dask cluster, until all have ended or Ctrl-C or SIGTERM comes.
-
-Every finished run is appended to results.csv at once, so that a stopped sweep continues.
-"""
+"""Many runs of a scene, each appended to results.csv at once: a stopped sweep continues."""
 
 from __future__ import annotations
 
@@ -45,7 +42,7 @@ class StopNote:
 
     @contextmanager
     def held(self) -> Iterator[None]:
-        """Only note a signal during this; it is raised at the end."""
+        """Only note a signal during this; raised at the end."""
         self._held = True
         try:
             yield
@@ -68,7 +65,7 @@ class StopNote:
 
 @contextmanager
 def stop_noted() -> Iterator[StopNote]:
-    """Handle both signals during this, in the main thread; others cannot."""
+    """Handle both signals during this, in the main thread only."""
     note = StopNote()
     before = {}
     if threading.current_thread() is threading.main_thread():
@@ -96,21 +93,21 @@ def run_sweep(
     scheduler: str | None = None,
     progress: Progress | None = None,
 ) -> dict[str, Any]:
-    """Run what is not in results.csv yet, append each run as it ends, and draw the figures.
+    """Run what results.csv lacks, append each run as it ends, and draw figures.
 
     Args:
         plan: A `Sweep` over a grid, a `LimitSearch` or a `RandomSearch`.
         folder: Folder of results.csv; made if needed.
         workers: Processes on this machine.
-        scheduler: Address of a Dask scheduler that runs them instead.
+        scheduler: Address of a Dask scheduler to use instead.
         progress: Called with the fraction done and a text.
 
     Returns:
         The plan's `found` for all rows, and "runs", "resumed", "files".
 
     Raises:
-        InputError: If the folder cannot be used, no scheduler answers, or a file that runs depend on has changed.
-        WorkerError: If the workers cannot go on; the text names the kept rows.
+        InputError: If folder or scheduler fails, or an input file has changed.
+        WorkerError: If workers fail; the text names the kept rows.
         SweepStopped: A KeyboardInterrupt after Ctrl-C or SIGTERM that names the kept rows.
     """
     if workers < 1:
@@ -150,11 +147,11 @@ def run_sweep(
 
 
 class _Tasks:
-    """The runs of a plan without a row, as tasks; None while the next one depends on rows to come.
+    """A plan's runs without a row, as tasks; None while the next depends on rows to come.
 
     Attributes:
         keys: Key of each task's row.
-        count: Number of runs of the plan so far.
+        count: Number of the plan's runs so far.
     """
 
     def __init__(self, plan: Plan, inputs: Mapping[str, Mapping[str, str]], rows: Rows) -> None:

@@ -1,4 +1,4 @@
-"""What a sweep runs: a scene, the values of its grid, and seeds, checked before the first run."""
+"""What a sweep runs: scene, grid values and seeds, checked first."""
 
 from __future__ import annotations
 
@@ -82,17 +82,17 @@ class Sweep:
     """A grid of settings and seeds.
 
     Attributes:
-        scene: Name or file of the scene.
-        grid: For each setting the values to try, as canonical texts.
+        scene: Name or file.
+        grid: Values to try for each setting, as canonical texts.
         seeds: Number of seeds.
-        robot: Robot to use instead of the scene's, or None.
-        settings: "key=value" settings of all runs.
-        first_seed: The first of the consecutive seeds.
+        robot: Used instead of the scene's, or None.
+        settings: "key=value" of all runs.
+        first_seed: First of the consecutive seeds.
 
     Raises:
-        InputError: If a key or value comes twice, or two points are the same scene.
-        SceneError: If a setting is unknown or not allowed.
-        RobotError: If the robot is unknown or invalid.
+        InputError: If keys, values or points repeat.
+        SceneError: If a setting is not allowed.
+        RobotError: If the robot is not valid.
     """
 
     scene: str
@@ -163,7 +163,7 @@ class Sweep:
         return self
 
     def runs(self, rows: Rows) -> Iterator[Run]:
-        """Settings and seed of every run: all points for one seed before the next."""
+        """Settings and seed of every run: all points for one seed first."""
         for seed in self.seed_range:
             for point in self.points():
                 yield point, seed
@@ -185,10 +185,10 @@ class Sweep:
         return replace(self, grid=(*self.grid, *axes))
 
     def fitted(self, wanted: ValueRange) -> ValueRange:
-        """A range limited to whole numbers, if the setting takes no others and its ends are such.
+        """A range limited to whole numbers, if the setting takes no others and its ends are whole.
 
         Raises:
-            SceneError: If the setting does not take numbers, or not those.
+            SceneError: If the setting takes no such numbers.
         """
         between = wanted.text(wanted.low + (wanted.high - wanted.low) * 0.3819)
         point = self.points()[0]
@@ -211,7 +211,7 @@ class Sweep:
         return self.opened(point).robot
 
     def identity(self) -> dict[str, Any]:
-        """What all rows share besides file contents. Points and seeds may be added, other changes not."""
+        """What all rows share besides file contents. Points and seeds may be added."""
         scene = self.opened(self.points()[0])
         settings = {}
         for key, _, value in (s.partition("=") for s in self.settings):
@@ -248,7 +248,7 @@ class Sweep:
 
 
 def progress_of(runs: Iterable[Run], rows: Rows) -> tuple[float, str]:
-    """Returns which share of the `runs` is in `rows`, as a number and in words."""
+    """Returns the share of the `runs` in `rows`, as a number and in words."""
     wanted = [key_of(*run) for run in runs]
     done = sum(key in rows for key in wanted)
     return done / len(wanted), f"{done} of {len(wanted)} rows"
@@ -256,7 +256,7 @@ def progress_of(runs: Iterable[Run], rows: Rows) -> tuple[float, str]:
 
 def point_result(point: Sequence[str], ran: Sequence[Mapping[str, str]]) -> dict[str, Any]:
     """Returns the result of a `point` over its rows `ran`: settings, runs, completed, 95 % Wilson interval of their
-    share, failures by criterion ("reasons"), and the errors of impossible runs.
+    share, failures by criterion ("reasons"), errors of impossible runs.
     """
     completed = sum(row["completed"] == "True" for row in ran)
     return {

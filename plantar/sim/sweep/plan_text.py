@@ -34,13 +34,13 @@ def plan_from_texts(
         seeds: Number of seeds; with a limit the most at each grid point. None for 1, or 1000 with a limit.
         limit: Text "key=from:to" of the searched setting.
         within: Width of the limit's 95 % interval, as a share of the limit, that ends the search.
-        random: Texts "key=from:to" of settings that are drawn.
+        random: Texts "key=from:to" of drawn settings.
 
     Returns:
         The plan.
 
     Raises:
-        InputError: If a text is malformed, something comes twice, or a limit is searched along random points.
+        InputError: If texts are malformed or contradict.
     """
     if limit is not None and random:
         raise InputError("a limit is searched along one setting; leave out --random, or use --grid along with --limit")

@@ -1,4 +1,4 @@
-"""Runs at random points of the ranges of some settings, one seed a point."""
+"""Runs at random points of settings' ranges, one seed a point."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ __all__ = ["RandomSearch"]
 
 @dataclass(frozen=True)
 class RandomSearch:
-    """Runs at random points, the same ones at every point of a grid; more seeds add points.
+    """Runs at random points, the same at every grid point; more seeds add points.
 
     Attributes:
         sweep: Scene, grid, and seeds: one point a seed.
-        ranges: The settings that are drawn uniformly from their ranges.
+        ranges: Settings drawn uniformly from their ranges.
 
     Raises:
-        InputError: If no setting is drawn, or one is given twice.
-        SceneError: If a setting is unknown, or an end of its range not allowed.
+        InputError: If no setting is drawn, or one twice.
+        SceneError: If setting or range is not allowed.
     """
 
     sweep: Sweep
@@ -58,7 +58,7 @@ class RandomSearch:
                 yield (*point, *drawn), seed
 
     def found(self, rows: Rows) -> dict[str, Any]:
-        """ "points": the result of each grid point over the rows that ended (`point_result`)."""
+        """ "points": the result of each grid point over the ended rows (`point_result`)."""
         ran_at: dict[tuple[str, ...], list[Any]] = {point: [] for point in self.sweep.points()}
         for point, seed in self.runs(rows):
             if (row := rows.get(key_of(point, seed))) is not None:

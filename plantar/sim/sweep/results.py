@@ -1,4 +1,4 @@
-"""The rows of a sweep: a growing table of whole rows, each run once, for one process at a time."""
+"""The rows of a sweep: a growing table, for one process at a time."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ _PLACE = 1 << 20  # where Windows locks a byte: behind the owner's name, which s
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Hold the lock of an existing folder; the system releases it however its owner ends.
+    """Hold the lock of an existing folder; the system releases it when its owner ends.
 
     Raises:
-        InputError: If another process holds it (the message names it), or the file system has no locks.
+        InputError: If another process holds it (named), or the file system has no locks.
     """
     path = folder / _NAME
     handle = _acquire(path)
@@ -127,7 +127,7 @@ class Results:
         """Add a row, a value for every column, to file and table, on disk or not at all; line breaks become spaces.
 
         Raises:
-            InputError: If the file cannot be written; the rows before stay.
+            InputError: If the file cannot be written.
         """
         texts = {name: _BREAKS.sub(" ", str(row[name])) for name in self.header}
         key = self._key(texts)
@@ -185,11 +185,11 @@ def open_results(
         folder: Folder of results.csv and sweep.json; made if needed.
         identity: What all rows share (`Sweep.identity`).
         inputs: Per robot what its rows depend on (`inputs_of`).
-        axes: Settings of the grid, the table's first columns.
+        axes: Settings of the grid, the first columns.
         columns: Columns after those and the seed.
 
     Yields:
-        The table; an InputError if the folder cannot be used, holds another sweep, or is in use.
+        The table; an InputError if the folder is unusable, in use, or another sweep's.
     """
     path, plan = folder / "results.csv", folder / "sweep.json"
     with ExitStack() as stack:

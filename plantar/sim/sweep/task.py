@@ -74,7 +74,7 @@ def columns_of(scene: Scene | CompanionScene) -> tuple[str, ...]:
 def run_one(scene: str, robot: str | None, settings: Sequence[str], seed: int) -> Row:
     """Returns one run as a flat row: a `scene`, another `robot` or None, "key=value" `settings` and a `seed`.
 
-    An error of the scenario becomes a row too, a missing library a DependencyError.
+    A scenario's error becomes a row, a missing library a DependencyError.
     """
     try:
         loaded = open_scene(scene, settings, robot)
@@ -109,7 +109,7 @@ def _of_walk(summary: Mapping[str, Any]) -> Row:
 
 
 def criteria_of(row: Mapping[str, str]) -> list[str]:
-    """Names of the criteria that a run failed, from the reasons in its row.
+    """Names of failed criteria, from the reasons in a row.
 
     Example:
         >>> criteria_of({"reasons": "fall: the base is low | steps: 2 of 8 steps; step 2 (from 0): never landed"})
@@ -124,7 +124,7 @@ def run_task(task: Task) -> Row:
     Raises:
         ImportError: If no run is possible here.
         DependencyError: Likewise.
-        InputError: If the scene or robot differs from when the sweep began.
+        InputError: If scene or robot have changed.
     """
     _check_inputs(task)
     try:

@@ -1,4 +1,4 @@
-"""Values of a setting as texts, in one canonical form (1.0 is 1), and the range of a searched one."""
+"""Values of a setting as canonical texts (1.0 is 1), and ranges."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def split_values(text: str) -> list[str]:
     """The TOML values and bare words of a list, split at commas outside brackets and quotes.
 
     Raises:
-        InputError: If a value is empty, or a bracket or quote is not closed.
+        InputError: If malformed.
 
     Example:
         >>> split_values("[1, 2], [3, 4]")
@@ -60,11 +60,10 @@ def is_word(key: str) -> bool:
 
 
 def canonical(text: str, *, word: bool = False) -> str:
-    """Returns the one text for all TOML values or bare words `text` with the same meaning; a `word` only loses its
-    quotes.
+    """Returns the one text for all TOML values or bare words `text` with the same meaning; a `word` only loses quotes.
 
     Raises:
-        InputError: If the text begins like a TOML value and is none, or is not printable.
+        InputError: If malformed or not printable.
 
     Example:
         >>> [canonical(text) for text in ("1.0", "0.10", "[1,2]", "'left'", "left", '"1"')]
@@ -119,7 +118,7 @@ class ValueRange:
         whole: Whether only whole numbers are tried.
 
     Raises:
-        InputError: If the range is empty or not finite.
+        InputError: If empty or not finite.
 
     Example:
         >>> ValueRange.from_text("width=0.2 sole:0.6 sole", "limit").text(0.41237)
@@ -138,10 +137,10 @@ class ValueRange:
 
     @classmethod
     def from_text(cls, text: str, option: str) -> ValueRange:
-        """Returns the range of `text` "key=from:to" of a command's `option`; both ends may be shares of the same unit.
+        """Returns the range of `text` "key=from:to" of a command's `option`; both ends may be shares of one unit.
 
         Raises:
-            InputError: If the text is malformed, or the range empty.
+            InputError: If malformed or empty.
         """
         key, equals, ends = text.partition("=")
         found = [_END.fullmatch(end) for end in ends.split(":")]

@@ -1,4 +1,4 @@
-"""Worker processes on this machine, one run at a time each, so that the run of a killed one is known."""
+"""Worker processes on this machine, one run at a time each."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Workers(Protocol):
         """Begin a task."""
 
     def finished(self, timeout: float) -> Sequence[tuple[Task, Row]]:
-        """Wait until a task ends, or for a time in s, and return the ended tasks with their rows.
+        """Wait until a task ends, or for a time in s; return ended tasks with their rows.
 
         Raises:
             WorkerError: If the workers cannot go on.
@@ -43,7 +43,7 @@ class Workers(Protocol):
 
 
 class LocalWorkers:
-    """At most `count` processes on this machine that `run` tasks by an importable function; replaced when they die."""
+    """At most `count` processes that `run` tasks by an importable function; replaced when they die."""
 
     def __init__(self, count: int, run: Callable[[Task], Row] = run_task) -> None:
         self._count = count
@@ -72,7 +72,7 @@ class LocalWorkers:
         worker.begin(task)
 
     def finished(self, timeout: float) -> Sequence[tuple[Task, Row]]:
-        """As of `Workers`; the task of a dead worker starts again on a new one."""
+        """As of `Workers`; a dead worker's task starts again."""
         if self._error is not None:
             raise self._error
         rows: list[tuple[Task, Row]] = []
@@ -178,7 +178,7 @@ def _answer(run: Callable[[Task], Row], task: Task) -> tuple[str, Row | PlantarE
 
 
 def _end_with_parent() -> None:
-    """End this worker when the sweep is killed, instead of waiting for ever."""
+    """End this worker when the sweep is killed."""
     parent = parent_process()
     if parent is not None:
 
@@ -191,7 +191,7 @@ def _end_with_parent() -> None:
 
 @contextmanager
 def _interrupts_held() -> Iterator[None]:
-    """Start a process with Ctrl-C blocked, so that it prints no traceback while it loads."""
+    """Start a process with Ctrl-C blocked: no traceback while it loads."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return

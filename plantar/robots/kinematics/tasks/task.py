@@ -68,7 +68,7 @@ class Task(ABC):
 
 
 def chain(model: mujoco.MjModel, body: int) -> NDArray[np.intp]:
-    """Returns indices (c,) of the velocities that move a body, from it to the root."""
+    """Returns indices (c,) of a model's velocities that move a body, from it to the root."""
     while body and not model.body_dofnum[body]:  # fixed to its parent
         body = int(model.body_parentid[body])
     moving: list[int] = []

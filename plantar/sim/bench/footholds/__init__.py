@@ -1,1 +1,1 @@
-"""Blind footholds: how any controller or policy walks where a foot finds less, or other, ground than planned."""
+"""How controllers or policies walk blindly on less, or other, ground than planned."""

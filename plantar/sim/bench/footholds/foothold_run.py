@@ -1,4 +1,4 @@
-"""Trials, ground and pushes in units of the robot, and one run of a policy on one, judged by what truly happened."""
+"""Trials in units of the robot, and a policy's run on one, judged by the truth."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ TRIALS = tuple(_trials())
 
 
 def scene_of_trial(trial: Trial, robot: str) -> Scene:
-    """Returns the scene of a `trial` for a `robot`; readings of the soles arrive one period late."""
+    """Returns the scene of a `trial` for a `robot`; sole readings arrive one period late."""
     name = f"{trial.kind}-{trial.value:g}"
     source = {"name": name, "sensing": {"delay_periods": 1}, **trial.tables}
     return scene_of(source, Path(f"{name}.toml"), (), robot)
@@ -80,7 +80,7 @@ class FootholdResult(NamedTuple):
     """What came of a run.
 
     Attributes:
-        completed: Whether all steps were taken, in order and place, and the robot stayed up.
+        completed: Whether all steps were taken in place without a fall.
         tilt: Largest tilt of the torso in degrees.
         froude: v^2 / (g l), v the way over the time from first to last step.
         time: Simulated time in s.
@@ -101,14 +101,14 @@ def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) 
     Args:
         make_policy: Makes the policy of a `WalkTask`.
         trial: The trial.
-        robot: Name or file of the robot.
-        seed: Draws the ground, the push and the sensors' noise.
+        robot: Name or file.
+        seed: Draws ground, push and sensor noise.
 
     Returns:
         The result.
 
     Raises:
-        InputError: If the policy raises, or returns no finite angles of the joints.
+        InputError: If the policy fails.
         SceneError: If the physics become unstable.
     """
     run = Simulation(scene_of_trial(trial, robot), seed)

@@ -1,4 +1,4 @@
-"""The foothold benchmark: all trials with many seeds, a growing table, and its summary."""
+"""The foothold benchmark: trials with many seeds in a growing table."""
 
 from __future__ import annotations
 
@@ -27,21 +27,21 @@ def measure_footholds(
     kinds: Sequence[str] = (),
     progress: Callable[[float, str], None] | None = None,
 ) -> dict[str, Any]:
-    """Run a policy on all trials that are not in the table yet.
+    """Run a policy on all trials that the table lacks.
 
     Args:
         folder: Of footholds.csv and footholds.md.
         policy: Python file with `make_policy(task)`, or None for the built-in controller.
-        robots: Names or files of robots; h1 where empty.
+        robots: Names or files; h1 where empty.
         seeds: Runs of each trial.
         kinds: Kinds of trials; all where empty.
         progress: Called with the fraction done and a text.
 
     Returns:
-        A row for each policy, robot and trial in the table, and the files' names.
+        A row for each policy, robot and trial, and the files' names.
 
     Raises:
-        InputError: If a kind is unknown, there is not at least one seed, or the policy cannot be run.
+        InputError: If an argument is not valid.
     """
     known = list(dict.fromkeys(t.kind for t in TRIALS))
     if seeds < 1 or set(kinds) - set(known):

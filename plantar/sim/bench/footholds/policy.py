@@ -1,4 +1,4 @@
-"""Input and output of a policy of the foothold benchmark, and how its file is loaded."""
+"""A policy of the foothold benchmark: input, output, and loading."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ class WalkTask:
     """What a policy knows of a trial: the walk as planned on level ground.
 
     Attributes:
-        robot: Name or file of the robot.
+        robot: Name or file.
         joints: Names of its k leg joints, in the order of all joint vectors.
         period: Time in s between calls of `step`.
         stance: Joint angles (k,) in rad and torques (k,) in N m at time 0.
         feet: At the start.
-        steps: The footsteps to take, in order, world frame.
-        end: Time in s at which the built-in controller has ended the walk; a run is cut off at 1.5 times that.
+        steps: Footsteps to take, in order, world frame.
+        end: Time in s at which the built-in controller ends the walk; a run is cut off at 1.5 times that.
         walk: A scene's [walk] table.
     """
 
@@ -52,8 +52,8 @@ class Action(NamedTuple):
 
     Attributes:
         angles: Joint angles (k,) in rad.
-        torques: Feed-forward torques (k,) in N m, on top of the servos'; or None.
-        moved: Footsteps moved on purpose, if ground or a push justify it.
+        torques: Feed-forward torques (k,) in N m, added to the servos'; or None.
+        moved: Footsteps moved on purpose.
     """
 
     angles: NDArray[np.float64]
@@ -62,7 +62,7 @@ class Action(NamedTuple):
 
 
 class Policy(Protocol):
-    """A controller or a learned policy, made for each trial by the `make_policy(task)` of its file."""
+    """A controller, made for each trial by its file's `make_policy(task)`."""
 
     def step(self, sensors: Sensors) -> Action:
         """The action of a control tick.
@@ -89,7 +89,7 @@ def load_policy(path: str | os.PathLike[str]) -> Any:
     """Run a Python file and return its `make_policy`.
 
     Raises:
-        InputError: If there is no such file, it cannot be run, or has no function `make_policy`.
+        InputError: If it cannot be run or lacks that.
     """
     file = Path(path)
     spec = importlib.util.spec_from_file_location(file.stem, file) if file.is_file() else None

@@ -1,1 +1,1 @@
-"""One page that shows what the benchmarks found: kernels, papers, scenes, run time against error."""
+"""One page of all benchmark findings."""

@@ -1,4 +1,4 @@
-"""The page of `plantar bench all`, for readers who are new to the project."""
+"""The page of `plantar bench all`, for new readers."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ def bench_page(result: Mapping[str, Any], figures: Mapping[str, bytes] | None = 
     """The page.
 
     Args:
-        result: Results by part: "kernels", "contact", "skip", "scenes" and "papers", each of which may be missing;
-            "made" has date, version, machine and whether the run was quick.
+        result: Results by part: "kernels", "contact", "skip", "scenes" and "papers", each optional; "made" has date,
+            version, machine and whether the run was quick.
         figures: PNG files by part.
 
     Returns:
-        HTML that refers to no other file and no network.
+        HTML without references to other files.
     """
     parts = (
         ("kernels", "Kernels compared with libraries", _kernels),

@@ -1,4 +1,4 @@
-"""The end of `plantar bench all`: scenes, the papers' experiments in simulation, and the page."""
+"""The end of `plantar bench all`: scenes, papers' experiments, and page."""
 
 from __future__ import annotations
 
@@ -31,8 +31,6 @@ class Experiment:
     """A run of a scene, and a paper's figures of the same on a real robot.
 
     Attributes:
-        scene: Name of the scene.
-        robot: Name of the robot.
         settings: Changes of the scene.
         printed: The paper's figures by name: "mean impact", "largest impact" and "impact on the slab" in N, "largest
             difference" of two ZMPs in mm, "steps" done.
@@ -152,12 +150,12 @@ def measure_page(
     Args:
         folder: Existing folder.
         before: Folder of an earlier run, whose table of scene runs is continued.
-        progress: Called with the fraction done and a text: for scenes, and for papers.
+        progress: Called with the fraction done and a text, for scenes and papers.
         result: Results of the other parts, by name.
         quick: Leave out the long experiments.
 
     Returns:
-        "scenes", "papers" and "made", each with the names of its files.
+        "scenes", "papers" and "made", each with its files' names.
     """
     if (before / TABLE).is_file():
         shutil.copy(before / TABLE, folder / TABLE)

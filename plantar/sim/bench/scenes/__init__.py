@@ -1,1 +1,1 @@
-"""Run time against error of whole scenes, next to a fine reference."""
+"""Run time against error of scenes, next to a fine reference."""

@@ -1,4 +1,4 @@
-"""A scene with a `SceneSetting`, its true motion and ground forces, and their difference from a reference."""
+"""A scene with a `SceneSetting`, and its difference from a reference."""
 
 from __future__ import annotations
 
@@ -110,10 +110,10 @@ class Trace:
 
     Attributes:
         com: Centre of mass (k, 3) in m.
-        zmp: Zero moment point (k, 2) of the mean wrench in m, or NaN.
-        force: Vertical ground force (k, 2) on the left and the right sole in N.
-        landings: Side, time in s and largest force in N of each landing.
-        leg: Length of the legs in m.
+        zmp: ZMP (k, 2) of the mean wrench in m, or NaN.
+        force: Vertical ground force (k, 2) on left and right sole in N.
+        landings: Side, time in s and largest force in N of each.
+        leg: Leg length in m.
         weight: In N.
     """
 
@@ -165,7 +165,7 @@ class TracedRun(ChangedRun):
             self._wrench, self._force, self._looks = np.zeros(6), np.zeros(2), 0
 
     def keep_landings(self, summary: Mapping[str, Any]) -> None:
-        """Keep the landings that the summary of the run shows."""
+        """Keep the landings of the run's summary."""
         named = (summary["landing_sides"], summary["landings_s"], summary["impacts_N"])
         self._landings = tuple(zip(*named, strict=True))
 
@@ -187,10 +187,10 @@ _SAME_LANDING = 0.05  # s between landings of two runs that are the same landing
 
 
 class TraceError(NamedTuple):
-    """Root mean square differences up to the time at which the runs part.
+    """Root mean square differences until the runs part.
 
     Attributes:
-        force: Of the vertical forces on both soles, over the body's weight.
+        force: Of the vertical sole forces, over the body's weight.
         impact: Of the landings' impacts until then, over the reference's; NaN for none.
         together_s: Time until the runs part, or end.
         whole_s: Time of the reference.
@@ -205,10 +205,9 @@ class TraceError(NamedTuple):
 
 
 def trace_error(trace: Trace, reference: Trace) -> TraceError:
-    """Returns how a run's `trace` differs from its `reference` of the same seed, without noise.
+    """Returns how a run's `trace` differs from its noiseless `reference` of the same seed.
 
-    Runs that differ in the last digit may decide differently about a footstep, so differences count until the centers
-    of mass are `PARTED` of the leg apart.
+    Tiny differences may change a footstep, so they count until the centers of mass are `PARTED` of the leg apart.
 
     Example:
         >>> import numpy as np

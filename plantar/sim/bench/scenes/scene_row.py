@@ -1,4 +1,4 @@
-"""Cost and error of a setting, and whether the scene's own should stay."""
+"""Cost and error of a setting, and whether the scene's own stays."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ Runs = Sequence[dict[str, str]]
 
 @dataclass(frozen=True)
 class SceneRow:
-    """A setting of a scene next to its reference. Medians; NaN for what was not measured.
+    """A setting of a scene next to its reference. Medians; NaN if not measured.
 
     Attributes:
         walk: Settings of the scene in all runs.
-        against: Name of the setting that `setting` is compared with.
+        against: Name of the setting compared with.
         machine: Whether it is another robot.
         cpu: CPU time in s of a simulated second; `ratio` over the scene's own.
         com_mm: Root mean square error in mm until the runs part; `zmp_mm` likewise.
-        force: The same of the ground forces, over the weight; `impact` over the reference's.
+        force: The same of ground forces, over the weight; `impact` over the reference's.
         together: Share of the walk until the runs part.
-        walked: Whether the run without noise was completed; `completed` counts those with noise.
+        walked: Whether the noiseless run was completed; `completed` counts those with noise.
         impact_N: Median over landings and runs.
-        margin_mm: Smallest distance of ZMP and edge of support in a run.
+        margin_mm: Smallest distance of ZMP and edge of support.
     """
 
     scene: str
@@ -67,7 +67,7 @@ class SceneRow:
 
 
 def scene_rows(runs: Runs) -> list[SceneRow]:
-    """Sum up runs: a row for each scene, robot, setting and reference with a run without noise."""
+    """A row for each scene, robot, setting and reference with a noiseless run."""
     cases = list(dict.fromkeys((r["scene"], r["robot"], r["walk"]) for r in runs))
     order = {setting.name: number for number, setting in enumerate(SETTINGS)}
     rows = []
@@ -142,9 +142,8 @@ class KnobVerdict(NamedTuple):
 def knob_verdicts(rows: Sequence[SceneRow]) -> list[KnobVerdict]:
     """A verdict for each knob of each scene and robot that has a row of noise.
 
-    A value is good enough where it walks and is no farther from its reference than noise moves the walk. The scene's
-    own is kept where it is good enough and no such value saves a twentieth of the time. Knobs of the machine are always
-    kept, as the papers' robots have them.
+    A value is good enough where it walks within noise of its reference. The scene's own is kept where good enough and
+    no such value saves a twentieth of the time; knobs of the machine always.
     """
     found = []
     for case in dict.fromkeys((r.scene, r.robot, r.walk) for r in rows):

@@ -58,7 +58,7 @@ class SceneRuns:
         traced: int,
         progress: Callable[[float, str], None],
     ) -> None:
-        """Run what is missing, settings in turn, so that a busy minute falls on all of them.
+        """Run what is missing, settings in turn, so that a busy minute falls on all.
 
         Args:
             cases: The walks.
@@ -153,7 +153,7 @@ def _of_seed(settings: Sequence[SceneSetting], first: bool) -> list[SceneSetting
 
 
 def _costs(run: ChangedRun) -> dict[str, Any]:
-    """Run, and return its CPU time without building the world and keeping its motion, and its end."""
+    """CPU time of a run, without building and keeping, and its end."""
     start = time.process_time()
     summary = run.run()
     used = time.process_time() - start - (run.keeping_s if isinstance(run, TracedRun) else 0.0)

@@ -1,4 +1,4 @@
-"""What `plantar bench scenes` changes of a scene: one thing at a time, each with its reference."""
+"""What `plantar bench scenes` changes of a scene, one at a time."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ class SceneSetting:
         settings: Of the scene, as `key=value`.
         contact_time: Time constant in s of contacts, or None.
         iterations: Most iterations of MuJoCo's solver, or None.
-        points: Spheres a taxel that each sole stands on; 0 for its box.
+        points: Spheres a taxel under each sole; 0 for its box.
         cell_ratio: Area of the taxels over the robot's own.
-        against: Name of the setting that it is compared with.
+        against: Name of the setting compared with.
         machine: Whether it is another robot (its skin, its clock).
-        quick: Whether it is part of a quick run.
-        costly: Whether it is run with the first seed only.
+        quick: Whether quick runs have it.
+        costly: Whether only the first seed runs.
     """
 
     knob: str

@@ -36,20 +36,20 @@ def measure_scenes(
     robots: Sequence[str] = (),
     quick: bool = False,
 ) -> dict[str, Any]:
-    """Run what is missing in the folder's scene_runs.csv, and write scenes.md, scenes.csv and scenes.png.
+    """Run what scene_runs.csv lacks, and write scenes.md, scenes.csv and scenes.png.
 
     Args:
         folder: Of the table; made if needed.
         progress: Called with the fraction done and a text.
-        scenes: Names of the scenes; all of `CASES` where empty.
-        robots: Names of the robots; likewise.
+        scenes: Names; all of `CASES` where empty.
+        robots: Names; likewise.
         quick: Run the most informative settings with one seed, by default of H1 on flat ground.
 
     Returns:
-        Rows and verdicts as plain JSON values, and the names of the files.
+        Rows and verdicts as plain JSON values, and the files' names.
 
     Raises:
-        InputError: If a scene or robot is not among the walks, or the table is not one of scene runs.
+        InputError: If an argument or table is not valid.
     """
     cases = _chosen(scenes, robots, quick)
     folder.mkdir(parents=True, exist_ok=True)

@@ -1,1 +1,1 @@
-"""Random short runs of the whole loop in which no error may be raised and no command be nonsense."""
+"""Random short runs that must raise no error and give sane commands."""

@@ -1,4 +1,4 @@
-"""One walk or stand on flat ground in a separate control loop, with a fault."""
+"""One walk or stand on flat ground with a fault."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ class FaultRun(Record, frozen=True):
     """Outcome of a run.
 
     Attributes:
-        jump: Largest move of a target in a tick, over that of an undisturbed walk.
-        state: The named state that it came to, or None.
-        after: Time in s from the fault to that state.
-        upright: Whether the robot is on its feet at the end.
+        jump: Largest move of a target in a tick, over an undisturbed walk's.
+        state: Named state that it came to, or None.
+        after: Time in s from fault to that state.
+        upright: Whether the robot ends on its feet.
     """
 
     jump: float
@@ -35,8 +35,8 @@ class FaultRun(Record, frozen=True):
 
 
 def run_with_fault(robot: str, walking: bool, fault: str, *, shell: bool = True) -> FaultRun:
-    """Returns the outcome of a `fault` of `faults.FAULTS` on a `robot` ("h1" or "hrp2kai"), `walking` or
-    standing, with or without the safety `shell`.
+    """Returns the outcome of a `fault` of `faults.FAULTS` on a `robot` ("h1" or "hrp2kai"), `walking` or standing, with
+    or without the safety `shell`.
     """
     settings = ["steps=6", "settle=0.5"] if walking else ["steps=1", "settle=4"]
     parts, change = Simulation(load_scene("flat", settings, robot)), FAULTS[fault]()

@@ -1,4 +1,4 @@
-"""Faults of the sensors in a stress run; the named ones are functions of a reading and the time in s since begin."""
+"""Faults of the sensors in a stress run."""
 
 from __future__ import annotations
 
@@ -226,16 +226,16 @@ class Faults:
     """Faults of a run's sensors; by default none. At the first tick encoders and IMU are there.
 
     Attributes:
-        dropped: Share of the ticks at which a sole's packet is lost, and the one before stays.
+        dropped: Share of ticks at which a sole's packet is lost, and the last stays.
         jitter: Standard deviation in s of a reading's time.
-        stuck: Share of each sole's taxels that hold their first value.
-        silent: Share of the ticks at which all taxels of a sole read NaN.
-        missing: Share of the ticks at which encoders and IMU read NaN.
-        lost_after: Time in s from which on encoders and IMU read NaN for good; negative for never.
-        saturated: Share of the ticks at which a sole's loaded taxels read their limit.
-        single: Whether all numbers arrive as float32.
+        stuck: Share of taxels that hold their first value.
+        silent: Share of ticks at which a sole's taxels read NaN.
+        missing: Share of ticks at which encoders and IMU read NaN.
+        lost_after: Time in s from which on they read NaN for good; negative for never.
+        saturated: Share of ticks at which loaded taxels read their limit.
+        single: Whether numbers arrive as float32.
         named: Name of one of `FAULTS`, or empty.
-        begins: Time in s at which that one begins.
+        begins: Time in s at which that begins.
     """
 
     dropped: float = 0.0
@@ -251,7 +251,7 @@ class Faults:
 
     @classmethod
     def drawn(cls, rng: np.random.Generator) -> Faults:
-        """Draw faults: each is there in one of five runs."""
+        """Draw faults: each in one of five runs."""
         shares = {name: (float(rng.random() ** 2) if rng.random() < 0.2 else 0.0) for name in _SHARES}
         return cls(
             **shares,

@@ -1,4 +1,4 @@
-"""A stress run: a scene, a robot, settings within their ranges, a place in the world and faulty sensors."""
+"""A stress run: scene, robot, settings, place and faulty sensors."""
 
 from __future__ import annotations
 
@@ -66,11 +66,9 @@ class Scenario:
     """One stress run, determined by its values.
 
     Attributes:
-        number: The seed that drew it, and that of the run.
-        scene: Name of a scene.
-        robot: Name of a robot.
+        number: The seed of drawing and run.
         settings: Changes of the scene, as `key=value`.
-        place: Start of the walk: x and y in m, and heading in rad.
+        place: Start: x and y in m, heading in rad.
         faults: Of its sensors.
     """
 
@@ -94,7 +92,7 @@ class Scenario:
 
 
 def draw_scenario(number: int) -> Scenario:
-    """The scenario of a number; its settings are within their ranges, but a scene may refuse them together.
+    """The scenario of a number; a scene may refuse its settings together.
 
     Example:
         >>> draw_scenario(7) == draw_scenario(7), draw_scenario(7) == draw_scenario(8)

@@ -1,4 +1,4 @@
-"""Stress runs: a scenario to its end, a fall, or a failure; a row each in a growing table."""
+"""Stress runs, a row each in a growing table."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class CommandCheck:
         self._last: list[NDArray[np.float64]] | None = None
 
     def fault(self, command: Command, joints: NDArray[np.float64]) -> str | None:
-        """Returns what is wrong with a `command` and the `joints` (k,) in rad that follow, in words, or None."""
+        """Returns what is wrong with a `command` and its `joints` (k,) in rad, in words, or None."""
         feet = [command.feet[side] for side in SIDES]
         every = {
             "CoM": command.com,
@@ -85,8 +85,8 @@ class Outcome(NamedTuple):
     """What came of a run.
 
     Attributes:
-        kind: "ended", "fell", "stopped" (the controller is in a safe state), "refused" (by the scene), "unstable" (by
-            the physics), or one of `FAILURES`.
+        kind: "ended", "fell", "stopped" (controller in a safe state), "refused" (by the scene), "unstable" (physics),
+            or one of `FAILURES`.
         detail: In words.
         time: Simulated time in s.
     """
@@ -137,9 +137,7 @@ class _StressedRun(Simulation):
 
 
 def run_scenario(scenario: Scenario, longest: float = LONGEST) -> Outcome:
-    """Returns what came of a `scenario`, cut off after the `longest` simulated time in s; raises only what ends the
-    program.
-    """
+    """Returns what came of a `scenario`, cut off after the `longest` simulated time in s; failures are outcomes."""
     with warnings.catch_warnings():
         warnings.simplefilter("error", RuntimeWarning)
         try:
@@ -179,19 +177,19 @@ _TABLE = "stress.csv"
 def measure_stress(
     folder: Path, count: int, first: int = 0, progress: Callable[[float, str], None] | None = None
 ) -> dict[str, Any]:
-    """Run the scenarios that are not in stress.csv yet.
+    """Run the scenarios that stress.csv lacks.
 
     Args:
         folder: Of the table; made if needed.
         count: Number of scenarios, 1 or more.
-        first: Number of the first one.
+        first: Number of the first.
         progress: Called with the fraction done and a text.
 
     Returns:
         Counts of each outcome, the failures, and the table's name.
 
     Raises:
-        InputError: If there is not at least one scenario, or the file is no such table.
+        InputError: If count or file is not valid.
     """
     if count < 1:
         raise InputError(f"stress run of {count} scenarios; allowed: 1 or more")
