@@ -1,1 +1,1 @@
-"""Run time against error of the perception next to other libraries; these are loaded inside functions."""
+"""Run time against error of the perception next to other libraries."""

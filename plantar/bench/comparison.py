@@ -1,4 +1,4 @@
-"""Routes to one result: time of a call, interleaved so that a change of the machine's speed hits all, and error."""
+"""Routes to one result: interleaved times of a call, and error."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ def time_routes(
     rounds: int = 9,
     most: float = 1.0,
 ) -> dict[str, Time]:
-    """Time each route on its cases, a case a call, the routes interleaved.
+    """Time each route on its cases, a case a call, routes interleaved.
 
     Args:
         routes: Each route's name and function of a case.
         cases: Each route's cases, in the same order.
-        rounds: Rounds to take the median over.
+        rounds: Rounds of the median.
         most: Time in s to spend on a route; a slow one gets fewer rounds, 2 or more.
 
     Returns:
@@ -88,7 +88,7 @@ class Route(NamedTuple):
 
 
 class Reference(NamedTuple):
-    """Right results for each case, and the unit of an error."""
+    """Right results for each case, and an error's unit."""
 
     values: Sequence[ArrayLike]
     scales: Sequence[float] | None = None
@@ -101,12 +101,11 @@ class Result:
 
     Attributes:
         size: Active taxels, or another size.
-        route: Name of the route.
-        ours: Whether it is of this package.
-        approximate: Whether it approximates by nature.
+        ours: Whether of this package.
+        approximate: Whether by nature.
         median_us: Median time of a call in microseconds.
-        spread: Interquartile range of the rounds, as a share of the median.
-        ratio: Its time over that of our first route in the same run.
+        spread: Interquartile range of the rounds over the median.
+        ratio: Its time over our first route's.
         error: Largest relative error over the cases, or None.
     """
 
@@ -137,18 +136,18 @@ def compare(
     rounds: int = 9,
     most: float = 0.5,
 ) -> list[Result]:
-    """Time routes interleaved, and compare their results with the reference.
+    """Time routes interleaved, and compare results with the reference.
 
     Args:
         kernel: What is computed.
         size: Its size.
-        routes: The routes, our own first.
+        routes: The routes, ours first.
         reference: Right results, or None.
-        rounds: Rounds to take the median over.
+        rounds: Rounds of the median.
         most: Time in s to spend on a route.
 
     Returns:
-        A result a route, in order. A route that raises has error 1.
+        A result a route, in order; error 1 if it raises.
 
     Example:
         >>> routes = [Route("builtin", sum, [[1.0, 2.0]], ours=True), Route("first", min, [[1.0, 2.0]])]
@@ -176,7 +175,7 @@ def compare(
 
 
 def _runs(route: Route) -> bool:
-    """Whether a route takes all its cases: catching errors costs as much as a fast call."""
+    """Whether a route takes all its cases."""
     try:
         for case in route.cases:
             route.call(case)

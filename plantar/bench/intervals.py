@@ -12,8 +12,8 @@ _NORMAL_95 = 1.959963984540054  # 97.5 % of a standard normal variable are below
 def wilson_interval(completed: int, runs: int) -> tuple[float, float]:
     """Returns Wilson's 95 % score interval of the share of `completed` in `runs`; (0, 1) without a run.
 
-    A ValueError if `completed` is not within 0 and `runs`. Source: Wilson, Probable inference, the law of succession,
-    and statistical inference (JASA 22, 1927).
+    A ValueError unless `completed` is within 0 and `runs`. Wilson, Probable inference, the law of succession, and
+    statistical inference (JASA 22, 1927).
 
     Example:
         >>> [round(end, 3) for end in wilson_interval(8, 10)]

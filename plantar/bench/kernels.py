@@ -1,4 +1,4 @@
-"""Run time against error of the perception's kernels, next to other libraries and routes."""
+"""Run time against error of the perception's kernels and other routes."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ RANDOM = (100, 300)
 
 
 def compare_shapes(size: str, rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
-    """Yields the name of each kernel of support polygon, outline and shapes and its routes' results.
+    """Yields each kernel's name of support polygon, outline and shapes and its routes' results.
 
     `size` is one of `plantar.bench.soles.SIZES`; `rounds` are those of the median.
     """
@@ -59,8 +59,8 @@ def compare_shapes(size: str, rounds: int = 9) -> Iterator[tuple[str, list[Resul
 
 
 def compare_random_cells(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
-    """Yields the name of the kernel of the largest rectangle at any angle, and its routes' results in random outlines
-    of each size.
+    """Yields the name of the largest rectangle's kernel at any angle, and its routes' results in random outlines of
+    each size.
     """
     name = "rectangle in the outline, any angle, random cells"
     for cells in RANDOM:
@@ -218,13 +218,13 @@ def _outline_any_rectangle(found: Sequence[Contact]) -> Compared:
 
 
 def _best_known(outline: Outline, angle: float) -> float:
-    """Area in m^2 of the best rectangle known at an angle: ours if shapely finds it inside, or the reference's."""
+    """Best known rectangle's area in m^2 at an angle: ours if shapely finds it inside, or the reference's."""
     ours = _area_inside(outline, inscribed.rectangle_in_outline(outline, angle))
     return ours if angle else max(ours, exact.outline_rectangle_area(outline.rings))
 
 
 def _best_known_at_any_angle(outline: Outline) -> float:
-    """The same at any angle: every half degree, then ever finer steps around the best four."""
+    """The same at any angle: every half degree, then finer around the best four."""
     found: dict[float, float] = {}
 
     def areas(angles: Array) -> Array:

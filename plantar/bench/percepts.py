@@ -1,4 +1,4 @@
-"""Run time for a controller and an analyst: a tick, a whole percept, wrenches and recordings."""
+"""Run time of a tick, a whole percept, wrenches and recordings."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _AIM = np.array([0.09, 0.06])
 
 
 def compare_percepts(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
-    """Yields the name of a walking tick, whole percepts and wrenches of both feet, and their routes' results."""
+    """Yields the name of a walking tick, whole percepts and both feet's wrenches, and their routes' results."""
     left, right = sole_of(51), sole_of(51, "right")
     pairs = [(a.force, b.force) for a, b in zip(contacts("20", 1), contacts("20", 2), strict=True)]
     feet = (left, right)
@@ -142,7 +142,7 @@ _SIZES = (1.0, 0.1, 1e3, 1e-2, 0.1, 1e-2, 0.1)
 
 
 def _ticks_exact(feet: tuple[SoleLayout, ...], pairs: list[tuple[Array, Array]]) -> Reference:
-    """The same by the references; the clamped point on the offset polygon of ours, whose area is compared too."""
+    """The same by the references; the clamped point on our offset polygon, whose area is compared too."""
     values = []
     for pair in pairs:
         parts = []
@@ -200,8 +200,8 @@ def _read_none(feet: tuple[SoleLayout, ...], readings: list[Reading]) -> None:
 
 
 def compare_recordings(frames: int = FRAMES, rounds: int = 5) -> Iterator[tuple[str, list[Result]]]:
-    """Yields names and routes' results of wrenches and support polygons of a recording of `frames`, next to a copy of
-    its memory.
+    """Yields names and routes' results of wrenches and support polygons of a recording of `frames`, next to a memory
+    copy.
 
     `rounds` are those of the median.
     """
@@ -250,7 +250,7 @@ def _area(points: Array) -> float:
 
 
 def compare_forms(rounds: int = 5) -> Iterator[tuple[str, list[Result]]]:
-    """Yields the compiled form of the sole's kernel next to the interpreted one, where it is compiled."""
+    """Yields the sole kernel's compiled form, if any, next to the interpreted one."""
     if not is_compiled("sole"):
         return
     found = contacts("20")

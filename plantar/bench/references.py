@@ -1,7 +1,4 @@
-"""Independent references: exact integers and fractions where a result is rational, nested searches where it is not.
-
-None shares code with the kernels; all are slow.
-"""
+"""Independent slow references: exact integers and fractions where rational, else nested searches."""
 
 from __future__ import annotations
 
@@ -42,8 +39,7 @@ _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
 def integers(points: Array) -> tuple[list[Point], int]:
-    """Points (n, 2) in m as integers without rounding: each coordinate times a common power of 2, which is returned
-    too.
+    """Points (n, 2) in m as integers without rounding: coordinates times a returned power of 2.
 
     Example:
         >>> integers(np.array([[0.5, 3.0]]))
@@ -56,12 +52,12 @@ def integers(points: Array) -> tuple[list[Point], int]:
 
 
 def turn(a: tuple[Number, Number], b: tuple[Number, Number], c: tuple[Number, Number]) -> Number:
-    """Returns twice the signed area of a triangle `a`, `b`, `c`, exact as its numbers; positive counter-clockwise."""
+    """Returns twice the signed area of a triangle `a`, `b`, `c`, exact; positive counter-clockwise."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
 def exact_hull(points: Iterable[tuple[Number, Number]]) -> list[tuple[Number, Number]]:
-    """Corners of the convex hull of points (x, y), whole numbers or fractions, counter-clockwise from the leftmost one.
+    """Hull corners of points (x, y), whole numbers or fractions, counter-clockwise from the leftmost.
 
     Example:
         >>> exact_hull([(0, 0), (2, 0), (1, 0), (0, 2), (1, 1)])
@@ -96,7 +92,7 @@ def hull_area_exact(points: Array) -> float:
 
 
 def area_exact(rings: Sequence[Array]) -> float:
-    """Sum in m^2 of the signed areas of rings (k, 2), in integers; exact up to the last rounding."""
+    """Sum in m^2 of signed areas of rings (k, 2), in integers, rounded last."""
     total = Fraction(0)
     for ring in rings:
         whole, scale = integers(ring)
@@ -105,7 +101,7 @@ def area_exact(rings: Sequence[Array]) -> float:
 
 
 def centroid_exact(polygon: Array) -> Array:
-    """Centroid (2,) in m of the area of a simple polygon (k, 2), in fractions."""
+    """Centroid (2,) in m of a simple polygon (k, 2), in fractions."""
     whole, scale = integers(polygon)
     twice, x, y = 0, 0, 0
     for (ax, ay), (bx, by) in pairwise([*whole, whole[0]]):
@@ -117,9 +113,7 @@ def centroid_exact(polygon: Array) -> Array:
 
 
 def closest_point_exact(polygon: Array, point: Array) -> Array:
-    """Returns the point (2,) in m of a convex counter-clockwise `polygon` (k, 2) closest to a `point` (2,), by
-    fractions.
-    """
+    """Returns the point (2,) in m of a convex counter-clockwise `polygon` (k, 2) closest to a `point` (2,)."""
     ring = [(Fraction(float(x)), Fraction(float(y))) for x, y in polygon]
     px, py = (Fraction(float(v)) for v in point)
     best: tuple[Fraction, Fraction, Fraction] | None = None
@@ -140,7 +134,7 @@ def inner_offset_area(polygon: Array, distance: float) -> float:
     """Returns the area in m^2 that keeps a `distance` in m from every edge of a convex counter-clockwise `polygon` (k,
     2).
 
-    Half planes are cut in turn, in fractions rounded to 2^-200; lengths by integer square roots.
+    Half planes are cut in fractions rounded to 2^-200; lengths by integer square roots.
     """
     unit = 1 << 200
     ring = [(Fraction(float(x)), Fraction(float(y))) for x, y in polygon]
@@ -177,7 +171,7 @@ def triangle_area_exact(polygon: Array) -> float:
 
 
 def least_box_area(polygon: Array) -> float:
-    """Area in m^2 of the least rectangle around a convex polygon (k, 2): one side along each edge, in fractions."""
+    """Area in m^2 of the least rectangle around a convex polygon (k, 2): a side along each edge."""
     whole, scale = integers(polygon)
     areas = []
     for (ax, ay), (bx, by) in zip(whole, whole[1:] + whole[:1], strict=True):
@@ -189,7 +183,7 @@ def least_box_area(polygon: Array) -> float:
 
 
 def least_parallelogram_area(polygon: Array) -> float:
-    """Area in m^2 of the least parallelogram around a convex polygon (k, 2): all pairs of edges, in fractions."""
+    """Area in m^2 of the least parallelogram around a convex polygon (k, 2): all pairs of edges."""
     whole, scale = integers(polygon)
     edges = [(b[0] - a[0], b[1] - a[1]) for a, b in zip(whole, whole[1:] + whole[:1], strict=True)]
     widths = []
@@ -205,7 +199,7 @@ def least_parallelogram_area(polygon: Array) -> float:
 
 
 def circle_radius(polygon: Array) -> float:
-    """Radius in m of the largest circle in a convex counter-clockwise polygon (k, 2): all triples of edges."""
+    """Radius in m of a convex counter-clockwise polygon's (k, 2) largest circle: all triples of edges."""
     edge = np.roll(polygon, -1, axis=0) - polygon
     normal = np.column_stack([-edge[:, 1], edge[:, 0]]) / np.hypot(*edge.T)[:, None]
     level = (normal * (polygon - polygon[0])).sum(axis=1)
@@ -223,7 +217,7 @@ def circle_radius(polygon: Array) -> float:
 
 
 def _golden(gain: Callable[[Array], Array], low: Array, high: Array, steps: int = 60) -> Array:
-    """Largest value of many concave functions at once, each between its own bounds (m,), by golden section."""
+    """Maxima of many concave functions, each between its bounds (m,), by golden section."""
     c, d = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
     at_c, at_d = gain(c), gain(d)
     best = np.maximum(at_c, at_d)
@@ -237,7 +231,7 @@ def _golden(gain: Callable[[Array], Array], low: Array, high: Array, steps: int 
 
 
 def _chains(polygon: Array, angles: Array) -> tuple[Array, Array, Array, Array]:
-    """Edge lines of a polygon turned back by angles (m,): slopes and levels (m, k) of upper and lower edges."""
+    """Edge lines of a polygon turned back by angles (m,): slopes and levels (m, k), upper and lower."""
     c, s = np.cos(angles)[:, None], np.sin(angles)[:, None]
     x, y = (polygon - polygon.mean(axis=0)).T
     px, py = c * x + s * y, c * y - s * x
@@ -253,7 +247,7 @@ def _chains(polygon: Array, angles: Array) -> tuple[Array, Array, Array, Array]:
 
 
 def _rectangles(polygon: Array, angles: Array) -> Array:
-    """Area (m,) of the largest rectangle in a convex polygon at each angle (m,): golden section in golden section."""
+    """Area (m,) of the largest rectangle in a convex polygon at each angle (m,)."""
     slope, upper, lower, px = _chains(polygon, angles)
     left, right = px.min(axis=1), px.max(axis=1)
 
@@ -273,8 +267,6 @@ def rectangle_area(polygon: Array, angle: float = 0.0) -> float:
     """Returns the area in m^2 of the largest rectangle at an `angle` in rad in a convex counter-clockwise `polygon` (k,
     2) in m.
 
-    Both width and place are found by golden section.
-
     Example:
         >>> round(rectangle_area(np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])), 9)
         3.0
@@ -283,7 +275,7 @@ def rectangle_area(polygon: Array, angle: float = 0.0) -> float:
 
 
 def search_period(values: Callable[[Array], Array], period: float, samples: int, finest: float = 1e-10) -> float:
-    """Largest value over a period: samples, then ever finer ones around the best of them.
+    """Largest value over a period: samples, then finer around the best.
 
     Args:
         values: Values (m,) at angles (m,) in rad.
@@ -292,7 +284,7 @@ def search_period(values: Callable[[Array], Array], period: float, samples: int,
         finest: Last step in rad.
 
     Returns:
-        The best value found.
+        The best value.
 
     Example:
         >>> round(search_period(lambda angles: np.cos(angles - 1.0), 2.0 * math.pi, 12), 12)
@@ -313,18 +305,18 @@ def search_period(values: Callable[[Array], Array], period: float, samples: int,
 
 
 def rectangle_area_any_angle(polygon: Array, samples: int = 120) -> float:
-    """Returns the best area in m^2 of a rectangle at any angle in a convex counter-clockwise `polygon` (k, 2) in m.
+    """Returns the best rectangle's area in m^2 at any angle in a convex counter-clockwise `polygon` (k, 2) in m.
 
-    It tries `samples` of a quarter turn, then a finer and finer search around the best four.
+    It tries `samples` of a quarter turn, then finer around the best four.
     """
     return search_period(lambda angles: _rectangles(polygon, angles), 0.5 * math.pi, samples)
 
 
 def parallelogram_area(polygon: Array, samples: int = 240, finest: float = 1e-13) -> float:
-    """Returns the best area in m^2 of a parallelogram in a convex counter-clockwise `polygon` (k, 2) in m.
+    """Returns the best parallelogram's area in m^2 in a convex counter-clockwise `polygon` (k, 2) in m.
 
-    With two sides of a length in one direction, the best is that length times the distance of the farthest chords that
-    have it; length by golden section, direction over `samples` of half a turn down to a step `finest` in rad.
+    For two sides of a length in one direction: that length times the distance of the farthest chords that have it;
+    length by golden section, direction over `samples` of half a turn down to a step `finest` in rad.
     """
     size = len(polygon)
 
@@ -359,8 +351,8 @@ def parallelogram_area(polygon: Array, samples: int = 240, finest: float = 1e-13
 def outline_rectangle_area(rings: Sequence[Array]) -> float:
     """Best area in m^2 of an axis-aligned rectangle in an outline of rims (k, 2) in m of islands and holes.
 
-    Between two abscissae the edges block intervals of y, and the highest rectangle fills the largest gap inside. Pairs
-    of abscissae at and between the vertices are tried, then ever finer ones around the best.
+    Between two abscissae edges block intervals of y, and the highest rectangle fills the largest gap. Pairs at and
+    between the vertices are tried, then finer around the best.
     """
     tail = np.concatenate(rings)
     head = np.concatenate([np.roll(r, -1, axis=0) for r in rings])
@@ -416,7 +408,7 @@ def outline_rectangle_area(rings: Sequence[Array]) -> float:
 
 
 def wrench_exact(columns: Array, force: Array) -> Array:
-    """Returns the wrench (6,) of `force` (n,) in N through unit wrenches `columns` (n, 6), each part rounded once."""
+    """Returns the wrench (6,) of `force` (n,) in N by unit wrenches `columns` (n, 6), each part rounded once."""
     loads = [Fraction(float(f)) for f in force]
     sums = [
         sum((Fraction(float(c)) * f for c, f in zip(column, loads, strict=True)), Fraction(0)) for column in columns.T

@@ -1,4 +1,4 @@
-"""The kernels' comparison: measurements, targets, and their page, table and figure."""
+"""The kernels' comparison: measurements, targets, page, table and figure."""
 
 from __future__ import annotations
 
@@ -21,12 +21,11 @@ __all__ = ["Target", "copy_share", "kernel_text", "measure_kernels", "targets", 
 
 @dataclass(frozen=True)
 class Target:
-    """A wanted figure of the kernels, and that of a run.
+    """A wanted figure of the kernels, and a run's.
 
     Attributes:
         what: What is wanted.
         figure: Of the run; the worst of all sizes.
-        unit: Of both.
         at_least: Whether more is better.
         where: Where the worst was.
     """
@@ -55,10 +54,10 @@ def measure_kernels(folder: Path, progress: Callable[[float, str], None], rounds
     Args:
         folder: Existing folder.
         progress: Called with the fraction done and a text.
-        rounds: Rounds to take the medians over.
+        rounds: Rounds of the medians.
 
     Returns:
-        Results and targets as plain JSON values, and the names of the files.
+        Results and targets as plain JSON values, and file names.
     """
     parts: list[Iterator[tuple[str, list[Result]]]] = [compare_shapes(size, rounds) for size in SIZES]
     parts += [compare_random_cells(rounds), compare_percepts(rounds)]
@@ -98,7 +97,7 @@ def _of(results: Sequence[Result], kernel: str, route: str = "plantar") -> list[
 
 
 def _faster(results: Sequence[Result], kernel: str, wanted: float, route: str) -> Iterator[Target]:
-    """How many times faster a route of ours is than the fastest library, at the size where it is least.
+    """How many times faster our route is than the fastest library, at its worst size.
 
     Other answers, float32, and routes that use ours are left out.
     """
@@ -150,9 +149,9 @@ def targets(results: Sequence[Result]) -> list[Target]:
 
 
 def copy_share(results: Sequence[Result]) -> float | None:
-    """Bytes a second of a recording's wrench over those of a copy, or None.
+    """Bytes a second of a recording's wrench over a copy's, or None.
 
-    A copy reads and writes every byte; the wrench reads every byte and writes 6 numbers a frame.
+    A copy reads and writes every byte; the wrench reads all and writes 6 numbers a frame.
     """
     ours = _of(results, "wrench of a recording")
     copy = _of(results, "wrench of a recording", "copy of the forces")
@@ -162,7 +161,7 @@ def copy_share(results: Sequence[Result]) -> float | None:
 
 
 def kernel_text(result: Mapping[str, Any]) -> str:
-    """The kernels' medians and errors, and which targets are met, as text."""
+    """The kernels' medians, errors and met targets as text."""
     kernel, lines = "", []
     for row in result["results"]:
         if row["kernel"] != kernel:

@@ -1,6 +1,6 @@
-"""Other routes to the kernels' results: scipy, shapely and cv2, and published approximations.
+"""Other routes to the kernels' results: scipy, shapely, cv2, published approximations.
 
-Each takes its best input and returns what is compared: an area, a radius or a point.
+Each takes its best input and returns an area, a radius or a point.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Corners:
         self.vertices = layout.vertices[:, :2]
 
     def of(self, active: NDArray[np.bool_]) -> Array:
-        """Corners (v, 2) in m, each once, of the active cells (n,)."""
+        """Corners (v, 2) in m, each once, of active cells (n,)."""
         return np.asarray(self.vertices[np.unique(self.table[active])])
 
 
@@ -77,14 +77,14 @@ def alpha_shape_area(points: Array, radius: float) -> float:
 
 
 def closest_shapely(case: tuple[Array, Array]) -> tuple[float, float]:
-    """Closest point in m of a polygon (k, 2) to a point (2,): GEOS, with the polygon made on the way."""
+    """Closest point in m of a polygon (k, 2) to a point (2,): GEOS, polygon included."""
     nearest = shapely.get_point(shapely.shortest_line(shapely.Polygon(case[0]), shapely.Point(case[1])), 0)
     return float(shapely.get_x(nearest)), float(shapely.get_y(nearest))
 
 
 def rectangle_slsqp(polygon: Array) -> float:
-    """Area in m^2 of the largest axis-aligned rectangle in a convex counter-clockwise polygon (k, 2): scipy's SLSQP
-    with exact gradients.
+    """Area in m^2 of a convex counter-clockwise polygon's (k, 2) largest axis-aligned rectangle: scipy's SLSQP, exact
+    gradients.
     """
     from scipy.optimize import minimize
 
@@ -108,8 +108,8 @@ def interior_rectangle(rings: Sequence[Array], pixel: float = 1e-3) -> float:
     """Returns the area in m^2 of the best axis-aligned rectangle of pixels, of size `pixel` in m, in `rings` (k, 2) in
     m of islands and holes.
 
-    The method of largestinteriorrectangle (R. Marzeau's HorizontalAdjacency): from every pixel, runs to the right are
-    followed downwards; here all pixels take a step down at once, in numpy.
+    After largestinteriorrectangle (R. Marzeau's HorizontalAdjacency): from every pixel, runs to the right are followed
+    downwards, all at once.
     """
     mask = _raster(rings, pixel)
     rows, columns = mask.shape
@@ -129,7 +129,7 @@ def interior_rectangle(rings: Sequence[Array], pixel: float = 1e-3) -> float:
 
 
 def _raster(rings: Sequence[Array], pixel: float) -> NDArray[np.bool_]:
-    """Pixels (rows, columns) whose four corners lie inside rings: crossings of lines of corners, by parity."""
+    """Pixels (rows, columns) with four corners inside rings, by parity of crossings."""
     low = np.min([r.min(axis=0) for r in rings], axis=0) - 0.5 * pixel
     high = np.max([r.max(axis=0) for r in rings], axis=0)
     columns, rows = (np.ceil((high - low) / pixel).astype(int) + 2).tolist()
@@ -147,7 +147,7 @@ def _raster(rings: Sequence[Array], pixel: float) -> NDArray[np.bool_]:
 
 
 def triangle(polygon: Array) -> float:
-    """Area in m^2 of the largest triangle on a convex polygon's vertices (k, 2): all triples at once, in numpy."""
+    """Area in m^2 of the largest triangle on a convex polygon's vertices (k, 2): all triples at once."""
     x, y = (polygon - polygon[0]).T
     i, j = np.triu_indices(len(polygon), 1)
     cross = x[i] * y[j] - x[j] * y[i]
@@ -157,7 +157,7 @@ def triangle(polygon: Array) -> float:
 
 
 def parallelogram_around(polygon: Array) -> float:
-    """Area in m^2 of the least parallelogram around a convex polygon (k, 2): all pairs of edges at once, in numpy."""
+    """Area in m^2 of the least parallelogram around a convex polygon (k, 2): all pairs of edges at once."""
     edge = np.roll(polygon, -1, axis=0) - polygon
     edge = edge / np.hypot(*edge.T)[:, None]
     across = np.column_stack([-edge[:, 1], edge[:, 0]]) @ polygon.T
@@ -169,6 +169,6 @@ def parallelogram_around(polygon: Array) -> float:
 
 
 def turned(points: Any, angles: int) -> list[Any]:
-    """Returns the `points` (n, 2) turned by `angles` evenly spaced angles of a quarter turn."""
+    """Returns the `points` (n, 2) turned by `angles` even angles of a quarter turn."""
     c, s = np.cos(a := 0.5 * math.pi * np.arange(angles) / angles), np.sin(a)
     return [points @ np.array([[x, -y], [y, x]]) for x, y in zip(c, s, strict=True)]

@@ -1,4 +1,4 @@
-"""The measured soles: 51 cells of 691 mm^2 with 5, 20 or all active, 1,000 small cells, and random outlines."""
+"""The measured soles: 51 cells with 5, 20 or all active, 1,000 small cells, random outlines."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Contact:
 
     @cached_property
     def points(self) -> NDArray[np.float64]:
-        """Corners (v, 2) of the active cells in m, each once."""
+        """Corners (v, 2) of active cells in m, each once."""
         used = np.unique(self.layout.corner_vertex[np.repeat(self.active, np.diff(self.layout.corner_start))])
         return np.ascontiguousarray(self.layout.vertices[used, :2])
 
@@ -47,15 +47,14 @@ class Contact:
 
 
 def foot_outline(length: float = 0.26, width: float = 0.155) -> NDArray[np.float64]:
-    """Returns an ellipse-like sole outline (60, 2) in m about the origin, of a `length` and a `width` in m."""
+    """Returns an ellipse-like outline (60, 2) in m about the origin, of a `length` and a `width` in m."""
     angle = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)
     x, y = np.cos(angle), np.sin(angle)
     return np.column_stack([0.5 * length * np.sign(x) * np.abs(x) ** 0.7, 0.5 * width * np.sign(y) * np.abs(y) ** 0.7])
 
 
 def sole_of(taxels: int, side: str = "left") -> SoleLayout:
-    """Returns a hexagonal sole of a `side` with just so many `taxels`; 51 have 691 mm^2 each, others share the same
-    total.
+    """Returns a hexagonal sole of a `side` with so many `taxels`; 51 have 691 mm^2 each, others the same total.
 
     Example:
         >>> len(sole_of(51)), len(sole_of(7, "right"))
@@ -74,7 +73,7 @@ def sole_of(taxels: int, side: str = "left") -> SoleLayout:
 
 
 def contacts(size: str, seed: int = 0) -> list[Contact]:
-    """Returns contacts of one `size` of SIZES: patches, with holes on the dense sole, and cells drawn by `seed`.
+    """Returns contacts of one `size` of SIZES: patches, with holes if dense, and cells drawn by `seed`.
 
     Example:
         >>> [int(c.active.sum()) for c in contacts("5")][:3], len(contacts("dense"))
@@ -112,7 +111,7 @@ def _lattice(cells: int) -> SoleLayout:
 
 
 def random_outline(active: int, share: float, seed: int) -> Outline:
-    """Returns the outline of about so many `active` cells, a `share` of a lattice's, drawn by `seed`.
+    """Returns the outline of about `active` cells, a `share` of a lattice's, drawn by `seed`.
 
     Example:
         >>> outline = random_outline(50, 0.6, 0)

@@ -22,7 +22,7 @@ _PAINT = ("#4c78a8", "#f2a541", "#59a14f", "#b279a2", "#9d755d", "#2f4b7c", "#76
 
 
 def cell(value: Any) -> str:
-    """A value as a cell of a table: three digits, a dash for what was not measured.
+    """A table cell: three digits, a dash if not measured.
 
     Example:
         >>> cell(12.345), cell(1234.5), cell(None), cell(float("inf")), cell(-0.0001), cell("a"), cell(3)
@@ -36,7 +36,7 @@ def cell(value: Any) -> str:
 
 
 def markdown_table(head: Sequence[str], lines: Iterable[Sequence[Any]]) -> str:
-    """Returns a table in Markdown with columns `head` and values `lines`, without a line break at its end.
+    """Returns a Markdown table with columns `head` and values `lines`, without a final line break.
 
     Example:
         >>> print(markdown_table(("a", "b"), [("1", 2.0)]))
@@ -54,7 +54,7 @@ def made_on() -> str:
 
 
 def write_rows(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
-    """Write `rows`, each with the same columns, as a CSV file at `path`, with six digits."""
+    """Write `rows` of the same columns as a CSV at `path`, with six digits."""
     names = list(rows[0]) if rows else []
     cells = ({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
     write_text(path, csv_text(names, mapping_rows(names, cells)))
@@ -64,8 +64,8 @@ class GrowingTable:
     """A CSV file whose rows are appended, so that a stopped benchmark continues; a cut row is dropped.
 
     Args:
-        path: The file; its folder exists when the first row is added.
-        what: What it is a table of, for messages.
+        path: The file; its folder must exist at the first row.
+        what: What it lists, for messages.
 
     Attributes:
         rows: Its rows, as text by column.
@@ -96,7 +96,7 @@ class GrowingTable:
             path.write_text(whole, encoding="utf-8")
 
     def add(self, row: Mapping[str, Any]) -> None:
-        """Append a row; columns that it lacks stay empty."""
+        """Append a row; missing columns stay empty."""
         whole = {name: str(row.get(name, "")) for name in self._columns}
         new = not self._path.exists()
         with self._path.open("a", newline="", encoding="utf-8") as file:
@@ -110,8 +110,8 @@ class Mark(NamedTuple):
     Attributes:
         error: 0 is drawn at the figure's least.
         group: For colour and legend.
-        ours: Whether it is of this project.
-        hollow: Whether it is drawn hollow, as approximations are.
+        ours: Whether of this project.
+        hollow: Drawn hollow, as approximations are.
         text: Written next to it.
     """
 

@@ -1,1 +1,1 @@
-"""Where the taxels of a sole are: layouts, how they are tiled, and their file."""
+"""Where a sole's taxels are: layouts, tiling, and their file."""

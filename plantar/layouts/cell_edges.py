@@ -1,4 +1,4 @@
-"""Shared edges of a sole's cells, also where a neighbour's corner is inside an edge."""
+"""Shared edges of a sole's cells, also with a corner inside an edge."""
 
 from __future__ import annotations
 
@@ -22,18 +22,17 @@ WELD = 1e-6
 def edge_table(vertices: ArrayLike, corners: Sequence[Sequence[int]]) -> EdgeTable | None:
     """Table of the directed edges of cells that tile a part of the plane.
 
-    Corners of cells that share no vertices are one within WELD of a typical edge; an edge is cut where another cell's
-    corner is on it.
+    Corners without shared vertices are one within WELD of a typical edge; edges are cut at other cells' corners.
 
     Args:
         vertices: Corner points (v, 2) in m.
-        corners: For each of the n cells the indices of its corners, in order.
+        corners: For each of n cells the indices of its corners, in order.
 
     Returns:
-        The table; None where cells overlap, so that no walk along unshared edges gives their outline.
+        The table; None where cells overlap, and unshared edges give no outline.
 
     Raises:
-        InputError: If the points are not (v, 2) finite numbers, or an index is out of range.
+        InputError: If points or indices are not valid.
     """
     xy = plane_points(vertices, "vertices")
     if any(not 0 <= i < len(xy) for cell in corners for i in cell):
@@ -74,7 +73,7 @@ def _counter_clockwise(xy: NDArray[np.float64], ring: list[int]) -> list[int]:
 
 
 def _lone_edges(rings: Sequence[Sequence[int]]) -> list[tuple[int, int]]:
-    """Directed edges that no other cell has in the other direction."""
+    """Directed edges that no other cell reverses."""
     directed = {(a, b) for ring in rings for a, b in zip(ring, [*ring[1:], ring[0]], strict=True)}
     return sorted((a, b) for a, b in directed if (b, a) not in directed)
 
@@ -107,7 +106,7 @@ def _weld(
 def _cut_edges(
     xy: NDArray[np.float64], rings: list[list[int]], lone: list[tuple[int, int]], tolerance: float
 ) -> list[list[int]]:
-    """Cut each lone edge at the corners of others on it (T-junctions)."""
+    """Cut lone edges at corners of others on them (T-junctions)."""
     ids = np.unique(np.array(lone))
     points = xy[ids]
     cuts: dict[tuple[int, int], list[int]] = {}
@@ -132,15 +131,12 @@ def _cut_edges(
 
 
 def cells_overlap(tail: NDArray[np.float64], head: NDArray[np.float64], tolerance: float) -> bool:
-    """Whether cells cover a place twice, from the edges that they do not share.
+    """Returns whether cells cover a place twice, from the edges that they do not share.
 
     Args:
-        tail: Where the b lone edges start (b, 2), the cell on their left, in m.
-        head: Where they end (b, 2).
+        tail: Starts of the b lone edges (b, 2), the cell on their left, in m.
+        head: Their ends (b, 2).
         tolerance: Distance in m below which points are one.
-
-    Returns:
-        True where cells overlap.
     """
     d = head - tail
     length = np.hypot(d[:, 0], d[:, 1])

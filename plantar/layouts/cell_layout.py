@@ -1,4 +1,4 @@
-"""Layouts of cells of any shape and size, such as insoles, and layouts joined from parts."""
+"""Layouts of cells of any shape and size, or joined from parts."""
 
 from __future__ import annotations
 
@@ -34,24 +34,24 @@ def layout_of_cells(
 ) -> SoleLayout:
     """A layout of polygonal cells of any shapes and sizes (T 4.5).
 
-    Corners within a thousandth of a small cell's size become one vertex, also of an edge that they are on: cells that
-    touch share edges, and outlines are exact.
+    Corners within a thousandth of a small cell's size become one vertex, also of an edge that they are on: outlines are
+    exact.
 
     Args:
         cells: Corners (k, 2) of each cell in the sole frame in m, either orientation, not self-crossing.
         name: Name of the sole.
         side: "left" or "right".
-        outline: Outline (k, 2) of the sole in m; if None that of all cells, or their convex hull if not in one piece.
-        ids: Id of each cell; 0, 1, ... if None.
+        outline: Outline (k, 2) in m; None for that of all cells, or their hull if not in one piece.
+        ids: Id of each cell; None for 0, 1, ...
         cell_shape: One of `plantar.layouts.layout.CELL_SHAPES`.
-        positions: Taxel centers (n, 2) in m; the cells' centroids if None.
-        rotations: Rotations (n, 3, 3) from each taxel's frame to the sole frame; level if None.
+        positions: Taxel centers (n, 2) in m; None for the centroids.
+        rotations: Rotations (n, 3, 3) from each taxel's frame to the sole's; None for level.
 
     Returns:
-        The layout; its `cell_area` is the median of the cells' areas.
+        The layout; its `cell_area` is the median.
 
     Raises:
-        LayoutError: If there is no cell, a cell is not a simple polygon, cells overlap, or a field is not valid.
+        LayoutError: If cells or fields are not valid.
 
     Example:
         >>> square = np.array([[0.0, 0.0], [0.02, 0.0], [0.02, 0.02], [0.0, 0.02]])
@@ -100,18 +100,18 @@ def layout_of_cells(
 def joined_layout(
     parts: Sequence[SoleLayout], *, name: str | None = None, outline: ArrayLike | None = None
 ) -> SoleLayout:
-    """One layout of several flat ones, for example hexagons under the heel and small squares under the toes.
+    """One layout of several flat ones, for example hexagons at the heel, squares at the toes.
 
     Args:
         parts: The layouts; their cells must not overlap.
-        name: Name of the sole; that of the first part if None.
-        outline: Outline (k, 2) of the sole in m, as in `layout_of_cells`.
+        name: Name of the sole; None for the first part's.
+        outline: Outline (k, 2) in m, as in `layout_of_cells`.
 
     Returns:
         Cells in order with ids 0, 1, ...; quantities, ranges and thresholds of the first part.
 
     Raises:
-        LayoutError: If there is no part, parts are not flat layouts of one side, or cells overlap.
+        LayoutError: If parts do not fit together.
 
     Example:
         >>> from plantar import grid_layout, hex_layout
@@ -145,17 +145,17 @@ def joined_layout(
 
 
 def shared_vertices(rings: Sequence[ArrayLike], tolerance: float) -> tuple[NDArray[np.float64], list[tuple[int, ...]]]:
-    """Give points of cell rings that agree within a tolerance one shared index.
+    """Give points of cell rings that agree within a tolerance one index.
 
     Args:
         rings: Corners (k, 2) of each cell in m.
         tolerance: Distance in m.
 
     Returns:
-        The points (v, 2) in m, and for each cell the indices of its corners, none twice in a row.
+        Points (v, 2) in m, and each cell's corner indices, none twice in a row.
 
     Raises:
-        InputError: If a ring is not (k, 2) finite numbers, or the tolerance not above 0.
+        InputError: If an argument is not valid.
     """
     if not number(tolerance, "tolerance of corners", finite=True) > 0.0:
         raise InputError(f"tolerance of corners is {tolerance} m; allowed: above 0")
@@ -181,7 +181,7 @@ def shared_vertices(rings: Sequence[ArrayLike], tolerance: float) -> tuple[NDArr
 
 
 def edge_neighbours(corners: Sequence[Sequence[int]]) -> tuple[tuple[int, ...], ...]:
-    """For each cell, the increasing indices of those that share an edge: two consecutive vertices of its corners.
+    """Each cell's increasing indices of those that share an edge.
 
     Args:
         corners: Vertex indices of each cell; an InputError if one is not a list of indices.
@@ -234,7 +234,7 @@ def _check_overlap(polygons: NDArray[np.object_]) -> None:
 def _with_touching_vertices(
     vertices: NDArray[np.float64], corners: list[tuple[int, ...]], tolerance: float
 ) -> list[tuple[int, ...]]:
-    """Insert vertices that are on an edge, so that touching cells share whole edges."""
+    """Insert vertices on edges, so that touching cells share whole edges."""
     import shapely
 
     edges = [(a, b) for ring in corners for a, b in zip(ring, [*ring[1:], ring[0]], strict=True)]

@@ -25,17 +25,17 @@ _STEP = 1e-5
 def laid_over(layout: SoleLayout, surface: Surface) -> SoleLayout:
     """A layout on a curved sole z(x, y), unchanged seen from above (soleT_i of T 4.23).
 
-    Each taxel turns the shortest way that brings its z axis onto the surface's normal.
+    Each taxel turns the shortest way that brings its z axis onto the normal.
 
     Args:
         layout: The flat layout.
         surface: Height of the sole's outer face in m; smooth, called with arrays.
 
     Returns:
-        The layout with positions and vertices on the surface, rotations R_i, and the cells' areas on the surface.
+        The layout on the surface: positions, vertices, rotations R_i, areas.
 
     Raises:
-        LayoutError: If the layout is not flat, or a height is not finite.
+        LayoutError: If not flat, or a height is not finite.
 
     Example:
         >>> from plantar import hex_layout
@@ -82,7 +82,7 @@ def rotations_to_normals(normals: ArrayLike) -> NDArray[np.float64]:
     """Shortest rotations (n, 3, 3) that take the z axis onto directions.
 
     Args:
-        normals: Directions (n, 3), of any length, with z above 0; else a LayoutError.
+        normals: Directions (n, 3), any length, z above 0; else a LayoutError.
     """
     given = array(normals, "directions", ("n", 3), LayoutError, finite=True)
     if not (given[:, 2] > 0.0).all():
@@ -100,6 +100,6 @@ def rotations_to_normals(normals: ArrayLike) -> NDArray[np.float64]:
 
 
 def _fan(centre: NDArray[np.float64], ring: NDArray[np.float64]) -> float:
-    """Area in m^2 of the triangles from a cell's center to its edges."""
+    """Area in m^2 of triangles from a cell's center to its edges."""
     arm = ring - centre
     return 0.5 * float(np.linalg.norm(np.cross(arm, np.roll(arm, -1, axis=0)), axis=1).sum())

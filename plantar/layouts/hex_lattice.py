@@ -1,12 +1,11 @@
 """Hexagonal lattice in axial coordinates, with integer vertex keys.
 
-A cell (q, r) of a lattice whose rows run along x has its center at
+A cell (q, r), rows along x, has its center at
 
     x = w (q + r / 2)        w = flat-to-flat width
     y = 3/2 s r              s = side length = w / sqrt(3)
 
-so cells that meet share corners with the same key and identical coordinates; corners computed cell by cell differ in
-the last bit, and unions of them leak slivers.
+so that shared corners have one key and identical coordinates, without slivers in unions.
 """
 
 from __future__ import annotations
@@ -38,7 +37,7 @@ def hexagon_side(area: float) -> float:
     """Side length s in m of a regular hexagon, from area = 3 sqrt(3) / 2 s^2.
 
     Args:
-        area: Area in m^2, above 0 (else an InputError).
+        area: In m^2, above 0 (else an InputError).
     """
     whole = number(area, "cell area", nan=True)
     if not 0.0 < whole <= LARGEST:
@@ -51,12 +50,12 @@ class HexLattice:
     """A hexagonal lattice placed in the sole plane.
 
     Attributes:
-        area: Area of one cell in m^2.
-        origin: Position (2,) of the center of cell (0, 0) in m.
-        angle: Rotation of the rows against the x axis in rad.
+        area: Of one cell in m^2.
+        origin: Center (2,) of cell (0, 0) in m.
+        angle: Rotation of the rows against x in rad.
 
     Raises:
-        InputError: If the area is not a finite value above 0, or the origin or angle not finite.
+        InputError: If a value is not valid.
 
     Example:
         >>> lattice = HexLattice(area=691e-6)
@@ -83,11 +82,11 @@ class HexLattice:
 
     @property
     def width(self) -> float:
-        """Flat-to-flat width of a cell in m: the distance of neighbouring centers."""
+        """Flat-to-flat width of a cell in m."""
         return math.sqrt(3.0) * self.side
 
     def position_of_keys(self, keys: ArrayLike) -> NDArray[np.float64]:
-        """Positions (..., 2) in m in the sole plane of lattice points by integer keys.
+        """Positions (..., 2) in m, sole plane, of lattice points by integer keys.
 
         Args:
             keys: Integers (..., 2): multiples of (half width, half side); else an InputError.
@@ -100,7 +99,7 @@ class HexLattice:
 
     @staticmethod
     def centre_keys(axial: ArrayLike) -> NDArray[np.int64]:
-        """Integer keys (n, 2) of the centres of cells with axial coordinates (n, 2)."""
+        """Integer keys (n, 2) of centres of cells with axial coordinates (n, 2)."""
         cells = integers(axial, "cells", (..., 2))
         if cells.size and (cells.min() < -_FARTHEST or cells.max() > _FARTHEST):
             raise InputError(f"cells are up to {np.abs(cells.astype(float)).max():.3g} from the origin; allowed: 1e9")
@@ -120,18 +119,17 @@ class HexLattice:
         return self.position_of_keys(self.corner_keys(axial))
 
     def cells_near(self, lower: ArrayLike, upper: ArrayLike) -> NDArray[np.int64]:
-        """Axial coordinates (n, 2) of every cell whose center is within one cell of a box, sorted by row r, then q.
+        """Axial coordinates (n, 2) of cells whose center is within one cell of a box, sorted by row r, then q.
 
         Args:
             lower: Lower corner (2,) of the box in m.
-            upper: Upper corner (2,) of the box in m.
+            upper: Upper corner (2,) in m.
 
         Returns:
             The cells.
 
         Raises:
-            InputError: If a corner is not two finite numbers, or the box reaches farther than 3000 sides from its
-                middle.
+            InputError: If corners are not finite, or the box reaches over 3000 sides from its middle.
         """
         low = array(lower, "lower corner", (2,), finite=True)
         high = array(upper, "upper corner", (2,), finite=True)

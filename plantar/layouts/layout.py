@@ -1,7 +1,7 @@
 """Sole layout: where the taxels of one sole are.
 
-The sole frame lies on the outer contact face, x forward, y left, z up. A taxel's z axis points into the body: the
-world exerts [0, 0, f] on it, f >= 0.
+The sole frame lies on the outer contact face, x forward, y left, z up. A taxel's z axis points into the body: the world
+exerts [0, 0, f] on it, f >= 0.
 """
 
 from __future__ import annotations
@@ -58,24 +58,23 @@ DEFAULT_THRESHOLDS: Mapping[str, float] = {"force": 0.15 * GRAVITY, "proximity":
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SoleLayout:
-    """The taxels of one sole. Arrays, lists and mappings are copied, and read-only; n taxels, v vertices.
+    """The taxels of one sole, copied and read-only; n taxels, v vertices.
 
     Attributes:
-        name: Name of the sole.
         side: "left" or "right".
         positions: Taxel centers (n, 3) in the sole frame in m.
-        rotations: Rotations (n, 3, 3) from each taxel's frame to the sole frame.
+        rotations: Rotations (n, 3, 3) from each taxel's frame to the sole's.
         vertices: Corner points (v, 3) in the sole frame in m, shared between cells that meet.
-        corners: Indices of each taxel's corners in `vertices`, counter-clockwise seen from above.
+        corners: Each taxel's corner indices in `vertices`, counter-clockwise from above.
         neighbours: Indices of the taxels that share an edge with each.
         areas: Cell areas (n,) in m^2.
-        outline: Outline (k, 2) of the sole in m, counter-clockwise.
+        outline: Sole outline (k, 2) in m, counter-clockwise.
         ids: Taxel ids (n,), unique.
         cell_shape: One of CELL_SHAPES.
-        cell_area: Area of one whole cell in m^2 (the median of mixed sizes).
+        cell_area: Of one whole cell in m^2 (the median of mixed sizes).
         modalities: Sensed quantities, out of MODALITIES.
-        ranges: Sensing range (low, high) of each modality in SI.
-        thresholds: Activation threshold of each modality in SI.
+        ranges: Sensing range (low, high) of each in SI.
+        thresholds: Activation threshold of each in SI.
 
     Raises:
         LayoutError: If a field is not valid; the message names it.
@@ -207,7 +206,7 @@ class SoleLayout:
 
     @cached_property
     def force_limit(self) -> float:
-        """Force in N from which a taxel is saturated, the upper end of its range; inf without a range."""
+        """Force in N from which a taxel is saturated; inf without a range."""
         return float(self.ranges["force"][1]) if "force" in self.ranges else math.inf
 
     @property
@@ -243,7 +242,7 @@ class SoleLayout:
 
     @cached_property
     def corner_start(self) -> NDArray[np.int64]:
-        """Offsets (n + 1,) of each taxel's corners in `corner_vertex`."""
+        """Offsets (n + 1,) of taxels' corners in `corner_vertex`."""
         return read_only(np.concatenate([[0], np.cumsum([len(c) for c in self.corners])]).astype(np.int64))
 
     @cached_property
@@ -253,13 +252,13 @@ class SoleLayout:
 
     @cached_property
     def wrench_map(self) -> NDArray[np.float64]:
-        """Matrix (6, n) from taxel normal forces to the wrench at the sole frame's origin (T 4.23)."""
+        """Matrix (6, n) from taxel normal forces to the wrench at the sole origin (T 4.23)."""
         normal = self.rotations[:, :, 2]
         return read_only(np.vstack([normal.T, np.cross(self.positions, normal).T]))
 
     @cached_property
     def kernel(self) -> SoleKernel:
-        """The kernels' data of this sole, for loads and support polygons."""
+        """The kernels' data of this sole."""
         return SoleKernel(
             self.positions,
             self.rotations[:, :, 2],
@@ -272,18 +271,15 @@ class SoleLayout:
         )
 
     def cell_polygon(self, taxel: int) -> NDArray[np.float64]:
-        """Corners (k, 2) of one cell, counted from 0, in the sole plane in m, counter-clockwise."""
+        """Corners (k, 2) of one cell, counted from 0, sole plane in m, counter-clockwise."""
         return self.vertices[list(self.corners[integer(taxel, "taxel", 0, len(self.corners) - 1)]), :2]
 
 
 def mirrored(layout: SoleLayout) -> SoleLayout:
-    """The same sole for the other foot: y changes sign, taxels and ids keep their order.
+    """Returns the same sole for the other foot: y changes sign, taxels and ids keep their order.
 
     Args:
         layout: Layout of one side.
-
-    Returns:
-        Layout of the other side.
 
     Raises:
         InputError: If it is not a layout.

@@ -1,4 +1,4 @@
-"""The layout file: one JSON per sole, written by `shoes`, read by everything else."""
+"""The layout file: one JSON per sole, written by `shoes`."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _UNITS = "m, N, degC; sole frame: x forward, y left, z up, on the outer contact 
 
 
 def layout_to_dict(layout: SoleLayout) -> dict[str, Any]:
-    """A layout as plain JSON values, SI units, sole frame; `layout_from_dict` reads them without loss."""
+    """A layout as plain JSON values, SI, sole frame; `layout_from_dict` reads them without loss."""
     instance(layout, SoleLayout, "layout")
     return {
         "schema": SCHEMA,
@@ -69,7 +69,7 @@ def _take(source: Mapping[str, Any], key: str, kind: type | tuple[type, ...], wh
 
 
 def _numbers(value: Any, shape: tuple[int | None, ...], field: str, where: str) -> Any:
-    """Check that nested lists hold finite numbers in a shape; None is any length."""
+    """Check that nested lists hold finite numbers in a shape; None is any."""
     if not shape:
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             raise LayoutError(f"{where}: field '{field}' holds {type(value).__name__}; expected numbers")
@@ -89,13 +89,13 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
 
     Args:
         source: The result of `layout_to_dict`.
-        where: Name of the source, for error messages.
+        where: Name of the source, for messages.
 
     Returns:
         The layout.
 
     Raises:
-        LayoutError: If a field is missing or wrong, the units are not SI, or cells contradict themselves.
+        LayoutError: If a field, unit or cell is wrong.
     """
     if not isinstance(source, Mapping):
         raise LayoutError(f"{where}: not a JSON object")
@@ -163,16 +163,13 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
 
 
 def read_layout(path: str | os.PathLike[str]) -> SoleLayout:
-    """Read and check a layout file.
+    """Read and check a layout file. Returns the layout.
 
     Args:
         path: A JSON file as of `write_layout`.
 
-    Returns:
-        The layout.
-
     Raises:
-        LayoutError: If the file cannot be read, is not JSON, or has a bad field; the message names file and field.
+        LayoutError: If not valid; the message names file and field.
 
     Example:
         >>> import tempfile
@@ -191,7 +188,7 @@ def write_layout(layout: SoleLayout, path: str | os.PathLike[str]) -> Path:
 
     Args:
         layout: The layout.
-        path: The file, replaced if it exists.
+        path: Replaced if it exists.
     """
     return write_text(path, json.dumps(layout_to_dict(layout), indent=1) + "\n")
 
@@ -204,8 +201,8 @@ def check_cells(layout: SoleLayout) -> None:
     """Refuse a layout with cells that contradict themselves.
 
     Raises:
-        LayoutError: If a cell crosses itself or is clockwise, its area is not that of its corners, its taxel is off the
-            cell, or a taxel faces out of the body.
+        LayoutError: If a cell crosses itself, is clockwise, has another area or lacks its taxel, or a taxel faces out
+            of the body.
     """
     import shapely
 

@@ -1,7 +1,4 @@
-"""Checks of readings and masks from callers for the taxels of one layout.
-
-A taxel that reads NaN or inf is dead: left out of every sum, no error.
-"""
+"""Checks of callers' readings and masks; NaN or inf is a dead taxel, left out of sums."""
 
 from __future__ import annotations
 
@@ -27,10 +24,10 @@ def taxel_values(layout: SoleLayout, values: object, name: str = "forces") -> ND
         name: Its name in an error.
 
     Returns:
-        Values (n,), NaN where a taxel is dead; not copied if float64.
+        Values (n,), NaN where dead; not copied if float64.
 
     Raises:
-        ReadingError, InputError: If these are not n real numbers, or it is not a layout.
+        ReadingError, InputError: If numbers or layout are not valid.
     """
     if not isinstance(layout, SoleLayout):
         instance(layout, SoleLayout, "layout")
@@ -41,15 +38,12 @@ def taxel_values(layout: SoleLayout, values: object, name: str = "forces") -> ND
 
 
 def taxel_frames(layout: SoleLayout, values: object, name: str = "forces") -> NDArray[np.float64]:
-    """One reading of a sole's taxels, (n,), or several, (frames, n), as `taxel_values`.
+    """Returns a sole's readings, (n,) or (frames, n), as `taxel_values`.
 
     Args:
         layout: The sole, n taxels.
         values: The argument.
         name: Its name in an error.
-
-    Returns:
-        The values.
     """
     instance(layout, SoleLayout, "layout")
     given = numbers(values, name, ReadingError)
@@ -59,15 +53,12 @@ def taxel_frames(layout: SoleLayout, values: object, name: str = "forces") -> ND
 
 
 def taxel_mask(layout: SoleLayout, values: object, name: str = "mask") -> NDArray[np.bool_]:
-    """Some of a sole's taxels as a mask (n,), not copied if bool; a ReadingError unless n truth values.
+    """Returns a mask (n,) of taxels, not copied if bool; a ReadingError unless n truth values.
 
     Args:
         layout: The sole, n taxels.
         values: The argument.
         name: Its name in an error.
-
-    Returns:
-        The mask.
     """
     if not isinstance(layout, SoleLayout):
         instance(layout, SoleLayout, "layout")
@@ -78,7 +69,7 @@ def taxel_mask(layout: SoleLayout, values: object, name: str = "mask") -> NDArra
 
 
 def without_dead(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Readings with 0 where a taxel is dead; the array itself if none is.
+    """Readings with 0 where a taxel is dead; not copied if none is.
 
     Args:
         values: Readings of any shape.

@@ -1,4 +1,4 @@
-"""A lattice of hexagons or rectangles laid over a sole, clipped to the outline or whole."""
+"""A lattice of hexagons or rectangles over a sole, clipped or whole."""
 
 from __future__ import annotations
 
@@ -38,21 +38,21 @@ def hex_layout(
     """Lay a hexagonal lattice over a sole and keep the cells that fit.
 
     Args:
-        outline: Outline (k, 2) of the sole in m in the sole frame, either orientation, not self-crossing.
+        outline: Sole outline (k, 2) in m in the sole frame, either orientation, not self-crossing.
         name: Name of the sole.
         side: "left" or "right".
-        cell_area: Area of a whole cell in m^2.
-        origin: Center of lattice cell (0, 0) in m.
-        angle: Rotation of the lattice rows against x in rad.
+        cell_area: Of a whole cell in m^2.
+        origin: Center of cell (0, 0) in m.
+        angle: Rotation of the rows against x in rad.
         clip: Cut cells that cross the outline; False keeps whole cells inside only.
-        minimum_fraction: Least fraction inside of a kept cut cell, a thousandth to 1; the largest part of one counts.
+        minimum_fraction: Least fraction inside of a cut cell, a thousandth to 1; the largest part of one counts.
         cells: Axial coordinates (m, 2) to use instead; kept whole, even across the outline.
 
     Returns:
         The layout; a clipped cell's position is its centroid.
 
     Raises:
-        LayoutError, InputError: If an argument is not valid, or no cell fits, or more than MOST_TAXELS would.
+        LayoutError, InputError: If an argument is not valid, no cell fits, or more than MOST_TAXELS.
 
     Example:
         >>> layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]], clip=False)
@@ -92,15 +92,15 @@ def grid_layout(
     clip: bool = True,
     minimum_fraction: float = 0.5,
 ) -> SoleLayout:
-    """Lay a grid of squares or rectangles over a sole and keep the cells that fit.
+    """Lay a grid of rectangles over a sole and keep the cells that fit.
 
     Args:
         outline: As in `hex_layout`.
         name: Name of the sole.
         side: "left" or "right".
-        pitch: Size of a cell along the grid's rows and across them in m.
+        pitch: Cell size along rows and across them in m.
         origin: A corner of the grid in m.
-        angle: Rotation of the grid's rows against x in rad.
+        angle: Rotation of the rows against x in rad.
         clip: As in `hex_layout`.
         minimum_fraction: As in `hex_layout`.
 
@@ -185,7 +185,7 @@ def _cells_within(
     minimum_fraction: float | None,
     grain: float,
 ) -> tuple[list[NDArray[np.float64]], NDArray[np.float64]]:
-    """Rings and centers of the cells inside an outline; cut ones too if a minimum fraction is given."""
+    """Rings and centers of cells inside an outline; cut ones too given a minimum fraction."""
     import shapely
 
     cells = shapely.polygons(candidates)
@@ -215,7 +215,7 @@ def _cells_within(
 
 
 def _on_lattice(ring: NDArray[np.float64], corners: NDArray[np.float64], tolerance: float) -> NDArray[np.float64]:
-    """A cut cell's corners, with the whole cell's put back from GEOS's grid, so that copies stay exact."""
+    """A cut cell's corners, with the whole cell's put back exactly."""
     gap = np.hypot(*(ring[:, None] - corners).transpose(2, 0, 1))
     nearest = gap.argmin(axis=1)
     return np.where(gap.min(axis=1, keepdims=True) <= tolerance, corners[nearest], ring)

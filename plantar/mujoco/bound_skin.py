@@ -1,4 +1,4 @@
-"""`BoundSkin`: a plantar skin in a MuJoCo model, read from simulation data."""
+"""A plantar skin in a MuJoCo model, read from simulation data."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ _MOST_DATA = 4096
 
 
 class SkinReading(Reading):
-    """A `Reading` with what only a simulation knows of a contact, in the sole frame; n taxels.
+    """A `Reading` with what only a simulation knows, in the sole frame; n taxels.
 
     Attributes:
-        force: Force (n,) along each taxel's axis in N.
+        force: (n,) along each taxel's axis in N.
         vectors: Force (n, 3) on each taxel in N.
-        wrench: Wrench (6,) of MuJoCo's contacts on the body about the sole frame's origin in N and N m.
+        wrench: Wrench (6,) of MuJoCo's contacts on the body about the sole origin in N and N m.
         depth: Overlap (n,) of the geoms at each taxel in m, 0 elsewhere.
-        carried: Whether the vectors have the whole wrench. False where its center of pressure is beyond the outermost
-            taxels, or the contacts pull: then they add up to the load alone.
+        carried: Whether the vectors have the whole wrench. Else its center of pressure is beyond the taxels, or the
+            contacts pull, and they add up to the load alone.
     """
 
     vectors: NDArray[np.float64]
@@ -47,7 +47,7 @@ class SkinReading(Reading):
 
     @property
     def position_cop_in_sole(self) -> NDArray[np.float64] | None:
-        """Center of pressure (2,) of the contacts at z = 0 in m, also beyond the taxels; None without load."""
+        """Contacts' center of pressure (2,) at z = 0 in m, also beyond the taxels; None without load."""
         fz = float(self.wrench[2])
         return np.array([-self.wrench[4] / fz, self.wrench[3] / fz]) if fz > 0.0 else None
 
@@ -57,17 +57,16 @@ class SkinReading(Reading):
 
 
 class BoundSkin:
-    """A skin in a model, made by `plantar.mujoco.Skin.bind`. Reading it does not change the simulation.
+    """A skin in a model, made by `plantar.mujoco.Skin.bind`. Reading does not change the simulation.
 
     Attributes:
-        model: The MjModel.
         layout: The sole, n taxels.
         body: Id of the body.
-        geom_ids: Ids of the geoms that can touch.
-        position_in_body: Origin (3,) of the sole frame in the body's frame in m.
-        rotation_to_body: Rotation (3, 3) from the sole frame to the body's.
-        reach: Gap in m up to which a contact without load counts as near.
-        static: Places, axes, areas and widths of the taxels and the hull of the places, as in `TaxelLoad`.
+        geom_ids: Ids of geoms that can touch.
+        position_in_body: Sole origin (3,) in the body's frame in m.
+        rotation_to_body: Rotation (3, 3) from sole to body.
+        reach: Gap in m up to which an unloaded contact counts as near.
+        static: Taxels' places, axes, areas, widths, and hull of places, as in `TaxelLoad`.
     """
 
     def __init__(
@@ -107,7 +106,7 @@ class BoundSkin:
         return len(self.layout)
 
     def __call__(self, data: Any) -> SkinReading:
-        """Read the skin from an MjData of the model after `mj_step` or `mj_forward`; InputError for another model."""
+        """Read the skin from the model's MjData after `mj_step` or `mj_forward`; InputError for another model."""
         view = self._views.get(id(data))
         if view is None:
             view = self._look_in(data)
@@ -140,7 +139,7 @@ class BoundSkin:
             threads: Number of threads.
 
         Returns:
-            Force (b, n, 3) on each taxel in N and wrench (b, 6), in the sole frame.
+            Force (b, n, 3) on each taxel in N and wrench (b, 6), sole frame.
         """
         vectors, wrenches = np.empty((len(datas), len(self), 3)), np.empty((len(datas), 6))
         views = [self._views.get(id(d)) or self._look_in(d) for d in datas]
@@ -160,14 +159,14 @@ class BoundSkin:
 
         Args:
             states: Full physics states (..., nstate), of `mujoco.mjtState.mjSTATE_FULLPHYSICS`.
-            controls: Controls (..., nu) at these states; the default ones if None.
-            threads: Number of threads; MuJoCo's part runs in parallel.
+            controls: Controls (..., nu) at these states; None for the defaults.
+            threads: Number of threads, for MuJoCo's part.
 
         Returns:
-            Force (..., n, 3) on each taxel in N and wrench (..., 6), in the sole frame.
+            Force (..., n, 3) on each taxel in N and wrench (..., 6), sole frame.
 
         Raises:
-            InputError: If states or controls do not have the model's size.
+            InputError: If sizes are not the model's.
         """
         kind = mujoco.mjtState.mjSTATE_FULLPHYSICS
         given = np.asarray(states, dtype=np.float64)
@@ -200,7 +199,7 @@ class BoundSkin:
         return vectors.reshape(*lead, len(self), 3), wrenches.reshape(*lead, 6)
 
     def _look_in(self, data: Any) -> _View:
-        """The view of an MjData, kept for the next reading."""
+        """The view of an MjData, kept for later."""
         if not isinstance(data, mujoco.MjData):
             raise InputError(f"a skin is read from a mujoco.MjData; got a {type(data).__name__}")
         shapes = (data.qpos.size, data.qvel.size, len(data.xpos), len(data.geom_xpos))
@@ -213,7 +212,7 @@ class BoundSkin:
         return view
 
     def _distances(self, view: _View) -> NDArray[np.float64]:
-        """Distance (n,) from each taxel outwards to the nearest geom of another body in m; inf beyond the range."""
+        """Distance (n,) from each taxel outwards to another body's geom in m; inf beyond the range."""
         axes = self.static[1] @ view.rotation.T
         starts = view.origin + self.static[0] @ view.rotation.T + _LIFT * axes
         geom = np.empty(1, dtype=np.int32)
@@ -226,7 +225,7 @@ class BoundSkin:
 
 
 class _View:
-    """A skin's contacts in one MjData, which stays alive with it."""
+    """A skin's contacts in one MjData, alive with it."""
 
     def __init__(self, skin: BoundSkin, data: Any) -> None:
         self.data = data
@@ -240,7 +239,7 @@ class _View:
         self._seen.look_from(self.origin, self.rotation)
 
     def load(self) -> TaxelLoad:
-        """The load of the taxels now; the same object each time."""
+        """The taxels' load now; always the same object."""
         foot: FootContacts = self._reader.read()[0]
         np.dot(self._turn, self._rotation, self.rotation)
         np.dot(self._turn, self._position, self.origin)

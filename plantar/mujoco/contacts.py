@@ -22,7 +22,7 @@ class ContactReader:
     """Gathers the contacts of several feet of one simulation.
 
     Args:
-        model: The MjModel, whose friction cones stay as they are.
+        model: MjModel, whose friction cones stay as they are.
         data: Its MjData.
         feet: Ids of each foot's geoms.
     """
@@ -37,7 +37,7 @@ class ContactReader:
         self._lists: dict[int, ContactList] = {}
 
     def read(self) -> tuple[FootContacts, ...]:
-        """Each foot's contacts after the last `mj_step` or `mj_forward`, in objects that the next reading changes."""
+        """Each foot's contacts after the last `mj_step` or `mj_forward`, in reused objects."""
         data, n = self._data, self._data.ncon
         if not n:
             for foot in self._feet:

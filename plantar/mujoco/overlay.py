@@ -1,4 +1,4 @@
-"""Taxels, center of pressure and support polygon drawn into a MuJoCo scene, in a viewer or a video."""
+"""Taxels, center of pressure and support polygon drawn into a MuJoCo scene."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ _EDGE, _COP = np.array([0.1, 0.35, 0.9, 1.0]), np.array([1.0, 0.85, 0.1, 1.0])
 
 
 def draw_skin(scene: Any, feel: BoundSkin, data: Any, *, full: float | None = None, lift: float = _LIFT) -> int:
-    """Add a skin to a scene: for example to `viewer.user_scn`, or to a renderer's `scene` after `update_scene`.
+    """Add a skin to a scene, such as `viewer.user_scn`, or a renderer's `scene` after `update_scene`.
 
     Args:
         scene: The `mujoco.MjvScene`; geoms are added while there is room.
         feel: The skin.
         data: The MjData.
-        full: Force in N of a taxel in full color; the largest one of the reading if None.
+        full: Force in N of a taxel in full color; None for the reading's largest.
         lift: Distance in m outside the sole.
 
     Returns:

@@ -1,4 +1,4 @@
-"""`Skin`: a plantar skin for a body of a MuJoCo model, and the checks that it fits."""
+"""A plantar skin for a body of a MuJoCo model, and its checks."""
 
 from __future__ import annotations
 
@@ -39,19 +39,19 @@ class Skin:
     """A plantar skin for a body of any MuJoCo model.
 
     The sole's face is the lowest one of the body's collision shapes in the reference pose (first keyframe, or `qpos0`);
-    its origin is below the body's, x is the world's x there. Set-ups that contradict the geometry are refused.
+    its origin is below the body's, x is the world's x there. Contradicting set-ups are refused.
 
     Args:
-        layout: Layout, or path of a layout file; None fits hexagons to the body's shapes.
+        layout: Layout, or path of its file; None fits hexagons to the body's shapes.
         body: Name of the body, for example "left_ankle_roll_link".
-        geoms: Names of the geoms that can touch; all colliding ones of the body and of parts fixed to it if None.
-        site: Name of a site that is the sole frame; checked against the shapes.
-        outward: Direction (3,) of the sole in the body's frame; down in the reference pose if None.
-        forward: Forward direction (3,) in the body's frame; the world's x in the reference pose if None.
-        cell_area: Area of a fitted cell in m^2; if None 691 mm^2, or a thirtieth of a small sole.
+        geoms: Names of geoms that can touch; None for all colliding ones of the body and parts fixed to it.
+        site: Site that is the sole frame; checked against the shapes.
+        outward: Direction (3,) of the sole, body frame; None for down in the reference pose.
+        forward: Forward direction (3,), body frame; None for the world's x in the reference pose.
+        cell_area: Of a fitted cell in m^2; None for 691 mm^2, or a thirtieth of a small sole.
         partial: Whether a layout may cover a small part of the sole.
         proximity: Range in m of proximity sensors; None for none.
-        reach: Gap in m up to which a contact without load counts as near.
+        reach: Gap in m up to which an unloaded contact counts as near.
 
     Raises:
         InputError, LayoutError: If an argument is not valid.
@@ -94,8 +94,7 @@ class Skin:
         self.reach = number(reach, "reach", finite=True)
 
     def edit(self, spec: Any) -> None:
-        """Add a site at the sole frame, "BODY_skin", to a `mujoco.MjSpec` before it is compiled; the physics do not
-        change.
+        """Add a site at the sole frame, "BODY_skin", to a `mujoco.MjSpec` before compilation; same physics.
 
         Raises:
             RobotError: As `bind`.
@@ -114,8 +113,8 @@ class Skin:
             The reader: call it with an `MjData` after `mj_step` or `mj_forward`.
 
         Raises:
-            RobotError: If the model has no such body, geom or site, the body has no colliding shape, or the layout or
-                the site is wrong: turned, tilted, upside down, scaled, mirrored, or another body's.
+            RobotError: If body, geom, site or colliding shape is missing, or layout or site is wrong: turned, tilted,
+                upside down, scaled, mirrored, or another body's.
         """
         geoms, shape = self._place(model)
         layout = self.layout or self._fitted(shape)
@@ -148,7 +147,7 @@ class Skin:
         return geoms, shape if self.site is None else self._at_site(model, body, shape)
 
     def _at_site(self, model: Any, body: int, shape: SoleShape) -> SoleShape:
-        """The sole with a site as its frame, which has to be on the face, facing the same way."""
+        """The sole with a site as its frame, on the face, facing the same way."""
         site = _found(model, "site", str(self.site))
         owner = int(model.site_bodyid[site])
         if owner != body:
@@ -240,7 +239,7 @@ def _cells(layout: SoleLayout) -> Any:
 
 
 def _fit(cells: Any, sole: Any) -> float:
-    """Share of the union of cells and sole that both cover."""
+    """Intersection of cells and sole over their union."""
     return float(cells.intersection(sole).area / cells.union(sole).area)
 
 

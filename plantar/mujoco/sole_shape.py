@@ -1,4 +1,4 @@
-"""Face and outline of a body's sole in a MuJoCo model, from its collision geoms."""
+"""Face and outline of a body's sole, from its collision geoms."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class SoleShape(NamedTuple):
     """A sole, in the frame of its body.
 
     Attributes:
-        position: Origin (3,) of the sole frame: the body's origin projected onto the face.
-        rotation: Rotation (3, 3) from the sole frame to the body's; columns forward, left, and into the body.
+        position: Sole origin (3,): the body's projected onto the face.
+        rotation: Rotation (3, 3) from sole to body; columns forward, left, into the body.
         outline: Convex outline (k, 2) in the sole frame, counter-clockwise.
-        side: "left" where the body is to the left of the world's x axis in the reference pose, else "right".
-        is_flat: Whether the geoms have a face; else the sole is round, and its frame is the world's.
+        side: "left" where the body is left of the world's x axis in the reference pose, else "right".
+        is_flat: Whether the geoms have a face; else the sole is round, in the world's frame.
     """
 
     position: NDArray[np.float64]
@@ -38,15 +38,7 @@ class SoleShape(NamedTuple):
 
 
 def rigid_geoms(model: Any, body: int) -> list[int]:
-    """Ids of the geoms that can collide, of a body and of those fixed to it.
-
-    Args:
-        model: The MjModel.
-        body: Id of the body.
-
-    Returns:
-        The ids.
-    """
+    """Returns ids of the geoms of a `model` that can collide, of `body` (an id) and those fixed to it."""
     fixed = {body}
     for child in range(body + 1, model.nbody):
         if model.body_jntnum[child] == 0 and int(model.body_parentid[child]) in fixed and body != 0:
@@ -66,20 +58,20 @@ def sole_shape(
     outward: NDArray[np.float64] | None = None,
     forward: NDArray[np.float64] | None = None,
 ) -> SoleShape:
-    """Find a body's sole: the lowest face of its geoms in the model's reference pose.
+    """Find a body's sole: the lowest face of its geoms in the reference pose.
 
     Args:
-        model: The MjModel; its reference pose is the first keyframe, or else `qpos0`.
+        model: MjModel; its reference pose is the first keyframe, or else `qpos0`.
         body: Id of the body.
-        geoms: Ids of the geoms that can touch.
-        outward: Direction (3,) of the sole in the body's frame; gravity's in the reference pose if None.
-        forward: Forward direction (3,) in the body's frame; the world's x in the reference pose if None.
+        geoms: Ids of geoms that can touch.
+        outward: Direction (3,) of the sole, body frame; None for gravity's in the reference pose.
+        forward: Forward direction (3,), body frame; None for the world's x in the reference pose.
 
     Returns:
         The sole.
 
     Raises:
-        RobotError: If the geoms have no extent, or both directions are the same.
+        RobotError: If geoms have no extent, or directions agree.
     """
     data = mujoco.MjData(model)
     if model.nkey:
@@ -108,9 +100,7 @@ def sole_shape(
 
 
 class _Part(NamedTuple):
-    """Points (m, 3) on a geom's surface in its body's frame; a round one's radius, and centers (c, 3) as its exact
-    shape.
-    """
+    """Points (m, 3) on a geom's surface, body frame; a round one's radius and centers (c, 3)."""
 
     points: NDArray[np.float64]
     centres: NDArray[np.float64] | None = None
@@ -151,7 +141,7 @@ def _surface(model: Any, data: Any, geom: int, place: NDArray[np.float64], turn:
 
 
 def _ball() -> NDArray[np.float64]:
-    """Points (400, 3) spread evenly over the unit sphere."""
+    """Points (400, 3) evenly over the unit sphere."""
     i = np.arange(400) + 0.5
     height, angle = 1.0 - i / 200.0, math.pi * (1.0 + math.sqrt(5.0)) * i
     ring = np.sqrt(1.0 - height**2)
@@ -159,12 +149,12 @@ def _ball() -> NDArray[np.float64]:
 
 
 def _exact(part: _Part, down: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points of a part in which a face can lie: its corners, or the lowest ones if round."""
+    """A part's points in which a face can lie: corners, or the lowest if round."""
     return part.points if part.centres is None else part.centres + part.radius * down
 
 
 def _face(parts: list[_Part], down: NDArray[np.float64], model: Any) -> tuple[NDArray[np.float64], bool]:
-    """Normal (3,) of the large face nearest to a direction, and True; else the direction, and False."""
+    """Normal (3,) of the large face nearest a direction, True; else the direction, False."""
     from scipy.spatial import ConvexHull, QhullError
 
     start = down

@@ -1,8 +1,7 @@
 # mypy: ignore-errors
-"""`plantar.kernels.contacts.taxel_load` for many worlds at once by NVIDIA Warp, a thread a world.
+"""`plantar.kernels.contacts.taxel_load` for many worlds by NVIDIA Warp, a thread a world.
 
-Steps and names are those of that kernel. Numbers are float64, computed from MuJoCo Warp's float32 contacts.
-`wp.int32(0)` declares a variable that a loop changes.
+Numbers are float64, from MuJoCo Warp's float32 contacts. `wp.int32(0)` declares a variable that a loop changes.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ _struct: Any = _as_it_is if wp is None else wp.struct
 
 @_struct
 class Sole:
-    """A sole of n taxels and its frame in a body; arrays are named as in the kernel."""
+    """A sole of n taxels and its frame in a body; named as in the kernel."""
 
     positions: wp.array(dtype=wp.vec3d)
     normals: wp.array(dtype=wp.vec3d)
@@ -45,7 +44,7 @@ class Sole:
 
 @_struct
 class Contacts:
-    """The contacts of all worlds as MuJoCo Warp lists them."""
+    """All worlds' contacts, as MuJoCo Warp lists them."""
 
     count: wp.array(dtype=wp.int32)
     world: wp.array(dtype=wp.int32)
@@ -64,7 +63,7 @@ class Contacts:
 
 @_struct
 class Work:
-    """Contacts of each world in the sole frame, and work arrays of a world's thread."""
+    """Each world's contacts in the sole frame, and work arrays."""
 
     size: wp.array(dtype=wp.int32)
     pair: wp.array2d(dtype=wp.vec2i)
@@ -87,9 +86,7 @@ class Work:
 
 @_kernel
 def gather(sole: Sole, contacts: Contacts, work: Work):
-    """Add each of the `contacts` of all worlds to the lists of the `sole` in `work`, in its frame; one thread a
-    contact.
-    """
+    """Add each of the `contacts` of all worlds to the lists of the `sole` in `work`, in its frame; a thread a contact."""
     i = wp.tid()
     if i >= contacts.count[0]:
         return
@@ -407,9 +404,9 @@ def _shear(sole: Sole, work: Work, w: wp.int32, force: wp.vec3d, about_z: wp.flo
 
 @_kernel
 def press(sole: Sole, work: Work):
-    """Spread the wrench of each world's contacts over the taxels; one thread a world.
+    """Spread the wrench of each world's contacts over the taxels; a thread a world.
 
-    `sole` is the sole; `work` has the lists of `gather` and receives forces, wrench and whether it is carried.
+    `work` has the lists of `gather` for the `sole` and receives forces, wrench and whether it is carried.
     """
     w = wp.tid()
     count = wp.min(work.size[w], work.gap.shape[1])

@@ -1,4 +1,4 @@
-"""A plantar skin in many worlds of MuJoCo Warp at once, on a GPU or the CPU, with the same numbers."""
+"""A plantar skin in many worlds of MuJoCo Warp, on GPU or CPU."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ class WarpSkin:
 
     Args:
         skin: The skin, bound to the worlds' MjModel.
-        worlds: Number of worlds.
+        worlds: Their number.
         contacts: Most contacts of the sole in one world.
-        elliptic: Whether the model has elliptic friction cones; as the MjModel if None.
+        elliptic: Whether friction cones are elliptic; None as the MjModel.
 
     Attributes:
-        vectors: Force (worlds, n) of vec3d on each taxel in the sole frame in N; the same Warp array at each reading.
-        wrench: Wrench (worlds, 6) about the sole frame's origin in N and N m, likewise.
+        vectors: Force (worlds, n) of vec3d on each taxel in N, sole frame; the same Warp array at each reading.
+        wrench: (worlds, 6) about the sole origin in N and N m, likewise.
         carried: 1 for each world (worlds,) whose taxels have the whole wrench, else 0.
 
     Raises:
@@ -75,8 +75,7 @@ class WarpSkin:
         """Read the skin in all worlds into `vectors`, `wrench` and `carried`.
 
         Args:
-            data: A `mujoco_warp.Data` of the worlds after a step or `forward`; an InputError for another number of
-                worlds.
+            data: A `mujoco_warp.Data` after a step or `forward`; an InputError for another number of worlds.
         """
         if data.xpos.shape[0] != self._worlds:
             raise InputError(f"data have {data.xpos.shape[0]} worlds; the skin was made for {self._worlds}")
@@ -97,5 +96,5 @@ class WarpSkin:
         wp.launch(warp_kernels.press, dim=self._worlds, inputs=[self._sole, self._work])
 
     def numpy(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
-        """The last reading: force (worlds, n, 3), wrench (worlds, 6) and whether it is carried (worlds,)."""
+        """The last reading: force (worlds, n, 3), wrench (worlds, 6), carried or not (worlds,)."""
         return self.vectors.numpy(), self.wrench.numpy(), self.carried.numpy().astype(bool)

@@ -1,8 +1,8 @@
-"""Units that grow with a robot: body weight, leg length, sole length, the beat of a swinging leg, and its pace.
+"""Units that grow with a robot: body weight, leg, sole, beat of a swinging leg, pace.
 
-Two robots of one shape and mass distribution walk alike with the same shares of leg, weight and beats sqrt(leg / g)
-(dynamic similarity: Alexander, Int. J. Robotics Research 3(2), 1984). Motors are not similar: a pace is the number of
-beats that a robot's motors need for a beat of others.
+Robots of one shape and mass distribution walk alike with the same shares of leg, weight and beats sqrt(leg / g)
+(Alexander, Int. J. Robotics Research 3(2), 1984). Motors are not similar: a pace is the beats that a robot's motors
+need for a beat of others.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ __all__ = ["BODY_UNITS", "REFERENCE_BODY", "BodyScale", "Quantity", "si_unit"]
 
 
 class _Symbol(NamedTuple):
-    """Powers of kg, m and s in a unit's dimension, and the unit of SI that stands for it; "" for one of SI itself."""
+    """Powers of kg, m and s in a unit's dimension, and its SI unit; "" if itself SI."""
 
     dimension: tuple[int, int, int]
     si: str = ""
@@ -53,7 +53,7 @@ _QUANTITY = re.compile(rf"\s*({_NUMBER})(?:/({_NUMBER}))?\s+(\S.*?)\s*")
 
 @lru_cache(maxsize=512)
 def _factors(unit: str) -> tuple[tuple[str, int], ...]:
-    """Symbols of a unit such as "rad/beat/weight/leg" or "weight beat" with their powers."""
+    """Symbols of a unit such as "rad/beat/weight/leg" with their powers."""
     found: list[tuple[str, int]] = []
     sign = 1
     for part in re.split(r"([/ ])", unit):
@@ -75,7 +75,7 @@ def _dimension(unit: str) -> tuple[int, ...]:
 
 
 def si_unit(unit: str) -> str:
-    """A unit with those of SI in place of the body's.
+    """A unit with SI units in place of the body's.
 
     Raises:
         InputError: If it is no unit.
@@ -93,14 +93,14 @@ class BodyScale:
     """Size of a robot, for its shares.
 
     Attributes:
-        mass: Mass in kg.
-        leg: Length of a leg in m: from hip over knee to ankle.
-        sole: Length of a sole in m.
-        sole_width: Width of a sole in m.
-        pace_beats: Beats that a pace lasts: 1, or more for slow motors.
+        mass: In kg.
+        leg: From hip over knee to ankle in m.
+        sole: Length in m.
+        sole_width: In m.
+        pace_beats: Beats of a pace: 1, or more for slow motors.
 
     Raises:
-        InputError: If one is not a finite number above 0.
+        InputError: Unless finite and above 0.
 
     Example:
         >>> body = BodyScale(mass=33.0, leg=0.5, sole=0.2, sole_width=0.1)
@@ -126,16 +126,16 @@ class BodyScale:
 
     @property
     def beat(self) -> float:
-        """Time sqrt(leg / g) in s, the scale of a leg's motion under gravity."""
+        """sqrt(leg / g) in s, the time scale of a leg under gravity."""
         return math.sqrt(self.leg / GRAVITY)
 
     @property
     def pace(self) -> float:
-        """Time in s that the robot's motors need for a beat of others."""
+        """Time in s that the motors need for a beat of others."""
         return self.pace_beats * self.beat
 
     def in_si(self, unit: str) -> float:
-        """Number of SI units in one unit, of the body, of SI, or of both, such as "leg/s"; else an InputError."""
+        """Number of SI units in a unit of body or SI, such as "leg/s"; else an InputError."""
         value = 1.0
         for name, power in _factors(unit):
             value *= (getattr(self, name) if name in BODY_UNITS else 1.0) ** power
@@ -162,8 +162,8 @@ class Quantity:
 
     @classmethod
     def parsed(cls, text: str) -> Quantity | None:
-        """A quantity from a text such as "0.083 weight", "1/3 leg" or "70 N"; None unless a number and a space come
-        first.
+        """A quantity from a text such as "0.083 weight", "1/3 leg" or "70 N"; None unless it begins with a number and a
+        space.
 
         Raises:
             InputError: If its unit is unknown.

@@ -1,4 +1,4 @@
-"""`key=value` settings: table of a key, and meaning of its text."""
+"""`key=value` settings: a key's table, and its text's meaning."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def split_setting(setting: str) -> tuple[str, str]:
     """Key and text of a setting "key=value".
 
     Raises:
-        SceneError: If it is not of that form.
+        SceneError: If malformed.
     """
     key, equals, text = setting.partition("=")
     if not equals or not key.strip():
@@ -38,7 +38,7 @@ def owner_of(key: str, text: str, *groups: Mapping[str, Sequence[str]]) -> tuple
         Table and name.
 
     Raises:
-        SceneError: If there is no such key, or it is ambiguous; the message names the nearest.
+        SceneError: If unknown or ambiguous; the message names the nearest.
 
     Example:
         >>> owner_of("steps", "4", {"walk": ["steps"], "push": ["step"]})
@@ -68,7 +68,7 @@ def owner_of(key: str, text: str, *groups: Mapping[str, Sequence[str]]) -> tuple
 
 
 def value_of(text: str) -> Any:
-    """What a setting's text means in TOML; a bare word is a text."""
+    """Meaning of a setting's text in TOML; a bare word is a text."""
     try:
         return parse_toml(f"v = {text}")["v"]
     except ValueError:
@@ -76,10 +76,10 @@ def value_of(text: str) -> Any:
 
 
 def setting_text(found: Mapping[str, Setting]) -> str:
-    """Returns each setting's default, share, unit and range in a line, with its meaning below.
+    """Returns each setting's default, share, unit and range in a line, its meaning below.
 
     Args:
-        found: Settings by their dotted names.
+        found: Settings by dotted names.
     """
     lines = []
     for full, told in found.items():
@@ -91,5 +91,5 @@ def setting_text(found: Mapping[str, Setting]) -> str:
 
 
 def setting_rows(found: Mapping[str, Setting]) -> list[dict[str, Any]]:
-    """The settings by their dotted names as plain JSON values."""
+    """Settings by dotted names as plain JSON values."""
     return [{**told._asdict(), "name": full} for full, told in found.items()]

@@ -1,4 +1,4 @@
-"""Settings of a program part that files can switch on: its table, and its needs."""
+"""Settings of a program part that files can switch on."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Part(Settings):
 
     Attributes:
         table: Name of the table.
-        needs: Values of settings by dotted name with which the part runs; always without any.
+        needs: Values of settings by dotted name with which the part runs.
         given_by: Names by which a scene sets some of its settings instead.
 
     Example:
@@ -43,10 +43,10 @@ class Part(Settings):
 
     @classmethod
     def unmet(cls, value_of: Any) -> str | None:
-        """The unmet needs of the part as a text; None if it runs.
+        """Unmet needs of the part as a text; None if it runs.
 
         Args:
-            value_of: Function from a dotted name to the value of that setting.
+            value_of: Function from a dotted name to a setting's value.
         """
         if all(value_of(name) in values for name, values in cls.needs.items()):
             return None

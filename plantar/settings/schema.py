@@ -24,60 +24,60 @@ __all__ = ["Setting", "Settings", "choice", "fixed", "number", "share", "switch"
 
 
 def number(default: float, unit: str, low: float = 0.0, high: float = math.inf, words: tuple[str, ...] = ()) -> Any:
-    """A field for a number; returns the field of a dataclass.
+    """A field for a number; returns the dataclass field.
 
     Args:
         default: Its default.
-        unit: Its unit, "1" for none.
-        low: Smallest allowed value.
-        high: Largest allowed value; infinity allows every finite one.
+        unit: "1" for none.
+        low: Smallest allowed.
+        high: Largest allowed; infinity allows every finite one.
         words: Texts allowed instead, such as "random".
     """
     return field(default=float(default), metadata={"unit": unit, "low": low, "high": high, "words": words})
 
 
 def share(default: float, unit: str, low: float = 0.0, high: float = math.inf) -> Any:
-    """A field for a number whose default grows with the robot; returns the field of a dataclass.
+    """A field for a number that grows with the robot; returns the dataclass field.
 
     Args:
-        default: Its default as a share.
-        unit: Unit of the share, such as "weight", "leg" or "leg/beat".
-        low: Smallest allowed value in SI.
-        high: Largest allowed value in SI.
+        default: As a share.
+        unit: Of the share, such as "weight", "leg" or "leg/beat".
+        low: Smallest allowed in SI.
+        high: Largest allowed in SI.
     """
     quantity = Quantity(float(default), unit)
     return field(default=quantity, metadata={"unit": si_unit(unit), "low": low, "high": high})
 
 
 def fixed(value: float, unit: str) -> Any:
-    """A field that grows with the robot, `value` times `unit`, for no file to set; returns a dataclass's field."""
+    """A field that grows with the robot, `value` times `unit`, not set by files; returns it."""
     return field(default=Quantity(float(value), unit), init=False, repr=False, metadata={"fixed": True})
 
 
 def whole(default: int, unit: str, low: int = 0, high: float = math.inf) -> Any:
-    """A field for a whole number; returns the field of a dataclass.
+    """A field for a whole number; returns the dataclass field.
 
     Args:
         default: Its default.
         unit: What is counted.
-        low: Smallest allowed value.
-        high: Largest allowed value.
+        low: Smallest allowed.
+        high: Largest allowed.
     """
     return field(default=int(default), metadata={"unit": unit, "low": low, "high": high})
 
 
 def choice(default: str, *others: str) -> Any:
-    """A field for one of several words, the `default` or `others`; returns the field of a dataclass."""
+    """A field for one word, the `default` or `others`; returns it."""
     return field(default=default, metadata={"unit": "", "choices": (default, *others)})
 
 
 def switch(default: bool) -> Any:
-    """A field that is true or false, with its default."""
+    """A field that is true or false."""
     return field(default=default, metadata={"unit": ""})
 
 
 def tables(allowed: str = "a list of tables", words: tuple[str, ...] = ()) -> Any:
-    """A field for a list that its class checks itself, empty by default; returns the field of a dataclass.
+    """A field for a list that its class checks, empty by default; returns it.
 
     Args:
         allowed: Description of allowed values.
@@ -87,7 +87,7 @@ def tables(allowed: str = "a list of tables", words: tuple[str, ...] = ()) -> An
 
 
 def text(default: str) -> Any:
-    """A field for any text, with its default."""
+    """A field for any text."""
     return field(default=default, metadata={"unit": ""})
 
 
@@ -95,12 +95,11 @@ class Setting(NamedTuple):
     """Description of one setting.
 
     Attributes:
-        name: Name of the field.
-        default: Default, as TOML writes it.
-        unit: Unit; empty for words and switches.
+        default: As TOML writes it.
+        unit: Empty for words and switches.
         allowed: Range or choices.
         meaning: What it does.
-        share: Default as a share of the body, where it grows with the robot; else empty.
+        share: Default as a share of the body, or empty.
     """
 
     name: str
@@ -114,12 +113,12 @@ class Setting(NamedTuple):
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))
 @dataclass(frozen=True)
 class Settings:
-    """Base of a class of settings; values of fields made by this module's functions are checked.
+    """Base of settings; values of fields made by this module's functions are checked.
 
-    Deriving from it makes a frozen dataclass; a decorator, which could undo that, is a TypeError.
+    Deriving makes a frozen dataclass; a decorator, which could undo that, is a TypeError.
 
     Raises:
-        InputError: If a value is not allowed; the message names it and shows what is.
+        InputError: If a value is not allowed; the message shows what is.
 
     Example:
         >>> class Spring(Settings):
@@ -162,14 +161,14 @@ class Settings:
 
     @property
     def stated(self) -> Mapping[str, Quantity]:
-        """Values given as a share, or with a unit, by name."""
+        """Values given as a share or with a unit, by name."""
         return MappingProxyType(dict(self._stated))
 
     def for_body(self, body: BodyScale) -> Self:
         """The same settings, and those inside them, for a robot.
 
         Raises:
-            InputError: If a share becomes a number that is not allowed.
+            InputError: If a share is not allowed there.
         """
         found = copy.copy(self)
         object.__setattr__(found, "_body", body)
@@ -183,15 +182,15 @@ class Settings:
         return found
 
     def in_si(self, value: Any, unit: str, owner: str = "a list") -> Any:
-        """Returns a member of a list in SI, for a class that checks its own lists; other values stay.
+        """Returns a list's member in SI, for a class that checks its lists; other values stay.
 
         Args:
             value: A number, or a text with a unit such as "0.03 leg".
-            unit: Its unit of SI.
+            unit: Its SI unit.
             owner: Owner of the member, for messages.
 
         Raises:
-            InputError: If the text has a unit of another kind.
+            InputError: If the unit does not fit.
         """
         found = Quantity.parsed(value) if isinstance(value, str) else None
         if found is None:
@@ -202,7 +201,7 @@ class Settings:
 
     @classmethod
     def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:
-        """Returns the settings from a table of a TOML file, with defaults.
+        """Returns the settings from a TOML table, with defaults.
 
         Args:
             table: Values by name.
@@ -211,7 +210,7 @@ class Settings:
             note: What the allowed keys depend on, for messages.
 
         Raises:
-            PlantarError: Of the class `error`: a key is unknown or a value not allowed; the message names it.
+            PlantarError: Of the class `error`: an unknown key or wrong value, named in the message.
         """
         if not isinstance(table, Mapping):
             raise error(f"{where} is not a table")
@@ -229,7 +228,7 @@ class Settings:
 
     @classmethod
     def described(cls, body: BodyScale = REFERENCE_BODY) -> tuple[Setting, ...]:
-        """Descriptions of the settings in their order, with shares in SI for a body."""
+        """Descriptions in their order, with shares in SI for a body."""
         meanings = _meanings(cls)
         return tuple(
             Setting(
@@ -249,7 +248,7 @@ def _settings(kind: type[Settings]) -> tuple[Field[Any], ...]:
 
 
 def _quantity(item: Field[Any], value: Any) -> Any:
-    """A text such as "0.5 sole" for a number as a quantity; other values stay."""
+    """A text such as "0.5 sole" as a quantity; other values stay."""
     if not isinstance(value, str) or not isinstance(item.default, float | Quantity):
         return value
     try:
@@ -263,13 +262,13 @@ def _quantity(item: Field[Any], value: Any) -> Any:
 
 
 def _units(item: Field[Any]) -> str:
-    """The unit of a field, and that of its share."""
+    """A field's unit, and its share's."""
     share = f", or in {item.default.unit}" if isinstance(item.default, Quantity) else ""
     return f"{item.metadata['unit']}{share}"
 
 
 def _checked(item: Field[Any], value: Any, body: BodyScale) -> Any:
-    """A value as its field's type, in SI, or an error that names both."""
+    """A value as its field's type, in SI, or an error."""
     default: Any = 0.0 if isinstance(item.default, Quantity) else item.default
     told = repr(value)
     if isinstance(value, Quantity):
@@ -300,7 +299,7 @@ def _allowed(item: Field[Any]) -> str:
 
 
 def _range_of(item: Field[Any]) -> str:
-    """Range or choices of a field without its words."""
+    """A field's range or choices, without words."""
     if isinstance(item.default, Quantity):
         return _range("a number", item)
     if isinstance(item.default, bool):
@@ -327,7 +326,7 @@ def _as_toml(value: Any) -> str:
 
 
 def _meanings(kind: type[Settings]) -> dict[str, str]:
-    """Meaning of each field: its entry under "Attributes" in its class's docstring."""
+    """Each field's meaning: its entry under "Attributes" in the docstring."""
     found: dict[str, str] = {}
     for base in reversed(kind.__mro__):
         entries = (inspect.cleandoc(base.__doc__ or "")).partition("Attributes:\n")[2]

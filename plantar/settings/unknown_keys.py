@@ -23,7 +23,7 @@ def refuse_unknown_keys(
         note: What the allowed keys depend on, such as " with law 'dcm'".
 
     Raises:
-        PlantarError: If there is another key; the message names the nearest right ones, and the allowed ones.
+        PlantarError: If a key is unknown; the message names the nearest and the allowed ones.
 
     Example:
         >>> refuse_unknown_keys(["heigth"], ["height", "width"], "[terrain]")
