@@ -10,7 +10,7 @@ _NORMAL_95 = 1.959963984540054  # 97.5 % of a standard normal variable are below
 
 
 def wilson_interval(completed: int, runs: int) -> tuple[float, float]:
-    """Returns Wilson's 95 % score interval of the share of `completed` in `runs`; (0, 1) without a run.
+    """Returns Wilson's 95 % score interval of `completed` in `runs`; (0, 1) without a run.
 
     A ValueError unless `completed` is within 0 and `runs`. Wilson, Probable inference, the law of succession, and
     statistical inference (JASA 22, 1927).

@@ -31,7 +31,7 @@ RANDOM = (100, 300)
 
 
 def compare_shapes(size: str, rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
-    """Yields each kernel's name of support polygon, outline and shapes and its routes' results.
+    """Yields each shape kernel's name and its routes' results.
 
     `size` is one of `plantar.bench.soles.SIZES`; `rounds` are those of the median.
     """
@@ -59,9 +59,7 @@ def compare_shapes(size: str, rounds: int = 9) -> Iterator[tuple[str, list[Resul
 
 
 def compare_random_cells(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
-    """Yields the name of the largest rectangle's kernel at any angle, and its routes' results in random outlines of
-    each size.
-    """
+    """Yields the largest rectangle's kernel name and its routes' results in random outlines."""
     name = "rectangle in the outline, any angle, random cells"
     for cells in RANDOM:
         outlines = [random_outline(cells, share, 0) for share in (0.3, 0.5, 0.6, 0.7, 0.9)]

@@ -40,7 +40,7 @@ _AIM = np.array([0.09, 0.06])
 
 
 def compare_percepts(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
-    """Yields the name of a walking tick, whole percepts and both feet's wrenches, and their routes' results."""
+    """Yields names of tick, percepts and both feet's wrenches, and routes' results."""
     left, right = sole_of(51), sole_of(51, "right")
     pairs = [(a.force, b.force) for a, b in zip(contacts("20", 1), contacts("20", 2), strict=True)]
     feet = (left, right)
@@ -200,8 +200,7 @@ def _read_none(feet: tuple[SoleLayout, ...], readings: list[Reading]) -> None:
 
 
 def compare_recordings(frames: int = FRAMES, rounds: int = 5) -> Iterator[tuple[str, list[Result]]]:
-    """Yields names and routes' results of wrenches and support polygons of a recording of `frames`, next to a memory
-    copy.
+    """Yields names and routes' results of wrenches and support polygons of `frames`, next to a memory copy.
 
     `rounds` are those of the median.
     """
@@ -250,7 +249,7 @@ def _area(points: Array) -> float:
 
 
 def compare_forms(rounds: int = 5) -> Iterator[tuple[str, list[Result]]]:
-    """Yields the sole kernel's compiled form, if any, next to the interpreted one."""
+    """Yields the sole kernel's compiled form next to the interpreted one."""
     if not is_compiled("sole"):
         return
     found = contacts("20")

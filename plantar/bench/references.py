@@ -39,7 +39,7 @@ _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
 def integers(points: Array) -> tuple[list[Point], int]:
-    """Points (n, 2) in m as integers without rounding: coordinates times a returned power of 2.
+    """Points (n, 2) in m as exact integers: times a returned power of 2.
 
     Example:
         >>> integers(np.array([[0.5, 3.0]]))
@@ -52,12 +52,12 @@ def integers(points: Array) -> tuple[list[Point], int]:
 
 
 def turn(a: tuple[Number, Number], b: tuple[Number, Number], c: tuple[Number, Number]) -> Number:
-    """Returns twice the signed area of a triangle `a`, `b`, `c`, exact; positive counter-clockwise."""
+    """Returns a triangle's `a`, `b`, `c` exact doubled area; positive counter-clockwise."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
 def exact_hull(points: Iterable[tuple[Number, Number]]) -> list[tuple[Number, Number]]:
-    """Hull corners of points (x, y), whole numbers or fractions, counter-clockwise from the leftmost.
+    """Hull corners of exact points (x, y), counter-clockwise from the leftmost.
 
     Example:
         >>> exact_hull([(0, 0), (2, 0), (1, 0), (0, 2), (1, 1)])
@@ -80,7 +80,7 @@ def _twice(ring: Sequence[Point]) -> int:
 
 
 def hull_area_exact(points: Array) -> float:
-    """Area in m^2 of the hull of points (n, 2): monotone chain in integers.
+    """Hull area in m^2 of points (n, 2): monotone chain in integers.
 
     Example:
         >>> hull_area_exact(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.25, 0.25]]))
@@ -92,7 +92,7 @@ def hull_area_exact(points: Array) -> float:
 
 
 def area_exact(rings: Sequence[Array]) -> float:
-    """Sum in m^2 of signed areas of rings (k, 2), in integers, rounded last."""
+    """Sum in m^2 of signed ring (k, 2) areas, in integers."""
     total = Fraction(0)
     for ring in rings:
         whole, scale = integers(ring)
@@ -113,7 +113,7 @@ def centroid_exact(polygon: Array) -> Array:
 
 
 def closest_point_exact(polygon: Array, point: Array) -> Array:
-    """Returns the point (2,) in m of a convex counter-clockwise `polygon` (k, 2) closest to a `point` (2,)."""
+    """Returns the point (2,) in m of a convex counter-clockwise `polygon` (k, 2) closest to `point` (2,)."""
     ring = [(Fraction(float(x)), Fraction(float(y))) for x, y in polygon]
     px, py = (Fraction(float(v)) for v in point)
     best: tuple[Fraction, Fraction, Fraction] | None = None
@@ -131,8 +131,7 @@ def closest_point_exact(polygon: Array, point: Array) -> Array:
 
 
 def inner_offset_area(polygon: Array, distance: float) -> float:
-    """Returns the area in m^2 that keeps a `distance` in m from every edge of a convex counter-clockwise `polygon` (k,
-    2).
+    """Returns the area in m^2 a `distance` in m inside a convex counter-clockwise `polygon` (k, 2).
 
     Half planes are cut in fractions rounded to 2^-200; lengths by integer square roots.
     """
@@ -164,14 +163,14 @@ def _rounded(value: Fraction, unit: int) -> Fraction:
 
 
 def triangle_area_exact(polygon: Array) -> float:
-    """Area in m^2 of the largest triangle on a polygon's vertices (k, 2): all triples, in integers."""
+    """Largest vertex triangle's area in m^2 of a polygon (k, 2), in integers."""
     whole, scale = integers(polygon)
     most = max((abs(turn(a, b, c)) for a, b, c in combinations(whole, 3)), default=0)
     return float(Fraction(most, 2 * scale * scale))
 
 
 def least_box_area(polygon: Array) -> float:
-    """Area in m^2 of the least rectangle around a convex polygon (k, 2): a side along each edge."""
+    """Least surrounding rectangle's area in m^2 of a convex polygon (k, 2)."""
     whole, scale = integers(polygon)
     areas = []
     for (ax, ay), (bx, by) in zip(whole, whole[1:] + whole[:1], strict=True):
@@ -183,7 +182,7 @@ def least_box_area(polygon: Array) -> float:
 
 
 def least_parallelogram_area(polygon: Array) -> float:
-    """Area in m^2 of the least parallelogram around a convex polygon (k, 2): all pairs of edges."""
+    """Least surrounding parallelogram's area in m^2 of a convex polygon (k, 2)."""
     whole, scale = integers(polygon)
     edges = [(b[0] - a[0], b[1] - a[1]) for a, b in zip(whole, whole[1:] + whole[:1], strict=True)]
     widths = []
@@ -199,7 +198,7 @@ def least_parallelogram_area(polygon: Array) -> float:
 
 
 def circle_radius(polygon: Array) -> float:
-    """Radius in m of a convex counter-clockwise polygon's (k, 2) largest circle: all triples of edges."""
+    """Largest circle's radius in m in a convex counter-clockwise polygon (k, 2)."""
     edge = np.roll(polygon, -1, axis=0) - polygon
     normal = np.column_stack([-edge[:, 1], edge[:, 0]]) / np.hypot(*edge.T)[:, None]
     level = (normal * (polygon - polygon[0])).sum(axis=1)
@@ -264,8 +263,8 @@ def _rectangles(polygon: Array, angles: Array) -> Array:
 
 
 def rectangle_area(polygon: Array, angle: float = 0.0) -> float:
-    """Returns the area in m^2 of the largest rectangle at an `angle` in rad in a convex counter-clockwise `polygon` (k,
-    2) in m.
+    """Returns the largest rectangle's area in m^2 at an `angle` in rad in a convex counter-clockwise `polygon` (k, 2)
+    in m.
 
     Example:
         >>> round(rectangle_area(np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])), 9)
@@ -305,7 +304,7 @@ def search_period(values: Callable[[Array], Array], period: float, samples: int,
 
 
 def rectangle_area_any_angle(polygon: Array, samples: int = 120) -> float:
-    """Returns the best rectangle's area in m^2 at any angle in a convex counter-clockwise `polygon` (k, 2) in m.
+    """Returns the largest rectangle's area in m^2 at any angle in a convex counter-clockwise `polygon` (k, 2) in m.
 
     It tries `samples` of a quarter turn, then finer around the best four.
     """
@@ -349,7 +348,7 @@ def parallelogram_area(polygon: Array, samples: int = 240, finest: float = 1e-13
 
 
 def outline_rectangle_area(rings: Sequence[Array]) -> float:
-    """Best area in m^2 of an axis-aligned rectangle in an outline of rims (k, 2) in m of islands and holes.
+    """Best axis-aligned rectangle's area in m^2 within rims (k, 2) in m of islands and holes.
 
     Between two abscissae edges block intervals of y, and the highest rectangle fills the largest gap. Pairs at and
     between the vertices are tried, then finer around the best.
@@ -408,7 +407,7 @@ def outline_rectangle_area(rings: Sequence[Array]) -> float:
 
 
 def wrench_exact(columns: Array, force: Array) -> Array:
-    """Returns the wrench (6,) of `force` (n,) in N by unit wrenches `columns` (n, 6), each part rounded once."""
+    """Returns the wrench (6,) of `force` (n,) in N by unit wrenches `columns` (n, 6), rounded once."""
     loads = [Fraction(float(f)) for f in force]
     sums = [
         sum((Fraction(float(c)) * f for c, f in zip(column, loads, strict=True)), Fraction(0)) for column in columns.T

@@ -182,7 +182,7 @@ def _error(value: float | None) -> str:
 
 
 def write_kernel_report(folder: Path, results: Sequence[Result]) -> list[str]:
-    """Write kernels.md, kernels.csv and kernels.png of `results` into an existing `folder`; returns their names."""
+    """Write kernels.md, kernels.csv and kernels.png of `results` into an existing `folder`; returns names."""
     write_rows(folder / "kernels.csv", [r.as_dict() for r in results])
     write_text(folder / "kernels.md", _page(results))
     _draw(folder / "kernels.png", results)

@@ -58,16 +58,14 @@ def hull_shapely(points: Array) -> float:
 
 
 def hull_cv2(points: NDArray[np.float32]) -> float:
-    """Area in m^2 of the hull of points (n, 2) in float32: OpenCV."""
+    """Hull area in m^2 of points (n, 2) in float32: OpenCV."""
     import cv2
 
     return float(cv2.contourArea(cv2.convexHull(points)))
 
 
 def alpha_shape_area(points: Array, radius: float) -> float:
-    """Returns the area in m^2 of the alpha shape of `points` (n, 2) in m: Delaunay triangles with a circumradius below
-    `radius` in m.
-    """
+    """Returns the alpha shape's area in m^2 of `points` (n, 2) in m: Delaunay circumradii below `radius` in m."""
     from scipy.spatial import Delaunay
 
     a, b, c = (points[Delaunay(points).simplices[:, k]] for k in range(3))
@@ -77,15 +75,13 @@ def alpha_shape_area(points: Array, radius: float) -> float:
 
 
 def closest_shapely(case: tuple[Array, Array]) -> tuple[float, float]:
-    """Closest point in m of a polygon (k, 2) to a point (2,): GEOS, polygon included."""
+    """Closest point in m of a polygon (k, 2) to a point (2,): GEOS."""
     nearest = shapely.get_point(shapely.shortest_line(shapely.Polygon(case[0]), shapely.Point(case[1])), 0)
     return float(shapely.get_x(nearest)), float(shapely.get_y(nearest))
 
 
 def rectangle_slsqp(polygon: Array) -> float:
-    """Area in m^2 of a convex counter-clockwise polygon's (k, 2) largest axis-aligned rectangle: scipy's SLSQP, exact
-    gradients.
-    """
+    """Largest axis-aligned rectangle's area in m^2 in a convex counter-clockwise polygon (k, 2): scipy's SLSQP."""
     from scipy.optimize import minimize
 
     edge = np.roll(polygon, -1, axis=0) - polygon
@@ -105,8 +101,8 @@ def rectangle_slsqp(polygon: Array) -> float:
 
 
 def interior_rectangle(rings: Sequence[Array], pixel: float = 1e-3) -> float:
-    """Returns the area in m^2 of the best axis-aligned rectangle of pixels, of size `pixel` in m, in `rings` (k, 2) in
-    m of islands and holes.
+    """Returns the best axis-aligned rectangle's area in m^2, of pixels `pixel` in m, in `rings` (k, 2) in m of islands
+    and holes.
 
     After largestinteriorrectangle (R. Marzeau's HorizontalAdjacency): from every pixel, runs to the right are followed
     downwards, all at once.
@@ -147,7 +143,7 @@ def _raster(rings: Sequence[Array], pixel: float) -> NDArray[np.bool_]:
 
 
 def triangle(polygon: Array) -> float:
-    """Area in m^2 of the largest triangle on a convex polygon's vertices (k, 2): all triples at once."""
+    """Largest vertex triangle's area in m^2 of a convex polygon (k, 2), at once."""
     x, y = (polygon - polygon[0]).T
     i, j = np.triu_indices(len(polygon), 1)
     cross = x[i] * y[j] - x[j] * y[i]
@@ -157,7 +153,7 @@ def triangle(polygon: Array) -> float:
 
 
 def parallelogram_around(polygon: Array) -> float:
-    """Area in m^2 of the least parallelogram around a convex polygon (k, 2): all pairs of edges at once."""
+    """Least surrounding parallelogram's area in m^2 of a convex polygon (k, 2), at once."""
     edge = np.roll(polygon, -1, axis=0) - polygon
     edge = edge / np.hypot(*edge.T)[:, None]
     across = np.column_stack([-edge[:, 1], edge[:, 0]]) @ polygon.T
@@ -169,6 +165,6 @@ def parallelogram_around(polygon: Array) -> float:
 
 
 def turned(points: Any, angles: int) -> list[Any]:
-    """Returns the `points` (n, 2) turned by `angles` even angles of a quarter turn."""
+    """Returns `points` (n, 2) turned by `angles` even angles of a quarter turn."""
     c, s = np.cos(a := 0.5 * math.pi * np.arange(angles) / angles), np.sin(a)
     return [points @ np.array([[x, -y], [y, x]]) for x, y in zip(c, s, strict=True)]

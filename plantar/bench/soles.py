@@ -47,14 +47,14 @@ class Contact:
 
 
 def foot_outline(length: float = 0.26, width: float = 0.155) -> NDArray[np.float64]:
-    """Returns an ellipse-like outline (60, 2) in m about the origin, of a `length` and a `width` in m."""
+    """Returns an ellipse-like outline (60, 2) about the origin, of `length` and `width`, in m."""
     angle = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)
     x, y = np.cos(angle), np.sin(angle)
     return np.column_stack([0.5 * length * np.sign(x) * np.abs(x) ** 0.7, 0.5 * width * np.sign(y) * np.abs(y) ** 0.7])
 
 
 def sole_of(taxels: int, side: str = "left") -> SoleLayout:
-    """Returns a hexagonal sole of a `side` with so many `taxels`; 51 have 691 mm^2 each, others the same total.
+    """Returns a hexagonal sole of a `side` with so many `taxels`; 51 have 691 mm^2 each.
 
     Example:
         >>> len(sole_of(51)), len(sole_of(7, "right"))
@@ -73,7 +73,7 @@ def sole_of(taxels: int, side: str = "left") -> SoleLayout:
 
 
 def contacts(size: str, seed: int = 0) -> list[Contact]:
-    """Returns contacts of one `size` of SIZES: patches, with holes if dense, and cells drawn by `seed`.
+    """Returns contacts of one `size` of SIZES: patches, and cells drawn by `seed`.
 
     Example:
         >>> [int(c.active.sum()) for c in contacts("5")][:3], len(contacts("dense"))
@@ -111,7 +111,7 @@ def _lattice(cells: int) -> SoleLayout:
 
 
 def random_outline(active: int, share: float, seed: int) -> Outline:
-    """Returns the outline of about `active` cells, a `share` of a lattice's, drawn by `seed`.
+    """Returns the outline of about `active` cells, a `share` of a lattice's, by `seed`.
 
     Example:
         >>> outline = random_outline(50, 0.6, 0)

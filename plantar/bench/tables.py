@@ -36,7 +36,7 @@ def cell(value: Any) -> str:
 
 
 def markdown_table(head: Sequence[str], lines: Iterable[Sequence[Any]]) -> str:
-    """Returns a Markdown table with columns `head` and values `lines`, without a final line break.
+    """Returns a Markdown table with columns `head` and values `lines`.
 
     Example:
         >>> print(markdown_table(("a", "b"), [("1", 2.0)]))
@@ -54,14 +54,14 @@ def made_on() -> str:
 
 
 def write_rows(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
-    """Write `rows` of the same columns as a CSV at `path`, with six digits."""
+    """Write `rows` as a CSV at `path`, with six digits."""
     names = list(rows[0]) if rows else []
     cells = ({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
     write_text(path, csv_text(names, mapping_rows(names, cells)))
 
 
 class GrowingTable:
-    """A CSV file whose rows are appended, so that a stopped benchmark continues; a cut row is dropped.
+    """A CSV file of appended rows: a stopped benchmark continues, without a cut row.
 
     Args:
         path: The file; its folder must exist at the first row.
@@ -125,9 +125,7 @@ class Mark(NamedTuple):
 
 
 def draw_errors(axis: Any, marks: Sequence[Mark], labels: tuple[str, str, str], least: float) -> None:
-    """Draw `marks` on logarithmic Matplotlib `axis`, with `labels` of title, run time and error, from the error `least`
-    on.
-    """
+    """Draw `marks` on logarithmic Matplotlib `axis`, with `labels` of title, run time and error, from `least` on."""
     others = list(dict.fromkeys(m.group for m in marks if not m.ours))
     for group in dict.fromkeys(m.group for m in marks):
         axis.plot([], [], "o", color=_colour(group, others), label=group)

@@ -20,7 +20,7 @@ WELD = 1e-6
 
 
 def edge_table(vertices: ArrayLike, corners: Sequence[Sequence[int]]) -> EdgeTable | None:
-    """Table of the directed edges of cells that tile a part of the plane.
+    """Table of the directed edges of cells that tile a region.
 
     Corners without shared vertices are one within WELD of a typical edge; edges are cut at other cells' corners.
 
@@ -73,7 +73,6 @@ def _counter_clockwise(xy: NDArray[np.float64], ring: list[int]) -> list[int]:
 
 
 def _lone_edges(rings: Sequence[Sequence[int]]) -> list[tuple[int, int]]:
-    """Directed edges that no other cell reverses."""
     directed = {(a, b) for ring in rings for a, b in zip(ring, [*ring[1:], ring[0]], strict=True)}
     return sorted((a, b) for a, b in directed if (b, a) not in directed)
 
@@ -131,7 +130,7 @@ def _cut_edges(
 
 
 def cells_overlap(tail: NDArray[np.float64], head: NDArray[np.float64], tolerance: float) -> bool:
-    """Returns whether cells cover a place twice, from the edges that they do not share.
+    """Returns whether cells overlap, by their unshared edges.
 
     Args:
         tail: Starts of the b lone edges (b, 2), the cell on their left, in m.

@@ -100,7 +100,7 @@ def layout_of_cells(
 def joined_layout(
     parts: Sequence[SoleLayout], *, name: str | None = None, outline: ArrayLike | None = None
 ) -> SoleLayout:
-    """One layout of several flat ones, for example hexagons at the heel, squares at the toes.
+    """One layout of several flat ones, such as hexagons and squares.
 
     Args:
         parts: The layouts; their cells must not overlap.

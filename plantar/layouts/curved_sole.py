@@ -23,7 +23,7 @@ _STEP = 1e-5
 
 
 def laid_over(layout: SoleLayout, surface: Surface) -> SoleLayout:
-    """A layout on a curved sole z(x, y), unchanged seen from above (soleT_i of T 4.23).
+    """A layout on a curved sole z(x, y), unchanged from above (soleT_i of T 4.23).
 
     Each taxel turns the shortest way that brings its z axis onto the normal.
 

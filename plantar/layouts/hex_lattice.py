@@ -34,7 +34,7 @@ _CORNER_OFFSETS: tuple[tuple[int, int], ...] = ((1, -1), (1, 1), (0, 2), (-1, 1)
 
 
 def hexagon_side(area: float) -> float:
-    """Side length s in m of a regular hexagon, from area = 3 sqrt(3) / 2 s^2.
+    """Side s in m of a regular hexagon, from area = 3 sqrt(3) / 2 s^2.
 
     Args:
         area: In m^2, above 0 (else an InputError).
@@ -86,7 +86,7 @@ class HexLattice:
         return math.sqrt(3.0) * self.side
 
     def position_of_keys(self, keys: ArrayLike) -> NDArray[np.float64]:
-        """Positions (..., 2) in m, sole plane, of lattice points by integer keys.
+        """Positions (..., 2) in m, sole plane, of integer keys.
 
         Args:
             keys: Integers (..., 2): multiples of (half width, half side); else an InputError.
@@ -99,7 +99,7 @@ class HexLattice:
 
     @staticmethod
     def centre_keys(axial: ArrayLike) -> NDArray[np.int64]:
-        """Integer keys (n, 2) of centres of cells with axial coordinates (n, 2)."""
+        """Integer keys (n, 2) of centres of axial cells (n, 2)."""
         cells = integers(axial, "cells", (..., 2))
         if cells.size and (cells.min() < -_FARTHEST or cells.max() > _FARTHEST):
             raise InputError(f"cells are up to {np.abs(cells.astype(float)).max():.3g} from the origin; allowed: 1e9")
@@ -119,7 +119,7 @@ class HexLattice:
         return self.position_of_keys(self.corner_keys(axial))
 
     def cells_near(self, lower: ArrayLike, upper: ArrayLike) -> NDArray[np.int64]:
-        """Axial coordinates (n, 2) of cells whose center is within one cell of a box, sorted by row r, then q.
+        """Axial coordinates (n, 2) of cells with center within a cell of a box, by row r, then q.
 
         Args:
             lower: Lower corner (2,) of the box in m.

@@ -201,17 +201,17 @@ class SoleLayout:
 
     @cached_property
     def force_threshold(self) -> float:
-        """Force in N at which a taxel is active (epsilon_f of T 4.22)."""
+        """Force in N of an active taxel (epsilon_f of T 4.22)."""
         return float(self.thresholds.get("force", DEFAULT_THRESHOLDS["force"]))
 
     @cached_property
     def force_limit(self) -> float:
-        """Force in N from which a taxel is saturated; inf without a range."""
+        """Force in N of a saturated taxel; inf without a range."""
         return float(self.ranges["force"][1]) if "force" in self.ranges else math.inf
 
     @property
     def proximity_threshold(self) -> float:
-        """Distance in m below which a taxel is near (epsilon_p of T 4.2.7)."""
+        """Distance in m of a near taxel (epsilon_p of T 4.2.7)."""
         return float(self.thresholds.get("proximity", DEFAULT_THRESHOLDS["proximity"]))
 
     @property
@@ -221,7 +221,7 @@ class SoleLayout:
 
     @property
     def temperature_threshold(self) -> float:
-        """Temperature in degC from which a taxel is warm (kappa_0 of T 3.34)."""
+        """Temperature in degC of a warm taxel (kappa_0 of T 3.34)."""
         return float(self.thresholds.get("temperature", DEFAULT_THRESHOLDS["temperature"]))
 
     @cached_property
@@ -252,7 +252,7 @@ class SoleLayout:
 
     @cached_property
     def wrench_map(self) -> NDArray[np.float64]:
-        """Matrix (6, n) from taxel normal forces to the wrench at the sole origin (T 4.23)."""
+        """Matrix (6, n) from taxel forces to the wrench at the sole origin (T 4.23)."""
         normal = self.rotations[:, :, 2]
         return read_only(np.vstack([normal.T, np.cross(self.positions, normal).T]))
 
@@ -271,12 +271,12 @@ class SoleLayout:
         )
 
     def cell_polygon(self, taxel: int) -> NDArray[np.float64]:
-        """Corners (k, 2) of one cell, counted from 0, sole plane in m, counter-clockwise."""
+        """Corners (k, 2) of one cell, sole plane in m, counter-clockwise."""
         return self.vertices[list(self.corners[integer(taxel, "taxel", 0, len(self.corners) - 1)]), :2]
 
 
 def mirrored(layout: SoleLayout) -> SoleLayout:
-    """Returns the same sole for the other foot: y changes sign, taxels and ids keep their order.
+    """Returns the same sole for the other foot: y changes sign, order stays.
 
     Args:
         layout: Layout of one side.

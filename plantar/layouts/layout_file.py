@@ -28,7 +28,7 @@ _UNITS = "m, N, degC; sole frame: x forward, y left, z up, on the outer contact 
 
 
 def layout_to_dict(layout: SoleLayout) -> dict[str, Any]:
-    """A layout as plain JSON values, SI, sole frame; `layout_from_dict` reads them without loss."""
+    """A layout as lossless plain JSON values, SI, sole frame."""
     instance(layout, SoleLayout, "layout")
     return {
         "schema": SCHEMA,

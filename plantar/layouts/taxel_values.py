@@ -53,7 +53,7 @@ def taxel_frames(layout: SoleLayout, values: object, name: str = "forces") -> ND
 
 
 def taxel_mask(layout: SoleLayout, values: object, name: str = "mask") -> NDArray[np.bool_]:
-    """Returns a mask (n,) of taxels, not copied if bool; a ReadingError unless n truth values.
+    """Returns a mask (n,) of taxels; a ReadingError unless n truth values.
 
     Args:
         layout: The sole, n taxels.
@@ -69,7 +69,7 @@ def taxel_mask(layout: SoleLayout, values: object, name: str = "mask") -> NDArra
 
 
 def without_dead(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Readings with 0 where a taxel is dead; not copied if none is.
+    """Readings with 0 where dead; not copied if none is.
 
     Args:
         values: Readings of any shape.

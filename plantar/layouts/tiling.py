@@ -35,7 +35,7 @@ def hex_layout(
     minimum_fraction: float = 0.5,
     cells: ArrayLike | None = None,
 ) -> SoleLayout:
-    """Lay a hexagonal lattice over a sole and keep the cells that fit.
+    """Lay a hexagonal lattice over a sole; keep fitting cells.
 
     Args:
         outline: Sole outline (k, 2) in m in the sole frame, either orientation, not self-crossing.
@@ -92,7 +92,7 @@ def grid_layout(
     clip: bool = True,
     minimum_fraction: float = 0.5,
 ) -> SoleLayout:
-    """Lay a grid of rectangles over a sole and keep the cells that fit.
+    """Lay a grid of rectangles over a sole; keep fitting cells.
 
     Args:
         outline: As in `hex_layout`.

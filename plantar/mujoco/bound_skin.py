@@ -29,7 +29,7 @@ _MOST_DATA = 4096
 
 
 class SkinReading(Reading):
-    """A `Reading` with what only a simulation knows, in the sole frame; n taxels.
+    """A `Reading` with what only a simulation knows, sole frame; n taxels.
 
     Attributes:
         force: (n,) along each taxel's axis in N.
@@ -47,7 +47,7 @@ class SkinReading(Reading):
 
     @property
     def position_cop_in_sole(self) -> NDArray[np.float64] | None:
-        """Contacts' center of pressure (2,) at z = 0 in m, also beyond the taxels; None without load."""
+        """Contacts' center of pressure (2,) at z = 0 in m; None without load."""
         fz = float(self.wrench[2])
         return np.array([-self.wrench[4] / fz, self.wrench[3] / fz]) if fz > 0.0 else None
 
@@ -57,7 +57,7 @@ class SkinReading(Reading):
 
 
 class BoundSkin:
-    """A skin in a model, made by `plantar.mujoco.Skin.bind`. Reading does not change the simulation.
+    """A skin in a model, made by `Skin.bind`; reading leaves the simulation unchanged.
 
     Attributes:
         layout: The sole, n taxels.
@@ -106,7 +106,7 @@ class BoundSkin:
         return len(self.layout)
 
     def __call__(self, data: Any) -> SkinReading:
-        """Read the skin from the model's MjData after `mj_step` or `mj_forward`; InputError for another model."""
+        """Read the skin after `mj_step` or `mj_forward`; InputError for another model's MjData."""
         view = self._views.get(id(data))
         if view is None:
             view = self._look_in(data)
@@ -199,7 +199,6 @@ class BoundSkin:
         return vectors.reshape(*lead, len(self), 3), wrenches.reshape(*lead, 6)
 
     def _look_in(self, data: Any) -> _View:
-        """The view of an MjData, kept for later."""
         if not isinstance(data, mujoco.MjData):
             raise InputError(f"a skin is read from a mujoco.MjData; got a {type(data).__name__}")
         shapes = (data.qpos.size, data.qvel.size, len(data.xpos), len(data.geom_xpos))

@@ -20,7 +20,7 @@ _EDGE, _COP = np.array([0.1, 0.35, 0.9, 1.0]), np.array([1.0, 0.85, 0.1, 1.0])
 
 
 def draw_skin(scene: Any, feel: BoundSkin, data: Any, *, full: float | None = None, lift: float = _LIFT) -> int:
-    """Add a skin to a scene, such as `viewer.user_scn`, or a renderer's `scene` after `update_scene`.
+    """Add a skin to `viewer.user_scn`, or to a renderer's `scene` after `update_scene`.
 
     Args:
         scene: The `mujoco.MjvScene`; geoms are added while there is room.
@@ -57,7 +57,6 @@ def _mixed(share: float) -> NDArray[np.float64]:
 
 
 def _next(scene: Any) -> Any:
-    """The next free geom of a scene, or None."""
     if scene.ngeom >= scene.maxgeom:
         return None
     scene.ngeom += 1

@@ -94,7 +94,7 @@ class Skin:
         self.reach = number(reach, "reach", finite=True)
 
     def edit(self, spec: Any) -> None:
-        """Add a site at the sole frame, "BODY_skin", to a `mujoco.MjSpec` before compilation; same physics.
+        """Add a site "BODY_skin" at the sole frame to an uncompiled `mujoco.MjSpec`.
 
         Raises:
             RobotError: As `bind`.

@@ -38,7 +38,7 @@ class SoleShape(NamedTuple):
 
 
 def rigid_geoms(model: Any, body: int) -> list[int]:
-    """Returns ids of the geoms of a `model` that can collide, of `body` (an id) and those fixed to it."""
+    """Returns ids of a `model`'s geoms that can collide, of `body` (an id) and parts fixed to it."""
     fixed = {body}
     for child in range(body + 1, model.nbody):
         if model.body_jntnum[child] == 0 and int(model.body_parentid[child]) in fixed and body != 0:
@@ -58,7 +58,7 @@ def sole_shape(
     outward: NDArray[np.float64] | None = None,
     forward: NDArray[np.float64] | None = None,
 ) -> SoleShape:
-    """Find a body's sole: the lowest face of its geoms in the reference pose.
+    """Find a body's sole: its geoms' lowest face in the reference pose.
 
     Args:
         model: MjModel; its reference pose is the first keyframe, or else `qpos0`.

@@ -27,7 +27,7 @@ _struct: Any = _as_it_is if wp is None else wp.struct
 
 @_struct
 class Sole:
-    """A sole of n taxels and its frame in a body; named as in the kernel."""
+    """A sole of n taxels and its frame in a body."""
 
     positions: wp.array(dtype=wp.vec3d)
     normals: wp.array(dtype=wp.vec3d)
@@ -86,7 +86,7 @@ class Work:
 
 @_kernel
 def gather(sole: Sole, contacts: Contacts, work: Work):
-    """Add each of the `contacts` of all worlds to the lists of the `sole` in `work`, in its frame; a thread a contact."""
+    """Add each of the `contacts` to the lists of the `sole` in `work`, in its frame; a thread a contact."""
     i = wp.tid()
     if i >= contacts.count[0]:
         return
@@ -404,7 +404,7 @@ def _shear(sole: Sole, work: Work, w: wp.int32, force: wp.vec3d, about_z: wp.flo
 
 @_kernel
 def press(sole: Sole, work: Work):
-    """Spread the wrench of each world's contacts over the taxels; a thread a world.
+    """Spread each world's contact wrench over the taxels; a thread a world.
 
     `work` has the lists of `gather` for the `sole` and receives forces, wrench and whether it is carried.
     """

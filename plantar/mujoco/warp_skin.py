@@ -96,5 +96,5 @@ class WarpSkin:
         wp.launch(warp_kernels.press, dim=self._worlds, inputs=[self._sole, self._work])
 
     def numpy(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
-        """The last reading: force (worlds, n, 3), wrench (worlds, 6), carried or not (worlds,)."""
+        """The last force (worlds, n, 3), wrench (worlds, 6), and carried or not (worlds,)."""
         return self.vectors.numpy(), self.wrench.numpy(), self.carried.numpy().astype(bool)

@@ -28,7 +28,7 @@ _MIRRORED = (True, True, False, False, False, True)
 
 @dataclass(frozen=True)
 class BipedParameters:
-    """Dimensions of a generated biped. Lengths in m, masses in kg, angles in degrees.
+    """Dimensions of a generated biped in m, kg and degrees.
 
     Attributes:
         total_mass: With skin and shoes; the chest has the rest.
@@ -68,7 +68,7 @@ class BipedParameters:
 
     @classmethod
     def from_table(cls, table: Mapping[str, Any], where: str) -> BipedParameters:
-        """Read and check the `[biped]` table of a file, named `where` in a RobotError. Returns the dimensions."""
+        """Read and check a `[biped]` table, named `where` in a RobotError. Returns the dimensions."""
         fields = list(cls.__dataclass_fields__)
         refuse_unknown_keys(table, fields, f"{where}: [biped]", RobotError)
         missing = next((key for key in fields if key not in table), None)

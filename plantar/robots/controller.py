@@ -60,7 +60,7 @@ class RobotController:
     base_position: NDArray[np.float64] = field(repr=False)
 
     def step(self, sensors: Sensors) -> Command:
-        """One control tick; returns the command: CoM, torso orientation, and pose and force of each sole."""
+        """One control tick; returns the command: CoM, torso, pose and force of each sole."""
         return self.controller.step(sensors)
 
     def joint_targets(self, command: Command) -> JointTargets:

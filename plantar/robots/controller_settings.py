@@ -163,7 +163,6 @@ def _given(scene: Task, robot: Robot) -> dict[str, dict[str, Any]]:
 
 
 def _value(key: str, control: Control, tables: Mapping[str, Mapping[str, Any]]) -> Any:
-    """Value of a setting by its dotted name."""
     table, _, name = key.partition(".")
     if table == "control":
         return getattr(control, name)

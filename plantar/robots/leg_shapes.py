@@ -86,7 +86,7 @@ def _collide(geom: Any, side: Side) -> None:
 
 
 def keep_apart(model: Any, robot: Robot) -> None:
-    """Shrink the legs' shapes, except feet, until apart in the robot's posture; disable those that fail.
+    """Shrink the legs' shapes, except feet, until apart in the robot's posture; disable failing ones.
 
     Takes `model`.
     """

@@ -100,7 +100,6 @@ def _body(spec: Any, robot: Robot, name: str, field: str) -> Any:
 
 
 def _free_base(spec: Any, robot: Robot) -> None:
-    """Add a free joint to the torso's root if missing (URDF)."""
     root = _body(spec, robot, robot.torso_body, "[torso] body")
     if root.parent is None:
         raise RobotError(f"robot '{robot.name}': [torso] body is '{root.name}', which is no part of the robot")
@@ -114,7 +113,6 @@ def _free_base(spec: Any, robot: Robot) -> None:
 
 
 def _clear_world(spec: Any, root: Any) -> None:
-    """Remove other bodies of the world, such as floors."""
     for body in list(spec.worldbody.bodies):
         if body.name != root.name:
             spec.delete(body)

@@ -53,7 +53,7 @@ class FootShape:
 
 @dataclass(frozen=True)
 class Arms:
-    """Arms that a robot may wear in scenes with moving ones; else part of its chest.
+    """Arms to wear in scenes with moving ones; else part of the chest.
 
     Attributes:
         machine: Name or TOML of the machine that has them (`plantar.sim.companion.machine`), with the same base.
@@ -152,7 +152,7 @@ class Robot:
     arms: Arms | None = None
 
     def sole_rectangle(self, side: Side) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Bounding rectangle of a sole: center (x, y), half size (x, y), sole frame, in m."""
+        """A sole's bounding rectangle: center (x, y), half size (x, y), sole frame, in m."""
         outline = self.layouts[side].outline
         low, high = outline.min(axis=0), outline.max(axis=0)
         center, half = 0.5 * (low + high), 0.5 * (high - low)

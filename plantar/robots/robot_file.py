@@ -110,7 +110,7 @@ class RobotTables:
         return f"{self.where}: [{'.'.join(tables)}]" if tables else self.where
 
     def table(self, *tables: str) -> Mapping[str, Any]:
-        """A table, or a table in one; the file itself for no name."""
+        """A table, or one in it; the file itself for no name."""
         found = self.source
         for i, name in enumerate(tables):
             inner = found.get(name)
@@ -181,8 +181,6 @@ class RobotTables:
 
 
 class _RobotFile(RobotTables):
-    """A robot's TOML, and its path."""
-
     def __init__(self, source: Mapping[str, Any], path: Path) -> None:
         super().__init__(source, str(path) if path.parent.parent != _FOLDER else f"robot '{path.parent.name}'")
         self.path = path
@@ -363,7 +361,6 @@ class _RobotFile(RobotTables):
         }
 
     def _duration(self, name: str, least: float) -> float:
-        """A duration of the gait in s; 0 if missing."""
         return self.number(name, "gait", least, 10.0) if name in self.table("gait") else 0.0
 
     def _servo(self, biped: BipedParameters | None, joints: int) -> dict[str, Any]:

@@ -62,7 +62,7 @@ _CORNERS = ((1.0, 0.0), (1.0, 1.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0), (0.0, 0.
 def box_plan(
     steps: int, *, stride: float, width: float, first: Side = "left", height: float = 0.0
 ) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
-    """A box step: the first foot forward, the other forward and aside, the first closes; back likewise.
+    """A box step: first foot forward, other forward and aside, first closes; back likewise.
 
     Args:
         steps: Number of steps, whole rounds.

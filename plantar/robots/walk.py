@@ -192,7 +192,7 @@ CONTROL_PERIOD = Control().period
 
 
 def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
-    """Durations of a walk's phases: the scene's, else the robot's, else equal beats for every robot.
+    """Durations of a walk's phases: the scene's, else the robot's, else equal beats.
 
     Takes `body`; returns the durations.
     """

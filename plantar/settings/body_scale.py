@@ -70,7 +70,6 @@ def _factors(unit: str) -> tuple[tuple[str, int], ...]:
 
 @lru_cache(maxsize=512)
 def _dimension(unit: str) -> tuple[int, ...]:
-    """Powers of kg, m and s in a unit."""
     return tuple(sum(_SYMBOLS[name].dimension[k] * power for name, power in _factors(unit)) for k in range(3))
 
 
@@ -126,7 +125,7 @@ class BodyScale:
 
     @property
     def beat(self) -> float:
-        """sqrt(leg / g) in s, the time scale of a leg under gravity."""
+        """sqrt(leg / g) in s, a leg's time scale under gravity."""
         return math.sqrt(self.leg / GRAVITY)
 
     @property
@@ -135,7 +134,7 @@ class BodyScale:
         return self.pace_beats * self.beat
 
     def in_si(self, unit: str) -> float:
-        """Number of SI units in a unit of body or SI, such as "leg/s"; else an InputError."""
+        """SI units in a unit of body or SI, such as "leg/s"; else InputError."""
         value = 1.0
         for name, power in _factors(unit):
             value *= (getattr(self, name) if name in BODY_UNITS else 1.0) ** power
@@ -162,8 +161,7 @@ class Quantity:
 
     @classmethod
     def parsed(cls, text: str) -> Quantity | None:
-        """A quantity from a text such as "0.083 weight", "1/3 leg" or "70 N"; None unless it begins with a number and a
-        space.
+        """A quantity from a text such as "0.083 weight" or "1/3 leg"; None unless it begins with a number and a space.
 
         Raises:
             InputError: If its unit is unknown.

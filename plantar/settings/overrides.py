@@ -68,7 +68,7 @@ def owner_of(key: str, text: str, *groups: Mapping[str, Sequence[str]]) -> tuple
 
 
 def value_of(text: str) -> Any:
-    """Meaning of a setting's text in TOML; a bare word is a text."""
+    """A setting's text as TOML; a bare word is a text."""
     try:
         return parse_toml(f"v = {text}")["v"]
     except ValueError:
@@ -76,7 +76,7 @@ def value_of(text: str) -> Any:
 
 
 def setting_text(found: Mapping[str, Setting]) -> str:
-    """Returns each setting's default, share, unit and range in a line, its meaning below.
+    """Returns each setting's default, share, unit and range in a line, then its meaning.
 
     Args:
         found: Settings by dotted names.

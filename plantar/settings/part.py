@@ -11,7 +11,7 @@ __all__ = ["Part"]
 
 
 class Part(Settings):
-    """Settings of a part: a table of a robot file or a scene.
+    """Settings of a part: a robot file's or scene's table.
 
     Attributes:
         table: Name of the table.

@@ -37,7 +37,7 @@ def number(default: float, unit: str, low: float = 0.0, high: float = math.inf, 
 
 
 def share(default: float, unit: str, low: float = 0.0, high: float = math.inf) -> Any:
-    """A field for a number that grows with the robot; returns the dataclass field.
+    """A number field that grows with the robot; returns the dataclass field.
 
     Args:
         default: As a share.
@@ -50,7 +50,7 @@ def share(default: float, unit: str, low: float = 0.0, high: float = math.inf) -
 
 
 def fixed(value: float, unit: str) -> Any:
-    """A field that grows with the robot, `value` times `unit`, not set by files; returns it."""
+    """A field that grows with the robot, `value` times `unit`; returns it. No file sets it."""
     return field(default=Quantity(float(value), unit), init=False, repr=False, metadata={"fixed": True})
 
 
@@ -77,7 +77,7 @@ def switch(default: bool) -> Any:
 
 
 def tables(allowed: str = "a list of tables", words: tuple[str, ...] = ()) -> Any:
-    """A field for a list that its class checks, empty by default; returns it.
+    """A field for a list that its class checks; returns it.
 
     Args:
         allowed: Description of allowed values.
@@ -113,7 +113,7 @@ class Setting(NamedTuple):
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))
 @dataclass(frozen=True)
 class Settings:
-    """Base of settings; values of fields made by this module's functions are checked.
+    """Base of settings; fields made by this module's functions are checked.
 
     Deriving makes a frozen dataclass; a decorator, which could undo that, is a TypeError.
 
@@ -182,7 +182,7 @@ class Settings:
         return found
 
     def in_si(self, value: Any, unit: str, owner: str = "a list") -> Any:
-        """Returns a list's member in SI, for a class that checks its lists; other values stay.
+        """Returns a list's member in SI; other values stay.
 
         Args:
             value: A number, or a text with a unit such as "0.03 leg".
@@ -262,7 +262,6 @@ def _quantity(item: Field[Any], value: Any) -> Any:
 
 
 def _units(item: Field[Any]) -> str:
-    """A field's unit, and its share's."""
     share = f", or in {item.default.unit}" if isinstance(item.default, Quantity) else ""
     return f"{item.metadata['unit']}{share}"
 
@@ -299,7 +298,6 @@ def _allowed(item: Field[Any]) -> str:
 
 
 def _range_of(item: Field[Any]) -> str:
-    """A field's range or choices, without words."""
     if isinstance(item.default, Quantity):
         return _range("a number", item)
     if isinstance(item.default, bool):

@@ -13,7 +13,7 @@ __all__ = ["refuse_unknown_keys"]
 def refuse_unknown_keys(
     given: Iterable[str], allowed: Iterable[str], where: str, error: type[PlantarError] = InputError, note: str = ""
 ) -> None:
-    """Refuse keys of a table that are not read, such as misspelt ones.
+    """Refuse keys of a table that are not read.
 
     Args:
         given: The table's keys.

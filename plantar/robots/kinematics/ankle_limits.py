@@ -16,7 +16,7 @@ __all__ = ["ankle_limits"]
 def ankle_limits(
     robot: Robot, model: mujoco.MjModel, weight: float, crouch: float = 0.0
 ) -> dict[Side, NDArray[np.float64]]:
-    """Where weight may act on each sole in single support, within the joints' torque limits.
+    """Where weight may act on each sole in single support, by torque limits.
 
     The weight W e_z at p has the torque a . ((p - c) x W e_z) on a joint with axis a through c: a strip of the sole for
     each joint. The ankle's joints are the last that pitches and the last that rolls.

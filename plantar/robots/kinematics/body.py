@@ -18,9 +18,7 @@ _ALONG = 0.7  # cosine with an axis of the torso from which a joint turns about 
 
 
 def body_of(robot: Robot, model: mujoco.MjModel) -> BodyScale:
-    """Size of a robot; Returns mass by the model, leg by `[gait] leg_length` or the model, sole by the layout, and
-    pace.
-    """
+    """Size of a robot; Returns mass by the model, leg by `[gait] leg_length` or model, sole by the layout, pace."""
     _, (half_length, half_width) = robot.sole_rectangle("left")
     return BodyScale(
         mass=float(model.body_subtreemass[model.body_rootid[model.body(robot.torso_body).id]]),
@@ -32,7 +30,7 @@ def body_of(robot: Robot, model: mujoco.MjModel) -> BodyScale:
 
 
 def leg_length(robot: Robot, model: mujoco.MjModel) -> float:
-    """Length in m of a straight leg from hip to ankle, the mean of both.
+    """Length in m of a straight leg, hip to ankle, both's mean.
 
     Summed over the pitching joints in the plane in which they bend the leg, independent of posture; with fewer than
     two, from first to last joint. Returns the length.

@@ -114,7 +114,7 @@ class LegModel:
     def set_configuration(
         self, position: NDArray[np.float64], quaternion: NDArray[np.float64], joints: NDArray[np.float64]
     ) -> None:
-        """Set the start of the next `solve`; its joints are the reference posture.
+        """Set start and reference posture of the next `solve`.
 
         Args:
             position: Base position (3,) in the world in m.
@@ -152,7 +152,7 @@ class LegModel:
         yielding: Collection[Side] = (),
         largest_step: float = 0.5,
     ) -> tuple[NDArray[np.float64], float]:
-        """Joint angles for CoM, torso orientation and both soles, from the last solution.
+        """Joint angles for CoM, torso orientation and soles, from the last solution.
 
         The 18 task rows (CoM 3, torso 3, two soles 6 each) meet the 18 unknowns of a 12-joint biped; legs of five
         joints leave the soles' roll to the ground.
@@ -203,7 +203,7 @@ class LegModel:
     def static_torques(
         self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]
     ) -> NDArray[np.float64]:
-        """Joint torques (k,) in N m that hold the last solution: tau = g(q) - sum J^T f.
+        """Joint torques (k,) in N m of the last solution: tau = g(q) - sum J^T f.
 
         Args:
             forces: Ground force (3,) in N on each sole, world frame.
@@ -234,6 +234,5 @@ class LegModel:
 
 
 def _lever(model: mujoco.MjModel, data: mujoco.MjData, body: int) -> tuple[PointRows, NDArray[np.float64]]:
-    """Rows of a body's point, and their array (3, nv)."""
     jacobian = np.zeros((3, model.nv))
     return PointRows(chain(model, body), data.cdof, data.subtree_com[model.body_rootid[body]], jacobian), jacobian

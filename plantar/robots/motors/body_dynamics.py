@@ -16,7 +16,7 @@ _BASE = 6  # velocities of the free base: three of its origin in the world frame
 
 
 class BodyDynamics:
-    """M(q) a + h(q, v) = [0, tau] + sum J^T w over the base (6) and leg joints (k); other joints rest.
+    """M(q) a + h(q, v) = [0, tau] + sum J^T w over base (6) and leg joints (k).
 
     Args:
         model: The robot alone, first joint free.
@@ -45,7 +45,7 @@ class BodyDynamics:
         self.drifts: dict[Side, NDArray[np.float64]] = {s: np.zeros(6) for s in SIDES}
 
     def place(self, configuration: NDArray[np.float64]) -> None:
-        """Compute mass matrix and Jacobians at a configuration (nq,); `move` has to follow."""
+        """Compute mass matrix and Jacobians at a configuration (nq,); then `move`."""
         model, data = self._model, self.data
         data.qpos[:] = configuration
         mujoco.mj_kinematics(model, data)

@@ -55,7 +55,7 @@ def motor_gains(robot: Robot, stiffness: float) -> MotorGains:
 
 
 def planned_wrenches(command: Command) -> dict[Side, NDArray[np.float64]]:
-    """Wrench (6,) on each loaded sole, about its target's origin, in the command's frame."""
+    """Wrench (6,) on each loaded sole about its target's origin, command frame."""
     wrenches = {}
     for side in SIDES:
         foot = command.feet[side]
@@ -143,13 +143,13 @@ class CommandMotors:
         return JointTargets(angles, torques, velocity, self.stiffness, self.damping)
 
     def torques(self, command: Command, sensors: Sensors) -> NDArray[np.float64]:
-        """Returns feed-forward torques (k,) in N m for the `command` that answers the `sensors`."""
+        """Returns feed-forward torques (k,) in N m for the `command` answering the `sensors`."""
         self.dynamics.place(self._legs.configuration)
         self.dynamics.move(self.motion.velocity)
         return self.dynamics.forces(self.motion.acceleration, planned_wrenches(command))[6:]
 
     def followed(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Angles (k,) in rad and rates (k,) in rad/s that the gains follow, within speed limits.
+        """Angles (k,) in rad and rates (k,) in rad/s that the gains follow.
 
         Beyond a limit, all joints move by the same smaller share and catch up later.
         """

@@ -79,7 +79,7 @@ class TorqueControl(CommandMotors):
         self._followed = np.zeros((2, len(names)))  # angles and rates that the motors' gains follow
 
     def torques(self, command: Command, sensors: Sensors) -> NDArray[np.float64]:
-        """Returns torques (k,) in N m for the `command` that answers the `sensors`."""
+        """Returns torques (k,) in N m for the `command` answering the `sensors`."""
         solved = None
         if np.isfinite(sensors.joint_positions).all() and np.isfinite(sensors.gyro).all():
             offsets = command.joint_offsets

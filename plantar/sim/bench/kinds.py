@@ -22,7 +22,7 @@ Progress = Callable[[float, str], None]
 
 @dataclass(frozen=True)
 class BenchOptions:
-    """Options of the kinds; `measure` refuses one that a kind does not take.
+    """Options; `measure` refuses those that a kind does not take.
 
     Attributes:
         layout: Layout file of the sole, or None.
@@ -46,7 +46,7 @@ class BenchOptions:
 
 
 class Measured(NamedTuple):
-    """Plain JSON values, written files under "files", and what failed, a line each."""
+    """Plain JSON values, written files under "files", and failures, a line each."""
 
     result: dict[str, Any]
     text: str
@@ -54,7 +54,7 @@ class Measured(NamedTuple):
 
 
 def measure(what: str, options: BenchOptions, output: Path) -> Measured:
-    """Returns what came of a kind `what`, or of "all", with `options`; files go to the folder `output`.
+    """Returns what came of a kind `what`, or "all", with `options`; files go to `output`.
 
     Raises:
         InputError: If kind or option is wrong.
@@ -160,7 +160,6 @@ _PARTS: Mapping[str, Callable[[Path, BenchOptions, Progress], Measured]] = {
 
 
 def _measure_parts(what: str, options: BenchOptions, output: Path, progress: Progress) -> Measured:
-    """One part, or all; and bench.json."""
     names = tuple(_PARTS) if what == "all" else (what,)
     count = len(names) + (2 if what == "all" else 0)
     shares = [part_of(progress, i / count, 1 / count) for i in range(count)]

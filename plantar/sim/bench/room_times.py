@@ -37,7 +37,7 @@ and the legs' kinematics, counts for who called it."""
 
 
 def room_of(path: str) -> str | None:
-    """Name in `ROOMS` of a file, from the folder of `plantar` on with slashes, or None.
+    """Name in `ROOMS` of a file's path in `plantar`, or None.
 
     Example:
         >>> room_of("gait/estimate/skin_load.py"), room_of("gait/estimate/estimator.py"), room_of("lazy.py")
@@ -47,7 +47,7 @@ def room_of(path: str) -> str | None:
 
 
 class RoomTimes:
-    """Samples the present room a thousand times a second; a context manager for the main thread.
+    """Samples the present room a thousand times a second; for the main thread.
 
     A timer signal counts the innermost function of a room; other languages count for their caller.
 
@@ -91,6 +91,6 @@ class RoomTimes:
 
     @property
     def shares(self) -> dict[str, float]:
-        """Share of each room in the time, ordered as `ROOMS`; empty without a sample."""
+        """Shares of time, ordered as `ROOMS`; empty without a sample."""
         total = sum(self._counts.values())
         return {room: self._counts[room] / total for room in ROOMS} if total else {}

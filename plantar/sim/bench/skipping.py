@@ -80,7 +80,7 @@ class WatchedSimulation(Simulation):
 
 
 def replay_physics(run: WatchedSimulation) -> tuple[float, str]:
-    """The physics alone of a finished run that `replays`: CPU time in s, and motion hash of an untimed second loop."""
+    """Physics alone of a run that `replays`: CPU time in s, motion hash."""
     model = run.world.model
     data = mujoco.MjData(model)
     mujoco.mj_copyData(data, model, run._began)
@@ -114,7 +114,7 @@ _SHAPES = ("polygon", "outline", "box", "rectangle", "circle", "triangle", "para
 
 @dataclass(frozen=True)
 class SkipRow:
-    """Cost of a scene with a robot. CPU times in s, medians of interleaved rounds.
+    """Cost of a scene with a robot: CPU times in s, medians.
 
     Attributes:
         settings: Changes of the scene.
@@ -147,7 +147,7 @@ class SkipRow:
 def compare_skipping(
     scene: str, robot: str, settings: Sequence[str] = (), rounds: int = 3, seed: int = _SEED
 ) -> SkipRow:
-    """Run a scene with what it needs, with everything, and its physics alone.
+    """Run a scene as needed, with everything, and its physics alone.
 
     Args:
         scene: Name of a scene without pushes and moving ground.
@@ -239,7 +239,7 @@ def measure_skipping(
     scenes: Sequence[tuple[str, str, Sequence[str]]] = SCENES,
     rounds: int = 3,
 ) -> dict[str, Any]:
-    """Compare `scenes` (scene, robot and settings) and write skipping.md and skipping.csv into an existing `folder`.
+    """Compare `scenes` (scene, robot, settings); write skipping.md and skipping.csv into an existing `folder`.
 
     Returns the rows as plain JSON values, whether all motions were the same, and the files' names; `rounds` are those
     of the medians, `progress` gets the fraction done and a text.

@@ -15,9 +15,7 @@ __all__ = ["Drives", "Encoders"]
 
 
 class Encoders:
-    """Measures positions and velocities with white noise. A floating base's place is as well known as a joint's; its
-    orientation is the IMU's.
-    """
+    """Measures positions and velocities with white noise, of a floating base too; its orientation is the IMU's."""
 
     def __init__(self, world: World, settings: CompanionControl, seed: int) -> None:
         self._world, self._settings = world, settings
@@ -25,7 +23,7 @@ class Encoders:
         self._rng = np.random.default_rng([seed, 0xEC])
 
     def read(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Positions (nq,) and velocities (nv,) of the machine, in its own model's order."""
+        """Positions (nq,) and velocities (nv,), in the machine's model order."""
         world, s = self._world, self._settings
         qpos = world.data.qpos[world.positions]
         qvel = world.data.qvel[world.speeds]
@@ -46,7 +44,7 @@ _FASTEST = 1e3  # rad/s or m/s of a joint without a speed limit
 
 
 class Drives:
-    """The drives, of kind and stiffness `servo`, commanded once a `period` in s."""
+    """Drives of kind and stiffness `servo`, commanded each `period` in s."""
 
     def __init__(self, world: World, servo: ServoTable, period: float) -> None:
         machine = world.machine
@@ -72,7 +70,7 @@ class Drives:
         model.actuator_forcerange[motors] = np.column_stack([-self._efforts, self._efforts])
 
     def command(self, robot: MujocoDynamics, torque: NDArray[np.float64]) -> None:
-        """Take the `torque` (k,) in N m or N, bias included, for the next period of the measured `robot`."""
+        """Take the `torque` (k,) in N m or N, bias included, for the measured `robot`."""
         if self._resolver is None:
             self._torque = torque
         else:
@@ -80,7 +78,7 @@ class Drives:
             self._bias = robot.bias[robot.joints]
 
     def drive(self) -> None:
-        """Set motor torques for a physics step; servos know their joint's true motion."""
+        """Set motor torques for a physics step; servos use true motion."""
         world = self._world
         if self._goal is not None:
             wanted = self._goal.velocity

@@ -51,7 +51,7 @@ class MujocoDynamics:
         mujoco.mj_kinematics(model, self.data)
 
     def update(self, qpos: NDArray[np.float64], qvel: NDArray[np.float64], time: float) -> None:
-        """Take positions `qpos` (nq,) in MuJoCo's order and velocities `qvel` (nv,) at `time` in s."""
+        """Take `qpos` (nq,) and `qvel` (nv,) in MuJoCo's order at `time` in s."""
         self.data.qpos[:] = qpos
         self.data.qvel[:] = qvel
         self.time = time
@@ -65,7 +65,6 @@ class MujocoDynamics:
         self._made: dict[int, NDArray[np.float64]] = {}
 
     def _place(self) -> None:
-        """Axes of all joints about the centre of mass."""
         if not self._placed:
             mujoco.mj_comPos(self.model, self.data)
             self._placed = True
@@ -106,7 +105,7 @@ class MujocoDynamics:
         return self._bias
 
     def pose(self, link: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Origin (3,) in m and rotation (3, 3) of a link to the world; an InputError for no link."""
+        """Origin (3,) in m and rotation (3, 3) of a link; InputError if unknown."""
         body = self._body(link)
         return self._places_of_links[body].copy(), self._turns_of_links[body].copy()
 
@@ -143,7 +142,7 @@ class MujocoDynamics:
         return np.asarray(rate.dot(self._velocity))
 
     def com(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """Centre of mass: position (3,) in m, Jacobian (3, n) and drift (3,) in m/s^2."""
+        """Centre of mass: (3,) in m, Jacobian (3, n), drift (3,) in m/s^2."""
         self._move()
         rows = np.zeros((3, self.model.nv))
         mujoco.mj_jacSubtreeCom(self.model, self.data, rows, 0)

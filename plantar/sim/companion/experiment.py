@@ -69,8 +69,7 @@ class Controller(Protocol):
     """What drives the machine."""
 
     def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
-        """Returns each joint's torque (k,) in N m or N for the next period, gravity included, in the order of
-        `robot.joints`.
+        """Returns joint torques (k,) in N m or N, gravity included, in the order of `robot.joints`.
 
         `robot` is at the measured state, `reading` that of the skin.
         """
@@ -80,7 +79,7 @@ class LidarController(Controller, Protocol):
     """A controller with distance sensors in the base."""
 
     def scan(self, points: NDArray[np.float64]) -> None:
-        """Take a scan: nearest points (m, 2) of things, base frame, in m."""
+        """Take nearest points (m, 2) of things, base frame, in m."""
 
 
 class Verdict(NamedTuple):
@@ -131,12 +130,12 @@ class World:
     joints: NDArray[np.int64]
 
     def pose(self, body: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """True origin (3,) of a body in m and its rotation (3, 3) to the world."""
+        """True origin (3,) of a body in m, rotation (3, 3) to the world."""
         found = self.data.body(body)
         return found.xpos.copy(), found.xmat.reshape(3, 3).copy()
 
     def velocity(self, body: str) -> NDArray[np.float64]:
-        """True velocity (6,) of a body's origin in the world: linear in m/s, angular in rad/s."""
+        """True world velocity (6,) of a body's origin: linear in m/s, angular in rad/s."""
         found = np.zeros(6)
         number = self.model.body(body).id
         mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, number, found, 0)
@@ -181,10 +180,10 @@ class Experiment:
         raise NotImplementedError
 
     def act(self, world: World, time: float) -> None:
-        """Move actors in the `world` at `time` in s, before every physics step; forces go into `data.qfrc_applied`."""
+        """Move actors in the `world` at `time` in s, each physics step, with forces in `data.qfrc_applied`."""
 
     def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
-        """Look at the true `world` and the skin `sensor` at `time` in s, every physics step."""
+        """Look at the true `world` and skin `sensor` at `time` in s, each physics step."""
 
     def verdict(self) -> Verdict:
         """The verdict, after the run."""

@@ -50,7 +50,7 @@ class Lidar:
         self._own = own
 
     def scan(self, data: Any) -> NDArray[np.float64]:
-        """Nearest point (m, 2) of each thing in reach, base frame, in m."""
+        """Nearest point (m, 2) of each thing, base frame, in m."""
         s = self.settings
         rotation = data.xmat[self._base].reshape(3, 3)
         origin = data.xpos[self._base] + rotation @ np.array([0.0, 0.0, s.height])

@@ -97,12 +97,12 @@ class Machine:
 
     @property
     def efforts(self) -> NDArray[np.float64]:
-        """Largest torque (k,) of each joint in N m or N; infinite for no limit."""
+        """Largest joint torques (k,) in N m or N; infinite without limit."""
         return np.array([joint.effort or math.inf for joint in self.joints.values()])
 
     @property
     def velocities(self) -> NDArray[np.float64]:
-        """Largest speed (k,) of each joint in rad/s or m/s; infinite for no limit."""
+        """Largest joint speeds (k,) in rad/s or m/s; infinite without limit."""
         return np.array([joint.velocity or math.inf for joint in self.joints.values()])
 
     @property
@@ -112,8 +112,7 @@ class Machine:
         return np.array([t.posture if n in slides else math.radians(t.posture) for n, t in self.joints.items()])
 
     def spec(self) -> Any:
-        """The machine alone as a new `mujoco.MjSpec`: a motor a joint, without the file's surroundings, actuators and
-        sensors. Its geoms touch obstacles, not each other.
+        """The machine alone as a new `mujoco.MjSpec` with a motor a joint. Its geoms touch obstacles, not each other.
 
         Raises:
             RobotError: If the model is unreadable.
@@ -140,7 +139,7 @@ class Machine:
         return spec
 
     def ranges(self, model: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Lowest and highest position (k,) of each joint in rad or m, of an MjModel; infinite without a stop."""
+        """Lowest and highest joint positions (k,) in rad or m; infinite without a stop."""
         joints = [model.joint(name) for name in self.joints]
         held = np.array([bool(joint.limited[0]) for joint in joints])
         low, high = np.array([joint.range for joint in joints]).T

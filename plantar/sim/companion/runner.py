@@ -29,7 +29,7 @@ __all__ = ["Companion"]
 
 
 class Companion(Run):
-    """A scene, ready to run; `seed` draws sensor noise and what the experiment leaves open.
+    """A scene, ready to run; `seed` draws noise and the experiment's choices.
 
     Attributes:
         skin: The machine's skin sensor.

@@ -24,7 +24,7 @@ Triangles = NDArray[np.float64]
 
 
 def shapes_of(model: Any, bodies: Collection[int]) -> tuple[list[int], list[int]]:
-    """Ids of the drawn geoms of `bodies` of a `model`, without markers, and of colliding ones; no planes.
+    """Ids of drawn geoms of `bodies` of a `model`, without markers, and of colliding ones.
 
     Returns both lists.
     """
@@ -39,7 +39,7 @@ def shapes_of(model: Any, bodies: Collection[int]) -> tuple[list[int], list[int]
 
 
 def geom_triangles(model: Any, data: Any, geom: int) -> Triangles:
-    """Returns the triangles (n, 3, 3) of a `geom` in the world in m, of `model` and `data`; round ones faceted."""
+    """Returns triangles (n, 3, 3) of a `geom` in the world in m, of `model` and `data`."""
     kind, size = int(model.geom_type[geom]), model.geom_size[geom]
     if kind == mujoco.mjtGeom.mjGEOM_MESH:
         mesh = int(model.geom_dataid[geom])
@@ -53,7 +53,7 @@ def geom_triangles(model: Any, data: Any, geom: int) -> Triangles:
 
 
 def convex_surface(points: NDArray[np.float64]) -> Triangles:
-    """Triangles (n, 3, 3) of the hull of points (m, 3), counter-clockwise from outside; none where flat."""
+    """Hull triangles (n, 3, 3) of points (m, 3), counter-clockwise from outside; none if flat."""
     try:
         hull = ConvexHull(points)
     except (QhullError, ValueError):
@@ -66,7 +66,7 @@ def convex_surface(points: NDArray[np.float64]) -> Triangles:
 
 
 def resting_plane(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
-    """The plane on which a body with surface points (n, 3), z up, would rest.
+    """The plane on which surface points (n, 3), z up, would rest.
 
     Returns:
         Outward normal (3,) of the largest lower plane of their convex hull, and its area over the silhouette's from

@@ -92,7 +92,7 @@ class RobotCheck:
 
 
 def check_robot(file: str | os.PathLike[str], scene: str) -> RobotCheck:
-    """Returns what was measured of a robot `file`, or built-in name, for the plan of a `scene`.
+    """Returns what was measured of a robot `file` or name for a `scene`'s plan.
 
     Raises:
         RobotError: If the robot is not valid.

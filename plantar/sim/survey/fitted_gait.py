@@ -123,7 +123,7 @@ class FittedGait:
 
 
 def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int = 6) -> Walked:
-    """Returns level steps of a third of a leg at a `robot`'s pace, its trunk leaning as scenes demand.
+    """Returns level steps of a third of a leg at a `robot`'s pace.
 
     Args:
         robot: The robot.
@@ -137,7 +137,7 @@ def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int =
 
 
 def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Array | None = None) -> FittedGait:
-    """Fit a walk to a robot whose names, soles and limits are known.
+    """Fit a walk to a robot of known names, soles and limits.
 
     Args:
         draft: The robot; its posture, gait and gains are replaced.
@@ -266,9 +266,7 @@ def _bent(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
 
 
 def stance_width(robot: Robot, legs: LegModel) -> float:
-    """Returns the distance in m of the feet of a `robot` side by side: as in the model of its `legs`, or wider for the
-    soles.
-    """
+    """Returns the distance in m of a `robot`'s feet: as in the model of its `legs`, or wider for the soles."""
     angles = np.array([*robot.posture["left"], *robot.posture["right"]])
     feet = legs.posture(angles).positions
     own = float(feet["left"][1] - feet["right"][1])

@@ -132,7 +132,7 @@ def introduce(
     make_shoes: MakeShoes,
     progress: Callable[[float, str], None] | None = None,
 ) -> Introduced:
-    """Write robot file, model copy, shoes and picture of a robot; returns it with reasons.
+    """Write robot file, model copy, shoes and picture; returns robot and reasons.
 
     Args:
         file: The model, MJCF or URDF.

@@ -64,7 +64,7 @@ class Legs:
 
 
 def find_legs(model: Any, data: Any, where: str) -> Legs:
-    """Returns the legs of a `model` in the state `data`; errors name the file `where`.
+    """Returns the legs of a `model` in state `data`; errors name the file `where`.
 
     Raises:
         RobotError: Unless two legs of four or more hinges are found.

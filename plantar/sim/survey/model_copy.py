@@ -43,7 +43,7 @@ def write_model_copy(
     held: Mapping[str, float],
     imu: tuple[str, str, str] | None,
 ) -> str:
-    """Write the copy and its meshes, in fewer triangles except the feet; returns the name of the upright body.
+    """Write the copy and its simplified meshes; returns the upright body's name.
 
     Args:
         model: The compiled model with all joints.
@@ -57,7 +57,7 @@ def write_model_copy(
 
 
 def add_rotors(file: Path, rotors: Mapping[str, float]) -> None:
-    """Give joints of the copy `file` the inertia `rotors` in kg m^2, by name."""
+    """Give joints of copy `file` the inertia `rotors` in kg m^2, by name."""
     root = ElementTree.fromstring(file.read_text(encoding="utf-8"))
     for joint in root.iter("joint"):
         if joint.get("name") in rotors:

@@ -44,7 +44,7 @@ _LOOPS = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
 
 @dataclass(frozen=True)
 class ModelSource:
-    """A compiled model, and what else its file states; dictionaries are by joint.
+    """A compiled model, and what else its file states, by joint.
 
     Attributes:
         model: The model with all joints, without motors or constraints.

@@ -91,9 +91,7 @@ def standing_feet(width: float) -> dict[Side, Footstep]:
 
 
 def settled(robot: Robot, legs: LegModel, feet: Mapping[Side, Footstep], com_height: float) -> float:
-    """Stand the `legs` of a `robot` on `feet` with the CoM at `com_height` in m; returns the remaining error in m or
-    rad.
-    """
+    """Stand the `legs` of a `robot` on `feet`, CoM at `com_height` in m; returns the error in m or rad."""
     middle = np.mean([vrp_of_step(feet[s], middle_of_sole(robot.layouts[s], robot.ankle_reach)) for s in SIDES], axis=0)
     com = np.array([middle[0], middle[1], feet["left"].z + com_height])
     posture = np.array([*robot.posture["left"], *robot.posture["right"]])

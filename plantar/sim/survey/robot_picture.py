@@ -25,8 +25,7 @@ _COLOURS = ((0.85, 0.2, 0.2, 1.0), (0.2, 0.65, 0.25, 1.0), (0.2, 0.35, 0.85, 1.0
 
 
 def draw_robot(robot: Robot, path: Path) -> Path:
-    """Draw the `robot` in its posture at `path`, x, y and z of the sole frames in red, green and blue; returns the
-    path.
+    """Draw the `robot` at `path`, sole axes in red, green and blue; returns the path.
 
     Raises:
         InputError: If no renderer works; the message names the cause.

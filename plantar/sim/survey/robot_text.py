@@ -25,7 +25,7 @@ _WIDTH = 110  # characters of a comment
 
 
 def roll_pitch_yaw(rotation: NDArray[np.float64]) -> list[float]:
-    """Roll, pitch and yaw in degrees of a rotation (3, 3), about fixed axes in this order.
+    """Roll, pitch, yaw in degrees of a rotation (3, 3), about fixed axes.
 
     Example:
         >>> roll_pitch_yaw(np.eye(3))
@@ -38,7 +38,7 @@ def roll_pitch_yaw(rotation: NDArray[np.float64]) -> list[float]:
 
 
 def robot_text(survey: Survey, fitted: FittedGait, shoe_notes: Sequence[str], weighed: bool) -> str:
-    """Returns the TOML of a robot file from `survey`, `fitted`, `shoe_notes` and whether shoes were `weighed`."""
+    """Returns a robot file's TOML from `survey`, `fitted`, `shoe_notes` and whether shoes were `weighed`."""
     robot = fitted.robot
     lines = [
         *_comment(

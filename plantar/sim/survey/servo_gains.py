@@ -28,7 +28,7 @@ __all__ = [
 
 @dataclass(frozen=True)
 class JointInertia:
-    """Inertia about each leg joint in kg m^2, the lesser of both legs, with rotor.
+    """Inertia about each leg joint in kg m^2, the lesser leg's, with rotor.
 
     Attributes:
         swing: Robot floating freely: 1 / (M^-1)_jj.
@@ -44,7 +44,7 @@ class JointInertia:
 
 
 def joint_inertia(robot: Robot, model: Any, configuration: NDArray[np.float64]) -> JointInertia:
-    """Returns the inertia about leg joints of a `robot` in a `configuration` (nq,) of its `model` alone, with shoes."""
+    """Returns leg joint inertia of a `robot` in a `configuration` (nq,) of its `model`, with shoes."""
     data = _at(model, configuration)
     free = _floating(model, data)
     found = []
@@ -58,9 +58,7 @@ def joint_inertia(robot: Robot, model: Any, configuration: NDArray[np.float64]) 
 
 
 def floating_inertia(model: Any, configuration: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Returns the inertia (nv,) in kg m^2, or kg, of a freely floating `model` in a `configuration` (nq,): 1 /
-    (M^-1)_jj.
-    """
+    """Returns the inertia (nv,) in kg m^2, or kg, of a floating `model` in a `configuration` (nq,): 1 / (M^-1)_jj."""
     return _floating(model, _at(model, configuration))
 
 
@@ -131,7 +129,7 @@ def servo_gains(
 
 
 def rotor_inertia(inertia: JointInertia, mass: float, com_height: float, period: float) -> NDArray[np.float64]:
-    """Rotor inertia to assume where a model states none and a joint is too light for its servo.
+    """Rotor inertia to assume where none is stated and a joint is too light for its servo.
 
     It keeps a bare foot's swing under the least holding stiffness to `SAMPLED` in a control period. For Unitree's G1,
     whose URDF states none: 0.0035 and 0.0066 kg m^2 about the ankle, which has 0.007.

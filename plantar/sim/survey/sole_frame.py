@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Sole:
-    """The bare sole of a foot. Frame: x forward, y left, z up, origin on the sole plane below the ankle.
+    """A bare sole. Frame: x forward, y left, z up, origin on the sole plane below the ankle.
 
     Attributes:
         origin: (3,) in the foot body's frame in m.
@@ -70,7 +70,7 @@ class Rested:
 
 
 def rested(model: Any, data: Any, parts: Collection[int], rotation: Array) -> Rested | None:
-    """Returns the plane that a foot of bodies `parts` of `model` in state `data` rests on; None without shapes.
+    """Returns the resting plane of a foot of bodies `parts` of `model` in state `data`; None without shapes.
 
     Drawn shapes count, or colliding ones where only these are flat below. `rotation` (3, 3) is from the model's world
     to axes with z up.

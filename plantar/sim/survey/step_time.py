@@ -40,12 +40,12 @@ _SHORTEST = 0.2  # s: the least that the timing of a walk allows
 
 
 def has_ankle_roll(robot: Robot, legs: LegModel, side: Side = "left") -> bool:
-    """Returns whether the leg of a `side` of `legs` of a `robot` rolls in hip and ankle."""
+    """Returns whether a `robot`'s leg of a `side` of `legs` rolls in hip and ankle."""
     return len(rolling_joints(robot, side, legs.model, stood(robot, legs.model))) >= 2
 
 
 def rocking(robot: Robot, com_height: float) -> Robot:
-    """Returns the `robot`, with CoM at `com_height` in m, with a step time at which its legs lean little."""
+    """Returns the `robot`, CoM at `com_height` in m, with a step time of little leg lean."""
     beat = math.sqrt(com_height / GRAVITY)
     near = min(_NEAR, com_height * math.tan(LEAN_MOST) / (0.5 * robot.stance_width))
     step = 2.0 * beat * math.acosh(1.0 / (1.0 - near))
@@ -56,9 +56,7 @@ def rocking(robot: Robot, com_height: float) -> Robot:
 
 
 def ankle_reach(robot: Robot, weight: float, ankle: int) -> float | None:
-    """Returns how far from itself along the sole in m joint `ankle` of a `robot` bears its `weight` in N; None: to the
-    toes.
-    """
+    """Returns how far along the sole in m joint `ankle` of a `robot` bears its `weight` in N; None: to the toes."""
     if not robot.effort_limits:
         return None
     toe = float(robot.layouts["left"].outline[:, 0].max())
@@ -80,9 +78,7 @@ _PEAK = 10.0 / math.sqrt(3.0)
 
 
 def swinging_mass(robot: Robot, legs: LegModel) -> float:
-    """Returns the mass in kg of `legs` of a `robot` that goes forward as the foot, parts weighted by depth below the
-    hip.
-    """
+    """Returns the mass in kg of `legs` of a `robot` that swings, weighted by depth below the hip."""
     model, data = legs.model, stood(robot, legs.model)
     hip = int(model.joint(robot.legs["left"].joints[0]).bodyid[0])
     parts = hanging_on(model, hip)
@@ -92,7 +88,7 @@ def swinging_mass(robot: Robot, legs: LegModel) -> float:
 
 
 def least_single_support(robot: Robot, legs: LegModel, body: BodyScale, step: float) -> float:
-    """Returns the least t_ss in s, in hundredths, at which friction amply holds the standing sole.
+    """Returns the least t_ss in s, in hundredths, at which friction holds the sole.
 
     Args:
         robot: The robot, with stance and layouts.

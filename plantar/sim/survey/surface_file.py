@@ -23,7 +23,7 @@ Triangles = NDArray[np.float64]
 
 
 def mesh_for_mujoco(path: Path, folder: Path) -> Path | None:
-    """Returns the file `path`, one converted into `folder`, or None if missing or unreadable."""
+    """Returns file `path`, one converted into `folder`, or None if unreadable."""
     kind = path.suffix.lower()
     if not path.is_file():
         return None

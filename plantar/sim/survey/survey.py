@@ -59,7 +59,7 @@ class Survey:
 
 
 def survey_model(file: Path, folder: Path) -> Survey:
-    """Returns legs, soles, IMU and limits of the robot in `file`; converted meshes go to `folder`.
+    """Returns the findings on the robot in `file`; converted meshes go to `folder`.
 
     Raises:
         RobotError: If the file holds no biped.

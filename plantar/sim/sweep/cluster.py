@@ -47,7 +47,7 @@ def check_address(address: str) -> str:
 
 
 def tls_files(environment: Mapping[str, str] = os.environ) -> dict[str, str]:
-    """Paths of authority and client certificates and client key, from Dask's environment variables.
+    """Paths of authority and client certificates and key, from Dask's environment variables.
 
     Raises:
         InputError: If one is missing.
@@ -63,7 +63,7 @@ def tls_files(environment: Mapping[str, str] = os.environ) -> dict[str, str]:
 
 
 def network_note(address: str) -> str:
-    """A warning about an unauthenticated scheduler on a network, or an empty text.
+    """A warning about an unauthenticated scheduler on a network, or empty.
 
     Example:
         >>> network_note("tcp://127.0.0.1:8786")
@@ -89,7 +89,7 @@ _LOGS = ("distributed", "distributed.client", "tornado", "tornado.application", 
 
 
 class ClusterWorkers:
-    """Workers of a Dask scheduler at an `address` such as tcp://host:8786 or tls://host:8786.
+    """Workers of a Dask scheduler at an `address` such as tcp://host:8786.
 
     Dask restarts a dead worker's run on another, as often as its setting `allowed-failures` allows.
 

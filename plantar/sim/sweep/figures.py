@@ -50,7 +50,7 @@ def figures_of(plan: Plan, found: Mapping[str, Any], rows: Rows) -> dict[str, An
 
 
 def bars_of(points: Sequence[Mapping[str, Any]], scene: str) -> Any:
-    """Returns a figure of completed runs at all `points` with Wilson's 95 % intervals, titled `scene`."""
+    """Returns a figure of completed runs at `points` with Wilson's intervals, titled `scene`."""
     figure, axis = new_figure(min(max(5.0, 1.2 + 1.05 * len(points)), _WIDEST), 4.0)
     names = ["\n".join(f"{k}={v}" for k, v in p["settings"].items()) or scene for p in points]
     shares = np.array([100.0 * p["completed"] / p["runs"] if p["runs"] else 0.0 for p in points])

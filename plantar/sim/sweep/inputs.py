@@ -24,8 +24,7 @@ _FOLDERS = re.compile(rb"""\b(?:meshdir|texturedir|assetdir)\s*=\s*["']([^"']+)[
 
 
 def inputs_of(scene: str, robot: str) -> dict[str, str]:
-    """Returns versions of the deciding libraries, and SHA-256 of all files that a `scene` with a `robot` reads, by
-    name.
+    """Returns library versions, and SHA-256 of all files that a `scene` with a `robot` reads.
 
     Raises:
         SceneError: If the scene is unknown.
@@ -44,7 +43,7 @@ def inputs_of(scene: str, robot: str) -> dict[str, str]:
 
 
 def changes(before: Mapping[str, str], now: Mapping[str, str]) -> str:
-    """Returns in words how inputs differ from `before` to `now`, or an empty text.
+    """Returns in words how inputs differ from `before` to `now`, or empty.
 
     Example:
         >>> changes({"plantar": "1.0", "layout a": "9f"}, {"plantar": "1.1", "layout a": "e0"})

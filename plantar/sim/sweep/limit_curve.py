@@ -56,12 +56,12 @@ class LimitCurve:
 
     @property
     def interval(self) -> tuple[float, float]:
-        """The 95 % interval of the limit, for a number of runs chosen before."""
+        """The limit's 95 % interval, for a number of runs chosen before."""
         return self.quantile(0.025), self.quantile(0.975)
 
     @property
     def interval_of_search(self) -> tuple[float, float]:
-        """The 95 % interval of a search that ended because it was narrow enough: a probability of 98 %.
+        """The 95 % interval of a search that its width ended: a probability of 98 %.
 
         Such a search ends early by chance: `interval` holds the limit in only 90 of 100
         (`tests/sim/sweep/test_limit_search.py` counts).
@@ -84,7 +84,7 @@ class LimitCurve:
         return rising if self.rising else 1.0 - rising
 
     def agreement(self, values: Sequence[float], completed: Sequence[bool]) -> float:
-        """Probability that runs of this curve are as far from it as these: tiny where no curve explains them.
+        """Probability of runs as far from this curve; tiny where none explains them.
 
         Returns Pearson's chi square of groups of ten runs or more by `values`, with whether each was `completed`; 1
         below 40 runs.
@@ -101,7 +101,7 @@ class LimitCurve:
         return float(chdtrc(len(groups) - 3, square))  # limit, width and lapse were chosen by the runs
 
     def turned(self, part: float, low: float, high: float) -> float:
-        """Returns the value between `low` and `high` at which a `part` (0 to 1, one half at the limit) of the change is
+        """Returns the value between `low` and `high` where a `part` (0 to 1, one half at the limit) of the change is
         expected, to a thousandth of the range.
         """
         weights = self.joint.sum(2)
@@ -115,8 +115,8 @@ class LimitCurve:
 
 
 def limit_curve(values: Sequence[float], completed: Sequence[bool], low: float, high: float) -> LimitCurve:
-    """Returns what `values` and whether each was `completed` show of a limit between `low` and `high`, in the likelier
-    direction; a ValueError unless `low` is below `high`.
+    """Returns what `values` and whether each was `completed` show of a limit between `low` and `high`; a ValueError
+    unless `low` is below `high`.
     """
     if not low < high:
         raise ValueError(f"range {low} to {high} is empty")

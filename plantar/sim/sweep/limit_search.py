@@ -27,7 +27,7 @@ _SURE = 0.95
 
 @dataclass(frozen=True)
 class LimitSearch:
-    """The value of a setting at which half of the runs are completed, at each grid point.
+    """The setting's value with half of the runs completed, at each grid point.
 
     Attributes:
         sweep: Scene, grid and, as "seeds", the most runs at each point; every run has its own seed.
@@ -63,7 +63,7 @@ class LimitSearch:
         return self.checked.identity() | {"limit": ends, "first_seed": self.sweep.first_seed}
 
     def runs(self, rows: Rows) -> Iterator[Run | None]:
-        """The runs, in an order that depends on outcomes alone; None while more `rows` are needed."""
+        """Runs, ordered by outcomes alone; None while more `rows` are needed."""
         chains = [self._chain(point, rows) for point in self.sweep.points()]
         while chains:
             waiting = True
@@ -90,7 +90,7 @@ class LimitSearch:
         return {"limits": [self._found(point, rows) for point in self.sweep.points()]}
 
     def progress(self, rows: Rows) -> tuple[float, str]:
-        """Progress, 0 to 1, and in words: runs go with the square of 1 / width."""
+        """Progress, 0 to 1, and in words."""
         widths = [_width(self.curve(self.tried(point, rows), rows)) for point in self.sweep.points()]
         widest = max(widths)
         words = f"{100.0 * widest:.0f} %" if widest < 10.0 else "its range"

@@ -26,7 +26,7 @@ _NAMES = {signal.SIGINT: "Ctrl-C", signal.SIGTERM: "SIGTERM"}
 
 
 class SweepStopped(KeyboardInterrupt):
-    """The signal `number` ended a sweep; `kept` names in words what is kept."""
+    """The signal `number` ended a sweep; `kept` names what is kept."""
 
     def __init__(self, number: int, kept: str = "no run was begun") -> None:
         super().__init__(f"stopped by {_NAMES.get(signal.Signals(number), number)}: {kept}")
@@ -93,7 +93,7 @@ def run_sweep(
     scheduler: str | None = None,
     progress: Progress | None = None,
 ) -> dict[str, Any]:
-    """Run what results.csv lacks, append each run as it ends, and draw figures.
+    """Run what results.csv lacks, append each run, and draw figures.
 
     Args:
         plan: A `Sweep` over a grid, a `LimitSearch` or a `RandomSearch`.

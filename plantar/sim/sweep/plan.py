@@ -43,7 +43,7 @@ def settings_of(point: Sequence[str]) -> dict[str, str]:
 
 
 def key_of(point: Sequence[str], seed: int) -> Key:
-    """Returns the key of a run of a `point`, settings "name=value", with a `seed`.
+    """Returns the key of a run of a `point` "name=value" with a `seed`.
 
     Example:
         >>> key_of(("friction=0.7",), 3)
@@ -68,7 +68,7 @@ class Plan(Protocol):
         """What all rows share besides file contents: JSON values by name."""
 
     def runs(self, rows: Rows) -> Iterator[Run | None]:
-        """The runs in an order that depends on outcomes alone; None while more `rows` are needed."""
+        """Runs, ordered by outcomes alone; None while more `rows` are needed."""
 
     def found(self, rows: Rows) -> dict[str, Any]:
         """The result of the rows."""
@@ -131,8 +131,8 @@ class Sweep:
         settings: Sequence[str] = (),
         first_seed: int = 0,
     ) -> Sweep:
-        """Returns a sweep of texts `grid` "key=a,b,c" (TOML values or bare words, as in "size=[1, 2],[3, 4]"); `scene`,
-        `seeds`, `robot`, `settings`, `first_seed` and errors as of the class.
+        """Returns a sweep of texts `grid` "key=a,b,c" (TOML values or bare words); `scene`, `seeds`, `robot`,
+        `settings`, `first_seed` and errors as of the class.
         """
         axes = []
         for text in grid:
@@ -185,7 +185,7 @@ class Sweep:
         return replace(self, grid=(*self.grid, *axes))
 
     def fitted(self, wanted: ValueRange) -> ValueRange:
-        """A range limited to whole numbers, if the setting takes no others and its ends are whole.
+        """A range limited to whole numbers where the setting and ends are such.
 
         Raises:
             SceneError: If the setting takes no such numbers.
@@ -211,7 +211,7 @@ class Sweep:
         return self.opened(point).robot
 
     def identity(self) -> dict[str, Any]:
-        """What all rows share besides file contents. Points and seeds may be added."""
+        """What all rows share besides file contents; points and seeds may grow."""
         scene = self.opened(self.points()[0])
         settings = {}
         for key, _, value in (s.partition("=") for s in self.settings):
@@ -248,15 +248,15 @@ class Sweep:
 
 
 def progress_of(runs: Iterable[Run], rows: Rows) -> tuple[float, str]:
-    """Returns the share of the `runs` in `rows`, as a number and in words."""
+    """Returns the share of the `runs` in `rows`, and in words."""
     wanted = [key_of(*run) for run in runs]
     done = sum(key in rows for key in wanted)
     return done / len(wanted), f"{done} of {len(wanted)} rows"
 
 
 def point_result(point: Sequence[str], ran: Sequence[Mapping[str, str]]) -> dict[str, Any]:
-    """Returns the result of a `point` over its rows `ran`: settings, runs, completed, 95 % Wilson interval of their
-    share, failures by criterion ("reasons"), errors of impossible runs.
+    """Returns the result of a `point` over its rows `ran`: settings, runs, completed, 95 % Wilson interval, failures by
+    criterion ("reasons"), errors.
     """
     completed = sum(row["completed"] == "True" for row in ran)
     return {

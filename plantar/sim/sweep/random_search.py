@@ -18,7 +18,7 @@ __all__ = ["RandomSearch"]
 
 @dataclass(frozen=True)
 class RandomSearch:
-    """Runs at random points, the same at every grid point; more seeds add points.
+    """Runs at random points, the same at every grid point.
 
     Attributes:
         sweep: Scene, grid, and seeds: one point a seed.

@@ -29,7 +29,7 @@ _PLACE = 1 << 20  # where Windows locks a byte: behind the owner's name, which s
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Hold the lock of an existing folder; the system releases it when its owner ends.
+    """Hold an existing folder's lock, which ends with its owner.
 
     Raises:
         InputError: If another process holds it (named), or the file system has no locks.
@@ -124,7 +124,7 @@ class Results:
         self._size = whole
 
     def append(self, row: Mapping[str, Any]) -> None:
-        """Add a row, a value for every column, to file and table, on disk or not at all; line breaks become spaces.
+        """Add a row to file and table, on disk or not at all; line breaks become spaces.
 
         Raises:
             InputError: If the file cannot be written.
@@ -179,7 +179,7 @@ def open_results(
     axes: Sequence[str],
     columns: Sequence[str],
 ) -> Iterator[Results]:
-    """Open the results of a sweep, new or stopped, for this process alone.
+    """Open a sweep's results, new or stopped, for this process alone.
 
     Args:
         folder: Folder of results.csv and sweep.json; made if needed.

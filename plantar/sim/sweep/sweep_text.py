@@ -12,7 +12,7 @@ _ODD = 1e-3
 
 
 def sweep_text(result: Mapping[str, Any], scene: str) -> str:
-    """Returns lines of `run_sweep`'s `result`: completed runs of each grid point and failures, or its limit, and files.
+    """Returns lines of `run_sweep`'s `result`: completed runs and failures, or limits, and files.
 
     `scene` names a sweep without a grid.
     """
@@ -25,7 +25,7 @@ def sweep_text(result: Mapping[str, Any], scene: str) -> str:
 
 
 def sweep_errors(result: Mapping[str, Any], scene: str) -> list[str]:
-    """Returns a line for each grid point and error of a `result`; `scene` as of `sweep_text`."""
+    """Returns a line for each error of a `result`; `scene` as of `sweep_text`."""
     return [
         f"{_name(point, scene)}: {point['errors'].count(error)} run(s) could not be: {error}"
         for point in (*result.get("points", ()), *result.get("limits", ()))

@@ -53,8 +53,8 @@ _COMPANION = ("completed", "fell", "sim_time_s", "real_time_factor", "control_p9
 
 @dataclass(frozen=True)
 class Task:
-    """A worker's task: a `scene`, another `robot`, "key=value" `settings`, a `seed`, and the first `inputs`
-    (`inputs_of`), empty to skip that check.
+    """A worker's task: `scene`, another `robot`, "key=value" `settings`, `seed`, and the first `inputs` (`inputs_of`),
+    empty for no check.
     """
 
     scene: str
@@ -65,14 +65,14 @@ class Task:
 
 
 def columns_of(scene: Scene | CompanionScene) -> tuple[str, ...]:
-    """Columns of the rows of a scene, after the settings and the seed."""
+    """Columns of a scene's rows after settings and seed."""
     if isinstance(scene, Scene):
         return COLUMNS
     return (*_COMPANION[:-2], *scene.experiment_type.columns, *_COMPANION[-2:])
 
 
 def run_one(scene: str, robot: str | None, settings: Sequence[str], seed: int) -> Row:
-    """Returns one run as a flat row: a `scene`, another `robot` or None, "key=value" `settings` and a `seed`.
+    """Returns one run as a flat row: `scene`, another `robot` or None, "key=value" `settings`, `seed`.
 
     A scenario's error becomes a row, a missing library a DependencyError.
     """
@@ -119,7 +119,7 @@ def criteria_of(row: Mapping[str, str]) -> list[str]:
 
 
 def run_task(task: Task) -> Row:
-    """Run a task on a worker; a defect in one run becomes its row.
+    """Run a task on a worker; a defect becomes its row.
 
     Raises:
         ImportError: If no run is possible here.

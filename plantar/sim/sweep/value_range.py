@@ -17,7 +17,7 @@ _CLOSING = {"[": "]", "{": "}"}
 
 
 def split_values(text: str) -> list[str]:
-    """The TOML values and bare words of a list, split at commas outside brackets and quotes.
+    """TOML values and bare words of a list, split at outer commas.
 
     Raises:
         InputError: If malformed.
@@ -60,7 +60,7 @@ def is_word(key: str) -> bool:
 
 
 def canonical(text: str, *, word: bool = False) -> str:
-    """Returns the one text for all TOML values or bare words `text` with the same meaning; a `word` only loses quotes.
+    """Returns the one text for TOML values or bare words `text` of one meaning; a `word` only loses quotes.
 
     Raises:
         InputError: If malformed or not printable.
@@ -137,7 +137,7 @@ class ValueRange:
 
     @classmethod
     def from_text(cls, text: str, option: str) -> ValueRange:
-        """Returns the range of `text` "key=from:to" of a command's `option`; both ends may be shares of one unit.
+        """Returns the range of `text` "key=from:to" of `option`; both ends may be shares of one unit.
 
         Raises:
             InputError: If malformed or empty.

@@ -32,7 +32,7 @@ class Workers(Protocol):
         """Begin a task."""
 
     def finished(self, timeout: float) -> Sequence[tuple[Task, Row]]:
-        """Wait until a task ends, or for a time in s; return ended tasks with their rows.
+        """Wait for a task's end, or a time in s; return ended tasks with rows.
 
         Raises:
             WorkerError: If the workers cannot go on.
@@ -43,7 +43,7 @@ class Workers(Protocol):
 
 
 class LocalWorkers:
-    """At most `count` processes that `run` tasks by an importable function; replaced when they die."""
+    """At most `count` processes that `run` tasks by an importable function; replaced if dead."""
 
     def __init__(self, count: int, run: Callable[[Task], Row] = run_task) -> None:
         self._count = count
@@ -178,7 +178,6 @@ def _answer(run: Callable[[Task], Row], task: Task) -> tuple[str, Row | PlantarE
 
 
 def _end_with_parent() -> None:
-    """End this worker when the sweep is killed."""
     parent = parent_process()
     if parent is not None:
 

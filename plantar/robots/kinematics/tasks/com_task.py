@@ -13,7 +13,7 @@ __all__ = ["ComTask"]
 
 
 class ComTask(Task):
-    """A body and its descendants have their CoM at a point of the world.
+    """A body and its descendants: CoM at a world point.
 
     Attributes:
         target: Point (3,) in m, copied where it is set.

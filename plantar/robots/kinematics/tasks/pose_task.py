@@ -38,7 +38,7 @@ class PoseTask(Task):
             out[3:] = rotation_error(self.rotation, self._rotation)
 
     def jacobian(self, out: NDArray[np.float64]) -> None:
-        """Velocity and angular velocity of the site (6, nv) in the world frame."""
+        """Velocity and angular velocity of the site (6, nv), world frame."""
         mujoco.mj_jacSite(self._model, self._data, out[:3], out[3:], self._site)
 
     def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
@@ -89,7 +89,7 @@ class OrientationTask(Task):
 
 
 class RollingPoseTask(PoseTask):
-    """A pose of a site, with any roll about its own x axis.
+    """A site's pose with any roll about its x axis.
 
     See `PoseTask` for attributes and arguments.
     """
@@ -101,12 +101,12 @@ class RollingPoseTask(PoseTask):
         self._turns = np.zeros((3, model.nv))
 
     def error(self, out: NDArray[np.float64]) -> None:
-        """Missing way (3,) in m, world frame, and turn (2,) about the site's y and z axes."""
+        """Missing way (3,) in m, world frame, and turn (2,) about the site's y, z."""
         np.subtract(self.position, self._position, out=out[:3])
         out[3:] = (self._rotation.T @ rotation_error(self.rotation, self._rotation))[1:]
 
     def jacobian(self, out: NDArray[np.float64]) -> None:
-        """Velocity of the site (3, nv), world frame, and turn rate (2, nv) about its y and z axes."""
+        """Site velocity (3, nv), world frame, and turn rate (2, nv) about its y, z."""
         mujoco.mj_jacSite(self._model, self._data, out[:3], self._turns, self._site)
         out[3:] = self._rotation.T[1:] @ self._turns
 

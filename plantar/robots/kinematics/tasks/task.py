@@ -14,7 +14,7 @@ __all__ = ["Target", "Task", "chain"]
 
 
 class Target:
-    """A task's target array at one fixed place for kernels, of the shape first set."""
+    """A target array at a fixed place for kernels, of the first set shape."""
 
     def __set_name__(self, owner: type[Task], name: str) -> None:
         self._name = name
@@ -31,7 +31,7 @@ class Target:
 
 
 class Task(ABC):
-    """Something that a configuration should fulfil, bound to a model and its data.
+    """A wish for a configuration, bound to a model and its data.
 
     The error is the missing displacement: a small step dq with J dq = error removes it. Both are read after
     `mj_kinematics` and `mj_comPos`.
@@ -52,7 +52,7 @@ class Task(ABC):
 
     @abstractmethod
     def jacobian(self, out: NDArray[np.float64]) -> None:
-        """Write the Jacobian (rows, nv), contiguous, in m and rad over the model's velocities."""
+        """Write the Jacobian (rows, nv), contiguous, in m and rad."""
 
     def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
         """A kernel that writes both at once, or None.
@@ -68,7 +68,7 @@ class Task(ABC):
 
 
 def chain(model: mujoco.MjModel, body: int) -> NDArray[np.intp]:
-    """Returns indices (c,) of a model's velocities that move a body, from it to the root."""
+    """Returns indices (c,) of a model's velocities that move a body, upwards to the root."""
     while body and not model.body_dofnum[body]:  # fixed to its parent
         body = int(model.body_parentid[body])
     moving: list[int] = []

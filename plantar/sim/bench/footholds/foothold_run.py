@@ -65,7 +65,7 @@ TRIALS = tuple(_trials())
 
 
 def scene_of_trial(trial: Trial, robot: str) -> Scene:
-    """Returns the scene of a `trial` for a `robot`; sole readings arrive one period late."""
+    """Returns the scene of a `trial` for a `robot`; soles read one period late."""
     name = f"{trial.kind}-{trial.value:g}"
     source = {"name": name, "sensing": {"delay_periods": 1}, **trial.tables}
     return scene_of(source, Path(f"{name}.toml"), (), robot)

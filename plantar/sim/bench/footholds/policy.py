@@ -24,7 +24,7 @@ __all__ = ["Action", "OwnController", "Policy", "WalkTask", "load_policy"]
 
 @dataclass(frozen=True)
 class WalkTask:
-    """What a policy knows of a trial: the walk as planned on level ground.
+    """What a policy knows of a trial: the walk on level ground.
 
     Attributes:
         robot: Name or file.

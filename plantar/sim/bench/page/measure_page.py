@@ -28,7 +28,7 @@ _SEED = 1000  # a fresh one: nothing was ever tuned on it
 
 @dataclass(frozen=True)
 class Experiment:
-    """A run of a scene, and a paper's figures of the same on a real robot.
+    """A scene's run, and a paper's figures of it on a real robot.
 
     Attributes:
         settings: Changes of the scene.
@@ -94,7 +94,7 @@ EXPERIMENTS: tuple[Experiment, ...] = (
 def measure_papers(
     progress: Callable[[float, str], None], experiments: Sequence[Experiment] = EXPERIMENTS, quick: bool = False
 ) -> dict[str, Any]:
-    """Run the `experiments`, without the long ones if `quick`; `progress` gets the fraction done and a text.
+    """Run the `experiments`, without long ones if `quick`; `progress` gets fraction done and text.
 
     Returns:
         "experiments": each with the paper's figures and source, ours by the same names, and whether each robot fell;

@@ -106,7 +106,7 @@ def _layouts(robot: Robot, ratio: float) -> dict[Side, SoleLayout]:
 
 @dataclass(frozen=True)
 class Trace:
-    """True motion and forces of a run, in k means over 10 ms each.
+    """True motion and forces of a run, in k means over 10 ms.
 
     Attributes:
         com: Centre of mass (k, 3) in m.
@@ -205,7 +205,7 @@ class TraceError(NamedTuple):
 
 
 def trace_error(trace: Trace, reference: Trace) -> TraceError:
-    """Returns how a run's `trace` differs from its noiseless `reference` of the same seed.
+    """Returns a run's `trace` against its noiseless `reference` of the same seed.
 
     Tiny differences may change a footstep, so they count until the centers of mass are `PARTED` of the leg apart.
 

@@ -20,7 +20,7 @@ Runs = Sequence[dict[str, str]]
 
 @dataclass(frozen=True)
 class SceneRow:
-    """A setting of a scene next to its reference. Medians; NaN if not measured.
+    """A scene's setting next to its reference. Medians; NaN if not measured.
 
     Attributes:
         walk: Settings of the scene in all runs.
@@ -67,7 +67,7 @@ class SceneRow:
 
 
 def scene_rows(runs: Runs) -> list[SceneRow]:
-    """A row for each scene, robot, setting and reference with a noiseless run."""
+    """A row for each scene, robot, setting and reference."""
     cases = list(dict.fromkeys((r["scene"], r["robot"], r["walk"]) for r in runs))
     order = {setting.name: number for number, setting in enumerate(SETTINGS)}
     rows = []
@@ -130,7 +130,7 @@ _WORTH = 0.95  # of the time: a setting that saves less than a twentieth is no r
 
 
 class KnobVerdict(NamedTuple):
-    """Whether the scene's own value of a knob `stays`, and the `reason` in words."""
+    """Whether the scene's knob value `stays`, and the `reason`."""
 
     scene: str
     robot: str
@@ -140,7 +140,7 @@ class KnobVerdict(NamedTuple):
 
 
 def knob_verdicts(rows: Sequence[SceneRow]) -> list[KnobVerdict]:
-    """A verdict for each knob of each scene and robot that has a row of noise.
+    """A verdict for each knob with a row of noise.
 
     A value is good enough where it walks within noise of its reference. The scene's own is kept where good enough and
     no such value saves a twentieth of the time; knobs of the machine always.

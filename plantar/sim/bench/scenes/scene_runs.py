@@ -27,7 +27,7 @@ with noise next to itself without), or "seeded" (with noise, for the statistics)
 
 
 class SceneCase(NamedTuple):
-    """A walk that is run in many ways, with the settings `walk` in all runs."""
+    """A walk run in many ways, with settings `walk` in all."""
 
     scene: str
     robot: str
@@ -58,7 +58,7 @@ class SceneRuns:
         traced: int,
         progress: Callable[[float, str], None],
     ) -> None:
-        """Run what is missing, settings in turn, so that a busy minute falls on all.
+        """Run what is missing, settings in turn against busy minutes.
 
         Args:
             cases: The walks.
@@ -153,7 +153,6 @@ def _of_seed(settings: Sequence[SceneSetting], first: bool) -> list[SceneSetting
 
 
 def _costs(run: ChangedRun) -> dict[str, Any]:
-    """CPU time of a run, without building and keeping, and its end."""
     start = time.process_time()
     summary = run.run()
     used = time.process_time() - start - (run.keeping_s if isinstance(run, TracedRun) else 0.0)

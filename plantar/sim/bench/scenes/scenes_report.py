@@ -61,7 +61,7 @@ def measure_scenes(
 
 
 def write_scenes(folder: Path, runs: Sequence[dict[str, str]]) -> dict[str, Any]:
-    """Write the results of `runs` (rows of `SceneRuns`, one at least) into `folder`; returns as `measure_scenes`."""
+    """Write `runs` (one row of `SceneRuns` or more) into `folder`; returns as `measure_scenes`."""
     rows = scene_rows(runs)
     verdicts = knob_verdicts(rows)
     write_rows(folder / "scenes.csv", [row.as_dict() for row in rows])
@@ -131,7 +131,7 @@ def _page(verdicts: Sequence[KnobVerdict]) -> str:
 
 
 def pareto(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Points (cost, error) for which none is cheaper and better, the cheapest first.
+    """Points (cost, error) that none beats in both, the cheapest first.
 
     Example:
         >>> pareto([(2.0, 1.0), (1.0, 3.0), (3.0, 2.0)])

@@ -36,7 +36,7 @@ class FaultRun(Record, frozen=True):
 
 def run_with_fault(robot: str, walking: bool, fault: str, *, shell: bool = True) -> FaultRun:
     """Returns the outcome of a `fault` of `faults.FAULTS` on a `robot` ("h1" or "hrp2kai"), `walking` or standing, with
-    or without the safety `shell`.
+    safety `shell` or not.
     """
     settings = ["steps=6", "settle=0.5"] if walking else ["steps=1", "settle=4"]
     parts, change = Simulation(load_scene("flat", settings, robot)), FAULTS[fault]()

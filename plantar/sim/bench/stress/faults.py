@@ -223,7 +223,7 @@ WALKED_THROUGH = (
 
 @dataclass(frozen=True)
 class Faults:
-    """Faults of a run's sensors; by default none. At the first tick encoders and IMU are there.
+    """Sensor faults, by default none; never of encoders and IMU at the first tick.
 
     Attributes:
         dropped: Share of ticks at which a sole's packet is lost, and the last stays.
@@ -267,7 +267,7 @@ _SHARES = ("dropped", "stuck", "silent", "missing", "saturated")
 
 
 class FaultySensors:
-    """Applies faults to sensors; `limit` in N saturates a taxel, `seed` draws the rest."""
+    """Applies faults; `limit` in N saturates a taxel, `seed` draws."""
 
     def __init__(self, faults: Faults, limit: Mapping[Side, float], seed: int) -> None:
         self.faults = faults

@@ -41,7 +41,7 @@ class CommandCheck:
         self._last: list[NDArray[np.float64]] | None = None
 
     def fault(self, command: Command, joints: NDArray[np.float64]) -> str | None:
-        """Returns what is wrong with a `command` and its `joints` (k,) in rad, in words, or None."""
+        """Returns what is wrong with a `command` and its `joints` (k,) in rad, or None."""
         feet = [command.feet[side] for side in SIDES]
         every = {
             "CoM": command.com,
@@ -137,7 +137,7 @@ class _StressedRun(Simulation):
 
 
 def run_scenario(scenario: Scenario, longest: float = LONGEST) -> Outcome:
-    """Returns what came of a `scenario`, cut off after the `longest` simulated time in s; failures are outcomes."""
+    """Returns what came of a `scenario`, cut off after `longest` simulated s; failures are outcomes."""
     with warnings.catch_warnings():
         warnings.simplefilter("error", RuntimeWarning)
         try:

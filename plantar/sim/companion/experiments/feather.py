@@ -60,7 +60,7 @@ class FeatherControl(StandingControl):
 
 
 class Feather(StandingExperiment):
-    """Two visitors of one hand, each towards a random taxel of palm or back, in T 3.3.1.1's order."""
+    """Two visitors of a hand, each towards a random taxel of palm or back."""
 
     settings_type: ClassVar = FeatherSettings
     control_type: ClassVar = FeatherControl

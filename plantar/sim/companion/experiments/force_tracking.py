@@ -106,7 +106,7 @@ def _check_pair(name: str, value: Any, empty: bool = True) -> None:
 
 
 class ForceTracking(Experiment):
-    """A hand on an object: one of the four experiments, by the scene's settings."""
+    """A hand on an object: one of four experiments, by settings."""
 
     settings_type = ForceTrackingSettings
     control_type = HandControl
@@ -138,7 +138,7 @@ class ForceTracking(Experiment):
         self._places: dict[str, NDArray[np.float64]] = {}
 
     def _pushes(self) -> list[Push]:
-        """Touches in pairs that cancel, from opposite sides."""
+        """Touches in pairs that cancel."""
         found: list[Push] = []
         for begin, end in self.settings.touch:
             time = begin

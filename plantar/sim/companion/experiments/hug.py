@@ -13,7 +13,7 @@ _HANDS = ("hand palm", "hand back")
 
 
 class Hug(PressedExperiment):
-    """Pads press on ten instances in turn, then on torso, hips and arms together."""
+    """Pads press on ten instances, then on torso, hips and arms together."""
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
         super().__init__(machine, settings, control, seed)

@@ -61,7 +61,7 @@ class ReachSettings(Settings):
 
 
 class IntentionalContactExperiment(Experiment):
-    """A layout drawn by the seed; done once the tip stays at the goal for half a second."""
+    """A layout drawn by the seed; done after half a second at the goal."""
 
     settings_type = ReachSettings
     control_type = ReachControl
@@ -111,7 +111,7 @@ class IntentionalContactExperiment(Experiment):
         return self._hand
 
     def act(self, world: World, time: float) -> None:
-        """Note the force of parts without skin on the posts in the `world` at `time` in s."""
+        """Note forces of parts without skin on posts in the `world` at `time` in s."""
         posts = list(self._posts.values())
         found = feet_contacts(world.model, world.data, [{geom} for geom in posts])
         for name, contacts in zip(self._posts, found, strict=True):

@@ -82,7 +82,7 @@ class _Probe:
 
 
 class Nociception(StandingExperiment):
-    """Two probes, in an order of the seed, press harder and harder on the right hand's back until it gives way."""
+    """Two probes, in random order, press ever harder on the right hand's back."""
 
     settings_type: ClassVar = NociceptionSettings
     control_type: ClassVar = NociceptionControl

@@ -85,7 +85,7 @@ class _Push:
 
 
 class Pressure(StandingExperiment):
-    """Two probes in random order and place, with T 3.2.5.1's order of tasks.
+    """Two probes in random order and place; tasks as in T 3.2.5.1.
 
     The balance holds the base: the torso moves about the waist alone.
     """

@@ -69,7 +69,7 @@ class StoveControl(StandingControl):
 
 
 class Stove(StandingExperiment):
-    """The right palm circles over the plate at random height, radius and side."""
+    """The right palm circles over the plate at random height and radius."""
 
     settings_type: ClassVar = StoveSettings
     control_type: ClassVar = StoveControl

@@ -28,7 +28,7 @@ _RAMP = 0.4  # s in which a push comes and goes
 
 
 def come_and_go(time: float, start: float, end: float, ramp: float) -> float:
-    """Returns a share, 0 to 1, at `time` that grows from `start` and is 0 again at `end`, each within `ramp`, in s, by
+    """Returns a share, 0 to 1, at `time` that rises from `start` and is 0 at `end`, over `ramp` each, in s:
     minimum-jerk blends.
 
     Example:
@@ -79,7 +79,7 @@ class Fist:
         shape.contype = shape.conaffinity = 0  # it pushes skin alone
 
     def act(self, world: World, time: float, measured: float) -> None:
-        """Move in the `world` for a physics step at `time` in s, by its `measured` force in N."""
+        """Move in the `world` at `time` in s, by its `measured` force in N."""
         push = next((p for p in self.pushes if p.start <= time < p.end), None)
         place = world.model.body("fist").mocapid[0]
         if push is None:
@@ -118,14 +118,14 @@ class Visit:
     speed: float
 
     def place(self, time: float) -> NDArray[np.float64]:
-        """Place (2,) in m of the person at a time in s, in that frame."""
+        """Place (2,) in m of the person at a time in s."""
         way = float(np.linalg.norm(self.goal - self.far)) / self.speed
         near = come_and_go(time, self.start, self.end, way)
         return self.far + near * (self.goal - self.far)
 
 
 class Visitor:
-    """A person who walks up to the base and leaves: an upright cylinder."""
+    """A person who visits the base: an upright cylinder."""
 
     def __init__(self, visits: list[Visit]) -> None:
         self.visits = visits

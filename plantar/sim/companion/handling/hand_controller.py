@@ -91,7 +91,7 @@ class HandControl(CompanionControl):
 
 
 class HandController:
-    """Controls distance or force of the hand, turns it to the surface, and lets it be guided or keeps its place.
+    """Controls distance or force of the hand, its orientation, and its guidance or place.
 
     Args:
         machine: A mobile base, patches "hand" on the hand's link and others on the arm.
@@ -167,9 +167,7 @@ class HandController:
         self._keep_clear.obstacles = points
 
     def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
-        """Returns each joint's torque (k,) in N m or N for the next period, by the measured `robot` and its skin's
-        `reading`.
-        """
+        """Returns joint torques (k,) in N m or N, by the measured `robot` and skin `reading`."""
         self.force.weight = self.wrist.weight = self.phases.weight(robot.time)
         self.force.target_force = self.wanted_force
         s = self.settings
@@ -178,7 +176,7 @@ class HandController:
         return self._change.blend(torque, robot.time)
 
     def _known(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64] | None:
-        """Generalized force (n,) of the hand's wanted force and the arm's skin."""
+        """Generalized force (n,) of wanted force and arm skin."""
         if not self._feeds_forward:
             return None
         step = self.settings.period / _TAKEN_OVER

@@ -38,7 +38,7 @@ class Post:
     friction: float = 0.0
 
     def add_to(self, spec: Any, height: float, half: float) -> None:
-        """Add it to a `mujoco.MjSpec` `spec`, its middle at a `height`, with half height `half`, in m."""
+        """Add it to a `mujoco.MjSpec` `spec`, middle at `height`, half height `half`, in m."""
         body = spec.worldbody.add_body(name=self.name, pos=[*self.place, height])
         size = [self.radius, half, 0.0]
         shape = body.add_geom(name=self.name, type=mujoco.mjtGeom.mjGEOM_CYLINDER, size=size)
@@ -68,7 +68,7 @@ def random_layout(
     reach: tuple[tuple[float, float], tuple[float, float]],
     friction: tuple[float, float],
 ) -> Layout:
-    """A layout whose fixed posts leave room for the tip along the straight way.
+    """A layout whose fixed posts leave the straight way free.
 
     Three posts in a bow, too close for the tip, are a pocket in which a potential field has its minimum. An outer one
     is fixed in the second kind.

@@ -121,9 +121,7 @@ class ReachController:
         self._stack = TaskStack([], fusion=weighted_sum if s.policy == "fields" else within)
 
     def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
-        """Returns torques or forces (k,) for the next period, gravity included, by the measured `robot` and its skin's
-        `reading`.
-        """
+        """Returns torques or forces (k,), gravity included, by the measured `robot` and skin `reading`."""
         self.signs = self._look(robot, reading)
         if self.settings.policy == "intentional" and self.policy.update(self.signs, robot.time):
             self._blend.begin(robot.time)

@@ -22,7 +22,7 @@ _POSES = 6  # of the arm that are drawn
 
 
 class ReachRecord:
-    """Notes of a run of a `machine`, with a tolerable force `limit` in N."""
+    """Notes of a `machine`'s run, with tolerable force `limit` in N."""
 
     def __init__(self, machine: Machine, layout: Layout, limit: float) -> None:
         self._layout, self._limit = layout, limit
@@ -33,7 +33,7 @@ class ReachRecord:
         self._posts: list[NDArray[np.float64]] = []
 
     def add(self, world: World, time: float, tip: NDArray[np.float64], force: float, hand: ReachController) -> None:
-        """Note the true `world` at `time` in s, the `tip` (3,) in m, the true `force` in N and the controller `hand`."""
+        """Note `world` at `time` in s, `tip` (3,) in m, true `force` in N and controller `hand`."""
         signs = hand.signs
         share = hand.policy.range_share
         self._rows.append((time, force, signs.contact, signs.near, min(signs.speed, 1.0), share))
@@ -46,9 +46,7 @@ class ReachRecord:
         return [name for name, _ in groupby(self._arrangements)]
 
     def plot(self, path: Path, title: str) -> Path:
-        """Draw T Figures 24-25 at `path` with a `title`: the way from above, force, nearness, speed and arrangement.
-        Returns the path.
-        """
+        """Draw T Figures 24-25 at `path` with a `title`. Returns the path."""
         figure, axes = new_figure(12.0, 6.5, 4, 2, squeeze=False, gridspec_kw={"width_ratios": [1.2, 1.0]})
         for axis in axes[:, 0]:
             axis.remove()

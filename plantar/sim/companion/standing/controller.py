@@ -89,9 +89,7 @@ class StandingController:
         self._weight = GRAVITY * float(stance.model.body_subtreemass[0])
 
     def step(self, robot: Any, reading: SkinReading) -> NDArray[np.float64]:
-        """Returns the torque (k,) in N m for the next period, by the measured `robot`, whose base is put on the feet,
-        and the skin's `reading`.
-        """
+        """Returns torques (k,) in N m, by the measured `robot`, whose base is put on the feet, and the skin `reading`."""
         began = perf_counter()
         self.stance.locate(robot)
         external = None
@@ -110,7 +108,7 @@ class StandingController:
         return self.torque
 
     def _filtered(self, reading: SkinReading) -> SkinReading:
-        """The reading with low-passed forces, against beating with the skin's stiffness."""
+        """The reading with low-passed forces, against beating."""
         force = reading.force
         if np.isnan(force.sum()):
             force = np.nan_to_num(force)

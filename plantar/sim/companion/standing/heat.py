@@ -44,7 +44,7 @@ class PlateSettings(Settings):
 
 
 class HotPlate:
-    """A level round plate, upper face about `middle` (3,) in m, that warms taxels.
+    """A level round plate, upper face about `middle` (3,) in m.
 
     Attributes:
         temperature: Of the taxels (count,) in degC.
@@ -60,7 +60,7 @@ class HotPlate:
         self._areas = r * (settings.radius / _RINGS) * (2.0 * math.pi / _SECTORS)
 
     def view_factors(self, points: NDArray[np.float64], outward: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Returns the plate's share (n,) of the view of taxels at `points` (n, 3) in m with normals `outward` (n, 3)."""
+        """Returns the plate's view share (n,) for taxels at `points` (n, 3) in m with normals `outward` (n, 3)."""
         to = self._spots - points[:, None]
         square = np.maximum(np.einsum("nsi,nsi->ns", to, to), 1e-8)
         at_taxel = np.maximum(np.einsum("nsi,ni->ns", to, outward), 0.0)
@@ -68,8 +68,8 @@ class HotPlate:
         return np.asarray(np.minimum((at_taxel * at_plate / (math.pi * square**2)) @ self._areas, 1.0))
 
     def step(self, points: NDArray[np.float64], outward: NDArray[np.float64], period: float) -> NDArray[np.float64]:
-        """Warm taxels at `points` (n, 3) in m with normals `outward` (n, 3) for a `period` in s, short against C / h.
-        Returns temperatures (n,) in degC.
+        """Warm taxels at `points` (n, 3) in m with normals `outward` (n, 3) for `period` in s, short against C / h.
+        Returns degC (n,).
         """
         s = self.settings
         hot, own = s.temperature + _KELVIN, self.temperature + _KELVIN

@@ -59,7 +59,7 @@ class LeanControl(StandingControl):
 
 
 class Aim:
-    """Integrates the error of a soft task: 20 N of deviation move it by a centimetre.
+    """Integrates a soft task's error: 20 N move it by a centimetre.
 
     Args:
         axes: Factor (3,) of each axis; 0 for none.
@@ -73,16 +73,14 @@ class Aim:
         self.ahead = np.zeros(3)
 
     def at(self, target: NDArray[np.float64], reached: NDArray[np.float64], period: float) -> NDArray[np.float64]:
-        """Returns the aim (3,) in m for a `target` (3,) of which `reached` (3,) is reached, a `period` in s after the
-        last.
-        """
+        """Returns the aim (3,) in m for `target` (3,) and `reached` (3,), a `period` in s after the last."""
         self.ahead += period / _CATCHING_UP * (target - reached) * self._axes
         self.ahead *= min(1.0, _MOST_AHEAD / max(float(np.linalg.norm(self.ahead)), _MOST_AHEAD))
         return target + self.ahead
 
 
 class LeanController:
-    """Settle, bring the forearm over the table, lower it until it touches, lean, reach.
+    """Settle, lower the forearm onto the table, lean, reach.
 
     Feet and forearm share the load within their friction cones; the forearm presses with its share as its skin measures
     it. Without skin it is held at the table's expected place. Of the `experiment` only stance and first posture are
@@ -125,7 +123,7 @@ class LeanController:
         self._paths: dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]] = {}
 
     def step(self, robot: Any, reading: SkinReading) -> NDArray[np.float64]:
-        """Returns torques (k,) for the next period in N m, by the measured `robot` and its skin's `reading`."""
+        """Returns torques (k,) in N m, by the measured `robot` and skin `reading`."""
         self.stance.locate(robot)
         self._see_ground(reading)
         measured = float(np.nan_to_num(reading.force[self.skin.slices[PATCH]]).sum())
@@ -213,7 +211,7 @@ class LeanController:
         return places / total
 
     def _see_ground(self, reading: SkinReading) -> None:
-        """Find the supported part of each sole, and limit its load to it."""
+        """Find each sole's supported part, and limit its load."""
         for link, middle in self.stance.feet.items():
             own = self.skin.slices[f"{link}_sole"]
             places = self.skin.positions[own][reading.distance[own] < _NEAR] - middle

@@ -68,7 +68,7 @@ class Pad:
         )
 
     def act(self, world: Any, force: float, period: float) -> None:
-        """Move it in the `world`, once a physics step, by its `force` in N and the `period` in s since the last call."""
+        """Move it in the `world`, each physics step, by its `force` in N and `period` in s."""
         if self.wanted > 0.0:
             rate = np.clip((force - self.wanted) * _SETTLE / self._stiffness, -_APPROACH, _APPROACH)
             rate = rate if force > 0.0 else -min(_SEARCH, _SOFTLY * self.wanted / self._stiffness)
@@ -92,14 +92,12 @@ class Pad:
         mujoco.mju_mat2Quat(world.data.mocap_quat[number], np.ascontiguousarray(turned @ self._turn).ravel())
 
     def touching(self, world: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Target (3,) of its face in the world in m, and direction (3,) into the link."""
+        """Target (3,) of its face in the world in m, direction (3,) inwards."""
         origin, rotation = world.pose(self.patch.link)
         return origin + rotation @ self.middle, rotation @ self.inward
 
     def force(self, on_obstacles: dict[str, NDArray[np.float64]], rotation: NDArray[np.float64]) -> float:
-        """Returns the force in N along its axis, from the skin's wrenches `on_obstacles` and the link's `rotation` (3,
-        3).
-        """
+        """Returns the axial force in N, from the skin's wrenches `on_obstacles` and the link's `rotation` (3, 3)."""
         return float(-on_obstacles[self.name][:3] @ (rotation @ self.inward))
 
 
@@ -131,7 +129,7 @@ class PlannedContact:
     _first: tuple[NDArray[np.float64], NDArray[np.float64]] | None = field(default=None, repr=False)
 
     def act(self, time: float, measured: float) -> None:
-        """Set the pad's wanted force at `time` in s, which grows from first touch, by the `measured` one."""
+        """Set the pad's wanted force at `time` in s by the `measured` one."""
         left = self.begin + self.hold - time
         if time <= self.begin or left <= 0.0:
             self.pad.wanted = 0.0
@@ -142,7 +140,7 @@ class PlannedContact:
         self.pad.wanted = self.force * min(1.0, grown, left / max(0.6, self.swell))
 
     def judge(self, world: Any, force: float) -> None:
-        """Note the link's yield in the `world` under the pad's true `force` in N."""
+        """Note the link's yield in the `world` under `force` in N."""
         if force <= 0.0:
             return
         self.measured = max(self.measured, force)
@@ -163,7 +161,7 @@ class PlannedContact:
 
 
 def outer_taxel(robot: MujocoDynamics, patch: SkinPatch, trunk: str, rng: np.random.Generator) -> int:
-    """Returns a random taxel, of `rng`, in the middle of a `patch` that faces away from the `trunk` of a `robot`."""
+    """Returns a random taxel, of `rng`, amid a `patch` facing away from the `trunk` of a `robot`."""
     origin, rotation = robot.pose(patch.link)
     places = patch.positions @ rotation.T + origin
     outward = -(patch.rotations[:, :, 2] @ rotation.T)

@@ -110,7 +110,7 @@ class PressedExperiment(StandingExperiment):
         return "torso" if name in UPPER_BODY else self.machine.base.link
 
     def press_together(self, names: Sequence[str]) -> None:
-        """Plan common contacts after the single ones, those on the trunk from front or back.
+        """Plan common contacts after single ones, trunk ones from front or back.
 
         They grow slowly beyond the moment that feet alone balance: the robot has to lean.
         """

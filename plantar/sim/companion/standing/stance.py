@@ -22,7 +22,7 @@ SOLE_SITE = "{side}_sole"
 
 
 def add_floor(spec: Any) -> None:
-    """Add a level ground z = 0 for soles, which skin does not measure."""
+    """Add a ground z = 0 for soles, which skin does not measure."""
     plane = mujoco.mjtGeom.mjGEOM_PLANE
     floor = spec.worldbody.add_geom(name="floor", type=plane, size=[5.0, 5.0, 0.1], material="ground")
     floor.contype, floor.conaffinity = 2, 1
@@ -63,7 +63,7 @@ class Stance:
         return Support({link: Standing(link, point) for link, point in self.feet.items()})
 
     def locate(self, robot: MujocoDynamics) -> None:
-        """Set base position and linear velocity of a measured `robot` so that the feet rest."""
+        """Set a measured `robot`'s base position and velocity so that the feet rest."""
         qpos, qvel = robot.data.qpos.copy(), robot.data.qvel.copy()
         off, slip = np.zeros(3), np.zeros(3)
         for link, point in self.feet.items():
@@ -121,7 +121,7 @@ class Stance:
 
 
 def sole_point(model: Any, side: str) -> tuple[str, NDArray[np.float64]]:
-    """Returns the foot link of a `side` of the MjModel `model`, and its sole's middle (3,), link frame, in m.
+    """Returns the foot link of a `side` of `model`, and its sole's middle (3,), link frame, in m.
 
     Raises:
         RobotError: If the foot is missing.

@@ -80,7 +80,7 @@ class StandingExperiment(Experiment):
         self._forces: dict[str, float] = {}
 
     def _first_posture(self) -> NDArray[np.float64]:
-        """Positions (nq,) with feet on the ground and the centre of mass over them."""
+        """Positions (nq,), centre of mass over the feet."""
         robot, model = self.robot, self.robot.model
         qpos = model.qpos0.copy()
         qpos[7:] = self.machine.posture
@@ -110,7 +110,7 @@ class StandingExperiment(Experiment):
         world.data.qpos[world.positions] = self.first
 
     def balance_tasks(self, axes: Sequence[int] = (0, 1, 2)) -> list[Task]:
-        """Keep the `axes` of the centre of mass in place and the base upright."""
+        """Keep the centre of mass's `axes` in place and the base upright."""
         stiff = self.control.balance
         gains = PoseGains(turn_stiffness=stiff, turn_damping=2.0 * math.sqrt(stiff))
         upright = CartesianPose(self.machine.base.link, gains=gains, rows="orientation")
@@ -125,15 +125,15 @@ class StandingExperiment(Experiment):
         return CartesianPose(self.machine.base.link, gains=PoseGains(stiff, damp, stiff, damp))
 
     def posture_task(self, share: float = 1.0, stiffness: float = 1.0) -> Posture:
-        """Returns springs and dampers towards the first posture, by each motor's torque: a `share` of the settings',
-        and a further share of the `stiffness`.
+        """Returns springs and dampers towards the first posture, by motor torque: a `share` of the settings', further
+        of the `stiffness`.
         """
         strength = share * self.machine.efforts / 75.0
         stiff, damp = self.control.posture * stiffness * strength, self.control.posture_damping * strength
         return Posture(self.first[7:], stiff, damp, torques=True)
 
     def joint_range_task(self) -> JointRange:
-        """Keeps joints 5 degrees off their range's ends, with half their effort at the end."""
+        """Keeps joints 5 degrees off their ends, half their effort there."""
         low, high = self.machine.ranges(self.robot.model)
         stiff = 0.5 * self.machine.efforts / _MARGIN
         return JointRange(low, high, _MARGIN, stiff, 0.1 * stiff)
@@ -188,9 +188,7 @@ class StandingExperiment(Experiment):
             pad.act(world, self.pressing(pad), world.model.opt.timestep)
 
     def _cop_margin(self, world: World) -> float:
-        """Distance in m of the true centre of pressure, over 20 ms, to the edge of the rectangle about both soles,
-        negative outside.
-        """
+        """Distance in m of the true centre of pressure, over 20 ms, to the soles' rectangle's edge, negative outside."""
         model, data = world.model, world.data
         floor = model.geom("floor").id
         pressed = foot_contacts(model, data, {floor})
@@ -225,6 +223,6 @@ class StandingExperiment(Experiment):
 
 
 def by_active(took: Sequence[float], active: Sequence[int]) -> dict[str, float]:
-    """Returns the median time in us of ticks, of `took`, by the number of `active` links."""
+    """Returns the median time in us of ticks `took` by number of `active` links."""
     counts, times = np.array(active), np.array(took[: len(active)])
     return {str(n): round(float(np.median(times[counts == n])), 1) for n in np.unique(counts).tolist()}
