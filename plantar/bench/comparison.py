@@ -36,7 +36,7 @@ def time_routes(
     Args:
         routes: Each route's name and function of a case.
         cases: Each route's cases, in the same order.
-        rounds: Rounds of the median.
+        rounds: Rounds of median.
         most: Time in s to spend on a route; a slow one gets fewer rounds, 2 or more.
 
     Returns:
@@ -104,9 +104,9 @@ class Result:
         ours: Whether of this package.
         approximate: Whether by nature.
         median_us: Median time of a call in microseconds.
-        spread: Interquartile range of the rounds over the median.
+        spread: Interquartile range of rounds over median.
         ratio: Its time over our first route's.
-        error: Largest relative error over the cases, or None.
+        error: Largest relative error over cases, or None.
     """
 
     kernel: str
@@ -143,7 +143,7 @@ def compare(
         size: Its size.
         routes: The routes, ours first.
         reference: Right results, or None.
-        rounds: Rounds of the median.
+        rounds: Rounds of median.
         most: Time in s to spend on a route.
 
     Returns:

@@ -53,8 +53,8 @@ def measure_kernels(folder: Path, progress: Callable[[float, str], None], rounds
 
     Args:
         folder: Existing folder.
-        progress: Called with the fraction done and a text.
-        rounds: Rounds of the medians.
+        progress: Called with fraction done and a text.
+        rounds: Rounds of medians.
 
     Returns:
         Results and targets as plain JSON values, and file names.

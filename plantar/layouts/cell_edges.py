@@ -133,7 +133,7 @@ def cells_overlap(tail: NDArray[np.float64], head: NDArray[np.float64], toleranc
     """Returns whether cells overlap, by their unshared edges.
 
     Args:
-        tail: Starts of the b lone edges (b, 2), the cell on their left, in m.
+        tail: Starts of b lone edges (b, 2), the cell on their left, in m.
         head: Their ends (b, 2).
         tolerance: Distance in m below which points are one.
     """

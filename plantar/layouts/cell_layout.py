@@ -38,13 +38,13 @@ def layout_of_cells(
     exact.
 
     Args:
-        cells: Corners (k, 2) of each cell in the sole frame in m, either orientation, not self-crossing.
-        name: Name of the sole.
+        cells: Corners (k, 2) of each cell in sole frame in m, either orientation, not self-crossing.
+        name: Name of sole.
         side: "left" or "right".
         outline: Outline (k, 2) in m; None for that of all cells, or their hull if not in one piece.
         ids: Id of each cell; None for 0, 1, ...
         cell_shape: One of `plantar.layouts.layout.CELL_SHAPES`.
-        positions: Taxel centers (n, 2) in m; None for the centroids.
+        positions: Taxel centers (n, 2) in m; None for centroids.
         rotations: Rotations (n, 3, 3) from each taxel's frame to the sole's; None for level.
 
     Returns:
@@ -104,7 +104,7 @@ def joined_layout(
 
     Args:
         parts: The layouts; their cells must not overlap.
-        name: Name of the sole; None for the first part's.
+        name: Name of sole; None for the first part's.
         outline: Outline (k, 2) in m, as in `layout_of_cells`.
 
     Returns:

@@ -52,7 +52,7 @@ class HexLattice:
     Attributes:
         area: Of one cell in m^2.
         origin: Center (2,) of cell (0, 0) in m.
-        angle: Rotation of the rows against x in rad.
+        angle: Rotation of rows against x in rad.
 
     Raises:
         InputError: If a value is not valid.
@@ -122,7 +122,7 @@ class HexLattice:
         """Axial coordinates (n, 2) of cells with center within a cell of a box, by row r, then q.
 
         Args:
-            lower: Lower corner (2,) of the box in m.
+            lower: Lower corner (2,) of box in m.
             upper: Upper corner (2,) in m.
 
         Returns:

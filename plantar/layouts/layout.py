@@ -62,11 +62,11 @@ class SoleLayout:
 
     Attributes:
         side: "left" or "right".
-        positions: Taxel centers (n, 3) in the sole frame in m.
+        positions: Taxel centers (n, 3) in sole frame in m.
         rotations: Rotations (n, 3, 3) from each taxel's frame to the sole's.
-        vertices: Corner points (v, 3) in the sole frame in m, shared between cells that meet.
+        vertices: Corner points (v, 3) in sole frame in m, shared between cells that meet.
         corners: Each taxel's corner indices in `vertices`, counter-clockwise from above.
-        neighbours: Indices of the taxels that share an edge with each.
+        neighbours: Indices of taxels that share an edge with each.
         areas: Cell areas (n,) in m^2.
         outline: Sole outline (k, 2) in m, counter-clockwise.
         ids: Taxel ids (n,), unique.

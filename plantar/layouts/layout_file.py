@@ -89,7 +89,7 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
 
     Args:
         source: The result of `layout_to_dict`.
-        where: Name of the source, for messages.
+        where: Name of source, for messages.
 
     Returns:
         The layout.

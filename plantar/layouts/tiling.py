@@ -38,12 +38,12 @@ def hex_layout(
     """Lay a hexagonal lattice over a sole; keep fitting cells.
 
     Args:
-        outline: Sole outline (k, 2) in m in the sole frame, either orientation, not self-crossing.
-        name: Name of the sole.
+        outline: Sole outline (k, 2) in m in sole frame, either orientation, not self-crossing.
+        name: Name of sole.
         side: "left" or "right".
         cell_area: Of a whole cell in m^2.
         origin: Center of cell (0, 0) in m.
-        angle: Rotation of the rows against x in rad.
+        angle: Rotation of rows against x in rad.
         clip: Cut cells that cross the outline; False keeps whole cells inside only.
         minimum_fraction: Least fraction inside of a cut cell, a thousandth to 1; the largest part of one counts.
         cells: Axial coordinates (m, 2) to use instead; kept whole, even across the outline.
@@ -96,11 +96,11 @@ def grid_layout(
 
     Args:
         outline: As in `hex_layout`.
-        name: Name of the sole.
+        name: Name of sole.
         side: "left" or "right".
         pitch: Cell size along rows and across them in m.
-        origin: A corner of the grid in m.
-        angle: Rotation of the rows against x in rad.
+        origin: A corner of grid in m.
+        angle: Rotation of rows against x in rad.
         clip: As in `hex_layout`.
         minimum_fraction: As in `hex_layout`.
 

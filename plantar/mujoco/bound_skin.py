@@ -34,10 +34,10 @@ class SkinReading(Reading):
     Attributes:
         force: (n,) along each taxel's axis in N.
         vectors: Force (n, 3) on each taxel in N.
-        wrench: Wrench (6,) of MuJoCo's contacts on the body about the sole origin in N and N m.
-        depth: Overlap (n,) of the geoms at each taxel in m, 0 elsewhere.
+        wrench: Wrench (6,) of MuJoCo's contacts on body about sole origin in N and N m.
+        depth: Overlap (n,) of geoms at each taxel in m, 0 elsewhere.
         carried: Whether the vectors have the whole wrench. Else its center of pressure is beyond the taxels, or the
-            contacts pull, and they add up to the load alone.
+            contacts pull, and they add up to load alone.
     """
 
     vectors: NDArray[np.float64]
@@ -61,7 +61,7 @@ class BoundSkin:
 
     Attributes:
         layout: The sole, n taxels.
-        body: Id of the body.
+        body: Id of body.
         geom_ids: Ids of geoms that can touch.
         position_in_body: Sole origin (3,) in the body's frame in m.
         rotation_to_body: Rotation (3, 3) from sole to body.
@@ -135,7 +135,7 @@ class BoundSkin:
         """Read the skin in many simulations.
 
         Args:
-            datas: MjData of the model, each after `mj_step` or `mj_forward`.
+            datas: MjData of model, each after `mj_step` or `mj_forward`.
             threads: Number of threads.
 
         Returns:

@@ -43,13 +43,13 @@ class Skin:
 
     Args:
         layout: Layout, or path of its file; None fits hexagons to the body's shapes.
-        body: Name of the body, for example "left_ankle_roll_link".
-        geoms: Names of geoms that can touch; None for all colliding ones of the body and parts fixed to it.
-        site: Site that is the sole frame; checked against the shapes.
-        outward: Direction (3,) of the sole, body frame; None for down in the reference pose.
-        forward: Forward direction (3,), body frame; None for the world's x in the reference pose.
+        body: Name of body, for example "left_ankle_roll_link".
+        geoms: Names of geoms that can touch; None for all colliding ones of body and parts fixed to it.
+        site: Site that is the sole frame; checked against shapes.
+        outward: Direction (3,) of sole, body frame; None for down in reference pose.
+        forward: Forward direction (3,), body frame; None for the world's x in reference pose.
         cell_area: Of a fitted cell in m^2; None for 691 mm^2, or a thirtieth of a small sole.
-        partial: Whether a layout may cover a small part of the sole.
+        partial: Whether a layout may cover a small part of sole.
         proximity: Range in m of proximity sensors; None for none.
         reach: Gap in m up to which an unloaded contact counts as near.
 

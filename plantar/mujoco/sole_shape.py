@@ -24,9 +24,9 @@ class SoleShape(NamedTuple):
 
     Attributes:
         position: Sole origin (3,): the body's projected onto the face.
-        rotation: Rotation (3, 3) from sole to body; columns forward, left, into the body.
-        outline: Convex outline (k, 2) in the sole frame, counter-clockwise.
-        side: "left" where the body is left of the world's x axis in the reference pose, else "right".
+        rotation: Rotation (3, 3) from sole to body; columns forward, left, into body.
+        outline: Convex outline (k, 2) in sole frame, counter-clockwise.
+        side: "left" where the body is left of the world's x axis in reference pose, else "right".
         is_flat: Whether the geoms have a face; else the sole is round, in the world's frame.
     """
 
@@ -62,10 +62,10 @@ def sole_shape(
 
     Args:
         model: MjModel; its reference pose is the first keyframe, or else `qpos0`.
-        body: Id of the body.
+        body: Id of body.
         geoms: Ids of geoms that can touch.
-        outward: Direction (3,) of the sole, body frame; None for gravity's in the reference pose.
-        forward: Forward direction (3,), body frame; None for the world's x in the reference pose.
+        outward: Direction (3,) of sole, body frame; None for gravity's in reference pose.
+        forward: Forward direction (3,), body frame; None for the world's x in reference pose.
 
     Returns:
         The sole.

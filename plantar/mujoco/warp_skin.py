@@ -24,12 +24,12 @@ class WarpSkin:
     Args:
         skin: The skin, bound to the worlds' MjModel.
         worlds: Their number.
-        contacts: Most contacts of the sole in one world.
+        contacts: Most contacts of sole in one world.
         elliptic: Whether friction cones are elliptic; None as the MjModel.
 
     Attributes:
         vectors: Force (worlds, n) of vec3d on each taxel in N, sole frame; the same Warp array at each reading.
-        wrench: (worlds, 6) about the sole origin in N and N m, likewise.
+        wrench: (worlds, 6) about sole origin in N and N m, likewise.
         carried: 1 for each world (worlds,) whose taxels have the whole wrench, else 0.
 
     Raises:

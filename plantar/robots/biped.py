@@ -33,17 +33,17 @@ class BipedParameters:
     Attributes:
         total_mass: With skin and shoes; the chest has the rest.
         base_mass: Pelvis.
-        com_height: Above the outer sole in the given posture.
-        hip_offset: Left hip (3,) in the base frame.
+        com_height: Above the outer sole in given posture.
+        hip_offset: Left hip (3,) in base frame.
         ankle_offset: Left ankle against left hip (x, y) at zero angles.
         thigh_length: Hip to knee.
         shank_length: Knee to ankle.
-        ankle_height: Ankle axes above the bare sole.
+        ankle_height: Ankle axes above bare sole.
         link_masses: Six, hip yaw to foot (without shoe).
-        joint_lower: Six limits of the left leg; `joint_upper` likewise.
+        joint_lower: Six limits of left leg; `joint_upper` likewise.
         effort_limits: Six, in N m.
         velocity_limits: Six, in rad/s.
-        chest_size: Box (3,) of the upper body.
+        chest_size: Box (3,) of upper body.
         armature: Reflected rotor inertia of a joint in kg m^2.
 
     Raises:
@@ -220,9 +220,9 @@ def biped_mjcf(
         p: Dimensions.
         name: Model name.
         posture: Six left-leg joint angles in degrees for `com_height`.
-        sole_center: Center (x, y) of the left contact rectangle against the ankle in m.
+        sole_center: Center (x, y) of left contact rectangle against ankle in m.
         sole_half_size: Its half lengths (x, y) in m.
-        shoe_thickness: Outer contact face below the bare sole in m.
+        shoe_thickness: Outer contact face below bare sole in m.
         shoe_mass: One shoe, in kg.
         stiffness: Position gains of a leg's six servos in N m/rad.
         damping: Velocity gains in N m s/rad.

@@ -40,7 +40,7 @@ class RobotController:
     """A walking controller and the legs that follow it. Made by `load_controller`.
 
     Attributes:
-        joints: Leg joint names, in the order of every joint vector.
+        joints: Leg joint names, in order of every joint vector.
         period: Control period in s; call `step` once in each.
         stance: Joint angles and torques before the start.
         base_position: Base position (3,) in m in that stance, world frame.

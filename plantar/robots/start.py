@@ -66,8 +66,8 @@ def box_plan(
 
     Args:
         steps: Number of steps, whole rounds.
-        stride: Side of the box in m, above 0.
-        width: Distance in m of the sole origins with feet together.
+        stride: Side of box in m, above 0.
+        width: Distance in m of sole origins with feet together.
         first: Foot that moves first; the box is on the other's side.
         height: Of the ground in m.
 

@@ -99,7 +99,7 @@ class Setting(NamedTuple):
         unit: Empty for words and switches.
         allowed: Range or choices.
         meaning: What it does.
-        share: Default as a share of the body, or empty.
+        share: Default as a share of body, or empty.
     """
 
     name: str
@@ -187,7 +187,7 @@ class Settings:
         Args:
             value: A number, or a text with a unit such as "0.03 leg".
             unit: Its SI unit.
-            owner: Owner of the member, for messages.
+            owner: Owner of member, for messages.
 
         Raises:
             InputError: If the unit does not fit.
@@ -205,7 +205,7 @@ class Settings:
 
         Args:
             table: Values by name.
-            where: Name of the table, for messages.
+            where: Name of table, for messages.
             error: Class of the error.
             note: What the allowed keys depend on, for messages.
 

@@ -18,7 +18,7 @@ def refuse_unknown_keys(
     Args:
         given: The table's keys.
         allowed: Those that are read.
-        where: Name of the table, for the message.
+        where: Name of table, for the message.
         error: Class of the error.
         note: What the allowed keys depend on, such as " with law 'dcm'".
 

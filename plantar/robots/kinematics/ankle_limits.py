@@ -23,7 +23,7 @@ def ankle_limits(
 
     Args:
         robot: The robot.
-        model: A model with the robot in it.
+        model: A model with robot in it.
         weight: In N.
         crouch: How much lower in m than in its posture it walks.
 

@@ -37,7 +37,7 @@ def leg_length(robot: Robot, model: mujoco.MjModel) -> float:
 
     Args:
         robot: The robot.
-        model: A model with the robot in it.
+        model: A model with robot in it.
     """
     data = stood(robot, model)
     return round(float(np.mean([_length(robot, side, model, data) for side in SIDES])), _RESOLUTION)

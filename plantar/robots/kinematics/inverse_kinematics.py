@@ -58,11 +58,11 @@ class InverseKinematics:
         data: Its data, to which the tasks are bound; call `move` after a change from outside.
         tasks: The tasks.
         posture: Reference posture, for free directions.
-        columns: Velocities (n,) of the model that a step may use, in order.
+        columns: Velocities (n,) of model that a step may use, in order.
         unit: Length in m that counts as 1 rad.
 
     Attributes:
-        plain: Number of steps by the normal equations.
+        plain: Number of steps by normal equations.
         careful: Number of the other steps.
     """
 
@@ -245,7 +245,7 @@ def _amounts(
     Args:
         values: Singular values (k,).
         along: Residual (m,) along left singular vectors.
-        pulled: Way (k,) to the posture.
+        pulled: Way (k,) to posture.
     """
     count = len(values)
     near = np.maximum(0.0, 1.0 - (values / _EPSILON) ** 2)

@@ -30,7 +30,7 @@ class LegModel:
 
     Args:
         model: The robot alone, first joint free, one hinge a leg joint.
-        joints: Leg joint names in the order of all joint vectors.
+        joints: Leg joint names in order of all joint vectors.
         soles: Name of each sole's site.
         torso: Body that is kept upright.
         unit: Length in m that counts as 1 rad out of reach (`InverseKinematics`).

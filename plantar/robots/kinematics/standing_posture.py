@@ -30,7 +30,7 @@ def solve_standing(
     Args:
         robot: The robot.
         legs: Its kinematics, which start from this posture afterwards.
-        feet: Poses of the soles.
+        feet: Poses of soles.
         centers: Point (2,) of each sole in the world in m that carries half the weight.
         com_height: Above the soles in m.
 

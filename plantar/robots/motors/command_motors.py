@@ -105,7 +105,7 @@ class CommandMotors:
         robot: The robot.
         legs: Kinematics of its legs.
         body: Its size.
-        gains: Gains of the motors.
+        gains: Gains of motors.
         period: Control period in s.
 
     Attributes:

@@ -41,7 +41,7 @@ class Standing:
 
     Attributes:
         rotation: Rotation (3, 3) from sole to world.
-        rectangle: Part of the sole that may carry.
+        rectangle: Part of sole that may carry.
         friction: Coefficient of its friction pyramid.
         acceleration: Wanted (6,) of its site, world frame.
         wrench: Preferred (6,) in its frame about its origin in N and N m.
@@ -105,7 +105,7 @@ def torques_of(dynamics: BodyDynamics, wish: Wish, gravity: float) -> Torques | 
     """Torques for a wish.
 
     Args:
-        dynamics: Dynamics of the body where it is.
+        dynamics: Dynamics of body where it is.
         wish: What it should do.
         gravity: In m/s^2.
 

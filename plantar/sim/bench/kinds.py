@@ -25,13 +25,13 @@ class BenchOptions:
     """Options; `measure` refuses those that a kind does not take.
 
     Attributes:
-        layout: Layout file of the sole, or None.
-        scenarios: Number of scenarios of the whole loop.
+        layout: Layout file of sole, or None.
+        scenarios: Number of scenarios of whole loop.
         first: Number of the first one.
         scene: Walks to run; all where empty.
         robot: Robots for them; all where empty.
         quick: Run the most informative cases, once.
-        policy: Python file, or None for the built-in controller.
+        policy: Python file, or None for built-in controller.
         seeds: Runs of each trial.
     """
 

@@ -117,8 +117,8 @@ class SkipRow:
     """Cost of a scene with a robot: CPU times in s, medians.
 
     Attributes:
-        settings: Changes of the scene.
-        everything_s: With all percepts, rays and the recording.
+        settings: Changes of scene.
+        everything_s: With all percepts, rays and recording.
         physics_s: Of the same motion by `mj_step` in a loop.
         factor: Everything but the physics over the physics.
         saved: The same with all computed, over the run's.
@@ -152,8 +152,8 @@ def compare_skipping(
     Args:
         scene: Name of a scene without pushes and moving ground.
         robot: Name.
-        settings: Changes of the scene, as `key=value`.
-        rounds: Rounds of the medians; 1 or more.
+        settings: Changes of scene, as `key=value`.
+        rounds: Rounds of medians; 1 or more.
         seed: Of the runs.
 
     Returns:

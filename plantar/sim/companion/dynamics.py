@@ -113,7 +113,7 @@ class MujocoDynamics:
         """Jacobian of a point fixed to a link.
 
         Args:
-            link: Name of the link.
+            link: Name of link.
             point: (3,) in the link's frame in m; None for its origin, computed once an update.
 
         Returns:

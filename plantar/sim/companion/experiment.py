@@ -116,8 +116,8 @@ class World:
     """The simulated machine and its surroundings; `model` and `data` are the truth.
 
     Attributes:
-        positions: Places (nq of the machine alone,) of its coordinates in `data.qpos`, in its own model's order;
-            `speeds` in `data.qvel`.
+        positions: Places (nq of machine alone,) of its coordinates in `data.qpos`, in its own model's order; `speeds`
+            in `data.qvel`.
         motors: Places (k,) of its motors in `data.ctrl`; `joints` of their joints in `data.qvel`.
     """
 
@@ -149,7 +149,7 @@ class Experiment:
         duration: Simulated time in s.
         fell: Whether the machine fell, which ends the run.
         done: Whether all is finished, likewise.
-        rng: Random numbers of the seed.
+        rng: Random numbers of seed.
     """
 
     settings_type: ClassVar[type[Settings]] = Settings

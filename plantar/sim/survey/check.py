@@ -50,7 +50,7 @@ class Finding:
     Attributes:
         limit: Most or least that the value may be.
         holds: Whether it is within.
-        text: In words, with the value that works.
+        text: In words, with value that works.
     """
 
     name: str

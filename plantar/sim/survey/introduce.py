@@ -138,7 +138,7 @@ def introduce(
         file: The model, MJCF or URDF.
         folder: Existing folder.
         make_shoes: Builds the shoes.
-        progress: Called with the fraction done and a text.
+        progress: Called with fraction done and a text.
 
     Raises:
         RobotError: If the file holds no biped; the message explains why.

@@ -34,9 +34,9 @@ class Leg:
 
     Attributes:
         joints: Ids of its hinges from hip to ankle.
-        foot: Id of the body that the last one moves.
-        parts: Ids of all bodies that move with the foot.
-        toes: Names of held hinges below the foot.
+        foot: Id of body that the last one moves.
+        parts: Ids of all bodies that move with foot.
+        toes: Names of held hinges below foot.
         ankle: Point (3,) in m that the foot turns about, model's world.
     """
 
@@ -52,7 +52,7 @@ class Legs:
     """Both legs, and the model's rotation to stand upright along x.
 
     Attributes:
-        pelvis: Id of the body that both hang on.
+        pelvis: Id of body that both hang on.
         rotation: Rotation (3, 3) from the model's world to x forward, y left, z up.
         notes: How that was found.
     """

@@ -48,10 +48,10 @@ def write_model_copy(
     Args:
         model: The compiled model with all joints.
         legs: Its legs.
-        folder: For "model.xml" and the meshes.
-        name: Name of the robot.
+        folder: For "model.xml" and meshes.
+        name: Name of robot.
         held: Angles in rad by name of other joints; the rest as in the file.
-        imu: "site" or "body" of the IMU, its name, and the name of the copy's site; or None.
+        imu: "site" or "body" of IMU, its name, and name of the copy's site; or None.
     """
     return _Copy(model, legs, folder, held).written(name, imu)
 

@@ -84,7 +84,7 @@ def read_model(file: Path, folder: Path) -> ModelSource:
     """Read a robot's model.
 
     Args:
-        file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) of the robot or a scene with it.
+        file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) of robot or a scene with it.
         folder: For meshes that have to be converted.
 
     Returns:

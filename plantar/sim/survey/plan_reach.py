@@ -47,8 +47,8 @@ class Walked:
         timing: Durations.
         swing_height: Clearance in m.
         com_height: Above the soles in m.
-        lean: Roll of the torso over the stance foot in rad per metre of lateral CoM motion.
-        approach_height: Height in m above the ground where a slow approach begins.
+        lean: Roll of torso over stance foot in rad per metre of lateral CoM motion.
+        approach_height: Height in m above ground where a slow approach begins.
         approach_speed: In m/s.
     """
 

@@ -34,9 +34,9 @@ class Sole:
 
     Attributes:
         origin: (3,) in the foot body's frame in m.
-        rotation: Rotation (3, 3) from the sole frame to the foot body's.
-        triangles: The foot's surface (n, 3, 3) in the sole frame in m.
-        low: Least x and y (2,) of the sole in m; `high` the greatest.
+        rotation: Rotation (3, 3) from sole frame to the foot body's.
+        triangles: The foot's surface (n, 3, 3) in sole frame in m.
+        low: Least x and y (2,) of sole in m; `high` the greatest.
         turn: Angle in rad from the sole's normal to the nearest body axis.
         area: Of the outline's convex hull in m^2.
         notes: How it was found.
@@ -58,9 +58,9 @@ class Rested:
 
     Attributes:
         kind: "drawn" or "colliding".
-        surface: Triangles (n, 3, 3) in m, in the wanted axes.
-        normal: Outward normal (3,) of the plane that they rest on.
-        share: That plane's area over the silhouette from above.
+        surface: Triangles (n, 3, 3) in m, in wanted axes.
+        normal: Outward normal (3,) of plane that they rest on.
+        share: That plane's area over silhouette from above.
     """
 
     kind: str

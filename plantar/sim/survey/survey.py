@@ -28,7 +28,7 @@ class Survey:
 
     Attributes:
         held: Angles in rad by name of other joints.
-        imu: "site" or "body" of the IMU, and its name; or None.
+        imu: "site" or "body" of IMU, and its name; or None.
         efforts: Largest torque in N m of each leg joint, or None; `speeds` in rad/s, or empty.
         gains: Stiffness in N m/rad and damping in N m s/rad of each left leg joint, or empty.
         notes: For the user, each a sentence.

@@ -32,7 +32,7 @@ class LimitSearch:
     Attributes:
         sweep: Scene, grid and, as "seeds", the most runs at each point; every run has its own seed.
         limit: The setting and its range.
-        within: Width of the limit's 95 % interval, as a share of the limit, that ends the search.
+        within: Width of the limit's 95 % interval, as a share of limit, that ends the search.
 
     Raises:
         InputError: If share or settings are not valid.

@@ -87,7 +87,7 @@ class Sweep:
         seeds: Number of seeds.
         robot: Used instead of the scene's, or None.
         settings: "key=value" of all runs.
-        first_seed: First of the consecutive seeds.
+        first_seed: First of consecutive seeds.
 
     Raises:
         InputError: If keys, values or points repeat.

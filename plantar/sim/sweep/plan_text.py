@@ -32,8 +32,8 @@ def plan_from_texts(
     Args:
         scene: As of `Sweep.from_texts`, like `grid`, `robot`, `settings` and `first_seed`.
         seeds: Number of seeds; with a limit the most at each grid point. None for 1, or 1000 with a limit.
-        limit: Text "key=from:to" of the searched setting.
-        within: Width of the limit's 95 % interval, as a share of the limit, that ends the search.
+        limit: Text "key=from:to" of searched setting.
+        within: Width of the limit's 95 % interval, as a share of limit, that ends the search.
         random: Texts "key=from:to" of drawn settings.
 
     Returns:

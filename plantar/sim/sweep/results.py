@@ -105,7 +105,7 @@ class Results:
     """Rows of results.csv, open to append to, made by `open_results`.
 
     Attributes:
-        rows: Its rows by the values of their axes and their seed.
+        rows: Its rows by values of their axes and their seed.
     """
 
     def __init__(self, path: Path, axes: Sequence[str], columns: Sequence[str]) -> None:
@@ -185,8 +185,8 @@ def open_results(
         folder: Folder of results.csv and sweep.json; made if needed.
         identity: What all rows share (`Sweep.identity`).
         inputs: Per robot what its rows depend on (`inputs_of`).
-        axes: Settings of the grid, the first columns.
-        columns: Columns after those and the seed.
+        axes: Settings of grid, the first columns.
+        columns: Columns after those and seed.
 
     Yields:
         The table; an InputError if the folder is unusable, in use, or another sweep's.

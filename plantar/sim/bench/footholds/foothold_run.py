@@ -29,9 +29,9 @@ class Trial(NamedTuple):
 
     Attributes:
         kind: "beam", "stones", "slopes", "steps" or "push".
-        value: Difficulty, in the unit.
+        value: Difficulty, in unit.
         unit: What the value is a share of.
-        tables: Tables of the scene.
+        tables: Tables of scene.
     """
 
     kind: str
@@ -81,7 +81,7 @@ class FootholdResult(NamedTuple):
 
     Attributes:
         completed: Whether all steps were taken in place without a fall.
-        tilt: Largest tilt of the torso in degrees.
+        tilt: Largest tilt of torso in degrees.
         froude: v^2 / (g l), v the way over the time from first to last step.
         time: Simulated time in s.
     """

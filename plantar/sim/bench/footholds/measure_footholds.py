@@ -31,11 +31,11 @@ def measure_footholds(
 
     Args:
         folder: Of footholds.csv and footholds.md.
-        policy: Python file with `make_policy(task)`, or None for the built-in controller.
+        policy: Python file with `make_policy(task)`, or None for built-in controller.
         robots: Names or files; h1 where empty.
         seeds: Runs of each trial.
         kinds: Kinds of trials; all where empty.
-        progress: Called with the fraction done and a text.
+        progress: Called with fraction done and a text.
 
     Returns:
         A row for each policy, robot and trial, and the files' names.

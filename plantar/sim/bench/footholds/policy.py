@@ -28,7 +28,7 @@ class WalkTask:
 
     Attributes:
         robot: Name or file.
-        joints: Names of its k leg joints, in the order of all joint vectors.
+        joints: Names of its k leg joints, in order of all joint vectors.
         period: Time in s between calls of `step`.
         stance: Joint angles (k,) in rad and torques (k,) in N m at time 0.
         feet: At the start.

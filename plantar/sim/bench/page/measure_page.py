@@ -31,7 +31,7 @@ class Experiment:
     """A scene's run, and a paper's figures of it on a real robot.
 
     Attributes:
-        settings: Changes of the scene.
+        settings: Changes of scene.
         printed: The paper's figures by name: "mean impact", "largest impact" and "impact on the slab" in N, "largest
             difference" of two ZMPs in mm, "steps" done.
         fell: Whether the paper's robot fell.
@@ -150,7 +150,7 @@ def measure_page(
     Args:
         folder: Existing folder.
         before: Folder of an earlier run, whose table of scene runs is continued.
-        progress: Called with the fraction done and a text, for scenes and papers.
+        progress: Called with fraction done and a text, for scenes and papers.
         result: Results of the other parts, by name.
         quick: Leave out the long experiments.
 

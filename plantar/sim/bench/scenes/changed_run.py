@@ -61,7 +61,7 @@ class ChangedRun(Simulation):
     """A scene, run with a setting.
 
     Args:
-        walk: Settings of the scene in every run, such as a number of steps.
+        walk: Settings of scene in every run, such as a number of steps.
         noisy: Whether sensors have the scene's noise.
     """
 
@@ -110,7 +110,7 @@ class Trace:
 
     Attributes:
         com: Centre of mass (k, 3) in m.
-        zmp: ZMP (k, 2) of the mean wrench in m, or NaN.
+        zmp: ZMP (k, 2) of mean wrench in m, or NaN.
         force: Vertical ground force (k, 2) on left and right sole in N.
         landings: Side, time in s and largest force in N of each.
         leg: Leg length in m.
@@ -193,7 +193,7 @@ class TraceError(NamedTuple):
         force: Of the vertical sole forces, over the body's weight.
         impact: Of the landings' impacts until then, over the reference's; NaN for none.
         together_s: Time until the runs part, or end.
-        whole_s: Time of the reference.
+        whole_s: Time of reference.
     """
 
     com_m: float

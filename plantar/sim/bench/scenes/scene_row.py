@@ -23,12 +23,12 @@ class SceneRow:
     """A scene's setting next to its reference. Medians; NaN if not measured.
 
     Attributes:
-        walk: Settings of the scene in all runs.
-        against: Name of the setting compared with.
+        walk: Settings of scene in all runs.
+        against: Name of setting compared with.
         machine: Whether it is another robot.
         cpu: CPU time in s of a simulated second; `ratio` over the scene's own.
         com_mm: Root mean square error in mm until the runs part; `zmp_mm` likewise.
-        force: The same of ground forces, over the weight; `impact` over the reference's.
+        force: The same of ground forces, over weight; `impact` over the reference's.
         together: Share of the walk until the runs part.
         walked: Whether the noiseless run was completed; `completed` counts those with noise.
         impact_N: Median over landings and runs.

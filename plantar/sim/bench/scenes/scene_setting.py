@@ -20,8 +20,8 @@ class SceneSetting:
         contact_time: Time constant in s of contacts, or None.
         iterations: Most iterations of MuJoCo's solver, or None.
         points: Spheres a taxel under each sole; 0 for its box.
-        cell_ratio: Area of the taxels over the robot's own.
-        against: Name of the setting compared with.
+        cell_ratio: Area of taxels over the robot's own.
+        against: Name of setting compared with.
         machine: Whether it is another robot (its skin, its clock).
         quick: Whether quick runs have it.
         costly: Whether only the first seed runs.

@@ -40,7 +40,7 @@ def measure_scenes(
 
     Args:
         folder: Of the table; made if needed.
-        progress: Called with the fraction done and a text.
+        progress: Called with fraction done and a text.
         scenes: Names; all of `CASES` where empty.
         robots: Names; likewise.
         quick: Run the most informative settings with one seed, by default of H1 on flat ground.

@@ -67,7 +67,7 @@ class Scenario:
 
     Attributes:
         number: The seed of drawing and run.
-        settings: Changes of the scene, as `key=value`.
+        settings: Changes of scene, as `key=value`.
         place: Start: x and y in m, heading in rad.
         faults: Of its sensors.
     """

@@ -85,8 +85,8 @@ class Outcome(NamedTuple):
     """What came of a run.
 
     Attributes:
-        kind: "ended", "fell", "stopped" (controller in a safe state), "refused" (by the scene), "unstable" (physics),
-            or one of `FAILURES`.
+        kind: "ended", "fell", "stopped" (controller in a safe state), "refused" (by scene), "unstable" (physics), or
+            one of `FAILURES`.
         detail: In words.
         time: Simulated time in s.
     """
@@ -183,7 +183,7 @@ def measure_stress(
         folder: Of the table; made if needed.
         count: Number of scenarios, 1 or more.
         first: Number of the first.
-        progress: Called with the fraction done and a text.
+        progress: Called with fraction done and a text.
 
     Returns:
         Counts of each outcome, the failures, and the table's name.

@@ -46,7 +46,7 @@ class Push:
         start: In s.
         end: In s.
         along: Place in m along the link's z axis.
-        angle: Direction about it of the push, in rad from the link's x axis.
+        angle: Direction about it of push, in rad from the link's x axis.
         radius: Distance of surface and axis in m.
         force: In N.
     """

@@ -34,7 +34,7 @@ class ForceRecord:
         """Draw force or distance, moments, hand, base and orientation over time.
 
         Args:
-            path: File of the figure.
+            path: File of figure.
             title: Its title.
             windows: Begin and end in s of each kind of interaction; shaded.
             force: Whether there is a contact phase.

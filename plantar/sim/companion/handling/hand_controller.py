@@ -94,11 +94,11 @@ class HandController:
     """Controls distance or force of the hand, its orientation, and its guidance or place.
 
     Args:
-        machine: A mobile base, patches "hand" on the hand's link and others on the arm.
+        machine: A mobile base, patches "hand" on the hand's link and others on arm.
 
     Attributes:
         force: First task: force or distance.
-        posture: Task of the lowest level; its target and target velocity may be changed.
+        posture: Task of lowest level; its target and target velocity may be changed.
         wanted_force: f_d in N.
         phases: Present arrangement of tasks.
     """

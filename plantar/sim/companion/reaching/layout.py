@@ -76,9 +76,9 @@ def random_layout(
     Args:
         rng: Random numbers.
         kind: One of `KINDS`.
-        tip: First place of the tip (2,) in m.
-        reach: Ranges of the goal's distance from the tip in m, and direction in rad.
-        friction: Range of the force in N that moves a post.
+        tip: First place of tip (2,) in m.
+        reach: Ranges of the goal's distance from tip in m, and direction in rad.
+        friction: Range of force in N that moves a post.
 
     Returns:
         The layout.

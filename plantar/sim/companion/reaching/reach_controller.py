@@ -75,7 +75,7 @@ class ReachController:
 
     Args:
         machine: The machine; joints of a mobile base are held.
-        tip: Link of the tip, and the tip (3,) in its frame in m.
+        tip: Link of tip, and tip (3,) in its frame in m.
         force_limit: Tolerable force in N.
 
     Attributes:

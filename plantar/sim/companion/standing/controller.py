@@ -54,8 +54,8 @@ class StandingController:
 
     Args:
         stance: The standing feet, fixed to their first places.
-        levels: Tasks by priority, below the support.
-        balance: Task of the centre of mass, which leans against contacts; or None.
+        levels: Tasks by priority, below support.
+        balance: Task of centre of mass, which leans against contacts; or None.
         before: Called with machine and filtered reading before each step, to change targets or levels.
 
     Attributes:

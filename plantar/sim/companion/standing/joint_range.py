@@ -16,7 +16,7 @@ class JointRange(Task):
     """Pushes back joints near an end of their range, one row each.
 
     Args:
-        low: Lower ends (k,) in rad or m, in the order of `RobotDynamics.joints`; -inf for none.
+        low: Lower ends (k,) in rad or m, in order of `RobotDynamics.joints`; -inf for none.
         high: Upper ends (k,).
         margin: Distance to an end in rad or m where pushing begins.
         stiffness: Torque in N m per rad of used margin, one or (k,).

@@ -29,14 +29,14 @@ class Pad:
 
     Args:
         name: Body and geom are called "pad " and this.
-        taxel: Index in the patch of the taxel at the middle of its face.
+        taxel: Index in patch of taxel at middle of its face.
         face: Radius in m.
         stiffness: Of the skin under its face in N/m, about.
 
     Attributes:
         wanted: Force in N; 0 or less lifts it off.
         parked: Whether it is far away.
-        middle: Middle (3,) of its face on the link, link frame, in m.
+        middle: Middle (3,) of its face on link, link frame, in m.
     """
 
     def __init__(self, name: str, patch: SkinPatch, taxel: int, face: float, stiffness: float) -> None:
@@ -112,7 +112,7 @@ class PlannedContact:
         begin: In s; `hold` for how long.
         force: In N.
         swell: Time in s over which its force grows; it fades in that time, and 0.6 s at least.
-        against: Link against which the yield is measured; empty for the centre of mass.
+        against: Link against which the yield is measured; empty for centre of mass.
         yielded: Largest yield in m along the pad's first direction.
         measured: Largest true force in N.
     """

@@ -33,7 +33,7 @@ class Stance:
     """Feet at known places on the ground.
 
     Args:
-        model: MjModel of the machine alone.
+        model: MjModel of machine alone.
         sides: Standing feet: "left", "right" or both.
 
     Attributes:
