@@ -71,7 +71,6 @@ class Robot:
     """A robot as its TOML describes it.
 
     Attributes:
-        description: One line for people.
         kind: "biped" (generated from `biped`), "mjcf" or "urdf" (read from `model_file`).
         biped: Dimensions of a generated robot, else None.
         model_file: Path, else None.
@@ -80,34 +79,29 @@ class Robot:
         shoe_mass: One shoe, in kg.
         rim_stiffness: Shoe next to its taxels over theirs; 0 with a relieved pad.
         contact_damping: Damping ratio of shoe on ground; 1 is critical.
-        sole_origins: Sole frame's origin (3,) in its body's frame in m.
+        sole_origins: Sole origin (3,) in its body's frame in m.
         sole_rotations: Rotation (3, 3) from sole frame to body.
         effort_limits: Of each leg joint in N m, from a model file; empty for none.
         velocity_limits: In rad/s; empty for none.
-        layouts: Sole layout of each side.
-        legs: Names of each leg.
         torso_body: Body that is kept upright.
-        imu_site: Site of IMU.
         posture: Joint angles of each leg in rad when standing.
         com_height: Above the outer soles when walking in m.
         stance_width: Distance of sole origins with feet together in m.
         leg_length: From hip over knee to ankle in m, for shares; 0 for the model's.
-        largest_crouch: How much lower than `com_height` it may walk in m.
-        largest_crouch_partial: The same on parts of its soles, where a heel load strains the knee more.
+        largest_crouch: How much below `com_height` it may walk in m.
+        largest_crouch_partial: The same on parts of its soles, where heel loads strain the knee.
         trunk_lean: Roll of torso over stance foot in rad per metre of lateral CoM motion.
         single_support: t_ss in s where the scene gives none; 0 for the same beats of leg for every robot.
         double_support: t_ds likewise.
         approach_support: Least t_ss in s of a walk with slow approach, for weak motors; else 0.
-        ankle_reach: Largest distance in m from the sole's origin at which the ankle motor carries the robot.
+        ankle_reach: Largest distance in m from the sole's origin at which the ankle carries the robot.
         rocks: Whether legs without ankle roll rock from foot to foot: own timing, no slow approach.
         pace: Beats of leg in the time unit of quick steps (`plantar.settings.body_scale`).
         stiffness: Servo position gain of each leg joint in N m/rad.
         damping: Servo velocity gain in N m s/rad.
         own_stiffness: Position gain of each joint's own motor in N m/rad (`control.drives`).
         own_damping: Velocity gain in N m s/rad.
-        balance: Balance law and gains.
         controller: Settings of other parts by table and name (`plantar.gait.controller_tables`).
-        path: The TOML file.
         arms: Arms that it may wear, or None.
     """
 

@@ -38,7 +38,7 @@ class Walk(Settings):
     Attributes:
         steps: Number of steps; the last one closes the feet.
         pattern: "straight", or a "box" of six steps a round whose side is `length`.
-        length: Distance by which a step leads the other foot.
+        length: Lead of a step over the other foot.
         sideways: Lateral lead of each opening step, positive to the left.
         stance_width: Distance of the ankles with feet together; 0 for the robot's own.
         wider: Additional distance of the ankles.
@@ -47,7 +47,7 @@ class Walk(Settings):
         double_support: t_ds; 0 for the robot's own.
         swing_height: Clearance of the swing foot.
         lean: Whether the trunk leans over the stance foot, which unloads hip roll (`trunk_lean`).
-        crouch: How much lower than its own CoM height the robot walks, to reach further and lower ground; up to its
+        crouch: How much lower than its own CoM height the robot walks, to reach further and lower ground; up to
             `largest_crouch`, or `largest_crouch_partial` on parts of its soles.
         approach_height: Height above the expected ground from which a blind swing foot goes down slowly, after ground
             that was elsewhere; it then aims as far below.
@@ -63,8 +63,8 @@ class Walk(Settings):
             steps; zeros step in place.
         commands: Such velocities over time: each [time, forward, left, turn], or [time, "stop"], in s after `begin`.
         wander: Largest velocity [forward, left, turn], either way, that the seed draws each `change_every`.
-        change_every: Time from one such velocity to the next.
-        until: Time after which a walk at a velocity is asked to stop.
+        change_every: Time between such velocities.
+        until: Time at which a walk at a velocity is asked to stop.
     """
 
     steps: int = whole(20, "steps", 0, 100000)
@@ -141,13 +141,12 @@ class Control(Settings):
     Attributes:
         feedback: False walks the plan in open loop.
         zmp_source: Source of loads and ZMP: "skin", or "force_torque" at the ankles.
-        footholds: Source of a foothold's carrying part: "off" assumes a whole sole; "force" uses the taxels' forces,
-            "skin" their proximity, too.
+        footholds: Source of a foothold's carrying part: "off" assumes a whole sole; "force" uses taxel forces, "skin"
+            proximity, too.
         pfc: Preemptive foot compliance: proximity stops the swing before impact and turns the sole to the ground.
         feasibility: Rule that refuses a foothold higher than expected: "off", "skin" (supported area) or "force_torque"
-            (moment at the ankle). Of a robot with pfc.
-        conform: Standing soles turn until the ground carries them where they should be loaded. For bumps; of a robot
-            with pfc.
+            (moment at the ankle). Needs pfc.
+        conform: Standing soles turn until the ground carries them where they should be loaded. For bumps; needs pfc.
         identify: Identify differences of robot and sensors from the model, such as the gyro's bias.
         step_timing: End a single support sooner or later where the DCM asks for it; not of a robot that rocks.
         step_adjustment: Footsteps move for balance, in place and time; not of a robot that rocks, and only in time on
@@ -155,13 +154,13 @@ class Control(Settings):
         learn_strides: Strides grow by the extra length of pushed steps; needs `step_adjustment`.
         push_estimate: Source of a push on the body: "off"; "soles", the acceleration that the ZMP does not explain;
             "skin" on the upper body, or the soles where that measures none.
-        dcm_estimate: Estimator of the CoM's velocity, so the DCM: "observer", or "kalman", a Kalman filter that counts
-            what neither ZMP nor push explain as a push.
+        dcm_estimate: Estimator of CoM velocity and DCM: "observer", or "kalman", a Kalman filter that counts what
+            neither ZMP nor push explain as a push.
         swing_shape: Path of the swing foot: "polynomial" changes only with the plan; "fit" is fitted at every tick to
             landing place and time; packages may add more ("plantar.swings").
         drives: "servo", position servos with the robot file's gains; "own", motors' own gains with torques of the
             planned motion and ground forces; "torque", whole-body torques, with those gains about the motion.
-        joint_stiffness: Stiffness of every joint in place of the motors' own, for "own" and "torque"; 0 keeps those.
+        joint_stiffness: Stiffness of every joint instead of the motors', for "own" and "torque"; 0 keeps those.
         period: Control period in s.
         physics_period: Time step of the simulated physics in s; a contact takes five.
         skip: "auto" computes what is needed; "none" everything, for comparison. The motion is the same.

@@ -103,7 +103,7 @@ class CommandMotors:
 
     Args:
         robot: The robot.
-        legs: Kinematics of its legs.
+        legs: Its legs.
         body: Its size.
         gains: Gains of motors.
         period: Control period in s.

@@ -1,9 +1,8 @@
 """Whole-body torque control of a walk: the measured body follows the command by inverse dynamics.
 
-Tasks, as accelerations of the measured state: CoM by the pendulum c'' = w^2 (c - p) with the balance law's ZMP p, and
-its height; base orientation; swing leg joints; soles that stand, with planned wrenches
-(`plantar.robots.motors.torque_program`). Without a solution, or standing before the walk without feedback, torques are
-those of the planned motion.
+Tasks, as accelerations: CoM by the pendulum c'' = w^2 (c - p) with the balance law's ZMP p, and its height; base
+orientation; swing leg; standing soles with planned wrenches. Without a solution, or before a walk without feedback,
+torques are those of the planned motion.
 """
 
 from __future__ import annotations

@@ -19,8 +19,7 @@ _NAMED = 5  # links in an error where none has a similar name
 class MujocoDynamics:
     """`plantar.wholebody.dynamics.RobotDynamics` from a MuJoCo model of the robot alone.
 
-    Each stage of MuJoCo's dynamics runs when its result is read. A free base's angular velocity and its Jacobians are
-    in the base's frame.
+    MuJoCo's stages run when results are read. A free base's angular velocity and its Jacobians are in its own frame.
 
     Attributes:
         joints: Indices (k,) of coordinates with an actuator, ascending; without actuators, of all hinges and slides.

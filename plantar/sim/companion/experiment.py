@@ -49,11 +49,11 @@ class CompanionControl(Settings):
 
     Attributes:
         period: Control period.
-        servo: Input of the drives; "machine": as in the machine's file.
+        servo: Input of the drives; "machine": as in its file.
         encoder_noise: Standard deviation of joint positions, in rad or m.
         velocity_noise: Of joint speeds, in rad/s or m/s.
         gyro_noise: Of its angular velocity.
-        model_error: Standard deviation of each link's mass and inertia error, as a share; drawn once.
+        model_error: Standard deviation of link masses and inertias, as a share; drawn once.
     """
 
     period: float = number(0.002, "s", 0.001, 0.1)
@@ -97,7 +97,7 @@ class Verdict(NamedTuple):
 def unmet(*criteria: tuple[bool, str, float, float, str]) -> list[dict[str, Any]]:
     """Those of the `criteria` that are not met, for summaries.
 
-    Each is: whether met, its name (words joined by underscores), value (not finite becomes None), limit and text.
+    Each: whether met, name_with_underscores, value (not finite becomes None), limit, text.
     """
     return [
         {
@@ -116,9 +116,8 @@ class World:
     """The simulated machine and its surroundings; `model` and `data` are the truth.
 
     Attributes:
-        positions: Places (nq of machine alone,) of its coordinates in `data.qpos`, in its own model's order; `speeds`
-            in `data.qvel`.
-        motors: Places (k,) of its motors in `data.ctrl`; `joints` of their joints in `data.qvel`.
+        positions: Places (nq of machine alone,) in `data.qpos`, in its own model's order; `speeds` in `data.qvel`.
+        motors: Places (k,) of motors in `data.ctrl`; `joints` of their joints in `data.qvel`.
     """
 
     machine: Machine
@@ -143,13 +142,12 @@ class World:
 
 
 class Experiment:
-    """Base of all experiments; the `seed` draws places, times, forces and directions.
+    """Base of experiments; the `seed` draws places, times, forces, directions.
 
     Attributes:
         duration: Simulated time in s.
         fell: Whether the machine fell, which ends the run.
         done: Whether all is finished, likewise.
-        rng: Random numbers of seed.
     """
 
     settings_type: ClassVar[type[Settings]] = Settings
@@ -277,8 +275,8 @@ def companion_scene(
     """Make a scene of a TOML file's content.
 
     Args:
-        source: The content; its `experiment` is a name, or a table whose `kind` is the name.
-        path: The file, for names and messages.
+        source: The content; its `experiment` is a name, or a table with the name as `kind`.
+        path: The file, for messages.
         settings: `key=value` settings that override the file's.
         machine: Used instead of the file's.
 

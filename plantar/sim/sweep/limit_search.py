@@ -84,8 +84,8 @@ class LimitSearch:
         Returns:
             "limits": for each grid point its settings, the searched setting ("setting", "unit", "range"), its "limit",
             the 95 % "interval" and its "width" as a share of the limit (None outside of the range), whether it is known
-            well enough ("reached"), whether larger values hold ("rising"), how well one curve explains the runs
-            ("agreement"), runs, completed, and errors of impossible runs.
+            well enough ("reached"), whether larger values hold ("rising"), one curve's fit ("agreement"), runs,
+            completed, and errors.
         """
         return {"limits": [self._found(point, rows) for point in self.sweep.points()]}
 

@@ -96,7 +96,7 @@ def run_sweep(
     """Run what results.csv lacks, append each run, and draw figures.
 
     Args:
-        plan: A `Sweep` over a grid, a `LimitSearch` or a `RandomSearch`.
+        plan: A `Sweep`, a `LimitSearch` or a `RandomSearch`.
         folder: Folder of results.csv; made if needed.
         workers: Processes on this machine.
         scheduler: Address of a Dask scheduler to use instead.
@@ -106,9 +106,9 @@ def run_sweep(
         The plan's `found` for all rows, and "runs", "resumed", "files".
 
     Raises:
-        InputError: If folder or scheduler fails, or an input file has changed.
-        WorkerError: If workers fail; the text names the kept rows.
-        SweepStopped: A KeyboardInterrupt after Ctrl-C or SIGTERM that names the kept rows.
+        InputError: If folder, scheduler or inputs fail.
+        WorkerError: If workers fail; names kept rows.
+        SweepStopped: After Ctrl-C or SIGTERM; names kept rows.
     """
     if workers < 1:
         raise InputError(f"number of workers is {workers}; allowed: 1 or more")

@@ -39,25 +39,25 @@ class ForceTrackingSettings(Settings):
 
     Attributes:
         duration: Simulated time.
-        force: Mean of the wanted force.
-        amplitude: Amplitude of its sine.
+        force: Mean wanted force.
+        amplitude: Of its sine.
         distance: Wanted distance before contact.
-        contact: When the contact phase is activated; 0 for never.
-        gap: Distance of hand and object at first.
+        contact: Start of the contact phase; 0 for never.
+        gap: First distance of hand and object.
         pitch: Range of the object's lean back in degrees, drawn by the seed; below 0 it hangs over.
         yaw: Range of its first turn about the vertical in degrees, drawn by the seed.
         circle: When the base is commanded along a circle.
         circle_radius: Its radius.
         swing: When the base is commanded to swing sideways.
-        touch: Windows in which the arm is touched.
+        touch: Windows of touches on the arm.
         touch_force: Range of these forces in N.
-        person: Windows in which a person comes near the base.
+        person: Windows of a person near the base.
         turn: When the object is turned about the vertical, and back.
         turn_angle: In degrees.
         largest_free: Limit of the force's RMS error without interactions; 0 for none.
-        largest_disturbed: The same with interactions; 0 for none.
-        tolerance: Limit of the distance's error where the hand stays without contact.
-        guided: Least distance by which touches before contact guide the hand.
+        largest_disturbed: The same with interactions.
+        tolerance: Limit of the distance's error without contact.
+        guided: Least way by which touches before contact guide the hand.
     """
 
     duration: float = number(30.0, "s", 0.5, 600)

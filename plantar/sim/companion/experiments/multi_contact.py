@@ -15,8 +15,8 @@ _LEG = {f"right {part.replace('_', ' ')}": (f"right_{part}",) for part in ("uppe
 class MultiContact(PressedExperiment):
     """Pads press on thirteen instances in turn, then on all.
 
-    T 3.2.4.1 has the center of mass below the skin, where thirteen links leave no direction for it. Here it shares the
-    level of the support, skin and posture the last one.
+    T 3.2.4.1 has the center of mass below the skin, which leaves no direction for it. Here it shares the support's
+    level.
     """
 
     sides: ClassVar = ("left",)

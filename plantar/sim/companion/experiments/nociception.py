@@ -1,7 +1,7 @@
-"""A painful pressure makes the robot give up its hand's pose: a seventh of the area needs a seventh of the force.
+"""A painful pressure makes the robot give up its hand's pose (T 3.4.1.1).
 
-T 3.4.1.1: support; right hand's position; its orientation; pressure-driven compliance; posture. Above 10 N of virtual
-force the hand's tasks are dropped until it is calm.
+Order: support; right hand's position; its orientation; pressure-driven compliance; posture. Above 10 N of virtual force
+the hand's tasks are dropped until it is calm.
 """
 
 from __future__ import annotations
@@ -43,9 +43,9 @@ class NociceptionSettings(Settings):
     """Requirements of the reflex.
 
     Attributes:
-        tolerance: Largest deviation of the threshold forces' ratio from that of the areas.
-        jump: Largest change of a joint's torque in one period while priorities change, as a share of its limit; sensor
-            noise alone makes 8 %.
+        tolerance: Largest deviation of threshold force ratio from area ratio.
+        jump: Largest change of a joint's torque in one period while priorities change, as a share of its limit; noise
+            makes 8 %.
         retreat: How far the hand has to give way.
     """
 

@@ -1,7 +1,7 @@
-"""A hand that works over a hot plate draws back when its skin gets warm (T 3.3.2.1).
+"""A hand over a hot plate draws back when its skin gets warm (T 3.3.2.1).
 
-T's order: support; temperature-driven compliance; right hand's pose; posture, here also at the level of heat, or a
-repelled hand would drift.
+T's order: support; temperature-driven compliance; right hand's pose; posture, here also at the level of heat, against
+drift.
 """
 
 from __future__ import annotations

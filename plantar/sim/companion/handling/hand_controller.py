@@ -37,7 +37,7 @@ class HandControl(CompanionControl):
     """Gains and switches of the hierarchy.
 
     The hand's skin is a spring of about 90 kN/m. An unknown force is corrected at the rate m force_gain force_integral,
-    20 1/s for m = 4 kg along the normal: two thirds of the limit by a delay of two periods and the spring.
+    20 1/s for m = 4 kg along the normal: two thirds of the limit by a delay of two periods.
 
     Attributes:
         approach_speed: Speed of the hand towards the surface.
@@ -45,11 +45,11 @@ class HandControl(CompanionControl):
         guidance_stiffness: Keeps the hand's place before contact while the arm is not touched; critical, D_3^2 / (4
             Lambda_3). At 0 it drifts with errors of the arm's weight.
         base_stiffness: K_c of the base along x and y, and in N m/rad about z.
-        base_damping: D_c of the base likewise.
+        base_damping: D_c likewise.
         wrist: Whether the wrist complies (ablation).
         avoidance: Whether the base avoids obstacles (ablation).
-        feed_forward: Whether wanted force and the arm's contact forces are fed forward into the joints (ablation);
-            never where drives take no torques.
+        feed_forward: Whether wanted force and arm contact forces are fed forward into the joints (ablation); never
+            where drives take no torques.
         priority: "strict", or "sum": torques of all tasks added (ablation).
     """
 

@@ -70,8 +70,8 @@ def random_layout(
 ) -> Layout:
     """A layout whose fixed posts leave the straight way free.
 
-    Three posts in a bow, too close for the tip, are a pocket in which a potential field has its minimum. An outer one
-    is fixed in the second kind.
+    Three posts in a bow are a pocket in which a potential field has its minimum. An outer one is fixed in the second
+    kind.
 
     Args:
         rng: Random numbers.

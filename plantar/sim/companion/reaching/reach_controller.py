@@ -37,17 +37,17 @@ class ReachControl(CompanionControl):
     """Gains and switches of reaching.
 
     Attributes:
-        policy: "intentional" for T Table 1; "avoid" for its first arrangement alone; "fields" for attraction and
-            repulsion added up.
+        policy: "intentional" for T Table 1; "avoid" for its first arrangement alone; "fields" for attraction plus
+            repulsion.
         speed: V_max of T 3.44 while it avoids.
         range: Used sensing range, d_range of T 3.30.
         proximity: k_prox of T 3.30 of a taxel.
         yielding: Gain on contact forces, tau_c of T 3.41.
         slow: epsilon_v of T Table 1.
-        stuck: How long it has to be slow before it approaches.
+        stuck: How long it is slow before it approaches.
         transition: Time in which priorities change.
-        acceleration: Largest of a joint: things on two sides leave the goal almost no direction.
-        joint_speed: Largest of a joint, so that no link strikes an unseen thing.
+        acceleration: Largest of a joint, for things on two sides.
+        joint_speed: Largest of a joint, against striking unseen things.
         upright: Whether the tip's orientation is held, on the last level.
     """
 

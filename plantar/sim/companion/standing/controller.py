@@ -28,7 +28,7 @@ class StandingControl(CompanionControl):
     """How a standing machine is controlled.
 
     Attributes:
-        skin: Whether skin tasks are in the stack and contact forces are accounted for.
+        skin: Whether skin tasks run and contact forces count.
         gain: Factor on contact forces by which the robot yields; 1 as without friction and gears.
         lean: Share of the contacts' moment about the feet that the centre of mass is shifted against.
         lean_limit: Largest shift in m.
@@ -53,10 +53,10 @@ class StandingController:
     """Runs a stack on a stance.
 
     Args:
-        stance: The standing feet, fixed to their first places.
+        stance: The standing feet, fixed to first places.
         levels: Tasks by priority, below support.
-        balance: Task of centre of mass, which leans against contacts; or None.
-        before: Called with machine and filtered reading before each step, to change targets or levels.
+        balance: Task of centre of mass that leans against contacts, or None.
+        before: Called with machine and filtered reading before each step.
 
     Attributes:
         active: Active instances at each step.
