@@ -216,7 +216,7 @@ def _outline_any_rectangle(found: Sequence[Contact]) -> Compared:
 
 
 def _best_known(outline: Outline, angle: float) -> float:
-    """Best known rectangle's area in m^2 at an angle: ours if shapely finds it inside, or the reference's."""
+    """Best known rectangle's area in m^2 at an angle: ours if valid, or the reference's."""
     ours = _area_inside(outline, inscribed.rectangle_in_outline(outline, angle))
     return ours if angle else max(ours, exact.outline_rectangle_area(outline.rings))
 

@@ -230,7 +230,7 @@ def _golden(gain: Callable[[Array], Array], low: Array, high: Array, steps: int 
 
 
 def _chains(polygon: Array, angles: Array) -> tuple[Array, Array, Array, Array]:
-    """Edge lines of a polygon turned back by angles (m,): slopes and levels (m, k), upper and lower."""
+    """Slopes and levels (m, k) of upper and lower edges, turned back by angles (m,)."""
     c, s = np.cos(angles)[:, None], np.sin(angles)[:, None]
     x, y = (polygon - polygon.mean(axis=0)).T
     px, py = c * x + s * y, c * y - s * x

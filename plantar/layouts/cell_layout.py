@@ -34,18 +34,17 @@ def layout_of_cells(
 ) -> SoleLayout:
     """A layout of polygonal cells of any shapes and sizes (T 4.5).
 
-    Corners within a thousandth of a small cell's size become one vertex, also of an edge that they are on: outlines are
-    exact.
+    Corners within a thousandth of a small cell's size become one vertex, also on edges: outlines are exact.
 
     Args:
         cells: Corners (k, 2) of each cell in sole frame in m, either orientation, not self-crossing.
         name: Name of sole.
         side: "left" or "right".
-        outline: Outline (k, 2) in m; None for that of all cells, or their hull if not in one piece.
-        ids: Id of each cell; None for 0, 1, ...
+        outline: Outline (k, 2) in m; None for that of all cells, or their hull if in pieces.
+        ids: Cell ids; None for 0, 1, ...
         cell_shape: One of `plantar.layouts.layout.CELL_SHAPES`.
         positions: Taxel centers (n, 2) in m; None for centroids.
-        rotations: Rotations (n, 3, 3) from each taxel's frame to the sole's; None for level.
+        rotations: Rotations (n, 3, 3) from taxel frames to the sole's; None for level.
 
     Returns:
         The layout; its `cell_area` is the median.

@@ -5,7 +5,7 @@ A cell (q, r), rows along x, has its center at
     x = w (q + r / 2)        w = flat-to-flat width
     y = 3/2 s r              s = side length = w / sqrt(3)
 
-so that shared corners have one key and identical coordinates, without slivers in unions.
+Shared corners have one key and identical coordinates.
 """
 
 from __future__ import annotations

@@ -201,8 +201,7 @@ def check_cells(layout: SoleLayout) -> None:
     """Refuse a layout with cells that contradict themselves.
 
     Raises:
-        LayoutError: If a cell crosses itself, is clockwise, has another area or lacks its taxel, or a taxel faces out
-            of the body.
+        LayoutError: If a cell crosses itself, is clockwise or lacks its taxel or area, or a taxel faces outwards.
     """
     import shapely
 

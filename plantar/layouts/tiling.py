@@ -185,7 +185,7 @@ def _cells_within(
     minimum_fraction: float | None,
     grain: float,
 ) -> tuple[list[NDArray[np.float64]], NDArray[np.float64]]:
-    """Rings and centers of cells inside an outline; cut ones too given a minimum fraction."""
+    """Rings and centers of cells inside an outline, cut ones too on request."""
     import shapely
 
     cells = shapely.polygons(candidates)
@@ -215,7 +215,7 @@ def _cells_within(
 
 
 def _on_lattice(ring: NDArray[np.float64], corners: NDArray[np.float64], tolerance: float) -> NDArray[np.float64]:
-    """A cut cell's corners, with the whole cell's put back exactly."""
+    """A cut cell's corners, the whole cell's put back exactly."""
     gap = np.hypot(*(ring[:, None] - corners).transpose(2, 0, 1))
     nearest = gap.argmin(axis=1)
     return np.where(gap.min(axis=1, keepdims=True) <= tolerance, corners[nearest], ring)

@@ -36,8 +36,8 @@ class SkinReading(Reading):
         vectors: Force (n, 3) on each taxel in N.
         wrench: Wrench (6,) of MuJoCo's contacts on body about sole origin in N and N m.
         depth: Overlap (n,) of geoms at each taxel in m, 0 elsewhere.
-        carried: Whether the vectors have the whole wrench. Else its center of pressure is beyond the taxels, or the
-            contacts pull, and they add up to load alone.
+        carried: Whether the vectors have the whole wrench; else only the load, as its center of pressure is beyond the
+            taxels or the contacts pull.
     """
 
     vectors: NDArray[np.float64]
@@ -211,7 +211,7 @@ class BoundSkin:
         return view
 
     def _distances(self, view: _View) -> NDArray[np.float64]:
-        """Distance (n,) from each taxel outwards to another body's geom in m; inf beyond the range."""
+        """Distance (n,) from each taxel outwards to another body in m; inf beyond range."""
         axes = self.static[1] @ view.rotation.T
         starts = view.origin + self.static[0] @ view.rotation.T + _LIFT * axes
         geom = np.empty(1, dtype=np.int32)

@@ -38,18 +38,18 @@ _NEAR = 0.004  # m: how far a site may be from the face
 class Skin:
     """A plantar skin for a body of any MuJoCo model.
 
-    The sole's face is the lowest one of the body's collision shapes in the reference pose (first keyframe, or `qpos0`);
-    its origin is below the body's, x is the world's x there. Contradicting set-ups are refused.
+    The sole's face is the lowest of the body's collision shapes in the reference pose (first keyframe, or `qpos0`); its
+    origin is below the body's, x is the world's. Contradicting set-ups are refused.
 
     Args:
-        layout: Layout, or path of its file; None fits hexagons to the body's shapes.
+        layout: Layout, or path of its file; None fits hexagons to the body.
         body: Name of body, for example "left_ankle_roll_link".
         geoms: Names of geoms that can touch; None for all colliding ones of body and parts fixed to it.
         site: Site that is the sole frame; checked against shapes.
         outward: Direction (3,) of sole, body frame; None for down in reference pose.
-        forward: Forward direction (3,), body frame; None for the world's x in reference pose.
+        forward: Forward (3,), body frame; None for the world's x in reference pose.
         cell_area: Of a fitted cell in m^2; None for 691 mm^2, or a thirtieth of a small sole.
-        partial: Whether a layout may cover a small part of sole.
+        partial: Whether a layout may cover a small part.
         proximity: Range in m of proximity sensors; None for none.
         reach: Gap in m up to which an unloaded contact counts as near.
 
@@ -113,8 +113,8 @@ class Skin:
             The reader: call it with an `MjData` after `mj_step` or `mj_forward`.
 
         Raises:
-            RobotError: If body, geom, site or colliding shape is missing, or layout or site is wrong: turned, tilted,
-                upside down, scaled, mirrored, or another body's.
+            RobotError: If body, geom, site or shape is missing, or layout or site does not fit: turned, tilted, upside
+                down, scaled, mirrored, another body's.
         """
         geoms, shape = self._place(model)
         layout = self.layout or self._fitted(shape)

@@ -64,8 +64,8 @@ def sole_shape(
         model: MjModel; its reference pose is the first keyframe, or else `qpos0`.
         body: Id of body.
         geoms: Ids of geoms that can touch.
-        outward: Direction (3,) of sole, body frame; None for gravity's in reference pose.
-        forward: Forward direction (3,), body frame; None for the world's x in reference pose.
+        outward: Direction (3,) of sole, body frame; None for gravity's.
+        forward: Forward (3,), body frame; None for the world's x.
 
     Returns:
         The sole.
@@ -154,7 +154,7 @@ def _exact(part: _Part, down: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _face(parts: list[_Part], down: NDArray[np.float64], model: Any) -> tuple[NDArray[np.float64], bool]:
-    """Normal (3,) of the large face nearest a direction, True; else the direction, False."""
+    """Normal (3,) of the large face nearest a direction, and whether there is one."""
     from scipy.spatial import ConvexHull, QhullError
 
     start = down
@@ -195,7 +195,7 @@ def _triangle(corners: NDArray[np.float64]) -> float:
 
 
 def _area_across(points: NDArray[np.float64], axis: NDArray[np.float64]) -> float:
-    """Area in m^2 of the hull of points projected along an axis."""
+    """Hull area in m^2 of points projected along an axis."""
     import shapely
 
     first = np.cross(axis, [1.0, 0.0, 0.0] if abs(axis[0]) < 0.9 else [0.0, 1.0, 0.0])
@@ -204,7 +204,7 @@ def _area_across(points: NDArray[np.float64], axis: NDArray[np.float64]) -> floa
 
 
 def _outline(parts: list[_Part], position: NDArray[np.float64], rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Hull (k, 2) of the points within `_DEPTH` of the lowest one, in the sole frame."""
+    """Hull (k, 2) of points within `_DEPTH` of the lowest, sole frame."""
     import shapely
     from scipy.spatial import ConvexHull, QhullError
 

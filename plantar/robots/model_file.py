@@ -139,7 +139,7 @@ def _check_joints(spec: Any, robot: Robot, wanted: set[str]) -> None:
 
 
 def _check_leg(spec: Any, robot: Robot, side: str, leg: LegNames) -> None:
-    """Refuse joints that do not move the foot or are not hinges, and torso or IMU below the leg."""
+    """Refuse joints that do not move the foot, and torso or IMU below."""
     where = f"robot '{robot.name}': [legs.{side}]"
     foot = _body(spec, robot, leg.foot_body, f"[legs.{side}] foot_body")
     chain = [j.name for body in reversed(_upwards(foot)) for j in body.joints if j.type != mujoco.mjtJoint.mjJNT_FREE]
@@ -156,7 +156,7 @@ def _check_leg(spec: Any, robot: Robot, side: str, leg: LegNames) -> None:
 
 
 def _joints_above(body: Any) -> list[str]:
-    """Names of the joints that move a body, from it upwards; none for None."""
+    """Names of joints that move a body, upwards; none for None."""
     return [joint.name for part in _upwards(body) for joint in part.joints]
 
 

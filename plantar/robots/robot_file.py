@@ -276,7 +276,7 @@ class _RobotFile(RobotTables):
         return tuple(math.radians(v) for v in degrees)
 
     def _shoe(self, kind: str) -> dict[str, Any]:
-        """Layouts, mass, thickness and place of the shoe, by `plantar shoe` or the file."""
+        """Layouts, mass, thickness and place of the shoe."""
         exported = _exported_shoe(self._layout_file("left"))
         places = self._sole_frames(kind)
         return {
@@ -290,7 +290,7 @@ class _RobotFile(RobotTables):
         }
 
     def _sole_frames(self, kind: str) -> dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]]:
-        """Origin (3,) in m and rotation (3, 3) of each sole frame; the right mirrors the left by default."""
+        """Sole frames' origin (3,) in m and rotation (3, 3); right mirrors left."""
         if kind == "biped":
             return {side: (np.zeros(3), np.eye(3)) for side in SIDES}
         given = self.table("shoe")

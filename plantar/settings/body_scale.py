@@ -1,8 +1,7 @@
 """Units that grow with a robot: body weight, leg, sole, beat of a swinging leg, pace.
 
-Robots of one shape and mass distribution walk alike with the same shares of leg, weight and beats sqrt(leg / g)
-(Alexander, Int. J. Robotics Research 3(2), 1984). Motors are not similar: a pace is the beats that a robot's motors
-need for a beat of others.
+Robots of one shape walk alike with the same shares of leg, weight and beats sqrt(leg / g) (Alexander, Int. J. Robotics
+Research 3(2), 1984). Motors are not similar: a pace is the beats that a robot's motors need for a beat of others.
 """
 
 from __future__ import annotations

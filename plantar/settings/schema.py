@@ -1,8 +1,7 @@
 """Checked settings: a frozen dataclass whose fields give default, unit, range or choices.
 
-A class derives from `Settings` and makes its fields with the functions below; its docstring explains them under
-"Attributes". Numbers are in SI. `share`, or a text such as "0.5 sole", is a share of the robot's body, the reference
-body until `for_body`.
+A class derives from `Settings`, makes its fields with the functions below and explains them under "Attributes". Numbers
+are in SI. `share`, or a text such as "0.5 sole", is a share of the robot's body, the reference body until `for_body`.
 """
 
 from __future__ import annotations
@@ -267,7 +266,7 @@ def _units(item: Field[Any]) -> str:
 
 
 def _checked(item: Field[Any], value: Any, body: BodyScale) -> Any:
-    """A value as its field's type, in SI, or an error."""
+    """A value as its field's type, in SI."""
     default: Any = 0.0 if isinstance(item.default, Quantity) else item.default
     told = repr(value)
     if isinstance(value, Quantity):
@@ -324,7 +323,7 @@ def _as_toml(value: Any) -> str:
 
 
 def _meanings(kind: type[Settings]) -> dict[str, str]:
-    """Each field's meaning: its entry under "Attributes" in the docstring."""
+    """Each field's entry under "Attributes"."""
     found: dict[str, str] = {}
     for base in reversed(kind.__mro__):
         entries = (inspect.cleandoc(base.__doc__ or "")).partition("Attributes:\n")[2]

@@ -241,8 +241,8 @@ def measure_skipping(
 ) -> dict[str, Any]:
     """Compare `scenes` (scene, robot, settings); write skipping.md and skipping.csv into an existing `folder`.
 
-    Returns the rows as plain JSON values, whether all motions were the same, and the files' names; `rounds` are those
-    of the medians, `progress` gets the fraction done and a text.
+    Returns the rows as plain JSON values, whether all motions were the same, and file names; `rounds` of the medians,
+    `progress` gets fraction done and text.
     """
     rows = []
     for number, (scene, robot, settings) in enumerate(scenes):

@@ -283,7 +283,7 @@ def _seed_height(robot: Robot, legs: LegModel) -> float:
 
 
 def _paced(robot: Robot, height: float, slower: float) -> Robot:
-    """The robot with the pace of a pendulum of its height in m, or a slower or rocking one."""
+    """The robot with a pendulum's pace of its height in m, or slower."""
     if robot.rocks:
         return rocking(robot, height)
     unit = slower * math.sqrt(height / GRAVITY)
@@ -421,13 +421,13 @@ def _nearest(robot: Robot, legs: LegModel, body: BodyScale, seed: float) -> str:
 
 
 def _rocking_share(robot: Robot, body: BodyScale, height: float) -> float:
-    """Share of the leg that scales a rocking robot's steps, so that it walks as fast as h1."""
+    """Leg share that scales a rocking robot's steps, for h1's speed."""
     rocks = rocking(robot, height)
     return min(1.0, (rocks.single_support + rocks.double_support) / (_H1_STEP * body.beat))
 
 
 def _pace(robot: Robot, legs: LegModel, body: BodyScale) -> float:
-    """Least beats a pace at which quick steps leave the motors a reserve, or the largest."""
+    """Least beats a pace that leave the motors a reserve, or the largest."""
     if robot.rocks:
         step = robot.single_support + robot.double_support
         return float(f"{step / ((QUICK_SINGLE + QUICK_DOUBLE) * body.beat):.3g}")
@@ -446,7 +446,7 @@ def _pace(robot: Robot, legs: LegModel, body: BodyScale) -> float:
 
 
 def _approach_support(robot: Robot, legs: LegModel, body: BodyScale) -> float:
-    """Least t_ss in s at which a slow landing leaves the motors a reserve; 0: the robot's own."""
+    """Least t_ss in s of a slow landing with a motor reserve; else 0."""
     if robot.rocks or not robot.effort_limits:
         return 0.0
     limits = np.array(robot.effort_limits)
@@ -472,7 +472,7 @@ def _angles(robot: Robot, legs: LegModel, configuration: Array) -> dict[Side, tu
 
 
 def _crouch(robot: Robot, legs: LegModel, body: BodyScale, asked: float) -> float:
-    """How much lower in m it can walk, within joint ranges and three quarters of their torque."""
+    """How much lower in m it can walk, at three quarters of torque."""
     limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
     fits = 0.0
     for lower in _CROUCHES:

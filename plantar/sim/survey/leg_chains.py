@@ -196,7 +196,7 @@ def _apart(tree: _Tree, a: int, b: int) -> tuple[list[int], list[int]]:
 
 
 def _leg(tree: _Tree, up: Array, chain: list[int], where: str) -> Leg:
-    """The leg of a chain of links: the foot is the highest one on the floor."""
+    """The leg of a chain of links; the highest on the floor is the foot."""
     model, data = tree.model, tree.data
     up = _above_sole(tree.points[chain[-1]], up)
     floor = float((tree.points[chain[-1]] @ up).min())
@@ -228,7 +228,7 @@ def _above_sole(points: Array, up: Array) -> Array:
 
 
 def _ankle(data: Any, hinges: list[int], foot: Array) -> Array:
-    """Where a leg's last two axes meet, or the middle of the last over the foot if parallel."""
+    """Where a leg's last axes meet, or the last's middle if parallel."""
     a, b = hinges[-1], hinges[-2]
     p, u, q, v = data.xanchor[a], data.xaxis[a], data.xanchor[b], data.xaxis[b]
     parallel = float(u @ v)

@@ -131,8 +131,8 @@ def servo_gains(
 def rotor_inertia(inertia: JointInertia, mass: float, com_height: float, period: float) -> NDArray[np.float64]:
     """Rotor inertia to assume where none is stated and a joint is too light for its servo.
 
-    It keeps a bare foot's swing under the least holding stiffness to `SAMPLED` in a control period. For Unitree's G1,
-    whose URDF states none: 0.0035 and 0.0066 kg m^2 about the ankle, which has 0.007.
+    It keeps a bare foot's swing under the least holding stiffness to `SAMPLED` in a control period: 0.0035 and 0.0066
+    kg m^2 about the ankle of Unitree's G1, which has 0.007.
 
     Args:
         inertia: About each joint of a leg.

@@ -149,7 +149,7 @@ def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> S
 
 
 def _axes(surface: Array, normal: Array) -> tuple[Array, float]:
-    """Rotation (3, 3) from the sole's axes to the robot's, and turn of the long side in rad."""
+    """Rotation (3, 3) from sole axes to the robot's, and long side's turn in rad."""
     up = -normal
     forward = np.array([1.0, 0.0, 0.0]) - up[0] * up
     forward /= float(np.linalg.norm(forward))
@@ -164,7 +164,7 @@ def _axes(surface: Array, normal: Array) -> tuple[Array, float]:
 
 
 def _long_side(points: Array) -> float:
-    """Angle in rad, within a quarter turn, of the long side of the least rectangle around points (n, 2)."""
+    """Long side's angle in rad, within a quarter turn, of points' (n, 2) least rectangle."""
     try:
         corners = points[ConvexHull(points).vertices]
     except (QhullError, ValueError):
@@ -184,7 +184,7 @@ def _long_side(points: Array) -> float:
 
 
 def _covered(triangles: Array) -> float:
-    """Share of the silhouette that lowest faces cover: small for balls and bars, 1 for a plate."""
+    """Share of the silhouette under lowest faces: small for balls, 1 for a plate."""
     flat = triangles[(triangles[..., 2] <= _BAND).all(axis=1)][..., :2]
     a, b = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
     cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]

@@ -7,8 +7,8 @@ at p to the side, half the feet's distance, swings to the foot and back in a tim
 
 (Kajita et al., "The 3D linear inverted pendulum mode", IROS 2001). Quick steps keep that small.
 
-A leg thrown forward turns the robot about the vertical through the standing sole, against friction. Unitree's G1 turns
-its sole by one or two degrees a step where the leg takes a sixth of friction, by seven after a step down.
+A leg thrown forward turns the robot about the standing sole, against friction. Unitree's G1 turns its sole by one or
+two degrees a step where the leg takes a sixth of friction.
 """
 
 from __future__ import annotations

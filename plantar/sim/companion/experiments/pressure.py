@@ -78,7 +78,7 @@ class _Push:
 
     @property
     def speed(self) -> float:
-        """Norm of the waist joints' velocities in rad/s, fitted in the window, or NaN."""
+        """Norm of waist joint velocities in rad/s in the window, or NaN."""
         if len(self.times) < 2:
             return float("nan")
         return float(np.linalg.norm(np.polyfit(self.times, np.array(self.joints), 1)[0]))

@@ -131,7 +131,7 @@ class Stove(StandingExperiment):
         self._silent = silent
 
     def _target(self, time: float) -> Any:
-        """Wanted place (3,) of the palm: towards the plate, then on a circle."""
+        """Wanted place (3,) of the palm."""
         share = min(1.0, max(0.0, (time - _BEGIN) / _WAY))
         angle = self._phase + 2.0 * math.pi * time / _CIRCLE
         circle = np.array([self._radius * math.cos(angle), self._radius * math.sin(angle), self.height])

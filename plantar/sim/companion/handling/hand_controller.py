@@ -151,7 +151,7 @@ class HandController:
         self.wanted_force = 0.0
 
     def _distance_stiffness(self) -> float:
-        """Stiffness in N/m at which the distance's error decays at its rate."""
+        """In N/m, for the distance error's decay rate."""
         s = self.settings
         return s.distance_rate * s.force_damping / s.force_gain
 
@@ -192,7 +192,7 @@ class HandController:
 
 
 class _BentElbow(Task):
-    """Keeps the elbow off its range's ends, critically damped for an inertia of 1 kg m^2."""
+    """Keeps the elbow off its ends, critically damped at 1 kg m^2."""
 
     def __init__(self, joint: int, settings: HandControl) -> None:
         self._joint = joint

@@ -133,7 +133,7 @@ class ReachController:
         return self._blend.blend(self._stack.step(robot, reading).torque, robot.time)
 
     def _look(self, robot: RobotDynamics, reading: SkinReading) -> ContactSigns:
-        """Signs of skin and tip (T Table 1); speed and nearness are smoothed against flicker."""
+        """Signs of skin and tip (T Table 1), smoothed against flicker."""
         period = robot.time - self._time if np.isfinite(self._time) else 0.0
         self._time = robot.time
         share = period / (_SMOOTHED + period)

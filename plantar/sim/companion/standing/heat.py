@@ -1,7 +1,7 @@
-"""How a hot plate warms taxels: radiation, and the warm air above it.
+"""How a hot plate warms taxels: radiation, and warm air above it.
 
 A taxel's temperature T: C T' = eps^2 sigma F (T_p^4 - T^4) - h (T - T_air), with the view factor F of the plate's disc,
-summed over small areas as cos cos dA / (pi r^2) (Incropera, Fundamentals of heat and mass transfer, ch. 13). h includes
+summed over areas as cos cos dA / (pi r^2) (Incropera, Fundamentals of heat and mass transfer, ch. 13). h includes
 radiation to the room.
 """
 

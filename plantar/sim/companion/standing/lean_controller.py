@@ -82,13 +82,12 @@ class Aim:
 class LeanController:
     """Settle, lower the forearm onto the table, lean, reach.
 
-    Feet and forearm share the load within their friction cones; the forearm presses with its share as its skin measures
-    it. Without skin it is held at the table's expected place. Of the `experiment` only stance and first posture are
-    used.
+    Feet and forearm share the load within their friction cones, the forearm as its skin measures it, else at the
+    table's expected place. Of the `experiment` only stance and first posture are used.
 
     Attributes:
-        began: Begin of each phase in s by its name.
-        areas: Supported part of each sole as measured, about its middle.
+        began: Begin of each phase in s by name.
+        areas: Measured supported part of each sole, about its middle.
     """
 
     def __init__(self, experiment: StandingExperiment, skin: BodySkin) -> None:
@@ -227,7 +226,7 @@ class LeanController:
 
 
 def _foremost(polygon: NDArray[np.float64], y: float) -> float:
-    """Largest x of a convex polygon (m, 2) at some y, or of all outside its range."""
+    """Largest x of a convex polygon (m, 2) at some y, or overall."""
     found = []
     for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
         if min(a[1], b[1]) <= y <= max(a[1], b[1]) and a[1] != b[1]:

@@ -188,7 +188,7 @@ class StandingExperiment(Experiment):
             pad.act(world, self.pressing(pad), world.model.opt.timestep)
 
     def _cop_margin(self, world: World) -> float:
-        """Distance in m of the true centre of pressure, over 20 ms, to the soles' rectangle's edge, negative outside."""
+        """Distance in m of true centre of pressure, over 20 ms, to the soles' rectangle; negative outside."""
         model, data = world.model, world.data
         floor = model.geom("floor").id
         pressed = foot_contacts(model, data, {floor})
