@@ -53,7 +53,7 @@ def measure_kernels(folder: Path, progress: Callable[[float, str], None], rounds
 
     Args:
         folder: Existing folder.
-        progress: Called with fraction done and a text.
+        progress: Gets fraction done and text.
         rounds: Rounds of medians.
 
     Returns:

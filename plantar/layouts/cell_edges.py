@@ -32,7 +32,7 @@ def edge_table(vertices: ArrayLike, corners: Sequence[Sequence[int]]) -> EdgeTab
         The table; None where cells overlap, and unshared edges give no outline.
 
     Raises:
-        InputError: If points or indices are not valid.
+        InputError: If points or indices are invalid.
     """
     xy = plane_points(vertices, "vertices")
     if any(not 0 <= i < len(xy) for cell in corners for i in cell):

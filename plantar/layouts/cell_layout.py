@@ -50,7 +50,7 @@ def layout_of_cells(
         The layout; its `cell_area` is the median.
 
     Raises:
-        LayoutError: If cells or fields are not valid.
+        LayoutError: If cells or fields are invalid.
 
     Example:
         >>> square = np.array([[0.0, 0.0], [0.02, 0.0], [0.02, 0.02], [0.0, 0.02]])
@@ -154,7 +154,7 @@ def shared_vertices(rings: Sequence[ArrayLike], tolerance: float) -> tuple[NDArr
         Points (v, 2) in m, and each cell's corner indices, none twice in a row.
 
     Raises:
-        InputError: If an argument is not valid.
+        InputError: If an argument is invalid.
     """
     if not number(tolerance, "tolerance of corners", finite=True) > 0.0:
         raise InputError(f"tolerance of corners is {tolerance} m; allowed: above 0")

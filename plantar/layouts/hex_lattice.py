@@ -55,7 +55,7 @@ class HexLattice:
         angle: Rotation of rows against x in rad.
 
     Raises:
-        InputError: If a value is not valid.
+        InputError: If a value is invalid.
 
     Example:
         >>> lattice = HexLattice(area=691e-6)

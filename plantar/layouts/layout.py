@@ -77,7 +77,7 @@ class SoleLayout:
         thresholds: Activation threshold of each in SI.
 
     Raises:
-        LayoutError: If a field is not valid; the message names it.
+        LayoutError: If a field is invalid; the message names it.
 
     Example:
         >>> from plantar import grid_layout

@@ -169,7 +169,7 @@ def read_layout(path: str | os.PathLike[str]) -> SoleLayout:
         path: A JSON file as of `write_layout`.
 
     Raises:
-        LayoutError: If not valid; the message names file and field.
+        LayoutError: If invalid; the message names file and field.
 
     Example:
         >>> import tempfile

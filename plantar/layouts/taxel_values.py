@@ -27,7 +27,7 @@ def taxel_values(layout: SoleLayout, values: object, name: str = "forces") -> ND
         Values (n,), NaN where dead; not copied if float64.
 
     Raises:
-        ReadingError, InputError: If numbers or layout are not valid.
+        ReadingError, InputError: If numbers or layout are invalid.
     """
     if not isinstance(layout, SoleLayout):
         instance(layout, SoleLayout, "layout")

@@ -52,7 +52,7 @@ def hex_layout(
         The layout; a clipped cell's position is its centroid.
 
     Raises:
-        LayoutError, InputError: If an argument is not valid, no cell fits, or more than MOST_TAXELS.
+        LayoutError, InputError: If an argument is invalid, no cell fits, or more than MOST_TAXELS.
 
     Example:
         >>> layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]], clip=False)
@@ -108,7 +108,7 @@ def grid_layout(
         The layout; a clipped cell's position is its centroid.
 
     Raises:
-        LayoutError, InputError: If an argument is not valid.
+        LayoutError, InputError: If an argument is invalid.
 
     Example:
         >>> layout = grid_layout([[0, 0], [0.1, 0], [0.1, 0.06], [0, 0.06]], pitch=(0.02, 0.01))

@@ -54,7 +54,7 @@ class Skin:
         reach: Gap in m up to which an unloaded contact counts as near.
 
     Raises:
-        InputError, LayoutError: If an argument is not valid.
+        InputError, LayoutError: If an argument is invalid.
     """
 
     def __init__(

@@ -33,7 +33,7 @@ class WarpSkin:
         carried: 1 for each world (worlds,) whose taxels have the whole wrench, else 0.
 
     Raises:
-        DependencyError, InputError: If an argument is not valid.
+        DependencyError, InputError: If an argument is invalid.
     """
 
     def __init__(self, skin: BoundSkin, worlds: int, contacts: int = _CONTACTS, elliptic: bool | None = None) -> None:

@@ -47,7 +47,7 @@ class BipedParameters:
         armature: Reflected rotor inertia of a joint in kg m^2.
 
     Raises:
-        RobotError: If a dimension is not valid.
+        RobotError: If a dimension is invalid.
     """
 
     total_mass: float

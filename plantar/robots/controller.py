@@ -93,7 +93,7 @@ def load_controller(
         The controller, before its first tick.
 
     Raises:
-        RobotError, SceneError: If an argument is not valid.
+        RobotError, SceneError: If an argument is invalid.
     """
     own = load_robot(robot)
     legs = build_leg_model(own)

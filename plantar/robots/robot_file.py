@@ -81,7 +81,7 @@ def load_robot(name: str | os.PathLike[str]) -> Robot:
         name: Built-in name (`builtin_robots()`) or path.
 
     Raises:
-        RobotError: If unknown or not valid.
+        RobotError: If unknown or invalid.
 
     Example:
         >>> load_robot("h1").biped.total_mass

@@ -75,7 +75,7 @@ def box_plan(
         The standing feet at the start, and the steps in order.
 
     Raises:
-        InputError: If steps or stride are not valid.
+        InputError: If steps or stride are invalid.
     """
     if steps % STEPS_A_ROUND:
         raise InputError(f"steps is {steps}; allowed: whole rounds of {STEPS_A_ROUND} steps")

@@ -81,7 +81,7 @@ def build_leg_model(robot: Robot, worn: Sequence[Visitor] = ()) -> LegModel:
         The model.
 
     Raises:
-        RobotError: If the model is not valid.
+        RobotError: If the model is invalid.
     """
     spec = robot_spec(robot)
     for part in worn:

@@ -38,7 +38,7 @@ def solve_standing(
         Joint angles (k,) in rad, and torques (k,) in N m that hold them.
 
     Raises:
-        RobotError, SceneError: If an argument is not valid.
+        RobotError, SceneError: If an argument is invalid.
     """
     posture = np.array([*robot.posture["left"], *robot.posture["right"]])
     stands = legs.posture(posture).positions

@@ -284,7 +284,7 @@ def companion_scene(
         The scene.
 
     Raises:
-        SceneError: If a field is not valid.
+        SceneError: If a field is invalid.
     """
     where = f"scene '{path.stem}'"
     result: dict[str, Any] = {k: dict(v) if isinstance(v, Mapping) else v for k, v in source.items()}

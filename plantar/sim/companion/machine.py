@@ -155,7 +155,7 @@ def load_machine(name: str | os.PathLike[str]) -> Machine:
     """Load a machine by built-in name (`builtin_machines()`) or TOML path.
 
     Raises:
-        RobotError: If unknown or not valid.
+        RobotError: If unknown or invalid.
 
     Example:
         >>> load_machine("planar-arm").base.kind

@@ -35,7 +35,7 @@ class Companion(Run):
         skin: The machine's skin sensor.
 
     Raises:
-        RobotError: If the machine is not valid.
+        RobotError: If the machine is invalid.
         SceneError: If it cannot be simulated.
     """
 

@@ -95,8 +95,8 @@ def check_robot(file: str | os.PathLike[str], scene: str) -> RobotCheck:
     """Returns what was measured of a robot `file` or name for a `scene`'s plan.
 
     Raises:
-        RobotError: If the robot is not valid.
-        SceneError: If the scene is not valid.
+        RobotError: If the robot is invalid.
+        SceneError: If the scene is invalid.
     """
     robot = load_robot(file)
     return _Checked(robot, load_scene(scene, robot=str(file))).result()

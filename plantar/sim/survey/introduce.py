@@ -138,7 +138,7 @@ def introduce(
         file: The model, MJCF or URDF.
         folder: Existing folder.
         make_shoes: Builds the shoes.
-        progress: Called with fraction done and a text.
+        progress: Gets fraction done and text.
 
     Raises:
         RobotError: If the file holds no biped; the message explains why.

@@ -28,7 +28,7 @@ def inputs_of(scene: str, robot: str) -> dict[str, str]:
 
     Raises:
         SceneError: If the scene is unknown.
-        RobotError: If the robot is not valid.
+        RobotError: If the robot is invalid.
 
     Example:
         >>> sorted(inputs_of("flat", "h1"))[:3]

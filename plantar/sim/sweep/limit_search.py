@@ -35,7 +35,7 @@ class LimitSearch:
         within: Width of the limit's 95 % interval, as a share of limit, that ends the search.
 
     Raises:
-        InputError: If share or settings are not valid.
+        InputError: If share or settings are invalid.
         SceneError: If setting or range is not allowed.
     """
 

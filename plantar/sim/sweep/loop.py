@@ -100,7 +100,7 @@ def run_sweep(
         folder: Folder of results.csv; made if needed.
         workers: Processes on this machine.
         scheduler: Address of a Dask scheduler to use instead.
-        progress: Called with fraction done and a text.
+        progress: Gets fraction done and text.
 
     Returns:
         The plan's `found` for all rows, and "runs", "resumed", "files".

@@ -92,7 +92,7 @@ class Sweep:
     Raises:
         InputError: If keys, values or points repeat.
         SceneError: If a setting is not allowed.
-        RobotError: If the robot is not valid.
+        RobotError: If the robot is invalid.
     """
 
     scene: str

@@ -35,13 +35,13 @@ def measure_footholds(
         robots: Names or files; h1 where empty.
         seeds: Runs of each trial.
         kinds: Kinds of trials; all where empty.
-        progress: Called with fraction done and a text.
+        progress: Gets fraction done and text.
 
     Returns:
         A row for each policy, robot and trial, and the files' names.
 
     Raises:
-        InputError: If an argument is not valid.
+        InputError: If an argument is invalid.
     """
     known = list(dict.fromkeys(t.kind for t in TRIALS))
     if seeds < 1 or set(kinds) - set(known):

@@ -150,7 +150,7 @@ def measure_page(
     Args:
         folder: Existing folder.
         before: Folder of an earlier run, whose table of scene runs is continued.
-        progress: Called with fraction done and a text, for scenes and papers.
+        progress: Gets fraction done and text, for scenes and papers.
         result: Results of the other parts, by name.
         quick: Leave out the long experiments.
 

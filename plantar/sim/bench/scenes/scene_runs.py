@@ -65,7 +65,7 @@ class SceneRuns:
             settings: How each is run.
             seeds: Of each.
             traced: Number of first seeds whose motions are compared.
-            progress: Called with fraction done and a text.
+            progress: Gets fraction done and text.
         """
         have = {_key(row) for row in self.rows}
         wanted = [job for case in cases for job in _jobs(case, settings, seeds, traced)]

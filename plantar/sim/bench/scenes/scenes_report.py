@@ -40,7 +40,7 @@ def measure_scenes(
 
     Args:
         folder: Of the table; made if needed.
-        progress: Called with fraction done and a text.
+        progress: Gets fraction done and text.
         scenes: Names; all of `CASES` where empty.
         robots: Names; likewise.
         quick: Run the most informative settings with one seed, by default of H1 on flat ground.
@@ -49,7 +49,7 @@ def measure_scenes(
         Rows and verdicts as plain JSON values, and the files' names.
 
     Raises:
-        InputError: If an argument or table is not valid.
+        InputError: If an argument or table is invalid.
     """
     cases = _chosen(scenes, robots, quick)
     folder.mkdir(parents=True, exist_ok=True)

@@ -183,13 +183,13 @@ def measure_stress(
         folder: Of the table; made if needed.
         count: Number of scenarios, 1 or more.
         first: Number of the first.
-        progress: Called with fraction done and a text.
+        progress: Gets fraction done and text.
 
     Returns:
         Counts of each outcome, the failures, and the table's name.
 
     Raises:
-        InputError: If count or file is not valid.
+        InputError: If count or file is invalid.
     """
     if count < 1:
         raise InputError(f"stress run of {count} scenarios; allowed: 1 or more")
