@@ -182,7 +182,7 @@ def _leg(side: Side, p: BipedParameters, sole: Mapping[str, Any], shoe_mass: flo
 
 
 def _chest_height(p: BipedParameters, posture: NDArray[np.float64], shoe_mass: float, thickness: float) -> float:
-    """Chest's center of mass above the base that puts the whole CoM at `com_height`."""
+    """Chest's CoM above the base for a CoM at `com_height`."""
     hip, knee = math.radians(posture[2]), math.radians(posture[3])
     hip_z = p.hip_offset[2]
     knee_z = hip_z - p.thigh_length * math.cos(hip)

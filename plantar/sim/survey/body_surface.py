@@ -96,7 +96,7 @@ def resting_plane(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], flo
 
 
 def _points_of(kind: int, size: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points whose hull is a MuJoCo shape about the origin, its axis along z."""
+    """Points with a MuJoCo shape's hull, its axis along z."""
     types = mujoco.mjtGeom
     if kind == types.mjGEOM_BOX:
         return _BOX * size

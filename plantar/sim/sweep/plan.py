@@ -65,7 +65,7 @@ class Plan(Protocol):
         """A sweep with the same axes and checked points."""
 
     def identity(self) -> dict[str, Any]:
-        """What all rows share besides file contents: JSON values by name."""
+        """What all rows share except file contents: JSON values by name."""
 
     def runs(self, rows: Rows) -> Iterator[Run | None]:
         """Runs, ordered by outcomes alone; None while more `rows` are needed."""
@@ -211,7 +211,7 @@ class Sweep:
         return self.opened(point).robot
 
     def identity(self) -> dict[str, Any]:
-        """What all rows share besides file contents; points and seeds may grow."""
+        """What all rows share except file contents; points may be added."""
         scene = self.opened(self.points()[0])
         settings = {}
         for key, _, value in (s.partition("=") for s in self.settings):

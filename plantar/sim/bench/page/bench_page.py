@@ -91,7 +91,7 @@ def _tiles(result: Mapping[str, Any]) -> list[tuple[str, str]]:
 
 
 class _Headline(NamedTuple):
-    """A kernel and the fastest other route, where that does best; times in us."""
+    """A kernel and the fastest other route; times in us."""
 
     kernel: str
     size: str
