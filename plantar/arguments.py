@@ -26,17 +26,17 @@ def number(
     """One real number as a float.
 
     Args:
-        value: The argument.
-        name: Its name in an error.
-        error: Class of the error.
+        value: Argument.
+        name: Name in errors.
+        error: Error class.
         finite: Refuse inf, and what is beyond `LARGEST`.
         nan: Allow NaN.
 
     Returns:
-        The float.
+        Float.
 
     Raises:
-        PlantarError: If it is not a real number, or not finite where it has to be.
+        PlantarError: If invalid.
 
     Example:
         >>> number(np.float32(0.5), "threshold"), number(np.array(2), "threshold")
@@ -59,17 +59,17 @@ def integer(value: object, name: str, low: int, high: int | None = None, error: 
     """One whole number in a range.
 
     Args:
-        value: The argument.
-        name: Its name in an error.
+        value: Argument.
+        name: Name in errors.
         low: Smallest allowed.
         high: Largest allowed; no limit if None.
-        error: Class of the error.
+        error: Error class.
 
     Returns:
-        The int.
+        Int.
 
     Raises:
-        PlantarError: If it is not a whole number, or out of the range.
+        PlantarError: If invalid.
 
     Example:
         >>> integer(np.int64(3), "frame", 0, 9)
@@ -89,16 +89,16 @@ def instance(value: _Kind, kind: type, name: str, error: type[PlantarError] = In
     """An object of a class.
 
     Args:
-        value: The argument.
-        kind: The class.
-        name: Its name in an error.
-        error: Class of the error.
+        value: Argument.
+        kind: Class.
+        name: Name in errors.
+        error: Error class.
 
     Returns:
-        The object.
+        Object.
 
     Raises:
-        PlantarError: If it is of another class.
+        PlantarError: If invalid.
 
     Example:
         >>> instance(3, str, "name")
@@ -114,15 +114,15 @@ def items(value: Iterable[_Value], name: str, error: type[PlantarError] = InputE
     """Several objects as a tuple.
 
     Args:
-        value: The argument.
-        name: Its name in an error.
-        error: Class of the error.
+        value: Argument.
+        name: Name in errors.
+        error: Error class.
 
     Returns:
-        The tuple.
+        Tuple.
 
     Raises:
-        PlantarError: If it is not iterable.
+        PlantarError: If invalid.
 
     Example:
         >>> items(range(2), "poses")
@@ -138,7 +138,7 @@ def does(name: str, verb: str) -> str:
     """Subject and verb of an error, in agreement.
 
     Args:
-        name: Name of an argument; a plural if it, or what precedes "of", ends in s.
+        name: Name of argument; a plural if it, or what precedes "of", ends in s.
         verb: "are", "have" or "hold".
 
     Returns:

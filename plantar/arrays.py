@@ -39,15 +39,15 @@ def numbers(value: object, name: str, error: type[PlantarError] = InputError) ->
     """Real numbers as float64, an array of any shape.
 
     Args:
-        value: The argument.
-        name: Its name in an error: "polygon", "forces" (a plural ends in s).
-        error: Class of the error.
+        value: Argument.
+        name: Name in errors: "polygon", "forces" (a plural ends in s).
+        error: Error class.
 
     Returns:
-        The array itself if float64, else a converted one.
+        Array itself if float64, else a converted one.
 
     Raises:
-        PlantarError: If these are not real numbers, rows differ in length, or values are masked.
+        PlantarError: If invalid.
 
     Example:
         >>> numbers([1, 2.5], "forces").tolist()
@@ -64,15 +64,15 @@ def numbers(value: object, name: str, error: type[PlantarError] = InputError) ->
 
 
 def held_numbers(value: object, name: str, error: type[PlantarError] = InputError) -> NDArray[Any]:
-    """Real numbers in their own type, for an array that is too large to convert.
+    """Real numbers in their own typefor an array too large to convert.
 
     Args:
-        value: The argument, for example a memory-mapped array.
-        name: Its name in an error.
-        error: Class of the error.
+        value: Argument, e.g. a memory-mapped array.
+        name: Name in errors.
+        error: Error class.
 
     Returns:
-        The array itself, or one of the value.
+        Array itself, or one of value.
 
     Raises:
         PlantarError: As `numbers`.
@@ -99,17 +99,17 @@ def array(
     """Real numbers in an array of a given shape.
 
     Args:
-        value: The argument.
-        name: Its name in an error.
+        value: Argument.
+        name: Name in errors.
         shape: Length of each axis; a text for any length, and `...` in front for any number of axes.
-        error: Class of the error.
+        error: Error class.
         finite: Refuse NaN, inf, and what is beyond `LARGEST`.
 
     Returns:
-        The array itself if float64, else a converted one.
+        Array itself if float64, else a converted one.
 
     Raises:
-        PlantarError: If these are not real numbers, of another shape, or not finite where they have to be.
+        PlantarError: If invalid.
 
     Example:
         >>> array([[1, 2], [3, 4]], "points", (..., 2)).shape
@@ -137,14 +137,14 @@ def own_array(
     """`array`, copied and read-only.
 
     Args:
-        value: The argument.
-        name: Its name in an error.
+        value: Argument.
+        name: Name in errors.
         shape: As in `array`.
-        error: Class of the error.
+        error: Error class.
         finite: As in `array`.
 
     Returns:
-        The copy.
+        Copy.
 
     Example:
         >>> given = np.zeros(2)
@@ -162,7 +162,7 @@ def own(values: NDArray[np.float64]) -> NDArray[np.float64]:
         values: Array of any shape.
 
     Returns:
-        The copy.
+        Copy.
 
     Example:
         >>> own(np.zeros(2)).flags.writeable
@@ -179,16 +179,16 @@ def integers(
     """Whole numbers in an array of a given shape.
 
     Args:
-        value: The argument.
-        name: Its name in an error.
+        value: Argument.
+        name: Name in errors.
         shape: As in `array`.
-        error: Class of the error.
+        error: Error class.
 
     Returns:
-        The array as int64; an empty list is one without rows.
+        Array as int64; an empty list is one without rows.
 
     Raises:
-        PlantarError: If these are not whole numbers of at most 64 bits, or of another shape.
+        PlantarError: If invalid.
 
     Example:
         >>> integers([[0, 1]], "cells", ("m", 2)).dtype
@@ -210,16 +210,16 @@ def mask(
     """Truth values in an array of a given shape.
 
     Args:
-        value: The argument: bool, or whole numbers that are all 0 or 1.
-        name: Its name in an error.
+        value: Argument: bool, or whole numbers that are all 0 or 1.
+        name: Name in errors.
         shape: As in `array`.
-        error: Class of the error.
+        error: Error class.
 
     Returns:
-        The array itself if bool, else a converted one.
+        Array itself if bool, else a converted one.
 
     Raises:
-        PlantarError: If these are not truth values, for example indices of taxels, or of another shape.
+        PlantarError: If invalid.
 
     Example:
         >>> mask([1, 0], "mask", ("n",)).tolist()
@@ -262,10 +262,10 @@ def read_only(value: _Value) -> _Value:
     """Close an object's arrays to writing.
 
     Args:
-        value: An array, or nested tuples that hold some; anything else is not changed.
+        value: Array, or nested tuples that hold some; anything else is not changed.
 
     Returns:
-        The same object.
+        Same object.
 
     Example:
         >>> read_only(np.zeros(2)).flags.writeable
@@ -280,11 +280,11 @@ def not_finite(values: NDArray[np.float64], name: str, error: type[PlantarError]
 
     Args:
         values: Array of any shape.
-        name: Its name in the error.
-        error: Class of the error.
+        name: Name in errors.
+        error: Error class.
 
     Returns:
-        The error, to be raised.
+        Error, to be raised.
 
     Example:
         >>> not_finite(np.array([np.nan]), "positions")

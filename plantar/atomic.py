@@ -28,10 +28,10 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Give a temporary path for `path`; on success it is renamed to `path`, on an error deleted.
 
     Args:
-        path: The final path; the temporary one keeps its suffix.
+        path: Final path; temporary one keeps its suffix.
 
     Yields:
-        The temporary path to write to.
+        Temporary path to write to.
 
     Raises:
         InputError: If the folder does not exist or cannot be written to.
@@ -51,10 +51,10 @@ def temporary_beside(path: str | os.PathLike[str]) -> Path:
     """An empty temporary file in the folder of `path`, with the permissions of a new file.
 
     Args:
-        path: The final path; the temporary one keeps its suffix.
+        path: Final path; temporary one keeps its suffix.
 
     Returns:
-        The temporary path, to rename or remove.
+        Temporary path, to rename or remove.
 
     Raises:
         InputError: If the folder does not exist or cannot be written to.
@@ -88,11 +88,11 @@ def output_folder(path: str | os.PathLike[str], inputs: Iterable[str | os.PathLi
     Other files in `path` stay.
 
     Args:
-        path: The output folder, which may exist.
+        path: Output folder, which may exist.
         inputs: Input files, which are not overwritten; or None.
 
     Yields:
-        The temporary folder to write to.
+        Temporary folder to write to.
 
     Raises:
         InputError: If the folder cannot be made or written to, or a file would replace an input.
@@ -137,7 +137,7 @@ def parent_folder(path: str | os.PathLike[str]) -> Iterator[None]:
     """Make the folder of a file to write; on an error remove what was made and is empty.
 
     Args:
-        path: The file.
+        path: File.
 
     Raises:
         InputError: If the folder cannot be made, or the path is a folder itself.

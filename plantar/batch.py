@@ -52,9 +52,9 @@ class Loads:
     """Sums of the forces of each frame; "..." are the dimensions before the taxels.
 
     Attributes:
-        wrench: Ground reaction wrench (..., 6) about the sole frame's origin in N and N m (T 4.23).
-        contact_area: Area (...) of the active cells in m^2 (T 4.22).
-        center_of_pressure: Position (..., 2) in the sole frame in m (T 4.21); NaN without load.
+        wrench: Ground reaction wrench (..., 6) about sole origin in N and N m (T 4.23).
+        contact_area: Area (...) of active cells in m^2 (T 4.22).
+        center_of_pressure: Position (..., 2) in sole frame in m (T 4.21); NaN without load.
 
     Example:
         >>> Loads(np.array([[0.0, 0.0, 5.0, 0.0, 0.0, 0.0]]), np.zeros(1), np.zeros((1, 2))).vertical_force.tolist()
@@ -79,8 +79,8 @@ class SupportPolygons:
         area: Area (...) in m^2, 0 without contact.
         centroid: Centroid (..., 2) in m; NaN without contact.
         size: Number of vertices (...).
-        vertices: Vertices (sum of sizes, 2) of all polygons in m, one after the other, the last of the dimensions
-            counted first; None where not asked for.
+        vertices: Vertices (sum of sizes, 2) of all polygons in m, one after the other, the last of dimensions counted
+            first; None where not asked for.
 
     Example:
         >>> corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
@@ -98,14 +98,14 @@ class SupportPolygons:
         """Support polygon of one frame.
 
         Args:
-            frame: Index of the frame along each dimension, from 0; below 0 from the last one.
+            frame: Index of frame along each dimension, from 0; below 0 from the last one.
 
         Returns:
             Vertices (k, 2) in m, counter-clockwise; empty without contact.
 
         Raises:
-            ReadingError: If the vertices were not asked for.
-            IndexError: If there is no such frame.
+            ReadingError: If invalid.
+            IndexError: If invalid.
         """
         if self.vertices is None:
             raise ReadingError("support polygons hold no vertices; ask for them with vertices=True")
@@ -121,13 +121,13 @@ class SupportPolygons:
 
 @dataclass(frozen=True, eq=False)
 class GroundPlanes:
-    """The plane of the ground of each frame: z = -height + slope . (x, y) in the sole frame.
+    """The plane of the ground of each frame: z = -height + slope . (x, y) in sole frame.
 
     Attributes:
-        height: Height (...) in m of the sole frame's origin above the ground; NaN where no taxel sees it.
-        slope: Rise (..., 2) of the ground along the sole's x and y, as a ratio; NaN likewise.
-        residual: Root mean square distance (...) in m of the points used; NaN likewise.
-        directions: Directions (...) in which the points determine a slope: 2, 1, 0, and -1 without a plane.
+        height: Height (...) in m of sole origin above ground; NaN where no taxel sees it.
+        slope: Rise (..., 2) of ground along sole's x and y, as a ratio; NaN likewise.
+        residual: RMS distance (...) in m of points used; NaN likewise.
+        directions: Directions (...) in which points determine a slope: 2, 1, 0, and -1 without a plane.
         inliers: Taxels (..., n) whose points were used.
 
     Example:
@@ -156,18 +156,18 @@ def wrenches(
     """Ground reaction wrench of every frame (T 4.23), at the speed of memory.
 
     Args:
-        layout: The sole, n taxels.
+        layout: Sole, n taxels.
         force: Normal forces (..., n) in N.
-        threshold: Activation threshold in N; the layout's if None, -inf to count every finite force.
+        threshold: Activation threshold in N; layout's if None, -inf to count every finite force.
         out: Array (..., 6) to write to, float64 and contiguous; a new one if None.
-        threads: Number of threads; one a core if None.
+        threads: Threads; one per core if None.
 
     Returns:
-        Wrench (..., 6) about the sole frame's origin in N and N m.
+        Wrench (..., 6) about sole origin in N and N m.
 
     Raises:
-        ReadingError: If the forces or `out` have another shape, or are not numeric.
-        InputError: If layout, threshold or threads are not valid.
+        ReadingError: If invalid.
+        InputError: If invalid.
 
     Example:
         >>> from plantar import hex_layout
@@ -196,17 +196,17 @@ def loads(layout: SoleLayout, force: ArrayLike, threshold: float | None = None, 
     """Wrench, contact area and CoP of every frame, in one pass (T 4.21-4.23).
 
     Args:
-        layout: The sole, n taxels.
+        layout: Sole, n taxels.
         force: Normal forces (..., n) in N.
-        threshold: Activation threshold in N; the layout's if None.
-        threads: Number of threads; one a core if None.
+        threshold: Activation threshold in N; layout's if None.
+        threads: Threads; one per core if None.
 
     Returns:
-        The sums of each frame.
+        Sums of each frame.
 
     Raises:
-        ReadingError: If the forces have another shape or are not numeric.
-        InputError: If layout, threshold or threads are not valid.
+        ReadingError: If invalid.
+        InputError: If invalid.
 
     Example:
         >>> from plantar import hex_layout
@@ -237,18 +237,18 @@ def support_polygons(
     """Convex support polygon of every frame, with its area and centroid (T 4.24).
 
     Args:
-        layout: The sole, n taxels.
+        layout: Sole, n taxels.
         force: Normal forces (..., n) in N.
-        threshold: Activation threshold in N; the layout's if None.
-        vertices: Keep the polygons, not only their measures.
-        threads: Number of threads; one a core if None.
+        threshold: Activation threshold in N; layout's if None.
+        vertices: Keep polygons, not only their measures.
+        threads: Threads; one per core if None.
 
     Returns:
-        Area, centroid and size of each polygon, and the polygons if kept.
+        Area, centroid and size of each polygon, and polygons if kept.
 
     Raises:
-        ReadingError: If the forces have another shape or are not numeric.
-        InputError: If layout, threshold or threads are not valid.
+        ReadingError: If invalid.
+        InputError: If invalid.
 
     Example:
         >>> from plantar import hex_layout
@@ -290,18 +290,18 @@ def ground_planes(
     """Plane of the ground under the sole in every frame, as `plantar.fit_ground_plane`.
 
     Args:
-        layout: The sole, n taxels.
-        distance: Distances (..., n) in m; inf out of range, NaN for a dead taxel.
-        sensing_range: Distance in m from which a reading, also a negative one, is out of range; the layout's if None.
-        tolerance: Distance in m from the plane that noise and rough ground explain.
-        threads: Number of threads; one a core if None.
+        layout: Sole, n taxels.
+        distance: Distances (..., n) in m; inf out of range, NaN if dead.
+        sensing_range: Distance in m, of either sign, out of range from there; layout's if None.
+        tolerance: Distance in m from plane that noise explains.
+        threads: Threads; one per core if None.
 
     Returns:
-        The planes.
+        Planes.
 
     Raises:
-        ReadingError: If the distances have another shape or are not numeric.
-        InputError: If tolerance, range or threads are not above 0.
+        ReadingError: If invalid.
+        InputError: If invalid.
 
     Example:
         >>> from plantar import hex_layout
@@ -331,14 +331,14 @@ def blocks(force: NDArray[np.float64], frames: int = BLOCK) -> Iterator[tuple[sl
     """Cut a recording into blocks of frames, for results too large for memory.
 
     Args:
-        force: Forces (frames, n), for example of `numpy.load(path, mmap_mode="r")`.
+        force: Forces (frames, n), e.g. of `numpy.load(path, mmap_mode="r")`.
         frames: Frames in a block.
 
     Yields:
         Slice of frames, and a view of them, read when used.
 
     Raises:
-        InputError: If there is not at least one frame in a block.
+        InputError: If invalid.
 
     Example:
         >>> [(rows.start, rows.stop, part.shape) for rows, part in blocks(np.zeros((5, 3)), frames=2)]
@@ -364,7 +364,7 @@ def _joined(parts: list[NDArray[np.float64]], threads: int | None) -> NDArray[np
 
 
 def _frames(layout: SoleLayout, force: ArrayLike, name: str = "forces") -> tuple[NDArray[np.float64], tuple[int, ...]]:
-    """Forces (frames, n) of the layout's width, and the dimensions of the frames."""
+    """Forces (frames, n) of layout's width, and the dimensions of the frames."""
     instance(layout, SoleLayout, "layout")
     array = held_numbers(force, name, ReadingError)
     if array.ndim < 1 or array.shape[-1] != len(layout):

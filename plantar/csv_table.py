@@ -21,11 +21,11 @@ def csv_text(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
     empty.
 
     Args:
-        names: Heads of the columns.
+        names: Heads of columns.
         rows: Cells of each row.
 
     Returns:
-        The text.
+        Text.
 
     Example:
         >>> csv_text(["file", "N"], [["=1+1.csv", -0.5], ["-2e3", None]])
@@ -59,7 +59,7 @@ def csv_row(cells: Sequence[Any]) -> str:
         cells: Its cells.
 
     Returns:
-        The row with its line end.
+        Row with its line end.
 
     Example:
         >>> csv_row([1, None, "a,b"])
@@ -74,11 +74,11 @@ def mapping_rows(names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> Ite
     """Cells of rows that are mappings.
 
     Args:
-        names: Heads of the columns.
+        names: Heads of columns.
         rows: Cells of each row by name.
 
     Returns:
-        The cells of each row in the order of names; what a row lacks is None.
+        Cells of each row in order of names; what a row lacks is None.
 
     Example:
         >>> list(mapping_rows(["a", "b"], [{"b": 2}]))
@@ -91,10 +91,10 @@ def original_cell(text: str) -> str:
     """A cell without the apostrophe that was added.
 
     Args:
-        text: The cell as it was read.
+        text: Cell as it was read.
 
     Returns:
-        The text.
+        Text.
 
     Example:
         >>> original_cell("'=1"), original_cell("'quoted'")

@@ -57,12 +57,12 @@ def examine(libraries: Mapping[str, Mapping[str, str]] = LIBRARIES) -> dict[str,
     """Load every library that Plantar can use.
 
     Args:
-        libraries: Distribution and module of the libraries of each extra.
+        libraries: Distribution and module of libraries of each extra.
 
     Returns:
-        Versions of Plantar and Python, the platform, whether the kernels are compiled, whether pictures can be drawn
-        without a display (`opengl`), and for each library its extra, name, version and problem: None, "missing" or why
-        it cannot be loaded. `holds` is False where a required one is missing, or an installed one is broken.
+        Versions of Plantar and Python, platform, whether kernels are compiled, whether pictures can be drawn without a
+        display (`opengl`), and for each library its extra, name, version and problem: None, "missing" or why it cannot
+        be loaded. `holds` is False where a required one is missing, or an installed one is broken.
 
     Example:
         >>> examine({"": {"no-such-library": "no_such_library"}})["libraries"][0]["problem"]
@@ -89,10 +89,10 @@ def doctor_text(found: Mapping[str, Any]) -> str:
     """The result of `examine` for people: an extra a paragraph, and what to do.
 
     Args:
-        found: The result.
+        found: Result.
 
     Returns:
-        The text.
+        Text.
 
     Example:
         >>> print(doctor_text(examine({"sim": {"no-such-library": "no_such_library"}})).splitlines()[-1].strip())

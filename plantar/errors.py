@@ -76,8 +76,8 @@ class DependencyError(PlantarError):
     """An optional library is missing or cannot be loaded.
 
     Args:
-        library: Name of the library as it is imported.
-        extra: Name of the Plantar extra that brings it.
+        library: Name of library as it is imported.
+        extra: Name of Plantar extra that brings it.
         reason: Why an installed one cannot be loaded; None if missing.
     """
 

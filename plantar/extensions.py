@@ -18,14 +18,14 @@ def extensions(group: str, kind: type[T]) -> dict[str, T]:
     """The parts of a group.
 
     Args:
-        group: The group, for example "plantar.terrain".
+        group: Group, e.g. "plantar.terrain".
         kind: Class that each part is an instance of, or, if it is a class, extends.
 
     Returns:
-        The parts by the names of their entry points.
+        Parts by names of their entry points.
 
     Raises:
-        InputError: If one cannot be loaded or is of another kind.
+        InputError: If invalid.
 
     Example:
         >>> extensions("plantar.no_such_group", object)

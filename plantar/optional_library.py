@@ -24,8 +24,8 @@ def optional_library(library: str, extra: str) -> Iterator[None]:
     it into an import error or crash.
 
     Args:
-        library: Name of the module as it is imported.
-        extra: Name of the Plantar extra that brings it.
+        library: Name of module as it is imported.
+        extra: Name of Plantar extra that brings it.
 
     Yields:
         None.
@@ -53,8 +53,8 @@ def need_libraries(extra: str, *libraries: str) -> None:
     """Raise an error unless all optional libraries can be loaded.
 
     Args:
-        extra: Name of the Plantar extra that brings them.
-        libraries: Names of the modules as they are imported.
+        extra: Name of Plantar extra that brings them.
+        libraries: Names of modules as they are imported.
 
     Raises:
         DependencyError: If one is not installed or cannot be loaded.
@@ -98,7 +98,7 @@ def unheard(text: str) -> None:
     """Ignores a library's warnings; MuJoCo prints each, and writes MUJOCO_LOG.TXT.
 
     Args:
-        text: The warning.
+        text: Warning.
 
     Example:
         >>> unheard("WARNING: Nan, Inf or huge value in QACC at DOF 0. The simulation is unstable.")

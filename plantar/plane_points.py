@@ -19,15 +19,15 @@ def plane_points(value: object, name: str = "polygon", *, finite: bool = True) -
     """Points of the plane; an empty list is no points.
 
     Args:
-        value: The argument.
-        name: Its name in an error.
+        value: Argument.
+        name: Name in errors.
         finite: Refuse NaN, inf, and what is beyond `LARGEST`.
 
     Returns:
         Points (k, 2), not copied if float64.
 
     Raises:
-        InputError: If these are not (k, 2) real numbers, or not finite where they have to be.
+        InputError: If invalid.
 
     Example:
         >>> plane_points([]).shape
@@ -52,14 +52,14 @@ def plane_point(value: object, name: str = "point") -> tuple[float, float]:
     """One point of the plane, NaN or not.
 
     Args:
-        value: The argument.
-        name: Its name in an error.
+        value: Argument.
+        name: Name in errors.
 
     Returns:
         Its x and y.
 
     Raises:
-        InputError: If these are not two real numbers.
+        InputError: If invalid.
 
     Example:
         >>> plane_point([1, 2])

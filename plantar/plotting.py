@@ -58,10 +58,10 @@ def new_figure(
         height: Height in inches.
         rows: Rows of axes.
         columns: Columns of axes.
-        options: Passed to `Figure.subplots`, for example `sharex=True` or `squeeze=False`.
+        options: Passed to `Figure.subplots`, e.g. `sharex=True` or `squeeze=False`.
 
     Returns:
-        The matplotlib figure and its axes (an array where there are several).
+        Matplotlib figure and its axes (an array where there are several).
     """
     from matplotlib.figure import Figure  # 0.3 s: only where something is drawn
 
@@ -94,13 +94,13 @@ def draw_cells(axes: Any, layout: SoleLayout, values: NDArray[np.float64], highe
     """Draw a sole from above, toes up, its cells coloured by a value.
 
     Args:
-        axes: The axes; horizontal is the sole's y to the left (a left foot looks like one from above).
-        layout: The sole, n cells.
+        axes: Axes; horizontal is sole's y to the left (a left foot looks like one from above).
+        layout: Sole, n cells.
         values: Value (n,) of each cell; NaN is drawn empty.
-        highest: Upper end of the colour scale; its lower end is 0.
+        highest: Upper end of colour scale; its lower end is 0.
 
     Returns:
-        The drawn collection, for a colour bar.
+        Drawn collection, for a colour bar.
     """
     from matplotlib import colormaps
 
@@ -114,13 +114,13 @@ def draw_classes(axes: Any, layout: SoleLayout, index: NDArray[np.int64], colour
     """Draw a sole from above, toes up, its cells coloured by class.
 
     Args:
-        axes: The axes, as in `draw_cells`.
-        layout: The sole, n cells.
-        index: Class (n,) of each cell, an index into the colours; below 0 is drawn empty.
+        axes: Axes, as in `draw_cells`.
+        layout: Sole, n cells.
+        index: Class (n,) of each cell, an index into colours; below 0 is drawn empty.
         colours: Colour of each class.
 
     Returns:
-        The drawn collection.
+        Drawn collection.
     """
     faces = [colours[i] if i >= 0 else COLOURS["cell"] for i in index]
     return _cells(axes, layout, facecolors=faces, **_EDGES)

@@ -40,10 +40,10 @@ def constructed_by_kernel(cls: type[_Class]) -> type[_Class]:
     """Construct a class by the kernel that it inherits from, with the signature of its own `__init__`.
 
     Args:
-        cls: The class; its `__init__` has typed parameters, and no body.
+        cls: Class; its `__init__` has typed parameters, and no body.
 
     Returns:
-        The class.
+        Class.
 
     Example:
         >>> class Fields:

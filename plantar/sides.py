@@ -20,7 +20,7 @@ def other_side(side: Side) -> Side:
         side: "left" or "right".
 
     Returns:
-        The other one.
+        Other one.
 
     Example:
         >>> other_side("left"), [other_side(side) for side in SIDES]

@@ -20,13 +20,13 @@ def half_planes(lines: ArrayLike, name: str = "lines") -> NDArray[np.float64]:
 
     Args:
         lines: Half-planes (m, 3) n . x <= h.
-        name: Their name in an error.
+        name: Name in errors.
 
     Returns:
         Half-planes (m, 3), not copied if float64.
 
     Raises:
-        InputError: If these are not (m, 3) finite numbers.
+        InputError: If invalid.
     """
     if isinstance(lines, list | tuple) and not len(lines):
         return np.empty((0, 3))
@@ -37,7 +37,7 @@ class CellCutter:
     """Clips the cells of one sole by half-planes, in the kernel's own work arrays.
 
     Args:
-        layout: The sole, n cells, convex or not.
+        layout: Sole, n cells, convex or not.
 
     Example:
         >>> from plantar import hex_layout
@@ -67,14 +67,14 @@ class CellCutter:
         """Clip every cell.
 
         Args:
-            lines: Half-planes (m, 3) n . x <= h in the sole frame: outward normal of length 1, and h in m.
+            lines: Half-planes (m, 3) n . x <= h in sole frame: outward normal of length 1, and h in m.
 
         Returns:
-            For each cell, the area left in m^2 and its first moments in m^3 about the sole frame's origin (n, 3), and
-            the chords (n, m, 3) of the cuts: length in m, and middle (x, y) in m.
+            For each cell, area left in m^2 and its first moments in m^3 about sole origin (n, 3), and chords (n, m, 3)
+            of cuts: length in m, and middle (x, y) in m.
 
         Raises:
-            InputError: If these are not (m, 3) finite numbers.
+            InputError: If invalid.
         """
         lines = np.ascontiguousarray(half_planes(lines))
         n = len(self._start) - 1

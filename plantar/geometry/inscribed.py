@@ -92,7 +92,7 @@ def inscribed_circle(polygon: ArrayLike) -> Circle | None:
     The least distance to an edge is concave in x and y; cuts (tangents) find its maximum.
 
     Returns:
-        Center and radius in m; radius 0 at the middle of a polygon without area; None for an empty polygon.
+        Center and radius in m; radius 0 at middle of polygon without area; None for an empty polygon.
 
     Example:
         >>> circle = inscribed_circle([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])
@@ -114,7 +114,7 @@ def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.fl
 
     Returns:
         Corners (4, 2) in m from the lower left one at angle 0; area exact to 1e-12, and to 1e-8 where edges are within
-        1e-3 rad of the sides' directions but not on them.
+        1e-3 rad of sides' directions but not on them.
 
     Example:
         >>> inscribed_rectangle([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]).tolist()
@@ -143,8 +143,8 @@ def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.flo
         angle: Angle of the first side against x in rad.
 
     Returns:
-        Corners (4, 2) in m; area exact to 1e-12, and to 1e-7 where edges are within 1e-3 rad of the sides' directions
-        but not on them. No corners (0, 2) for an empty outline.
+        Corners (4, 2) in m; area exact to 1e-12, and to 1e-7 where edges are within 1e-3 rad of sides' directions but
+        not on them. No corners (0, 2) for an empty outline.
 
     Example:
         >>> corner = Outline.of_rings([[[0, 0], [4, 0], [4, 1], [1, 1], [1, 3], [0, 3]]])
@@ -166,14 +166,14 @@ def rectangle_in_outline_any_angle(outline: Outline, looks: int = _LOOKS) -> Bou
 
     Args:
         outline: Outline with islands and holes in m.
-        looks: Number of angles in the scan; more of them never give a larger gap.
+        looks: Number of angles in scan; more of them never give a larger gap.
 
     Returns:
         Corners (4, 2) in m and gap: no rectangle is larger by more than that share. No corners (0, 2) and gap 0 for an
         empty outline.
 
     Raises:
-        InputError: If there is not at least one look.
+        InputError: If invalid.
 
     Example:
         >>> tilted = Outline.of_rings([[[0, 0], [1, 1], [0, 2], [-1, 1]]])
@@ -261,16 +261,16 @@ def safe_rectangle(
     Its sides move inwards by a safety offset. The bounding box is faster and reaches beyond the contact (T 4.4.4).
 
     Args:
-        polygon: Convex support polygon (k, 2) in the contact frame in m.
+        polygon: Convex support polygon (k, 2) in contact frame in m.
         offset: How far each side moves inwards in m, 0 or more; T uses 0.01.
         method: "inscribed" or "bounding".
 
     Returns:
-        Corners (4, 2) in m: row 0 is (Xmin, Ymin), row 2 (Xmax, Ymax). Sides that would pass each other meet in the
-        middle. No corners (0, 2) for an empty polygon.
+        Corners (4, 2) in m: row 0 is (Xmin, Ymin), row 2 (Xmax, Ymax). Sides that would pass each other meet in middle.
+        No corners (0, 2) for an empty polygon.
 
     Raises:
-        InputError: If polygon, offset or method is not valid.
+        InputError: If invalid.
 
     Example:
         >>> safe_rectangle([[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]], 0.01).round(9).tolist()

@@ -31,13 +31,12 @@ class Outline(Rings):
 
     Attributes:
         points: Vertices (k, 2) of all rings in m, one ring after another, without repeated last points.
-        starts: Offsets (r + 1) of the rings in `points`.
+        starts: Offsets (r + 1) of rings in `points`.
         ring_areas: Signed area of each ring in m^2, below 0 for a hole.
         area: Area in m^2, holes left out; exact to 1e-12.
 
     Raises:
-        InputError: If the points are not (k, 2) finite numbers, the offsets do not cut them into rings of 3 points or
-            more, or the areas are wrong.
+        InputError: If invalid.
 
     Example:
         >>> square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]])
@@ -75,7 +74,7 @@ class Outline(Rings):
     def of_rings(cls, rings: Sequence[ArrayLike]) -> Outline:
         """Outline of given rings (k, 2) in m, rims of islands counter-clockwise and of holes clockwise.
 
-        Rings without area are left out; an InputError if a ring is not (k, 2) finite numbers.
+        Rings without area are left out; InputError if a ring is not (k, 2) finite numbers.
         """
         parts = [plane_points(ring, "ring") for ring in items(rings, "rings")]
         return cls._with_area(np.concatenate([np.empty((0, 2)), *parts]), [0, *accumulate(map(len, parts))])
@@ -132,14 +131,14 @@ class Outline(Rings):
         """The outline in another frame, seen from above where the rotation tilts it.
 
         Args:
-            rotation: Rotation (2, 2), or (3, 3) of which the plane's part counts, from this frame to the other.
+            rotation: Rotation (2, 2), or (3, 3) of which plane's part counts, from this frame to the other.
             translation: Position (2,) or (3,) of this frame's origin in the other frame in m.
 
         Returns:
-            The outline.
+            Outline.
 
         Raises:
-            InputError: If the shapes are wrong, a value is not finite, or the matrix is not part of a rotation.
+            InputError: If invalid.
         """
         whole = array(rotation, "rotation", ("2 or 3", "2 or 3"), finite=True)
         if whole.shape not in ((2, 2), (3, 3)) or np.abs(whole).max() > 1.0 + 1e-6:
@@ -159,15 +158,15 @@ def concave_outline(layout: SoleLayout, active: ArrayLike) -> Outline:
     """Exact outline of the contact on one sole, with islands and holes (T 4.2.5, where [172] only approximates it).
 
     Args:
-        layout: The sole, n taxels.
+        layout: Sole, n taxels.
         active: Active taxels (n,).
 
     Returns:
-        Outline in the sole frame in m, its area exact to 1e-12; empty without contact. Islands that meet in a point
-        stay separate.
+        Outline in sole frame in m, its area exact to 1e-12; empty without contact. Islands that meet in a point stay
+        separate.
 
     Raises:
-        ReadingError: If the mask is not one truth value a taxel.
+        ReadingError: If invalid.
 
     Example:
         >>> from plantar import hex_layout
@@ -200,13 +199,13 @@ def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:
     """Outline of the contact of all feet in one frame (T 4.25, for the concave outline).
 
     Args:
-        outlines_in_world: Outline of each foot in the world frame in m; empty in the air.
+        outlines_in_world: Outline of each foot in world frame in m; empty in the air.
 
     Returns:
-        All rings together; where the boxes of two feet overlap, shapely's union.
+        All rings together; where boxes of two feet overlap, shapely's union.
 
     Raises:
-        InputError: If one is not an outline.
+        InputError: If invalid.
 
     Example:
         >>> left = Outline.of_rings([[[0.0, 0.1], [0.2, 0.1], [0.2, 0.2], [0.0, 0.2]]])

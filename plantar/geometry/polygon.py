@@ -44,10 +44,10 @@ def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
         points: Points (n, 2) in m. Points that are not finite, or beyond 1e100 m, are left out.
 
     Returns:
-        Hull (k, 2), counter-clockwise from the lowest x (to that rounding); vertices are input points.
+        Hull (k, 2), counter-clockwise from lowest x (to that rounding); vertices are input points.
 
     Raises:
-        InputError: If these are not (n, 2) real numbers.
+        InputError: If invalid.
 
     Example:
         >>> convex_hull([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0.5]]).tolist()
@@ -69,7 +69,7 @@ def convex_ring(polygon: ArrayLike) -> NDArray[np.float64]:
         Vertices (k, 2) in m, not copied if float64.
 
     Raises:
-        InputError: If it is not (k, 2) finite numbers, or not convex.
+        InputError: If invalid.
 
     Example:
         >>> convex_ring([[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]])
@@ -96,10 +96,10 @@ def area(polygon: ArrayLike) -> float:
         polygon: Simple polygon (k, 2) in m.
 
     Returns:
-        The area; 0 for fewer than 3 vertices.
+        Area; 0 for fewer than 3 vertices.
 
     Raises:
-        InputError: If the polygon is not (k, 2) finite numbers.
+        InputError: If invalid.
 
     Example:
         >>> area(np.array([[0.0, 0], [2, 0], [2, 1], [0, 1]]))
@@ -115,10 +115,10 @@ def centroid(polygon: ArrayLike) -> NDArray[np.float64] | None:
         polygon: Simple polygon (k, 2) in m.
 
     Returns:
-        Position (2,) in m; the mean of the vertices where the area is 0; None for an empty polygon.
+        Position (2,) in m; mean of vertices where area is 0; None for an empty polygon.
 
     Raises:
-        InputError: If the polygon is not (k, 2) finite numbers.
+        InputError: If invalid.
 
     Example:
         >>> centroid(np.array([[0.0, 0], [2, 0], [2, 1], [0, 1]])).tolist()
@@ -141,11 +141,11 @@ def closest_point(polygon: ArrayLike, point: ArrayLike) -> NDArray[np.float64] |
         point: Point (2,) in m.
 
     Returns:
-        The point itself inside, else the closest point (2,) on the boundary; None for an empty polygon; NaN for a point
-        that is not finite.
+        Point itself inside, else closest point (2,) on boundary; None for an empty polygon; NaN for a point that is not
+        finite.
 
     Raises:
-        InputError: If the polygon is not (k, 2) finite numbers or not convex, or the point not two numbers.
+        InputError: If invalid.
 
     Example:
         >>> closest_point(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), [2.0, 0.5]).tolist()
@@ -167,10 +167,10 @@ def signed_margin(polygon: ArrayLike, point: ArrayLike) -> float:
         point: Point (2,) in m.
 
     Returns:
-        The distance; -inf for an empty polygon, NaN for a point that is not finite.
+        Distance; -inf for an empty polygon, NaN for a point that is not finite.
 
     Raises:
-        InputError: If the polygon is not (k, 2) finite numbers or not convex, or the point not two numbers.
+        InputError: If invalid.
 
     Example:
         >>> signed_margin(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), [0.5, 0.25])
@@ -191,12 +191,11 @@ def inner_offset(polygon: ArrayLike, distance: float) -> NDArray[np.float64]:
         distance: Distance in m, 0 or more.
 
     Returns:
-        The smaller polygon (m, 2), counter-clockwise; if empty, or for a distance of NaN, the deepest point (1, 2), the
-        middle of 1 or 2 vertices; an empty polygon for an empty one, and a copy for a distance of 0.
+        Smaller polygon (m, 2), counter-clockwise; if empty, or for a distance of NaN, deepest point (1, 2), middle of 1
+        or 2 vertices; an empty polygon for an empty one, and a copy for a distance of 0.
 
     Raises:
-        InputError: If the polygon is not (k, 2) finite numbers or not convex, or the distance is below 0 or not a
-            number.
+        InputError: If invalid.
 
     Example:
         >>> inner_offset(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), 0.25).tolist()
@@ -220,9 +219,9 @@ def part_inside(polygon: NDArray[np.float64], nx: float, ny: float, h: float) ->
 
     Args:
         polygon: Convex polygon (k, 2) in m, counter-clockwise.
-        nx: The line's normal n, along x.
-        ny: The same along y.
-        h: Distance in m of the line from the origin, along the normal.
+        nx: Line's normal n, along x.
+        ny: Same along y.
+        h: Distance in m of line from origin, along normal.
 
     Returns:
         Convex polygon (k, 2) in m, counter-clockwise; may be empty.

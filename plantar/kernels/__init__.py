@@ -53,7 +53,7 @@ def python_form(name: str) -> ModuleType:
         name: One of KERNELS, or its last part, which no two share.
 
     Returns:
-        The module, loaded from its source under another name; what it imports of the kernels is interpreted too.
+        Module, loaded from its source under another name; what it imports of kernels is interpreted too.
     """
     package = f"{__name__}_in_python"
     if package not in sys.modules:
@@ -84,7 +84,7 @@ def outdated(folder: Path) -> list[str]:
     """Kernels that were compiled before their source changed last, and may compute something else.
 
     Args:
-        folder: The folder of the rooms.
+        folder: Folder of rooms.
 
     Returns:
         Their names, such as "geometry.convex".

@@ -20,10 +20,10 @@ class BaseState(Record, frozen=True):
         position_base: Base position (3,) in m.
         com: CoM (3,) in m.
         com_velocity: CoM velocity (3,) in m/s.
-        zmp: Composite ZMP (2,) in m of the contacts, or None without load.
+        zmp: Composite ZMP (2,) in m of contacts, or None without load.
         loads: Vertical force on each contact in N, less its tare.
         positions_sole: Origin (3,) of each contact frame in m.
-        rotations_sole: Rotation (3, 3) from each contact frame to the world frame.
+        rotations_sole: Rotation (3, 3) from each contact frame to world frame.
     """
 
     rotation_base_to_world: NDArray[np.float64]

@@ -20,11 +20,11 @@ class Contact:
     """A contact of a flat part of the robot. Reuse the object while it does not change: programs keep its data.
 
     Attributes:
-        position: Origin (3,) of the contact frame in the world in m.
-        rotation: Rotation (3, 3) from the contact to the world frame.
-        rectangle: The contact area in the contact frame.
-        friction: Coefficient of the friction pyramid, above 0.
-        preferred: Preferred center of pressure (x, y) in the contact frame in m; the rectangle's middle if None.
+        position: Origin (3,) of contact frame in world in m.
+        rotation: Rotation (3, 3) from contact to world frame.
+        rectangle: Contact area in contact frame.
+        friction: Coefficient of friction pyramid, above 0.
+        preferred: Preferred center of pressure (x, y) in contact frame in m; rectangle's middle if None.
     """
 
     position: NDArray[np.float64]
@@ -40,7 +40,7 @@ class Contact:
 
     @lazy
     def center_in_world(self) -> tuple[float, float, float]:
-        """The preferred center of pressure in the world frame in m."""
+        """The preferred center of pressure in world frame in m."""
         x, y = self.preferred or self.rectangle.center
         (px, py, pz), (dx, dy, dz) = self.position.tolist(), self.rotation.dot(np.array((x, y, 0.0))).tolist()
         return px + dx, py + dy, pz + dz

@@ -27,16 +27,16 @@ def vrp_offset(wrench: ArrayLike, mass: float, omega: float, virtual_mass: float
     """Offset u_w = u_F + u_tau (..., 2) in m of the VRP by a wrench on the body: u = u_ref - u_w (K 9-11 corrected).
 
     Args:
-        wrench: Wrench (..., 6) about the CoM in axes with z up in N and N m, by the world on the robot.
-        mass: Mass of the robot in kg, above 0.
+        wrench: Wrench (..., 6) about CoM in axes with z up in N and N m, by world on robot.
+        mass: Mass of robot in kg, above 0.
         omega: Pendulum frequency sqrt(g / z) in rad/s, above 0.
-        virtual_mass: nu of K 10-11: share of the mass that answers a push; a smaller one yields more.
+        virtual_mass: nu of K 10-11: share of mass that answers a push; a smaller one yields more.
 
     Returns:
-        The ZMP at which the wrench would not accelerate the CoM.
+        ZMP at which wrench would not accelerate CoM.
 
     Raises:
-        InputError: If the wrench is not (..., 6) numbers, or another argument not a finite number above 0.
+        InputError: If invalid.
 
     Example:
         >>> hip = vrp_offset([50.0, 0.0, 0.0, 0.0, 0.0, 0.0], 86.0, 3.44)
@@ -70,7 +70,7 @@ def external_acceleration(
         virtual_mass: As in `vrp_offset`.
 
     Returns:
-        The acceleration.
+        Acceleration.
     """
     return np.asarray(vrp_offset(wrench, mass, omega, virtual_mass) * float(omega) ** 2)
 
@@ -79,16 +79,16 @@ def push_of_dcm(impulse: ArrayLike, mass: float, omega: float, height: float = 0
     """Displacement of the DCM by a short push: J (1 + w^2 height / g) / (m w).
 
     Args:
-        impulse: Horizontal impulse (..., 2) on the robot in N s.
-        mass: Mass of the robot in kg, above 0.
+        impulse: Horizontal impulse (..., 2) on robot in N s.
+        mass: Mass of robot in kg, above 0.
         omega: Pendulum frequency in rad/s, above 0.
-        height: Height of the push above the CoM in m.
+        height: Height of push above CoM in m.
 
     Returns:
         Displacement (..., 2) in m.
 
     Raises:
-        InputError: If an argument is not valid.
+        InputError: If invalid.
     """
     given = array(impulse, "impulse", (..., 2))
     rate, carried = _positive(omega, "pendulum frequency", "rad/s"), _positive(mass, "mass", "kg")

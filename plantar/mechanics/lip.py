@@ -19,13 +19,13 @@ def pendulum_frequency(com_height: float) -> float:
     """Natural frequency omega = sqrt(g / z_x) of the pendulum (T 4.1).
 
     Args:
-        com_height: Height of the CoM above the ground in m, above 0.
+        com_height: Height of CoM above ground in m, above 0.
 
     Returns:
         Frequency in rad/s.
 
     Raises:
-        InputError: If the height is not a positive finite number.
+        InputError: If invalid.
 
     Example:
         >>> round(pendulum_frequency(0.8), 4)
@@ -49,7 +49,7 @@ def divergent_component(com: ArrayLike, com_velocity: ArrayLike, omega: float) -
         DCM (..., d) in m.
 
     Raises:
-        InputError: If omega is not a finite value above 0, or position and velocity differ in shape or are not numeric.
+        InputError: If invalid.
 
     Example:
         >>> divergent_component([0.0, 0.1], [0.5, 0.0], 4.0).tolist()

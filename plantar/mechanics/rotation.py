@@ -85,11 +85,11 @@ def rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> 
     turn, 1 beyond.
 
     Args:
-        wanted: Rotation (3, 3) to a common frame.
+        wanted: Rotation (3, 3) to common frame.
         actual: Rotation (3, 3) to the same frame.
 
     Returns:
-        The error.
+        Error.
     """
     between = wanted.dot(actual.T)
     (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = between.tolist()
@@ -100,12 +100,12 @@ def rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> 
 
 
 def heading(rotation: NDArray[np.float64]) -> float:
-    """Yaw in rad of a rotation (3, 3) to the world: where its x axis points, seen from above."""
+    """Yaw in rad of a rotation (3, 3) to world: where its x axis points, seen from above."""
     return math.atan2(rotation.item(1, 0), rotation.item(0, 0))
 
 
 def level_rotation(yaw: float) -> NDArray[np.float64]:
-    """Rotation (3, 3) to the world from a level frame with a heading in rad."""
+    """Rotation (3, 3) to world from a level frame with a heading in rad."""
     c, s = math.cos(yaw), math.sin(yaw)
     return matrix(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0)
 
@@ -115,11 +115,11 @@ def rotation_from_angles(yaw: float, pitch: float = 0.0, roll: float = 0.0) -> N
 
     Args:
         yaw: Angle about z in rad.
-        pitch: Angle about y in rad; positive lowers the front.
+        pitch: Angle about y in rad; positive lowers front.
         roll: Angle about x in rad; positive raises the left.
 
     Returns:
-        Rotation (3, 3) to the world.
+        Rotation (3, 3) to world.
     """
     cy, sy, cp, sp, cr, sr = (f(a) for a in (yaw, pitch, roll) for f in (math.cos, math.sin))
     return np.array(

@@ -53,7 +53,7 @@ class Box(NamedTuple):
             high: Their upper ends (s,).
 
         Returns:
-            The box.
+            Box.
         """
         rows = np.vstack([hard, soft])
         sizes = np.maximum(np.sqrt(np.einsum("ij,ij->i", rows, rows)), np.finfo(float).tiny)
@@ -71,15 +71,15 @@ def nearest_within(
     """Nearest point to the target in the directions `own` of what is left, such that some of the rest keeps the limits.
 
     Args:
-        box: The limits of y.
-        y: The settled part (n,).
+        box: Limits of y.
+        y: Settled part (n,).
         left: Orthonormal basis (n, k) of what may still be added to it.
         own: Orthonormal directions (r, k) in this basis.
         target: Wanted along them (r,).
-        weights: Weight (r,) of a squared miss along each.
+        weights: Weight (r,) of squared miss along each.
 
     Returns:
-        The limits, widened as little as needed, and the result (r,) along `own`.
+        Limits, widened as little as needed, and result (r,) along `own`.
     """
     reached = box.rows @ y
     rows, low, high = box.rows @ left, box.low - reached, box.high - reached

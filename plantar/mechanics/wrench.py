@@ -45,14 +45,14 @@ def wrench_at(wrench: ArrayLike, point: ArrayLike) -> NDArray[np.float64]:
     """The same wrench (..., 6) with its moment about another point: tau_p = tau_o - p x f.
 
     Args:
-        wrench: Wrench (..., 6) about the frame's origin; NaN or inf give such moments.
+        wrench: Wrench (..., 6) about frame's origin; NaN or inf give such moments.
         point: New reference point (3,) in the same frame in m.
 
     Returns:
-        The wrench.
+        Wrench.
 
     Raises:
-        InputError: If a shape is wrong, or the point is not finite.
+        InputError: If invalid.
 
     Example:
         >>> wrench_at(np.array([0.0, 0.0, 10.0, 0.0, -2.0, 0.0]), np.array([0.2, 0.0, 0.0])).tolist()
@@ -74,12 +74,12 @@ def wrench_in_frame(
     """A wrench of frame a about the origin of frame b, in b's axes: [R f, R tau + p x R f] (E of T 3.21).
 
     Args:
-        wrench: Wrench (..., 6) about the origin of a.
+        wrench: Wrench (..., 6) about origin of a.
         rotation: Rotation R (3, 3) from a to b.
         position: Origin p (3,) of a in b in m.
 
     Returns:
-        Wrench (..., 6) about the origin of b.
+        Wrench (..., 6) about origin of b.
     """
     given = np.asarray(wrench, dtype=float)
     force, moment = given[..., :3] @ rotation.T, given[..., 3:] @ rotation.T

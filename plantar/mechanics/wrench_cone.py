@@ -15,7 +15,7 @@ __all__ = ["Rectangle", "cone_rows", "wrench_cone"]
 
 
 class Rectangle(NamedTuple):
-    """Axis-aligned rectangle in the contact frame: rear, front, right and left edge, signed coordinates in m."""
+    """Axis-aligned rectangle in contact frame: rear, front, right and left edge, signed coordinates in m."""
 
     x_min: float
     x_max: float
@@ -36,14 +36,14 @@ def wrench_cone(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
     inside, and eight limits of the yaw moment, with signed coordinates of the edges (printed 4.40-4.41 mix the signs).
 
     Args:
-        rectangle: The contact, anywhere, possibly a line or a point.
+        rectangle: Contact, anywhere, possibly a line or a point.
         friction: Coefficient mu of each corner's friction pyramid, above 0.
 
     Returns:
-        Matrix (16, 6); w is in the cone where C w <= 0 in every row. Rows: fx, fy, tx, ty (two each), tz (eight).
+        Matrix (16, 6); w is in cone where C w <= 0 in every row. Rows: fx, fy, tx, ty (two each), tz (eight).
 
     Raises:
-        InputError: If a number is not finite, the rectangle's edges are swapped, or mu is not above 0.
+        InputError: If invalid.
 
     Example:
         >>> cone = wrench_cone(Rectangle(-0.1, 0.1, -0.05, 0.05), 0.6)
@@ -62,7 +62,7 @@ def cone_rows(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
     """The rows (16, 6) of `wrench_cone` without its checks, for a control loop.
 
     Args:
-        rectangle: The contact; swapped edges allow no wrench but 0.
+        rectangle: Contact; swapped edges allow no wrench but 0.
         friction: Coefficient mu.
 
     Returns:

@@ -1,14 +1,14 @@
 """Share a net wrench between any number of contacts: the quadratic program of Caron et al. 2019, T 4.4.4.
 
 Unknown is the wrench w_i of each contact in its own frame. With J_i w_i that wrench about the middle of the contacts in
-the world frame and e = sum J_i w_i - w_d the error of the net wrench, it minimises
+world frame and e = sum J_i w_i - w_d the error of the net wrench, it minimises
 
     net |e|^2 + ankle sum |m_i|^2 + pressure sum_(i<j) (s_j fz_i - s_i fz_j)^2 + friction sum (fx_i^2 + fy_i^2 + tz_i^2)
 
 with m_i the moment (x, y) about the preferred center of pressure of contact i, s_i its wanted share of the normal
 force, forces in body weights and moments in body weights times 0.1 m. By Lagrange's identity the sum over pairs is
 |s|^2 |fz|^2 - (s . fz)^2; of two feet the ((1 - r) fz_1 - r fz_2)^2 of Caron et al. Each w_i stays in its wrench cone,
-its normal force at or above a minimum. As cones are in the contact frames, results do not depend on the place.
+its normal force at or above a minimum. As cones are in contact frames, results do not depend on the place.
 """
 
 from __future__ import annotations
@@ -57,10 +57,10 @@ class DistributionWeights:
     """Weights of the cost, of which only ratios matter.
 
     Attributes:
-        net: Of the error of the net wrench.
-        ankle: Of the moments about the preferred centers of pressure (foot compliance).
-        pressure: Of the deviation from the wanted proportion of the normal forces.
-        friction: Of tangential forces and yaw moments; makes the share unique.
+        net: Of error of net wrench.
+        ankle: Of moments about preferred centers of pressure (foot compliance).
+        pressure: Of deviation from wanted proportion of normal forces.
+        friction: Of tangential forces and yaw moments; makes share unique.
     """
 
     net: float = 1e4
@@ -79,10 +79,10 @@ class WrenchShare(Record, frozen=True):
     """The wrenches of a distribution.
 
     Attributes:
-        state: How the distribution ended.
-        wrenches: Wrench (6,) of each contact by name, in its frame about its origin, by the world on the robot.
-        error: Their sum minus the wanted net wrench (6,) in the world frame, about the middle of the contacts.
-        violation: Violation in N of the worst constraint; 0 unless infeasible.
+        state: How distribution ended.
+        wrenches: Wrench (6,) of each contact by name, in its frame about its origin, by world on robot.
+        error: Their sum minus wanted net wrench (6,) in world frame, about middle of contacts.
+        violation: Violation in N of worst constraint; 0 unless infeasible.
     """
 
     state: DistributionState
@@ -146,13 +146,13 @@ class WrenchDistribution:
     """Distributes net wrenches over contacts. One instance a controller.
 
     Args:
-        weight: Weight of the robot in N; the unit of forces inside the program.
-        weights: Weights of the cost.
+        weight: Weight of robot in N; unit of forces inside program.
+        weights: Weights of cost.
         minimum_force: Least normal force in N of each contact.
-        length: Unit of moments over forces inside the program in m: about half a sole, so that both count alike.
+        length: Unit of moments over forces inside program in m: about half a sole, so that both count alike.
 
     Raises:
-        InputError: If the weight or the length is not above 0, or the minimum force below 0.
+        InputError: If invalid.
 
     Example:
         >>> flat, sole = np.eye(3), Rectangle(-0.1, 0.1, -0.06, 0.06)
@@ -192,16 +192,16 @@ class WrenchDistribution:
         """Share a net wrench; an infeasible request is no error, see `DistributionState`.
 
         Args:
-            contacts: The contacts by name, in order; none, one or several.
-            wrench: Wanted net wrench (6,) in the world frame about `point`, by the world on the robot.
-            point: Point (3,) of the world frame in m.
-            shares: Share of the normal force of each contact, 0 to 1; equal if None.
+            contacts: Contacts by name, in order; none, one or several.
+            wrench: Wanted net wrench (6,) in world frame about `point`, by world on robot.
+            point: Point (3,) of world frame in m.
+            shares: Share of normal force of each contact, 0 to 1; equal if None.
 
         Returns:
-            The share.
+            Share.
 
         Raises:
-            InputError: If the shares are not those of the contacts.
+            InputError: If invalid.
         """
         if not contacts:
             return WrenchShare(DistributionState.AIRBORNE, {}, -np.asarray(wrench, dtype=float), 0.0)
@@ -247,7 +247,7 @@ class WrenchDistribution:
             Its matrices.
 
         Raises:
-            InputError: If an argument is not valid.
+            InputError: If invalid.
         """
         if not contacts:
             raise InputError("a wrench distribution without contacts has no program; allowed: one contact or more")

@@ -23,15 +23,15 @@ def zmp_in_plane(wrench: ArrayLike, height: float = 0.0, minimum_force: float = 
     """Zero moment point in a plane z = height (T 4.5-4.6): p = [(h fx - ty) / fz, (h fy + tx) / fz].
 
     Args:
-        wrench: Wrench (6,) about the frame's origin.
-        height: Height h of the plane above the frame's origin in m.
+        wrench: Wrench (6,) about frame's origin.
+        height: Height h of plane above frame's origin in m.
         minimum_force: Vertical force in N below which there is no ZMP; any load counts by default.
 
     Returns:
-        Position (2,) in m, or None where the vertical force is below `minimum_force`, not above 0, or NaN.
+        Position (2,) in m, or None where vertical force is below `minimum_force`, not above 0, or NaN.
 
     Raises:
-        InputError: If the wrench is not 6 numbers, or height or least force not a number.
+        InputError: If invalid.
 
     Example:
         >>> zmp_in_plane([10.0, 0.0, 100.0, 5.0, -2.0, 0.0], height=0.1).tolist()
@@ -66,8 +66,8 @@ def zero_moment_wrench(
         minimum_force: As in `zmp_in_plane`.
 
     Returns:
-        The point (3,) in m and the wrench (6,) about it: the same force, moments 0 about x and y, and the remaining
-        twist about z; None without load.
+        Point (3,) in m and wrench (6,) about it: the same force, moments 0 about x and y, and remaining twist about z;
+        None without load.
 
     Example:
         >>> point, moved = zero_moment_wrench([10.0, 0.0, 100.0, 5.0, -2.0, 0.3])
@@ -93,14 +93,14 @@ def centroidal_moment_pivot(
     Args:
         force: Ground reaction force (3,) or wrench (6,) of all feet in N.
         com: CoM position (3,) in m.
-        height: Height of the ground in m.
+        height: Height of ground in m.
         minimum_force: Vertical force in N below which there is none.
 
     Returns:
         Position (2,) in m, or None without load.
 
     Raises:
-        InputError: If force, CoM, height or least force are not valid.
+        InputError: If invalid.
     """
     given = array(force, "force", ("3 or 6",))
     if len(given) not in (3, 6):
@@ -118,14 +118,14 @@ def zmp_of_wrench(wrench: ArrayLike, minimum_force: float = 0.0) -> NDArray[np.f
     """`zmp_in_plane` in the plane z = 0, for a force-torque sensor; None also where the wrench holds NaN or inf.
 
     Args:
-        wrench: Wrench (6,) about the frame's origin.
+        wrench: Wrench (6,) about frame's origin.
         minimum_force: Vertical force in N above 0 below which there is no ZMP.
 
     Returns:
         Position (2,) in m, or None.
 
     Raises:
-        InputError: If the wrench is not 6 numbers, or the least force is not above 0.
+        InputError: If invalid.
     """
     _, _, fz, tx, ty, _ = array(wrench, "wrench", (6,)).tolist()
     if not (fz >= number(minimum_force, "minimum force") and 0.0 < fz < math.inf):
@@ -142,11 +142,10 @@ def zmp_of_feet(points: Sequence[ArrayLike | None], vertical_forces: Sequence[fl
         vertical_forces: Vertical force of each foot in N.
 
     Returns:
-        Position (2,) in the common frame in m, or None without load. A foot whose force is NaN, 0 or less is left out.
+        Position (2,) in common frame in m, or None without load. A foot whose force is NaN, 0 or less is left out.
 
     Raises:
-        InputError: If there are not as many points as forces, one is not a finite number, or a loaded foot has no
-            point.
+        InputError: If invalid.
 
     Example:
         >>> zmp_of_feet([np.array([0.0, 0.1]), np.array([0.0, -0.1])], [300.0, 100.0]).tolist()

@@ -22,9 +22,9 @@ class ArrayLoads(NamedTuple):
     """Sums of forces; "..." are their dimensions before the taxels.
 
     Attributes:
-        wrench: Ground reaction wrench (..., 6) about the sole frame's origin in N and N m (T 4.23).
-        contact_area: Area (...) of the active cells in m^2 (T 4.22).
-        center_of_pressure: Position (..., 2) in the sole frame in m (T 4.21); NaN without load.
+        wrench: Ground reaction wrench (..., 6) about sole origin in N and N m (T 4.23).
+        contact_area: Area (...) of active cells in m^2 (T 4.22).
+        center_of_pressure: Position (..., 2) in sole frame in m (T 4.21); NaN without load.
     """
 
     wrench: Any
@@ -33,12 +33,12 @@ class ArrayLoads(NamedTuple):
 
 
 def active(layout: SoleLayout, force: Any, threshold: float | None = None) -> Any:
-    """Active taxels (T 4.22): above the threshold and below the layout's force limit, not dead.
+    """Active taxels (T 4.22): above the threshold and below layout's force limit, not dead.
 
     Args:
-        layout: The sole, n taxels.
+        layout: Sole, n taxels.
         force: Normal forces (..., n) in N, an array of real floating point numbers.
-        threshold: Activation threshold in N; the layout's if None.
+        threshold: Activation threshold in N; layout's if None.
 
     Returns:
         Mask (..., n) of the same library.
@@ -56,12 +56,12 @@ def loads(layout: SoleLayout, force: Any, threshold: float | None = None) -> Arr
     """Wrench, contact area and CoP (T 4.21-4.23).
 
     Args:
-        layout: The sole, n taxels.
+        layout: Sole, n taxels.
         force: As in `active`.
         threshold: As in `active`.
 
     Returns:
-        The sums, of the same library, device and type. The derivative of a CoP without load is 0.
+        Sums, of the same library, device, type. The derivative of a CoP without load is 0.
 
     Raises:
         ReadingError: As `active`.

@@ -1,4 +1,4 @@
-"""The joint percept of two feet in the world frame, each member computed at first use."""
+"""The joint percept of two feet in world frame, each member computed at first use."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ class FeetPercept:
 
     Args:
         percepts: Percept of each sole.
-        poses: Pose of each sole in the world.
-        ground_height: Height in m of the ZMP's horizontal plane.
+        poses: Pose of each sole in world.
+        ground_height: Height in m of ZMP's horizontal plane.
 
     Raises:
-        InputError: If there are not as many poses as percepts, or none, or one is of another class.
+        InputError: If invalid.
 
     Example:
         >>> from plantar import Reading, hex_layout, mirrored
@@ -59,7 +59,7 @@ class FeetPercept:
 
     @lazy
     def positions_cop_in_world(self) -> tuple[NDArray[np.float64] | None, ...]:
-        """CoP (3,) of each sole on its surface, in the world in m; None without load (T 4.21)."""
+        """CoP (3,) of each sole on its surface, in world in m; None without load (T 4.21)."""
         return tuple(
             None if p.surface_cop_in_sole is None else pose.to_world(p.surface_cop_in_sole)
             for p, pose in zip(self.percepts, self.poses, strict=True)
@@ -76,7 +76,7 @@ class FeetPercept:
 
     @lazy
     def outlines_in_world(self) -> tuple[Outline, ...]:
-        """Concave outline of each sole's contact, seen from above in the world in m (T 4.2.5)."""
+        """Concave outline of each sole's contact, seen from above in world in m (T 4.2.5)."""
         return tuple(
             pose.outline_to_world(p.concave_outline_in_sole, p.layout)
             for p, pose in zip(self.percepts, self.poses, strict=True)
@@ -94,7 +94,7 @@ class FeetPercept:
 
     @lazy
     def support_area(self) -> float:
-        """Area in m^2 of the support polygon of all soles, seen from above."""
+        """Area in m^2 of support polygon of all soles, seen from above."""
         return area(self.support_polygon_in_world)
 
     @lazy
@@ -104,6 +104,6 @@ class FeetPercept:
 
 
 def _corners(layout: SoleLayout, mask: NDArray[np.bool_] | None) -> NDArray[np.float64]:
-    """Corners (m, 3) of some cells in the sole frame in m."""
+    """Corners (m, 3) of some cells in sole frame in m."""
     cells: list[int] = [] if mask is None else np.flatnonzero(mask).tolist()
     return layout.vertices[sorted({v for i in cells for v in layout.corners[i]})]

@@ -19,7 +19,7 @@ _FLOAT = np.dtype(np.float64)
 
 
 class FootTick(NamedTuple):
-    """One foot at one tick, in the sole frame; the same as a `Percept` gives, computed together.
+    """One foot at one tick, in sole frame; the same as a `Percept` gives, computed together.
 
     Example:
         >>> from plantar import grid_layout
@@ -59,17 +59,17 @@ def walking_tick(
     """Active taxels, CoP, wrench, support polygon, safe polygon and clamped point of one foot, in one call.
 
     Args:
-        layout: The sole, n taxels.
+        layout: Sole, n taxels.
         force: Normal forces (n,) in N.
-        aim: Point in the sole frame in m to clamp to the safe polygon, for example a desired ZMP.
-        offset: Distance in m of the safe polygon from the support polygon's edges.
-        threshold: Activation threshold in N; the layout's if None.
+        aim: Point in sole frame in m to clamp to safe polygon, e.g. a desired ZMP.
+        offset: Distance in m of safe polygon from support polygon's edges.
+        threshold: Activation threshold in N; layout's if None.
 
     Returns:
-        The foot's percept.
+        Foot's percept.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If invalid.
 
     Example:
         >>> from plantar import hex_layout

@@ -38,15 +38,15 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
     every sum; `health` lists them.
 
     Args:
-        layout: The sole, n taxels.
-        reading: The reading of its taxels.
-        force_threshold: Activation threshold epsilon_f in N; the layout's if None.
-        active: Mask (n,) of active taxels, of a `TaxelActivation` with hysteresis; those above the threshold if None.
+        layout: Sole, n taxels.
+        reading: Reading of its taxels.
+        force_threshold: Activation threshold epsilon_f in N; layout's if None.
+        active: Mask (n,) of active taxels, of a `TaxelActivation` with hysteresis; those above threshold if None.
         stuck: Mask (n,) of stuck taxels, of a `StuckMonitor`; none if None.
-        options: Other options; the defaults if None.
+        options: Other options; defaults if None.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If invalid.
 
     Example:
         >>> from plantar import Percept, Reading, hex_layout
@@ -109,13 +109,13 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
         """A percept with known loads and its layout's threshold, without checks.
 
         Args:
-            layout: The sole, n taxels.
-            reading: The reading of its taxels.
+            layout: Sole, n taxels.
+            reading: Reading of its taxels.
             loads: Its wrench, contact area and CoP (9,) by `layout.kernel.loads_above`, an array of no other owner;
                 closed to writing.
 
         Returns:
-            The percept.
+            Percept.
         """
         close(loads)
         vertical = loads.item(2)
@@ -183,12 +183,12 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @lazy
     def position_cop_in_sole(self) -> NDArray[np.float64] | None:
-        """Center of pressure (2,) in the sole frame in m, or None without load (T 4.21)."""
+        """Center of pressure (2,) in sole frame in m, or None without load (T 4.21)."""
         return self._cop()
 
     @lazy
     def surface_cop_in_sole(self) -> NDArray[np.float64] | None:
-        """Center of pressure (3,) on the sole's surface in the sole frame in m, or None without load.
+        """Center of pressure (3,) on the sole's surface in sole frame in m, or None without load.
 
         Exact on a surface of second order, 0 on a flat one.
         """
@@ -204,7 +204,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @lazy
     def wrench_in_sole(self) -> NDArray[np.float64]:
-        """Ground reaction wrench (6,) about the sole frame's origin in N and N m (T 4.23)."""
+        """Ground reaction wrench (6,) about sole origin in N and N m (T 4.23)."""
         return self._wrench()
 
     @lazy
@@ -220,20 +220,20 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @lazy
     def support_polygon_in_sole(self) -> NDArray[np.float64]:
-        """Convex support polygon (k, 2) in the sole frame in m, counter-clockwise (T 4.24)."""
+        """Convex support polygon (k, 2) in sole frame in m, counter-clockwise (T 4.24)."""
         return self._hull()[0]
 
     @lazy
     def support_area(self) -> float:
-        """Area A_p of the support polygon in m^2."""
+        """Area A_p of support polygon in m^2."""
         return float(self._hull()[1])
 
     @lazy
     def area_ratio(self) -> float:
-        """A_p / A_s: area of the support polygon against the sole's outline (T 4.3.2 rule b)."""
+        """A_p / A_s: area of support polygon against the sole's outline (T 4.3.2 rule b)."""
         return self.support_area / self.layout.sole_area
 
     @lazy
     def centroid_in_sole(self) -> NDArray[np.float64] | None:
-        """Centroid (2,) of the support polygon in the sole frame in m, or None without contact (T 4.4.2)."""
+        """Centroid (2,) of support polygon in sole frame in m, or None without contact (T 4.4.2)."""
         return self._centroid()

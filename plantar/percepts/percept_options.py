@@ -22,13 +22,13 @@ class PerceptOptions:
     """Options of a percept; share one object between the percepts of a recording.
 
     Attributes:
-        fill: Replace faulty taxels by the pressure of their sound neighbours, instead of leaving them out.
-        proximity_gain: Repulsion k_p of a taxel in N/m (T 4.26).
-        contour_heights: Heights of the contours of the ground in m (T 4.2.7), kept lowest first.
-        reference_area: Area xi in m^2 of the pressure-driven wrench (T 3.27); that of one cell if None.
+        fill: Replace faulty taxels by pressure of their sound neighbours, instead of leaving them out.
+        proximity_gain: Repulsion k_p of taxel in N/m (T 4.26).
+        contour_heights: Heights of contours of ground in m (T 4.2.7), kept lowest first.
+        reference_area: Area xi in m^2 of pressure-driven wrench (T 3.27); that of one cell if None.
 
     Raises:
-        InputError: If one is not valid.
+        InputError: If invalid.
 
     Example:
         >>> PerceptOptions(contour_heights=(0.03, 0.01)).contour_heights

@@ -18,7 +18,7 @@ __all__ = ["ShapeMembers"]
 
 
 class ShapeMembers:
-    """Shapes in and around the contact in the sole frame in m: counter-clockwise corners, none (0, 2) without."""
+    """Shapes in and around the contact in sole frame in m: counter-clockwise corners, none (0, 2) without."""
 
     layout: SoleLayout
 
@@ -37,7 +37,7 @@ class ShapeMembers:
 
     @lazy
     def bounding_box_in_sole(self) -> NDArray[np.float64]:
-        """Axis-aligned box (4, 2) of the support polygon (T 4.4.4)."""
+        """Axis-aligned box (4, 2) of support polygon (T 4.4.4)."""
         return _enclosing.bounding_box(self.support_polygon_in_sole)
 
     @lazy
@@ -52,27 +52,27 @@ class ShapeMembers:
 
     @lazy
     def inscribed_triangle_in_sole(self) -> NDArray[np.float64]:
-        """Largest triangle (3, 2) in the support polygon (T 4.2.5)."""
+        """Largest triangle (3, 2) in support polygon (T 4.2.5)."""
         return _inscribed.inscribed_triangle(self.support_polygon_in_sole)
 
     @lazy
     def inscribed_parallelogram_in_sole(self) -> NDArray[np.float64]:
-        """Largest parallelogram (4, 2) in the support polygon (T 4.2.5)."""
+        """Largest parallelogram (4, 2) in support polygon (T 4.2.5)."""
         return _inscribed.inscribed_parallelogram(self.support_polygon_in_sole)
 
     @lazy
     def inscribed_circle_in_sole(self) -> Circle | None:
-        """Largest circle in the support polygon, or None without contact."""
+        """Largest circle in support polygon, or None without contact."""
         return _inscribed.inscribed_circle(self.support_polygon_in_sole)
 
     @lazy
     def inscribed_rectangle_in_sole(self) -> NDArray[np.float64]:
-        """Largest axis-aligned rectangle (4, 2) in the support polygon (T 4.4.4)."""
+        """Largest axis-aligned rectangle (4, 2) in support polygon (T 4.4.4)."""
         return _inscribed.inscribed_rectangle(self.support_polygon_in_sole)
 
     @lazy
     def inscribed_rectangle_any_angle_in_sole(self) -> NDArray[np.float64]:
-        """Largest rectangle (4, 2) in the support polygon, at any angle."""
+        """Largest rectangle (4, 2) in support polygon, at any angle."""
         return _inscribed.inscribed_rectangle_any_angle(self.support_polygon_in_sole)
 
     @lazy
@@ -86,12 +86,12 @@ class ShapeMembers:
         return _inscribed.rectangle_in_outline_any_angle(self.concave_outline_in_sole)
 
     def safe_rectangle_in_sole(self, offset: float) -> NDArray[np.float64]:
-        """Largest axis-aligned rectangle (4, 2) in the support polygon, its sides moved inwards (T 4.4.4).
+        """Largest axis-aligned rectangle (4, 2) in support polygon, its sides moved inwards (T 4.4.4).
 
         Args:
             offset: How far in m, 0 or more.
 
         Raises:
-            InputError: If the offset is not finite and 0 or more.
+            InputError: If invalid.
         """
         return safe_rectangle(self.support_polygon_in_sole, offset)

@@ -27,14 +27,14 @@ class VirtualMembers:
 
     @lazy
     def near(self) -> NDArray[np.bool_] | None:
-        """Taxels (n,) nearer to the ground than the layout's proximity threshold (T 4.2.7 corrected)."""
+        """Taxels (n,) nearer to the ground than layout's proximity threshold (T 4.2.7 corrected)."""
         if self.reading.proximity is None:
             return None
         return _proximity.near_taxels(self.reading.proximity, self.layout.proximity_threshold)
 
     @lazy
     def preemptive_polygon_in_sole(self) -> NDArray[np.float64] | None:
-        """Preemptive support polygon (k, 2) in the sole frame in m, empty where nothing is near (T 4.2.7 corrected)."""
+        """Preemptive support polygon (k, 2) in sole frame in m, empty where nothing is near (T 4.2.7 corrected)."""
         return None if self.near is None else _proximity.cells_polygon(self.layout, self.near)
 
     @lazy
@@ -46,33 +46,33 @@ class VirtualMembers:
 
     @lazy
     def virtual_wrench_in_sole(self) -> NDArray[np.float64] | None:
-        """Virtual ground reaction wrench (6,) about the sole frame's origin in N and N m (T 4.26)."""
+        """Virtual ground reaction wrench (6,) about sole origin in N and N m (T 4.26)."""
         if self.reading.proximity is None:
             return None
         return _virtual.virtual_ground_reaction_wrench(self.layout, self.reading.proximity, self.options.proximity_gain)
 
     @lazy
     def ground_plane_in_sole(self) -> _ground.GroundPlane | None:
-        """Plane of the ground in the sole frame: height, slope, residual; None also where no taxel sees it."""
+        """Plane of the ground in sole frame: height, slope, residual; None also where no taxel sees it."""
         return None if self.reading.proximity is None else _ground.fit_ground_plane(self.layout, self.reading.proximity)
 
     @lazy
     def temperature_wrench_in_sole(self) -> NDArray[np.float64] | None:
-        """Virtual wrench (6,) away from heat, 1 N a kelvin, about the sole frame's origin (T 3.34-3.37)."""
+        """Virtual wrench (6,) away from heat, 1 N a kelvin, about sole origin (T 3.34-3.37)."""
         if self.reading.temperature is None:
             return None
         return _temperature.temperature_wrench(self.layout, self.reading.temperature)
 
     @lazy
     def temperature_footprint_in_sole(self) -> NDArray[np.float64] | None:
-        """Convex polygon (k, 2) of the warm cells in the sole frame in m, empty where none is warm (T 4.2.5)."""
+        """Convex polygon (k, 2) of the warm cells in sole frame in m, empty where none is warm (T 4.2.5)."""
         if self.reading.temperature is None:
             return None
         return _temperature.temperature_footprint(self.layout, self.reading.temperature)
 
     @lazy
     def acceleration_in_sole(self) -> NDArray[np.float64] | None:
-        """Acceleration (n, 3) of each taxel in the sole frame in m/s^2; NaN where a taxel is dead."""
+        """Acceleration (n, 3) of each taxel in sole frame in m/s^2; NaN where a taxel is dead."""
         if self.reading.acceleration is None:
             return None
         if self.layout.is_flat:

@@ -1,4 +1,4 @@
-"""Pose of a sole in the world, and joint wrench and ZMP of two soles."""
+"""Pose of a sole in world, and joint wrench and ZMP of two soles."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ __all__ = ["SolePose", "feet_support_polygon", "polygon_in_world", "wrench_of_fe
 
 @dataclass(frozen=True, eq=False)
 class SolePose:
-    """Pose of a sole frame in the world frame (wT_L, wT_R of T 4.25). Arrays are read-only copies.
+    """Pose of a sole frame in world frame (wT_L, wT_R of T 4.25). Arrays are read-only copies.
 
     Attributes:
         rotation_sole_to_world: Rotation (3, 3).
-        position_in_world: Position (3,) of the sole frame's origin in m.
+        position_in_world: Position (3,) of sole origin in m.
 
     Raises:
-        InputError: If a shape is wrong, a value is not finite, or the matrix is not a rotation.
+        InputError: If invalid.
 
     Example:
         >>> pose = SolePose.flat(0.1, 0.2, yaw=np.pi / 2)
@@ -71,14 +71,14 @@ class SolePose:
             yaw: Turn to the left in rad.
 
         Returns:
-            The pose.
+            Pose.
         """
         turn = number(yaw, "yaw", finite=True)
         place = [number(v, f"position {axis}", finite=True) for v, axis in zip((x, y, z), "xyz", strict=True)]
         return cls(level_rotation(turn), np.array(place))
 
     def to_world(self, points: ArrayLike) -> NDArray[np.float64]:
-        """Points (..., 3) of the sole frame in the world frame, in m (T 4.25)."""
+        """Points (..., 3) of the sole frame in world frame, in m (T 4.25)."""
         given = array(points, "points", (..., 3))
         turn = self.rotation_sole_to_world.T
         with np.errstate(over="ignore", invalid="ignore"):  # of points that are not finite
@@ -87,23 +87,21 @@ class SolePose:
         return np.asarray(turned)
 
     def polygon_to_world(self, polygon: ArrayLike) -> NDArray[np.float64]:
-        """A polygon (k, 2) of the sole plane, or points (k, 3) of a curved sole, seen from above in the world (k, 2) in
-        m.
-        """
+        """A polygon (k, 2) of the sole plane, or points (k, 3) of a curved sole, seen from above in world (k, 2) in m."""
         given = numbers(polygon, "polygon")
         if given.ndim == 2 and given.shape[1] == 3:
             return self.to_world(given)[:, :2]
         return polygon_in_world(polygon, self.rotation_sole_to_world, self.position_in_world)
 
     def outline_to_world(self, outline: Outline, layout: SoleLayout) -> Outline:
-        """A contact's outline seen from above in the world in m, its corners on the sole's surface.
+        """A contact's outline seen from above in world in m, its corners on the sole's surface.
 
         Args:
-            outline: Outline in the sole frame in m, as of `concave_outline`.
-            layout: The sole, whose corners the outline has.
+            outline: Outline in sole frame in m, as of `concave_outline`.
+            layout: Sole, whose corners outline has.
 
         Returns:
-            The outline.
+            Outline.
         """
         height = {(x, y): z for x, y, z in layout.vertices.tolist()}
         corners = [np.array([[x, y, height.get((x, y), 0.0)] for x, y in ring.tolist()]) for ring in outline.rings]
@@ -135,10 +133,10 @@ def wrench_of_feet(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePo
         poses: Pose of each sole.
 
     Returns:
-        Wrench (6,) or (frames, 6) in the world frame in N and N m, by the world on the robot.
+        Wrench (6,) or (frames, 6) in world frame in N and N m, by world on robot.
 
     Raises:
-        InputError: If an argument is not valid.
+        InputError: If invalid.
     """
     return np.asarray(sum(_turned(wrenches_in_sole, poses)))
 
@@ -163,14 +161,14 @@ def zmp_of_soles(
         wrenches_in_sole: Wrench (6,) of each sole about its own origin in N and N m, zero in the air; a pull is left
             out.
         poses: Pose of each sole.
-        height: Height of the plane in the world in m.
+        height: Height of plane in world in m.
         minimum_force: Vertical force in N below which there is no ZMP; any load counts by default.
 
     Returns:
-        The ZMP, or None without load.
+        ZMP, or None without load.
 
     Raises:
-        InputError: If an argument is not valid.
+        InputError: If invalid.
 
     Example:
         >>> load = [0.0, 0.0, 100.0, 0.0, 0.0, 0.0]
@@ -188,18 +186,18 @@ def polygon_in_world(
     rotation_sole_to_world: ArrayLike,
     position_sole_in_world: ArrayLike,
 ) -> NDArray[np.float64]:
-    """A polygon of the sole plane, seen from above in the world frame.
+    """A polygon of the sole plane, seen from above in world frame.
 
     Args:
-        polygon_in_sole: Polygon (k, 2) in the sole frame in m.
+        polygon_in_sole: Polygon (k, 2) in sole frame in m.
         rotation_sole_to_world: Rotation (3, 3).
-        position_sole_in_world: Position (3,) of the sole frame's origin in m.
+        position_sole_in_world: Position (3,) of sole origin in m.
 
     Returns:
         Polygon (k, 2) in m in the world's x-y plane.
 
     Raises:
-        InputError: If a shape is wrong, or a value not finite.
+        InputError: If invalid.
     """
     seen: NDArray[np.float64] = _kernel.seen_from_above(
         plane_points(polygon_in_sole),
@@ -213,13 +211,13 @@ def feet_support_polygon(polygons_in_world: Sequence[ArrayLike]) -> NDArray[np.f
     """Convex support polygon of all feet (T 4.25).
 
     Args:
-        polygons_in_world: Support polygon (k, 2) of each foot in the world frame; empty for a foot in the air.
+        polygons_in_world: Support polygon (k, 2) of each foot in world frame; empty for a foot in the air.
 
     Returns:
         Convex polygon (m, 2), counter-clockwise, empty where no foot has contact.
 
     Raises:
-        InputError: If a polygon is not (k, 2) finite numbers.
+        InputError: If invalid.
 
     Example:
         >>> left = np.array([[0.0, 0.1], [0.2, 0.1], [0.2, 0.2], [0.0, 0.2]])

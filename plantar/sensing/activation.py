@@ -25,10 +25,10 @@ def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.i
         saturation: Force in N from which a taxel is saturated.
 
     Returns:
-        The mask.
+        Mask.
 
     Raises:
-        ReadingError, InputError: If an argument is not numeric.
+        ReadingError, InputError: If invalid.
     """
     given = numbers(force, "forces", ReadingError)
     low, high = number(threshold, "activation threshold"), number(saturation, "saturation")
@@ -41,17 +41,17 @@ def hysteresis(
     """Two-threshold switch over time: on above `high`, off at `low` or below, else as before.
 
     Args:
-        values: Values (frames, ...) over time, for example forces (frames, n) in N.
-        high: A value above it switches on.
-        low: A value at or below it switches off; not above `high`.
+        values: Values (frames, ...) over time, e.g. forces (frames, n) in N.
+        high: Value above it switches on.
+        low: Value at or below it switches off; not above `high`.
         initial: State (...) before the first frame.
-        saturation: A value from here on switches off.
+        saturation: Value from here on switches off.
 
     Returns:
         State (frames, ...) after each frame.
 
     Raises:
-        InputError: If thresholds, values or the initial state are not valid.
+        InputError: If invalid.
 
     Example:
         >>> hysteresis([0.0, 2.0, 1.2, 0.9, 1.2], high=1.5, low=1.0).tolist()
@@ -82,7 +82,7 @@ class TaxelActivation:
         saturation: Force in N from which a taxel is saturated and not active.
 
     Raises:
-        InputError: If a threshold is NaN or `release` is above `threshold`.
+        InputError: If invalid.
 
     Example:
         >>> activation = TaxelActivation(1.5, 1.0)
@@ -102,7 +102,7 @@ class TaxelActivation:
         self._active = None
 
     def update(self, force: ArrayLike) -> NDArray[np.bool_]:
-        """Active taxels (n,) after the next reading of forces (n,) in N; a ReadingError for another shape."""
+        """Active taxels (n,) after the next reading of forces (n,) in N; ReadingError for another shape."""
         now = numbers(force, "forces", ReadingError)
         if now.ndim != 1:
             raise ReadingError(f"forces have shape {now.shape}; expected (taxels,)")

@@ -25,13 +25,13 @@ def active_cells(
     Args:
         force: Force signals (..., n), in N or normalised.
         proximity: Proximity signals (..., n), larger when nearer.
-        force_threshold: epsilon_force in the unit of `force`; `proximity_threshold` likewise.
+        force_threshold: epsilon_force in unit of `force`; `proximity_threshold` likewise.
 
     Returns:
-        The mask; a signal that is NaN, inf or beyond `LARGEST` does not count.
+        Mask; NaN, inf or beyond `LARGEST` does not count.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If invalid.
     """
     f, p = _signals(force, proximity)
     least_force = number(force_threshold, "threshold of force")
@@ -53,13 +53,13 @@ def pseudo_force(
         proximity: Proximity signals (..., n), larger when nearer.
         force_weight: w_force, in N per unit of `force`.
         proximity_weight: w_prox, in N per unit of `proximity`.
-        active: Mask (..., n), for example of `active_cells`; all cells if None.
+        active: Mask (..., n), e.g. of `active_cells`; all cells if None.
 
     Returns:
-        Pseudo-forces (..., n) in N, 0 for inactive cells; a signal that is NaN, inf or beyond `LARGEST` counts as 0.
+        Pseudo-forces (..., n) in N, 0 for inactive cells; NaN, inf or beyond `LARGEST` counts as 0.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If invalid.
     """
     f, p = _signals(force, proximity)
     by_force = number(force_weight, "weight of force", finite=True)
@@ -77,10 +77,10 @@ def patch_signal(force: ArrayLike, proximity: ArrayLike, weight: float) -> NDArr
         weight: w: 0 for proximity alone, 1 for force alone.
 
     Returns:
-        Signals (..., n); a signal that is NaN, inf or beyond `LARGEST` counts as 0.
+        Signals (..., n); NaN, inf or beyond `LARGEST` counts as 0.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If invalid.
     """
     f, p = _signals(force, proximity)
     share = number(weight, "weight of force against proximity", nan=True)
@@ -93,15 +93,15 @@ def skin_wrench(positions: ArrayLike, rotations: ArrayLike, signal: ArrayLike) -
     """Wrench of normal forces on skin cells: sum_i [R_i f_i, p_i x R_i f_i] (K 4-5, A 7-8, T 3.16-3.18).
 
     Args:
-        positions: Cell positions (n, 3) in the wanted frame in m; with K, relative to the CoM.
-        rotations: Rotations (n, 3, 3) from each cell's frame to the wanted frame.
+        positions: Cell positions (n, 3) in wanted frame in m; with K, relative to CoM.
+        rotations: Rotations (n, 3, 3) from each cell's frame to wanted frame.
         signal: Normal forces (n,) or (frames, n) in N; NaN, inf or beyond `LARGEST` counts as 0.
 
     Returns:
-        Wrench (6,) or (frames, 6) about the wanted frame's origin in N and N m, by the world on the robot.
+        Wrench (6,) or (frames, 6) about wanted frame's origin in N and N m, by world on robot.
 
     Raises:
-        ReadingError: If the shapes do not agree, or a position or rotation is not finite.
+        ReadingError: If invalid.
     """
     r = numbers(positions, "positions of cells", ReadingError)
     turn = numbers(rotations, "rotations of cells", ReadingError)

@@ -39,7 +39,7 @@ def clipped_mean(force: ArrayLike, noise: float) -> NDArray[np.float64]:
         Means (...) in N.
 
     Raises:
-        InputError: If the forces are not numeric, or the noise is not within 0 to 1e6 N.
+        InputError: If invalid.
     """
     given, sigma = numbers(force, "forces"), _sigma(noise)
     if sigma < _NEGLIGIBLE:
@@ -54,14 +54,14 @@ def unclipped_mean(mean: ArrayLike, noise: float) -> NDArray[np.float64]:
     A mean below that of no load gives a force below zero, along the tangent.
 
     Args:
-        mean: Running means (...) of the readings in N.
-        noise: Standard deviation sigma of the white noise in N.
+        mean: Running means (...) of readings in N.
+        noise: Standard deviation sigma of white noise in N.
 
     Returns:
         Forces (...) in N.
 
     Raises:
-        InputError: If the means are not numeric, or the noise is not within 0 to 1e6 N.
+        InputError: If invalid.
 
     Example:
         >>> unclipped_mean(clipped_mean([0.0, 1.0, 10.0], 1.5), 1.5).round(3).tolist()

@@ -21,15 +21,15 @@ def center_of_pressure(
     """Center of pressure (2,) of one sole in its frame in m (T 4.21), or None without force.
 
     Args:
-        layout: The sole, n taxels.
-        force: Normal forces (n,) in N; dead, saturated or inactive taxels are left out.
-        threshold: Activation threshold in N; the layout's if None.
+        layout: Sole, n taxels.
+        force: Normal forces (n,) in N; only active taxels count.
+        threshold: Activation threshold in N; layout's if None.
 
     Returns:
-        The point; for many frames see `plantar.batch.loads`.
+        Point; for many frames see `plantar.batch.loads`.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If invalid.
     """
     vertical = _active(layout, taxel_values(layout, force), threshold) * layout.rotations[:, 2, 2]
     total = float(vertical.sum())
@@ -39,18 +39,18 @@ def center_of_pressure(
 
 
 def ground_reaction_wrench(layout: SoleLayout, force: ArrayLike, threshold: float | None = None) -> NDArray[np.float64]:
-    """Ground reaction wrench at the sole frame's origin (T 4.23).
+    """Ground reaction wrench at sole origin (T 4.23).
 
     Args:
-        layout: The sole, n taxels.
-        force: Normal forces (n,) or (frames, n) in N; dead, saturated or inactive taxels are left out.
-        threshold: Activation threshold in N; the layout's if None.
+        layout: Sole, n taxels.
+        force: Normal forces (n,) or (frames, n) in N; only active taxels count.
+        threshold: Activation threshold in N; layout's if None.
 
     Returns:
-        Wrench (6,) or (frames, 6) in the sole frame in N and N m, by the world on the sole.
+        Wrench (6,) or (frames, 6) in sole frame in N and N m, by world on sole.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If invalid.
     """
     return np.asarray(_active(layout, taxel_frames(layout, force), threshold) @ layout.wrench_map.T)
 
@@ -67,16 +67,16 @@ def pressure_driven_wrench(
     """Wrench amplified on a small contact area and damped on a large one (T 3.26-3.27): w_P = xi / sum(alpha_i) * w_f.
 
     Args:
-        layout: The sole, n taxels, of which the active ones' areas are the alpha_i.
+        layout: Sole, n taxels, of which active ones' areas are alpha_i.
         force: Normal forces (n,) or (frames, n) in N; dead or saturated taxels are left out.
-        reference_area: Gain xi in m^2: the contact area with unchanged wrench.
-        threshold: Activation threshold epsilon_a in N; the layout's if None.
+        reference_area: Gain xi in m^2: contact area with unchanged wrench.
+        threshold: Activation threshold epsilon_a in N; layout's if None.
 
     Returns:
-        Wrench (6,) or (frames, 6) about the sole frame's origin in N and N m; zero without contact.
+        Wrench (6,) or (frames, 6) about sole origin in N and N m; zero without contact.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If invalid.
     """
     readings = taxel_frames(layout, force)
     active = active_taxels(readings, layout.force_threshold if threshold is None else threshold, layout.force_limit)
@@ -94,10 +94,10 @@ def scaled_by_area(wrench: ArrayLike, contact_area: ArrayLike, reference_area: f
         reference_area: Gain xi in m^2.
 
     Returns:
-        Wrench in the shape of `wrench`; zero where the contact area is 0.
+        Wrench in shape of `wrench`; zero where contact area is 0.
 
     Raises:
-        InputError: If the reference area is not a finite value above 0, or there is not one finite area a wrench.
+        InputError: If invalid.
 
     Example:
         >>> scaled_by_area([0, 0, 60.0, 0, 0, 0], 2e-3, 1e-3).tolist()
@@ -122,15 +122,15 @@ def joint_torque(jacobian: ArrayLike, rotation_to_base: ArrayLike, wrench: Array
     """Joint torques of a real or virtual wrench at a link: tau = J^T E w (T 3.20, 3.28, 3.33, 3.38; A 13-14).
 
     Args:
-        jacobian: Geometric Jacobian (6, joints) of the link's frame, linear rows first, in the base frame.
-        rotation_to_base: Rotation (3, 3) from the link's (the sole's) frame to the base frame.
-        wrench: Wrench (6,) or (frames, 6) about the link's origin in its frame in N and N m.
+        jacobian: Geometric Jacobian (6, joints) of link's frame, linear rows first, in base frame.
+        rotation_to_base: Rotation (3, 3) from link's (the sole's) frame to base frame.
+        wrench: Wrench (6,) or (frames, 6) about link's origin in its frame in N and N m.
 
     Returns:
         Torques (joints,) or (frames, joints) in N m.
 
     Raises:
-        InputError: If a shape is wrong, or the Jacobian or rotation not finite.
+        InputError: If invalid.
     """
     columns = array(jacobian, "jacobian", (6, "joints"), finite=True)
     rotation = array(rotation_to_base, "rotation", (3, 3), finite=True)

@@ -19,7 +19,7 @@ __all__ = ["GroundPlane", "checked_range", "fit_ground_plane", "ground_fit", "gr
 
 
 class GroundPlane(NamedTuple):
-    """Ground z = -height + slope . (x, y) in the sole frame."""
+    """Ground z = -height + slope . (x, y) in sole frame."""
 
     height: float
     """Height in m of the sole frame's origin above the ground, along the sole's z; negative below it."""
@@ -35,7 +35,7 @@ class GroundPlane(NamedTuple):
 
     @property
     def normal(self) -> NDArray[np.float64]:
-        """Unit normal (3,) of the ground in the sole frame, upwards."""
+        """Unit normal (3,) of the ground in sole frame, upwards."""
         vector = np.array([-self.slope[0], -self.slope[1], 1.0])
         return np.asarray(vector / np.linalg.norm(vector))
 
@@ -50,14 +50,14 @@ def ground_points(layout: SoleLayout, distance: ArrayLike) -> NDArray[np.float64
     """Points of the ground under the taxels: r_i - d_i z_i.
 
     Args:
-        layout: The sole, n taxels.
-        distance: Distances (n,) or (frames, n) in m; inf out of range, NaN for a dead taxel.
+        layout: Sole, n taxels.
+        distance: Distances (n,) or (frames, n) in m; inf out of range, NaN if dead.
 
     Returns:
-        Points (n, 3) or (frames, n, 3) in the sole frame in m; NaN without ground.
+        Points (n, 3) or (frames, n, 3) in sole frame in m; NaN without ground.
 
     Raises:
-        ReadingError: If these are not n numbers a frame.
+        ReadingError: If invalid.
     """
     reach = taxel_frames(layout, distance, "distances")
     reach = np.where(np.isfinite(reach), reach, np.nan)
@@ -74,16 +74,16 @@ def fit_ground_plane(
     or a cable.
 
     Args:
-        layout: The sole, n taxels.
-        distance: Distances (n,) in m; inf out of range, NaN for a dead taxel, possibly negative by noise.
-        sensing_range: Distance in m from which a reading, also a negative one, is out of range; the layout's if None.
-        tolerance: Distance in m from the plane that noise and rough ground explain.
+        layout: Sole, n taxels.
+        distance: Distances (n,) in m; inf out of range, NaN if dead, possibly negative by noise.
+        sensing_range: Distance in m, of either sign, out of range from there; layout's if None.
+        tolerance: Distance in m from plane that noise explains.
 
     Returns:
-        The plane; None where no taxel measures the ground.
+        Plane; None where no taxel measures ground.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If invalid.
 
     Example:
         >>> from plantar import hex_layout
@@ -104,15 +104,15 @@ def fit_ground_plane(
 
 
 def checked_range(layout: SoleLayout, sensing_range: float | None, tolerance: float) -> float:
-    """The range in m of a fit, checked with its tolerance; an InputError unless both are above 0.
+    """The range in m of a fit, checked with its tolerance; InputError unless both are above 0.
 
     Args:
-        layout: The sole.
+        layout: Sole.
         sensing_range: As in `fit_ground_plane`.
         tolerance: As in `fit_ground_plane`.
 
     Returns:
-        The range.
+        Range.
     """
     if not number(tolerance, "tolerance of the ground plane", nan=True) > 0.0:
         raise InputError(f"tolerance of the ground plane is {tolerance} m; allowed: above 0")

@@ -25,11 +25,11 @@ class TaxelHealth:
 
     Attributes:
         dead: Taxels (n,) that read NaN or inf.
-        saturated: Taxels (n,) that read the end of their range or more.
+        saturated: Taxels (n,) that read end of their range or more.
         stuck: Taxels (n,) that have not changed for too long.
 
     Raises:
-        ReadingError: If the masks do not all have n truth values.
+        ReadingError: If invalid.
     """
 
     dead: NDArray[np.bool_]
@@ -63,7 +63,7 @@ def dead_taxels(values: ArrayLike) -> NDArray[np.bool_]:
     """Mask (..., n) of taxels that read no finite number; not for distances, where inf means out of range.
 
     Args:
-        values: Readings (..., n) of a modality; a ReadingError if not numeric.
+        values: Readings (..., n) of modality; ReadingError if not numeric.
     """
     return np.asarray(~np.isfinite(numbers(values, "readings", ReadingError)))
 
@@ -72,14 +72,14 @@ def saturated_taxels(values: ArrayLike, highest: float) -> NDArray[np.bool_]:
     """Mask (..., n) of taxels at the upper end of their range; dead ones are not.
 
     Args:
-        values: Readings (..., n) of a modality.
-        highest: Upper end of its range in the same unit, for example `layout.ranges["force"][1]`.
+        values: Readings (..., n) of modality.
+        highest: Upper end of its range in the same unit, e.g. `layout.ranges["force"][1]`.
 
     Returns:
-        The mask.
+        Mask.
 
     Raises:
-        ReadingError, InputError: If an argument is not numeric.
+        ReadingError, InputError: If invalid.
     """
     readings = numbers(values, "readings", ReadingError)
     return np.asarray(np.isfinite(readings) & (readings >= number(highest, "upper end of the range")))
@@ -95,16 +95,16 @@ def stuck_taxels(
 
     Args:
         times: Times (frames,) in s, increasing.
-        values: Readings (frames, n), for example forces in N.
+        values: Readings (frames, n), e.g. forces in N.
         hold: Time in s without a change from which a taxel is stuck.
         tolerance: Largest difference of two samples that is no change.
-        rest: A taxel that reads this or less is never stuck.
+        rest: Taxel that reads this or less is never stuck.
 
     Returns:
-        The mask.
+        Mask.
 
     Raises:
-        InputError: If times, `hold` or readings are not valid.
+        InputError: If invalid.
 
     Example:
         >>> stuck_taxels([0.0, 0.5, 1.0], [[0, 5, 5], [0, 5, 6], [0, 5, 5]], hold=1.0).tolist()[-1]
@@ -131,7 +131,7 @@ class StuckMonitor:
         rest: As in `stuck_taxels`.
 
     Raises:
-        InputError: If `hold` is not above 0, `tolerance` is below 0, or one is not a number.
+        InputError: If invalid.
 
     Example:
         >>> monitor = StuckMonitor(hold=1.0)
@@ -160,7 +160,7 @@ class StuckMonitor:
             Mask (n,).
 
         Raises:
-            InputError, ReadingError: If an argument is not valid.
+            InputError, ReadingError: If invalid.
         """
         now = numbers(values, "readings", ReadingError).copy()
         if now.ndim != 1:
@@ -184,16 +184,16 @@ def fill_from_neighbours(
     """Readings in which faulty taxels have the mean of their sound neighbours, NaN without any.
 
     Args:
-        layout: The sole, n taxels.
+        layout: Sole, n taxels.
         values: Readings (n,) or (frames, n); never changed.
-        faulty: Mask (n,) or of the shape of `values`: the taxels to fill.
+        faulty: Mask (n,) or of shape of `values`: taxels to fill.
         per_area: Average values per area, right for forces on cells of different size.
 
     Returns:
-        Readings in the shape of `values`.
+        Readings in shape of `values`.
 
     Raises:
-        ReadingError: If the number of taxels is not that of the layout, or the mask does not fit the readings.
+        ReadingError: If invalid.
     """
     out = taxel_frames(layout, values, "readings").copy()
     bad = mask(faulty, "mask of faulty taxels", (...,), ReadingError)

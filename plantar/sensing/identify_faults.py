@@ -29,10 +29,10 @@ class IdentifiedFaults(NamedTuple):
     """Faults of a sole's taxels from a recording.
 
     Attributes:
-        worn: The taxels' own faults, to apply to other forces; without noise.
-        faults: Their statistics, to draw other soles of the kind.
+        worn: Taxels' own faults, to apply to other forces; without noise.
+        faults: Their statistics, to draw other soles of kind.
         gain_error: Standard error (n,) of each gain; NaN for dead taxels.
-        residual: Root mean square (n,) in N of each taxel's error after the fit.
+        residual: RMS (n,) in N of each taxel's error after fit.
     """
 
     worn: WornFaults
@@ -48,16 +48,16 @@ def identify_faults(layout: SoleLayout, time: ArrayLike, force: ArrayLike, read:
     squares. Shear is not identified: it needs tangential forces.
 
     Args:
-        layout: The sole, n taxels.
+        layout: Sole, n taxels.
         time: Times (t,) in s, increasing, 20 or more.
         force: Known normal force (t, n) on each taxel in N. Loads have to rise and fall.
-        read: Readings (t, n) of the taxels in N; NaN for a dead one.
+        read: Readings (t, n) of taxels in N; NaN if dead.
 
     Returns:
-        The faults.
+        Faults.
 
     Raises:
-        ReadingError: If times and arrays do not fit together, or no taxel is loaded.
+        ReadingError: If invalid.
 
     Example:
         >>> from plantar import hex_layout

@@ -21,16 +21,16 @@ class SkinPatch:
     """Taxels on one link (T 3.14-3.15). A taxel's z axis points into the body.
 
     Attributes:
-        name: Name of the patch.
+        name: Name of patch.
         link: Link that it is mounted on.
-        positions: Taxel positions (t, 3) in the link's frame in m.
-        rotations: Rotations (t, 3, 3) from each taxel's to the link's frame.
+        positions: Taxel positions (t, 3) in link's frame in m.
+        rotations: Rotations (t, 3, 3) from each taxel's to link's frame.
         areas: Area (t,) of each taxel in m^2.
         force_threshold: epsilon_f of T 3.23: force in N from which a taxel is active.
         proximity_range: d_range of T 3.30: sensing range in m; 0 for none.
 
     Raises:
-        LayoutError: If a value is not valid; the message names the patch.
+        LayoutError: If invalid.
     """
 
     name: str
@@ -76,19 +76,19 @@ class BodySkin:
     """All taxels of a body in one order, link by link, so that a link's taxels are one slice.
 
     Args:
-        patches: The patches, any number a link; a LayoutError for none, or two of one name.
+        patches: Patches, any number a link; LayoutError for none, or two of one name.
 
     Attributes:
-        patches: The patches, sorted by link.
+        patches: Patches, sorted by link.
         links: Links that have skin.
         link_of: Index (N,) of each taxel's link in `links`.
         slices: Taxels of each patch by its name.
         positions: Taxel positions (N, 3) in their link's frame in m.
-        normals: Direction (N, 3) into the body in the link's frame.
+        normals: Direction (N, 3) into body in link's frame.
         areas: Taxel areas (N,) in m^2.
         thresholds: Force threshold (N,) in N.
         ranges: Proximity range (N,) in m.
-        unit_wrenches: Wrench (N, 6) about the link's origin of 1 N on each taxel (T 3.16), in the link's frame.
+        unit_wrenches: Wrench (N, 6) about link's origin of 1 N on each taxel (T 3.16), in link's frame.
     """
 
     def __init__(self, patches: Sequence[SkinPatch]) -> None:
@@ -118,14 +118,14 @@ class BodySkin:
         return len(self.positions)
 
     def patch(self, name: str) -> SkinPatch:
-        """The patch of a name; an InputError without."""
+        """The patch of a name; InputError without."""
         found = next((p for p in self.patches if p.name == name), None)
         if found is None:
             raise InputError(f"no patch is called '{name}'; allowed: {', '.join(self.slices)}")
         return found
 
     def taxels_of(self, patches: Sequence[str] | None) -> NDArray[np.bool_]:
-        """Mask (N,) of the taxels of some patches; of all if None; an InputError for an unknown name."""
+        """Mask (N,) of the taxels of some patches; of all if None; InputError for an unknown name."""
         if patches is None:
             return np.ones(len(self), dtype=bool)
         found = np.zeros(len(self), dtype=bool)
@@ -163,12 +163,12 @@ def link_wrenches(skin: BodySkin, signal: NDArray[np.float64], active: NDArray[n
     """Sum the signals of active taxels, a wrench a link (T 3.16-3.18); links without any are left out (T 3.23-3.24).
 
     Args:
-        skin: The skin.
+        skin: Skin.
         signal: Force (N,) along each taxel's z in N, measured or virtual.
-        active: Mask (N,) of the taxels that count.
+        active: Mask (N,) of taxels that count.
 
     Returns:
-        The wrenches, in the order of `skin.links`.
+        Wrenches, in order of `skin.links`.
     """
     taxels = active.nonzero()[0]
     if not len(taxels):

@@ -27,9 +27,9 @@ class NetWrenchRules(Part, table="push_felt", needs={"control.push_estimate": ("
     """What counts as a push, besides each patch's own force threshold.
 
     Attributes:
-        near: theta_prox: share of its range by which something has to be nearer than the range's end (K Table 1).
-        proximity_force: w_prox: force in N of a taxel at distance 0 without contact: 1 N in K Table 1, for a robot of
-            86 kg; 0 counts contact alone.
+        near: theta_prox: share of its range by which something has to be nearer than range's end (K Table 1).
+        proximity_force: w_prox: force in N of taxel at distance 0 without contact: 1 N in K Table 1, for a robot of 86
+            kg; 0 counts contact alone.
     """
 
     near: float = number(0.05, "1", 0, 1)
@@ -53,17 +53,17 @@ def net_wrench(
     """Sum the signals of all taxels (K 2-5, corrected).
 
     Args:
-        skin: The skin.
+        skin: Skin.
         reading: One reading of it; NaN for a silent taxel.
-        poses: Origin (3,) in m and rotation (3, 3) to the world of each link that has skin and measures.
-        point: Point (3,) in the world in m for moments, with K the CoM.
+        poses: Origin (3,) in m and rotation (3, 3) to world of each link that has skin and measures.
+        point: Point (3,) in world in m for moments, with K CoM.
         rules: What counts.
 
     Returns:
-        The wrench; zeros without a push.
+        Wrench; zeros without a push.
 
     Raises:
-        ReadingError: If the reading is of another skin, the point not three finite numbers, or a pose missing.
+        ReadingError: If invalid.
 
     Example:
         >>> from plantar.sensing.link_skin import SkinPatch

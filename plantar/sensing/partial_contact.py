@@ -42,10 +42,10 @@ class GroundEdges:
     """Straight edges of the ground under a sole, and the supported part.
 
     Attributes:
-        lines: Edges (m, 3) in the sole frame: outward normal of length 1, and distance from the origin in m.
-        polygon: Supported part (k, 2) of the cells' convex hull in the sole frame in m, counter-clockwise.
-        deviation: Standard deviation (m,) of each edge's distance in m by the noise.
-        residual: Root mean square difference of loads and fit in N.
+        lines: Edges (m, 3) in sole frame: outward normal of length 1, and distance from origin in m.
+        polygon: Supported part (k, 2) of cells' convex hull in sole frame in m, counter-clockwise.
+        deviation: Standard deviation (m,) of each edge's distance in m by noise.
+        residual: RMS difference of loads and fit in N.
     """
 
     lines: NDArray[np.float64]
@@ -58,7 +58,7 @@ class PartialContact:
     """Finds the edges of the ground under one sole.
 
     Args:
-        layout: The sole, n taxels.
+        layout: Sole, n taxels.
 
     Example:
         >>> from plantar import hex_layout
@@ -88,10 +88,10 @@ class PartialContact:
         self.edges = None
 
     def cover(self, lines: ArrayLike) -> NDArray[np.float64]:
-        """Covered area in m^2 and its moments in m^3 about the sole frame's origin (n, 3) of each cell.
+        """Covered area in m^2 and its moments in m^3 about sole origin (n, 3) of each cell.
 
         Args:
-            lines: Half-planes (m, 3) n . x <= h in the sole frame; an InputError unless finite.
+            lines: Half-planes (m, 3) n . x <= h in sole frame; InputError unless finite.
         """
         return self._cells.cut(lines)[0]
 
@@ -103,14 +103,14 @@ class PartialContact:
 
         Args:
             load: Vertical force in N.
-            center_of_pressure: Where it acts (2,) in the sole frame in m.
+            center_of_pressure: Where it acts (2,) in sole frame in m.
             lines: Half-planes (m, 3), see `cover`.
 
         Returns:
-            The forces, none negative.
+            Forces, none negative.
 
         Raises:
-            InputError: If an argument is not finite or of another shape.
+            InputError: If invalid.
         """
         place = array(center_of_pressure, "center of pressure", (2,), finite=True)
         measure = self.cover(lines)
@@ -150,16 +150,16 @@ class PartialContact:
 
         Args:
             load: Force (n,) on each taxel in N, a mean over readings for less noise; NaN where a taxel is faulty.
-            active: Mask (n,) of the taxels that have been loaded.
+            active: Mask (n,) of taxels that have been loaded.
             noise: Standard deviation of `load` in N.
             steps: Gauss-Newton steps.
-            start: First guess of the edges (m, 3), see `between`; from the loads if None.
+            start: First guess of edges (m, 3), see `between`; from loads if None.
 
         Returns:
-            The edges; with no active taxel an empty polygon.
+            Edges; with no active taxel an empty polygon.
 
         Raises:
-            ReadingError, InputError: If an argument is not valid.
+            ReadingError, InputError: If invalid.
         """
         force = taxel_values(self.layout, load, "loads")
         mask = taxel_mask(self.layout, active, "mask of active taxels")
@@ -196,14 +196,14 @@ class PartialContact:
         """Lines half way between the centers of supported cells and of idle ones.
 
         Args:
-            supported: Mask (n,) of the cells over ground.
-            idle: Mask (n,) of the cells known not to be.
+            supported: Mask (n,) of cells over ground.
+            idle: Mask (n,) of cells known not to be.
 
         Returns:
-            Half-planes (m, 3), the side with the most idle cells first; m up to 4.
+            Half-planes (m, 3), side with most idle cells first; m up to 4.
 
         Raises:
-            ReadingError: If a mask is not n truth values.
+            ReadingError: If invalid.
         """
         over = taxel_mask(self.layout, supported, "mask of supported taxels")
         inner, outer = self._centers[over], self._centers[taxel_mask(self.layout, idle, "mask of idle taxels")]
@@ -233,10 +233,10 @@ class PartialContact:
         """Part of the convex hull of all cells inside lines.
 
         Args:
-            lines: Half-planes (m, 3) n . x <= h in the sole frame; an InputError unless finite.
+            lines: Half-planes (m, 3) n . x <= h in sole frame; InputError unless finite.
 
         Returns:
-            Convex polygon (k, 2) in the sole frame in m, counter-clockwise.
+            Convex polygon (k, 2) in sole frame in m, counter-clockwise.
         """
         left = self._hull
         for nx, ny, h in half_planes(lines).tolist():

@@ -1,6 +1,6 @@
 """Proximity before the sole touches: inverse measure, near taxels, contours of height.
 
-Distances along a taxel's -z axis in m; inf beyond the range, NaN for a dead taxel.
+Distances along a taxel's -z axis in m; inf beyond the range, NaN if dead.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def proximity_measure(distance: ArrayLike, sensing_range: float) -> NDArray[np.f
 
     Args:
         distance: Distances (..., n) in m.
-        sensing_range: Range d_range of the sensors in m, above 0.
+        sensing_range: Range d_range of sensors in m, above 0.
 
     Returns:
         Measures (..., n) in m: 0 out of range and for a dead taxel, `sensing_range` at contact (d <= 0), never NaN.
@@ -68,7 +68,7 @@ def near_taxels(distance: ArrayLike, threshold: float) -> NDArray[np.bool_]:
         threshold: Threshold epsilon_p in m.
 
     Returns:
-        The mask.
+        Mask.
     """
     return np.asarray(numbers(distance, "distances") < number(threshold, "threshold of proximity"))
 
@@ -77,32 +77,32 @@ def cells_polygon(layout: SoleLayout, taxels: ArrayLike) -> NDArray[np.float64]:
     """Convex polygon of all corners of some cells of a sole (T 4.24).
 
     Args:
-        layout: The sole, n taxels.
-        taxels: Mask (n,) of the cells.
+        layout: Sole, n taxels.
+        taxels: Mask (n,) of cells.
 
     Returns:
-        Polygon (k, 2) in the sole frame in m, counter-clockwise; empty without cells.
+        Polygon (k, 2) in sole frame in m, counter-clockwise; empty without cells.
 
     Raises:
-        ReadingError: If the mask is not n truth values.
+        ReadingError: If invalid.
     """
     polygon: NDArray[np.float64] = layout.kernel.hull(taxel_mask(layout, taxels))[0]
     return polygon
 
 
 def preemptive_polygon(layout: SoleLayout, distance: ArrayLike, threshold: float) -> NDArray[np.float64]:
-    """Preemptive support polygon (k, 2) in the sole frame in m: convex hull of the near cells (T 4.2.7 corrected).
+    """Preemptive support polygon (k, 2) in sole frame in m: convex hull of the near cells (T 4.2.7 corrected).
 
     Args:
-        layout: The sole, n taxels.
+        layout: Sole, n taxels.
         distance: Distances (n,) in m.
         threshold: Threshold epsilon_p in m.
 
     Returns:
-        The polygon, counter-clockwise; empty if none is near.
+        Polygon, counter-clockwise; empty if none is near.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If invalid.
     """
     return cells_polygon(layout, near_taxels(taxel_values(layout, distance, "distances"), threshold))
 
@@ -111,7 +111,7 @@ def contour_levels(heights: Sequence[float]) -> tuple[float, ...]:
     """Heights of contours in m, sorted lowest first.
 
     Args:
-        heights: Thresholds epsilon_p in m, in any order; an InputError if one is not a number.
+        heights: Thresholds epsilon_p in m, in any order; InputError if one is not a number.
     """
     levels: list[float] = sorted(array(heights, "heights of contours", ("m",)).tolist())
     if any(map(math.isnan, levels)):
@@ -123,15 +123,15 @@ def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[f
     """Contours that approximate the ground under a swinging sole (T 4.2.7 corrected, Fig. 39-b).
 
     Args:
-        layout: The sole, n taxels.
+        layout: Sole, n taxels.
         distance: Distances (n,) in m.
         heights: Thresholds epsilon_p in m, in any order.
 
     Returns:
-        A contour a height, lowest first, each including the lower ones; read-only.
+        Contour a height, lowest first, each including the lower ones; read-only.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If invalid.
 
     Example:
         >>> from plantar import hex_layout

@@ -29,12 +29,12 @@ class Reading(ReadingFields):
     Attributes:
         time: Time in s.
         force: Normal force (n,) on each taxel in N; NaN marks a dead taxel.
-        proximity: Distance (n,) from each taxel to the nearest surface in m, inf out of range, or None.
+        proximity: Distance (n,) from each taxel to nearest surface in m, inf out of range, or None.
         temperature: Temperature (n,) in degC, or None.
         acceleration: Acceleration (n, 3) of each taxel in its own frame in m/s^2, or None.
 
     Raises:
-        ReadingError: If an array is not numeric or of another shape, or the time is not finite.
+        ReadingError: If invalid.
 
     Example:
         >>> Reading(time=0.0, force=np.array([1.0, 2.0])).force.sum()
@@ -88,7 +88,7 @@ class Reading(ReadingFields):
             proximity: Distances (n,) in m likewise, or None.
 
         Returns:
-            The reading, without temperature and acceleration.
+            Reading, without temperature and acceleration.
         """
         reading = cls.__new__(cls)
         vectors.close(force)

@@ -34,19 +34,19 @@ class TaxelFaults:
     """Size of the errors of a kind of skin, from which a taxel's own faults are drawn. 0 is no fault.
 
     Attributes:
-        gain: Standard deviation of the gains about 1.
-        offset: Standard deviation in N of the zeros.
-        drift: Standard deviation in N of the zeros' drift within minutes.
+        gain: Standard deviation of gains about 1.
+        offset: Standard deviation in N of zeros.
+        drift: Standard deviation in N of zeros' drift within minutes.
         hysteresis: Share by which a taxel reads too little under rising load, and too much under falling load.
         crosstalk: Share of each taxel's force that its neighbours read instead, in equal parts.
         dead: Share of dead taxels, which read NaN.
-        shear: Share of the tangential force that a taxel reads as normal force.
+        shear: Share of tangential force that a taxel reads as normal force.
         noise: Standard deviation in N of white noise.
-        resolution: Step in N of the readings.
+        resolution: Step in N of readings.
         delay: Time in s from a force to its reading.
 
     Raises:
-        InputError: If a value is not finite, below 0, or a share above 0.9.
+        InputError: If invalid.
 
     Example:
         >>> from plantar import hex_layout
@@ -79,12 +79,12 @@ class TaxelFaults:
         """Draw the faults of one sole, or of many.
 
         Args:
-            layout: The sole, n taxels.
-            seed: Seed of the draw.
+            layout: Sole, n taxels.
+            seed: Seed of draw.
             batch: Dimensions of many soles, for arrays (*batch, n).
 
         Returns:
-            The faults, with the state of hysteresis and delay.
+            Faults, with state of hysteresis and delay.
         """
         rng = np.random.default_rng(seed)
         shape = (*batch, len(layout))
@@ -98,11 +98,11 @@ class WornFaults:
     """The faults of each taxel of a sole, with the state of hysteresis and delay.
 
     Args:
-        layout: The sole, n taxels.
+        layout: Sole, n taxels.
         faults: Hysteresis, crosstalk, shear, noise, resolution and delay of all taxels.
         gains: Gain (..., n) of each taxel; `offsets` its zero in N, `drifts` the final drift of that.
         dead: Whether each taxel (..., n) is dead.
-        rng: Source of the noise; None without noise (else an InputError).
+        rng: Source of noise; None without noise (else an InputError).
 
     Example:
         >>> from plantar import hex_layout
@@ -140,13 +140,13 @@ class WornFaults:
         Args:
             time: Time in s, never decreasing.
             force: Normal force (..., n) on each taxel in N.
-            vectors: Force (..., n, 3) in N with the tangential part, for shear.
+            vectors: Force (..., n, 3) in N with tangential part, for shear.
 
         Returns:
             Readings (..., n) in N; NaN for dead taxels.
 
         Raises:
-            ReadingError: If the number of taxels differs, a force is not finite, or vectors are missing with shear.
+            ReadingError: If invalid.
         """
         faults = self.faults
         pressed = array(force, "forces", self.gains.shape, ReadingError, finite=True)
@@ -191,11 +191,11 @@ def crosstalk_matrix(layout: SoleLayout, crosstalk: float) -> NDArray[np.float64
     """Share (n, n) of each taxel's force in each reading; columns sum to 1, a taxel without neighbours keeps its own.
 
     Args:
-        layout: The sole, n taxels.
+        layout: Sole, n taxels.
         crosstalk: Share of each taxel's force that its neighbours read instead.
 
     Returns:
-        The matrix.
+        Matrix.
     """
     spread = np.eye(len(layout))
     for i, near in enumerate(layout.neighbours):

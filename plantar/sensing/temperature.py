@@ -20,15 +20,15 @@ def temperature_measure(temperature: ArrayLike, threshold: float, highest: float
     """Excess kappa (..., n) in K of each taxel over a threshold (T 3.34): 0 below and for a dead taxel, never NaN.
 
     Args:
-        temperature: Temperatures (..., n) in degC; NaN or inf for a dead taxel.
+        temperature: Temperatures (..., n) in degC; NaN or inf if dead.
         threshold: Temperature kappa_0 in degC from which a taxel reacts.
-        highest: Upper end of the sensors' range in degC, where readings are cut.
+        highest: Upper end of sensors' range in degC, where readings are cut.
 
     Returns:
-        The excess.
+        Excess.
 
     Raises:
-        InputError: If an argument is not valid.
+        InputError: If invalid.
     """
     readings = numbers(temperature, "temperatures")
     level = number(threshold, "threshold of temperature", finite=True)
@@ -46,16 +46,16 @@ def temperature_wrench(
     w = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, gain * kappa_i].
 
     Args:
-        layout: The sole, n taxels.
-        temperature: Temperatures (n,) or (frames, n) in degC; NaN for a dead taxel.
-        threshold: Temperature kappa_0 in degC from which a taxel reacts; the layout's if None.
+        layout: Sole, n taxels.
+        temperature: Temperatures (n,) or (frames, n) in degC; NaN if dead.
+        threshold: Temperature kappa_0 in degC from which a taxel reacts; layout's if None.
         gain: Force of a kelvin of excess in N/K.
 
     Returns:
-        Wrench (6,) or (frames, 6) about the sole frame's origin in N and N m.
+        Wrench (6,) or (frames, 6) about sole origin in N and N m.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If invalid.
     """
     readings = taxel_frames(layout, temperature, "temperatures")
     level = layout.temperature_threshold if threshold is None else threshold
@@ -69,14 +69,14 @@ def warm_taxels(temperature: ArrayLike, threshold: float) -> NDArray[np.bool_]:
     """Taxels at or above a temperature (T 3.34); dead ones are not.
 
     Args:
-        temperature: Temperatures (..., n) in degC; NaN or inf for a dead taxel.
+        temperature: Temperatures (..., n) in degC; NaN or inf if dead.
         threshold: Temperature kappa_0 in degC.
 
     Returns:
         Mask (..., n).
 
     Raises:
-        InputError: If the temperatures are not numeric, or the threshold is NaN or no number.
+        InputError: If invalid.
     """
     readings = numbers(temperature, "temperatures")
     return np.asarray(np.isfinite(readings) & (readings >= number(threshold, "threshold of temperature")))
@@ -88,15 +88,15 @@ def temperature_footprint(
     """Temperature footprint: convex polygon of the warm cells (T 4.2.5).
 
     Args:
-        layout: The sole, n taxels.
-        temperature: Temperatures (n,) in degC; NaN for a dead taxel.
-        threshold: Temperature in degC of a warm cell; the layout's if None.
+        layout: Sole, n taxels.
+        temperature: Temperatures (n,) in degC; NaN if dead.
+        threshold: Temperature in degC of warm cell; layout's if None.
 
     Returns:
-        Polygon (k, 2) in the sole frame in m, counter-clockwise; empty if none is warm.
+        Polygon (k, 2) in sole frame in m, counter-clockwise; empty if none is warm.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If invalid.
     """
     readings = taxel_values(layout, temperature, "temperatures")
     level = layout.temperature_threshold if threshold is None else threshold

@@ -24,21 +24,21 @@ _CHUNK = 1024
 def virtual_ground_reaction_wrench(
     layout: SoleLayout, distance: ArrayLike, gain: float, sensing_range: float | None = None
 ) -> NDArray[np.float64]:
-    """Virtual ground reaction wrench of proximity at the sole frame's origin (T 4.26; T 3.30 corrected, 3.31-3.32).
+    """Virtual ground reaction wrench of proximity at sole origin (T 4.26; T 3.30 corrected, 3.31-3.32).
 
     w_p = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, k_p rho_i]; printed T 3.30 attracts.
 
     Args:
-        layout: The sole, n taxels.
-        distance: Distances (n,) or (frames, n) in m; inf out of range, NaN for a dead taxel.
+        layout: Sole, n taxels.
+        distance: Distances (n,) or (frames, n) in m; inf out of range, NaN if dead.
         gain: Repulsion k_p of each taxel in N/m.
-        sensing_range: Range of the sensors in m; the layout's if None.
+        sensing_range: Range of sensors in m; layout's if None.
 
     Returns:
-        Wrench (6,) or (frames, 6) in the sole frame in N and N m.
+        Wrench (6,) or (frames, 6) in sole frame in N and N m.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If invalid.
     """
     readings = taxel_frames(layout, distance, "distances")
     reach = layout.proximity_range if sensing_range is None else sensing_range
@@ -61,10 +61,10 @@ def early_stop(virtual_wrench: ArrayLike, threshold: float) -> NDArray[np.bool_]
         threshold: Threshold epsilon_stop in N.
 
     Returns:
-        A bool for one wrench, a mask (...) for several.
+        Bool for one wrench, a mask (...) for several.
 
     Raises:
-        InputError: If the wrench is not (..., 6) numbers, or the threshold not a number.
+        InputError: If invalid.
     """
     stop = np.asarray(_size(array(virtual_wrench, "wrench", (..., 6))) > number(threshold, "threshold of the stop"))
     return bool(stop) if stop.ndim == 0 else stop
@@ -78,16 +78,16 @@ def sole_wrenches(
     T 4.30 corrected: printed, the virtual part vanishes where |w_f| > 0, which noise exceeds.
 
     Args:
-        contact: Wrenches (frames, 6) w_f of the taxels' forces in N and N m.
-        virtual: Wrenches (frames, 6) w_p of the proximity.
-        threshold: Force |f_f| in N above which the foot has landed.
+        contact: Wrenches (frames, 6) w_f of taxels' forces in N and N m.
+        virtual: Wrenches (frames, 6) w_p of proximity.
+        threshold: Force |f_f| in N above which foot has landed.
         release: Force in N at or below which it has lifted; half of `threshold` if None.
 
     Returns:
         Wrenches (frames, 6) in N and N m. A part with NaN or inf counts as zero.
 
     Raises:
-        InputError: If `release` is above `threshold`, or a wrench is not (frames, 6) numbers.
+        InputError: If invalid.
 
     Example:
         >>> contact = np.outer([0.0, 0.5, 9.0, 4.0], [0, 0, 1, 0, 0, 0])
@@ -119,7 +119,7 @@ class SoleWrenchSwitch:
     def update(self, contact: ArrayLike, virtual: ArrayLike) -> NDArray[np.float64]:
         """Returns the wrench (6,) in N and N m of the next reading of `contact` and `virtual` wrench (6,).
 
-        A part with NaN or inf counts as zero; an InputError if one is not 6 numbers.
+        A part with NaN or inf counts as zero; InputError if one is not 6 numbers.
         """
         carried, foreseen = _finite(contact, (6,)), _finite(virtual, (6,))
         force = math.hypot(*carried[:3].tolist())

@@ -20,7 +20,7 @@ class FaceContacts:
 
     Args:
         stride: Bytes from one contact to the next; each begins with gap, position (3,), normal (3,) from the first geom
-            to the second, first tangent (3,).
+            to second, first tangent (3,).
 
     Attributes:
         count: Number of pairs so far.
@@ -43,12 +43,12 @@ class FaceContacts:
 
         Args:
             places: Address of all geoms' positions (n, 3) in m.
-            turns: Address of their rotations (n, 9) to the world.
+            turns: Address of their rotations (n, 9) to world.
             sizes: Address of their half sizes (n, 3) in m.
-            ground: The ground's geom; `sole` the other.
-            margin: Largest gap in m of a contact.
-            out: Address of the contacts, with room for eight.
-            sign: 1 where the ground is the first geom of the pair, else -1.
+            ground: Ground's geom; `sole` the other.
+            margin: Largest gap in m of contact.
+            out: Address of contacts, with room for eight.
+            sign: 1 where ground is the first geom of pair, else -1.
         """
         self.count += 1
         base = addresses.at(places)
@@ -90,7 +90,7 @@ class FaceContacts:
         """Contacts of a box on the end of a cylinder, at the corners furthest along the box's diagonals; as `box`.
 
         Returns:
-            Number of contacts; -1 where the box does not lie on an end.
+            Number of contacts; -1 where box does not lie on an end.
         """
         self.count += 1
         base = addresses.at(places)

@@ -9,13 +9,13 @@ class ContactList:
     """A simulator's list of n contacts of all bodies.
 
     Args:
-        geoms: Ids (n, 2) of the touching geoms, -1 for none.
-        positions: Points (n, 3) in the world in m.
+        geoms: Ids (n, 2) of touching geoms, -1 for none.
+        positions: Points (n, 3) in world in m.
         frames: Contact frames (n, 9), axis by axis.
         gaps: Gaps (n,) in m.
         addresses: Index (n,) of each contact's first force; negative without force.
         sizes: Dimensions (n,) of each contact, up to 6.
-        friction: Friction (n, 5) where forces are along the edges of a pyramid; None where they are along the axes.
+        friction: Friction (n, 5) where forces are along edges of pyramid; None where they are along axes.
     """
 
     def __init__(self, geoms, positions, frames, gaps, addresses, sizes, friction=None):
@@ -45,13 +45,13 @@ class FootContacts:
     """The contacts of one foot with everything else, gathered at each instant.
 
     Args:
-        own: Whether a geom belongs to the foot (geoms,), 0 or 1.
+        own: Whether a geom belongs to foot (geoms,), 0 or 1.
 
     Attributes:
         size: Number of contacts k.
-        ids: The foot's geom and the other one (room, 2) in the first k rows; -1 for none.
-        vectors: Position in m, force in N and torque in N m on the foot of each contact in turn (3 room, 3), in the
-            world frame.
+        ids: Foot's geom and the other one (room, 2) in the first k rows; -1 for none.
+        vectors: Position in m, force in N and torque in N m on foot of each contact in turn (3 room, 3), in world
+            frame.
         gaps: Gaps (room,) in m.
         carries: Whether a contact carries (room,).
     """
@@ -137,10 +137,10 @@ class FootContacts:
         """Add the contacts to the ground's wrench about the world's origin.
 
         Args:
-            reach: Largest gap in m of a point of support.
+            reach: Largest gap in m of point of support.
             ground: Whether a geom is ground (geoms,), 0 or 1; None for all.
             sums: Force, torque, and sum of height times vertical force (7,), added to.
-            points: `FewPoints` that receive the points of support.
+            points: `FewPoints` that receive points of support.
         """
         fx, fy, fz, tx, ty, tz, height = sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6]
         for k in range(self.size):
@@ -163,8 +163,8 @@ class FootContacts:
         y at its origin in N m, and points (x, y) in m.
 
         Args:
-            vectors: As the attribute, in the plane's frame.
-            reach: Largest gap in m of a contact without load.
+            vectors: As attribute, in plane's frame.
+            reach: Largest gap in m of contact without load.
         """
         pairs = {}
         for k in range(self.size):
@@ -219,7 +219,7 @@ class ContactsInSole:
         self._make_room(8)
 
     def look_from(self, origin, rotation):
-        """Set origin (3,) in m and rotation (3, 3) to the world of the sole, which the simulator writes."""
+        """Set origin (3,) in m and rotation (3, 3) to world of the sole, which the simulator writes."""
         self.origin = origin
         self.rotation = rotation
 

@@ -13,15 +13,15 @@ class GroundReaction:
     """Sums the contacts of all feet.
 
     Args:
-        height: Height in m of the ZMP's plane; NaN for the force-weighted mean height of the contacts.
+        height: Height in m of ZMP's plane; NaN for force-weighted mean height of contacts.
         least: Vertical force in N below which there is no ZMP.
-        reach: Largest gap in m of a contact that could carry.
+        reach: Largest gap in m of contact that could carry.
         ground: Whether a geom is ground (geoms,), 0 or 1; None for all.
 
     Attributes:
         loads: Vertical force in N on each foot.
         found: Whether there is a ZMP, at x, y in m.
-        margin: Signed distance in m of the ZMP to the support's edge, positive inside; NaN without.
+        margin: Signed distance in m of ZMP to support's edge, positive inside; NaN without.
     """
 
     def __init__(self, height, least, reach, ground=None):
@@ -82,8 +82,8 @@ class GroundReaction:
         """The current result, to keep.
 
         Returns:
-            Wrench (6,) about the world's origin; ZMP (x, y) in m or None; convex hull of the points of support,
-            counter-clockwise; margin in m or None; and the points of support of each foot.
+            Wrench (6,) about the world's origin; ZMP (x, y) in m or None; convex hull of points of support,
+            counter-clockwise; margin in m or None; and points of support of each foot.
         """
         wrench = np.array(self.sums[:6])
         points = []

@@ -11,13 +11,13 @@ def spread_whole(u, area, inverse, x, y, force, cells, out):
     """Spread a normal load over covered cells that all carry: pressure a + b x + c y, never negative.
 
     Args:
-        u: Coordinates (m, 3) of the cells' covered centroids: 1, and scaled place.
-        area: Share (m,) of each cell in the covered area.
+        u: Coordinates (m, 3) of cells' covered centroids: 1, and scaled place.
+        area: Share (m,) of each cell in covered area.
         inverse: Load to field (3, 3) of all covered cells.
-        x: Scaled place of the load; y likewise.
+        x: Scaled place of load; y likewise.
         force: Load in N.
         cells: Index (m,) of each cell in `out`.
-        out: Receives the cells' forces in N, if all carry.
+        out: Receives cells' forces in N, if all carry.
 
     Returns:
         Whether all cells carry.
@@ -101,16 +101,16 @@ class PressedPatch:
     """What does not depend on the load: m covered cells, coordinates u = (1, (x - cx)/h, (y - cy)/h).
 
     Args:
-        cells: Index (m,) of each cell in the sole.
+        cells: Index (m,) of each cell in sole.
         centre: Place (cx, cy) in m.
         scale: h in m.
-        area: Share (m,) of each cell in the covered area.
+        area: Share (m,) of each cell in covered area.
         u: Coordinates (m, 3).
         inverse: Load to field (3, 3) where every covered cell carries.
-        reach: Polygon (k, 2) in scaled coordinates where the cells can carry a load.
+        reach: Polygon (k, 2) in scaled coordinates where cells can carry a load.
 
     Attributes:
-        carried: Whether each cell (m,) carried last; the search starts there.
+        carried: Whether each cell (m,) carried last; search starts there.
     """
 
     def __init__(self, cells, centre, scale, area, u, inverse, reach):
@@ -131,11 +131,11 @@ class PressedPatch:
 
         Args:
             force: Load in N.
-            x: Where it acts in m; moved to where the cells can carry it; y likewise.
-            out: Receives the cells' forces in N, if carried.
+            x: Where it acts in m; moved to where cells can carry it; y likewise.
+            out: Receives cells' forces in N, if carried.
 
         Returns:
-            Whether the carrying cells were found; if not, `part` may be tried from others.
+            Whether carrying cells were found; if not, `part` may be tried from others.
         """
         self.x = (x - self.cx) / self.scale
         self.y = (y - self.cy) / self.scale

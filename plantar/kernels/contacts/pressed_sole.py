@@ -13,14 +13,14 @@ class PressedSole:
     """Spreads loads over the cells of a sole, keeping what was computed for a patch.
 
     Args:
-        gains: Reading of a cell's taxel (n,) per vertical force.
+        gains: Reading of cell's taxel (n,) per vertical force.
         grid: Distance in m within which contact points span the same patch.
         most: Number of patches to keep.
-        make: Makes the patch of contact points (k, 2) in m.
+        make: Makes patch of contact points (k, 2) in m.
         settle: Spreads a load in N that a patch does not settle over an array (n,).
 
     Attributes:
-        forces: Last forces (n,) of the taxels in N.
+        forces: Last forces (n,) of taxels in N.
     """
 
     def __init__(self, gains, grid, most, make, settle):
@@ -50,9 +50,9 @@ class PressedSole:
         """Forces (n,) in N of the taxels under a foot's contacts, pair of geoms by pair.
 
         Args:
-            contacts: The foot's contacts.
-            vectors: Position, force and torque of each in the sole frame (at least 3 k, 3).
-            reach: Largest gap in m of a contact without load.
+            contacts: Foot's contacts.
+            vectors: Position, force and torque of each in sole frame (at least 3 k, 3).
+            reach: Largest gap in m of contact without load.
         """
         self.load(contacts, vectors, reach)
         return self.carried.copy()
@@ -61,9 +61,9 @@ class PressedSole:
         """Set `forces` from a foot's contacts.
 
         Args:
-            contacts: The foot's contacts.
-            seen: `ContactsInSole`, which turns them into the sole frame.
-            reach: Largest gap in m of a contact without load.
+            contacts: Foot's contacts.
+            seen: `ContactsInSole`, which turns them into sole frame.
+            reach: Largest gap in m of contact without load.
         """
         seen.turn(contacts)
         self.load(contacts, seen.vectors, reach)

@@ -22,19 +22,19 @@ class TaxelLoad:
     - Tangential forces follow the normal ones, and turn about their center, to have the rest of the wrench.
 
     Args:
-        positions: Taxels (n, 3) in the sole frame in m.
-        normals: Axis (n, 3) of each taxel into the body.
+        positions: Taxels (n, 3) in sole frame in m.
+        normals: Axis (n, 3) of each taxel into body.
         areas: Area (n,) of each cell in m^2.
         widths: Distance (n,) in m from each taxel to its cell's farthest corner.
-        hull: Convex hull (h, 2) of the taxels in m, counter-clockwise.
+        hull: Convex hull (h, 2) of taxels in m, counter-clockwise.
 
     Attributes:
-        vectors: Force (n, 3) on each taxel in the sole frame in N.
-        forces: Its part (n,) along the taxel's axis in N.
-        depths: Overlap (n,) of the geoms at each taxel in m.
-        wrench: Wrench (6,) of the contacts about the sole frame's origin in N and N m.
-        carried: Whether the vectors have that wrench, or else only its force.
-        pressed: Whether the contacts press on the sole.
+        vectors: Force (n, 3) on each taxel in sole frame in N.
+        forces: Its part (n,) along taxel's axis in N.
+        depths: Overlap (n,) of geoms at each taxel in m.
+        wrench: Wrench (6,) of contacts about sole origin in N and N m.
+        carried: Whether vectors have that wrench, or else only its force.
+        pressed: Whether contacts press on sole.
     """
 
     def __init__(self, positions, normals, areas, widths, hull):
@@ -99,7 +99,7 @@ class TaxelLoad:
         self._balance(force)
 
     def _sum(self, contacts, vectors):
-        """The wrench of all contacts about the sole frame's origin."""
+        """The wrench of all contacts about sole origin."""
         for k in range(contacts.size):
             row = 3 * k
             x, y, z = vectors[row, 0], vectors[row, 1], vectors[row, 2]

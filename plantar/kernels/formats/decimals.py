@@ -19,11 +19,11 @@ def read_rows(text, delimiter, comma, columns, out):
     """Read lines of numbers up to the first one with anything else; returns their number.
 
     Args:
-        text: The lines, as bytes.
-        delimiter: Code of the sign between numbers, with missing numbers between two of them; 0 for blanks.
+        text: Lines, as bytes.
+        delimiter: Code of sign between numbers, with missing numbers between two of them; 0 for blanks.
         comma: Whether numbers may have a decimal comma.
         columns: Column of `out` for each number of a line; -1 to skip it.
-        out: Receives the numbers, a row a line; NaN for a missing one.
+        out: Receives numbers, a row a line; NaN for a missing one.
     """
     data = text
     size = len(text)

@@ -9,8 +9,8 @@ def take_in(force, forgetting, share, total, mean):
     """Add a reading `force` (n,) in N to a running sum and mean, in place; values that are not finite count as 0.
 
     Args:
-        forgetting: Share of the old value in the sum `total` (n,) in N.
-        share: Share of the new value in the `mean` (n,) in N.
+        forgetting: Share of old value in sum `total` (n,) in N.
+        share: Share of new value in `mean` (n,) in N.
     """
     for i in range(force.shape[0]):
         new = force[i] if -_INFINITE < force[i] < _INFINITE else 0.0

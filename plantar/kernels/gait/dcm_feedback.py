@@ -16,8 +16,8 @@ class ComAdmittance:
 
     Args:
         zmp_gain: k_f in 1/s, from ZMP error to rate.
-        com_gain: k_x in 1/s, rate of return to the plan.
-        zmp_filter: Time constant in s of the low-pass on the ZMP error.
+        com_gain: k_x in 1/s, rate of return to plan.
+        zmp_filter: Time constant in s of low-pass on ZMP error.
         period: Control period in s.
         largest: Largest offset in m.
     """
@@ -61,11 +61,11 @@ class DcmFeedback:
     Args:
         omega: Pendulum frequency in rad/s.
         gain: k_xi of T 4.28 in 1/s.
-        integral: Gain in 1/s of the integral of the DCM error, its decay in 1/s, and its limit in m.
+        integral: Gain in 1/s of integral of DCM error, its decay in 1/s, and its limit in m.
         period: Control period in s.
-        admittance: Offset of the CoM reference.
-        yields: Whether the offset follows the ZMP's error.
-        after: Whether the acceleration uses the offset after this tick, or before.
+        admittance: Offset of CoM reference.
+        yields: Whether offset follows ZMP's error.
+        after: Whether acceleration uses offset after this tick, or before.
     """
 
     def __init__(self, omega, gain, integral, period, admittance, yields, after):
@@ -96,7 +96,7 @@ class DcmFeedback:
 
         Args:
             vrp: Planned VRP (2,) in m; `planned` DCM and `com` likewise.
-            com_velocity: Planned velocity (2,) of the CoM in m/s.
+            com_velocity: Planned velocity (2,) of CoM in m/s.
             dcm: Measured DCM (2,) in m.
             zmp: Measured ZMP (2,) in m; None without load.
             region: As in `desired`.
@@ -153,12 +153,12 @@ def shared_load(zmp, acceleration, mass, gravity, left, right, stance):
 
     Args:
         zmp: Desired ZMP (2,) in m.
-        acceleration: Acceleration (2,) of the CoM in m/s^2.
+        acceleration: Acceleration (2,) of CoM in m/s^2.
         mass: Mass m in kg.
         gravity: g in m/s^2.
-        left: Left foot, with `position` (3,) in m and `rotation` (3, 3) of its sole frame, and the point `center` (2,)
-            to load in it; `right` likewise.
-        stance: The only carrying foot: 1 left, 2 right, 0 for none.
+        left: Left foot, with `position` (3,) in m and `rotation` (3, 3) of its sole frame, and point `center` (2,) to
+            load in it; `right` likewise.
+        stance: Only carrying foot: 1 left, 2 right, 0 for none.
 
     Returns:
         Force (3,) on the left foot in N, where it acts (2,) in m, and the same of the right one.

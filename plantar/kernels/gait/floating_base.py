@@ -26,11 +26,11 @@ class FloatingBase:
         gravity: In m/s^2.
         gains: Averaging in s, correction of tilt and heading in 1/s, observer bandwidth in rad/s, least load in N
             (`EstimatorGains`).
-        state: The caller's arrays to write: rotation (3, 3) from base to world, base position (3,), CoM (3,), its
-            velocity (3,), sole origins (2, 3), sole rotations (2, 3, 3) to the world, composite ZMP (2,) (NaN without
-            load), and turn (3,) of the base in rad by the still soles; in m and m/s.
+        state: Caller's arrays to write: rotation (3, 3) from base to world, base position (3,), CoM (3,), its velocity
+            (3,), sole origins (2, 3), sole rotations (2, 3, 3) to world, composite ZMP (2,) (NaN without load), and
+            turn (3,) of base in rad by still soles; in m and m/s.
         bias: `gyro_bias.GyroBias`; None disables bias correction.
-        steady: `SteadyLoad` that selects the feet for it; None for all loaded ones.
+        steady: `SteadyLoad` that selects feet for it; None for all loaded ones.
     """
 
     def __init__(self, omega, period, gravity, gains, state, bias=None, steady=None):
@@ -51,7 +51,7 @@ class FloatingBase:
         self.watch(*np.zeros((3, 3)), *np.zeros((2, 3, 3)))
 
     def watch(self, com, left, right, turn_left, turn_right):
-        """Keep the arrays of a posture, which `take` reads at each tick, in the base frame.
+        """Keep the arrays of a posture, which `take` reads at each tick, in base frame.
 
         Args:
             com: CoM (3,) in m.
@@ -77,7 +77,7 @@ class FloatingBase:
                 turns[0, 0, i, j], turns[0, 1, i, j] = turn_left[i, j], turn_right[i, j]
 
     def stand(self, rotation, position, heading_left, heading_right):
-        """Place the base: rotation (3, 3) to the world, position (3,) in m, headings of the feet in rad."""
+        """Place the base: rotation (3, 3) to world, position (3,) in m, headings of the feet in rad."""
         for i in range(3):
             self.position[i] = position[i]
             for j in range(3):
@@ -96,11 +96,11 @@ class FloatingBase:
         """Set the load of a foot at this tick.
 
         Args:
-            side: The foot.
+            side: Foot.
             load: Vertical force in N.
             pressed: Whether it has a center of pressure.
-            x: That in the sole frame in m.
-            y: The same.
+            x: That in sole frame in m.
+            y: Same.
         """
         self.loads[side], self.pressed[side] = load, pressed
         self.cops[side, 0], self.cops[side, 1] = x, y
@@ -109,9 +109,9 @@ class FloatingBase:
         """Read this tick's posture, and turn and move the base; returns the ZMP as `place`.
 
         Args:
-            gyro_x: Measured angular velocity about the base's x in rad/s; `gyro_y` and `gyro_z` likewise.
-            specific_x: Specific force along the base's x in m/s^2; `specific_y` and `specific_z` likewise.
-            planned_x: Planned acceleration of the CoM along the world's x in m/s^2; `planned_y` likewise.
+            gyro_x: Measured angular velocity about base's x in rad/s; `gyro_y` and `gyro_z` likewise.
+            specific_x: Specific force along base's x in m/s^2; `specific_y` and `specific_z` likewise.
+            planned_x: Planned acceleration of CoM along the world's x in m/s^2; `planned_y` likewise.
         """
         self.take()
         rate, bias = self.rate, self.bias
@@ -166,11 +166,11 @@ class FloatingBase:
         """Turn the base by one tick.
 
         Args:
-            rate: Angular velocity (3,) in the base frame in rad/s, less the bias.
-            accelerometer: Specific force (3,) in the base frame in m/s^2.
-            planned: Planned horizontal acceleration (2,) of the CoM in m/s^2; None for none.
-            by_legs: Whether `missed` or the feet correct the heading.
-            missed: Turn (3,) of the legs beyond the gyro in the base frame in rad; None for none.
+            rate: Angular velocity (3,) in base frame in rad/s, less bias.
+            accelerometer: Specific force (3,) in base frame in m/s^2.
+            planned: Planned horizontal acceleration (2,) of CoM in m/s^2; None for none.
+            by_legs: Whether `missed` or feet correct heading.
+            missed: Turn (3,) of legs beyond gyro in base frame in rad; None for none.
         """
         rotation, specific, vector, before = self.rotation, self.other, self.vector, self.before
         rx, ry, rz = rate[0], rate[1], rate[2]
@@ -267,7 +267,7 @@ class FloatingBase:
                 self.position[i] += self.period * self.velocity[i]
 
     def _point(self, past, side, x, y, out):
-        """A point of a sole in the base frame, now (0) or a tick ago (1)."""
+        """A point of a sole in base frame, now (0) or a tick ago (1)."""
         places, turns = self.places_in_base, self.turns_in_base
         for i in range(3):
             out[i] = places[past, side, i] + turns[past, side, i, 0] * x + turns[past, side, i, 1] * y
@@ -302,7 +302,7 @@ class FloatingBase:
 
         Returns:
             Rotation (3, 3) from base to world; base position, CoM in m and its velocity in m/s (3,); origins (3,) of
-            the left and right sole frames in m; and their rotations (3, 3) to the world.
+            the left and right sole frames in m; and their rotations (3, 3) to world.
         """
         places, turns = self.places, self.turns
         return (

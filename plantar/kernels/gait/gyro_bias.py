@@ -9,13 +9,13 @@ class SteadyLoad:
     """Compares each foot's load with the total and with its own running mean.
 
     Args:
-        share: Share of the total load from which a foot is still and the other is not.
-        follow: Share of a new load in the running mean.
-        band: Largest difference in N of load and mean of a still foot.
+        share: Share of total load from which a foot is still and the other is not.
+        follow: Share of new load in running mean.
+        band: Largest difference in N of load and mean of still foot.
 
     Attributes:
         left: Load of the left foot in N, 0 where it may turn.
-        right: The same of the right one.
+        right: Same of the right one.
     """
 
     def __init__(self, share, follow, band):
@@ -44,15 +44,14 @@ class GyroBias:
 
     Args:
         period: Control period in s.
-        least: Least weight of a tick in the mean.
-        largest: Largest bias of an axis in rad/s.
-        most_ticks: Ticks of a piece.
+        least: Least weight of a tick in mean.
+        largest: Largest bias of axis in rad/s.
+        most_ticks: Ticks of piece.
         slip: Largest angle in rad about z by which noise differs in a piece.
         one_foot: Weight of a tick with one still foot, relative to two.
-        known: Weight from which a slip differs from a bias.
-        value: Receives the bias (3,) in the base frame in rad/s.
-        missed: Receives the turn (3,) of the legs beyond the corrected gyro in the last piece, in the base frame in
-            rad.
+        known: Weight from which a slip differs from bias.
+        value: Receives bias (3,) in base frame in rad/s.
+        missed: Receives turn (3,) of legs beyond corrected gyro in the last piece, in base frame in rad.
 
     Attributes:
         concluded: Whether a piece ended at the last tick.
@@ -74,9 +73,9 @@ class GyroBias:
         """Advance by one control tick.
 
         Args:
-            gyro_x: Measured angular velocity of the base about its x in rad/s; `gyro_y` and `gyro_z` likewise.
+            gyro_x: Measured angular velocity of base about its x in rad/s; `gyro_y` and `gyro_z` likewise.
             stands: Whether a foot is still; `both` whether both are.
-            turn_x: Turn of the base about its x in rad by the still feet; `turn_y` and `turn_z` likewise.
+            turn_x: Turn of base about its x in rad by still feet; `turn_y` and `turn_z` likewise.
         """
         self.concluded = False
         if stands:

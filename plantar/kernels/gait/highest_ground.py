@@ -22,12 +22,12 @@ def highest_plane(x, y, distance, readings, noise, least, used, plane):
     above.
 
     Args:
-        x: Taxels (n,) in the sole frame in m; y likewise.
-        distance: Distances (n,) of the ground in m; inf or NaN without.
+        x: Taxels (n,) in sole frame in m; y likewise.
+        distance: Distances (n,) of ground in m; inf or NaN without.
         readings: Number of readings (n,) behind each, 1 or more.
-        noise: Standard deviation of a reading in m.
-        least: Least number of points for the second fit: on a small block it would include the ground next to it.
-        used: Receives 1 for the points (n,) on the plane or, without one, the remaining points; else 0.
+        noise: Standard deviation of reading in m.
+        least: Least number of points for second fit: on a small block it would include ground next to it.
+        used: Receives 1 for points (n,) on plane or, without one, remaining points; else 0.
         plane: Receives level in m, sx and sy (3,).
 
     Returns:

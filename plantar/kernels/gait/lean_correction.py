@@ -9,7 +9,7 @@ __all__ = ["correct", "headed", "turned"]
 
 
 def headed(rotation, yaw):
-    """A rotation (3, 3) to the world, turned about the vertical to a heading in rad (summed as BLAS, `fused`)."""
+    """A rotation (3, 3) to world, turned about the vertical to a heading in rad (summed as BLAS, `fused`)."""
     r, made = memory.values(rotation), memory.new_matrix(3, 3)
     out = memory.room(made)
     angle = yaw - math.atan2(r[3], r[0])
@@ -42,14 +42,14 @@ def correct(
     """One control tick of the correction's low pass.
 
     Args:
-        position: Desired sole position (3,) in the command frame in m; `place` the same in the world.
-        com_command: CoM reference (3,) in the command frame in m; `com_estimated` the CoM in the world.
-        command: Commanded torso orientation (3, 3); `estimated` one with the commanded heading.
-        kept: Additional commanded displacement (3,) of the foot in m.
+        position: Desired sole position (3,) in command frame in m; `place` the same in world.
+        com_command: CoM reference (3,) in command frame in m; `com_estimated` the CoM in world.
+        command: Commanded torso orientation (3, 3); `estimated` one with commanded heading.
+        kept: Additional commanded displacement (3,) of foot in m.
         largest_shift: Limit of `shift` in m; `largest_turn` of `turn` in rad.
-        weight: Weight of the correction, 0 to 1.
-        share: Share of a new correction in the low pass.
-        shift: Correction of the position (3,) in m, updated in place; `turn` of the orientation in rad.
+        weight: Weight of correction, 0 to 1.
+        share: Share of new correction in low pass.
+        shift: Correction of position (3,) in m, updated in place; `turn` of orientation in rad.
     """
     p, q, c, e = memory.values(position), memory.values(place), memory.values(com_command), memory.values(com_estimated)
     k, by, turned = memory.values(kept), memory.room(shift), memory.room(turn)

@@ -14,7 +14,7 @@ class SoleAdmittance:
 
     Args:
         period: Control period in s.
-        share: Share of a new measurement in its low pass.
+        share: Share of new measurement in its low pass.
         turn_gain: Turning rate in rad/s per N m of moment error.
         back: Rate in 1/s of return to zero in stance; may change from tick to tick. `release` the same in the air.
         largest_turn: Largest turn about an axis in rad.
@@ -43,10 +43,10 @@ class SoleAdmittance:
             self.roll = self.pitch = self.shift = 0.0
 
     def turn(self, measured, wanted):
-        """Turn by one tick under load from the measured to the desired wrench (6,) in the sole frame in N and N m.
+        """Turn by one tick under load from the measured to the desired wrench (6,) in sole frame in N and N m.
 
         Returns:
-            Error in N of the normal force.
+            Error in N of normal force.
         """
         now, goal = memory.values(measured), memory.values(wanted)
         # Only fz, tx and ty: a sole turns and lifts for these; friction carries the other three.
@@ -93,7 +93,7 @@ def risen(position, center, roll, pitch, shift):
 
     Args:
         position: Origin (3,) of its frame in m.
-        center: The center (2,) in its frame in m.
+        center: Center (2,) in its frame in m.
         roll: Turn about its x axis in rad; `pitch` about y.
         shift: Shift upwards in m.
     """
@@ -106,13 +106,13 @@ def pressed(wrench, level, position, center):
     """A wrench on a sole as a force at its center of pressure.
 
     Args:
-        wrench: Wrench (6,) in the sole frame about its origin in N and N m.
-        level: Rotation (3, 3) from the sole.
+        wrench: Wrench (6,) in sole frame about its origin in N and N m.
+        level: Rotation (3, 3) from sole.
         position: Origin (3,) of its frame in m.
-        center: Point of attack (2,) in the sole frame in m without pressure.
+        center: Point of attack (2,) in sole frame in m without pressure.
 
     Returns:
-        The force (3,) in N, and the point (2,) in m, seen from above, at which it acts.
+        Force (3,) in N, and point (2,) in m, seen from above, at which it acts.
     """
     w, r, place, middle = memory.values(wrench), memory.values(level), memory.values(position), memory.values(center)
     x, y = (-w[4] / w[2], w[3] / w[2]) if w[2] > 0.0 else (middle[0], middle[1])

@@ -11,17 +11,17 @@ def fit(order, now, before, earlier, conditions, same, high, pull, way, work, ou
     Conditions: position, first and second derivative at the share `before`, and position at the share `earlier`.
 
     Args:
-        order: Order n of the polynomial.
-        now: Share s of the swing.
+        order: Order n of polynomial.
+        now: Share s of swing.
         before: Share at the last tick.
-        earlier: Share at the tick before.
-        conditions: Weight, and value less the start, of each condition (4, 1 + 3).
-        same: Matrix (m, m) and, in column m, the pull of the way, of all axes, m = n - 1.
-        high: Additional terms of the third axis (m, m + 2): a matrix, and the pulls of height and way.
+        earlier: Share at tick before.
+        conditions: Weight, and value less start, of each condition (4, 1 + 3).
+        same: Matrix (m, m) and, in column m, pull of way, of all axes, m = n - 1.
+        high: Additional terms of third axis (m, m + 2): a matrix, and pulls of height and way.
         pull: That height.
         way: End less start (3,).
         work: Scratch (7 + 2 m, n + 1).
-        out: Receives the path less its start, and its derivatives by the share (3, 3).
+        out: Receives path less its start, and its derivatives by share (3, 3).
     """
     n, m = order, order - 1
     for i in range(3):

@@ -85,7 +85,7 @@ def _nearest(polygon, turn, x, y):
     Args:
         polygon: Ring (k, 2) in m: clean, or of 1 or 2 vertices.
         turn: 1.0 for counter-clockwise, else -1.0.
-        x: The point in m; likewise y.
+        x: Point in m; likewise y.
     """
     k = polygon.shape[0]
     if not (abs(x) <= _LARGEST and abs(y) <= _LARGEST):

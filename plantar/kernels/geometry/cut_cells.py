@@ -12,12 +12,12 @@ def cut_cells(points, start, lines, scratch, tags, measure, chords):
         points: Corners (c, 2) of all cells in m, cell by cell, counter-clockwise, with offsets `start` (n + 1,).
         lines: Half-planes (m, 3): n of length 1, and h in m.
         scratch: Room (2, r, 2) for a cell's corners; a convex one needs r of its corners + m + 1.
-        tags: Room (2, r) for the lines that edges lie on.
-        measure: Receives (n, 3): area in m^2 left, and its first moments about the origin in m^3.
+        tags: Room (2, r) for lines that edges lie on.
+        measure: Receives (n, 3): area in m^2 left, and its first moments about origin in m^3.
         chords: Receives (n, m, 3): length in m of each line's edge, and its middle in m.
 
     Returns:
-        Whether the room was enough; if not, the results are not complete.
+        Whether room was enough; if not, results are not complete.
     """
     count = lines.shape[0]
     room = scratch.shape[1]
@@ -87,8 +87,8 @@ def part_below(polygon, nx, ny, h):
 
     Args:
         polygon: Convex polygon (k, 2) in m, contiguous.
-        nx: The line's normal n, along x; ny along y.
-        h: Distance in m of the line from the origin, along the normal.
+        nx: Line's normal n, along x; ny along y.
+        h: Distance in m of line from origin, along normal.
     """
     size = memory.rows(polygon, 2)
     given, room = memory.values(polygon), memory.new_matrix(2 * max(size, 1), 2)

@@ -16,7 +16,7 @@ def hull_tolerance(largest, extent):
 
     Args:
         largest: Largest absolute coordinate in m: its rounding moves points that were meant to be on one line.
-        extent: Larger side of the points' box in m.
+        extent: Larger side of points' box in m.
     """
     return min(8.9e-16 * largest, 1e-13 * extent)
 
@@ -102,10 +102,10 @@ def hull_ring(points, way, forth, count, tolerance, ring):
 
     Args:
         points: Points (n, 2) in m, finite.
-        way: Indices (count,): first `forth` candidates of the lower chain, sorted by x, then y, from the lowest to the
-            highest of all points; then those of the upper chain, back to the lowest.
+        way: Indices (count,): first `forth` candidates of the lower chain, sorted by x, then y, from lowest to highest
+            of all points; then those of upper chain, back to lowest.
         tolerance: See `hull_tolerance`.
-        ring: Receives the indices of the corners, counter-clockwise from the lowest x; room for count.
+        ring: Receives indices of corners, counter-clockwise from lowest x; room for count.
     """
     if count == 0:
         return 0

@@ -62,7 +62,7 @@ class Rings:
 
     Args:
         points: Vertices (k, 2) of all rings in m, one ring after another.
-        starts: Offsets (r + 1) of the rings.
+        starts: Offsets (r + 1) of rings.
         ring_areas: Signed area (r) of each ring in m^2.
     """
 
@@ -82,11 +82,11 @@ class EdgeTable:
     """The directed edges of a sole's cells, each cell's counter-clockwise and one after another.
 
     Args:
-        edges: Offsets (n + 1,) of each cell's edges and, for each edge (h,), its cell, the neighbour's same edge or -1,
-            the cell's next edge, and the vertex it starts at.
-        vertices: Coordinates of the v vertices, flat (2 v,), in m.
-        straight: Distance in m of a corner from its neighbours' line.
-        reuse: Keep the work arrays from walk to walk. Compiled walks cannot interleave; interpreted ones can.
+        edges: Offsets (n + 1,) of each cell's edges and, for each edge (h,), its cell, neighbour's same edge or -1,
+            cell's next edge, and vertex it starts at.
+        vertices: Coordinates of v vertices, flat (2 v,), in m.
+        straight: Distance in m of corner from its neighbours' line.
+        reuse: Keep work arrays from walk to walk. Compiled walks cannot interleave; interpreted ones can.
 
     Example:
         >>> from plantar.layouts.cell_edges import edge_table
@@ -116,7 +116,7 @@ class EdgeTable:
         """Rings around the active cells, a byte each that is not 0, the contact on their left.
 
         Returns:
-            Points (k, 2) of all rings in m; offsets (r + 1) of the rings; their signed areas (r) in m^2, below 0 for a
+            Points (k, 2) of all rings in m; offsets (r + 1) of rings; their signed areas (r) in m^2, below 0 for a
             hole.
         """
         starts = [0]

@@ -10,10 +10,10 @@ class _Gap:
     """The gap between upper and lower chain of a rotated ring, for a rectangle of some width.
 
     Attributes:
-        x: Where the rectangle begins.
+        x: Where rectangle begins.
         height: min(top(x), top(x + w)) - max(bottom(x), bottom(x + w)).
-        slope: Slope of the largest height in the width, by the last cut (tangent).
-        top: Upper side of the rectangle.
+        slope: Slope of largest height in width, by the last cut (tangent).
+        top: Upper side of rectangle.
         bottom: Its lower side.
     """
 
@@ -219,9 +219,9 @@ def largest_rectangle(ring, n, angle, floor, work, out):
 
     Args:
         angle: Angle of the first side in rad.
-        floor: Give up where no rectangle above this area is left; 0 to find the largest.
+        floor: Give up where no rectangle above this area is left; 0 to find largest.
         work: Room for 8 n + 16 numbers.
-        out: Receives the 4 corners, flat, counter-clockwise; untouched unless the area is above the floor.
+        out: Receives the 4 corners, flat, counter-clockwise; untouched unless area is above floor.
     """
     cosine = math.cos(angle)
     sine = math.sin(angle)
@@ -294,8 +294,8 @@ def write_corners(out, cosine, sine, x1, x2, y1, y2):
 
     Args:
         out: Receives the 4 corners.
-        cosine: Cosine of the angle; sine its sine.
-        x1: First x in the turned frame in m, up to x2; likewise y1 and y2.
+        cosine: Cosine of angle; sine its sine.
+        x1: First x in turned frame in m, up to x2; likewise y1 and y2.
     """
     out[0] = cosine * x1 - sine * y1
     out[1] = sine * x1 + cosine * y1

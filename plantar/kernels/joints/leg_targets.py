@@ -10,9 +10,9 @@ class LegTargets:
 
     Args:
         com: CoM (3,).
-        torso: Rotation (3, 3) of the torso.
+        torso: Rotation (3, 3) of torso.
         left: Position (3,) and rotation (3, 3) of the left sole.
-        right: The same of the right sole.
+        right: Same of the right sole.
     """
 
     def __init__(self, com, torso, left, right):

@@ -16,18 +16,18 @@ class Setpoints:
     times a joint's speed limit to catch up.
 
     Args:
-        controls: Set-points (n,) of all servos, read by the simulator.
+        controls: Set-points (n,) of all servos, read by simulator.
         servos: Index (k,) of each joint's servo there.
         stiffness: Position gains (k,) in N m/rad.
         damping: Gains (k,) in N m s/rad of servo and joint.
-        per_way: One over the largest change (k,) of a set-point in a control period in 1/rad; empty without limits.
+        per_way: One over largest change (k,) of set-point in a control period in 1/rad; empty without limits.
         period: Control period in s; `step` that of `advance`.
-        share: Share of its way that each stage of the low pass moves in a step, above 0 to 1.
-        joints: Desired joint angles (k,) in rad, and the `torques` (k,) in N m that hold them, written by the caller.
+        share: Share of its way that each stage of low pass moves in a step, above 0 to 1.
+        joints: Desired joint angles (k,) in rad, and `torques` (k,) in N m that hold them, written by caller.
 
     Attributes:
         reference: Desired joint angles (k,) in rad; NaN before the first ones; `velocity` their rates in rad/s.
-        goal: Set-points (k,) in rad with which the joints follow the reference.
+        goal: Set-points (k,) in rad with which joints follow reference.
         setpoint: Written set-points (k,) in rad.
     """
 
@@ -82,7 +82,7 @@ class Setpoints:
         """Set the goal with which servos follow the reference without lag or error.
 
         Args:
-            friction: Additional torques (k,) in N m of the joints, or None.
+            friction: Additional torques (k,) in N m of joints, or None.
             offsets: Angles (k,) in rad to add, a contiguous float64 array, or None.
         """
         for i in range(self.servos.shape[0]):

@@ -11,12 +11,12 @@ class StaticLoad:
     """Loads of a model and of its joints.
 
     Args:
-        parents: Parent of each body (b,), which comes before it; the first is the world.
+        parents: Parent of each body (b,), which comes before it; the first is world.
         bodies: Body of each velocity (nv,).
         inertias: Each body's `cinert` (b, 10); the last four are mass times way, and mass.
         motions: Unit motion (nv, 6) of each velocity: w, then v.
-        gravity: Acceleration (3,) of a falling body.
-        places: Velocities (k,) of the joints.
+        gravity: Acceleration (3,) of falling body.
+        places: Velocities (k,) of joints.
         torques: Receives their loads (k,).
     """
 

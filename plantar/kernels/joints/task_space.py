@@ -22,12 +22,12 @@ class TaskSpace:
 
     Attributes:
         used: Number of owned directions.
-        y: Mass-weighted acceleration (n,) in the basis of the owned directions, these first.
-        columns: Rows of the last level in that basis as columns (n, m), in the order in which they were owned.
+        y: Mass-weighted acceleration (n,) in basis of owned directions, these first.
+        columns: Rows of the last level in that basis as columns (n, m), in order in which they were owned.
         sizes: Size (m,) of each before any was owned.
-        full: Size (m,) of each with a Jacobian row as long as the level's longest.
-        missing: Unmet part (m,) of the wanted acceleration; 0 where met.
-        order: Index (m,) of each in the level.
+        full: Size (m,) of each with a Jacobian row as long as level's longest.
+        missing: Unmet part (m,) of wanted acceleration; 0 where met.
+        order: Index (m,) of each in level.
     """
 
     def __init__(self, size):
@@ -85,8 +85,8 @@ class TaskSpace:
             least: Share of a row's size below which the rest of it is no direction.
 
         Returns:
-            Number of directions, and a lower bound on the singular values of these rows over their full size. Where it
-            is small, or rows have no direction left, the caller uses `rows` and `missing`.
+            Number of directions, and a lower bound on singular values of these rows over their full size. Where it is
+            small, or rows have no direction left, caller uses `rows` and `missing`.
         """
         n, count, first = self.size, jacobian.shape[0], self.used
         if count > self.room:
@@ -149,9 +149,9 @@ class TaskSpace:
         X^T missing_X. The longest rows are first, so X is small.
 
         Args:
-            rank: Number of rows with a direction.
+            rank: Number of rows with direction.
             count: Number of rows.
-            least: Share of the largest row's size below which a row does not count.
+            least: Share of largest row's size below which a row does not count.
         """
         first, columns, missing, normal = self.used - rank, self.columns, self.missing, self.normal
         largest = 0.0

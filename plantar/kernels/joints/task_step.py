@@ -15,13 +15,13 @@ class NewtonStep:
     Args:
         columns: Velocities (n,) that a step may use.
         row_units: Factor (m,) of each row of error and Jacobian; `column_units` (nv,) of each column and velocity.
-        movable: Entries (k,) of a step that move a joint; `places` (k,) their joints in the configuration.
+        movable: Entries (k,) of step that move a joint; `places` (k,) their joints in configuration.
         middle: Middle of each joint's range (k,); `half` of it, inf without one.
-        diagonal: Term on the diagonal.
-        least_pivot: Least Cholesky pivot of a valid step.
-        given: Jacobian (m, nv) and error (m,) in m and rad, and configuration (nq,), written by the caller.
-        jacobian: Receives the Jacobian (m, n) in units; `step` (n,) the step.
-        velocity: Receives the step (nv,) in m and rad.
+        diagonal: Term on diagonal.
+        least_pivot: Least Cholesky pivot of valid step.
+        given: Jacobian (m, nv) and error (m,) in m and rad, and configuration (nq,), written by caller.
+        jacobian: Receives Jacobian (m, n) in units; `step` (n,) step.
+        velocity: Receives step (nv,) in m and rad.
     """
 
     def __init__(
@@ -120,7 +120,7 @@ class Rows:
         """Write both, into arrays that begin at zero.
 
         Returns:
-            Whether the error is valid: a missing turn is so up to a quarter turn, and left to the task beyond.
+            Whether error is valid: a missing turn is so up to a quarter turn, and left to task beyond.
         """
         return True
 
@@ -144,7 +144,7 @@ class PointRows:
 
 class TurnRows(Rows):
     """A body's orientation: the missing turn (3,) from `actual` to `wanted` (3, 3), and angular velocity (3, nv), in
-    the world.
+    world.
     """
 
     def __init__(self, chain, motions, wanted, actual, error, jacobian):
@@ -162,11 +162,11 @@ class TurnRows(Rows):
 
 
 class PoseRows(Rows):
-    """The pose of a frame that a body carries: missing way (3,) and turn (3,) in the world, and Jacobian (6, nv).
+    """The pose of a frame that a body carries: missing way (3,) and turn (3,) in world, and Jacobian (6, nv).
 
     Args:
         position: Desired origin (3,); `at` the current one.
-        rotation: Desired rotation (3, 3) to the world; `turned` the current one.
+        rotation: Desired rotation (3, 3) to world; `turned` the current one.
     """
 
     def __init__(self, chain, motions, center, position, rotation, at, turned, error, jacobian):
@@ -228,8 +228,8 @@ class Configuration:
     """A configuration (nq,) and its velocity (nv,).
 
     Args:
-        ways: Indices (w,) in the configuration that the velocities `speeds` (w,) add to.
-        turns: Where each quaternion begins (t,), w first; `rates` (t,) its angular velocity, in the body's frame.
+        ways: Indices (w,) in configuration that velocities `speeds` (w,) add to.
+        turns: Where each quaternion begins (t,), w first; `rates` (t,) its angular velocity, in body's frame.
     """
 
     def __init__(self, ways, speeds, turns, rates, configuration, velocity):
@@ -272,12 +272,12 @@ class TaskStep:
     """Takes a step in the plain case.
 
     Args:
-        rows: The tasks' `task_rows.Rows`, a list.
+        rows: Tasks' `task_rows.Rows`, a list.
         newton: The `NewtonStep`.
         configuration: The `Configuration` to move.
 
     Attributes:
-        near: Whether the rows held all errors at the last step; else a task has to write its own.
+        near: Whether rows held all errors at the last step; else a task has to write its own.
     """
 
     def __init__(self, rows, newton, configuration):

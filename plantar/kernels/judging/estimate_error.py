@@ -9,12 +9,12 @@ class EstimateError:
     """Follows the errors of a controller's estimates of CoM and ZMP, tick by tick.
 
     Args:
-        center: True CoM (3,) in m, updated by the simulator.
-        reaction: `GroundReaction` of both feet, with the true ZMP.
+        center: True CoM (3,) in m, updated by simulator.
+        reaction: `GroundReaction` of both feet, with true ZMP.
 
     Attributes:
-        com: Largest error (3,) in m of the CoM; NaN if an estimate was.
-        squares: Sum of the squared errors in m^2 of the ZMP over `compared` ticks.
+        com: Largest error (3,) in m of CoM; NaN if an estimate was.
+        squares: Sum of squared errors in m^2 of ZMP over `compared` ticks.
     """
 
     def __init__(self, center, reaction):

@@ -15,19 +15,19 @@ class StanceForce:
 
     Args:
         reaction: `GroundReaction` of both feet.
-        center: CoM (3,) in m, updated by the simulator.
-        mass: The robot's mass in kg.
+        center: CoM (3,) in m, updated by simulator.
+        mass: Robot's mass in kg.
         gravity: In m/s^2.
         period: Physics step in s.
         steps: Numbers of steps: `span`, and those left out after a landing.
-        least: Vertical force in N from which a foot touches the ground.
-        edge: Distance in m below which a ZMP is at the edge of the support.
+        least: Vertical force in N from which a foot touches ground.
+        edge: Distance in m below which a ZMP is at edge of support.
 
     Attributes:
         compared: Steps in which force and acceleration were compared.
         squares: Sum of their squared differences in N^2.
         single: Steps in single support.
-        at_edge: Those with the ZMP at the edge.
+        at_edge: Those with ZMP at edge.
     """
 
     def __init__(self, reaction, center, mass, gravity, period, steps, least, edge):
@@ -75,7 +75,7 @@ class StanceForce:
         self.squares += off * off
 
     def rms(self):
-        """Root mean square difference in N; NaN without a comparison."""
+        """RMS difference in N; NaN without a comparison."""
         return math.sqrt(self.squares / self.compared) if self.compared else float("nan")
 
 
@@ -86,7 +86,7 @@ class StandWatch:
         enough: Ground force in N from which a foot carries.
 
     Attributes:
-        slip: Largest distance in m of a sole's origin from where its foot began to carry.
+        slip: Largest distance in m of sole's origin from where its foot began to carry.
     """
 
     def __init__(self, enough):
@@ -112,7 +112,7 @@ class StandWatch:
         """All stands that began with a touch and carried, in the order of their touches.
 
         Returns:
-            Rows of the touch's physics step, foot, and x, y in m and heading in rad of its sole when it last carried.
+            Rows of touch's physics step, foot, and x, y in m and heading in rad of its sole when it last carried.
         """
         rows = list(self.over)
         for foot in range(2):

@@ -24,18 +24,18 @@ class StepWatch:
 
     Args:
         reaction: `GroundReaction` of both feet; `stands`, `joints` and `stance` follow them.
-        upright: Rotation (9,) of the torso, row by row.
+        upright: Rotation (9,) of torso, row by row.
         center: CoM (3,) in m.
         places: Origins (3,) of the left and the right sole in m; `turns` their rotations (9,).
-        legs: A number (1,), above 0 where the legs touch each other.
-        warnings: The simulator's warning counts; `divergence` the indices of a diverged state.
-        least: Vertical ground force in N from which a foot touches the ground.
+        legs: Number (1,), above 0 where legs touch each other.
+        warnings: Simulator's warning counts; `divergence` the indices of diverged state.
+        least: Vertical ground force in N from which a foot touches ground.
         windows: Steps in the air before a touch is a landing, after it for its impact, and for its contact area.
-        fallen: Cosine of the torso's tilt, and height in m of the CoM above the lower sole, below which it has fallen.
+        fallen: Cosine of torso's tilt, and height in m of CoM above the lower sole, below which it has fallen.
 
     Attributes:
-        up: Least cosine of the torso's tilt.
-        margin: Least margin of the ZMP in m; inf without a ZMP.
+        up: Least cosine of torso's tilt.
+        margin: Least margin of ZMP in m; inf without a ZMP.
     """
 
     def __init__(

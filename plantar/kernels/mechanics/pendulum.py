@@ -13,10 +13,10 @@ def on_segment(omega, since, until, segment, vrps, rates, growths, shrinkage):
 
     Args:
         omega: Pendulum frequency in rad/s.
-        since: Time in s since the segment began; `until` until it ends.
-        segment: Number of the segment.
-        vrps: VRP (k, 2) at the beginning of each segment in m, with `rates` in m/s.
-        growths: A e^(w T) (k, 2) of each in m; `shrinkage` B (2,) of this one.
+        since: Time in s since segment began; `until` until it ends.
+        segment: Number of segment.
+        vrps: VRP (k, 2) at beginning of each segment in m, with `rates` in m/s.
+        growths: E^(w T) (k, 2) of each in m; `shrinkage` B (2,) of this one.
     """
     start, rate, growth = memory.values(vrps), memory.values(rates), memory.values(growths)
     offset, i, j = memory.values(shrinkage), 2 * segment, 2 * segment + 1

@@ -95,7 +95,7 @@ def missing_turn(wanted, actual, out):
     turn.
 
     Returns:
-        Whether it is at most a quarter turn; beyond that the error is wrong.
+        Whether it is at most a quarter turn; beyond that error is wrong.
     """
     xx, xy, xz, yx, yy, yz, zx, zy, zz = between(wanted, actual)
     out[0], out[1], out[2] = 0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)

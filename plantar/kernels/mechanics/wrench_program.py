@@ -13,14 +13,14 @@ class WrenchProgram:
     """The program of n contacts, in its units; it fills the caller's arrays in place.
 
     Args:
-        scales: Weight of the robot in N, unit of moments over forces in m, and the costs of the net wrench and of the
-            proportion of the normal forces.
+        scales: Weight of robot in N, unit of moments over forces in m, and costs of net wrench and of proportion of
+            normal forces.
         unit: Unit of each unknown (6 n,) in N and N m, contact by contact.
-        jacobian: Receives the map (6, 6 n) from unknowns to net wrench about the middle of the contacts.
-        fixed: Part of the Hessian (6 n, 6 n) that does not depend on the shares, filled by the caller.
-        hessian: Receives the Hessian (6 n, 6 n).
-        wanted: Receives the wanted net wrench (6,) about the middle of the contacts.
-        gradient: Gradient (6 n,) but for a factor, filled by the caller.
+        jacobian: Receives map (6, 6 n) from unknowns to net wrench about middle of contacts.
+        fixed: Part of Hessian (6 n, 6 n) that does not depend on shares, filled by caller.
+        hessian: Receives Hessian (6 n, 6 n).
+        wanted: Receives wanted net wrench (6,) about middle of contacts.
+        gradient: Gradient (6 n,) but for a factor, filled by caller.
     """
 
     def __init__(self, scales, unit, jacobian, fixed, hessian, wanted, gradient):
@@ -36,8 +36,8 @@ class WrenchProgram:
         """Set a request; returns whether all numbers are finite, and some share is above 0.
 
         Args:
-            wrench: Wanted net wrench, six numbers in N and N m in the world frame about the `point` in m.
-            shares: Share of the normal force of each contact.
+            wrench: Wanted net wrench, six numbers in N and N m in world frame about `point` in m.
+            shares: Share of normal force of each contact.
         """
         request = self.request
         fx, fy, fz, tx, ty, tz = wrench
@@ -53,7 +53,7 @@ class WrenchProgram:
         return math.isfinite(total + some) and some > 0.0
 
     def place(self, i, position, rotation):
-        """Place contact `i` at a position (3,) in m and rotation (3, 3) to the world; returns whether it moved."""
+        """Place contact `i` at a position (3,) in m and rotation (3, 3) to world; returns whether it moved."""
         moved = False
         for j in range(3):
             moved = moved or self.positions[i, j] != position[j]

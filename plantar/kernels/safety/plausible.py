@@ -20,10 +20,10 @@ class BodyCheck:
     Args:
         joints: Number of joint angles.
         frozen: Ticks after which sensors that report the same bits are stuck.
-        slip: Difference in rad of a joint's last two steps from which its encoder has jumped.
+        slip: Difference in rad of joint's last two steps from which its encoder has jumped.
 
     Attributes:
-        imu_same: Ticks without a change of the IMU.
+        imu_same: Ticks without a change of IMU.
         joints_same: Ticks without a change of any joint.
         slipped: Whether an encoder has jumped, by `slips` (k,) in rad.
     """
@@ -91,9 +91,9 @@ class SoleCheck:
     """Plausibility of the forces on the soles of a robot of a weight in N, tick by tick.
 
     Attributes:
-        left: Force in N on the left sole, of the taxels that report one; `right` likewise.
+        left: Force in N on the left sole, of taxels that report one; `right` likewise.
         left_same: Ticks without a change of `left`; `right_same` likewise.
-        swapped: Whether the soles have exchanged their reports.
+        swapped: Whether soles have exchanged their reports.
     """
 
     def __init__(self, weight):

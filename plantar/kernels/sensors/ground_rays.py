@@ -11,14 +11,14 @@ def cast_rays(starts, ways, reach, ids, kinds, sizes, bounds, positions, frames,
     """Length of rays to the first solid; solids that no ray can reach are left out once for all.
 
     Args:
-        starts: Where the rays begin (n, 3) in the world in m, along unit vectors `ways` (n, 3); at least one.
+        starts: Where rays begin (n, 3) in world in m, along unit vectors `ways` (n, 3); at least one.
         reach: Length in m beyond which a hit need not be found.
-        ids: Rows (k,) of the solids in `positions` and `frames`.
+        ids: Rows (k,) of solids in `positions` and `frames`.
         kinds: Kind (k,) of each, by MuJoCo's numbers: 0 plane, 2 sphere, 4 ellipsoid, 5 cylinder, 6 box.
         sizes: Half sizes (k, 3) in m as in MuJoCo.
-        bounds: Radius (k,) in m of the bounding sphere; not read for a plane.
-        positions: Middles (m, 3) in the world in m; `frames` (m, 9) their rotations, row by row.
-        lengths: Receives the lengths (n,) in m; -1 without a hit.
+        bounds: Radius (k,) in m of bounding sphere; not read for a plane.
+        positions: Middles (m, 3) in world in m; `frames` (m, 9) their rotations, row by row.
+        lengths: Receives lengths (n,) in m; -1 without a hit.
     """
     n = starts.shape[0]
     x = y = z = 0.0

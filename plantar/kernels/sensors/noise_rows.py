@@ -38,13 +38,13 @@ class SensedBody:
     """Reads k joints and an IMU.
 
     Args:
-        positions: Coordinates (n,) of the body, written by the simulator.
+        positions: Coordinates (n,) of body, written by simulator.
         places: Index (k,) of each joint's angle there.
         rate: Angular velocity (3,) in rad/s, likewise.
         force: Specific force (3,) in m/s^2, likewise.
-        noise: `NoiseRows` of the angles in rad, the rate and the force (k + 6).
-        offsets: Offsets (k,) of the encoders in rad; empty for none.
-        bias: Bias (3,) of the gyro in rad/s; likewise.
+        noise: `NoiseRows` of angles in rad, rate and force (k + 6).
+        offsets: Offsets (k,) of encoders in rad; empty for none.
+        bias: Bias (3,) of gyro in rad/s; likewise.
     """
 
     def __init__(self, positions, places, rate, force, noise, offsets, bias):
@@ -86,7 +86,7 @@ class TaxelSample:
     Args:
         noise: `NoiseRows` in N, of which each sample takes the next n numbers.
         count: n.
-        least: Least force in N that the taxels report.
+        least: Least force in N that taxels report.
         most: Largest one.
         dead: Indices of dead taxels.
     """

@@ -17,17 +17,17 @@ class SoleRays:
     """The rays of n taxels, cast from the sole's current pose.
 
     Args:
-        starts: Where the rays begin (n, 3) in the sole frame in m, along unit vectors `ways` (n, 3).
-        lift: How far in m a ray begins inside the sole.
-        most: Range of the sensors in m.
-        origin: The sole's origin (3,) in the world in m, and its `rotation` (3, 3), written by the simulator.
-        solids: Rows, kinds, sizes and bounds of the solids, as in `cast_rays`.
-        positions: Middles (m, 3) of all solids in the world in m, and their `frames` (m, 9), likewise.
+        starts: Where rays begin (n, 3) in sole frame in m, along unit vectors `ways` (n, 3).
+        lift: How far in m a ray begins inside sole.
+        most: Range of sensors in m.
+        origin: Sole's origin (3,) in world in m, and its `rotation` (3, 3), written by simulator.
+        solids: Rows, kinds, sizes and bounds of solids, as in `cast_rays`.
+        positions: Middles (m, 3) of all solids in world in m, and their `frames` (m, 9), likewise.
 
     Attributes:
-        starts: Where the last rays began (n, 3) in the world in m; `ways` (n, 3) along them.
+        starts: Where the last rays began (n, 3) in world in m; `ways` (n, 3) along them.
         lengths: Their lengths (n,) in m; below 0 without a hit.
-        distances: Distance (n,) from each taxel to the ground in m; inf out of range.
+        distances: Distance (n,) from each taxel to ground in m; inf out of range.
     """
 
     def __init__(self, starts, ways, lift, most, origin, rotation, solids, positions, frames):
@@ -49,7 +49,7 @@ class SoleRays:
         self.told = self.sample
 
     def lies_below(self, reach, height):
-        """Whether any taxel, at most `reach` in m from the origin, can be below a `height` in m in the world."""
+        """Whether any taxel, at most `reach` in m from the origin, can be below a `height` in m in world."""
         tilt = math.sqrt(self.lowest[6] * self.lowest[6] + self.lowest[7] * self.lowest[7])
         return self.origin[2] - reach * tilt <= height
 

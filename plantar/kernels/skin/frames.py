@@ -127,9 +127,9 @@ def hulls(sole, force, threshold, saturation, size, measure, points):
     up.
 
     Args:
-        size: Receives the number of vertices (frames,).
+        size: Receives number of vertices (frames,).
         measure: Receives area in m^2 and centroid in m (frames, 3), NaN without contact.
-        points: Receives the vertices (room, 2) in m, one polygon after the other; empty where not wanted.
+        points: Receives vertices (room, 2) in m, one polygon after the other; empty where not wanted.
     """
     scratch = sole.borrow()
     with cython.nogil:

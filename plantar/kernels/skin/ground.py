@@ -33,8 +33,8 @@ class GroundFit:
     """Fits planes to the ground distances of one sole's taxels.
 
     Args:
-        positions: Taxel centers (n, 3) in the sole frame in m.
-        normals: z axes (n, 3) of the taxels in the sole frame.
+        positions: Taxel centers (n, 3) in sole frame in m.
+        normals: z axes (n, 3) of taxels in sole frame.
     """
 
     def __init__(self, positions, normals):
@@ -50,12 +50,11 @@ class GroundFit:
 
         Args:
             distance: Distances (frames, n) in m.
-            reach: Distance in m from which a reading, also a negative one, is out of range.
-            tolerance: Distance in m from the plane that noise and rough ground explain.
-            out: Receives height in m, slopes along x and y, and root mean square residual in m (frames, 4): NaN without
-                ground.
-            directions: Receives the number of determined slopes (frames,); -1 without ground.
-            inliers: Receives the used taxels (frames, n); of zeros.
+            reach: Distance in m, of either sign, out of range from there.
+            tolerance: Distance in m from plane that noise explains.
+            out: Receives height in m, slopes along x and y, and RMS residual in m (frames, 4): NaN without ground.
+            directions: Receives number of determined slopes (frames,); -1 without ground.
+            inliers: Receives used taxels (frames, n); of zeros.
         """
         scratch = self._borrow()
         with cython.nogil:

@@ -70,7 +70,7 @@ class PerceptFields:
         return loads[7:] if 0.0 < vertical < _INFINITE else None
 
     def _centroid(self):
-        """Centroid (2,) of the support polygon in m; None without contact."""
+        """Centroid (2,) of support polygon in m; None without contact."""
         polygon, _area, x, y = self._hull()
         return vectors.vector2(x, y) if len(polygon) else None
 

@@ -72,12 +72,12 @@ class SoleKernel:
     A taxel up to `threshold` in N, from `saturation` on, and NaN is not active.
 
     Args:
-        positions: Taxel centers (n, 3) in the sole frame in m.
-        normals: z axes (n, 3) of the taxels in the sole frame.
+        positions: Taxel centers (n, 3) in sole frame in m.
+        normals: z axes (n, 3) of taxels in sole frame.
         areas: Cell areas (n,) in m^2.
-        vertices: Corner points (v, 2) in m in the sole plane, shared between cells that meet.
+        vertices: Corner points (v, 2) in m in sole plane, shared between cells that meet.
         corner_start: Offsets (n + 1,) of each taxel's corners.
-        corner_vertex: Vertex indices of the corners, taxel by taxel, counter-clockwise.
+        corner_vertex: Vertex indices of corners, taxel by taxel, counter-clockwise.
         threshold: Default force in N up to which a taxel is not active.
         limit: Force in N from which one is saturated.
     """
@@ -231,8 +231,7 @@ class SoleKernel:
         return masks
 
     def loads(self, force, active):
-        """Wrench about the sole frame's origin, area in m^2 and CoP in m (9,) of the active taxels (T 4.21-4.23); NaN
-        without load.
+        """Wrench about sole origin, area in m^2 and CoP in m (9,) of the active taxels (T 4.21-4.23); NaN without load.
 
         Error of each sum below n * 1.2e-16 of the sum of its terms' absolute values.
         """
@@ -334,13 +333,13 @@ class SoleKernel:
         `convex.closest_point`.
 
         Args:
-            offset: How far the hull's edges move inwards in m; not if 0 or less.
-            x: The point in m to be close to; y likewise.
+            offset: How far hull's edges move inwards in m; not if 0 or less.
+            x: Point in m to be close to; y likewise.
 
         Returns:
             Mask (n,); wrench (6,) in N and N m, contact area in m^2, CoP (2,) in m or None; polygon (k, 2) in m, its
-            area in m^2, its centroid (2,) in m; the smaller polygon (m, 2) in m; its closest point (2,) in m. The last
-            two points are None without contact.
+            area in m^2, its centroid (2,) in m; smaller polygon (m, 2) in m; its closest point (2,) in m. The last two
+            points are None without contact.
         """
         scratch = self._borrow_with_active(force, threshold, saturation)
         self._loads(scratch.force, scratch.mask, scratch.sums)
@@ -471,7 +470,7 @@ def _is_behind(cell, along):
 
     Args:
         cell: Corners (k, 2) in m; none if not convex.
-        along: Direction (2,) to the copies.
+        along: Direction (2,) to copies.
     """
     edge = np.roll(cell, -1, axis=0) - cell
     length = np.hypot(edge[:, 0], edge[:, 1])
