@@ -1,14 +1,8 @@
-"""Hot functions, one plain-Python source each, compiled ahead of time where the installation found a compiler.
+"""Hot functions, one plain-Python source each, compiled ahead of time where a compiler is found.
 
-A room for what each serves: `base`, `mechanics`, `geometry` and `skin`, `gait`, then what simulates (`joints`,
-`contacts`, `sensors`, `judging`), and `formats`.
-
-`geometry/convex.py` is a module of plain Python; `convex.pxd` next to it gives the C types with which Cython compiles
-the very same file to an extension module, which Python prefers when both are there. Nothing is compiled at run time.
-Without a compiler the source runs as it is, slower, with the same results to the last bit: it is the compiled form's
-oracle.
-
-The environment variable PLANTAR_KERNELS=python runs the sources even where extensions are there.
+`geometry/convex.py` is plain Python; `convex.pxd` next to it has the C types with which Cython compiles that very file.
+Without a compiler the source runs, slower, with the same results to the last bit. PLANTAR_KERNELS=python runs the
+sources even where extensions exist.
 """
 
 from __future__ import annotations
@@ -33,7 +27,7 @@ KERNELS: tuple[str, ...] = tuple(f"{room}.{name}" for name, room in _ROOM.items(
 
 
 class _SourceFinder:
-    """Finds the kernels' sources, never their extensions, under the names of one package."""
+    """Finds the kernels' sources, never their extensions."""
 
     def __init__(self, package: str) -> None:
         self.prefix = f"{package}."
@@ -47,7 +41,7 @@ class _SourceFinder:
 
 
 def python_form(name: str) -> ModuleType:
-    """The interpreted form of a kernel, whichever form runs: to compare the two.
+    """The interpreted form of a kernel, to compare both.
 
     Args:
         name: One of KERNELS, or its last part, which no two share.
@@ -81,7 +75,7 @@ def is_compiled(name: str) -> bool:
 
 
 def outdated(folder: Path) -> list[str]:
-    """Kernels that were compiled before their source changed last, and may compute something else.
+    """Kernels whose source changed after they were compiled.
 
     Args:
         folder: Folder of rooms.

@@ -87,7 +87,7 @@ class SolePose:
         return np.asarray(turned)
 
     def polygon_to_world(self, polygon: ArrayLike) -> NDArray[np.float64]:
-        """A polygon (k, 2) of the sole plane, or points (k, 3) of a curved sole, seen from above in world (k, 2) in m."""
+        """A polygon (k, 2) of the sole plane, or points (k, 3) of a curved sole, from above in world (k, 2) in m."""
         given = numbers(polygon, "polygon")
         if given.ndim == 2 and given.shape[1] == 3:
             return self.to_world(given)[:, :2]

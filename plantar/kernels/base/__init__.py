@@ -1,4 +1,4 @@
-"""Memory of arrays, small vectors, work arrays, fused products and checks of numbers, for all kernels."""
+"""Memory, small vectors, work arrays, fused products and checks, for all kernels."""
 
 from contextlib import nullcontext
 from types import SimpleNamespace

@@ -1,4 +1,4 @@
-"""Fused multiply-add, as BLAS rounds a product and its sum; interpreted counterpart of `fused_in_c.pxd`."""
+"""Fused multiply-add as of BLAS; interpreted counterpart of `fused_in_c.pxd`."""
 
 import math
 from fractions import Fraction

@@ -1,4 +1,4 @@
-"""Checks of all numbers that a caller hands over."""
+"""Checks of all numbers of a caller."""
 
 from . import memory
 

@@ -1,4 +1,4 @@
-"""The descriptor behind `plantar.lazy`, compiled, since every member of a percept passes it."""
+"""The compiled descriptor behind `plantar.lazy`."""
 
 from . import memory
 
@@ -6,7 +6,7 @@ __all__ = ["Member", "close_all"]
 
 
 class Member:
-    """A descriptor that calls a function at first use and keeps the value in the instance's `__dict__`."""
+    """Calls a function at first use, and keeps the value in the instance's `__dict__`."""
 
     def __init__(self, function):
         self.function, self.name = function, ""

@@ -1,6 +1,6 @@
-"""Access to an array's memory for interpreted kernels (`pointers.pxd` has the compiled one).
+"""Access to an array's memory for interpreted kernels (compiled: `pointers.pxd`).
 
-A buffer costs a kernel 0.1 us, its memory 5 ns; a tick has some hundred small arrays.
+A buffer costs a kernel 0.1 us, its memory 5 ns.
 """
 
 import numpy as np
@@ -10,14 +10,14 @@ __all__ += ["room", "rows", "size", "values"]
 
 
 def values(array):
-    """The numbers of a contiguous float64 array, to read in place; ValueError for another array."""
+    """A contiguous float64 array's numbers, in place; else ValueError."""
     if type(array) is not np.ndarray or array.dtype != np.float64 or not array.flags.c_contiguous:
         raise ValueError("a kernel needs contiguous arrays of float64")
     return array.reshape(-1)
 
 
 def room(array):
-    """The numbers of a contiguous, writable float64 array, to write in place; ValueError for another array."""
+    """`values`, writable."""
     numbers = values(array)
     if not array.flags.writeable:
         raise ValueError("a kernel needs arrays that may be written")
@@ -25,14 +25,14 @@ def room(array):
 
 
 def size(array):
-    """Number of values of a vector that `values` accepts; -1 for anything else."""
+    """Number of values that `values` accepts; -1 for anything else."""
     if type(array) is not np.ndarray or array.dtype != np.float64 or array.ndim != 1 or not array.flags.c_contiguous:
         return -1
     return array.shape[0]
 
 
 def rows(array, columns):
-    """Number of rows of a matrix with so many columns that `values` accepts; -1 for anything else."""
+    """Number of rows of a matrix that `values` accepts; -1 for anything else."""
     if type(array) is not np.ndarray or array.dtype != np.float64 or array.ndim != 2 or not array.flags.c_contiguous:
         return -1
     return array.shape[0] if array.shape[1] == columns else -1
@@ -44,13 +44,13 @@ def is_array(value):
 
 
 def is_mask(array, size):
-    """Whether this is a contiguous array of so many truth values."""
+    """Whether this is a contiguous array of so many bools."""
     plain = type(array) is np.ndarray and array.dtype == np.bool_ and array.flags.c_contiguous
     return plain and array.shape == (size,)
 
 
 def flags(array):
-    """The truth values of an array that `is_mask`, in place."""
+    """The bools of an array that `is_mask`, in place."""
     return array
 
 
@@ -60,7 +60,7 @@ def close(array):
 
 
 def new_mask(size):
-    """A new array (size,) of truth values, not filled."""
+    """A new array (size,) of bools, not filled."""
     return np.empty(size, dtype=np.bool_)
 
 

@@ -1,1 +1,1 @@
-"""Contacts of the simulation as forces on a sole and its taxels."""
+"""Simulated contacts as forces on a sole and its taxels."""

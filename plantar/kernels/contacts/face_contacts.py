@@ -1,7 +1,7 @@
-"""Kernel of a sole's contacts with ground that has a flat face, continuous in the pose of both.
+"""A sole's contacts with ground of a flat face, continuous in both poses.
 
-The contacts are the corners of the overlap of both faces, each as deep as the sole is there, with the normal of the
-ground's face. The smallest overlap of both boxes along their axes selects that face.
+Contacts are the corners of both faces' overlap, each as deep as the sole is there, along the normal of the ground's
+face, which the boxes' smallest overlap along their axes selects.
 """
 
 import math
@@ -16,11 +16,11 @@ _TILTED = 0.9  # cosine of the angle to a cylinder's axis up to which a sole lie
 
 
 class FaceContacts:
-    """Writes the contacts of one pair of geoms into the simulator's memory.
+    """Writes one pair's contacts into the simulator's memory.
 
     Args:
-        stride: Bytes from one contact to the next; each begins with gap, position (3,), normal (3,) from the first geom
-            to second, first tangent (3,).
+        stride: Bytes from one contact to the next; each: position (3,), normal (3,) from the first geom to second,
+            first tangent (3,).
 
     Attributes:
         count: Number of pairs so far.
@@ -87,7 +87,7 @@ class FaceContacts:
         return self._write(base, rows, ground, count, axis, side, half[g + axis], margin, out, sign)
 
     def cylinder(self, places, turns, sizes, ground, sole, margin, out, sign):
-        """Contacts of a box on the end of a cylinder, at the corners furthest along the box's diagonals; as `box`.
+        """Contacts of a box on a cylinder's end, at the corners furthest along the box's diagonals; as `box`.
 
         Returns:
             Number of contacts; -1 where box does not lie on an end.
@@ -115,7 +115,6 @@ class FaceContacts:
         return self._write_disc(base, rows, ground, radius, height, reach - abs(along), side, margin, out, sign)
 
     def _look(self, base, rows, ground, sole):
-        """Pose of the sole in the frame of the ground's geom."""
         g, s = 3 * ground, 3 * sole
         for i in range(3):
             self.shift[i] = 0.0
@@ -127,9 +126,7 @@ class FaceContacts:
                     self.turn[3 * i + j] += rows[3 * g + 3 * k + i] * rows[3 * s + 3 * k + j]
 
     def _place_face(self, half, s, axis, height, side):
-        """Put the corners of the sole's facing face into `corners` in order, with the gap as coordinate along the
-        normal.
-        """
+        """Put the sole's facing face into `corners` in order, with the gap along the normal."""
         own = 0
         for j in range(1, 3):
             if abs(self.turn[3 * axis + j]) > abs(self.turn[3 * axis + own]):
@@ -203,7 +200,7 @@ class FaceContacts:
             to[7 + i] = 0.0
 
     def _write_disc(self, base, rows, ground, radius, height, depth, side, margin, out, sign):
-        """Write the furthest points of the covered disc along the face's diagonals; -1 if the face touches the wall."""
+        """Write the covered disc's furthest points along the face's diagonals; -1 if the face touches the wall."""
         ax = 0.5 * (self.corners[3] - self.corners[0])
         ay = 0.5 * (self.corners[4] - self.corners[1])
         az = 0.5 * (self.corners[5] - self.corners[2])

@@ -1,4 +1,4 @@
-"""Kernel that gathers and sums one foot's contacts from a simulator's list."""
+"""Gathers and sums one foot's contacts from a simulator's list."""
 
 import numpy as np
 
@@ -15,7 +15,7 @@ class ContactList:
         gaps: Gaps (n,) in m.
         addresses: Index (n,) of each contact's first force; negative without force.
         sizes: Dimensions (n,) of each contact, up to 6.
-        friction: Friction (n, 5) where forces are along edges of pyramid; None where they are along axes.
+        friction: Friction (n, 5) of pyramid edges; None for forces along axes.
     """
 
     def __init__(self, geoms, positions, frames, gaps, addresses, sizes, friction=None):
@@ -42,7 +42,7 @@ def gather_feet(feet, listed, forces):
 
 
 class FootContacts:
-    """The contacts of one foot with everything else, gathered at each instant.
+    """One foot's contacts with everything else at each instant.
 
     Args:
         own: Whether a geom belongs to foot (geoms,), 0 or 1.
@@ -63,7 +63,7 @@ class FootContacts:
         self._make_room(8)
 
     def _make_room(self, room):
-        """Room for so many contacts; drops those that are there."""
+        """Room for so many contacts; drops present ones."""
         self.room = room
         self.size = 0
         self.ids = np.empty((room, 2), dtype=np.int32)
@@ -89,7 +89,7 @@ class FootContacts:
         self.size = count
 
     def gather(self, listed, forces):
-        """Gather the contacts of the foot's geoms with others, forces turned from contact frame to world.
+        """Gather the foot's contacts, forces turned from contact frame to world.
 
         Args:
             listed: The `ContactList`.
@@ -125,7 +125,7 @@ class FootContacts:
         self.size = k
 
     def from_origin(self, origin, out):
-        """Write `vectors`, with positions relative to `origin` (3,) in m, to `out` (at least 3 k, 3)."""
+        """Write `vectors`, positions relative to `origin` (3,) in m, to `out` (at least 3 k, 3)."""
         for k in range(self.size):
             row = 3 * k
             for j in range(3):
@@ -159,8 +159,8 @@ class FootContacts:
         sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6] = fx, fy, fz, tx, ty, tz, height
 
     def pair_loads(self, vectors, reach):
-        """For each pair of geoms, in order of first contact: normal force in N on the plane z = 0, torques about x and
-        y at its origin in N m, and points (x, y) in m.
+        """For each pair of geoms, in order of contact: normal force in N on the plane z = 0, torques about x and y at
+        its origin in N m, and points (x, y) in m.
 
         Args:
             vectors: As attribute, in plane's frame.
@@ -185,7 +185,7 @@ class FootContacts:
 
 
 def _along(listed, forces, i, m):
-    """Force or torque of a loaded contact along one of its axes."""
+    """A loaded contact's force or torque along one axis."""
     start, size = listed.addresses[i], listed.sizes[i]
     if not listed.pyramid or size == 1:
         return forces[start + m]
@@ -202,7 +202,7 @@ _dot = np.dot
 
 
 class ContactsInSole:
-    """Turns a foot's contacts into its sole frame, in the same arrays each time.
+    """Turns a foot's contacts into its sole frame.
 
     Attributes:
         vectors: Position in m, force in N and torque in N m of each contact in turn (3 room, 3).
@@ -219,12 +219,11 @@ class ContactsInSole:
         self._make_room(8)
 
     def look_from(self, origin, rotation):
-        """Set origin (3,) in m and rotation (3, 3) to world of the sole, which the simulator writes."""
+        """Set origin (3,) in m and rotation (3, 3) to world of the sole."""
         self.origin = origin
         self.rotation = rotation
 
     def _make_room(self, room):
-        """Room for so many contacts; drops those that are there."""
         self.room = room
         shifted, turned = np.zeros((3 * room, 3)), np.zeros((3 * room, 3))
         self.shifted = shifted
@@ -233,7 +232,7 @@ class ContactsInSole:
         self.heads = [(shifted[: 3 * k], turned[: 3 * k]) for k in range(room + 1)]
 
     def turn(self, contacts):
-        """Turn the current contacts of a foot's `FootContacts`."""
+        """Turn a foot's current `FootContacts`."""
         count = contacts.size
         if count == 0:
             self.in_air += 1

@@ -1,4 +1,4 @@
-"""Kernel of the ground's reaction on all feet: wrench, ZMP, support, and its margin."""
+"""The ground's reaction on all feet: wrench, ZMP, support, margin."""
 
 import numpy as np
 
@@ -67,7 +67,7 @@ class GroundReaction:
         self.margin = self.support.margin(self.x, self.y)
 
     def area(self, foot):
-        """Area in m^2 of the convex hull of a foot's points of support; 0 below three points."""
+        """Area in m^2 of the hull of a foot's points of support; 0 below three."""
         first, end = self.ends[foot], self.ends[foot + 1]
         if end - first < 3:
             return 0.0

@@ -1,4 +1,4 @@
-"""Kernel of a load on a patch of an elastic sole, spanned by contact points."""
+"""A load on a patch of an elastic sole, spanned by contact points."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ __all__ = ["PressedPatch", "patch_key", "spread_part", "spread_whole"]
 
 
 def spread_whole(u, area, inverse, x, y, force, cells, out):
-    """Spread a normal load over covered cells that all carry: pressure a + b x + c y, never negative.
+    """Spread a normal load over cells that all carry: pressure a + b x + c y, never negative.
 
     Args:
         u: Coordinates (m, 3) of cells' covered centroids: 1, and scaled place.
@@ -37,11 +37,10 @@ def spread_whole(u, area, inverse, x, y, force, cells, out):
 
 
 def spread_part(u, area, x, y, force, active, cells, out):
-    """Spread a normal load where part of the covered cells lifts off: pressure max(0, a + b x + c y).
+    """Spread a normal load where part of the cells lifts off: pressure max(0, a + b x + c y).
 
-    Carrying cells and field depend on each other; one or two 3 x 3 solves from the last carrying cells find both.
-    Arguments as of `spread_whole`; `active` (m,) are the cells to start from, then those that carry. Returns whether
-    eight rounds found them.
+    One or two 3 x 3 solves from the last carrying cells find cells and field. Arguments as of `spread_whole`; `active`
+    (m,) are the cells to start from, then those that carry. Returns whether eight rounds found them.
     """
     count = u.shape[0]
     for _ in range(8):
@@ -90,7 +89,7 @@ def spread_part(u, area, x, y, force, active, cells, out):
 
 
 def patch_key(points, grid):
-    """The points (x, y) in m on a grid, in its unit, unique and sorted: equal for points that span the same patch."""
+    """Grid points (x, y) in m, unique and sorted: equal for the same patch."""
     places = set()
     for x, y in points:
         places.add((round(x / grid), round(y / grid)))
@@ -98,7 +97,7 @@ def patch_key(points, grid):
 
 
 class PressedPatch:
-    """What does not depend on the load: m covered cells, coordinates u = (1, (x - cx)/h, (y - cy)/h).
+    """What does not depend on the load: m covered cells, u = (1, (x - cx)/h, (y - cy)/h).
 
     Args:
         cells: Index (m,) of each cell in sole.
@@ -149,7 +148,6 @@ class PressedPatch:
         return some and self.part(force, out)
 
     def _to_reach(self):
-        """Move the load to where the cells can carry it."""
         if self.turn != 0:
             _margin, self.x, self.y = convex._nearest(self.reach, self.turn, self.x, self.y)
         else:
@@ -157,5 +155,5 @@ class PressedPatch:
             self.x, self.y = nearest[0], nearest[1]
 
     def part(self, force, out):
-        """Spread the last load, `force` in N, from the cells of `carried` into `out`; whether they were found."""
+        """Spread the last load in N from the `carried` cells into `out`; whether they were found."""
         return spread_part(self.u, self.area, self.x, self.y, force, self.carried, self.cells, out)

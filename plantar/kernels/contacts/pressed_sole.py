@@ -1,4 +1,4 @@
-"""Kernel of an elastic sole: the load of its taxels from its contacts."""
+"""An elastic sole: its taxels' load from its contacts."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ _RECENT = 4  # patches that are looked at before any other: one for each piece o
 
 
 class PressedSole:
-    """Spreads loads over the cells of a sole, keeping what was computed for a patch.
+    """Spreads loads over a sole's cells, keeping what was computed for a patch.
 
     Args:
         gains: Reading of cell's taxel (n,) per vertical force.
@@ -47,7 +47,7 @@ class PressedSole:
             self.recent_counts[slot] = 0
 
     def press(self, contacts, vectors, reach):
-        """Forces (n,) in N of the taxels under a foot's contacts, pair of geoms by pair.
+        """Forces (n,) in N of the taxels under a foot's contacts, pair by pair.
 
         Args:
             contacts: Foot's contacts.
@@ -103,8 +103,8 @@ class PressedSole:
             self.forces[i] = 0.0
 
     def spread(self, points, force, x, y):
-        """Forces (n,) in N of the taxels under a load `force` above 0 at x, y in m, on the convex hull of `points` (x,
-        y) in m.
+        """Forces (n,) in N of the taxels under a load `force` above 0 at x, y in m, on the hull of `points` (x, y) in
+        m.
         """
         self._clear()
         if len(points) > self.room:
@@ -117,7 +117,6 @@ class PressedSole:
         return self.carried.copy()
 
     def _spread(self, count, force, x, y):
-        """Add the forces of a load on the first points."""
         patch = self._patch(count)
         for i in range(self.part.shape[0]):
             self.part[i] = 0.0
@@ -148,7 +147,6 @@ class PressedSole:
         return patch
 
     def _is_recent(self, slot, count):
-        """Whether the first points span the patch of a slot."""
         if count != self.recent_counts[slot]:
             return False
         for i in range(count):

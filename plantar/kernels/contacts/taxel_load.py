@@ -1,4 +1,4 @@
-"""Kernel of the force on each taxel of a sole; together they have the wrench of the sole's contacts."""
+"""Force on each taxel of a sole; together they have its contacts' wrench."""
 
 import math
 
@@ -12,13 +12,13 @@ _EXACT = 1e-12  # of the load and of the cells' extent: how exactly a pressure h
 
 
 class TaxelLoad:
-    """Spreads the wrench of a sole's contacts over its taxels, from the current contacts alone.
+    """Spreads a sole's current contact wrench over its taxels.
 
     - The contact points of each pair of geoms span a patch. A cell's weight w is its area times its covered share, a
-      ramp over the cell's width in its taxel's distance from the patch; the next row of cells counts faintly.
+      ramp over the cell's width in its taxel's distance from the patch.
     - Each pair's normal load is spread as on springs that cannot pull: f = w max(0, a + b x + c y).
-    - The sum is corrected likewise, with itself as weight, to the exact load and moments of all contacts; if
-      impossible, with neighbouring cells, then all.
+    - The sum is corrected likewise, with itself as weight, to the exact load and moments; if impossible, with
+      neighbouring cells, then all.
     - Tangential forces follow the normal ones, and turn about their center, to have the rest of the wrench.
 
     Args:
@@ -70,9 +70,8 @@ class TaxelLoad:
         self.edges = np.zeros((2 * room + 2, 3))  # direction and length of each edge of the ring
 
     def press(self, contacts, seen, reach):
-        """Set the attributes from the sole's `FootContacts`, turned into its frame by `ContactsInSole`.
-
-        A contact without load counts up to a gap of `reach` in m.
+        """Set the attributes from the sole's `FootContacts`, turned by `ContactsInSole`; a contact without load counts
+        up to a gap of `reach` in m.
         """
         count = self.areas.shape[0]
         for i in range(6):
@@ -99,7 +98,6 @@ class TaxelLoad:
         self._balance(force)
 
     def _sum(self, contacts, vectors):
-        """The wrench of all contacts about sole origin."""
         for k in range(contacts.size):
             row = 3 * k
             x, y, z = vectors[row, 0], vectors[row, 1], vectors[row, 2]
@@ -112,7 +110,6 @@ class TaxelLoad:
             self._wrench[5] += vectors[row + 2, 2] + x * fy - y * fx
 
     def _spread_pairs(self, contacts, vectors, reach):
-        """Add the normal load of each pair of geoms to `prior`."""
         count = self.areas.shape[0]
         for k in range(contacts.size):
             if contacts.gaps[k] > reach and vectors[3 * k + 1, 2] == 0.0:
@@ -149,7 +146,7 @@ class TaxelLoad:
                     self.prior[i] += self.normal[i]
 
     def _cover(self, size):
-        """Set `weights` to the area in m^2 of each cell under the patch; of the nearest if it misses all."""
+        """Set `weights` to each cell's area in m^2 under the patch; of the nearest if it misses all."""
         corners = self._hull_of(size)
         count = self.areas.shape[0]
         for k in range(corners):
@@ -174,7 +171,7 @@ class TaxelLoad:
             self.weights[i] = self.areas[i] * share
 
     def _press_deep(self, size):
-        """Raise `depths` of the covered cells to the overlap of the first points, the nearer the more."""
+        """Raise `depths` of covered cells to the first points' overlap, the nearer the more."""
         for i in range(self.areas.shape[0]):
             if self.weights[i] > 0.0:
                 total = depth = 0.0
@@ -188,7 +185,7 @@ class TaxelLoad:
                     self._depths[i] = depth / total
 
     def _hull_of(self, size):
-        """Put the convex hull of the first points into `ring`, counter-clockwise; its number of corners."""
+        """Put the first points' convex hull into `ring`, counter-clockwise; its size."""
         points, ring = self.points, self.ring
         for k in range(1, size):  # in order of x, then y
             x, y, z = points[k, 0], points[k, 1], points[k, 2]
@@ -298,7 +295,6 @@ class TaxelLoad:
         return False
 
     def _balance(self, force):
-        """Set `vectors` and `forces` to the wrench of all contacts."""
         count = self.areas.shape[0]
         about_x, about_y = self._wrench[3], self._wrench[4]
         for _ in range(1 if self.level else 60):
@@ -325,7 +321,7 @@ class TaxelLoad:
             )
 
     def _carry(self, force, x, y):
-        """Set `normal` to the load of all contacts; whether the cells can carry it."""
+        """Set `normal` to all contacts' load; whether the cells can carry it."""
         count = self.areas.shape[0]
         if self._tilt(self.prior, force, x, y):
             return True
@@ -366,7 +362,7 @@ class TaxelLoad:
         return False
 
     def _shear(self, force):
-        """Set `vectors` to the normal forces plus proportional tangential ones with the rest of the wrench."""
+        """Set `vectors` to the normal forces plus tangential ones with the rest of the wrench."""
         count = self.areas.shape[0]
         cx = cy = 0.0
         for i in range(count):
@@ -397,7 +393,7 @@ def _is_pair(contacts, j, k):
 
 
 def _join(ring, corners, floor, x, y):
-    """Add a point to a hull that turns left, and drop superfluous corners; number of corners left."""
+    """Add a point to a hull that turns left, dropping superfluous corners; its size."""
     while corners - floor >= 2:
         ax, ay = ring[corners - 1, 0] - ring[corners - 2, 0], ring[corners - 1, 1] - ring[corners - 2, 1]
         if ax * (y - ring[corners - 2, 1]) - ay * (x - ring[corners - 2, 0]) > 0.0:
@@ -410,7 +406,7 @@ def _join(ring, corners, floor, x, y):
 
 
 def _distance(ring, edges, corners, x, y):
-    """Signed distance in m from a point to the convex polygon of the first corners, negative inside."""
+    """Signed distance in m of a point to the polygon of the first corners, negative inside."""
     deepest = -1e300
     for k in range(corners):
         out = edges[k, 1] * (x - ring[k, 0]) - edges[k, 0] * (y - ring[k, 1])
@@ -432,7 +428,6 @@ def _distance(ring, edges, corners, x, y):
 
 
 def _nearest(hull, x, y):
-    """The point of a polygon's edge that is nearest to a point."""
     best, best_x, best_y = 1e300, x, y
     corners = hull.shape[0]
     for k in range(corners):

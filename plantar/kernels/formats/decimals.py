@@ -1,8 +1,8 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
-"""Kernel that reads rows of decimal numbers, each equal to the last bit to what `float` returns.
+"""Reads rows of decimal numbers, each equal to `float` to the last bit.
 
-A number of up to 15 digits is a whole number below 2^53 over a power of ten up to 10^15, both exact doubles, so that
-their quotient is the nearest double (Clinger 1990). Others are handed to `float`.
+Up to 15 digits are a whole number below 2^53 over a power of ten up to 10^15, both exact doubles, so their quotient is
+the nearest double (Clinger 1990).
 """
 
 import math
@@ -16,7 +16,7 @@ _TAB, _LINE_END, _BLANK, _PLUS, _COMMA, _MINUS, _POINT, _ZERO, _NINE = 9, 10, 32
 
 
 def read_rows(text, delimiter, comma, columns, out):
-    """Read lines of numbers up to the first one with anything else; returns their number.
+    """Read lines of numbers up to the first other one; returns their number.
 
     Args:
         text: Lines, as bytes.

@@ -1,4 +1,4 @@
-"""Kernel of the loads that the taxels of a foot have carried since touchdown."""
+"""Loads that a foot's taxels have carried since touchdown."""
 
 __all__ = ["mark_carried", "take_in"]
 
@@ -6,7 +6,7 @@ _INFINITE = float("inf")
 
 
 def take_in(force, forgetting, share, total, mean):
-    """Add a reading `force` (n,) in N to a running sum and mean, in place; values that are not finite count as 0.
+    """Add a reading `force` (n,) in N to a running sum and mean, in place; not finite counts as 0.
 
     Args:
         forgetting: Share of old value in sum `total` (n,) in N.
@@ -20,7 +20,7 @@ def take_in(force, forgetting, share, total, mean):
 
 def mark_carried(mean, near, least, beside, carried):
     """Mark in `carried` (n,) the taxels whose `mean` (n,) in N is above `least`, and a share `beside` of their
-    strongest neighbour's; `near` (n, k) has the neighbours, padded with -1.
+    strongest neighbour's; `near` (n, k), padded with -1.
     """
     for i in range(mean.shape[0]):
         around = 0.0

@@ -1,4 +1,4 @@
-"""Kernel of the DCM feedback: desired ZMP, and admittance of the CoM reference (sources: `plantar.gait.balance`)."""
+"""DCM feedback: desired ZMP, and admittance of the CoM reference (sources: `plantar.gait.balance`)."""
 
 import math
 
@@ -12,7 +12,7 @@ _SAME = 1e-9  # m: a desired ZMP that its region moves by less is not held back
 
 
 class ComAdmittance:
-    """Offset of the CoM reference from the plan (T 4.29): x, y in m, and its rates in m/s.
+    """Offset of the CoM reference from the plan (T 4.29): x, y in m, rates in m/s.
 
     Args:
         zmp_gain: k_f in 1/s, from ZMP error to rate.
@@ -125,7 +125,7 @@ class DcmFeedback:
         )
 
     def _desired(self, vrp, planned, dcm, region, integrates):
-        """The two numbers of `desired`, and the integral after this tick."""
+        """`desired`'s two numbers, and the integral after this tick."""
         ex, ey = dcm[0] - planned[0], dcm[1] - planned[1]
         x = vrp[0] + self.factor * ex + self.integral_x
         y = vrp[1] + self.factor * ey + self.integral_y
@@ -140,7 +140,6 @@ class DcmFeedback:
         return px, py
 
     def _integrated(self, integral, error):
-        """One coordinate of the decaying, limited integral after a tick."""
         moved = integral + self.period * (self.integral_gain * error - self.forgetting * integral)
         return min(max(moved, -self.largest), self.largest)
 
@@ -149,7 +148,7 @@ _LEFT, _RIGHT = 1, 2
 
 
 def shared_load(zmp, acceleration, mass, gravity, left, right, stance):
-    """Share the force of the pendulum, m (a_x, a_y, g), between two feet.
+    """Share the pendulum's force, m (a_x, a_y, g), between two feet.
 
     Args:
         zmp: Desired ZMP (2,) in m.

@@ -1,6 +1,6 @@
-"""Kernel of the floating base from leg kinematics, IMU and loads (equations: `plantar.gait.estimate.estimator`).
+"""The floating base from leg kinematics, IMU and loads (equations: `plantar.gait.estimate.estimator`).
 
-Feet are numbered in the order of `plantar.sides.SIDES`.
+Feet are numbered as `plantar.sides.SIDES`.
 """
 
 import math
@@ -18,7 +18,7 @@ _NONE = float("nan")
 
 
 class FloatingBase:
-    """A base that turns with the gyro and moves with the carrying feet, and the velocity of its CoM.
+    """A base that turns with the gyro and moves with the carrying feet, and its CoM velocity.
 
     Args:
         omega: Pendulum frequency in rad/s.
@@ -51,7 +51,7 @@ class FloatingBase:
         self.watch(*np.zeros((3, 3)), *np.zeros((2, 3, 3)))
 
     def watch(self, com, left, right, turn_left, turn_right):
-        """Keep the arrays of a posture, which `take` reads at each tick, in base frame.
+        """Keep a posture's arrays, in the base frame, which `take` reads.
 
         Args:
             com: CoM (3,) in m.
@@ -62,7 +62,7 @@ class FloatingBase:
         self.turn_left_now, self.turn_right_now = turn_left, turn_right
 
     def take(self):
-        """Read this tick's posture and keep the last one."""
+        """Read this tick's posture; keep the last one."""
         com, left, right = self.com_now, self.left_now, self.right_now
         turn_left, turn_right = self.turn_left_now, self.turn_right_now
         places, turns = self.places_in_base, self.turns_in_base
@@ -77,7 +77,7 @@ class FloatingBase:
                 turns[0, 0, i, j], turns[0, 1, i, j] = turn_left[i, j], turn_right[i, j]
 
     def stand(self, rotation, position, heading_left, heading_right):
-        """Place the base: rotation (3, 3) to world, position (3,) in m, headings of the feet in rad."""
+        """Place the base: rotation (3, 3) to world, position (3,) in m, feet's headings in rad."""
         for i in range(3):
             self.position[i] = position[i]
             for j in range(3):
@@ -88,7 +88,7 @@ class FloatingBase:
         self.headings[0], self.headings[1] = heading_left, heading_right
 
     def rest(self):
-        """Zero velocity, correct heading: the robot has not moved."""
+        """Zero velocity, correct heading."""
         self.velocity[0] = self.velocity[1] = self.velocity[2] = 0.0
         self.astray = 0.0
 
@@ -214,7 +214,7 @@ class FloatingBase:
         rotations.orthonormalise(self.matrix, self.work, rotation)
 
     def _heading_error(self):
-        """Heading in rad ahead of each foot's heading at touchdown."""
+        """Heading in rad ahead of each foot's at touchdown."""
         rotation, headings, turns = self.rotation, self.headings, self.turns_in_base
         total = error = 0.0
         for side in range(2):
@@ -267,13 +267,13 @@ class FloatingBase:
                 self.position[i] += self.period * self.velocity[i]
 
     def _point(self, past, side, x, y, out):
-        """A point of a sole in base frame, now (0) or a tick ago (1)."""
+        """A sole's point in the base frame, now (0) or a tick ago (1)."""
         places, turns = self.places_in_base, self.turns_in_base
         for i in range(3):
             out[i] = places[past, side, i] + turns[past, side, i, 0] * x + turns[past, side, i, 1] * y
 
     def place(self):
-        """Compute the soles' poses and the ZMP (2,) in m of their loads; None without; InputError if not finite."""
+        """Compute the soles' poses and their loads' ZMP (2,) in m; None without; InputError if not finite."""
         loads, cops = self.loads, self.cops
         rotation, position, places, turns = self.rotation, self.position, self.places, self.turns
         total = x = y = 0.0
@@ -317,7 +317,7 @@ class FloatingBase:
         )
 
     def observe(self, push_x, push_y):
-        """Observe CoM and velocity for one tick, with a push's acceleration in m/s^2."""
+        """Observe CoM and velocity for a tick, with a push's acceleration in m/s^2."""
         com, velocity, zmp, period = self.com, self.velocity, self.zmp, self.period
         # Gains 2 b and b^2: with the pendulum's own fall the observer's poles lie at -b +- omega.
         near = min(1.0, 2.0 * self.bandwidth * period)

@@ -1,4 +1,4 @@
-"""Kernel of `plantar.gait.estimate.gyro_bias` and `steady_load`; feet in the order of `plantar.sides.SIDES`."""
+"""Kernel of `plantar.gait.estimate.gyro_bias` and `steady_load`; feet as `plantar.sides.SIDES`."""
 
 __all__ = ["GyroBias", "SteadyLoad"]
 
@@ -6,7 +6,7 @@ _INFINITE = float("inf")
 
 
 class SteadyLoad:
-    """Compares each foot's load with the total and with its own running mean.
+    """Compares each foot's load with the total and its own running mean.
 
     Args:
         share: Share of total load from which a foot is still and the other is not.
@@ -24,7 +24,7 @@ class SteadyLoad:
         self.mean_left = self.mean_right = self.left = self.right = 0.0
 
     def update(self, left, right):
-        """Advance by a tick with the loads of both feet in N, 0 for an unloaded one."""
+        """Advance by a tick with both feet's loads in N, 0 if unloaded."""
         if not self.begun:
             self.begun = True
             self.mean_left, self.mean_right = left, right
@@ -40,7 +40,7 @@ class SteadyLoad:
 
 
 class GyroBias:
-    """Mean difference of a gyro and the turn of the legs, piece by piece.
+    """Mean difference of gyro and legs' turn, piece by piece.
 
     Args:
         period: Control period in s.

@@ -1,4 +1,4 @@
-"""Kernel of the plane through the highest ground under a swinging sole."""
+"""The plane through the highest ground under a swinging sole."""
 
 import math
 
@@ -17,16 +17,15 @@ _IN_A_ROW = 0.02  # share of the product of the variances below which the points
 def highest_plane(x, y, distance, readings, noise, least, used, plane):
     """Fit the plane z = -level + sx x + sy y through the highest ground that a sole's taxels measure.
 
-    Weighted least squares. While ground is above the plane by more than noise, the fit is repeated with the points
-    above it, then without those far below. The result is fitted again to all points within the noise, unless one lies
-    above.
+    Weighted least squares, repeated while ground is above by more than noise: with the points above, then without those
+    far below; at last with all points within the noise, unless one lies above.
 
     Args:
         x: Taxels (n,) in sole frame in m; y likewise.
         distance: Distances (n,) of ground in m; inf or NaN without.
         readings: Number of readings (n,) behind each, 1 or more.
         noise: Standard deviation of reading in m.
-        least: Least number of points for second fit: on a small block it would include ground next to it.
+        least: Least number of points for second fit.
         used: Receives 1 for points (n,) on plane or, without one, remaining points; else 0.
         plane: Receives level in m, sx and sy (3,).
 
@@ -80,12 +79,11 @@ def _above(x, y, distance, plane, i):
 
 
 def _explained(noise, readings):
-    """Distance in m from the plane that noise explains."""
     return noise * max(_TOLERANCE, _TOLERANCE_OF_MEAN / math.sqrt(readings))
 
 
 def _fit(x, y, distance, readings, used, plane):
-    """Weighted least squares; False, with the plane unchanged, where there is none."""
+    """Weighted least squares; False, with the plane unchanged, without one."""
     count = 0
     whole = mx = my = md = ax = ay = axx = ayy = 0.0
     n = x.shape[0]

@@ -9,7 +9,7 @@ __all__ = ["correct", "headed", "turned"]
 
 
 def headed(rotation, yaw):
-    """A rotation (3, 3) to world, turned about the vertical to a heading in rad (summed as BLAS, `fused`)."""
+    """A rotation (3, 3) to world, turned about the vertical to a heading in rad (summed as `fused`)."""
     r, made = memory.values(rotation), memory.new_matrix(3, 3)
     out = memory.room(made)
     angle = yaw - math.atan2(r[3], r[0])
@@ -23,7 +23,7 @@ def headed(rotation, yaw):
 
 
 def turned(turn, rotation):
-    """A rotation (3, 3) after a turn by a rotation vector (3,) in rad, summed likewise."""
+    """A rotation (3, 3) after a turn (3,) in rad, summed likewise."""
     t, r, made = memory.values(turn), memory.values(rotation), memory.new_matrix(3, 3)
     out = memory.room(made)
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotations._exponential(t[0], t[1], t[2])
@@ -39,7 +39,7 @@ def correct(
     position, place, com_command, com_estimated, command, estimated, kept, largest_shift, largest_turn, weight, share,
     shift, turn,
 ):  # fmt: skip
-    """One control tick of the correction's low pass.
+    """One tick of the correction's low pass.
 
     Args:
         position: Desired sole position (3,) in command frame in m; `place` the same in world.
@@ -74,7 +74,7 @@ def correct(
 
 
 def _between(a, b):
-    """A B^T, as of `rotations.between`, of values row by row."""
+    """A B^T, as `rotations.between`, of values row by row."""
     return (
         a[0] * b[0] + a[1] * b[1] + a[2] * b[2],
         a[0] * b[3] + a[1] * b[4] + a[2] * b[5],

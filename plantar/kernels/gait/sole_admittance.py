@@ -10,7 +10,7 @@ _NONE = 1e-7  # rad and m: below what any servo resolves a correction that fades
 
 
 class SoleAdmittance:
-    """Correction of one commanded sole: `roll` and `pitch` in rad about its axes, and `shift` upwards in m.
+    """Correction of one commanded sole: `roll`, `pitch` in rad about its axes, `shift` upwards in m.
 
     Args:
         period: Control period in s.
@@ -43,7 +43,7 @@ class SoleAdmittance:
             self.roll = self.pitch = self.shift = 0.0
 
     def turn(self, measured, wanted):
-        """Turn by one tick under load from the measured to the desired wrench (6,) in sole frame in N and N m.
+        """Turn by a tick under load from the measured to the desired wrench (6,) in sole frame in N and N m.
 
         Returns:
             Error in N of normal force.
@@ -63,11 +63,10 @@ class SoleAdmittance:
         return fz - goal[2]
 
     def lift(self, rate):
-        """Shift by one tick under load, at a rate in m/s upwards."""
+        """Shift by a tick under load, at a rate in m/s upwards."""
         self.shift = self._moved(self.shift, rate, self.largest_lift)
 
     def _moved(self, value, rate, largest):
-        """A correction after one tick at a rate, with return to zero and limit."""
         value += self.period * (rate - self.back * value)
         if not value > -largest:
             value = -largest
@@ -75,7 +74,7 @@ class SoleAdmittance:
 
 
 def turned(level, x, y):
-    """Rotation (3, 3) of a sole turned by `x`, `y` (axis times angle in rad) about its own axes from `level` (3, 3)."""
+    """Rotation (3, 3) of a sole turned by `x`, `y` (axis times angle in rad) about its axes from `level` (3, 3)."""
     before = memory.values(level)
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotations._exponential(x, y, 0.0)
     made = memory.new_matrix(3, 3)
@@ -89,7 +88,7 @@ def turned(level, x, y):
 
 
 def risen(position, center, roll, pitch, shift):
-    """Position (3,) in m of a turned and shifted sole: its center rises by the shift, to first order.
+    """Position (3,) in m of a turned, shifted sole: its center rises by the shift, to first order.
 
     Args:
         position: Origin (3,) of its frame in m.

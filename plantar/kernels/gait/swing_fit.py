@@ -8,7 +8,7 @@ __all__ = ["fit"]
 def fit(order, now, before, earlier, conditions, same, high, pull, way, work, out):
     """Path at one moment, with derivatives: y = y_i + s^n way + sum a_k (s^k - s^n), which keeps both ends.
 
-    Conditions: position, first and second derivative at the share `before`, and position at the share `earlier`.
+    Conditions: position, first and second derivative at `before`, position at `earlier`.
 
     Args:
         order: Order n of polynomial.

@@ -1,1 +1,1 @@
-"""Hulls, polygons, outlines and what fits into them."""
+"""Hulls, polygons, outlines and inscribed shapes."""

@@ -1,8 +1,7 @@
-"""Kernel that cleans a convex ring of near-duplicates and turns the wrong way.
+"""Cleans a convex ring of near-duplicates and turns the wrong way.
 
-The convex hull of a ring's vertices counts. A ring that is exactly convex, goes round once and has no two neighbours
-within `_NEAR` of its size is that hull already. Of any other, where rounding may turn the edge between near-duplicates
-any way, the hull is taken, with every turn decided exactly.
+A ring that is exactly convex, goes round once and has no two neighbours within `_NEAR` of its size stays. Of any other
+the hull is taken, with every turn decided exactly.
 """
 
 import numpy as np
@@ -19,11 +18,11 @@ _SMALLEST = 1e-100  # m: products of the edges of a smaller ring may underflow
 
 
 def turning(polygon, x0, y0, near):
-    """Which way a ring (k, 2) about x0, y0 in m goes round: 1 counter-clockwise, -1 clockwise.
+    """Which way a ring (k, 2) about x0, y0 in m goes: 1 counter-clockwise, -1 clockwise.
 
     Returns:
-        0 unless it turns the same way at every vertex by more than rounding, goes round once, and no two neighbours are
-        within `near` in m.
+        0 unless it turns one way at every vertex beyond rounding, goes round once, with no neighbours within `near` in
+        m.
     """
     k = polygon.shape[0]
     if k < 3:
@@ -58,7 +57,7 @@ def turning(polygon, x0, y0, near):
 
 
 def anchor(polygon):
-    """Index of the first finite vertex of a ring; 0 without one."""
+    """Index of a ring's first finite vertex; 0 without one."""
     for i in range(polygon.shape[0]):
         if abs(polygon[i, 0]) <= _LARGEST and abs(polygon[i, 1]) <= _LARGEST:  # false for NaN
             return i
@@ -66,7 +65,7 @@ def anchor(polygon):
 
 
 def extent(polygon):
-    """Larger side in m of the box around a ring with finite vertices; 0 for none."""
+    """Larger side in m of the box around finite vertices; 0 for none."""
     k = polygon.shape[0]
     if k == 0:
         return 0.0
@@ -80,8 +79,8 @@ def extent(polygon):
 
 
 def clean_ring(polygon, x0, y0, near):
-    """The convex hull (m, 2) of a `polygon`'s finite vertices about x0, y0 in m, without near-duplicates (`near` as in
-    `turning`), counter-clockwise from the first given one that is left.
+    """Convex hull (m, 2) of a `polygon`'s finite vertices about x0, y0 in m, without near-duplicates (`near` as in
+    `turning`), counter-clockwise from its first given one.
     """
     k = polygon.shape[0]
     local = np.empty((k, 2))

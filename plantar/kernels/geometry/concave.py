@@ -1,5 +1,5 @@
 # cython: infer_types=True
-"""Kernel for the largest rectangle in an outline with islands and holes, exact."""
+"""The largest rectangle in an outline with islands and holes, exact."""
 
 import math
 
@@ -49,7 +49,7 @@ class OutlineRectangles:
         self.slab = work_arrays.places(total // 2 + 1, self.lists)
 
     def take(self, points, starts):
-        """Copy an outline: vertices (k, 2) in m, the area on the left of each ring, and offsets of rings."""
+        """Copy an outline: vertices (k, 2) in m, area on each ring's left, and ring offsets."""
         m = points.shape[0]
         rings = len(starts) - 1
         if m > self.room or rings + 1 > len(self.start):
@@ -64,20 +64,16 @@ class OutlineRectangles:
             self.start[r] = starts[r]
 
     def largest(self, angle, out):
-        """Largest rectangle in the last outline whose first side has a given angle.
+        """Largest rectangle in the last outline at a given angle; returns its area.
 
-        Lines through every vertex cut the area into slabs and these into trapezoids. A rectangle starts in one
-        trapezoid, ends in another and crosses those between; it may use a convex region: a window in y, cut by the
-        slants of first and last trapezoid. Branch and bound over the pairs: the window's box bounds a pair, and the
-        remaining pairs are solved as convex polygons. A pair whose whole window passes one way into the trapezoid
-        before the first is left out, as that one's pair includes it; likewise at the end.
+        Lines through every vertex cut the area into slabs and these into trapezoids. A rectangle from one trapezoid to
+        another may use a convex region: a window in y, cut by the slants of both. Branch and bound over the pairs: the
+        window's box bounds a pair, and the remaining pairs are solved as convex polygons. A pair whose whole window
+        passes one way into the trapezoid before the first, or after the last, is left out.
 
         Args:
             angle: Angle of the first side in rad.
-            out: Receives the 4 corners about the first vertex, flat, counter-clockwise; untouched without area.
-
-        Returns:
-            Its area.
+            out: Receives 4 corners about the first vertex, flat, counter-clockwise; untouched without area.
         """
         self.best = 0.0
         slabs = self._cut(angle)
@@ -113,7 +109,7 @@ class OutlineRectangles:
         return self.best
 
     def _find_ways(self, slabs):
-        """Find how far right a rectangle can reach from each trapezoid, and the widest ways through its sides."""
+        """Find how far right a rectangle reaches from each trapezoid, and the widest ways through."""
         for t in range(self.first[0], self.first[1]):
             self.left[2 * t] = 1.0
             self.left[2 * t + 1] = 0.0
@@ -145,7 +141,7 @@ class OutlineRectangles:
                 self.reach[start] = far
 
     def _walk(self, start, slabs, exact):
-        """Walk from a trapezoid to all those to the right in which its rectangles may end."""
+        """Walk from a trapezoid to all on the right where its rectangles may end."""
         i = self.slab[start]
         below = self.trapezoid[4 * start]
         above = self.trapezoid[4 * start + 1]
@@ -195,11 +191,9 @@ class OutlineRectangles:
                     top += 1
 
     def _may_hold(self, width, height):
-        """Whether a box may hold more than the best so far."""
         return width * height > self.best
 
     def _offer(self, x1, x2, y1, y2):
-        """Keep a rectangle if it is larger than the best so far."""
         area = (x2 - x1) * (y2 - y1)
         if area > self.best:
             self.best = area
@@ -209,7 +203,7 @@ class OutlineRectangles:
             self.y2 = y2
 
     def _solve(self, i, k, low, high, start, end):
-        """Keep the largest rectangle of a pair of trapezoids if it beats the best so far (see `_octagon`)."""
+        """Keep a pair's largest rectangle if it beats the best (see `_octagon`)."""
         floor = self.best
         n = self._octagon(i, k, low, high, start, end)
         if n < 3:
@@ -288,7 +282,6 @@ class OutlineRectangles:
         return slabs
 
     def _turn(self, angle):
-        """Turn the vertices back by an angle, and order them by x."""
         m = self.m
         cosine = math.cos(angle)
         sine = math.sin(angle)
@@ -311,7 +304,7 @@ class OutlineRectangles:
             gap //= 3
 
     def _rank(self):
-        """Find the lines across through the vertices, and each vertex's line; the number of lines."""
+        """Find the lines across through the vertices, and each vertex's; their number."""
         m = self.m
         lines = 0
         tolerance = 1e-14 * (self.xs[self.order[m - 1]] - self.xs[self.order[0]])
@@ -353,10 +346,10 @@ class OutlineRectangles:
         self.first[slabs] = count
 
     def _octagon(self, i, k, low, high, start, end):
-        """The region from slab i to slab k: the window from low to high, cut by the slants at its ends.
+        """The region from slab i to slab k: the window, cut by the slants at its ends.
 
         Returns:
-            Number of vertices, up to 8, in `ring`, counter-clockwise; fewer than 3 if empty.
+            Number of vertices, up to 8, in `ring`, counter-clockwise; below 3 if empty.
         """
         ring = self.ring
         x1 = self.line[i]
@@ -369,7 +362,7 @@ class OutlineRectangles:
         return n if start == end else self._clip(n, self.line[k], x2, 4 * end, low, high)
 
     def _clip(self, n, x1, x2, at, low, high):
-        """Clip the ring to bottom and top of a trapezoid from x1 to x2, where these cut the window."""
+        """Clip the ring to a trapezoid's bottom and top from x1 to x2, where these cut the window."""
         left = self.trapezoid[at]
         right = self.trapezoid[at + 2]
         if left > low or right > low:
@@ -381,7 +374,7 @@ class OutlineRectangles:
         return n
 
     def _keep_left(self, n, x1, y1, x2, y2):
-        """Clip the ring to the left of the line from point 1 to point 2; its number of vertices."""
+        """Clip the ring to the left of a line through two points; its size."""
         ring = self.ring
         kept = self.kept
         dx = x2 - x1
@@ -406,7 +399,7 @@ class OutlineRectangles:
 
 
 def _add(ring, n, x, y):
-    """Add a vertex to a ring of n unless it repeats the last one; the new number of vertices."""
+    """Add a vertex unless it repeats the last one; the ring's size."""
     if n > 0 and ring[2 * n - 2] == x and ring[2 * n - 1] == y:
         return n
     ring[2 * n] = x

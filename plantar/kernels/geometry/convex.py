@@ -1,4 +1,4 @@
-"""Kernels on one convex polygon (n, 2) without repeated last point: area, centroid, closest point, margin, offset."""
+"""Kernels on one convex polygon (n, 2) without repeated last point."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _FEW = 64  # vertices: room for polygons of up to so many is kept
 
 
 def area(polygon):
-    """Signed area in m^2 of a simple polygon (k, 2) by the shoelace formula about the first vertex; 0 below 3 vertices.
+    """Signed area in m^2 of a simple polygon (k, 2) (shoelace about the first vertex); 0 below 3 vertices.
 
     Error below 1e-15 times vertices times extent^2.
     """
@@ -48,7 +48,7 @@ def area(polygon):
 
 
 def area_of(polygon):
-    """`area` of a polygon from Python, a small one read without its buffer."""
+    """`area` of a polygon from Python."""
     room = _borrow(0)
     total = area(_entered(polygon, room))
     _FREE.append(room)
@@ -56,10 +56,10 @@ def area_of(polygon):
 
 
 def area_and_centroid(polygon):
-    """Signed area in m^2, and x and y of the centroid in m of a simple polygon (k, 2), k 1 or more.
+    """Signed area in m^2, and centroid x, y in m of a simple polygon (k, 2), k 1 or more.
 
-    The centroid is the mean of the vertices where the area is 0; its error is below 1e-15 times the extent; for thin
-    polygons over their width per length.
+    The mean of the vertices where the area is 0; its error is below 1e-15 times the extent; for thin polygons over
+    their width per length.
     """
     k = polygon.shape[0]
     x0, y0 = polygon[0, 0], polygon[0, 1]
@@ -132,7 +132,7 @@ def _nearest(polygon, turn, x, y):
 
 
 def _nearest_of_any(polygon, x, y):
-    """`_nearest` of any ring, cleaned (see `clean`); -inf and NaN for an empty one."""
+    """`_nearest` of any ring, cleaned; -inf and NaN for an empty one."""
     turn = clean.turning(polygon, 0.0, 0.0, 0.0)
     if turn != 0:
         return _nearest(polygon, turn, x, y)
@@ -146,7 +146,7 @@ def _nearest_of_any(polygon, x, y):
 def closest_point(polygon, x, y):
     """`plantar.geometry.polygon.closest_point` (2,) to x, y in m; NaN where the point, or no vertex, is finite.
 
-    Error below 1e-15 of the largest distance to a vertex.
+    Error below 1e-15 of the largest distance.
     """
     qx, qy = nearest(polygon, x, y)
     return vectors.vector2(qx, qy)
@@ -161,9 +161,7 @@ def nearest(polygon, x, y):
 
 
 def signed_margin(polygon, x, y):
-    """`plantar.geometry.polygon.signed_margin` of x, y in m; NaN where the point is not finite, -inf where no vertex
-    is.
-    """
+    """`plantar.geometry.polygon.signed_margin` of x, y in m; NaN for no finite point, -inf for no finite vertex."""
     room = _borrow(0)
     margin, _qx, _qy = _nearest_of_any(_entered(polygon, room), x, y)
     _FREE.append(room)
@@ -171,7 +169,7 @@ def signed_margin(polygon, x, y):
 
 
 def seen_from_above(polygon, rotation, position):
-    """A polygon (k, 2) in m of a frame's x-y plane in another frame, seen along its z axis.
+    """A polygon (k, 2) in m of a frame's x-y plane, seen along another frame's z axis.
 
     Args:
         rotation: Rotation (3, 3) from its frame to the other.
@@ -190,7 +188,7 @@ def _place(polygon, rotation, position, out):
 
 
 class OffsetRoom:
-    """Work arrays of one inner offset of a polygon with up to `corners` vertices."""
+    """Work arrays of one inner offset, up to `corners` vertices."""
 
     def __init__(self, corners):
         room = 2 * corners + 8
@@ -208,7 +206,7 @@ _FREE: list = []  # type: ignore[type-arg]  # rooms for `_FEW` vertices that no 
 
 
 def _borrow(corners):
-    """A room for so many vertices; a small one is to be put back into `_FREE`."""
+    """A room for so many vertices; a small one returns to `_FREE`."""
     if corners > _FEW:
         return OffsetRoom(corners)
     try:
@@ -218,9 +216,7 @@ def _borrow(corners):
 
 
 def _entered(polygon, room):
-    """A polygon (k, 2) copied into a room, in a tenth of the time of a buffer; by its buffer if strided or another
-    kind.
-    """
+    """A polygon (k, 2) copied into a room, without its buffer unless strided or of another kind."""
     k = memory.rows(polygon, 2)
     if not 0 <= k <= room.given.shape[0]:
         return polygon
@@ -234,8 +230,8 @@ def _entered(polygon, room):
 def inner_offset(polygon, distance):
     """`plantar.geometry.polygon.inner_offset` by a distance above 0 in m of a polygon with a vertex.
 
-    Each edge's half plane, moved inwards, cuts the polygon (Sutherland and Hodgman). Where nothing is left, the depth
-    of the deepest point is bisected. None (0, 2) where no vertex is finite.
+    Each edge's half plane, moved inwards, cuts the polygon (Sutherland and Hodgman); if all is cut away, the deepest
+    point's depth is bisected. (0, 2) where no vertex is finite.
     """
     room = _borrow(len(polygon))
     found = room.copied(offset(_entered(polygon, room), distance, room))
@@ -245,7 +241,7 @@ def inner_offset(polygon, distance):
 
 
 def offset(polygon, distance, room):
-    """`inner_offset` of a polygon by a distance into the `result` of a room; returns the number of vertices."""
+    """`inner_offset` into a room's `result`; returns its size."""
     i = clean.anchor(polygon)
     x0, y0 = polygon[i, 0], polygon[i, 1]
     turn = clean.turning(polygon, x0, y0, 0.0)
@@ -267,7 +263,7 @@ def offset(polygon, distance, room):
 
 
 def _shifted(room, size, x0, y0, near):
-    """Ring 0, moved back to the polygon's place and cleaned of near-duplicates and slivers turned over by rounding."""
+    """Ring 0, moved back to its place and cleaned of near-duplicates and slivers."""
     rings, result = room.rings, room.result
     for i in range(size):
         result[i, 0] = rings[0, i, 0] + x0
@@ -282,7 +278,7 @@ def _shifted(room, size, x0, y0, near):
 
 
 def _inner_offset(polygon, x0, y0, backwards, distance, lines, rings):
-    """Offset a clean polygon into ring 0, about a point; a ring's third column is the line of the vertex's edge."""
+    """Offset a clean polygon into ring 0, about a point; the third column is the edge's line."""
     k = polygon.shape[0]
     reach = 0.0
     for i in range(k):
@@ -328,7 +324,7 @@ def _inner_offset(polygon, x0, y0, backwards, distance, lines, rings):
 
 
 def _keep_lines(lines, used, rings, size):
-    """Keep the lines that still bound ring 0: a vanished edge stays so at greater depth."""
+    """Keep the lines that still bound ring 0: a vanished edge stays so deeper."""
     kept = 0
     for line in range(used):
         found = False
@@ -343,7 +339,7 @@ def _keep_lines(lines, used, rings, size):
 
 
 def _cut(lines, used, depth, rings, size):
-    """Cut ring 0 by the lines moved inwards; ring 0 becomes the result unless empty."""
+    """Cut ring 0 by the lines moved inwards, unless empty."""
     room = rings.shape[1]
     source = 0
     for line in range(used):

@@ -1,4 +1,4 @@
-"""Kernel of cells cut by straight lines: what is left of each, and the chords of the cuts."""
+"""Cells cut by straight lines: what is left of each, and the cuts' chords."""
 
 from ..base import memory
 
@@ -6,12 +6,12 @@ __all__ = ["cut_cells", "part_below"]
 
 
 def cut_cells(points, start, lines, scratch, tags, measure, chords):
-    """Clip every cell by the half-planes n . x <= h (Sutherland and Hodgman 1974); areas exact to 1e-12 of the cell's.
+    """Clip every cell by half-planes n . x <= h (Sutherland and Hodgman 1974); areas exact to 1e-12 of the cell's.
 
     Args:
         points: Corners (c, 2) of all cells in m, cell by cell, counter-clockwise, with offsets `start` (n + 1,).
         lines: Half-planes (m, 3): n of length 1, and h in m.
-        scratch: Room (2, r, 2) for a cell's corners; a convex one needs r of its corners + m + 1.
+        scratch: Room (2, r, 2) for a cell's corners; if convex, r = its corners + m + 1.
         tags: Room (2, r) for lines that edges lie on.
         measure: Receives (n, 3): area in m^2 left, and its first moments about origin in m^3.
         chords: Receives (n, m, 3): length in m of each line's edge, and its middle in m.
@@ -83,7 +83,7 @@ def cut_cells(points, start, lines, scratch, tags, measure, chords):
 
 
 def part_below(polygon, nx, ny, h):
-    """Corners (j, 2) of the part of a convex polygon where n . x <= h; keeps near-duplicates of a corner on the line.
+    """Corners (j, 2) of a convex polygon's part where n . x <= h; keeps near-duplicates on the line.
 
     Args:
         polygon: Convex polygon (k, 2) in m, contiguous.

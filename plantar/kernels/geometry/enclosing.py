@@ -1,5 +1,5 @@
 # cython: infer_types=True
-"""Kernels around a clean ring of n vertices, 3 or more: oriented box and parallelogram of least area.
+"""Oriented box and parallelogram of least area around a clean ring of n vertices, 3 or more.
 
 They write 4 corners to `out`, flat, counter-clockwise, and return the area.
 """
@@ -10,7 +10,7 @@ __all__ = ["least_box", "least_parallelogram"]
 
 
 def least_box(ring, n, out):
-    """Rectangle of least area, by rotating calipers: its first side lies on an edge of the ring."""
+    """Rectangle of least area, by rotating calipers, along an edge."""
     best = -1.0
     right = 0
     top = 0
@@ -54,7 +54,7 @@ def least_box(ring, n, out):
 
 
 def _walk(ring, n, k, dx, dy):
-    """From vertex k on, the first vertex that is farther along (dx, dy) than the next one."""
+    """From vertex k on, the first farther along (dx, dy) than the next."""
     reach = ring[2 * k] * dx + ring[2 * k + 1] * dy
     for _ in range(n):
         j = k + 1 if k + 1 < n else 0
@@ -67,7 +67,7 @@ def _walk(ring, n, k, dx, dy):
 
 
 def least_parallelogram(ring, n, work, out):
-    """Parallelogram of least area: both pairs of its sides lie on an edge of the ring; `work` holds 4 n numbers."""
+    """Parallelogram of least area, its sides along edges; `work` holds 4 n numbers."""
     # Of each edge: its direction, the level of its line along the inward normal, and how far the ring reaches from it.
     top = 0
     for i in range(n):

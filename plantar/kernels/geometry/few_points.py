@@ -1,4 +1,4 @@
-"""Kernel of the convex hull of a few points, cheaper than making arrays of them."""
+"""Convex hull of a few points, without arrays."""
 
 import math
 
@@ -12,7 +12,7 @@ _INFINITE = float("inf")
 
 
 class FewPoints:
-    """A few points, gathered repeatedly, and the convex hull of some of them.
+    """A few points, and the convex hull of some.
 
     Attributes:
         count: Number of points.
@@ -26,7 +26,6 @@ class FewPoints:
         self._make_room(16)
 
     def _make_room(self, room):
-        """Room for so many points; keeps the points, drops the hull."""
         points = np.zeros((room, 2))
         for i in range(self.count):
             points[i, 0], points[i, 1] = self.points[i, 0], self.points[i, 1]
@@ -50,18 +49,18 @@ class FewPoints:
         self.count += 1
 
     def add_some(self, other, first, end):
-        """Add the points `first` to `end`, exclusive, of another `FewPoints`."""
+        """Add points `first` to `end`, exclusive, of another `FewPoints`."""
         for i in range(first, end):
             self.add(other.points[i, 0], other.points[i, 1])
 
     def hull(self, first, end):
-        """Make the exact convex hull of the points `first` to `end`, exclusive."""
+        """Make the exact convex hull of points `first` to `end`, exclusive."""
         chosen = self.points[first:end]
         self.corners = hull.hull_of_cloud(chosen, self.order, self.chain)
         hull.gather(chosen, self.chain, self.corners, self.ring)
 
     def margin(self, x, y):
-        """Signed distance in m of the point x, y in m to the hull's edge, positive inside; -inf for an empty hull."""
+        """Signed distance in m of x, y in m to the hull's edge, positive inside; -inf if empty."""
         count = self.corners
         if count == 0:
             return -_INFINITE
@@ -95,9 +94,9 @@ class FewPoints:
         return 0.5 * total
 
     def points_of(self, first, end):
-        """The points `first` to `end`, exclusive, as tuples (x, y) in m."""
+        """Points `first` to `end`, exclusive, as tuples (x, y) in m."""
         return [(self.points[i, 0], self.points[i, 1]) for i in range(first, end)]
 
     def corners_of(self):
-        """The hull's corners (x, y) in m as tuples, counter-clockwise from the lowest x."""
+        """The hull's corners (x, y) in m, counter-clockwise from the lowest x."""
         return [(self.ring[i, 0], self.ring[i, 1]) for i in range(self.corners)]

@@ -1,4 +1,4 @@
-"""Kernel of the convex hull of points (n, 2): every turn decided exactly, so that the ring is exactly convex."""
+"""Convex hull of points (n, 2), exactly convex: every turn is decided exactly."""
 
 import numpy as np
 
@@ -15,7 +15,7 @@ def hull_tolerance(largest, extent):
     """Least distance in m of a corner from its neighbours' line: 4 ulp of `largest`, at most 1e-13 of `extent`.
 
     Args:
-        largest: Largest absolute coordinate in m: its rounding moves points that were meant to be on one line.
+        largest: Largest absolute coordinate in m.
         extent: Larger side of points' box in m.
     """
     return min(8.9e-16 * largest, 1e-13 * extent)
@@ -40,9 +40,7 @@ def _sum_tail(a, b, total):
 
 
 def turn_is_left(ax, ay, bx, by, cx, cy):
-    """Whether a, b, c turn left, decided exactly up to 1e100 m (Shewchuk 1997: the determinant as an expansion of
-    doubles).
-    """
+    """Whether a, b, c turn left, exactly up to 1e100 m (Shewchuk 1997: the determinant as an expansion of doubles)."""
     terms = [0.0] * 16
     pairs = [bx - ax, 0.0, cy - ay, 0.0, ay - by, 0.0, cx - ax, 0.0]
     pairs[1] = _sum_tail(bx, -ax, pairs[0])
@@ -74,7 +72,7 @@ def turn_is_left(ax, ay, bx, by, cx, cy):
 
 
 def _is_corner(ax, ay, bx, by, cx, cy, tolerance):
-    """Whether b is a corner to the left of a and c: by more than a rounding unless it is a tip."""
+    """Whether b is a corner left of a and c: by more than rounding unless a tip."""
     dx, dy = bx - ax, by - ay
     lx, ly = cx - ax, cy - ay
     one, two = dx * ly, dy * lx
@@ -88,7 +86,7 @@ def _is_corner(ax, ay, bx, by, cx, cy, tolerance):
 
 
 def _is_straight(ax, ay, bx, by, cx, cy, tolerance):
-    """Whether b lies between a and c, off their line by a rounding at most."""
+    """Whether b lies between a and c, on their line to rounding."""
     dx, dy = bx - ax, by - ay
     lx, ly = cx - ax, cy - ay
     one, two = dx * ly, dy * lx
@@ -97,8 +95,7 @@ def _is_straight(ax, ay, bx, by, cx, cy, tolerance):
 
 
 def hull_ring(points, way, forth, count, tolerance, ring):
-    """Hull of sorted points by Andrew's monotone chain, without vertices on straight edges; returns its number of
-    corners.
+    """Hull of sorted points by Andrew's monotone chain, without vertices on straight edges; returns its size.
 
     Args:
         points: Points (n, 2) in m, finite.
@@ -159,9 +156,7 @@ def _ring_is_straight(points, a, b, c, tolerance):
 
 
 def convex_hull(points):
-    """`plantar.geometry.polygon.convex_hull`; no point is outside by more than `hull_tolerance` times the points left
-    out.
-    """
+    """`plantar.geometry.polygon.convex_hull`; points are outside by `hull_tolerance` times those left out at most."""
     n = points.shape[0]
     work = np.empty(4 * n, dtype=np.intp)
     ring = work[2 * n :]
@@ -172,7 +167,7 @@ def convex_hull(points):
 
 
 def hull_of_cloud(points, order, ring):
-    """Find the hull of points (n, 2), some perhaps not finite, as indices in `ring`; returns its number of corners."""
+    """Find the hull of points (n, 2), some perhaps not finite, as indices in `ring`; returns its size."""
     count = 0
     tiny = False
     left = bottom = _INFINITE
@@ -220,14 +215,13 @@ def _without_tiny(points):
 
 
 def _sort_many(points, order, count):
-    """Sort the first `count` indices by x, then y."""
     index = np.asarray(order)[:count]
     cloud = np.asarray(points)[index]
     index[:] = index[np.lexsort((cloud[:, 1], cloud[:, 0]))]
 
 
 def gather(points, ring, size, out):
-    """Copy the first `size` points of a `ring` of indices of points (n, 2) to `out`."""
+    """Copy the first `size` points (n, 2) of a `ring` of indices to `out`."""
     for i in range(size):
         out[i, 0] = points[ring[i], 0]
         out[i, 1] = points[ring[i], 1]

@@ -1,7 +1,8 @@
 # cython: infer_types=True
-"""Kernels on a clean ring of n vertices, 3 or more: ends of a flat one, largest inscribed triangle and circle.
+"""Ends of a flat clean ring, and the largest triangle and circle in one.
 
-A ring is flat, x0, y0, x1, y1, ..., counter-clockwise and near the origin. They write to `out` and return the size.
+A ring is flat, x0, y0, x1, y1, ..., of n vertices, 3 or more, counter-clockwise and near the origin. They write to
+`out` and return the size.
 """
 
 import math
@@ -10,9 +11,7 @@ __all__ = ["ends_of_flat", "largest_circle", "largest_triangle"]
 
 
 def ends_of_flat(ring, n):
-    """Write the two ends of a ring without area, at most 1e-14 of its size squared, into it; its number of vertices: 2,
-    else n.
-    """
+    """Write the two ends of a ring without area, at most 1e-14 of its size squared, into it; its size: 2, else n."""
     x0 = ring[0]
     y0 = ring[1]
     far = 0  # the vertex farthest from the first
@@ -55,7 +54,7 @@ def ends_of_flat(ring, n):
 
 
 def largest_triangle(ring, n, out):
-    """Largest triangle on the vertices of a ring: for each first corner, the third one walks with the second."""
+    """Largest triangle on a ring's vertices: the third corner walks with the second."""
     best = -1.0
     bi = 0
     bj = 1
@@ -91,8 +90,7 @@ def largest_triangle(ring, n, out):
 
 
 def largest_circle(ring, n, work, out):
-    """Center x, y of the largest circle in a ring; returns the radius, the least distance of the center to an edge
-    line.
+    """Center x, y of the largest circle in a ring; returns the radius.
 
     The least distance to an edge is concave; so is its largest value over y at an x. Cuts (tangents) find both. `work`
     has room for 3 n + 2 numbers.
@@ -161,7 +159,7 @@ def largest_circle(ring, n, work, out):
 
 
 def _deepest(work, n, x, start, low, high, tolerance):
-    """Greatest depth over y at an x; writes y, and the slope of the depth in x, after the lines."""
+    """Greatest depth over y at an x; writes y and its slope in x after the lines."""
     rising = -1  # the lines that bound the depth: one that rises with y, one that falls
     falling = -1
     y = start

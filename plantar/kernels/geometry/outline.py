@@ -1,5 +1,5 @@
 # cython: infer_types=True
-"""Kernel of the contact's outline: a walk along the edges that two active cells do not share."""
+"""The contact's outline: a walk along edges that no two active cells share."""
 
 import math
 
@@ -11,9 +11,8 @@ __all__ = ["EdgeTable", "Rings", "area_and_centroid", "ring_areas"]
 
 
 def area_and_centroid(points, starts):
-    """Area in m^2 and centroid x, y in m of an outline with vertices (k, 2) and ring offsets (r + 1), holes left out.
-
-    The first vertex where the area is 0.
+    """Area in m^2 and centroid x, y in m of an outline with vertices (k, 2) and ring offsets (r + 1), less holes; the
+    first vertex without area.
     """
     x0 = points[0, 0]
     y0 = points[0, 1]
@@ -58,7 +57,7 @@ def ring_areas(points, starts):
 
 
 class Rings:
-    """Rings around an area of the plane, base of `plantar.geometry.outline.Outline`.
+    """Rings around an area, base of `plantar.geometry.outline.Outline`.
 
     Args:
         points: Vertices (k, 2) of all rings in m, one ring after another.
@@ -73,20 +72,20 @@ class Rings:
 
     @property
     def area(self):
-        """Area in m^2, holes left out; exact to 1e-12 of it."""
+        """Area in m^2, less holes; exact to 1e-12."""
         areas = self.ring_areas
         return areas[0] if len(areas) == 1 else math.fsum(areas)
 
 
 class EdgeTable:
-    """The directed edges of a sole's cells, each cell's counter-clockwise and one after another.
+    """The directed edges of a sole's cells, each counter-clockwise, in turn.
 
     Args:
         edges: Offsets (n + 1,) of each cell's edges and, for each edge (h,), its cell, neighbour's same edge or -1,
             cell's next edge, and vertex it starts at.
         vertices: Coordinates of v vertices, flat (2 v,), in m.
         straight: Distance in m of corner from its neighbours' line.
-        reuse: Keep work arrays from walk to walk. Compiled walks cannot interleave; interpreted ones can.
+        reuse: Keep work arrays from walk to walk. Compiled walks cannot interleave.
 
     Example:
         >>> from plantar.layouts.cell_edges import edge_table
@@ -107,13 +106,13 @@ class EdgeTable:
         self.points = np.empty((len(self.cell), 2))
 
     def __reduce__(self):
-        """Rebuild from the arguments, so that a layout crosses to another process."""
+        """Rebuild from the arguments, in another process."""
         tables = [self.cell_start, self.cell, self.twin, self.after, self.origin]
         edges = tuple([np.array(t) for t in tables])
         return type(self), (edges, np.array(self.vertices), self.straight, self.reuse)
 
     def walk(self, active):
-        """Rings around the active cells, a byte each that is not 0, the contact on their left.
+        """Rings around the active cells, bytes that are not 0, the contact on their left.
 
         Returns:
             Points (k, 2) of all rings in m; offsets (r + 1) of rings; their signed areas (r) in m^2, below 0 for a
@@ -124,7 +123,7 @@ class EdgeTable:
         return self._trace(active, starts, areas), starts, areas
 
     def rings(self, active, kind):
-        """Rings around the `active` cells (as in `walk`) as an object; None where there are not n bytes.
+        """Rings around the `active` cells as an object; None where there are not n bytes.
 
         Args:
             active: As in `walk`.
@@ -142,7 +141,7 @@ class EdgeTable:
         return found
 
     def _trace(self, active, starts, areas):
-        """Walk; returns the points, and adds offsets and areas of the rings to two lists."""
+        """Walk; returns the points, and adds the rings' offsets and areas to two lists."""
         n = len(self.cell_start) - 1
         # Of each edge: 0 not on the outline, 1 on it, 2 walked. Of each vertex: how many edges of the outline leave it.
         mark = self.mark
@@ -212,7 +211,7 @@ class EdgeTable:
         return vectors.points_of(points, used)
 
     def _keep(self, path, low, high, points, used, starts, areas):
-        """Write the ring path[low:high] to the points, without vertices on straight lines; number of points used."""
+        """Write the ring path[low:high] to the points, less straight vertices; points used."""
         base = used
         b = path[high - 1]
         bx = self.vertices[2 * b]

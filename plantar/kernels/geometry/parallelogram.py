@@ -1,9 +1,8 @@
 # cython: infer_types=True
-"""Kernel for the largest parallelogram in a convex ring.
+"""The largest parallelogram in a convex ring.
 
-One corner A of some largest parallelogram A B C D lies on a vertex and the others on the boundary. For each vertex A
-the corner B walks once round; C and D are the ends of the far chord that is parallel and equal to AB. While B, C and D
-stay on their edges they move linearly and the area is a parabola.
+One corner A of some largest parallelogram A B C D is a vertex. For each A, corner B walks once round; C and D end the
+far chord parallel and equal to AB. While B, C and D stay on their edges the area is a parabola.
 """
 
 __all__ = ["largest_parallelogram"]
@@ -15,7 +14,7 @@ _C_RETURNS = 3  # or C does, walking back
 
 
 class _ChordWalk:
-    """The walk of B round a ring from a vertex A, with C and D on the far side, all relative to A.
+    """The walk of B round a ring from A, with C and D opposite, relative to A.
 
     Attributes:
         best: Largest area so far.
@@ -39,7 +38,7 @@ class _ChordWalk:
         self.other_y = 0.0
 
     def walk_from(self, a):
-        """Walk B once round the boundary from vertex a, and keep the best parallelogram."""
+        """Walk B once round from vertex a, keeping the best parallelogram."""
         self.a = a
         self.x = self.ring[2 * a]
         self.y = self.ring[2 * a + 1]
@@ -64,7 +63,7 @@ class _ChordWalk:
             self.step_over(event)
 
     def farthest(self):
-        """First vertex farthest from edge a, counted on from a."""
+        """First vertex farthest from edge a."""
         ring = self.ring
         n = self.n
         i = self.a + 1 if self.a + 1 < n else 0
@@ -109,11 +108,11 @@ class _ChordWalk:
         return i + 1 if i + 1 < self.n else 0
 
     def lengths(self):
-        """Product of the lengths of C's and D's edges."""
+        """Product of C's and D's edge lengths."""
         return (abs(self.cx) + abs(self.cy)) * (abs(self.dx) + abs(self.dy))
 
     def slide(self):
-        """Slide the chord between parallel edges: C back or D on, whichever meets a vertex first."""
+        """Slide the chord between parallel edges: C back or D on, until a vertex."""
         if self.c >= self.d:  # the chord lies on one edge: slide along it, D to the next
             self.d = self.c + 1
             return
@@ -137,7 +136,7 @@ class _ChordWalk:
         self.e1 = (self.bx * self.cy - self.by * self.cx) / self.turn
 
     def read_end(self):
-        """Find where the stretch ends, and what ends it."""
+        """Find where the stretch ends, and by what."""
         end = 1.0
         event = _B_ENDS
         if self.e1 > 0.0:
@@ -159,7 +158,7 @@ class _ChordWalk:
         return event
 
     def may_hold_better(self):
-        """Whether the parabola of the area rises above the best one, or is too coarse to decide."""
+        """Whether the area's parabola rises above the best, or is too coarse."""
         px = self.d0x + self.e0 * self.dx
         py = self.d0y + self.e0 * self.dy
         self.q1 = self.bx * py - self.by * px + self.e1 * (self.b0x * self.dy - self.b0y * self.dx)
@@ -174,10 +173,8 @@ class _ChordWalk:
         return higher or self.turn <= 1e-3 * self.lengths()
 
     def try_places(self, event):
-        """Try both ends of the stretch and the summit between them.
-
-        With D from its edge, then C from its own: where these edges are almost parallel, rounding moves one of them
-        off.
+        """Try both ends of the stretch and the summit between, with D from its edge, then C: almost parallel edges are
+        rounded off.
         """
         self.try_from_d(self.t, -1)
         self.try_from_c(self.t, -1)
@@ -190,7 +187,7 @@ class _ChordWalk:
                 self.try_from_c(s, -1)
 
     def try_from_d(self, s, event):
-        """Keep the parallelogram at s with D on its edge, if larger and C stays on its own."""
+        """Keep the parallelogram at s, D on its edge, if larger with C on its own."""
         ux = self.b0x + s * self.bx
         uy = self.b0y + s * self.by
         e = min(1.0, max(0.0, self.e0 + self.e1 * s))
@@ -205,7 +202,7 @@ class _ChordWalk:
                 self.keep(ux, uy, vx, vy)
 
     def try_from_c(self, s, event):
-        """Keep the parallelogram at s with C on its edge, if larger and D stays on its own."""
+        """Keep the parallelogram at s, C on its edge, if larger with D on its own."""
         ux = self.b0x + s * self.bx
         uy = self.b0y + s * self.by
         g = min(1.0, max(0.0, self.g0 + self.g1 * s))
@@ -219,7 +216,7 @@ class _ChordWalk:
             self.keep(ux, uy, vx, vy)
 
     def is_on(self, wx, wy, ex, ey):
-        """Whether a point lies on an edge, both relative to the edge's beginning, to rounding."""
+        """Whether a point lies on an edge to rounding, both relative to its beginning."""
         off = wx * ey - wy * ex
         along = (wx * ex + wy * ey) / (ex * ex + ey * ey)
         return abs(off) <= 1e-14 * self.size * (abs(ex) + abs(ey)) and -1e-13 <= along <= 1.0 + 1e-13
@@ -233,7 +230,7 @@ class _ChordWalk:
         self.other_y = vy
 
     def step_over(self, event):
-        """Continue on the next edge of the corner that met a vertex."""
+        """Continue on the next edge of the corner at a vertex."""
         if event == _B_ENDS:
             self.b += 1
             self.t = 0.0
@@ -246,7 +243,7 @@ class _ChordWalk:
 
 
 def largest_parallelogram(ring, n, out):
-    """Largest parallelogram in a clean ring of n vertices, 3 or more: writes 4 corners to `out`, flat, and returns its
+    """Largest parallelogram in a clean ring of n vertices, 3 or more: writes 4 corners to `out`, flat; returns its
     area.
     """
     walk = _ChordWalk()

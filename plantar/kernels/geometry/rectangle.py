@@ -1,5 +1,5 @@
 # cython: infer_types=True
-"""Kernel for the largest rectangle in a convex ring, at a given angle."""
+"""The largest rectangle in a convex ring, at a given angle."""
 
 import math
 
@@ -7,7 +7,7 @@ __all__ = ["largest_rectangle", "write_corners"]
 
 
 class _Gap:
-    """The gap between upper and lower chain of a rotated ring, for a rectangle of some width.
+    """The gap between a rotated ring's chains, for a rectangle's width.
 
     Attributes:
         x: Where rectangle begins.
@@ -18,7 +18,7 @@ class _Gap:
     """
 
     def start(self, work, upper, tops, lower, bottoms):
-        """Begin with the chains in work (x, y, slope of each vertex): where each begins, and its length."""
+        """Begin with the chains in work (x, y, slope): where each begins, its length."""
         self.work = work
         self.upper = upper
         self.tops = tops
@@ -40,7 +40,7 @@ class _Gap:
         self.in_w = 0.0
 
     def edge_at(self, at, count, edge, x):
-        """Edge at an x of the chain that begins at an index in work, walked from one of its edges."""
+        """A chain's edge at an x, walked from one of its edges."""
         while edge > 0 and self.work[at + 3 * edge] > x:
             edge -= 1
         while edge < count - 2 and self.work[at + 3 * edge + 3] < x:
@@ -48,7 +48,7 @@ class _Gap:
         return edge
 
     def measure(self, x, w):
-        """Height of the gap at x, and its slopes in x and in w."""
+        """The gap's height at x, and its slopes in x and w."""
         y = x + w
         self.over = self.edge_at(self.upper, self.tops, self.over, x)
         self.over_end = self.edge_at(self.upper, self.tops, self.over_end, y)
@@ -78,7 +78,7 @@ class _Gap:
         self.height = self.top - self.bottom
 
     def find_highest(self, w):
-        """Move to the highest gap of a width, from the current x, and take a cut through it."""
+        """Move to a width's highest gap, from the current x, and cut there."""
         rise = fall = 0.0  # slopes in x of the two cuts
         rise_w = fall_w = 0.0  # and in w
         rise_x = self.first
@@ -145,10 +145,10 @@ class _Gap:
 
 
 class _Widths:
-    """Bracket of the largest rectangle's width: a cut h <= height + slope (w' - w) on its left and on its right."""
+    """Bracket of the largest rectangle's width: a cut h <= height + slope (w' - w) on each side."""
 
     def start(self, reach):
-        """Begin with all widths from 0 to the largest."""
+        """Begin with all widths from 0."""
         self.left = 0.0
         self.left_height = 0.0
         self.left_slope = 0.0
@@ -182,7 +182,7 @@ class _Widths:
         return self.right_height + self.right_slope * (w - self.right)
 
     def next_width(self, best):
-        """Width of the largest area under the cuts; below 0 where it does not beat the best one."""
+        """Width of the largest area under the cuts; below 0 if no better."""
         w = 0.0
         bound = -1.0
         if self.has_left:
@@ -212,7 +212,7 @@ class _Widths:
 
 
 def largest_rectangle(ring, n, angle, floor, work, out):
-    """Largest rectangle in a clean ring of n vertices, 3 or more, whose first side is at an angle; returns its area.
+    """Largest rectangle at an angle in a clean ring of n vertices, 3 or more; returns its area.
 
     Height h(w) = max over x of min(top(x), top(x + w)) - max(bottom(x), bottom(x + w)), concave and piecewise linear;
     cuts (tangents) find both maxima.
@@ -277,7 +277,7 @@ def largest_rectangle(ring, n, angle, floor, work, out):
 
 
 def _edge_out(work, n, bottom, top, x, way):
-    """How far out a side may move to the left (way -1) or right (1) within the ring at its corners' height."""
+    """How far a side may move left (way -1) or right (1) within the ring."""
     for i in range(n):
         j = i + 1 if i + 1 < n else 0
         dx = work[2 * j] - work[2 * i]
@@ -290,7 +290,7 @@ def _edge_out(work, n, bottom, top, x, way):
 
 
 def write_corners(out, cosine, sine, x1, x2, y1, y2):
-    """Write the corners of a rectangle, turned about the origin, flat, counter-clockwise.
+    """Write a rectangle's corners, turned about the origin, flat, counter-clockwise.
 
     Args:
         out: Receives the 4 corners.
@@ -308,9 +308,8 @@ def write_corners(out, cosine, sine, x1, x2, y1, y2):
 
 
 def _chain(work, n, low, high, step, tolerance, at):
-    """Lower (step 1) or upper (step -1) chain of rotated vertices from low to high: x, y, slope each, at work[at:].
-
-    Without upright sides, so that every slope is finite.
+    """Lower (step 1) or upper (step -1) chain of rotated vertices: x, y, finite slope each, at work[at:], without
+    upright sides.
     """
     width = work[2 * high] - work[2 * low]
     i = low
@@ -343,5 +342,5 @@ def _chain(work, n, low, high, step, tolerance, at):
 
 
 def _upright(work, i, j, width, tolerance):
-    """Width up to which the edge between two rotated vertices counts as upright: its slope would drown in rounding."""
+    """Width up to which an edge counts as upright: rounding drowns its slope."""
     return max(tolerance, min(1e-8 * abs(work[2 * j + 1] - work[2 * i + 1]), 1e-7 * width))

@@ -1,5 +1,5 @@
 # cython: infer_types=True
-"""Kernels from any polygon to the corners of a shape in or around it."""
+"""From any polygon to a shape's corners in or around it."""
 
 import math
 
@@ -16,7 +16,7 @@ _QUARTER = 0.5 * math.pi
 
 
 class ConvexShapes:
-    """Shapes of convex polygons (k, 2), with their work arrays.
+    """Shapes of convex polygons (k, 2), with work arrays.
 
     Args:
         lists: Keep lists instead of arrays, faster when interpreted.
@@ -33,7 +33,7 @@ class ConvexShapes:
         self.y = 0.0
 
     def _clean(self, polygon):
-        """Copy a polygon into `ring`, clean and counter-clockwise; its number of vertices."""
+        """Copy a polygon into `ring`, clean and counter-clockwise; its size."""
         k = polygon.shape[0]
         if 2 * k + 2 > len(self.ring):
             self.ring = work_arrays.numbers(4 * k + 2, self.lists)
@@ -51,7 +51,7 @@ class ConvexShapes:
         return self.n
 
     def _take(self, polygon, backwards, x0, y0):
-        """Copy a clean polygon into `ring`, about a point, from its first vertex on."""
+        """Copy a clean polygon into `ring`, about a point, from its first vertex."""
         ring = self.ring
         n = polygon.shape[0]
         for i in range(n):
@@ -70,7 +70,7 @@ class ConvexShapes:
         return room
 
     def _flat(self, count):
-        """Shape of a polygon without area: from one end to the other and back; none if empty."""
+        """Shape of a polygon without area: to one end and back; none if empty."""
         if self.n == 0:
             return np.empty((0, 2))
         for i in range(count):
@@ -80,7 +80,7 @@ class ConvexShapes:
         return self._corners(count)
 
     def _middle(self, count):
-        """Corners that all are at the middle of a polygon without area; none if empty."""
+        """Corners all at the middle of a polygon without area; none if empty."""
         if self.n == 0:
             return np.empty((0, 2))
         for i in range(count):
@@ -103,7 +103,7 @@ class ConvexShapes:
         return self._corners(4)
 
     def circle(self, polygon):
-        """Center (1, 2), none for an empty polygon, and radius of the largest circle inside."""
+        """Center (1, 2), none if empty, and radius of the largest circle inside."""
         if self._clean(polygon) < 3:
             return self._middle(1), 0.0
         radius = inscribed.largest_circle(self.ring, self.n, self.work, self.out)
@@ -142,7 +142,7 @@ class ConvexShapes:
         return False
 
     def rectangle_in_outline(self, points, starts, angle):
-        """Corners of the largest rectangle in an outline, its first side at an angle; all at one point without area."""
+        """Corners of the largest rectangle in an outline at an angle; one point without area."""
         self.outline.take(points, starts)
         self.x = points[0, 0]
         self.y = points[0, 1]
@@ -166,7 +166,7 @@ class ConvexShapes:
         return self._corners(4)
 
     def bounding_box(self, points):
-        """Corners of the axis-aligned box around the finite ones of some points."""
+        """Corners of the axis-aligned box around finite points."""
         low_x = _INF
         low_y = _INF
         high_x = -_INF

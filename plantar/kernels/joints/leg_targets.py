@@ -1,4 +1,4 @@
-"""Kernel that copies the legs' targets to where their tasks read them."""
+"""Copies the legs' targets to where their tasks read them."""
 
 from ..base import memory
 
@@ -21,7 +21,7 @@ class LegTargets:
         self.right, self.right_turn = right
 
     def take(self, com, torso, left, left_turn, right, right_turn):
-        """Copy the targets, in the order of the arguments above; ValueError unless contiguous float64 arrays."""
+        """Copy the targets, in the arguments' order; ValueError unless contiguous float64 arrays."""
         a, b, c = memory.values(com), memory.values(left), memory.values(right)
         d, e, f = memory.values(torso), memory.values(left_turn), memory.values(right_turn)
         for i in range(3):

@@ -1,4 +1,4 @@
-"""Kernel of the set-points of joint servos."""
+"""Set-points of joint servos."""
 
 import numpy as np
 
@@ -10,10 +10,10 @@ _NONE = float("nan")
 
 
 class Setpoints:
-    """The set-points of k joints, which move on between control ticks without a jump.
+    """Set-points of k joints, moving between control ticks without a jump.
 
-    They follow their goal by a critically damped low pass of second order; without lag they would have to move at 1.2
-    times a joint's speed limit to catch up.
+    They follow their goal by a critically damped low pass of second order; without lag they would move at 1.2 times a
+    joint's speed limit.
 
     Args:
         controls: Set-points (n,) of all servos, read by simulator.
@@ -50,14 +50,14 @@ class Setpoints:
         self.rate = np.zeros(count)
 
     def hold(self, joints, torques):
-        """Hold a posture of joint angles (k,) in rad that takes torques (k,) in N m."""
+        """Hold joint angles (k,) in rad that take torques (k,) in N m."""
         for i in range(self.servos.shape[0]):
             self.reference[i] = joints[i]
             self.velocity[i] = self.rate[i] = 0.0
             self.goal[i] = self.between[i] = self.setpoint[i] = joints[i] + torques[i] / self.stiffness[i]
 
     def go_to(self):
-        """Set the reference for the next tick, as far on the way as the fastest joint may move."""
+        """Set the next tick's reference, as far as the fastest joint may move."""
         joints = self.joints
         count = self.servos.shape[0]
         fastest = total = 0.0
@@ -79,7 +79,7 @@ class Setpoints:
             self.rate[i] = self.velocity[i] * self.step
 
     def load(self, friction=None, offsets=None):
-        """Set the goal with which servos follow the reference without lag or error.
+        """Set the goal with which servos follow without lag or error.
 
         Args:
             friction: Additional torques (k,) in N m of joints, or None.
@@ -97,7 +97,7 @@ class Setpoints:
                 self.goal[i] = self.goal[i] + angles[i]
 
     def write(self):
-        """Write the set-points to the simulator."""
+        """Write the set-points."""
         for i in range(self.servos.shape[0]):
             self.controls[self.servos[i]] = self.setpoint[i]
 
@@ -109,6 +109,6 @@ class Setpoints:
             self.goal[i] += self.rate[i]
 
     def drive(self):
-        """Write the set-points of one physics step, and move them on."""
+        """Write one physics step's set-points, and move them on."""
         self.write()
         self.advance()

@@ -1,4 +1,4 @@
-"""Kernel of the joint torques at rest against gravity, less those of other forces (`mj_rne`, summed in its order)."""
+"""Joint torques at rest against gravity, less other forces (`mj_rne`, summed in its order)."""
 
 import numpy as np
 
@@ -47,7 +47,7 @@ class StaticLoad:
             self.load[v] = (even + odd) + (motions[v, 4] * wrenches[b, 4] + motions[v, 5] * wrenches[b, 5])
 
     def less(self, share):
-        """Subtract loads (nv,) that something else carries: a contiguous float64 array."""
+        """Subtract loads (nv,) carried otherwise: a contiguous float64 array."""
         numbers = memory.values(share)
         for v in range(self.load.shape[0]):
             self.load[v] -= numbers[v]

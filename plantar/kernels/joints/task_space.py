@@ -1,10 +1,9 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
 # cython: infer_types=True
-"""Kernel of strict task hierarchies: directions of acceleration that levels of tasks own, and the rest.
+"""Strict task hierarchies: directions of acceleration that levels of tasks own, and the rest.
 
-In mass-weighted coordinates y = L^T q'', M = L L^T, a row of a Jacobian is L^-1 J^T. Householder reflections of what is
-left by the levels before bring each level's rows to triangular form and make the basis of y
-(`plantar.wholebody.fusion.hierarchy`).
+In mass-weighted coordinates y = L^T q'', M = L L^T, a Jacobian row is L^-1 J^T. Householder reflections of what is left
+bring each level's rows to triangular form and make the basis of y (`plantar.wholebody.fusion.hierarchy`).
 """
 
 import math
@@ -15,7 +14,7 @@ __all__ = ["TaskSpace"]
 
 
 class TaskSpace:
-    """Owned directions and y of n coordinates, begun again at each tick.
+    """Owned directions and y of n coordinates at a tick.
 
     Args:
         size: Number n of generalized coordinates.
@@ -70,13 +69,13 @@ class TaskSpace:
         return True
 
     def push(self, torque):
-        """Apply a generalized force (n,), which is overwritten, in what is left."""
+        """Apply a generalized force (n,), overwritten, in what is left."""
         self._turn(torque)
         for i in range(self.used, self.size):
             self.y[i] += torque[i]
 
     def own(self, jacobian, wanted, meet, least):
-        """Own the directions left of a level's rows, and meet the wanted accelerations in them.
+        """Own the directions left of a level's rows, and meet the wanted accelerations there.
 
         Args:
             jacobian: Rows (m, n).
@@ -85,8 +84,8 @@ class TaskSpace:
             least: Share of a row's size below which the rest of it is no direction.
 
         Returns:
-            Number of directions, and a lower bound on singular values of these rows over their full size. Where it is
-            small, or rows have no direction left, caller uses `rows` and `missing`.
+            Number of directions, and a lower bound on singular values of these rows over their full size. If small, or
+            rows have no direction, caller uses `rows`, `missing`.
         """
         n, count, first = self.size, jacobian.shape[0], self.used
         if count > self.room:
@@ -132,7 +131,7 @@ class TaskSpace:
         return rank, self._bound(rank)
 
     def meet(self, rank):
-        """Meet the missing accelerations of the last level's first `rank` rows, which have directions."""
+        """Meet the missing accelerations of the last level's first `rank` rows."""
         first = self.used - rank
         columns, missing, y = self.columns, self.missing, self.y
         for i in range(rank):
@@ -143,7 +142,7 @@ class TaskSpace:
             y[first + j] += missing[j]
 
     def fit(self, rank, count, least):
-        """Meet the missing accelerations of the last level by least squares; overwrites its rows.
+        """Meet the last level's missing accelerations by least squares; overwrites its rows.
 
         With L the rows that have a direction and X L the others, w along the former solves (I + X^T X) w = missing_L +
         X^T missing_X. The longest rows are first, so X is small.
@@ -241,7 +240,7 @@ class TaskSpace:
                 row[i] -= total * vectors[k, i]
 
     def _turn_all(self, count):
-        """The same for all columns of the level at once."""
+        """`_turn` for all columns of the level."""
         n, factor, vectors, columns, sums = self.size, self.factor, self.vectors, self.columns, self.sums
         for i in range(n):
             for k in range(i):
@@ -276,7 +275,7 @@ class TaskSpace:
             out[j] = math.sqrt(out[j])
 
     def _bound(self, rank):
-        """Lower bound of the scaled triangle's singular values: one over the Frobenius norm of its inverse."""
+        """Lower bound of the scaled triangle's singular values: one over its inverse's Frobenius norm."""
         columns, full, column, first = self.columns, self.full, self.left, self.used - rank
         squares = 0.0
         for k in range(rank):
@@ -301,7 +300,7 @@ class TaskSpace:
         order[a], order[b] = order[b], order[a]
 
     def _reflect(self, place, count, smallest):
-        """Turn the first free direction into that of the column at `place`; the others and y turn with it."""
+        """Turn the first free direction into the column at `place`; others and y turn along."""
         n, columns, sizes, left, y, first = self.size, self.columns, self.sizes, self.left, self.y, self.used + place
         vector, sums = self.vectors[first], self.sums
         total = 0.0

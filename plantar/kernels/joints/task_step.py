@@ -1,4 +1,4 @@
-"""Kernel of a step of inverse kinematics: rows of all tasks, Newton's step, and the configuration."""
+"""A step of inverse kinematics: all tasks' rows, Newton's step, configuration."""
 
 import math
 
@@ -10,7 +10,7 @@ __all__ = ["ComRows", "Configuration", "NewtonStep", "PointRows", "PoseRows", "R
 
 
 class NewtonStep:
-    """Solves J^T J dq = J^T e, with a term on the diagonal, for some of a model's velocities.
+    """Solves J^T J dq = J^T e, with a diagonal term, for some velocities.
 
     Args:
         columns: Velocities (n,) that a step may use.
@@ -37,9 +37,8 @@ class NewtonStep:
         self.column = np.zeros(len(columns))
 
     def solve(self, largest):
-        """Whether a step of at most `largest` in units is valid: finite, no small pivot, within joint limits.
-
-        Afterwards the error is in units.
+        """Whether a step up to `largest` in units is valid: finite, no small pivot, within joint limits. Then the error
+        is in units.
         """
         normal, step, used, columns = self.normal, self.step, self.jacobian, self.columns
         jacobian, error = self.given, self.error
@@ -61,7 +60,7 @@ class NewtonStep:
         return self._factor(n) and self._stays(n, largest)
 
     def _factor(self, n):
-        """Cholesky factor and solution; whether all pivots are large enough."""
+        """Cholesky factor and solution; whether all pivots suffice."""
         normal, step, column = self.normal, self.step, self.column
         for k in range(n):
             if not normal[k, k] > self.least_pivot * self.least_pivot:
@@ -85,7 +84,7 @@ class NewtonStep:
         return True
 
     def _stays(self, n, largest):
-        """Whether no entry is too large, and no joint leaves its limits."""
+        """Whether no entry is too large, and all joints stay within limits."""
         configuration = self.configuration
         for i in range(n):
             if not math.fabs(self.step[i]) <= largest:
@@ -108,7 +107,7 @@ class NewtonStep:
         return largest
 
     def write(self):
-        """Write the step, as found or changed since, to the model's velocity."""
+        """Write the step, as found or changed, to the model's velocity."""
         for i in range(self.columns.shape[0]):
             self.velocity[self.columns[i]] = self.step[i] * self.column_units[self.columns[i]]
 
@@ -120,13 +119,13 @@ class Rows:
         """Write both, into arrays that begin at zero.
 
         Returns:
-            Whether error is valid: a missing turn is so up to a quarter turn, and left to task beyond.
+            Whether the error is valid: a missing turn up to a quarter turn.
         """
         return True
 
 
 class PointRows:
-    """How a point of a body moves: receives the velocity (3, nv) in `jacobian`."""
+    """How a body's point moves: receives the velocity (3, nv) in `jacobian`."""
 
     def __init__(self, chain, motions, center, jacobian):
         self.chain, self.motions, self.center, self.jacobian = chain, motions, center, jacobian
@@ -143,9 +142,7 @@ class PointRows:
 
 
 class TurnRows(Rows):
-    """A body's orientation: the missing turn (3,) from `actual` to `wanted` (3, 3), and angular velocity (3, nv), in
-    world.
-    """
+    """A body's orientation: missing turn (3,) from `actual` to `wanted` (3, 3), and angular velocity (3, nv), in world."""
 
     def __init__(self, chain, motions, wanted, actual, error, jacobian):
         self.chain, self.motions, self.wanted, self.actual = chain, motions, wanted, actual
@@ -162,7 +159,7 @@ class TurnRows(Rows):
 
 
 class PoseRows(Rows):
-    """The pose of a frame that a body carries: missing way (3,) and turn (3,) in world, and Jacobian (6, nv).
+    """Pose of a frame on a body: missing way (3,) and turn (3,) in world, and Jacobian (6, nv).
 
     Args:
         position: Desired origin (3,); `at` the current one.
@@ -184,7 +181,7 @@ class PoseRows(Rows):
 
 
 class ComRows(Rows):
-    """The CoM `com` (3,) of bodies at a `target` (3,): missing way (3,) and Jacobian (3, nv).
+    """Bodies' CoM `com` (3,) at a `target` (3,): missing way (3,) and Jacobian (3, nv).
 
     Args:
         chains: Velocities that move each of b bodies, one after the other, up to its `ends` (b,).
@@ -244,7 +241,6 @@ class Configuration:
             self._turn(self.turns[k], self.rates[k])
 
     def _turn(self, place, rate):
-        """Normalise a quaternion and multiply it by that of the turn."""
         q, velocity = self.configuration, self.velocity
         w, x, y, z = q[place], q[place + 1], q[place + 2], q[place + 3]
         length = math.sqrt((w * w + x * x) + (y * y + z * z))
@@ -285,7 +281,7 @@ class TaskStep:
         self.near = True
 
     def step(self, largest):
-        """Write the rows, and take a step of at most `largest` in units if they hold all errors."""
+        """Write the rows; step at most `largest` in units if they hold all errors."""
         self.near = True
         for rows in self.rows:
             if not rows.write():

@@ -1,1 +1,1 @@
-"""Figures that the judge of a walk follows at each physics step and tick."""
+"""Figures of a walk's judge, at each physics step and tick."""

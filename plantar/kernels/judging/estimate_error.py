@@ -1,4 +1,4 @@
-"""Kernel of the errors of a controller's estimates."""
+"""Errors of a controller's estimates."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ __all__ = ["EstimateError"]
 
 
 class EstimateError:
-    """Follows the errors of a controller's estimates of CoM and ZMP, tick by tick.
+    """Follows errors of estimated CoM and ZMP, tick by tick.
 
     Args:
         center: True CoM (3,) in m, updated by simulator.
@@ -25,7 +25,7 @@ class EstimateError:
         self.compared = 0
 
     def update(self, com, zmp):
-        """Compare the estimated CoM `com` (3,) and `zmp` (2,) in m, lists or None, with the truth."""
+        """Compare the estimates `com` (3,) and `zmp` (2,) in m, lists or None, with the truth."""
         for axis in range(3):
             estimated = com[axis]
             off = abs(estimated - self.center[axis])

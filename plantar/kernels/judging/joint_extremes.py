@@ -1,4 +1,4 @@
-"""Kernel of joint speeds both ways, and time at limits."""
+"""Joint speeds both ways, and time at limits."""
 
 import numpy as np
 
@@ -41,7 +41,7 @@ class JointExtremes:
         self.stays = []
 
     def step(self):
-        """Add the present speeds and torques; NaN counts as beyond a limit."""
+        """Add present speeds and torques; NaN counts as beyond."""
         self.steps += 1
         any_held = False
         for i in range(self.places.shape[0]):

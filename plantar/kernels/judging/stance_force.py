@@ -1,4 +1,4 @@
-"""Kernel of the steadiness of the ground's force in single support."""
+"""Steadiness of the ground's force in single support."""
 
 import math
 
@@ -8,10 +8,10 @@ __all__ = ["StanceForce", "StandWatch"]
 
 
 class StanceForce:
-    """Compares the ground's vertical force with the CoM's acceleration, and the ZMP with the edge of the support.
+    """Compares the ground's vertical force with the CoM's acceleration, and the ZMP with the support's edge.
 
-    By Newton's law both agree at each instant, so the acceleration is averaged: the second difference of the CoM's
-    height over `span` steps each way. The remaining force is faster: a contact that flickers.
+    By Newton's law both agree, so the acceleration is averaged: the second difference of the CoM's height over `span`
+    steps each way. What remains is a contact that flickers.
 
     Args:
         reaction: `GroundReaction` of both feet.
@@ -80,7 +80,7 @@ class StanceForce:
 
 
 class StandWatch:
-    """Follows both feet (0 left, 1 right), each from one touch of the ground to the next.
+    """Follows both feet (0 left, 1 right), touch by touch.
 
     Args:
         enough: Ground force in N from which a foot carries.
@@ -99,7 +99,7 @@ class StandWatch:
         self.over = []
 
     def begin(self, foot, step):
-        """End the stand of a `foot` that touches the ground in physics step `step`, above 0."""
+        """End the stand of a `foot` that touches in physics step `step`, above 0."""
         if self.stood[foot] and self.begun[foot] > 0:
             self.over.append(self._row(foot))
         self.stood[foot] = 0
@@ -109,10 +109,10 @@ class StandWatch:
         return (self.begun[foot], foot, self.place[foot, 0], self.place[foot, 1], self.place[foot, 2])
 
     def stands(self):
-        """All stands that began with a touch and carried, in the order of their touches.
+        """All stands that began with a touch and carried, in that order.
 
         Returns:
-            Rows of touch's physics step, foot, and x, y in m and heading in rad of its sole when it last carried.
+            Rows: touch's physics step, foot, its sole's last x, y in m and heading in rad when carrying.
         """
         rows = list(self.over)
         for foot in range(2):

@@ -1,4 +1,4 @@
-"""Kernel that follows a walk step by step: landings, margins, forces, stands, limits and falls."""
+"""Follows a walk step by step: landings, margins, forces, stands, limits, falls."""
 
 import math
 
@@ -20,7 +20,7 @@ _ROUNDING = 1e-9  # of the cosine of a tilt: nearer than this to a fall, the jud
 
 
 class StepWatch:
-    """Follows two feet, the trunk, the legs and the joints, in arrays that the simulator updates.
+    """Follows two feet, trunk, legs and joints, in the simulator's arrays.
 
     Args:
         reaction: `GroundReaction` of both feet; `stands`, `joints` and `stance` follow them.
@@ -101,7 +101,6 @@ class StepWatch:
         return seen + self._look()
 
     def _land(self, foot):
-        """A foot touches the ground after it was in the air."""
         self._keep()
         self.last[foot] = len(self.rows)
         self.rows.append([self.now, foot, 0.0, 0.0, _INFINITE])
@@ -121,8 +120,8 @@ class StepWatch:
             row[4] = self.margin_since
 
     def landings(self):
-        """The landings: physics step, foot, largest vertical ground force in N and contact area in m^2 in their
-        windows, and least margin in m before the next landing.
+        """Landings: physics step, foot, largest vertical ground force in N and contact area in m^2 in their windows,
+        and least margin in m before the next.
         """
         self._keep()
         return [tuple(row) for row in self.rows]

@@ -1,1 +1,1 @@
-"""Rotations, the pendulum between two points, and the program that shares a wrench between feet."""
+"""Rotations, pendulum, and the program that shares a wrench."""

@@ -1,4 +1,4 @@
-"""Kernel of a pendulum over a VRP that moves along a line."""
+"""A pendulum over a VRP that moves along a line."""
 
 import math
 
@@ -8,8 +8,7 @@ __all__ = ["on_segment"]
 
 
 def on_segment(omega, since, until, segment, vrps, rates, growths, shrinkage):
-    """The pendulum within a segment of its plan: VRP, DCM and its rate, CoM and its first and second rate, new arrays
-    (2,).
+    """The pendulum within a plan's segment: VRP, DCM and rate, CoM, first and second rate, new arrays (2,).
 
     Args:
         omega: Pendulum frequency in rad/s.

@@ -1,4 +1,4 @@
-"""Kernels of rotations: products of matrices (3, 3) and vectors (3,), exponential map, nearest rotation, errors."""
+"""Rotations: products of matrices (3, 3) and vectors (3,), exponential map, nearest rotation, errors."""
 
 import math
 
@@ -41,7 +41,7 @@ def multiply(a, b, out):
 
 
 def between(a, b):
-    """The nine numbers of A B^T, row by row: for rotations to one frame, from B's frame to A's."""
+    """A B^T, nine numbers row by row: for rotations to one frame, from B's frame to A's."""
     xx = xy = xz = yx = yy = yz = zx = zy = zz = 0.0
     for k in range(3):
         xx += a[0, k] * b[0, k]
@@ -57,7 +57,7 @@ def between(a, b):
 
 
 def exponential(x, y, z, out):
-    """Rotation (3, 3) of a rotation vector x, y, z in rad into `out` (Rodrigues), exact to rounding for every angle."""
+    """Rotation (3, 3) of a rotation vector x, y, z in rad into `out` (Rodrigues), exact to rounding."""
     xx, xy, xz, yx, yy, yz, zx, zy, zz = _exponential(x, y, z)
     out[0, 0], out[0, 1], out[0, 2] = xx, xy, xz
     out[1, 0], out[1, 1], out[1, 2] = yx, yy, yz
@@ -91,11 +91,10 @@ def orthonormalise(rotation, work, out):
 
 
 def missing_turn(wanted, actual, out):
-    """`plantar.mechanics.rotation.rotation_error` of `wanted` and `actual` (3, 3) into `out` (3,), up to a quarter
-    turn.
+    """`plantar.mechanics.rotation.rotation_error` of `wanted` and `actual` (3, 3) into `out` (3,).
 
     Returns:
-        Whether it is at most a quarter turn; beyond that error is wrong.
+        Whether it is at most a quarter turn; beyond, the error is wrong.
     """
     xx, xy, xz, yx, yy, yz, zx, zy, zz = between(wanted, actual)
     out[0], out[1], out[2] = 0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)

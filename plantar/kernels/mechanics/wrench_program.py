@@ -1,4 +1,4 @@
-"""Kernel of the quadratic program that shares a net wrench between contacts: what changes from call to call."""
+"""The quadratic program that shares a net wrench between contacts."""
 
 import math
 
@@ -10,11 +10,11 @@ __all__ = ["WrenchProgram"]
 
 
 class WrenchProgram:
-    """The program of n contacts, in its units; it fills the caller's arrays in place.
+    """The program of n contacts, in its units; fills the caller's arrays.
 
     Args:
-        scales: Weight of robot in N, unit of moments over forces in m, and costs of net wrench and of proportion of
-            normal forces.
+        scales: Weight of robot in N, unit of moments over forces in m, costs of net wrench and of proportion of normal
+            forces.
         unit: Unit of each unknown (6 n,) in N and N m, contact by contact.
         jacobian: Receives map (6, 6 n) from unknowns to net wrench about middle of contacts.
         fixed: Part of Hessian (6 n, 6 n) that does not depend on shares, filled by caller.
@@ -33,7 +33,7 @@ class WrenchProgram:
         self.request, self.middle = np.zeros(9), np.zeros(3)
 
     def ask(self, wrench, point, shares):
-        """Set a request; returns whether all numbers are finite, and some share is above 0.
+        """Set a request; returns whether it is finite, with some share above 0.
 
         Args:
             wrench: Wanted net wrench, six numbers in N and N m in world frame about `point` in m.
@@ -64,7 +64,7 @@ class WrenchProgram:
         return moved
 
     def turn(self):
-        """Fill the Jacobian for the contacts' places; returns whether all of it is finite."""
+        """Fill the Jacobian for the contacts' places; returns whether it is finite."""
         positions, rotations, jacobian, middle = self.positions, self.rotations, self.jacobian, self.middle
         count, total = positions.shape[0], 0.0
         for i in range(count):
@@ -130,13 +130,13 @@ class WrenchProgram:
         wanted[5] = (tz + dx * fy - dy * fx) / moment
 
     def finish_gradient(self):
-        """Multiply the product of wanted wrench and Jacobian by its factor, minus the cost of the net wrench."""
+        """Multiply wanted wrench times Jacobian by its factor, minus the net wrench's cost."""
         for i in range(self.gradient.shape[0]):
             self.gradient[i] *= -self.net
 
     def finish(self, unknowns, names):
-        """The largest error of a solution (6 n,) in the program's units, NaN if any is; the net wrench (6,) less the
-        wanted one in N and N m; and the wrench (6,) of each contact by name.
+        """Largest error of a solution (6 n,) in the program's units, NaN if any; net wrench (6,) less the wanted in N
+        and N m; and each contact's wrench (6,) by name.
         """
         jacobian, wanted, unit, largest = self.jacobian, self.wanted, self.unit, 0.0
         solution, error, wrenches = memory.values(unknowns), memory.new_vector(6), {}

@@ -1,1 +1,1 @@
-"""What the safety shell checks at every tick."""
+"""What the safety shell checks each tick."""

@@ -1,4 +1,4 @@
-"""Kernel of the safety shell: plausibility of sensors, and largest change of commands in a tick."""
+"""Safety shell: plausibility of sensors, and largest change of commands per tick."""
 
 import math
 
@@ -88,7 +88,7 @@ class BodyCheck:
 
 
 class SoleCheck:
-    """Plausibility of the forces on the soles of a robot of a weight in N, tick by tick.
+    """Plausibility of forces on the soles of a robot of a weight in N, tick by tick.
 
     Attributes:
         left: Force in N on the left sole, of taxels that report one; `right` likewise.
@@ -104,9 +104,7 @@ class SoleCheck:
         self.swapped = False
 
     def update(self, left, left_count, right, right_count):
-        """Take the forces of a tick: `left_count` on the `left` sole, `right_count` on the `right`, as wired; Returns
-        0.
-        """
+        """Take a tick's forces: `left_count` on the `left` sole, `right_count` on the `right`, as wired; Returns 0."""
         new_left, new_right = _total(memory.values(left), left_count), _total(memory.values(right), right_count)
         if self.swapped:
             new_left, new_right = new_right, new_left
@@ -130,7 +128,7 @@ class SoleCheck:
 
 
 def farthest(before, now, count):
-    """The largest change of the first `count` numbers from `before` to `now`; returns NaN if any is."""
+    """Largest change of the first `count` numbers from `before` to `now`; returns NaN if any is."""
     a, b = memory.values(before), memory.values(now)
     largest = 0.0
     for i in range(count):

@@ -1,1 +1,1 @@
-"""Readings of simulated IMU, encoders, taxels and rays, and their noise."""
+"""Readings of simulated IMU, encoders, taxels, rays, and their noise."""

@@ -1,4 +1,4 @@
-"""Kernel of rays against simple solids, equal to MuJoCo's `mj_ray` to the last bit."""
+"""Rays against simple solids, equal to MuJoCo's `mj_ray` to the last bit."""
 
 import math
 
@@ -8,7 +8,7 @@ _TINY = 1e-15  # mjMINVAL
 
 
 def cast_rays(starts, ways, reach, ids, kinds, sizes, bounds, positions, frames, lengths):
-    """Length of rays to the first solid; solids that no ray can reach are left out once for all.
+    """Length of rays to the first solid; those out of reach are left out once.
 
     Args:
         starts: Where rays begin (n, 3) in world in m, along unit vectors `ways` (n, 3); at least one.
@@ -121,7 +121,7 @@ def _cylinder(radius, half, px, py, pz, wx, wy, wz):
 
 
 def _face(p, q, r, wp, wq, wr, half_p, half_q, half_r, best):
-    """The lesser of the length so far and that to the two faces of a box across its axis p."""
+    """The lesser of the length so far and that to a box's faces across axis p."""
     if abs(wp) > _TINY:
         for side in range(-1, 2, 2):
             t = (side * half_p - p) / wp

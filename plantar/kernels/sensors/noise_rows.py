@@ -1,4 +1,4 @@
-"""Kernel of noise that is drawn many samples at a time."""
+"""Noise drawn many samples at a time."""
 
 import numpy as np
 
@@ -19,7 +19,7 @@ class NoiseRows:
         self.row = 0
 
     def advance(self):
-        """Move to the next sample, `rows[row]`, and return the row."""
+        """Move to the next sample, `rows[row]`; returns the row."""
         self.row += 1
         if self.row >= self.rows.shape[0]:
             self.drawn = self.rows = self.draw()
@@ -59,7 +59,7 @@ class SensedBody:
         self.told_joints, self.told_rate, self.told_force = self.arrays
 
     def read(self):
-        """New arrays of angles (k,) in rad, angular velocity (3,) in rad/s and specific force (3,) in m/s^2."""
+        """New arrays: angles (k,) in rad, angular velocity (3,) in rad/s, specific force (3,) in m/s^2."""
         self._take(self.noise.advance())
         joints, rate, force = self.arrays
         return joints.copy(), rate.copy(), force.copy()
@@ -100,12 +100,12 @@ class TaxelSample:
         self.told = self.sample
 
     def of(self, force):
-        """Readings (n,) in N of forces (n,) in N; NaN of a dead taxel."""
+        """Readings (n,) in N of forces (n,) in N; NaN if dead."""
         self._take(force, self.noise.advance())
         return self.sample.copy()
 
     def of_contacts(self, sole, contacts, seen, reach):
-        """Readings of the contacts of their `PressedSole`; arguments as of its `stand`."""
+        """Readings of their `PressedSole`'s contacts; arguments as of its `stand`."""
         sole.stand(contacts, seen, reach)
         self._take(sole.forces, self.noise.advance())
         return self.sample.copy()

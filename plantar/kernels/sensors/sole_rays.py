@@ -1,4 +1,4 @@
-"""Kernel of the proximity sensors of one sole: a ray of each taxel against the ground."""
+"""Proximity sensors of one sole: each taxel's ray against the ground."""
 
 import math
 
@@ -92,14 +92,13 @@ class SoleRays:
             self.distance[i] = _INFINITE
 
     def tell(self, noise, row, dead):
-        """Readings (n,) in m of the sensors at `distances`, with a row of `NoiseRows`: inf out of range, NaN dead."""
+        """Readings (n,) in m at `distances`, with a row of `NoiseRows`: inf out of range, NaN dead."""
         self._take(noise, row)
         for i in range(dead.shape[0]):
             self.told[dead[i]] = _NONE
         return self.sample.copy()
 
     def _take(self, noise, row):
-        """The distances with noise, up to the sensors' range."""
         for i in range(self.told.shape[0]):
             value = self.distance[i] + noise.rows[row, i]
             self.told[i] = _INFINITE if value > self.most else value

@@ -1,1 +1,1 @@
-"""Loads of a sole's taxels: sums, areas and extents of one reading or many, and the measured ground."""
+"""Loads of a sole's taxels: sums, areas and extents, and the measured ground."""

@@ -1,4 +1,4 @@
-"""Kernels over many readings (frames, n) in N of one `SoleKernel` in one pass, without the interpreter lock.
+"""Many readings (frames, n) in N of one `SoleKernel` in one pass, without the interpreter lock.
 
 Forces up to `threshold`, NaN, and from `saturation` on are left out.
 """
@@ -15,9 +15,9 @@ _NONE = float("nan")
 
 
 def wrenches(sole, force, threshold, saturation, out):
-    """Wrench of the active taxels of each frame (frames, 6); reference and error as `SoleKernel.loads`.
+    """Wrench (frames, 6) of each frame's active taxels; reference and error as `SoleKernel.loads`.
 
-    Each sum runs over every fourth taxel, which the compiler vectorises without changing its order.
+    Each sum runs over every fourth taxel, to vectorise in unchanged order.
     """
     scratch = sole.borrow()
     with cython.nogil:
@@ -75,7 +75,7 @@ def _wrenches(sole, force, threshold, saturation, kept, out):
 def loads(sole, force, threshold, saturation, out):
     """Wrench, area in m^2 and CoP in m of each frame (frames, 9), equal to `SoleKernel.loads` to the last bit.
 
-    A taxel that is not active adds a 0. On a flat sole the moments are those of the CoP.
+    A taxel that is not active adds 0. On a flat sole the moments are those of the CoP.
     """
     scratch = sole.borrow()
     with cython.nogil:
@@ -123,8 +123,7 @@ def _loads(sole, force, threshold, saturation, kept, covered, out):
 
 
 def hulls(sole, force, threshold, saturation, size, measure, points):
-    """Support polygon of each frame, as `SoleKernel.hull`; returns the number of frames done, fewer if the room is used
-    up.
+    """Support polygon of each frame, as `SoleKernel.hull`; returns the frames done, fewer if the room is full.
 
     Args:
         size: Receives number of vertices (frames,).

@@ -1,4 +1,4 @@
-"""Kernel of the ground's plane under a sole: least squares, or least median of squares if taxels disagree."""
+"""The ground's plane under a sole: least squares, or least median of squares if taxels disagree."""
 
 import math
 
@@ -17,7 +17,7 @@ _DRAWS = 80  # triples of taxels that a robust fit tries: with 40 % outliers all
 
 
 class GroundScratch:
-    """Work arrays of the fit of one reading of n taxels."""
+    """Work arrays of one reading's fit, n taxels."""
 
     def __init__(self, n):
         self.points = np.zeros((n, 3))
@@ -30,7 +30,7 @@ class GroundScratch:
 
 
 class GroundFit:
-    """Fits planes to the ground distances of one sole's taxels.
+    """Fits planes to one sole's ground distances.
 
     Args:
         positions: Taxel centers (n, 3) in sole frame in m.
@@ -67,14 +67,14 @@ class GroundFit:
         return 0
 
     def fit(self, distance, reach, tolerance, out, inliers):
-        """Fit a plane to one reading, the rows of `frames`; returns the directions."""
+        """Fit a plane to one reading, as `frames`; returns the directions."""
         scratch = self._borrow()
         directions = self._fit(distance, reach, tolerance, out, inliers, scratch)
         self.free.append(scratch)
         return directions
 
     def _borrow(self):
-        """Work arrays, owned by the call until given back; those of a failed call are dropped."""
+        """Work arrays, owned until given back; dropped by a failed call."""
         try:
             return self.free.pop()
         except IndexError:
@@ -114,9 +114,7 @@ class GroundFit:
         return directions
 
     def _agree(self, seen, tolerance, scratch):
-        """Keep the points that agree with the plane of least median of squares through three of them; whether there is
-        one.
-        """
+        """Keep points that agree with the least-median-of-squares plane through three; whether there is one."""
         if scratch.triples_of != seen:
             with cython.gil:
                 self._find_triples(seen, scratch)
@@ -163,7 +161,7 @@ class GroundFit:
 
 
 def _misses(seen, scratch):
-    """Distance along z of every point from the plane; returns the largest of kept ones."""
+    """Distance along z of every point from the plane; returns the kept ones' largest."""
     worst = 0.0
     for i in range(seen):
         scratch.miss[i] = abs(
@@ -178,7 +176,7 @@ def _misses(seen, scratch):
 
 
 def _least_squares(seen, scratch):
-    """Plane through the kept points, the flattest if not determined; the number of determined directions."""
+    """Plane through the kept points, the flattest if not determined; its directions."""
     x = y = z = 0.0
     count = 0
     for i in range(seen):
@@ -219,7 +217,7 @@ def _least_squares(seen, scratch):
 
 
 def _ranked(seen, rank, scratch):
-    """The value of `miss` with so many below it; reorders the values (Hoare's selection)."""
+    """The value of `miss` with so many below it; reorders (Hoare's selection)."""
     miss = scratch.miss
     low, high = 0, seen - 1
     while low < high:
@@ -244,7 +242,7 @@ def _ranked(seen, rank, scratch):
 
 
 def _triples(n):
-    """Index triples (3, m) of n points: all of a few, else the same random ones each time."""
+    """Index triples (3, m) of n points: all of few, else fixed random ones."""
     if n * (n - 1) * (n - 2) <= 6 * _DRAWS:
         a, b, c = np.meshgrid(*[np.arange(n)] * 3, indexing="ij")
         ordered = (a < b) & (b < c)

@@ -1,4 +1,4 @@
-"""Fields of a percept, and the results that most of its members read: active taxels, sums of loads, the hull."""
+"""Fields of a percept, and what most members read: active taxels, loads, hull."""
 
 try:
     import cython
@@ -14,7 +14,7 @@ _INFINITE = float("inf")
 
 
 class PerceptFields:
-    """The fields of `plantar.Percept`, which has `PLAIN`, the classes that need no check, and `_checked`."""
+    """Fields of `plantar.Percept`, which has `PLAIN`, classes without a check, and `_checked`."""
 
     def __init__(self, layout, reading, force_threshold=None, *, active=None, stuck=None, options=None):
         of_layout, of_reading, usual = self.PLAIN
@@ -32,7 +32,7 @@ class PerceptFields:
         self._fill(layout.kernel, layout, reading, force_threshold, active, stuck, options, compared)
 
     def _fill(self, kernel, layout, reading, force_threshold, active, stuck, options, compared):
-        """`_keep`, where it is known whether a comparison, made by a kernel, decides what is active."""
+        """`_keep`, where it is known whether a kernel's comparison decides what is active."""
         self._kernel, self._compared = kernel, compared
         self.layout, self.reading, self.force_threshold, self.options = layout, reading, force_threshold, options
         self._given_active, self._stuck = active, stuck
@@ -42,13 +42,13 @@ class PerceptFields:
         self._summed = loads
 
     def _active_above(self):
-        """Mask (n,) of the taxels above the threshold; None where more than a comparison decides."""
+        """Mask (n,) of taxels above the threshold; None if more decides."""
         if self._compared:
             return self._kernel.active(self.reading.force, self.force_threshold, self._kernel.limit)
         return None
 
     def _loads(self):
-        """Wrench, contact area and CoP (9,), summed in one pass."""
+        """Wrench, contact area and CoP (9,), in one pass."""
         if self._summed is None:
             kernel, force = self._kernel, self.reading.force
             if self._compared:
@@ -75,7 +75,7 @@ class PerceptFields:
         return vectors.vector2(x, y) if len(polygon) else None
 
     def _hull(self):
-        """Support polygon (k, 2) in m, its area, and x and y of its centroid."""
+        """Support polygon (k, 2) in m, its area, its centroid's x and y."""
         if self._found is None:
             kernel = self._kernel
             if self._compared:
@@ -92,7 +92,7 @@ _LARGEST = 1e300
 
 
 class ReadingFields:
-    """The fields of `plantar.Reading`, whose method `_checked` converts those that are not plain."""
+    """Fields of `plantar.Reading`, whose `_checked` converts those not plain."""
 
     def __init__(self, time, force, proximity=None, temperature=None, acceleration=None):
         copy = vectors.kept(force)

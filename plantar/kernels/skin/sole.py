@@ -1,6 +1,6 @@
-"""Kernels of one sole: loads and support polygon of its active taxels.
+"""One sole's kernels: loads and support polygon of its active taxels.
 
-Constants of the sole are prepared once. A call borrows its work arrays, so that threads do not share them.
+A call borrows its work arrays, so that threads do not share them.
 """
 
 import numpy as np
@@ -42,7 +42,7 @@ class SoleScratch:
         self.offset = convex.OffsetRoom(corners)
 
     def summed(self, first, count):
-        """A new array (count,) of the sums from one on."""
+        """A new array (count,) of the sums from one."""
         made = memory.new_vector(count)
         out = memory.room(made)
         for i in range(count):
@@ -60,16 +60,15 @@ class SoleScratch:
             out[i, 1] = self.polygon[i, 1]
 
     def measure_hull(self, size):
-        """Area in m^2 and centroid in m of the hull of `size` corners in `polygon`; NaN if empty."""
+        """Area in m^2 and centroid in m of the hull in `polygon`; NaN if empty."""
         if size == 0:
             return 0.0, _NONE, _NONE
         return convex.area_and_centroid(self.polygon[:size])
 
 
 class SoleKernel:
-    """The taxels of one sole, prepared for the kernels.
-
-    A taxel up to `threshold` in N, from `saturation` on, and NaN is not active.
+    """One sole's taxels, prepared for the kernels. Taxels up to `threshold` in N, from `saturation` on, and NaN are not
+    active.
 
     Args:
         positions: Taxel centers (n, 3) in sole frame in m.
@@ -144,7 +143,7 @@ class SoleKernel:
         self.free = [SoleScratch(self.taxels, self.corners, self.levels)]
 
     def borrow(self):
-        """Work arrays, owned by the call until given back; those of a failed call are dropped."""
+        """Work arrays, owned until given back; dropped by a failed call."""
         try:
             return self.free.pop()
         except IndexError:
@@ -169,7 +168,7 @@ class SoleKernel:
         return made
 
     def _borrow_with(self, force):
-        """Borrowed arrays with the forces, copied in a tenth of a buffer's time unless strided or of another kind."""
+        """Borrowed arrays with the forces, copied without a buffer unless strided or of another kind."""
         if memory.size(force) != self.taxels:
             self._check(force)
         scratch = self.borrow()
@@ -191,7 +190,7 @@ class SoleKernel:
         return 0
 
     def _check(self, force):
-        """Refuse forces that are not one a taxel: a loop would read past them."""
+        """Refuse forces that are not one a taxel, which would be read past."""
         if force is None or force.shape[0] != self.taxels:
             raise ReadingError(f"{_count(force)} forces for {self.taxels} taxels; expected one each")
         return 0
@@ -201,7 +200,7 @@ class SoleKernel:
             scratch.force[i] = force[i]
 
     def _read_mask(self, active, scratch):
-        """Copy a mask through its buffer, and refuse a wrong length."""
+        """Copy a mask through its buffer; refuse a wrong length."""
         if active is None or active.shape[0] != self.taxels:
             raise ReadingError(f"mask has {_count(active)} values for {self.taxels} taxels; expected one each")
         for i in range(self.taxels):
@@ -220,7 +219,7 @@ class SoleKernel:
             out[i] = (force[i] > threshold) & (force[i] < saturation)
 
     def faults(self, force, saturation):
-        """Masks (n,) of dead taxels and of saturated ones, as `plantar.health.dead_taxels` and `saturated_taxels`."""
+        """Masks (n,) of dead and of saturated taxels, as `plantar.health.dead_taxels` and `saturated_taxels`."""
         scratch = self._borrow_with(force)
         for i in range(self.taxels):
             finite = -_INFINITE < scratch.force[i] < _INFINITE
@@ -231,9 +230,10 @@ class SoleKernel:
         return masks
 
     def loads(self, force, active):
-        """Wrench about sole origin, area in m^2 and CoP in m (9,) of the active taxels (T 4.21-4.23); NaN without load.
+        """Wrench about the sole origin, area in m^2 and CoP in m (9,) of the active taxels (T 4.21-4.23); NaN without
+        load.
 
-        Error of each sum below n * 1.2e-16 of the sum of its terms' absolute values.
+        Each sum's error is below n * 1.2e-16 of its absolute terms' sum.
         """
         scratch = self._borrow_with(force)
         self._take_mask(active, scratch)
@@ -276,7 +276,7 @@ class SoleKernel:
         return sums
 
     def reaches(self, force, level):
-        """Whether some taxel's force reaches a level in N; False for NaN."""
+        """Whether some force reaches a level in N; False for NaN."""
         scratch = self._borrow_with(force)
         largest = -_INFINITE
         for i in range(self.taxels):
@@ -306,11 +306,9 @@ class SoleKernel:
             out[7] = out[8] = _NONE
 
     def hull(self, active):
-        """Convex hull (k, 2) in m of the active cells (T 4.24), with its area and x and y of its centroid, NaN without
-        contact.
+        """Convex hull (k, 2) in m of the active cells (T 4.24), with area and centroid x, y, NaN without contact.
 
-        Only the ends of each row of shifted copies count; their corners are sorted. Errors as `hull.convex_hull`,
-        `convex.area_and_centroid`.
+        Only the ends of each row of shifted copies count. Errors as `hull.convex_hull`, `convex.area_and_centroid`.
         """
         scratch = self.borrow()
         self._take_mask(active, scratch)
@@ -321,7 +319,7 @@ class SoleKernel:
         return self._hull(self._borrow_with_active(force, threshold, saturation))
 
     def _hull(self, scratch):
-        """`hull` of the mask in borrowed arrays, which are given back."""
+        """`hull` of the mask in borrowed arrays, then given back."""
         size = self.find_hull(scratch.mask, scratch)
         area, x, y = scratch.measure_hull(size)
         polygon = scratch.hull(size)
@@ -329,8 +327,7 @@ class SoleKernel:
         return polygon, area, x, y
 
     def tick(self, force, threshold, saturation, offset, x, y):
-        """All that a controller needs of one foot: `active`, `loads`, `hull`, `convex.inner_offset`,
-        `convex.closest_point`.
+        """A controller's needs of one foot: `active`, `loads`, `hull`, `convex.inner_offset`, `convex.closest_point`.
 
         Args:
             offset: How far hull's edges move inwards in m; not if 0 or less.
@@ -363,7 +360,7 @@ class SoleKernel:
         return mask, wrench, contact, cop, polygon, area, centroid, safe, nearest
 
     def find_hull(self, active, scratch):
-        """Find the hull of the `active` cells in the scratch's `polygon`; returns its number of corners."""
+        """Find the `active` cells' hull in the scratch's `polygon`; returns its size."""
         left, right = self.levels, -1
         for row in range(self.row_start.shape[0] - 1):
             first, last = self.row_start[row], self.row_start[row + 1] - 1
@@ -425,7 +422,7 @@ def _count(values):
 
 
 def _rows_of_copies(cells, tolerance):
-    """Rows of cells that are copies, shifted along one line: the first and last active cell of a row make its hull.
+    """Rows of cells that are copies along one line: a row's first and last active cell make its hull.
 
     Args:
         cells: Corners (k, 2) of each cell in m.
@@ -466,7 +463,7 @@ def _rows_of_copies(cells, tolerance):
 
 
 def _is_behind(cell, along):
-    """Which corners (k,) of a convex cell lie within it and its copies along a direction: no corners of their hull.
+    """Which corners (k,) of a convex cell lie within it and its copies along a direction.
 
     Args:
         cell: Corners (k, 2) in m; none if not convex.
@@ -485,7 +482,7 @@ def _is_behind(cell, along):
 
 
 def _signs(cell, rank):
-    """Bits (k,) of where each corner of a cell can be on a hull that holds the cell, by its ranks (k,) by x, then y."""
+    """Bits (k,) of where each corner can be on a hull that holds the cell, by its ranks (k,) by x, then y."""
     low, high = cell[np.argmin(rank)], cell[np.argmax(rank)]
     along, away = high - low, cell - low
     above = along[0] * away[:, 1] - along[1] * away[:, 0]
