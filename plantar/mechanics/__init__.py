@@ -1,1 +1,1 @@
-"""Rotations, wrenches, contacts, wrench cones, pendulum, ZMP and base state."""
+"""Rotations, wrenches, contacts, cones, pendulum, ZMP, base state."""

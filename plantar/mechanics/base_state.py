@@ -1,4 +1,4 @@
-"""Estimated state of a floating base with its contacts."""
+"""Estimated floating base with contacts."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["BaseState"]
 
 
 class BaseState(Record, frozen=True):
-    """Estimated state, world frame. Contacts have names, the feet of a biped "left" and "right".
+    """Estimated state, world frame; contacts by name, a biped's feet "left" and "right".
 
     Attributes:
         rotation_base_to_world: Rotation (3, 3).

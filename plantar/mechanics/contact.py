@@ -1,4 +1,4 @@
-"""Contacts of a robot with the world: feet, hands or others, as mappings by name whose order results keep."""
+"""Contacts of a robot with the world, as mappings by name whose order results keep."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ["Contact", "Contacts"]
 
 @dataclass(frozen=True)
 class Contact:
-    """A contact of a flat part of the robot. Reuse the object while it does not change: programs keep its data.
+    """A flat contact. Reuse the object while it does not change: programs keep its data.
 
     Attributes:
         position: Origin (3,) of contact frame in world in m.
@@ -35,18 +35,18 @@ class Contact:
 
     @property
     def limits(self) -> tuple[Rectangle, float, tuple[float, float] | None]:
-        """Constraints that do not depend on the pose."""
+        """Constraints independent of the pose."""
         return self.rectangle, self.friction, self.preferred
 
     @lazy
     def center_in_world(self) -> tuple[float, float, float]:
-        """The preferred center of pressure in world frame in m."""
+        """Preferred center of pressure in world in m."""
         x, y = self.preferred or self.rectangle.center
         (px, py, pz), (dx, dy, dz) = self.position.tolist(), self.rotation.dot(np.array((x, y, 0.0))).tolist()
         return px + dx, py + dy, pz + dz
 
     def wrench_in_world(self, wrench: ArrayLike) -> NDArray[np.float64]:
-        """A wrench (..., 6) about the contact frame's origin as one about the world's origin, in N and N m."""
+        """A wrench (..., 6) about the contact frame's origin as about the world's, in N and N m."""
         return wrench_in_frame(wrench, self.rotation, self.position)
 
 

@@ -1,7 +1,7 @@
 """A wrench on the body in the dynamics of the divergent component of motion (K 6-12, corrected).
 
 The pendulum of height g / w^2 has its ZMP at u_ref; a wrench pushes its CoM with a horizontal force F and a moment tau
-that the upright body passes to the ground. Moments about the ZMP give
+that passes to the ground. Moments about the ZMP give
 
     x'' = w^2 (x - u_ref) + F / m + w^2 [tau_y, -tau_x] / (m g) = w^2 (x - u),    u = u_ref - (u_F + u_tau),
 
@@ -61,7 +61,7 @@ def vrp_offset(wrench: ArrayLike, mass: float, omega: float, virtual_mass: float
 def external_acceleration(
     wrench: ArrayLike, mass: float, omega: float, virtual_mass: float = 1.0
 ) -> NDArray[np.float64]:
-    """Horizontal acceleration w^2 u_w (..., 2) in m/s^2 of the CoM by a wrench on the body, at a fixed ZMP (K 12).
+    """Horizontal acceleration w^2 u_w (..., 2) in m/s^2 of the CoM by a wrench, at a fixed ZMP (K 12).
 
     Args:
         wrench: As in `vrp_offset`.

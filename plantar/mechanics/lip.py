@@ -38,7 +38,7 @@ def pendulum_frequency(com_height: float) -> float:
 
 
 def divergent_component(com: ArrayLike, com_velocity: ArrayLike, omega: float) -> NDArray[np.float64]:
-    """Divergent component of motion xi = x + x' / omega of the CoM (T 4.9, T 4.27).
+    """DCM xi = x + x' / omega of the CoM (T 4.9, T 4.27).
 
     Args:
         com: CoM position (..., d) in m.

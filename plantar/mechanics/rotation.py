@@ -1,7 +1,6 @@
-"""Rotations in space, SO(3): exponential and logarithm, heading, level rotations, orthonormalisation.
+"""Rotations, SO(3): exponential, logarithm, heading, orthonormalisation.
 
-A rotation is a matrix (3, 3); R_a_to_b takes vectors of frame a into frame b. A rotation vector (3,) is the unit axis
-times the angle in rad.
+R_a_to_b (3, 3) takes vectors of frame a into frame b. A rotation vector (3,) is the unit axis times the angle in rad.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ _NEAR_HALF_TURN = -0.9
 
 
 def rotation_from_vector(vector: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Exponential map: rotation of a rotation vector (Rodrigues), exact to rounding for every angle.
+    """Exponential map (Rodrigues), exact to rounding.
 
     Args:
         vector: Axis times angle (3,) in rad.
@@ -45,7 +44,7 @@ def rotation_from_vector(vector: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def sine_vector(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Axis times sine of the angle (3,): the antisymmetric part of a rotation, its logarithm to first order.
+    """Axis times sine of the angle (3,): the logarithm to first order.
 
     Args:
         rotation: Rotation (3, 3).
@@ -55,7 +54,7 @@ def sine_vector(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Logarithm map: the shortest rotation vector of a rotation, exact to rounding for every angle.
+    """Logarithm map: a rotation's shortest vector, exact to rounding.
 
     By R - R^T = 2 sin a [n]x and, near half a turn, R + R^T - 2 cos a I = 2 (1 - cos a) n n^T.
 
@@ -79,7 +78,7 @@ def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Error of a rotation as a vector (3,) of the common frame, for feedback and Newton steps.
+    """Error of a rotation as a vector (3,) of the common frame, for feedback.
 
     Along the axis of the shortest turn from `actual` to `wanted`; its length is the sine of the angle up to a quarter
     turn, 1 beyond.
@@ -100,7 +99,7 @@ def rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> 
 
 
 def heading(rotation: NDArray[np.float64]) -> float:
-    """Yaw in rad of a rotation (3, 3) to world: where its x axis points, seen from above."""
+    """Yaw in rad of a rotation (3, 3) to world: its x axis seen from above."""
     return math.atan2(rotation.item(1, 0), rotation.item(0, 0))
 
 
@@ -132,7 +131,5 @@ def rotation_from_angles(yaw: float, pitch: float = 0.0, roll: float = 0.0) -> N
 
 
 def orthonormalised(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-    """One Newton step towards the nearest rotation, R (3 I - R^T R) / 2, of a matrix (3, 3): an error e becomes 1.5
-    e^2.
-    """
+    """One Newton step towards the nearest rotation, R (3 I - R^T R) / 2 (3, 3): an error e becomes 1.5 e^2."""
     return np.asarray(rotation.dot(_THREE_HALVES - 0.5 * rotation.T.dot(rotation)))

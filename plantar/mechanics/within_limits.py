@@ -1,4 +1,4 @@
-"""Least squares in some directions within limits on all: one level of a hierarchy of them (Escande et al. 2014)."""
+"""Least squares in some directions within limits on all: a hierarchy's level (Escande et al. 2014)."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Box(NamedTuple):
         low: NDArray[np.float64],
         high: NDArray[np.float64],
     ) -> Self:
-        """Both sets of rows together, each row scaled to size 1.
+        """Both sets of rows, each scaled to size 1.
 
         Args:
             hard: Rows (h, n) of hard limits.
@@ -68,7 +68,7 @@ def nearest_within(
     target: NDArray[np.float64],
     weights: NDArray[np.float64],
 ) -> tuple[Box, NDArray[np.float64]]:
-    """Nearest point to the target in the directions `own` of what is left, such that some of the rest keeps the limits.
+    """Nearest point to the target in the directions `own`, such that some of the rest keeps the limits.
 
     Args:
         box: Limits of y.
@@ -110,7 +110,7 @@ def nearest_within(
 
 
 def _widened(box: Box, y: NDArray[np.float64], left: NDArray[np.float64]) -> Box:
-    """Feasible limits: those of accelerations yield first, then those of torques."""
+    """Feasible limits: accelerations' yield first, then torques'."""
     reached, least = box.rows @ y, _LEAST * np.eye(left.shape[1])
     for hard in (box.hard, 0):
         soft = np.where(np.arange(len(box.rows)) < hard, 0, _SOFT).astype(np.int32)

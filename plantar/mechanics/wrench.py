@@ -1,7 +1,4 @@
-"""Wrenches and their change of frame.
-
-A wrench is an array [fx, fy, fz, tx, ty, tz] in N and N m about its frame's origin, exerted BY the world ON the robot.
-"""
+"""Wrenches [fx, fy, fz, tx, ty, tz] in N and N m about their frame's origin, BY the world ON the robot."""
 
 from __future__ import annotations
 
@@ -16,7 +13,7 @@ __all__ = ["Wrench", "wrench_at", "wrench_in_frame"]
 
 
 class Wrench(NamedTuple):
-    """A wrench with named components, forces in N and moments in N m; numpy accepts it as an array.
+    """A wrench with named components; numpy accepts it as an array.
 
     Example:
         >>> Wrench.of([0.0, 0.0, 100.0, 5.0, -2.0, 0.0]).center_of_pressure
@@ -37,12 +34,12 @@ class Wrench(NamedTuple):
 
     @property
     def center_of_pressure(self) -> tuple[float, float] | None:
-        """Point (x, y) of the plane z = 0 in m about which nothing tips (T 4.5-4.6); None without load."""
+        """Point (x, y) of the plane z = 0 in m without tipping moment (T 4.5-4.6); None without load."""
         return (-self.ty / self.fz, self.tx / self.fz) if self.fz > 0.0 else None
 
 
 def wrench_at(wrench: ArrayLike, point: ArrayLike) -> NDArray[np.float64]:
-    """The same wrench (..., 6) with its moment about another point: tau_p = tau_o - p x f.
+    """The same wrench (..., 6) about another point: tau_p = tau_o - p x f.
 
     Args:
         wrench: Wrench (..., 6) about frame's origin; NaN or inf give such moments.
@@ -71,7 +68,7 @@ def wrench_at(wrench: ArrayLike, point: ArrayLike) -> NDArray[np.float64]:
 def wrench_in_frame(
     wrench: ArrayLike, rotation: NDArray[np.float64], position: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """A wrench of frame a about the origin of frame b, in b's axes: [R f, R tau + p x R f] (E of T 3.21).
+    """A wrench of frame a about frame b's origin, in b's axes: [R f, R tau + p x R f] (E of T 3.21).
 
     Args:
         wrench: Wrench (..., 6) about origin of a.

@@ -1,4 +1,4 @@
-"""The wrenches of a rectangular contact without slipping, tipping or twisting (T 4.32-4.41, corrected)."""
+"""Wrenches of a rectangular contact without slipping, tipping or twisting (T 4.32-4.41, corrected)."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ class Rectangle(NamedTuple):
 
 
 def wrench_cone(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
-    """Facets of the contact wrench cone of a rectangle (T 4.32-4.41, corrected).
+    """Facets of a rectangle's contact wrench cone (T 4.32-4.41, corrected).
 
-    The wrench w = [fx, fy, fz, tx, ty, tz] is exerted by the world on the robot, about the origin of the contact frame.
-    The cone is the span of a friction pyramid at each corner: |fx| <= mu fz, |fy| <= mu fz, the center of pressure
-    inside, and eight limits of the yaw moment, with signed coordinates of the edges (printed 4.40-4.41 mix the signs).
+    The wrench w = [fx, fy, fz, tx, ty, tz] is by the world on the robot, about the contact frame's origin. The cone is
+    the span of a friction pyramid at each corner: |fx| <= mu fz, |fy| <= mu fz, the center of pressure inside, and
+    eight limits of the yaw moment (printed 4.40-4.41 mix the edges' signs).
 
     Args:
         rectangle: Contact, anywhere, possibly a line or a point.
@@ -59,7 +59,7 @@ def wrench_cone(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
 
 
 def cone_rows(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
-    """The rows (16, 6) of `wrench_cone` without its checks, for a control loop.
+    """The rows (16, 6) of `wrench_cone`, unchecked, for a control loop.
 
     Args:
         rectangle: Contact; swapped edges allow no wrench but 0.
@@ -93,7 +93,7 @@ def cone_rows(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
 
 @lru_cache(maxsize=16)
 def _rows_of_friction(mu: float) -> NDArray[np.float64]:
-    """`cone_rows` (16, 6) for a friction; the rectangle fills the first three columns from the fifth row on."""
+    """`cone_rows` (16, 6) for a friction; the rectangle fills its first three columns from the fifth row."""
     return np.array(
         [
             [1.0, 0.0, -mu, 0.0, 0.0, 0.0],

@@ -1,14 +1,14 @@
-"""Share a net wrench between any number of contacts: the quadratic program of Caron et al. 2019, T 4.4.4.
+"""Share a net wrench between contacts: the quadratic program of Caron et al. 2019, T 4.4.4.
 
-Unknown is the wrench w_i of each contact in its own frame. With J_i w_i that wrench about the middle of the contacts in
-world frame and e = sum J_i w_i - w_d the error of the net wrench, it minimises
+Unknown is the wrench w_i of each contact in its frame. With J_i w_i that wrench about the contacts' middle in world
+axes and e = sum J_i w_i - w_d, it minimises
 
     net |e|^2 + ankle sum |m_i|^2 + pressure sum_(i<j) (s_j fz_i - s_i fz_j)^2 + friction sum (fx_i^2 + fy_i^2 + tz_i^2)
 
 with m_i the moment (x, y) about the preferred center of pressure of contact i, s_i its wanted share of the normal
 force, forces in body weights and moments in body weights times 0.1 m. By Lagrange's identity the sum over pairs is
 |s|^2 |fz|^2 - (s . fz)^2; of two feet the ((1 - r) fz_1 - r fz_2)^2 of Caron et al. Each w_i stays in its wrench cone,
-its normal force at or above a minimum. As cones are in contact frames, results do not depend on the place.
+its normal force at or above a minimum.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class DistributionState(StrEnum):
 
 @dataclass(frozen=True)
 class DistributionWeights:
-    """Weights of the cost, of which only ratios matter.
+    """Weights of the cost; only ratios matter.
 
     Attributes:
         net: Of error of net wrench.
@@ -91,13 +91,13 @@ class WrenchShare(Record, frozen=True):
     violation: float
 
     def center_of_pressure(self, name: str) -> NDArray[np.float64] | None:
-        """Center of pressure (2,) of one contact in its frame in m; None without load (below 1 mN)."""
+        """Center of pressure (2,) of a contact in its frame in m; None without load (below 1 mN)."""
         return zmp_of_wrench(self.wrenches[name], 1e-3)
 
 
 @dataclass(frozen=True)
 class Program:
-    """The quadratic program of one call: minimise 1/2 v' H v + f' v subject to A v <= b.
+    """One call's quadratic program: minimise 1/2 v' H v + f' v subject to A v <= b.
 
     Attributes:
         hessian: H (n, n).
@@ -115,7 +115,7 @@ class Program:
 
 
 class _Workspace:
-    """Arrays and solver for one number of contacts, filled in place where something has changed."""
+    """Arrays and solver for one number of contacts, filled in place."""
 
     def __init__(self, count: int, weight: float, length: float, weights: DistributionWeights) -> None:
         n = 6 * count
@@ -143,13 +143,13 @@ class _Workspace:
 
 
 class WrenchDistribution:
-    """Distributes net wrenches over contacts. One instance a controller.
+    """Distributes net wrenches over contacts; one instance a controller.
 
     Args:
         weight: Weight of robot in N; unit of forces inside program.
         weights: Weights of cost.
         minimum_force: Least normal force in N of each contact.
-        length: Unit of moments over forces inside program in m: about half a sole, so that both count alike.
+        length: Unit of moments over forces inside program in m: about half a sole.
 
     Raises:
         InputError: If invalid.
@@ -238,7 +238,7 @@ class WrenchDistribution:
         point: NDArray[np.float64] | Sequence[float],
         shares: Mapping[str, float] | None = None,
     ) -> Program:
-        """A copy of the program that `solve` solves, with its arguments, to check it with other solvers.
+        """A copy of the program that `solve` solves, for other solvers.
 
         Args:
             contacts: One or more contacts; `wrench`, `point` and `shares` as in `solve`.
@@ -270,7 +270,7 @@ class WrenchDistribution:
         point: NDArray[np.float64] | Sequence[float],
         shares: tuple[float, ...],
     ) -> bool:
-        """Fill the workspace and the solver; False where the request is invalid."""
+        """Fill workspace and solver; False for an invalid request."""
         program = work.program
         if not program.ask(_plain(wrench), _plain(point), shares):
             return False
@@ -311,7 +311,7 @@ class WrenchDistribution:
         return True
 
     def _constrain(self, work: _Workspace, i: int, contact: Contact) -> None:
-        """Cone, least force and own costs of one contact, in the program's units."""
+        """Cone, least force and costs of one contact, in the program's units."""
         k, row = 6 * i, _ROWS * i
         x0, x1, y0, y1 = contact.rectangle
         length = self.length
@@ -329,7 +329,7 @@ class WrenchDistribution:
             own[k + 3, k + 3] = own[k + 4, k + 4] = ankle
 
     def _least_violating(self, work: _Workspace) -> NDArray[np.float64]:
-        """Solution (n,) with the least sum of squared violations, and the least cost among those."""
+        """Solution (n,) of the least squared violations, then the least cost."""
         m, n = work.constraints.shape
         hessian = np.diag([_RIDGE] * n + [1.0] * m)
         widened = np.hstack([work.constraints, -np.eye(m)])  # A v - violation <= b
@@ -338,7 +338,6 @@ class WrenchDistribution:
         return np.asarray(daqp.solve(work.hessian, work.gradient, work.constraints, relaxed, work.lower)[0])
 
     def _rest(self, contacts: Contacts, shares: tuple[float, ...]) -> WrenchShare:
-        """The body's weight by the shares, at the preferred points."""
         parts = [max(0.0, share) for share in shares]
         total = sum(parts)
         if not (math.isfinite(sum(shares)) and total > 0.0):
@@ -359,7 +358,6 @@ def _plain(numbers: NDArray[np.float64] | Sequence[float]) -> Sequence[float]:
 
 
 def _in_order(contacts: Contacts, shares: Mapping[str, float] | None) -> tuple[float, ...]:
-    """The shares in the order of the contacts; equal if None."""
     if shares is None:
         return (1.0 / len(contacts),) * len(contacts)
     found = [shares[name] for name in contacts if name in shares]

@@ -1,6 +1,6 @@
-"""Points of the ground that show balance: zero moment point and centroidal moment pivot.
+"""Zero moment point and centroidal moment pivot.
 
-A wrench is [fx, fy, fz, tx, ty, tz] in N and N m about the frame's origin, exerted BY the world ON the robot, z up.
+A wrench is [fx, fy, fz, tx, ty, tz] in N and N m about the frame's origin, BY the world ON the robot, z up.
 """
 
 from __future__ import annotations
@@ -51,7 +51,6 @@ def _zero_moment_point(wrench: list[float], height: float, minimum_force: float)
 
 
 def _levels(height: float, minimum_force: float) -> tuple[float, float]:
-    """Height of a plane in m and least vertical force in N, checked."""
     return number(height, "height of the plane", finite=True), number(minimum_force, "minimum force")
 
 
@@ -86,7 +85,7 @@ def zero_moment_wrench(
 def centroidal_moment_pivot(
     force: ArrayLike, com: ArrayLike, height: float = 0.0, minimum_force: float = 0.0
 ) -> NDArray[np.float64] | None:
-    """Where the line of the ground reaction force through the CoM meets the ground (Popovic, Goswami and Herr 2005).
+    """Where the ground reaction force's line through the CoM meets the ground (Popovic, Goswami and Herr 2005).
 
     It is the ZMP where the wrench has no tipping moment about the CoM.
 
@@ -115,7 +114,7 @@ def centroidal_moment_pivot(
 
 
 def zmp_of_wrench(wrench: ArrayLike, minimum_force: float = 0.0) -> NDArray[np.float64] | None:
-    """`zmp_in_plane` in the plane z = 0, for a force-torque sensor; None also where the wrench holds NaN or inf.
+    """`zmp_in_plane` at z = 0, for a force-torque sensor; None also for NaN or inf.
 
     Args:
         wrench: Wrench (6,) about frame's origin.

@@ -1,1 +1,1 @@
-"""Signals of taxels, one at a time: force, proximity, temperature, health."""
+"""Taxel signals, one at a time: force, proximity, temperature, health."""

@@ -15,9 +15,9 @@ __all__ = ["TaxelActivation", "active_taxels", "hysteresis"]
 
 
 def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.inf) -> NDArray[np.bool_]:
-    """Mask (..., n) of taxels whose force exceeds the activation threshold (T 4.22: |f_iz| > epsilon_f).
+    """Mask (..., n) of taxels above the activation threshold (T 4.22: |f_iz| > epsilon_f).
 
-    Dead taxels (NaN, inf), negative readings and saturated taxels are not active.
+    NaN, inf, negative readings and saturated taxels are not active.
 
     Args:
         force: Normal forces (..., n) in N.
@@ -38,14 +38,14 @@ def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.i
 def hysteresis(
     values: ArrayLike, high: float, low: float, initial: ArrayLike | bool = False, saturation: float = math.inf
 ) -> NDArray[np.bool_]:
-    """Two-threshold switch over time: on above `high`, off at `low` or below, else as before.
+    """Two-threshold switch: on above `high`, off at `low` or below, else as before.
 
     Args:
-        values: Values (frames, ...) over time, e.g. forces (frames, n) in N.
-        high: Value above it switches on.
-        low: Value at or below it switches off; not above `high`.
+        values: Values (frames, ...) over time.
+        high: Switches on above it.
+        low: Switches off at or below it; not above `high`.
         initial: State (...) before the first frame.
-        saturation: Value from here on switches off.
+        saturation: Switches off from here on.
 
     Returns:
         State (frames, ...) after each frame.
@@ -74,11 +74,11 @@ def hysteresis(
 
 
 class TaxelActivation:
-    """Activation with hysteresis of a sole's taxels, reading by reading (T 4.22).
+    """Hysteresis of a sole's active taxels, reading by reading (T 4.22).
 
     Args:
         threshold: Force in N above which a taxel becomes active.
-        release: Force in N at or below which it no longer is, at most `threshold`; half of it if None.
+        release: Force in N up to which it stops, at most `threshold`; half of it if None.
         saturation: Force in N from which a taxel is saturated and not active.
 
     Raises:
@@ -102,7 +102,7 @@ class TaxelActivation:
         self._active = None
 
     def update(self, force: ArrayLike) -> NDArray[np.bool_]:
-        """Active taxels (n,) after the next reading of forces (n,) in N; ReadingError for another shape."""
+        """Active taxels (n,) after the next forces (n,) in N; ReadingError for another shape."""
         now = numbers(force, "forces", ReadingError)
         if now.ndim != 1:
             raise ReadingError(f"forces have shape {now.shape}; expected (taxels,)")

@@ -1,7 +1,7 @@
-"""Wrenches of a patch of skin from force and proximity together: on the body (K) and on the hands (A).
+"""Wrenches of a skin patch from force and proximity: on the body (K) and hands (A).
 
-Positions and rotations of cells are in the frame of the wrench. A cell's z axis points into the body: its force pushes
-along +z (K 4-5 print [0, 0, -f] for an axis out of it).
+Cells are in the frame of the wrench. A cell's force pushes along its +z, into the body (K 4-5 print [0, 0, -f] for an
+axis out of it).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Corrects the mean of a noisy sensor that is clipped at zero.
+"""Mean of a noisy sensor clipped at zero, corrected.
 
-Without load the running mean is too high by 0.4 sigma. With white noise of known sigma the mean of the clipped reading
-of a force f is
+Without load it is too high by 0.4 sigma. With white noise of known sigma the mean of the clipped reading of a force f
+is
 
     g(f) = f P(f / sigma) + sigma p(f / sigma)
 """
@@ -49,7 +49,7 @@ def clipped_mean(force: ArrayLike, noise: float) -> NDArray[np.float64]:
 
 
 def unclipped_mean(mean: ArrayLike, noise: float) -> NDArray[np.float64]:
-    """Force behind the mean of a sensor's clipped readings: the inverse of `clipped_mean`.
+    """Force behind the mean of clipped readings: the inverse of `clipped_mean`.
 
     A mean below that of no load gives a force below zero, along the tangent.
 

@@ -56,7 +56,7 @@ def ground_reaction_wrench(layout: SoleLayout, force: ArrayLike, threshold: floa
 
 
 def _active(layout: SoleLayout, force: NDArray[np.float64], threshold: float | None) -> NDArray[np.float64]:
-    """Forces of the active taxels, 0 elsewhere, as in `Percept` and `plantar.batch`."""
+    """Forces of active taxels, 0 elsewhere."""
     low = layout.force_threshold if threshold is None else threshold
     return np.where(active_taxels(force, low, layout.force_limit), force, 0.0)
 
@@ -64,11 +64,11 @@ def _active(layout: SoleLayout, force: NDArray[np.float64], threshold: float | N
 def pressure_driven_wrench(
     layout: SoleLayout, force: ArrayLike, reference_area: float, threshold: float | None = None
 ) -> NDArray[np.float64]:
-    """Wrench amplified on a small contact area and damped on a large one (T 3.26-3.27): w_P = xi / sum(alpha_i) * w_f.
+    """Wrench amplified on a small contact area, damped on a large one (T 3.26-3.27): w_P = xi / sum(alpha_i) * w_f.
 
     Args:
-        layout: Sole, n taxels, of which active ones' areas are alpha_i.
-        force: Normal forces (n,) or (frames, n) in N; dead or saturated taxels are left out.
+        layout: Sole, n taxels of areas alpha_i.
+        force: Normal forces (n,) or (frames, n) in N.
         reference_area: Gain xi in m^2: contact area with unchanged wrench.
         threshold: Activation threshold epsilon_a in N; layout's if None.
 
@@ -119,7 +119,7 @@ def scaled_by_area(wrench: ArrayLike, contact_area: ArrayLike, reference_area: f
 
 
 def joint_torque(jacobian: ArrayLike, rotation_to_base: ArrayLike, wrench: ArrayLike) -> NDArray[np.float64]:
-    """Joint torques of a real or virtual wrench at a link: tau = J^T E w (T 3.20, 3.28, 3.33, 3.38; A 13-14).
+    """Joint torques of a wrench at a link: tau = J^T E w (T 3.20, 3.28, 3.33, 3.38; A 13-14).
 
     Args:
         jacobian: Geometric Jacobian (6, joints) of link's frame, linear rows first, in base frame.

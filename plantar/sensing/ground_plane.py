@@ -40,7 +40,7 @@ class GroundPlane(NamedTuple):
         return np.asarray(vector / np.linalg.norm(vector))
 
     def height_at(self, points: ArrayLike) -> NDArray[np.float64]:
-        """Height (...) in m above the ground of points (..., 2) of the sole plane, along the sole's z."""
+        """Height (...) in m above ground of points (..., 2) of the sole plane, along z."""
         places = array(points, "points", (..., 2))
         with np.errstate(over="ignore", invalid="ignore"):  # of points that are not finite
             return np.asarray(self.height - places @ np.array(self.slope))
@@ -69,13 +69,12 @@ def fit_ground_plane(
 ) -> GroundPlane | None:
     """Fit a plane to the ground under a sole.
 
-    Least squares where every residual is within the tolerance; else around the least median of squares over triples of
-    taxels, always the same ones (Rousseeuw and Leroy 1987), which ignores up to about 40 % of outliers, such as an edge
-    or a cable.
+    Least squares where every residual is within the tolerance; else around the least median of squares over fixed
+    triples of taxels (Rousseeuw and Leroy 1987), which ignores up to about 40 % of outliers, e.g. an edge.
 
     Args:
         layout: Sole, n taxels.
-        distance: Distances (n,) in m; inf out of range, NaN if dead, possibly negative by noise.
+        distance: Distances (n,) in m; inf out of range, NaN if dead.
         sensing_range: Distance in m, of either sign, out of range from there; layout's if None.
         tolerance: Distance in m from plane that noise explains.
 
@@ -104,7 +103,7 @@ def fit_ground_plane(
 
 
 def checked_range(layout: SoleLayout, sensing_range: float | None, tolerance: float) -> float:
-    """The range in m of a fit, checked with its tolerance; InputError unless both are above 0.
+    """The range in m of a fit, checked with its tolerance: both above 0, else InputError.
 
     Args:
         layout: Sole.
@@ -123,7 +122,7 @@ def checked_range(layout: SoleLayout, sensing_range: float | None, tolerance: fl
 
 
 def ground_fit(layout: SoleLayout) -> GroundFit:
-    """The kernel that fits planes to the distances of a layout, made at first use."""
+    """The kernel that fits planes to a layout's distances."""
     try:
         kernel: GroundFit = layout.__dict__["_ground_fit"]
     except KeyError:

@@ -21,7 +21,7 @@ __all__ = ["StuckMonitor", "TaxelHealth", "dead_taxels", "fill_from_neighbours",
 
 @dataclass(frozen=True, eq=False)
 class TaxelHealth:
-    """The taxels of a sole that are left out of every sum, and why. Read-only copies.
+    """Taxels of a sole left out of every sum, and why.
 
     Attributes:
         dead: Taxels (n,) that read NaN or inf.
@@ -60,7 +60,7 @@ class TaxelHealth:
 
 
 def dead_taxels(values: ArrayLike) -> NDArray[np.bool_]:
-    """Mask (..., n) of taxels that read no finite number; not for distances, where inf means out of range.
+    """Mask (..., n) of taxels without a finite number; not for distances, where inf means out of range.
 
     Args:
         values: Readings (..., n) of modality; ReadingError if not numeric.
@@ -69,7 +69,7 @@ def dead_taxels(values: ArrayLike) -> NDArray[np.bool_]:
 
 
 def saturated_taxels(values: ArrayLike, highest: float) -> NDArray[np.bool_]:
-    """Mask (..., n) of taxels at the upper end of their range; dead ones are not.
+    """Mask (..., n) of taxels at their range's upper end; dead ones are not.
 
     Args:
         values: Readings (..., n) of modality.
@@ -88,14 +88,14 @@ def saturated_taxels(values: ArrayLike, highest: float) -> NDArray[np.bool_]:
 def stuck_taxels(
     times: ArrayLike, values: ArrayLike, hold: float = 1.0, tolerance: float = 0.0, rest: float = 0.0
 ) -> NDArray[np.bool_]:
-    """Taxels that have not changed for a time although they read a load, as a mask (frames, n).
+    """Mask (frames, n) of taxels that have not changed for a time under load.
 
-    A change is a difference of more than the tolerance, or NaN that comes or goes. Sensors of coarse steps need a
-    `hold` longer than the robot stands still.
+    A change exceeds the tolerance, or is NaN that comes or goes. Coarse sensors need a `hold` longer than the robot
+    stands still.
 
     Args:
         times: Times (frames,) in s, increasing.
-        values: Readings (frames, n), e.g. forces in N.
+        values: Readings (frames, n), e.g. in N.
         hold: Time in s without a change from which a taxel is stuck.
         tolerance: Largest difference of two samples that is no change.
         rest: Taxel that reads this or less is never stuck.
@@ -123,7 +123,7 @@ def stuck_taxels(
 
 
 class StuckMonitor:
-    """Finds stuck taxels reading by reading, as `stuck_taxels`.
+    """`stuck_taxels`, reading by reading.
 
     Args:
         hold: As in `stuck_taxels`.
@@ -181,13 +181,13 @@ class StuckMonitor:
 def fill_from_neighbours(
     layout: SoleLayout, values: ArrayLike, faulty: ArrayLike, *, per_area: bool = False
 ) -> NDArray[np.float64]:
-    """Readings in which faulty taxels have the mean of their sound neighbours, NaN without any.
+    """Readings with faulty taxels at their sound neighbours' mean, NaN without any.
 
     Args:
         layout: Sole, n taxels.
         values: Readings (n,) or (frames, n); never changed.
         faulty: Mask (n,) or of shape of `values`: taxels to fill.
-        per_area: Average values per area, right for forces on cells of different size.
+        per_area: Average per area, for forces on unequal cells.
 
     Returns:
         Readings in shape of `values`.

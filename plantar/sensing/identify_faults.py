@@ -1,4 +1,4 @@
-"""Faults of a skin's taxels, identified from a recording under known forces, as of a press or a reference mat."""
+"""Taxel faults, identified from a recording under known forces."""
 
 from __future__ import annotations
 
@@ -44,8 +44,8 @@ class IdentifiedFaults(NamedTuple):
 def identify_faults(layout: SoleLayout, time: ArrayLike, force: ArrayLike, read: ArrayLike) -> IdentifiedFaults:
     """Identify gains, zeros, drifts, dead taxels, crosstalk, hysteresis, delay, resolution and noise.
 
-    Golden sections search crosstalk, hysteresis and delay; at each trial gains, zeros and drifts follow by least
-    squares. Shear is not identified: it needs tangential forces.
+    Golden sections search crosstalk, hysteresis and delay; gains, zeros and drifts follow by least squares. Shear needs
+    tangential forces and is not identified.
 
     Args:
         layout: Sole, n taxels.
@@ -159,7 +159,7 @@ class _Fit:
         return float(np.square(self.solve(shares)[1]).sum())
 
     def lowest(self, shares: dict[str, float], name: str, low: float, high: float) -> float:
-        """Best value of one share from low to high, by golden section; the current one if none is better."""
+        """One share's best value from low to high, by golden section."""
 
         def error(value: float) -> float:
             return self.error({**shares, name: value})
@@ -188,7 +188,6 @@ class _Fit:
 
 
 def _resolution(seen: NDArray[np.float64]) -> float:
-    """Step in N that all readings are multiples of; 0 without."""
     values = np.unique(seen)
     steps = np.diff(values)
     steps = steps[steps > 1e-9 * max(1.0, float(np.abs(values).max()))]

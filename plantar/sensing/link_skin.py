@@ -1,4 +1,4 @@
-"""Skin on the links of a body: its taxels, their readings, and wrenches."""
+"""Skin on a body's links: taxels, readings, wrenches."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["BodySkin", "LinkWrench", "SkinPatch", "SkinReading", "link_wrenches"
 
 @dataclass(frozen=True)
 class SkinPatch:
-    """Taxels on one link (T 3.14-3.15). A taxel's z axis points into the body.
+    """Taxels on one link (T 3.14-3.15), z into the body.
 
     Attributes:
         name: Name of patch.
@@ -26,8 +26,8 @@ class SkinPatch:
         positions: Taxel positions (t, 3) in link's frame in m.
         rotations: Rotations (t, 3, 3) from each taxel's to link's frame.
         areas: Area (t,) of each taxel in m^2.
-        force_threshold: epsilon_f of T 3.23: force in N from which a taxel is active.
-        proximity_range: d_range of T 3.30: sensing range in m; 0 for none.
+        force_threshold: epsilon_f of T 3.23 in N.
+        proximity_range: d_range of T 3.30 in m; 0 for none.
 
     Raises:
         LayoutError: If invalid.
@@ -67,13 +67,13 @@ class SkinPatch:
 
     @property
     def from_middle(self) -> NDArray[np.int64]:
-        """Indices (t,) of the taxels, those nearest to the patch's middle first."""
+        """Indices (t,) of the taxels, nearest to the patch's middle first."""
         off = np.linalg.norm(self.positions - self.positions.mean(axis=0), axis=1)
         return np.asarray(np.argsort(off))
 
 
 class BodySkin:
-    """All taxels of a body in one order, link by link, so that a link's taxels are one slice.
+    """All taxels of a body, link by link: a link's taxels are one slice.
 
     Args:
         patches: Patches, any number a link; LayoutError for none, or two of one name.
@@ -125,7 +125,7 @@ class BodySkin:
         return found
 
     def taxels_of(self, patches: Sequence[str] | None) -> NDArray[np.bool_]:
-        """Mask (N,) of the taxels of some patches; of all if None; InputError for an unknown name."""
+        """Mask (N,) of some patches' taxels; all if None; InputError for unknown names."""
         if patches is None:
             return np.ones(len(self), dtype=bool)
         found = np.zeros(len(self), dtype=bool)
@@ -136,7 +136,7 @@ class BodySkin:
 
 @dataclass(frozen=True)
 class SkinReading:
-    """One reading of a `BodySkin`, in its order of taxels. A taxel without data reads NaN.
+    """One reading of a `BodySkin`, in its order; NaN without data.
 
     Attributes:
         time: Time in s.
@@ -152,7 +152,7 @@ class SkinReading:
 
 
 class LinkWrench(NamedTuple):
-    """The wrench (6,) of the active taxels of one link, about its origin in its frame, by the world on the robot."""
+    """Wrench (6,) of a link's active taxels, about its origin in its frame, by the world on the robot."""
 
     link: str
     wrench: NDArray[np.float64]
@@ -160,7 +160,7 @@ class LinkWrench(NamedTuple):
 
 
 def link_wrenches(skin: BodySkin, signal: NDArray[np.float64], active: NDArray[np.bool_]) -> list[LinkWrench]:
-    """Sum the signals of active taxels, a wrench a link (T 3.16-3.18); links without any are left out (T 3.23-3.24).
+    """Sum active taxels' signals, a wrench a link (T 3.16-3.18); links without any are left out (T 3.23-3.24).
 
     Args:
         skin: Skin.

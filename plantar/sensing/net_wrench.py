@@ -1,8 +1,8 @@
-"""The net wrench about a point of all that touches a body, or is about to, from every taxel of its skin (K 2-5).
+"""The net wrench about a point of all that touches a body, or is about to, by its skin (K 2-5).
 
 A taxel counts if it measures force OR proximity (K 2, corrected: printed AND). Its pseudo-force is its force plus a
-share of its proximity (K 3), so a push is answered just before it arrives. K's taxels deliver a share of full scale,
-which its weight of 99 turns into newtons; a `SkinReading` is in newtons.
+share of its proximity (K 3), so a push is answered just before it arrives. K's weight of 99 turns full scale into
+newtons.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ __all__ = ["NetWrench", "NetWrenchRules", "net_wrench"]
 
 
 class NetWrenchRules(Part, table="push_felt", needs={"control.push_estimate": ("skin",)}):
-    """What counts as a push, besides each patch's own force threshold.
+    """What counts as a push, besides force thresholds.
 
     Attributes:
-        near: theta_prox: share of its range by which something has to be nearer than range's end (K Table 1).
+        near: theta_prox: share of range, from its end, that counts as near (K Table 1).
         proximity_force: w_prox: force in N of taxel at distance 0 without contact: 1 N in K Table 1, for a robot of 86
             kg; 0 counts contact alone.
     """
@@ -37,7 +37,7 @@ class NetWrenchRules(Part, table="push_felt", needs={"control.push_estimate": ("
 
 
 class NetWrench(NamedTuple):
-    """The wrench (6,) of all pushes about the point in the world's axes in N and N m, and the indices of the taxels."""
+    """Wrench (6,) of all pushes about the point in world axes in N and N m, and the taxels' indices."""
 
     wrench: NDArray[np.float64]
     taxels: NDArray[np.int64]

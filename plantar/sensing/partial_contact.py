@@ -1,14 +1,13 @@
-"""The supported part of a sole, finer than a cell: a fit of straight ground edges to the taxels' partial loads.
+"""The supported part of a sole, finer than a cell: straight ground edges fitted to partial loads.
 
-The hull of the active cells (T 4.24) reaches up to a cell beyond the ground's edge. Cells cut by the edge carry less
-than their neighbours. With an elastic foundation under a rigid foot the pressure on the supported part S is linear:
+Cells cut by the ground's edge carry less than their neighbours. With an elastic foundation under a rigid foot the
+pressure on the supported part S is linear:
 
     F_i = int_(cell i and S) (a + b x + c y) dA = a A_i + b Mx_i + c My_i,
 
-with A_i, Mx_i, My_i the area and first moments of the cell's covered part. S is the part of the cells on the inner side
-of a few lines n . x <= h. For given lines the pressure is a linear least-squares problem; the lines move by
-Gauss-Newton steps with exact derivatives: an edge that moves out by dh adds to each cell its chord times the pressure
-there (Leibniz).
+with A_i, Mx_i, My_i the area and first moments of the cell's covered part. S is inside a few lines n . x <= h. For
+given lines the pressure is linear least squares; the lines move by Gauss-Newton steps with exact derivatives: an edge
+that moves out by dh adds to each cell its chord times the pressure there (Leibniz).
 """
 
 from __future__ import annotations
@@ -39,7 +38,7 @@ _TURN = math.radians(12.0)  # prior spread of its direction
 
 @dataclass(frozen=True)
 class GroundEdges:
-    """Straight edges of the ground under a sole, and the supported part.
+    """Straight ground edges under a sole, and the supported part.
 
     Attributes:
         lines: Edges (m, 3) in sole frame: outward normal of length 1, and distance from origin in m.
@@ -88,7 +87,7 @@ class PartialContact:
         self.edges = None
 
     def cover(self, lines: ArrayLike) -> NDArray[np.float64]:
-        """Covered area in m^2 and its moments in m^3 about sole origin (n, 3) of each cell.
+        """Each cell's covered area in m^2 and moments in m^3 about the sole origin (n, 3).
 
         Args:
             lines: Half-planes (m, 3) n . x <= h in sole frame; InputError unless finite.
@@ -98,8 +97,7 @@ class PartialContact:
     def expected(self, load: float, center_of_pressure: ArrayLike, lines: ArrayLike) -> NDArray[np.float64]:
         """Forces (n,) of the taxels in N if the part inside the lines carried a load.
 
-        The pressure is linear where positive, and zero where the sole lifts off (a foundation that cannot pull), with
-        the load as resultant; Newton's method on its three numbers.
+        The pressure is linear where positive, else zero, with the load as resultant, by Newton's method.
 
         Args:
             load: Vertical force in N.
@@ -146,10 +144,10 @@ class PartialContact:
     def update(
         self, load: ArrayLike, active: ArrayLike, noise: float = 1.0, steps: int = 1, start: ArrayLike | None = None
     ) -> GroundEdges:
-        """Fit the edges to the loads, from the last fit while the active cells imply the same edges.
+        """Fit the edges to the loads, from the last fit while the active cells imply the same.
 
         Args:
-            load: Force (n,) on each taxel in N, a mean over readings for less noise; NaN where a taxel is faulty.
+            load: Force (n,) on each taxel in N; NaN where a taxel is faulty.
             active: Mask (n,) of taxels that have been loaded.
             noise: Standard deviation of `load` in N.
             steps: Gauss-Newton steps.
@@ -187,13 +185,12 @@ class PartialContact:
         return self.edges
 
     def _strong(self, force: NDArray[np.float64], mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Active taxels with at least a share of their strongest neighbour's pressure."""
         pressure = np.where(mask, force, 0.0) / self.layout.areas
         around = np.where(self._near >= 0, pressure[self._near], 0.0).max(axis=1, initial=0.0)
         return np.asarray(mask & (pressure > _WEAK * around))
 
     def between(self, supported: ArrayLike, idle: ArrayLike) -> NDArray[np.float64]:
-        """Lines half way between the centers of supported cells and of idle ones.
+        """Lines half way between supported and idle cells' centers.
 
         Args:
             supported: Mask (n,) of cells over ground.
@@ -251,7 +248,7 @@ class PartialContact:
         sound: NDArray[np.bool_],
         noise: float,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-        """One Gauss-Newton step of pressure and edges together, with the cells' corners as prior."""
+        """One Gauss-Newton step of pressure and edges, with the cells' corners as prior."""
         m = len(lines)
         measure, chords = self._cells.cut(lines)
         measure[~sound] = 0.0

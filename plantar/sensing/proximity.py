@@ -1,4 +1,4 @@
-"""Proximity before the sole touches: inverse measure, near taxels, contours of height.
+"""Proximity before touchdown: inverse measure, near taxels, contours of height.
 
 Distances along a taxel's -z axis in m; inf beyond the range, NaN if dead.
 """
@@ -30,7 +30,7 @@ __all__ = [
 
 
 class HeightContour(NamedTuple):
-    """The part of the ground that is nearer to the sole than a height."""
+    """The ground nearer to the sole than a height."""
 
     height: float
     """Height in m."""
@@ -41,7 +41,7 @@ class HeightContour(NamedTuple):
 
 
 def proximity_measure(distance: ArrayLike, sensing_range: float) -> NDArray[np.float64]:
-    """Inverse measure rho = d_range - d of a proximity sensor, saturated at both ends (T 3.30, T 4.2.6).
+    """Inverse measure rho = d_range - d, saturated at both ends (T 3.30, T 4.2.6).
 
     Args:
         distance: Distances (..., n) in m.
@@ -60,8 +60,7 @@ def proximity_measure(distance: ArrayLike, sensing_range: float) -> NDArray[np.f
 
 
 def near_taxels(distance: ArrayLike, threshold: float) -> NDArray[np.bool_]:
-    """Mask (..., n) of taxels nearer to a surface than a threshold: d < epsilon_p (T 4.2.7 corrected; printed d >
-    epsilon_p).
+    """Mask (..., n) of taxels nearer than a threshold: d < epsilon_p (T 4.2.7 corrected; printed d > epsilon_p).
 
     Args:
         distance: Distances (..., n) in m.
@@ -74,7 +73,7 @@ def near_taxels(distance: ArrayLike, threshold: float) -> NDArray[np.bool_]:
 
 
 def cells_polygon(layout: SoleLayout, taxels: ArrayLike) -> NDArray[np.float64]:
-    """Convex polygon of all corners of some cells of a sole (T 4.24).
+    """Convex polygon of a sole's cells (T 4.24).
 
     Args:
         layout: Sole, n taxels.
@@ -91,7 +90,7 @@ def cells_polygon(layout: SoleLayout, taxels: ArrayLike) -> NDArray[np.float64]:
 
 
 def preemptive_polygon(layout: SoleLayout, distance: ArrayLike, threshold: float) -> NDArray[np.float64]:
-    """Preemptive support polygon (k, 2) in sole frame in m: convex hull of the near cells (T 4.2.7 corrected).
+    """Preemptive support polygon (k, 2) in sole frame in m: hull of near cells (T 4.2.7 corrected).
 
     Args:
         layout: Sole, n taxels.
@@ -108,10 +107,10 @@ def preemptive_polygon(layout: SoleLayout, distance: ArrayLike, threshold: float
 
 
 def contour_levels(heights: Sequence[float]) -> tuple[float, ...]:
-    """Heights of contours in m, sorted lowest first.
+    """Heights of contours in m, lowest first.
 
     Args:
-        heights: Thresholds epsilon_p in m, in any order; InputError if one is not a number.
+        heights: Thresholds epsilon_p in m, any order; else InputError.
     """
     levels: list[float] = sorted(array(heights, "heights of contours", ("m",)).tolist())
     if any(map(math.isnan, levels)):
@@ -120,7 +119,7 @@ def contour_levels(heights: Sequence[float]) -> tuple[float, ...]:
 
 
 def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[float]) -> tuple[HeightContour, ...]:
-    """Contours that approximate the ground under a swinging sole (T 4.2.7 corrected, Fig. 39-b).
+    """Contours of the ground under a swinging sole (T 4.2.7 corrected, Fig. 39-b).
 
     Args:
         layout: Sole, n taxels.

@@ -24,7 +24,7 @@ _TIME, _FORCE = "reading field 'time'", "reading field 'force'"
 @constructed_by_kernel
 @dataclass(frozen=True, eq=False, init=False)
 class Reading(ReadingFields):
-    """Measurements of one sole's n taxels at one time. Read-only copies.
+    """Measurements of one sole's n taxels at one time, read-only.
 
     Attributes:
         time: Time in s.
@@ -80,7 +80,7 @@ class Reading(ReadingFields):
 
     @classmethod
     def taken_over(cls, time: float, force: NDArray[np.float64], proximity: NDArray[np.float64] | None = None) -> Self:
-        """A reading of arrays made for it, neither copied nor checked, in a quarter of the time.
+        """A reading of arrays made for it, neither copied nor checked.
 
         Args:
             time: Time in s.

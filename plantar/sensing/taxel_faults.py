@@ -1,8 +1,7 @@
 """Errors of real taxels, one model for simulations, `plantar.mujoco.Skin` and recordings.
 
-In this order: tangential force reads as normal force (shear), the cover spreads it to neighbours (crosstalk), the
-elastic layer rubs (hysteresis), it arrives late (delay), the electronics have a gain, a zero that drifts with warmth
-(offset, drift), noise and steps (resolution), and some taxels are dead.
+In this order: shear reads as normal force, crosstalk to neighbours, hysteresis, delay, gain, a zero (offset) that
+drifts with warmth, noise, steps (resolution), dead taxels.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ _SHARES = ("crosstalk", "hysteresis", "dead", "shear")
 
 @dataclass(frozen=True)
 class TaxelFaults:
-    """Size of the errors of a kind of skin, from which a taxel's own faults are drawn. 0 is no fault.
+    """Error sizes of a kind of skin, from which taxels' faults are drawn; 0 is none.
 
     Attributes:
         gain: Standard deviation of gains about 1.
@@ -95,7 +94,7 @@ class TaxelFaults:
 
 
 class WornFaults:
-    """The faults of each taxel of a sole, with the state of hysteresis and delay.
+    """Faults of a sole's taxels, with the state of hysteresis and delay.
 
     Args:
         layout: Sole, n taxels.
@@ -167,14 +166,14 @@ class WornFaults:
         return np.asarray(read if self.dead is None else np.where(self.dead, np.nan, read))
 
     def rubbed(self, force: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Forces (..., n) in N after crosstalk and hysteresis: the play between (1 - h) and (1 + h) times the force."""
+        """Forces (..., n) in N after crosstalk and hysteresis: play between (1 - h) and (1 + h) times the force."""
         spread = self.spread.dot(force) if force.ndim == 1 else force @ self.spread.T
         h = self.faults.hysteresis
         self._held = np.minimum(np.maximum(self._held, (1.0 - h) * spread), (1.0 + h) * spread)
         return self._held
 
     def _delayed(self, time: float, force: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The force one delay ago, interpolated; the first one until then."""
+        """The force one delay ago, interpolated; at first the first."""
         late = self._late
         late.append((time, force))
         due = time - self.faults.delay
@@ -188,7 +187,7 @@ class WornFaults:
 
 
 def crosstalk_matrix(layout: SoleLayout, crosstalk: float) -> NDArray[np.float64]:
-    """Share (n, n) of each taxel's force in each reading; columns sum to 1, a taxel without neighbours keeps its own.
+    """Share (n, n) of each taxel's force in each reading; columns sum to 1.
 
     Args:
         layout: Sole, n taxels.

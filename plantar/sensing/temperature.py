@@ -17,7 +17,7 @@ __all__ = ["temperature_footprint", "temperature_measure", "temperature_wrench",
 
 
 def temperature_measure(temperature: ArrayLike, threshold: float, highest: float = math.inf) -> NDArray[np.float64]:
-    """Excess kappa (..., n) in K of each taxel over a threshold (T 3.34): 0 below and for a dead taxel, never NaN.
+    """Excess kappa (..., n) in K over a threshold (T 3.34): 0 below and if dead, never NaN.
 
     Args:
         temperature: Temperatures (..., n) in degC; NaN or inf if dead.
@@ -41,7 +41,7 @@ def temperature_measure(temperature: ArrayLike, threshold: float, highest: float
 def temperature_wrench(
     layout: SoleLayout, temperature: ArrayLike, threshold: float | None = None, gain: float = 1.0
 ) -> NDArray[np.float64]:
-    """Virtual wrench that pushes the sole off a hot surface (T 3.35-3.37).
+    """Virtual wrench that pushes the sole off heat (T 3.35-3.37).
 
     w = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, gain * kappa_i].
 
@@ -85,7 +85,7 @@ def warm_taxels(temperature: ArrayLike, threshold: float) -> NDArray[np.bool_]:
 def temperature_footprint(
     layout: SoleLayout, temperature: ArrayLike, threshold: float | None = None
 ) -> NDArray[np.float64]:
-    """Temperature footprint: convex polygon of the warm cells (T 4.2.5).
+    """Convex polygon of the warm cells (T 4.2.5).
 
     Args:
         layout: Sole, n taxels.

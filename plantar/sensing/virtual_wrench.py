@@ -1,4 +1,4 @@
-"""Virtual wrenches of proximity, and their use to stop a swing and turn a sole."""
+"""Virtual wrenches of proximity, to stop a swing and turn a sole."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _CHUNK = 1024
 def virtual_ground_reaction_wrench(
     layout: SoleLayout, distance: ArrayLike, gain: float, sensing_range: float | None = None
 ) -> NDArray[np.float64]:
-    """Virtual ground reaction wrench of proximity at sole origin (T 4.26; T 3.30 corrected, 3.31-3.32).
+    """Virtual ground reaction wrench at the sole origin (T 4.26; T 3.30 corrected, 3.31-3.32).
 
     w_p = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, k_p rho_i]; printed T 3.30 attracts.
 
@@ -73,7 +73,7 @@ def early_stop(virtual_wrench: ArrayLike, threshold: float) -> NDArray[np.bool_]
 def sole_wrenches(
     contact: ArrayLike, virtual: ArrayLike, threshold: float, release: float | None = None
 ) -> NDArray[np.float64]:
-    """Wrench for preemptive foot compliance over time: contact plus virtual in the air, contact alone on the ground.
+    """Wrench for preemptive foot compliance: contact plus virtual in the air, contact alone on the ground.
 
     T 4.30 corrected: printed, the virtual part vanishes where |w_f| > 0, which noise exceeds.
 
@@ -103,7 +103,7 @@ def sole_wrenches(
 
 
 class SoleWrenchSwitch:
-    """`sole_wrenches`, reading by reading (T 4.30 corrected); `threshold` and `release` as there."""
+    """`sole_wrenches`, reading by reading (T 4.30 corrected), with its `threshold` and `release`."""
 
     def __init__(self, threshold: float, release: float | None = None) -> None:
         self.threshold = number(threshold, "threshold", nan=True)
@@ -113,13 +113,13 @@ class SoleWrenchSwitch:
         self.landed = False
 
     def reset(self, landed: bool = False) -> None:
-        """Start again, with the foot on the ground if `landed`."""
+        """Start again, on the ground if `landed`."""
         self.landed = landed
 
     def update(self, contact: ArrayLike, virtual: ArrayLike) -> NDArray[np.float64]:
-        """Returns the wrench (6,) in N and N m of the next reading of `contact` and `virtual` wrench (6,).
+        """Returns the wrench (6,) in N and N m of the next `contact` and `virtual` wrench (6,).
 
-        A part with NaN or inf counts as zero; InputError if one is not 6 numbers.
+        NaN or inf counts as zero; InputError unless 6 numbers.
         """
         carried, foreseen = _finite(contact, (6,)), _finite(virtual, (6,))
         force = math.hypot(*carried[:3].tolist())
@@ -133,7 +133,6 @@ def _size(wrench: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _finite(wrench: ArrayLike, shape: tuple[object, ...]) -> NDArray[np.float64]:
-    """A copy of wrenches, 0 where one is not finite."""
     given = array(wrench, "wrench", shape).copy()
     if not is_finite(given):
         given[~(np.abs(given) <= LARGEST).all(axis=-1)] = 0.0
