@@ -29,10 +29,10 @@ What a sole measures, and what follows from it:
     >>> f"{percept.vertical_force:.0f} N, {1e3 * percept.position_cop_in_sole[0]:.0f} mm in front of the ankle"
     '440 N, 71 mm in front of the ankle'
 
-Packages: `plantar.gait` walks, `plantar.gait.analysis` measures recorded gait, `plantar.robots` holds robots,
+Packages: `plantar.gait` walks, `plantar.gait.analysis` measures gait, `plantar.robots` holds robots,
 `plantar.wholebody` reacts to skin anywhere on a body, `plantar.sim` simulates (MuJoCo), `plantar.shoes` builds
-printable tactile shoes. Units are SI, and mm inside `plantar.shoes`. Errors are classes of `plantar.errors`, one line
-each. `plantar --help` is the command line; the folder `examples` has one idea a file.
+printable tactile shoes. Units are SI, and mm inside `plantar.shoes`. Errors are classes of `plantar.errors`. `plantar
+--help` is the command line; `examples` has one idea a file.
 """
 
 from __future__ import annotations

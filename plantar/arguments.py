@@ -1,4 +1,4 @@
-"""Checks of single arguments from callers: numbers, objects, lists of objects."""
+"""Checks of a caller's arguments: numbers, objects, lists."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def integer(value: object, name: str, low: int, high: int | None = None, error: 
         value: Argument.
         name: Name in errors.
         low: Smallest allowed.
-        high: Largest allowed; no limit if None.
+        high: Largest allowed; None: no limit.
         error: Error class.
 
     Returns:
@@ -164,7 +164,6 @@ def _float(value: object, name: str, error: type[PlantarError]) -> float:
 
 
 def _short(value: object) -> str:
-    """A value in an error: as written if short, else its type."""
     if isinstance(value, np.ndarray):
         return f"an array of shape {value.shape}"
     if value is None or isinstance(value, str | int | float | complex | np.generic):

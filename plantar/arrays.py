@@ -1,7 +1,7 @@
-"""Checks of arrays from callers, and read-only copies.
+"""Checks of a caller's arrays, and read-only copies.
 
 Real numbers of any type, order and stride are allowed; text, objects, complex numbers, dates, ragged rows and masked
-values are refused. float64 is not copied.
+values are refused.
 """
 
 from __future__ import annotations
@@ -36,11 +36,11 @@ _Value = TypeVar("_Value")
 
 
 def numbers(value: object, name: str, error: type[PlantarError] = InputError) -> NDArray[np.float64]:
-    """Real numbers as float64, an array of any shape.
+    """Real numbers as float64, any shape.
 
     Args:
         value: Argument.
-        name: Name in errors: "polygon", "forces" (a plural ends in s).
+        name: Name in errors; a plural ends in s.
         error: Error class.
 
     Returns:
@@ -64,10 +64,10 @@ def numbers(value: object, name: str, error: type[PlantarError] = InputError) ->
 
 
 def held_numbers(value: object, name: str, error: type[PlantarError] = InputError) -> NDArray[Any]:
-    """Real numbers in their own typefor an array too large to convert.
+    """Real numbers in their own type, too many to convert.
 
     Args:
-        value: Argument, e.g. a memory-mapped array.
+        value: Argument, e.g. memory-mapped.
         name: Name in errors.
         error: Error class.
 
@@ -96,12 +96,12 @@ def array(
     *,
     finite: bool = False,
 ) -> NDArray[np.float64]:
-    """Real numbers in an array of a given shape.
+    """Real numbers of a given shape.
 
     Args:
         value: Argument.
         name: Name in errors.
-        shape: Length of each axis; a text for any length, and `...` in front for any number of axes.
+        shape: Length of each axis; text for any, `...` in front for any number of axes.
         error: Error class.
         finite: Refuse NaN, inf, and what is beyond `LARGEST`.
 
@@ -176,7 +176,7 @@ def own(values: NDArray[np.float64]) -> NDArray[np.float64]:
 def integers(
     value: object, name: str, shape: tuple[object, ...], error: type[PlantarError] = InputError
 ) -> NDArray[np.int64]:
-    """Whole numbers in an array of a given shape.
+    """Whole numbers of a given shape.
 
     Args:
         value: Argument.
@@ -207,10 +207,10 @@ def integers(
 def mask(
     value: object, name: str, shape: tuple[object, ...], error: type[PlantarError] = InputError
 ) -> NDArray[np.bool_]:
-    """Truth values in an array of a given shape.
+    """Truth values of a given shape.
 
     Args:
-        value: Argument: bool, or whole numbers that are all 0 or 1.
+        value: Bools, or whole numbers 0 or 1.
         name: Name in errors.
         shape: As in `array`.
         error: Error class.
@@ -262,7 +262,7 @@ def read_only(value: _Value) -> _Value:
     """Close an object's arrays to writing.
 
     Args:
-        value: Array, or nested tuples that hold some; anything else is not changed.
+        value: Array, or nested tuples of some; else unchanged.
 
     Returns:
         Same object.
@@ -276,7 +276,7 @@ def read_only(value: _Value) -> _Value:
 
 
 def not_finite(values: NDArray[np.float64], name: str, error: type[PlantarError] = InputError) -> PlantarError:
-    """The error for numbers that are not all finite.
+    """The error for numbers not all finite.
 
     Args:
         values: Array of any shape.
@@ -308,7 +308,7 @@ def _given(value: object, name: str, error: type[PlantarError]) -> NDArray[Any]:
 
 
 def _fits(shape: tuple[int, ...], wanted: tuple[object, ...]) -> bool:
-    """Whether a shape is wanted (see `array`), without a generator, which costs more than the rest."""
+    """Whether a shape is wanted (see `array`), without a slow generator."""
     if wanted and wanted[0] is ...:
         wanted = wanted[1:]
         shape = shape[max(0, len(shape) - len(wanted)) :]

@@ -1,6 +1,6 @@
-"""Files and folders that appear whole or not at all: write under a temporary name, then rename.
+"""Files and folders that appear whole or not at all: written under a temporary name, then renamed.
 
-Temporary names hold process and machine; the next process that writes to the folder removes what a killed one left.
+The next process that writes there removes what a killed one left.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _LEFTOVER = re.compile(r"\.plantar-([0-9a-f]{8})-([1-9]\d{0,9})-")
 
 @contextmanager
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Give a temporary path for `path`; on success it is renamed to `path`, on an error deleted.
+    """Give a temporary path, renamed to `path` on success, deleted on an error.
 
     Args:
         path: Final path; temporary one keeps its suffix.
@@ -48,7 +48,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def temporary_beside(path: str | os.PathLike[str]) -> Path:
-    """An empty temporary file in the folder of `path`, with the permissions of a new file.
+    """An empty temporary file beside `path`, with a new file's permissions.
 
     Args:
         path: Final path; temporary one keeps its suffix.
@@ -75,7 +75,7 @@ def temporary_beside(path: str | os.PathLike[str]) -> Path:
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> Path:
-    """Write a text file (UTF-8) that appears whole or not at all; returns the path."""
+    """Write a whole text file (UTF-8) or none; returns the path."""
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
     return Path(path)
@@ -83,9 +83,7 @@ def write_text(path: str | os.PathLike[str], text: str) -> Path:
 
 @contextmanager
 def output_folder(path: str | os.PathLike[str], inputs: Iterable[str | os.PathLike[str] | None] = ()) -> Iterator[Path]:
-    """Give a temporary folder; on success its files move into `path` (made if needed), on an error it is deleted.
-
-    Other files in `path` stay.
+    """Give a temporary folder, moved into `path` (made if needed) on success, else deleted; other files in `path` stay.
 
     Args:
         path: Output folder, which may exist.
@@ -134,7 +132,7 @@ def output_folder(path: str | os.PathLike[str], inputs: Iterable[str | os.PathLi
 
 @contextmanager
 def parent_folder(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Make the folder of a file to write; on an error remove what was made and is empty.
+    """Make a file's folder; on an error remove what was made.
 
     Args:
         path: File.
@@ -161,7 +159,7 @@ def parent_folder(path: str | os.PathLike[str]) -> Iterator[None]:
 
 @cache
 def _machine() -> str:
-    """Distinguishes process numbers of this machine or container from those of others."""
+    """Distinguishes this machine's or container's process numbers from others'."""
     try:
         space = os.readlink("/proc/self/ns/pid")
     except OSError:
@@ -174,7 +172,7 @@ def _prefix() -> str:
 
 
 def _remove_leftovers(folder: Path) -> None:
-    """Remove the temporary files of dead processes of this machine from a folder."""
+    """Remove temporary files of this machine's dead processes."""
     if os.name == "nt":  # where no signal asks whether a process lives
         return
     with suppress(OSError), os.scandir(folder) as entries:

@@ -1,8 +1,7 @@
-"""The percept's members over whole recordings: arrays of forces (..., taxels), without a Python loop over frames.
+"""The percept's members over whole recordings: forces (..., taxels), without a Python loop over frames.
 
-Results keep the dimensions before the taxels. Memory-mapped arrays may be larger than memory: contiguous float64 is
-read in place, other rows block by block. `threads` share the frames without the interpreter lock; results are the same
-to the last bit.
+Memory-mapped arrays may exceed memory: contiguous float64 is read in place, other rows block by block. `threads` share
+the frames without the interpreter lock; results are the same to the last bit.
 """
 
 from __future__ import annotations
@@ -49,7 +48,7 @@ _LEAST = 512
 
 @dataclass(frozen=True, eq=False)
 class Loads:
-    """Sums of the forces of each frame; "..." are the dimensions before the taxels.
+    """Sums of each frame's forces; "..." are dimensions before taxels.
 
     Attributes:
         wrench: Ground reaction wrench (..., 6) about sole origin in N and N m (T 4.23).
@@ -73,14 +72,13 @@ class Loads:
 
 @dataclass(frozen=True, eq=False)
 class SupportPolygons:
-    """The convex support polygon of each frame (T 4.24).
+    """Convex support polygon of each frame (T 4.24).
 
     Attributes:
         area: Area (...) in m^2, 0 without contact.
         centroid: Centroid (..., 2) in m; NaN without contact.
         size: Number of vertices (...).
-        vertices: Vertices (sum of sizes, 2) of all polygons in m, one after the other, the last of dimensions counted
-            first; None where not asked for.
+        vertices: Vertices (sum of sizes, 2) of all polygons in m, in order of frames; None if not kept.
 
     Example:
         >>> corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
@@ -98,7 +96,7 @@ class SupportPolygons:
         """Support polygon of one frame.
 
         Args:
-            frame: Index of frame along each dimension, from 0; below 0 from the last one.
+            frame: Index of frame along each dimension; below 0 from the last.
 
         Returns:
             Vertices (k, 2) in m, counter-clockwise; empty without contact.
@@ -121,7 +119,7 @@ class SupportPolygons:
 
 @dataclass(frozen=True, eq=False)
 class GroundPlanes:
-    """The plane of the ground of each frame: z = -height + slope . (x, y) in sole frame.
+    """Ground plane of each frame: z = -height + slope . (x, y) in sole frame.
 
     Attributes:
         height: Height (...) in m of sole origin above ground; NaN where no taxel sees it.
@@ -153,7 +151,7 @@ def wrenches(
     *,
     threads: int | None = 1,
 ) -> NDArray[np.float64]:
-    """Ground reaction wrench of every frame (T 4.23), at the speed of memory.
+    """Ground reaction wrench of every frame (T 4.23), at memory speed.
 
     Args:
         layout: Sole, n taxels.
@@ -193,7 +191,7 @@ def wrenches(
 
 
 def loads(layout: SoleLayout, force: ArrayLike, threshold: float | None = None, *, threads: int | None = 1) -> Loads:
-    """Wrench, contact area and CoP of every frame, in one pass (T 4.21-4.23).
+    """Wrench, contact area and CoP of every frame (T 4.21-4.23).
 
     Args:
         layout: Sole, n taxels.
@@ -234,7 +232,7 @@ def support_polygons(
     vertices: bool = False,
     threads: int | None = 1,
 ) -> SupportPolygons:
-    """Convex support polygon of every frame, with its area and centroid (T 4.24).
+    """Convex support polygon of every frame, with area and centroid (T 4.24).
 
     Args:
         layout: Sole, n taxels.
@@ -244,7 +242,7 @@ def support_polygons(
         threads: Threads; one per core if None.
 
     Returns:
-        Area, centroid and size of each polygon, and polygons if kept.
+        Measures of each polygon, and polygons if kept.
 
     Raises:
         ReadingError: If invalid.
@@ -287,7 +285,7 @@ def ground_planes(
     tolerance: float = 2e-3,
     threads: int | None = 1,
 ) -> GroundPlanes:
-    """Plane of the ground under the sole in every frame, as `plantar.fit_ground_plane`.
+    """Ground plane under the sole in every frame, as `plantar.fit_ground_plane`.
 
     Args:
         layout: Sole, n taxels.
@@ -328,10 +326,10 @@ def ground_planes(
 
 
 def blocks(force: NDArray[np.float64], frames: int = BLOCK) -> Iterator[tuple[slice, NDArray[np.float64]]]:
-    """Cut a recording into blocks of frames, for results too large for memory.
+    """Cut a recording into blocks of frames, for large results.
 
     Args:
-        force: Forces (frames, n), e.g. of `numpy.load(path, mmap_mode="r")`.
+        force: Forces (frames, n), e.g. memory-mapped.
         frames: Frames in a block.
 
     Yields:
@@ -351,7 +349,6 @@ def blocks(force: NDArray[np.float64], frames: int = BLOCK) -> Iterator[tuple[sl
 
 
 def _joined(parts: list[NDArray[np.float64]], threads: int | None) -> NDArray[np.float64]:
-    """Points (sum of k, 2) of parts (k, 2); several threads copy large ones."""
     ends = np.cumsum([0, *map(len, parts)]).tolist()
     out = np.empty((ends[-1], 2))
 
@@ -364,7 +361,7 @@ def _joined(parts: list[NDArray[np.float64]], threads: int | None) -> NDArray[np
 
 
 def _frames(layout: SoleLayout, force: ArrayLike, name: str = "forces") -> tuple[NDArray[np.float64], tuple[int, ...]]:
-    """Forces (frames, n) of layout's width, and the dimensions of the frames."""
+    """Forces (frames, n) of the layout, and the frames' dimensions."""
     instance(layout, SoleLayout, "layout")
     array = held_numbers(force, name, ReadingError)
     if array.ndim < 1 or array.shape[-1] != len(layout):
@@ -388,7 +385,7 @@ def _doubles(force: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _pieces(force: NDArray[np.float64], threads: int | None, frames: int | None = None) -> list[slice]:
-    """The frames in pieces: one for a thread alone, four a thread for several, `BLOCK` where something is copied."""
+    """The frames in pieces: one for one thread, else four a thread, `BLOCK` where something is copied."""
     count = len(force)
     workers = _workers(threads)
     size = max(count, 1) if workers == 1 else max(-(-count // (4 * workers)), _LEAST)
@@ -405,9 +402,9 @@ def _workers(threads: int | None) -> int:
 
 
 def _shared(work: Callable[[slice], _Done], pieces: list[slice], threads: int | None) -> list[_Done]:
-    """Results of some work on each piece, in order, by as many threads as there is work for.
+    """Results of work on each piece, in order, by as many threads as there is work for.
 
-    The caller's thread is one of them; each takes the next piece when done, as waking threads costs up to 0.3 ms.
+    The caller's thread is one; each takes the next piece when done, as waking threads costs up to 0.3 ms.
     """
     others = min(_workers(threads), len(pieces)) - 1
     if others <= 0:

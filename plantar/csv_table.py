@@ -1,4 +1,4 @@
-"""CSV tables whose cells no spreadsheet runs as a formula."""
+"""CSV tables without formulas for spreadsheets."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def csv_text(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
 
 
 def write_csv_rows(stream: TextIO, rows: Iterable[Sequence[Any]]) -> None:
-    """Write rows of a table, as `csv_text` does.
+    """Write a table's rows, as `csv_text`.
 
     Args:
         stream: Where to; opened with newline="".
@@ -78,7 +78,7 @@ def mapping_rows(names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> Ite
         rows: Cells of each row by name.
 
     Returns:
-        Cells of each row in order of names; what a row lacks is None.
+        Cells of each row in order of names; None if absent.
 
     Example:
         >>> list(mapping_rows(["a", "b"], [{"b": 2}]))
@@ -88,7 +88,7 @@ def mapping_rows(names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> Ite
 
 
 def original_cell(text: str) -> str:
-    """A cell without the apostrophe that was added.
+    """A cell without its added apostrophe.
 
     Args:
         text: Cell as it was read.

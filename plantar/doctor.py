@@ -1,4 +1,4 @@
-"""Which libraries that Plantar can use are installed, missing or broken, and how to get them."""
+"""Which optional libraries are installed, missing or broken, and how to get them."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def examine(libraries: Mapping[str, Mapping[str, str]] = LIBRARIES) -> dict[str,
 
 
 def doctor_text(found: Mapping[str, Any]) -> str:
-    """The result of `examine` for people: an extra a paragraph, and what to do.
+    """`examine`'s result for people: an extra a paragraph, and what to do.
 
     Args:
         found: Result.

@@ -19,7 +19,7 @@ def extensions(group: str, kind: type[T]) -> dict[str, T]:
 
     Args:
         group: Group, e.g. "plantar.terrain".
-        kind: Class that each part is an instance of, or, if it is a class, extends.
+        kind: Class that each part is an instance of or extends.
 
     Returns:
         Parts by names of their entry points.

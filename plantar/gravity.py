@@ -1,4 +1,4 @@
-"""Acceleration of free fall, which weights, pendulums and the time scale of a body depend on."""
+"""Acceleration of free fall."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Members of an object that are computed at first use and kept; arrays among them read-only."""
+"""Members computed at first use and kept; their arrays are read-only."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Imports of optional libraries; distinguishes missing, broken and interrupted."""
+"""Imports of optional libraries: missing, broken or interrupted."""
 
 from __future__ import annotations
 
@@ -20,8 +20,7 @@ _INTERRUPTS = (signal.SIGINT, signal.SIGTERM)
 def optional_library(library: str, extra: str) -> Iterator[None]:
     """Guard the import of an optional library; only imports belong into the block.
 
-    Only the absence of that very module is "not installed". Ctrl-C waits until it is loaded, since native modules turn
-    it into an import error or crash.
+    Only that very module's absence is "not installed". Ctrl-C waits until it is loaded.
 
     Args:
         library: Name of module as it is imported.
@@ -50,7 +49,7 @@ def optional_library(library: str, extra: str) -> Iterator[None]:
 
 
 def need_libraries(extra: str, *libraries: str) -> None:
-    """Raise an error unless all optional libraries can be loaded.
+    """Raise an error unless all can be loaded.
 
     Args:
         extra: Name of Plantar extra that brings them.
@@ -71,7 +70,7 @@ def need_libraries(extra: str, *libraries: str) -> None:
 
 @contextmanager
 def _interrupts_held_back() -> Iterator[None]:
-    """Deliver a signal that arrives within the block after it; a second one of its kind at once."""
+    """Deliver a signal after the block; a second one of its kind at once."""
     if threading.current_thread() is not threading.main_thread():  # signals reach the main thread only
         yield
         return

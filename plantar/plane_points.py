@@ -1,4 +1,4 @@
-"""Checks of points of the plane from callers."""
+"""Checks of a caller's points of the plane."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The only module that imports matplotlib, at the first figure: makes, styles and saves figures."""
+"""The only module that imports matplotlib, at the first figure."""
 
 from __future__ import annotations
 
@@ -71,8 +71,7 @@ def new_figure(
 
 
 def save_figure(figure: Any, path: str | os.PathLike[str]) -> Path:
-    """Save a figure whole or not at all, with the same bytes for the same figure, in the format of the path's suffix;
-    returns the path.
+    """Save a figure whole or not at all, reproducibly, in the format of the path's suffix; returns the path.
 
     Raises:
         InputError: If the suffix is none of FORMATS, or the file cannot be written.
@@ -91,10 +90,10 @@ def save_figure(figure: Any, path: str | os.PathLike[str]) -> Path:
 
 
 def draw_cells(axes: Any, layout: SoleLayout, values: NDArray[np.float64], highest: float) -> Any:
-    """Draw a sole from above, toes up, its cells coloured by a value.
+    """Draw a sole from above, toes up, its cells coloured by value.
 
     Args:
-        axes: Axes; horizontal is sole's y to the left (a left foot looks like one from above).
+        axes: Axes; sole's y to the left.
         layout: Sole, n cells.
         values: Value (n,) of each cell; NaN is drawn empty.
         highest: Upper end of colour scale; its lower end is 0.
@@ -150,9 +149,7 @@ def ticks_in_mm(axes: Any) -> None:
 
 
 def draw_raster(axes: Any, picture: NDArray[np.uint8], pixel: float) -> Any:
-    """Draw a picture (h, w, 3) on axes from their origin up, each pixel of a size in their unit; returns the drawn
-    image.
-    """
+    """Draw a picture (h, w, 3) from the axes' origin up, with a pixel size in their unit; returns the drawn image."""
     height, width = picture.shape[:2]
     return axes.imshow(picture, extent=(0.0, width * pixel, 0.0, height * pixel))
 
@@ -169,8 +166,8 @@ def png_of(picture: NDArray[np.float64]) -> bytes:
 def thinned(
     x: NDArray[np.float64], y: NDArray[np.float64], most: int = 6000
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """A line x, y with fewer points that looks the same: returns the lowest and highest point of each stretch, about
-    `most` in all; NaN breaks the line.
+    """A line x, y with fewer points, about `most`, that looks the same: returns each stretch's extremes; NaN breaks the
+    line.
     """
     if len(x) <= most:
         return x, y

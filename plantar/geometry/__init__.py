@@ -1,1 +1,1 @@
-"""Polygons in a plane: hulls, outlines, and the shapes inscribed in them and around them."""
+"""Polygons in a plane: hulls, outlines, inscribed and enclosing shapes."""

@@ -34,7 +34,7 @@ def half_planes(lines: ArrayLike, name: str = "lines") -> NDArray[np.float64]:
 
 
 class CellCutter:
-    """Clips the cells of one sole by half-planes, in the kernel's own work arrays.
+    """Clips one sole's cells by half-planes.
 
     Args:
         layout: Sole, n cells, convex or not.
@@ -58,7 +58,6 @@ class CellCutter:
         return cutter
 
     def _set(self, points: NDArray[np.float64], start: NDArray[np.integer[Any]]) -> None:
-        """Take corners (m, 2) of all cells and offsets (n + 1,) of each cell's."""
         self.points = np.ascontiguousarray(points)
         self._start = start.astype(np.intp)
         self._make_room(int(np.diff(self._start).max(initial=3)) + 4)
@@ -70,8 +69,8 @@ class CellCutter:
             lines: Half-planes (m, 3) n . x <= h in sole frame: outward normal of length 1, and h in m.
 
         Returns:
-            For each cell, area left in m^2 and its first moments in m^3 about sole origin (n, 3), and chords (n, m, 3)
-            of cuts: length in m, and middle (x, y) in m.
+            Each cell's area left in m^2 and first moments in m^3 about sole origin (n, 3), and cuts' chords (n, m, 3):
+            length and middle (x, y) in m.
 
         Raises:
             InputError: If invalid.

@@ -1,7 +1,6 @@
 """Shapes around points: bounding box, oriented box and parallelogram of least area (T 4.2.5).
 
-Convex polygons in either direction, with repeated or collinear vertices; corners (4, 2) in m, counter-clockwise, none
-(0, 2) for an empty polygon. Vertices that are not finite are refused.
+Polygons may turn either way and repeat vertices; corners (4, 2) in m, counter-clockwise, none (0, 2) for an empty one.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ __all__ = ["bounding_box", "convex_shapes", "enclosing_parallelogram", "oriented
 
 
 def bounding_box(points: ArrayLike) -> NDArray[np.float64]:
-    """Axis-aligned box of any points (T 4.4.4); exact.
+    """Axis-aligned box of points (T 4.4.4); exact.
 
     Args:
         points: Points (k, 2) in m.
@@ -35,9 +34,8 @@ def bounding_box(points: ArrayLike) -> NDArray[np.float64]:
 
 
 def oriented_box(polygon: ArrayLike) -> NDArray[np.float64]:
-    """Corners (4, 2) in m of the rectangle of least area around a convex polygon (k, 2), exact to 1e-12.
-
-    By rotating calipers; the first side lies along an edge of the polygon.
+    """Corners (4, 2) in m of the least rectangle around a convex polygon (k, 2), exact to 1e-12, by rotating calipers,
+    along an edge.
 
     Example:
         >>> box = oriented_box([[0.0, 0.0], [1.0, 1.0], [0.0, 2.0], [-1.0, 1.0]])
@@ -48,9 +46,7 @@ def oriented_box(polygon: ArrayLike) -> NDArray[np.float64]:
 
 
 def enclosing_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
-    """Corners (4, 2) in m of the parallelogram of least area around a convex polygon (k, 2) (T 4.2.5, [175]), exact to
-    1e-12.
-    """
+    """Corners (4, 2) in m of the least parallelogram around a convex polygon (k, 2) (T 4.2.5, [175]), exact to 1e-12."""
     return np.asarray(convex_shapes().parallelogram_around(plane_points(polygon)))
 
 
@@ -58,5 +54,5 @@ _SHARED = ConvexShapes(False) if is_compiled("shapes") else None
 
 
 def convex_shapes() -> ConvexShapes:
-    """The kernels with their work arrays: shared ones if compiled, where calls follow each other, else new ones."""
+    """The kernels with work arrays: shared if compiled, else new ones."""
     return _SHARED if _SHARED is not None else ConvexShapes(True)

@@ -1,7 +1,7 @@
 """Largest shapes inside the contact: triangle, parallelogram, circle and rectangles (T 4.2.5, T 4.4.4).
 
-Convex polygons (k, 2) in m in either direction, with repeated or collinear vertices; others are refused. Corners in m,
-counter-clockwise and inside up to rounding: none (0, 2) for an empty polygon, a shape without area for one without.
+Convex polygons (k, 2) in m may turn either way and repeat vertices. Corners in m, counter-clockwise: none (0, 2) for an
+empty polygon, a shape without area for one without.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Circle(NamedTuple):
 
 
 class BoundedRectangle(NamedTuple):
-    """A rectangle's corners (4, 2) in m, none (0, 2) of an empty outline, and by which share any other may be larger.
+    """A rectangle's corners (4, 2) in m, none (0, 2) if empty, and the share by which any other may be larger.
 
     Example:
         >>> BoundedRectangle(np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]), 1e-6).gap
@@ -62,9 +62,9 @@ class BoundedRectangle(NamedTuple):
 
 
 def inscribed_triangle(polygon: ArrayLike) -> NDArray[np.float64]:
-    """Corners (3, 2) in m of the triangle of most area in a convex polygon (k, 2) (T 4.2.5, [173]); exact.
+    """Corners (3, 2) in m of the largest triangle in a convex polygon (k, 2) (T 4.2.5, [173]); exact.
 
-    For every first corner the third one walks on with the second, in O(k^2); the O(k) walk of [173] misses some.
+    In O(k^2); the O(k) walk of [173] misses some.
 
     Example:
         >>> inscribed_triangle([[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [2.0, 3.0], [0.0, 1.0]]).tolist()
@@ -74,10 +74,9 @@ def inscribed_triangle(polygon: ArrayLike) -> NDArray[np.float64]:
 
 
 def inscribed_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
-    """Corners (4, 2) in m of the parallelogram of most area in a convex polygon (k, 2) (T 4.2.5, [174]), exact to
-    1e-12.
+    """Corners (4, 2) in m of the largest parallelogram in a convex polygon (k, 2) (T 4.2.5, [174]), exact to 1e-12.
 
-    From every vertex one side walks once round, in O(k) pieces on which the area is a parabola (Jin and Matulef 2011).
+    From every vertex one side walks once round, in O(k) pieces of parabolic area (Jin and Matulef 2011).
 
     Example:
         >>> inscribed_parallelogram([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]).tolist()  # half of the triangle
@@ -88,8 +87,6 @@ def inscribed_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
 
 def inscribed_circle(polygon: ArrayLike) -> Circle | None:
     """Largest circle in a convex polygon (k, 2), or any of several, its radius exact to 1e-12.
-
-    The least distance to an edge is concave in x and y; cuts (tangents) find its maximum.
 
     Returns:
         Center and radius in m; radius 0 at middle of polygon without area; None for an empty polygon.
@@ -104,17 +101,15 @@ def inscribed_circle(polygon: ArrayLike) -> Circle | None:
 
 
 def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.float64]:
-    """Rectangle of most area in a convex polygon, at a given angle (T 4.4.4, [189]).
-
-    The height over the width is concave and piecewise linear; cuts (tangents) find the best width and its place.
+    """Largest rectangle in a convex polygon, at a given angle (T 4.4.4, [189]).
 
     Args:
         polygon: Convex polygon (k, 2) in m.
         angle: Angle of the first side against x in rad.
 
     Returns:
-        Corners (4, 2) in m from the lower left one at angle 0; area exact to 1e-12, and to 1e-8 where edges are within
-        1e-3 rad of sides' directions but not on them.
+        Corners (4, 2) in m from the lower left one at angle 0; area exact to 1e-12; to 1e-8 where edges are almost
+        parallel to sides.
 
     Example:
         >>> inscribed_rectangle([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]).tolist()
@@ -124,7 +119,7 @@ def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.fl
 
 
 def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
-    """Corners (4, 2) in m of the largest rectangle in a convex polygon (k, 2) that a scan of angles finds."""
+    """Corners (4, 2) in m of the largest rectangle in a convex polygon (k, 2) by a scan of angles."""
     ring = np.asarray(convex_ring(polygon))
     edges = np.roll(ring, -1, axis=0) - ring
     # The edges' directions first: the best rectangle often has a side on one, and that of a needle always.
@@ -134,17 +129,14 @@ def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
 
 
 def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.float64]:
-    """Rectangle of most area in a concave outline, at a given angle.
-
-    The outline is cut into trapezoids; branch and bound over the first and last one of a rectangle.
+    """Largest rectangle in a concave outline, at a given angle.
 
     Args:
         outline: Outline with islands and holes in m.
         angle: Angle of the first side against x in rad.
 
     Returns:
-        Corners (4, 2) in m; area exact to 1e-12, and to 1e-7 where edges are within 1e-3 rad of sides' directions but
-        not on them. No corners (0, 2) for an empty outline.
+        Corners (4, 2) in m; area exact to 1e-12; to 1e-7 where edges are almost parallel to sides. (0, 2) if empty.
 
     Example:
         >>> corner = Outline.of_rings([[[0, 0], [4, 0], [4, 1], [1, 1], [1, 3], [0, 3]]])
@@ -158,19 +150,17 @@ def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.flo
 
 
 def rectangle_in_outline_any_angle(outline: Outline, looks: int = _LOOKS) -> BoundedRectangle:
-    """Largest rectangle in a concave outline by a scan of angles, and a proven bound on all others.
+    """Largest rectangle in a concave outline by a scan of angles, and a proven bound on others.
 
-    A rectangle turned by t holds one of d^2 sin(2 t) / 2 less at the angle before, d its diagonal: the largest
-    rectangle at one angle bounds those near it. The interval of the largest bound is halved repeatedly; the best angle
-    is refined.
+    A rectangle turned by t holds one of d^2 sin(2 t) / 2 less at the angle before, d its diagonal: one angle bounds
+    those near it. The interval of the largest bound is halved repeatedly.
 
     Args:
         outline: Outline with islands and holes in m.
-        looks: Number of angles in scan; more of them never give a larger gap.
+        looks: Number of angles in scan.
 
     Returns:
-        Corners (4, 2) in m and gap: no rectangle is larger by more than that share. No corners (0, 2) and gap 0 for an
-        empty outline.
+        Corners (4, 2) in m and gap: no rectangle is larger by more than that share. If empty (0, 2) and 0.
 
     Raises:
         InputError: If invalid.
@@ -193,7 +183,7 @@ def _scan(
     looks: int,
     seeds: NDArray[np.float64],
 ) -> BoundedRectangle:
-    """Scan the angles of a quarter turn, some seeds first, for the largest rectangle within points."""
+    """Scan a quarter turn's angles, seeds first, for the largest rectangle."""
     if not len(points):
         return BoundedRectangle(np.empty((0, 2)), 0.0)
     found = [(_area(corners), angle, corners) for angle in (0.0, *seeds.tolist()) for corners in [largest(angle)]]
@@ -234,7 +224,7 @@ def _climb(
     corners: NDArray[np.float64],
     least: float,
 ) -> tuple[float, NDArray[np.float64]]:
-    """Area and corners at the local maximum near an angle, by ever smaller turns."""
+    """Area and corners at the local maximum near an angle."""
     width = 0.25 * _QUARTER / _FIRST
     while width > least:
         for turned in (angle - width, angle + width):
@@ -256,9 +246,9 @@ def _area(corners: NDArray[np.float64]) -> float:
 def safe_rectangle(
     polygon: ArrayLike, offset: float, method: Literal["inscribed", "bounding"] = "inscribed"
 ) -> NDArray[np.float64]:
-    """Axis-aligned rectangle that replaces the contact in the wrench cone (T 4.32-4.41, corrected).
+    """Axis-aligned rectangle for the contact in the wrench cone (T 4.32-4.41, corrected).
 
-    Its sides move inwards by a safety offset. The bounding box is faster and reaches beyond the contact (T 4.4.4).
+    Its sides move inwards by a safety offset. The bounding box is faster and exceeds the contact (T 4.4.4).
 
     Args:
         polygon: Convex support polygon (k, 2) in contact frame in m.
@@ -266,8 +256,7 @@ def safe_rectangle(
         method: "inscribed" or "bounding".
 
     Returns:
-        Corners (4, 2) in m: row 0 is (Xmin, Ymin), row 2 (Xmax, Ymax). Sides that would pass each other meet in middle.
-        No corners (0, 2) for an empty polygon.
+        Corners (4, 2) in m: row 0 is (Xmin, Ymin), row 2 (Xmax, Ymax). Sides never pass each other. (0, 2) if empty.
 
     Raises:
         InputError: If invalid.

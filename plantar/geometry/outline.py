@@ -1,4 +1,4 @@
-"""Exact concave outline of the contact: the union of the active cells, with islands and holes (T 4.2.5)."""
+"""Exact concave outline of the contact: the active cells' union, with islands and holes (T 4.2.5)."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ _BOOL = np.dtype(np.bool_)
 
 
 class Outline(Rings):
-    """Rings around an area of the plane: rims of islands counter-clockwise, rims of holes clockwise. Read-only.
+    """Rings around an area, read-only: islands' rims counter-clockwise, holes' clockwise.
 
     Attributes:
-        points: Vertices (k, 2) of all rings in m, one ring after another, without repeated last points.
+        points: Vertices (k, 2) of all rings in m, in turn, no last point repeated.
         starts: Offsets (r + 1) of rings in `points`.
         ring_areas: Signed area of each ring in m^2, below 0 for a hole.
         area: Area in m^2, holes left out; exact to 1e-12.
@@ -72,16 +72,15 @@ class Outline(Rings):
 
     @classmethod
     def of_rings(cls, rings: Sequence[ArrayLike]) -> Outline:
-        """Outline of given rings (k, 2) in m, rims of islands counter-clockwise and of holes clockwise.
-
-        Rings without area are left out; InputError if a ring is not (k, 2) finite numbers.
+        """Outline of rings (k, 2) in m, islands' rims counter-clockwise and holes' clockwise; those without area are
+        left out, InputError for other shapes.
         """
         parts = [plane_points(ring, "ring") for ring in items(rings, "rings")]
         return cls._with_area(np.concatenate([np.empty((0, 2)), *parts]), [0, *accumulate(map(len, parts))])
 
     @classmethod
     def _with_area(cls, points: NDArray[np.float64], starts: Sequence[int]) -> Outline:
-        """Outline of rings in an array of no other owner, without those without area."""
+        """Outline of rings in an unshared array, less those without area."""
         areas = areas_of_rings(points, starts)
         if 0.0 in areas:
             kept = [(points[a:b], area) for (a, b), area in zip(pairwise(starts), areas, strict=True) if area != 0.0]
@@ -92,7 +91,7 @@ class Outline(Rings):
 
     @classmethod
     def _of(cls, points: NDArray[np.float64], starts: Sequence[int], areas: Sequence[float]) -> Outline:
-        """Outline of checked values in an array of no other owner."""
+        """Outline of checked values in an unshared array."""
         made = cls.__new__(cls)
         Rings.__init__(made, read_only(points), tuple(starts), tuple(areas))
         return made
@@ -107,7 +106,7 @@ class Outline(Rings):
 
     @lazy
     def centroid(self) -> NDArray[np.float64] | None:
-        """Centroid (2,) of the area in m, holes left out; None for an empty outline."""
+        """Centroid (2,) of the area in m, less holes; None if empty."""
         if not len(self):
             return None
         _, x, y = area_and_centroid(self.points, self.starts)
@@ -128,10 +127,10 @@ class Outline(Rings):
         return tuple(tuple(part) for part in parts.values())
 
     def moved(self, rotation: ArrayLike, translation: ArrayLike) -> Outline:
-        """The outline in another frame, seen from above where the rotation tilts it.
+        """The outline in another frame, seen from above.
 
         Args:
-            rotation: Rotation (2, 2), or (3, 3) of which plane's part counts, from this frame to the other.
+            rotation: Rotation (2, 2), or (3, 3), from this frame to the other.
             translation: Position (2,) or (3,) of this frame's origin in the other frame in m.
 
         Returns:
@@ -155,7 +154,7 @@ class Outline(Rings):
 
 
 def concave_outline(layout: SoleLayout, active: ArrayLike) -> Outline:
-    """Exact outline of the contact on one sole, with islands and holes (T 4.2.5, where [172] only approximates it).
+    """Exact outline of one sole's contact, with islands and holes (T 4.2.5, where [172] approximates).
 
     Args:
         layout: Sole, n taxels.
@@ -196,7 +195,7 @@ def concave_outline(layout: SoleLayout, active: ArrayLike) -> Outline:
 
 
 def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:
-    """Outline of the contact of all feet in one frame (T 4.25, for the concave outline).
+    """Outline of all feet's contact in one frame (T 4.25).
 
     Args:
         outlines_in_world: Outline of each foot in world frame in m; empty in the air.
@@ -228,7 +227,6 @@ def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:
 
 
 def _union(parts: Sequence[NDArray[np.float64] | tuple[NDArray[np.float64], ...]]) -> Outline:
-    """Union by shapely of polygons, each a ring or a rim with its holes."""
     import shapely
 
     shapes = [shapely.Polygon(p[0], p[1:]) if isinstance(p, tuple) else shapely.Polygon(p) for p in parts]
@@ -246,7 +244,7 @@ def _shortly(values: Sequence[float]) -> str:
 
 
 def _is_around(shell: NDArray[np.float64], hole: NDArray[np.float64]) -> bool:
-    """Whether a rim encloses the middle of the first edge of a hole's."""
+    """Whether a rim encloses a hole, by its first edge's middle."""
     x, y = 0.5 * (hole[0] + hole[1])
     a, b = shell, np.roll(shell, -1, axis=0)
     crosses = (a[:, 1] > y) != (b[:, 1] > y)

@@ -1,7 +1,7 @@
-"""Convex polygons in a plane: hull, area, centroid, closest point, signed margin, inner offset.
+"""Convex polygons: hull, area, centroid, closest point, margin, inner offset.
 
-A polygon is an array (k, 2) of vertices in m without a repeated last point, counter-clockwise where it is returned.
-Points in one place or on one line give 1 or 2 vertices and area 0.
+Vertices (k, 2) in m without repeated last point, counter-clockwise where returned. Points in one place or on one line
+give 1 or 2 vertices and area 0.
 """
 
 from __future__ import annotations
@@ -37,14 +37,14 @@ _NOISE = 1e-15  # of a polygon's extent: corners that a cut leaves nearer to eac
 def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
     """Convex hull by Andrew's monotone chain, without vertices on straight edges.
 
-    Every turn is decided exactly. A vertex within rounding of its neighbours' line (4 units in the last place, at most
+    Every turn is decided exactly; a vertex within rounding of its neighbours' line (4 units in the last place, at most
     1e-13 of the extent) is left out.
 
     Args:
-        points: Points (n, 2) in m. Points that are not finite, or beyond 1e100 m, are left out.
+        points: Points (n, 2) in m; not finite, or beyond 1e100 m, are left out.
 
     Returns:
-        Hull (k, 2), counter-clockwise from lowest x (to that rounding); vertices are input points.
+        Hull (k, 2), counter-clockwise from lowest x ; vertices are input points.
 
     Raises:
         InputError: If invalid.
@@ -60,7 +60,7 @@ def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
 
 
 def convex_ring(polygon: ArrayLike) -> NDArray[np.float64]:
-    """A convex polygon from a caller; repeated and collinear vertices are allowed.
+    """A caller's convex polygon; repeated and collinear vertices are allowed.
 
     Args:
         polygon: Polygon (k, 2) in m, either orientation.
@@ -90,7 +90,7 @@ def convex_ring(polygon: ArrayLike) -> NDArray[np.float64]:
 
 
 def area(polygon: ArrayLike) -> float:
-    """Signed area in m^2 (shoelace about the first vertex): positive for counter-clockwise.
+    """Signed area in m^2 (shoelace): positive for counter-clockwise.
 
     Args:
         polygon: Simple polygon (k, 2) in m.
@@ -115,7 +115,7 @@ def centroid(polygon: ArrayLike) -> NDArray[np.float64] | None:
         polygon: Simple polygon (k, 2) in m.
 
     Returns:
-        Position (2,) in m; mean of vertices where area is 0; None for an empty polygon.
+        Position (2,) in m; mean of vertices where area is 0; None if empty.
 
     Raises:
         InputError: If invalid.
@@ -132,17 +132,16 @@ def centroid(polygon: ArrayLike) -> NDArray[np.float64] | None:
 
 
 def closest_point(polygon: ArrayLike, point: ArrayLike) -> NDArray[np.float64] | None:
-    """Point of a convex polygon that is closest to a given one (T Algorithm 1, corrected).
+    """Closest point of a convex polygon (T Algorithm 1, corrected).
 
-    The printed test (d x l)_z > 0 holds for counter-clockwise vertices alone; here its sign follows the polygon's.
+    Printed (d x l)_z > 0 holds for counter-clockwise vertices alone; here its sign follows the polygon's.
 
     Args:
         polygon: Convex polygon (k, 2), either orientation.
         point: Point (2,) in m.
 
     Returns:
-        Point itself inside, else closest point (2,) on boundary; None for an empty polygon; NaN for a point that is not
-        finite.
+        Point itself inside, else closest point (2,) on boundary; None if empty, NaN for no finite point.
 
     Raises:
         InputError: If invalid.
@@ -160,14 +159,14 @@ def closest_point(polygon: ArrayLike, point: ArrayLike) -> NDArray[np.float64] |
 
 
 def signed_margin(polygon: ArrayLike, point: ArrayLike) -> float:
-    """Signed distance in m of a point to the edge of a convex polygon: positive inside, negative outside.
+    """Signed distance in m of a point to a convex polygon's edge: positive inside.
 
     Args:
         polygon: Convex polygon (k, 2), either orientation.
         point: Point (2,) in m.
 
     Returns:
-        Distance; -inf for an empty polygon, NaN for a point that is not finite.
+        Distance; -inf if empty, NaN for no finite point.
 
     Raises:
         InputError: If invalid.
@@ -191,8 +190,8 @@ def inner_offset(polygon: ArrayLike, distance: float) -> NDArray[np.float64]:
         distance: Distance in m, 0 or more.
 
     Returns:
-        Smaller polygon (m, 2), counter-clockwise; if empty, or for a distance of NaN, deepest point (1, 2), middle of 1
-        or 2 vertices; an empty polygon for an empty one, and a copy for a distance of 0.
+        Smaller polygon (m, 2), counter-clockwise; if none, or NaN, deepest point (1, 2), middle of 1 or 2 vertices;
+        empty for empty, a copy for 0.
 
     Raises:
         InputError: If invalid.
@@ -215,7 +214,7 @@ def inner_offset(polygon: ArrayLike, distance: float) -> NDArray[np.float64]:
 
 
 def part_inside(polygon: NDArray[np.float64], nx: float, ny: float, h: float) -> NDArray[np.float64]:
-    """Part of a convex polygon where n . x <= h, without near-duplicates where the line meets a corner.
+    """Part of a convex polygon where n . x <= h, without near-duplicates.
 
     Args:
         polygon: Convex polygon (k, 2) in m, counter-clockwise.

@@ -1,1 +1,1 @@
-"""Everything that one sole or both perceive in one reading, computed on demand."""
+"""What one sole or both perceive in a reading, computed on demand."""

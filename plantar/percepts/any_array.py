@@ -1,7 +1,7 @@
-"""Activation, wrench, contact area and center of pressure of forces in arrays of torch, JAX, CuPy or numpy.
+"""Activation, wrench, contact area and CoP of arrays of torch, JAX, CuPy or numpy.
 
-Arrays of the array API standard, and torch's, keep library, device and type. Sums are differentiable in the forces of
-active taxels. On a CPU `plantar.batch` is faster.
+Arrays of the array API standard, and torch's, keep library, device and type; sums are differentiable in active forces.
+On a CPU `plantar.batch` is faster.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ __all__ = ["ArrayLoads", "active", "loads"]
 
 
 class ArrayLoads(NamedTuple):
-    """Sums of forces; "..." are their dimensions before the taxels.
+    """Sums of forces; "..." are dimensions before taxels.
 
     Attributes:
         wrench: Ground reaction wrench (..., 6) about sole origin in N and N m (T 4.23).
@@ -33,11 +33,11 @@ class ArrayLoads(NamedTuple):
 
 
 def active(layout: SoleLayout, force: Any, threshold: float | None = None) -> Any:
-    """Active taxels (T 4.22): above the threshold and below layout's force limit, not dead.
+    """Active taxels (T 4.22): above the threshold, below the layout's force limit, not dead.
 
     Args:
         layout: Sole, n taxels.
-        force: Normal forces (..., n) in N, an array of real floating point numbers.
+        force: Normal forces (..., n) in N, floating point.
         threshold: Activation threshold in N; layout's if None.
 
     Returns:
@@ -90,7 +90,7 @@ def loads(layout: SoleLayout, force: Any, threshold: float | None = None) -> Arr
 
 
 def _namespace(layout: SoleLayout, force: Any) -> Any:
-    """The functions of the library that an array is of."""
+    """The functions of an array's library."""
     kind = type(force)
     if hasattr(force, "__array_namespace__"):
         xp = force.__array_namespace__()
@@ -106,7 +106,7 @@ def _namespace(layout: SoleLayout, force: Any) -> Any:
 
 
 def _constant(xp: Any, values: Any, like: Any) -> Any:
-    """A constant of the sole in the forces' library, type and device."""
+    """A sole's constant in the forces' library, type and device."""
     if not hasattr(like, "__array_namespace__"):
         return xp.as_tensor(values, dtype=like.dtype, device=like.device)
     # Where a library has several devices, what is not on the default one has to be stated; JAX moves it by itself.

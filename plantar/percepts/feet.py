@@ -1,4 +1,4 @@
-"""The joint percept of two feet in world frame, each member computed at first use."""
+"""The joint percept of two feet in the world frame."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ __all__ = ["FeetPercept"]
 
 
 class FeetPercept:
-    """Percepts of the soles together with their poses.
+    """Percepts of the soles with their poses.
 
     Args:
         percepts: Percept of each sole.
@@ -54,12 +54,12 @@ class FeetPercept:
 
     @lazy
     def position_zmp_in_world(self) -> NDArray[np.float64] | None:
-        """Composite ZMP (2,) in the plane of the ground in m, or None without load (T 4.7-4.8)."""
+        """Composite ZMP (2,) in the ground plane in m, or None without load (T 4.7-4.8)."""
         return zmp_in_plane(self.wrench_in_world, self.ground_height, minimum_force=0.0)
 
     @lazy
     def positions_cop_in_world(self) -> tuple[NDArray[np.float64] | None, ...]:
-        """CoP (3,) of each sole on its surface, in world in m; None without load (T 4.21)."""
+        """Each sole's CoP (3,) on its surface, in world in m; None without load (T 4.21)."""
         return tuple(
             None if p.surface_cop_in_sole is None else pose.to_world(p.surface_cop_in_sole)
             for p, pose in zip(self.percepts, self.poses, strict=True)
@@ -67,7 +67,7 @@ class FeetPercept:
 
     @lazy
     def support_polygon_in_world(self) -> NDArray[np.float64]:
-        """Convex support polygon (k, 2) of all soles seen from above in m; empty without contact (T 4.25)."""
+        """Convex support polygon (k, 2) of all soles from above in m; empty without contact (T 4.25)."""
         polygons = [
             pose.polygon_to_world(p.support_polygon_in_sole if p.layout.is_level else _corners(p.layout, p.active))
             for p, pose in zip(self.percepts, self.poses, strict=True)
@@ -76,7 +76,7 @@ class FeetPercept:
 
     @lazy
     def outlines_in_world(self) -> tuple[Outline, ...]:
-        """Concave outline of each sole's contact, seen from above in world in m (T 4.2.5)."""
+        """Concave outline of each sole's contact, from above in world in m (T 4.2.5)."""
         return tuple(
             pose.outline_to_world(p.concave_outline_in_sole, p.layout)
             for p, pose in zip(self.percepts, self.poses, strict=True)
@@ -94,7 +94,7 @@ class FeetPercept:
 
     @lazy
     def support_area(self) -> float:
-        """Area in m^2 of support polygon of all soles, seen from above."""
+        """Area in m^2 of all soles' support polygon, from above."""
         return area(self.support_polygon_in_world)
 
     @lazy
@@ -104,6 +104,6 @@ class FeetPercept:
 
 
 def _corners(layout: SoleLayout, mask: NDArray[np.bool_] | None) -> NDArray[np.float64]:
-    """Corners (m, 3) of some cells in sole frame in m."""
+    """Corners (m, 3) of cells in sole frame in m."""
     cells: list[int] = [] if mask is None else np.flatnonzero(mask).tolist()
     return layout.vertices[sorted({v for i in cells for v in layout.corners[i]})]

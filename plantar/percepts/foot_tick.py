@@ -1,4 +1,4 @@
-"""One foot for a walking controller at every tick, in one call, for loops at 1 kHz and faster."""
+"""One foot for a walking controller at every tick, for loops at 1 kHz and faster."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _FLOAT = np.dtype(np.float64)
 
 
 class FootTick(NamedTuple):
-    """One foot at one tick, in sole frame; the same as a `Percept` gives, computed together.
+    """One foot at one tick, in sole frame; as a `Percept`, computed together.
 
     Example:
         >>> from plantar import grid_layout
@@ -56,12 +56,12 @@ def walking_tick(
     offset: float = 0.0,
     threshold: float | None = None,
 ) -> FootTick:
-    """Active taxels, CoP, wrench, support polygon, safe polygon and clamped point of one foot, in one call.
+    """Active taxels, CoP, wrench, support and safe polygon, and clamped point of one foot.
 
     Args:
         layout: Sole, n taxels.
         force: Normal forces (n,) in N.
-        aim: Point in sole frame in m to clamp to safe polygon, e.g. a desired ZMP.
+        aim: Point in sole frame in m to clamp to safe polygon.
         offset: Distance in m of safe polygon from support polygon's edges.
         threshold: Activation threshold in N; layout's if None.
 

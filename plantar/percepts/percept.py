@@ -1,4 +1,4 @@
-"""Lazy percept of a sole: each member computed at first use and kept."""
+"""Lazy percept of a sole."""
 
 from __future__ import annotations
 
@@ -33,15 +33,15 @@ __all__ = ["Percept"]
 class Percept(ShapeMembers, VirtualMembers, PerceptFields):
     """The percept of a reading through its layout.
 
-    Members are computed at first use, once, and read-only. An unloaded sole has no CoP (None), area 0, an empty polygon
-    and a zero wrench; a modality that the reading lacks gives None. Dead, saturated and stuck taxels are left out of
-    every sum; `health` lists them.
+    Members are computed at first use, and read-only. An unloaded sole has no CoP (None), area 0, an empty polygon and a
+    zero wrench; a modality that the reading lacks gives None. Faulty taxels are left out of every sum; `health` lists
+    them.
 
     Args:
         layout: Sole, n taxels.
         reading: Reading of its taxels.
         force_threshold: Activation threshold epsilon_f in N; layout's if None.
-        active: Mask (n,) of active taxels, of a `TaxelActivation` with hysteresis; those above threshold if None.
+        active: Mask (n,) of active taxelsof a `TaxelActivation`; those above threshold if None.
         stuck: Mask (n,) of stuck taxels, of a `StuckMonitor`; none if None.
         options: Other options; defaults if None.
 
@@ -106,7 +106,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @classmethod
     def summed(cls, layout: SoleLayout, reading: Reading, loads: NDArray[np.float64]) -> Self:
-        """A percept with known loads and its layout's threshold, without checks.
+        """A percept with known loads and its layout's threshold, unchecked.
 
         Args:
             layout: Sole, n taxels.
@@ -134,7 +134,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @classmethod
     def members(cls) -> tuple[str, ...]:
-        """Names of all lazy members; those in a percept's `__dict__` have been computed."""
+        """Names of all lazy members; computed ones are in `__dict__`."""
         own = (vars(base).items() for base in cls.__mro__)
         return tuple(name for items in own for name, value in items if isinstance(value, lazy))
 
@@ -148,7 +148,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @lazy
     def sound_force(self) -> NDArray[np.float64]:
-        """Normal forces (n,) in N; NaN of a faulty taxel, or with `fill` by its neighbours' pressure."""
+        """Normal forces (n,) in N; NaN if faulty, or with `fill` by its neighbours' pressure."""
         faulty = self.health.faulty
         if self.options.fill:
             return fill_from_neighbours(self.layout, self.reading.force, faulty, per_area=True)
@@ -156,7 +156,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @lazy
     def active(self) -> NDArray[np.bool_]:
-        """Active taxels (n,) (T 4.22); a faulty one is not, unless filled."""
+        """Active taxels (n,) (T 4.22); faulty ones only if filled."""
         mask = self._active_above()
         if mask is not None:
             return mask
@@ -168,7 +168,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @lazy
     def active_force(self) -> NDArray[np.float64]:
-        """Normal forces (n,) of the active taxels in N, 0 elsewhere."""
+        """Normal forces (n,) of active taxels in N, 0 elsewhere."""
         return np.where(self.active, self.sound_force if self.options.fill else self.reading.force, 0.0)
 
     @lazy
@@ -178,7 +178,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @lazy
     def contact_area(self) -> float:
-        """Area in m^2 of the active cells (T 4.22, with each cell's own area)."""
+        """Area in m^2 of the active cells (T 4.22)."""
         return self._loads().item(6)
 
     @lazy
@@ -188,9 +188,8 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @lazy
     def surface_cop_in_sole(self) -> NDArray[np.float64] | None:
-        """Center of pressure (3,) on the sole's surface in sole frame in m, or None without load.
-
-        Exact on a surface of second order, 0 on a flat one.
+        """Center of pressure (3,) on the sole's surface in sole frame in m, or None without load; exact for a surface
+        of second order.
         """
         cop = self.position_cop_in_sole
         if cop is None:
@@ -214,7 +213,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @lazy
     def pressure_driven_wrench_in_sole(self) -> NDArray[np.float64]:
-        """The wrench (6,) amplified on a small contact area, in N and N m (T 3.26-3.27)."""
+        """Wrench (6,) amplified on a small contact area, in N and N m (T 3.26-3.27)."""
         xi = self.options.reference_area
         return scaled_by_area(self.wrench_in_sole, self.contact_area, self.layout.cell_area if xi is None else xi)
 
@@ -230,7 +229,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @lazy
     def area_ratio(self) -> float:
-        """A_p / A_s: area of support polygon against the sole's outline (T 4.3.2 rule b)."""
+        """A_p / A_s: area of support polygon over sole outline (T 4.3.2 rule b)."""
         return self.support_area / self.layout.sole_area
 
     @lazy

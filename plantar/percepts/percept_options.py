@@ -1,4 +1,4 @@
-"""Options of a percept in addition to its layout and reading."""
+"""Options of a percept besides layout and reading."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ CONTOUR_HEIGHTS: tuple[float, ...] = (0.01, 0.02, 0.03, 0.04, 0.05)
 
 @dataclass(frozen=True)
 class PerceptOptions:
-    """Options of a percept; share one object between the percepts of a recording.
+    """Options of a percept, shared by a recording's percepts.
 
     Attributes:
-        fill: Replace faulty taxels by pressure of their sound neighbours, instead of leaving them out.
+        fill: Replace faulty taxels by their sound neighbours' pressure, not leaving them out.
         proximity_gain: Repulsion k_p of taxel in N/m (T 4.26).
         contour_heights: Heights of contours of ground in m (T 4.2.7), kept lowest first.
         reference_area: Area xi in m^2 of pressure-driven wrench (T 3.27); that of one cell if None.

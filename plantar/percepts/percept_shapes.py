@@ -1,4 +1,4 @@
-"""Members of a percept that describe the contact's shape."""
+"""Members of a percept: the contact's shape."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["ShapeMembers"]
 
 
 class ShapeMembers:
-    """Shapes in and around the contact in sole frame in m: counter-clockwise corners, none (0, 2) without."""
+    """Shapes of the contact in sole frame in m: counter-clockwise corners, none (0, 2) without."""
 
     layout: SoleLayout
 
@@ -32,7 +32,7 @@ class ShapeMembers:
 
     @lazy
     def concave_outline_in_sole(self) -> Outline:
-        """Exact outline of the contact with islands and holes (T 4.2.5)."""
+        """Exact contact outline with islands and holes (T 4.2.5)."""
         return concave_outline(self.layout, self.active)
 
     @lazy
@@ -82,11 +82,11 @@ class ShapeMembers:
 
     @lazy
     def outline_rectangle_any_angle_in_sole(self) -> BoundedRectangle:
-        """Largest rectangle in the concave outline, at any angle, and by what share others may be larger."""
+        """Largest rectangle in the concave outline, any angle, and by what share others may be larger."""
         return _inscribed.rectangle_in_outline_any_angle(self.concave_outline_in_sole)
 
     def safe_rectangle_in_sole(self, offset: float) -> NDArray[np.float64]:
-        """Largest axis-aligned rectangle (4, 2) in support polygon, its sides moved inwards (T 4.4.4).
+        """Largest axis-aligned rectangle (4, 2) in support polygon, sides moved inwards (T 4.4.4).
 
         Args:
             offset: How far in m, 0 or more.

@@ -1,4 +1,4 @@
-"""Members of a percept without contact: from proximity, temperature and acceleration."""
+"""Members of a percept from proximity, temperature and acceleration."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ __all__ = ["VirtualMembers"]
 
 
 class VirtualMembers:
-    """Members of a `Percept` other than forces. A modality that the reading lacks gives None."""
+    """Members of a `Percept` other than forces; None without the modality."""
 
     layout: SoleLayout
     reading: Reading
@@ -27,19 +27,19 @@ class VirtualMembers:
 
     @lazy
     def near(self) -> NDArray[np.bool_] | None:
-        """Taxels (n,) nearer to the ground than layout's proximity threshold (T 4.2.7 corrected)."""
+        """Taxels (n,) nearer than the layout's proximity threshold (T 4.2.7 corrected)."""
         if self.reading.proximity is None:
             return None
         return _proximity.near_taxels(self.reading.proximity, self.layout.proximity_threshold)
 
     @lazy
     def preemptive_polygon_in_sole(self) -> NDArray[np.float64] | None:
-        """Preemptive support polygon (k, 2) in sole frame in m, empty where nothing is near (T 4.2.7 corrected)."""
+        """Preemptive support polygon (k, 2) in sole frame in m, empty if none is near (T 4.2.7 corrected)."""
         return None if self.near is None else _proximity.cells_polygon(self.layout, self.near)
 
     @lazy
     def height_contours_in_sole(self) -> tuple[HeightContour, ...] | None:
-        """Stack of contours of the ground, lowest first (T 4.2.7 corrected, Fig. 39-b)."""
+        """Contours of the ground, lowest first (T 4.2.7 corrected, Fig. 39-b)."""
         if self.reading.proximity is None:
             return None
         return _proximity.height_contours(self.layout, self.reading.proximity, self.options.contour_heights)
@@ -53,7 +53,7 @@ class VirtualMembers:
 
     @lazy
     def ground_plane_in_sole(self) -> _ground.GroundPlane | None:
-        """Plane of the ground in sole frame: height, slope, residual; None also where no taxel sees it."""
+        """Ground plane in sole frame: height, slope, residual; None also out of range."""
         return None if self.reading.proximity is None else _ground.fit_ground_plane(self.layout, self.reading.proximity)
 
     @lazy
@@ -65,14 +65,14 @@ class VirtualMembers:
 
     @lazy
     def temperature_footprint_in_sole(self) -> NDArray[np.float64] | None:
-        """Convex polygon (k, 2) of the warm cells in sole frame in m, empty where none is warm (T 4.2.5)."""
+        """Convex polygon (k, 2) of warm cells in sole frame in m, empty if none (T 4.2.5)."""
         if self.reading.temperature is None:
             return None
         return _temperature.temperature_footprint(self.layout, self.reading.temperature)
 
     @lazy
     def acceleration_in_sole(self) -> NDArray[np.float64] | None:
-        """Acceleration (n, 3) of each taxel in sole frame in m/s^2; NaN where a taxel is dead."""
+        """Acceleration (n, 3) of each taxel in sole frame in m/s^2; NaN if dead."""
         if self.reading.acceleration is None:
             return None
         if self.layout.is_flat:

@@ -1,4 +1,4 @@
-"""Pose of a sole in world, and joint wrench and ZMP of two soles."""
+"""Sole poses in the world, and two soles' joint wrench and ZMP."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ __all__ = ["SolePose", "feet_support_polygon", "polygon_in_world", "wrench_of_fe
 
 @dataclass(frozen=True, eq=False)
 class SolePose:
-    """Pose of a sole frame in world frame (wT_L, wT_R of T 4.25). Arrays are read-only copies.
+    """Pose of a sole frame in world frame (wT_L, wT_R of T 4.25), read-only.
 
     Attributes:
         rotation_sole_to_world: Rotation (3, 3).
@@ -61,8 +61,7 @@ class SolePose:
 
     @classmethod
     def flat(cls, x: float, y: float, z: float = 0.0, yaw: float = 0.0) -> SolePose:
-        """Pose of a level sole: x forward, y to the left and z up in m, turned left by yaw in rad; InputError unless
-        finite.
+        """Pose of a level sole: x forward, y left and z up in m, turned left by yaw in rad; InputError unless finite.
 
         Args:
             x: Position forward in m.
@@ -78,7 +77,7 @@ class SolePose:
         return cls(level_rotation(turn), np.array(place))
 
     def to_world(self, points: ArrayLike) -> NDArray[np.float64]:
-        """Points (..., 3) of the sole frame in world frame, in m (T 4.25)."""
+        """Points (..., 3) of the sole frame in world, in m (T 4.25)."""
         given = array(points, "points", (..., 3))
         turn = self.rotation_sole_to_world.T
         with np.errstate(over="ignore", invalid="ignore"):  # of points that are not finite
@@ -94,7 +93,7 @@ class SolePose:
         return polygon_in_world(polygon, self.rotation_sole_to_world, self.position_in_world)
 
     def outline_to_world(self, outline: Outline, layout: SoleLayout) -> Outline:
-        """A contact's outline seen from above in world in m, its corners on the sole's surface.
+        """A contact's outline from above in world in m, its corners on the sole's surface.
 
         Args:
             outline: Outline in sole frame in m, as of `concave_outline`.
@@ -108,7 +107,7 @@ class SolePose:
         return Outline.of_rings([self.to_world(ring)[:, :2] for ring in corners])
 
     def wrench_to_world(self, wrench: ArrayLike) -> NDArray[np.float64]:
-        """Wrenches (..., 6) about the sole's origin as wrenches about the world's origin, in N and N m."""
+        """Wrenches (..., 6) about the sole's origin as about the world's, in N and N m."""
         given = array(wrench, "wrench", (..., 6))
         turn, lever = self._wrench_maps
         with np.errstate(over="ignore", invalid="ignore"):  # of forces that are not finite
@@ -119,7 +118,6 @@ class SolePose:
 
     @lazy
     def _wrench_maps(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Matrices that turn a force (3,), and give its moment about the origin."""
         turn = self.rotation_sole_to_world.T
         x, y, z = self.position_in_world.tolist()
         return turn, turn @ np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
@@ -154,8 +152,7 @@ def _turned(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose]) ->
 def zmp_of_soles(
     wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose], height: float = 0.0, minimum_force: float = 0.0
 ) -> NDArray[np.float64] | None:
-    """Composite ZMP (2,) of the soles in a horizontal plane of the world in m (T 4.7-4.8), also tilted or at different
-    heights.
+    """Composite ZMP (2,) of the soles in a horizontal plane in m (T 4.7-4.8), also tilted or at different heights.
 
     Args:
         wrenches_in_sole: Wrench (6,) of each sole about its own origin in N and N m, zero in the air; a pull is left
@@ -186,7 +183,7 @@ def polygon_in_world(
     rotation_sole_to_world: ArrayLike,
     position_sole_in_world: ArrayLike,
 ) -> NDArray[np.float64]:
-    """A polygon of the sole plane, seen from above in world frame.
+    """A polygon of the sole plane, from above in world frame.
 
     Args:
         polygon_in_sole: Polygon (k, 2) in sole frame in m.
@@ -211,10 +208,10 @@ def feet_support_polygon(polygons_in_world: Sequence[ArrayLike]) -> NDArray[np.f
     """Convex support polygon of all feet (T 4.25).
 
     Args:
-        polygons_in_world: Support polygon (k, 2) of each foot in world frame; empty for a foot in the air.
+        polygons_in_world: Support polygon (k, 2) of each foot in world frame; empty in the air.
 
     Returns:
-        Convex polygon (m, 2), counter-clockwise, empty where no foot has contact.
+        Convex polygon (m, 2), counter-clockwise, empty without contact.
 
     Raises:
         InputError: If invalid.

@@ -142,7 +142,7 @@ class PointRows:
 
 
 class TurnRows(Rows):
-    """A body's orientation: missing turn (3,) from `actual` to `wanted` (3, 3), and angular velocity (3, nv), in world."""
+    """A body's missing turn (3,) from `actual` to `wanted` (3, 3), and its angular velocity (3, nv), in world."""
 
     def __init__(self, chain, motions, wanted, actual, error, jacobian):
         self.chain, self.motions, self.wanted, self.actual = chain, motions, wanted, actual
