@@ -41,9 +41,6 @@ def number(
     Example:
         >>> number(np.float32(0.5), "threshold"), number(np.array(2), "threshold")
         (0.5, 2.0)
-        >>> number("1", "threshold")
-        Traceback (most recent call last):
-        plantar.errors.InputError: threshold is '1'; expected a number
     """
     kind = type(value)
     plain: float = value if kind is float or kind is np.float64 else _float(value, name, error)  # type: ignore[assignment]
@@ -86,7 +83,7 @@ def integer(value: object, name: str, low: int, high: int | None = None, error: 
 
 
 def instance(value: _Kind, kind: type, name: str, error: type[PlantarError] = InputError) -> _Kind:
-    """An object of a class.
+    """Object of a class.
 
     Args:
         value: Argument.

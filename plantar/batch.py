@@ -1,4 +1,4 @@
-"""The percept's members over whole recordings: forces (..., taxels), without a Python loop over frames.
+"""Percept's members over whole recordings: forces (..., taxels), without a Python loop over frames.
 
 Memory-mapped arrays may exceed memory: contiguous float64 is read in place, other rows block by block. `threads` share
 the frames without the interpreter lock; results are the same to the last bit.
@@ -380,12 +380,12 @@ def _is_plain(force: NDArray[np.generic]) -> bool:
 
 
 def _doubles(force: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The forces as the kernels take them, converted if needed."""
+    """Forces as the kernels take them, converted if needed."""
     return force if _is_plain(force) else np.ascontiguousarray(force, dtype=np.float64)
 
 
 def _pieces(force: NDArray[np.float64], threads: int | None, frames: int | None = None) -> list[slice]:
-    """The frames in pieces: one for one thread, else four a thread, `BLOCK` where something is copied."""
+    """Frames in pieces: one for one thread, else four a thread, `BLOCK` where something is copied."""
     count = len(force)
     workers = _workers(threads)
     size = max(count, 1) if workers == 1 else max(-(-count // (4 * workers)), _LEAST)

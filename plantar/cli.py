@@ -43,7 +43,7 @@ def _commands(
 
 
 def _found() -> Iterator[Command]:
-    """The commands of this package, then those of other packages (entry points of `plantar.commands`)."""
+    """Commands of this package, then those of other packages (entry points of `plantar.commands`)."""
     for module in iter_modules(commands.__path__, f"{commands.__name__}."):
         yield import_module(module.name).COMMAND
     yield from extensions("plantar.commands", Command).values()

@@ -88,7 +88,7 @@ def mapping_rows(names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> Ite
 
 
 def original_cell(text: str) -> str:
-    """A cell without its added apostrophe.
+    """Cell without its added apostrophe.
 
     Args:
         text: Cell as it was read.

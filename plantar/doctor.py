@@ -60,9 +60,9 @@ def examine(libraries: Mapping[str, Mapping[str, str]] = LIBRARIES) -> dict[str,
         libraries: Distribution and module of libraries of each extra.
 
     Returns:
-        Versions of Plantar and Python, platform, whether kernels are compiled, whether pictures can be drawn without a
-        display (`opengl`), and for each library its extra, name, version and problem: None, "missing" or why it cannot
-        be loaded. `holds` is False where a required one is missing, or an installed one is broken.
+        Versions, platform, whether kernels are compiled, whether pictures need no display (`opengl`), and each
+        library's extra, name, version and problem: None, "missing" or why it cannot be loaded. `holds` is False where a
+        required one is missing, or one is broken.
 
     Example:
         >>> examine({"": {"no-such-library": "no_such_library"}})["libraries"][0]["problem"]

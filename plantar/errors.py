@@ -37,19 +37,19 @@ class PlantarError(Exception):
 
 
 class InputError(PlantarError):
-    """An argument or option is outside what is allowed."""
+    """Argument or option is outside what is allowed."""
 
 
 class LayoutError(PlantarError):
-    """A sole layout is not valid; the message names the field."""
+    """Sole layout is not valid; the message names the field."""
 
 
 class ReadingError(PlantarError):
-    """A reading does not fit its layout."""
+    """Reading does not fit its layout."""
 
 
 class RecordingError(PlantarError):
-    """A recording cannot be read or written."""
+    """Recording cannot be read or written."""
 
 
 class FormatError(RecordingError):
@@ -57,23 +57,23 @@ class FormatError(RecordingError):
 
 
 class FootError(PlantarError):
-    """A foot's geometry cannot carry a shoe."""
+    """Foot's geometry cannot carry a shoe."""
 
 
 class RobotError(PlantarError):
-    """A robot description is not valid."""
+    """Robot description is not valid."""
 
 
 class SceneError(PlantarError):
-    """A scene description is not valid."""
+    """Scene description is not valid."""
 
 
 class WorkerError(PlantarError):
-    """A worker of a sweep cannot run, or went away; the input is right."""
+    """Worker of a sweep cannot run, or went away; the input is right."""
 
 
 class DependencyError(PlantarError):
-    """An optional library is missing or cannot be loaded.
+    """Optional library is missing or cannot be loaded.
 
     Args:
         library: Name of library as it is imported.

@@ -15,7 +15,7 @@ T = TypeVar("T")
 
 @cache
 def extensions(group: str, kind: type[T]) -> dict[str, T]:
-    """The parts of a group.
+    """Parts of a group.
 
     Args:
         group: Group, e.g. "plantar.terrain".

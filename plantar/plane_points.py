@@ -16,7 +16,7 @@ _FLOAT = np.dtype(np.float64)
 
 
 def plane_points(value: object, name: str = "polygon", *, finite: bool = True) -> NDArray[np.float64]:
-    """Points of the plane; an empty list is no points.
+    """Points of the plane; an empty list is none.
 
     Args:
         value: Argument.
@@ -32,9 +32,6 @@ def plane_points(value: object, name: str = "polygon", *, finite: bool = True) -
     Example:
         >>> plane_points([]).shape
         (0, 2)
-        >>> plane_points([[0.0, 0.0, 1.0]])
-        Traceback (most recent call last):
-        plantar.errors.InputError: polygon has shape (1, 3); expected (k, 2)
     """
     if are_plane_points(value, LARGEST):
         return value  # type: ignore[return-value]  # which an array it is; `cast` costs half of what the check does

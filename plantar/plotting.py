@@ -1,4 +1,4 @@
-"""The only module that imports matplotlib, at the first figure."""
+"""Only module that imports matplotlib, at the first figure."""
 
 from __future__ import annotations
 
@@ -155,7 +155,7 @@ def draw_raster(axes: Any, picture: NDArray[np.uint8], pixel: float) -> Any:
 
 
 def png_of(picture: NDArray[np.float64]) -> bytes:
-    """The bytes of a PNG of a picture (height, width, 3), red, green and blue 0..1."""
+    """Bytes of a PNG of a picture (height, width, 3), red, green and blue 0..1."""
     from matplotlib.image import imsave
 
     file = io.BytesIO()
@@ -166,7 +166,7 @@ def png_of(picture: NDArray[np.float64]) -> bytes:
 def thinned(
     x: NDArray[np.float64], y: NDArray[np.float64], most: int = 6000
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """A line x, y with fewer points, about `most`, that looks the same: returns each stretch's extremes; NaN breaks the
+    """Line x, y with fewer points, about `most`, that looks the same: returns each stretch's extremes; NaN breaks the
     line.
     """
     if len(x) <= most:

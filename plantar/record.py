@@ -25,7 +25,7 @@ class Record(msgspec.Struct, frozen=True):
     """
 
     def changed(self, **fields: Any) -> Self:
-        """A copy with other values of some fields; TypeError for an unknown one.
+        """Copy with other values of some fields; TypeError for an unknown one.
 
         Args:
             fields: Their values by name.

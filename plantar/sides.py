@@ -14,7 +14,7 @@ SIDES: tuple[Side, Side] = ("left", "right")
 
 
 def other_side(side: Side) -> Side:
-    """The side of the other foot.
+    """Side of the other foot.
 
     Args:
         side: "left" or "right".

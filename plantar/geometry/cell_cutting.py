@@ -52,7 +52,7 @@ class CellCutter:
 
     @classmethod
     def of_polygons(cls, polygons: Sequence[NDArray[np.float64]]) -> Self:
-        """A cutter of cells given by corners (k, 2) in m, counter-clockwise."""
+        """Cutter of cells given by corners (k, 2) in m, counter-clockwise."""
         cutter = cls.__new__(cls)
         cutter._set(np.concatenate(polygons), np.cumsum([0, *map(len, polygons)]))
         return cutter

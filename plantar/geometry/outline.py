@@ -127,7 +127,7 @@ class Outline(Rings):
         return tuple(tuple(part) for part in parts.values())
 
     def moved(self, rotation: ArrayLike, translation: ArrayLike) -> Outline:
-        """The outline in another frame, seen from above.
+        """Outline in another frame, seen from above.
 
         Args:
             rotation: Rotation (2, 2), or (3, 3), from this frame to the other.

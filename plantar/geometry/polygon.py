@@ -44,7 +44,7 @@ def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
         points: Points (n, 2) in m; not finite, or beyond 1e100 m, are left out.
 
     Returns:
-        Hull (k, 2), counter-clockwise from lowest x ; vertices are input points.
+        Hull (k, 2), counter-clockwise from lowest x; vertices are input points.
 
     Raises:
         InputError: If invalid.
@@ -60,7 +60,7 @@ def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
 
 
 def convex_ring(polygon: ArrayLike) -> NDArray[np.float64]:
-    """A caller's convex polygon; repeated and collinear vertices are allowed.
+    """Caller's convex polygon; repeated and collinear vertices are allowed.
 
     Args:
         polygon: Polygon (k, 2) in m, either orientation.
@@ -70,11 +70,6 @@ def convex_ring(polygon: ArrayLike) -> NDArray[np.float64]:
 
     Raises:
         InputError: If invalid.
-
-    Example:
-        >>> convex_ring([[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]])
-        Traceback (most recent call last):
-        plantar.errors.InputError: polygon is not convex: 86 % of its hull; allowed: a convex one, as of convex_hull
     """
     ring = plane_points(polygon)
     if len(ring) > 3 and turning(ring, 0.0, 0.0, 0.0) == 0:
@@ -96,14 +91,10 @@ def area(polygon: ArrayLike) -> float:
         polygon: Simple polygon (k, 2) in m.
 
     Returns:
-        Area; 0 for fewer than 3 vertices.
+        Area; 0 below 3 vertices.
 
     Raises:
         InputError: If invalid.
-
-    Example:
-        >>> area(np.array([[0.0, 0], [2, 0], [2, 1], [0, 1]]))
-        2.0
     """
     return float(_kernel.area_of(plane_points(polygon)))
 

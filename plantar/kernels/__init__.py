@@ -41,13 +41,13 @@ class _SourceFinder:
 
 
 def python_form(name: str) -> ModuleType:
-    """The interpreted form of a kernel, to compare both.
+    """Interpreted form of a kernel, to compare both.
 
     Args:
-        name: One of KERNELS, or its last part, which no two share.
+        name: One of KERNELS, or its last part.
 
     Returns:
-        Module, loaded from its source under another name; what it imports of kernels is interpreted too.
+        Module, loaded from its source under another name, with its imports interpreted too.
     """
     package = f"{__name__}_in_python"
     if package not in sys.modules:

@@ -17,7 +17,7 @@ __all__ = ["Contact", "Contacts"]
 
 @dataclass(frozen=True)
 class Contact:
-    """A flat contact. Reuse the object while it does not change: programs keep its data.
+    """Flat contact. Reuse the object while it does not change: programs keep its data.
 
     Attributes:
         position: Origin (3,) of contact frame in world in m.
@@ -46,7 +46,7 @@ class Contact:
         return px + dx, py + dy, pz + dz
 
     def wrench_in_world(self, wrench: ArrayLike) -> NDArray[np.float64]:
-        """A wrench (..., 6) about the contact frame's origin as about the world's, in N and N m."""
+        """Wrench (..., 6) about the contact frame's origin as about the world's, in N and N m."""
         return wrench_in_frame(wrench, self.rotation, self.position)
 
 

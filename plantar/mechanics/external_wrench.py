@@ -1,4 +1,4 @@
-"""A wrench on the body in the dynamics of the divergent component of motion (K 6-12, corrected).
+"""Wrench on the body in the dynamics of the divergent component of motion (K 6-12, corrected).
 
 The pendulum of height g / w^2 has its ZMP at u_ref; a wrench pushes its CoM with a horizontal force F and a moment tau
 that passes to the ground. Moments about the ZMP give

@@ -26,10 +26,6 @@ def pendulum_frequency(com_height: float) -> float:
 
     Raises:
         InputError: If invalid.
-
-    Example:
-        >>> round(pendulum_frequency(0.8), 4)
-        3.5018
     """
     height = number(com_height, "CoM height", nan=True)
     if not 0.0 < height < math.inf:

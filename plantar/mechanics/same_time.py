@@ -1,4 +1,4 @@
-"""The tolerance of times."""
+"""Tolerance of times."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ __all__ = ["Wrench", "wrench_at", "wrench_in_frame"]
 
 
 class Wrench(NamedTuple):
-    """A wrench with named components; numpy accepts it as an array.
+    """Wrench with named components; numpy accepts it as an array.
 
     Example:
         >>> Wrench.of([0.0, 0.0, 100.0, 5.0, -2.0, 0.0]).center_of_pressure
@@ -29,7 +29,7 @@ class Wrench(NamedTuple):
 
     @classmethod
     def of(cls, wrench: ArrayLike) -> Wrench:
-        """The wrench of an array (6,)."""
+        """Wrench of an array (6,)."""
         return cls._make(np.asarray(wrench, dtype=float).tolist())
 
     @property
@@ -39,7 +39,7 @@ class Wrench(NamedTuple):
 
 
 def wrench_at(wrench: ArrayLike, point: ArrayLike) -> NDArray[np.float64]:
-    """The same wrench (..., 6) about another point: tau_p = tau_o - p x f.
+    """Same wrench (..., 6) about another point: tau_p = tau_o - p x f.
 
     Args:
         wrench: Wrench (..., 6) about frame's origin; NaN or inf give such moments.
@@ -68,7 +68,7 @@ def wrench_at(wrench: ArrayLike, point: ArrayLike) -> NDArray[np.float64]:
 def wrench_in_frame(
     wrench: ArrayLike, rotation: NDArray[np.float64], position: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """A wrench of frame a about frame b's origin, in b's axes: [R f, R tau + p x R f] (E of T 3.21).
+    """Wrench of frame a about frame b's origin, in b's axes: [R f, R tau + p x R f] (E of T 3.21).
 
     Args:
         wrench: Wrench (..., 6) about origin of a.

@@ -59,7 +59,7 @@ def wrench_cone(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
 
 
 def cone_rows(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
-    """The rows (16, 6) of `wrench_cone`, unchecked, for a control loop.
+    """Rows (16, 6) of `wrench_cone`, unchecked, for a control loop.
 
     Args:
         rectangle: Contact; swapped edges allow no wrench but 0.

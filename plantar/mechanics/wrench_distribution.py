@@ -76,7 +76,7 @@ class DistributionWeights:
 
 
 class WrenchShare(Record, frozen=True):
-    """The wrenches of a distribution.
+    """Wrenches of a distribution.
 
     Attributes:
         state: How distribution ended.
@@ -238,7 +238,7 @@ class WrenchDistribution:
         point: NDArray[np.float64] | Sequence[float],
         shares: Mapping[str, float] | None = None,
     ) -> Program:
-        """A copy of the program that `solve` solves, for other solvers.
+        """Copy of the program that `solve` solves, for other solvers.
 
         Args:
             contacts: One or more contacts; `wrench`, `point` and `shares` as in `solve`.

@@ -57,7 +57,7 @@ def _levels(height: float, minimum_force: float) -> tuple[float, float]:
 def zero_moment_wrench(
     wrench: ArrayLike, height: float = 0.0, minimum_force: float = 0.0
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
-    """The wrench transferred to its ZMP (T 4.2.4, after 4.23).
+    """Wrench transferred to its ZMP (T 4.2.4, after 4.23).
 
     Args:
         wrench: As in `zmp_in_plane`.
@@ -65,8 +65,7 @@ def zero_moment_wrench(
         minimum_force: As in `zmp_in_plane`.
 
     Returns:
-        Point (3,) in m and wrench (6,) about it: the same force, moments 0 about x and y, and remaining twist about z;
-        None without load.
+        Point (3,) in m and wrench (6,) about it: same force, moment only about z; None without load.
 
     Example:
         >>> point, moved = zero_moment_wrench([10.0, 0.0, 100.0, 5.0, -2.0, 0.3])
@@ -141,7 +140,7 @@ def zmp_of_feet(points: Sequence[ArrayLike | None], vertical_forces: Sequence[fl
         vertical_forces: Vertical force of each foot in N.
 
     Returns:
-        Position (2,) in common frame in m, or None without load. A foot whose force is NaN, 0 or less is left out.
+        Position (2,) in common frame in m, or None without load; feet with force NaN, 0 or less are left out.
 
     Raises:
         InputError: If invalid.

@@ -90,7 +90,7 @@ def loads(layout: SoleLayout, force: Any, threshold: float | None = None) -> Arr
 
 
 def _namespace(layout: SoleLayout, force: Any) -> Any:
-    """The functions of an array's library."""
+    """Functions of an array's library."""
     kind = type(force)
     if hasattr(force, "__array_namespace__"):
         xp = force.__array_namespace__()
@@ -106,7 +106,7 @@ def _namespace(layout: SoleLayout, force: Any) -> Any:
 
 
 def _constant(xp: Any, values: Any, like: Any) -> Any:
-    """A sole's constant in the forces' library, type and device."""
+    """Sole's constant in the forces' library, type and device."""
     if not hasattr(like, "__array_namespace__"):
         return xp.as_tensor(values, dtype=like.dtype, device=like.device)
     # Where a library has several devices, what is not on the default one has to be stated; JAX moves it by itself.

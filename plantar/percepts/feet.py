@@ -1,4 +1,4 @@
-"""The joint percept of two feet in the world frame."""
+"""Joint percept of two feet in the world frame."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ __all__ = ["Percept"]
 
 @constructed_by_kernel
 class Percept(ShapeMembers, VirtualMembers, PerceptFields):
-    """The percept of a reading through its layout.
+    """Percept of a reading through its layout.
 
     Members are computed at first use, and read-only. An unloaded sole has no CoP (None), area 0, an empty polygon and a
     zero wrench; a modality that the reading lacks gives None. Faulty taxels are left out of every sum; `health` lists
@@ -41,7 +41,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
         layout: Sole, n taxels.
         reading: Reading of its taxels.
         force_threshold: Activation threshold epsilon_f in N; layout's if None.
-        active: Mask (n,) of active taxelsof a `TaxelActivation`; those above threshold if None.
+        active: Mask (n,) of active taxels, of a `TaxelActivation`; those above threshold if None.
         stuck: Mask (n,) of stuck taxels, of a `StuckMonitor`; none if None.
         options: Other options; defaults if None.
 
@@ -106,13 +106,13 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @classmethod
     def summed(cls, layout: SoleLayout, reading: Reading, loads: NDArray[np.float64]) -> Self:
-        """A percept with known loads and its layout's threshold, unchecked.
+        """Percept with known loads and its layout's threshold, unchecked.
 
         Args:
             layout: Sole, n taxels.
             reading: Reading of its taxels.
-            loads: Its wrench, contact area and CoP (9,) by `layout.kernel.loads_above`, an array of no other owner;
-                closed to writing.
+            loads: Wrench, contact area and CoP (9,) by `layout.kernel.loads_above`, an unshared array; closed to
+                writing.
 
         Returns:
             Percept.

@@ -23,16 +23,12 @@ class PerceptOptions:
 
     Attributes:
         fill: Replace faulty taxels by their sound neighbours' pressure, not leaving them out.
-        proximity_gain: Repulsion k_p of taxel in N/m (T 4.26).
-        contour_heights: Heights of contours of ground in m (T 4.2.7), kept lowest first.
-        reference_area: Area xi in m^2 of pressure-driven wrench (T 3.27); that of one cell if None.
+        proximity_gain: Repulsion k_p of a taxel in N/m (T 4.26).
+        contour_heights: Heights of ground contours in m (T 4.2.7), kept lowest first.
+        reference_area: Area xi in m^2 of pressure-driven wrench (T 3.27); one cell's if None.
 
     Raises:
         InputError: If invalid.
-
-    Example:
-        >>> PerceptOptions(contour_heights=(0.03, 0.01)).contour_heights
-        (0.01, 0.03)
     """
 
     fill: bool = False

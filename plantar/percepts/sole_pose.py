@@ -86,14 +86,14 @@ class SolePose:
         return np.asarray(turned)
 
     def polygon_to_world(self, polygon: ArrayLike) -> NDArray[np.float64]:
-        """A polygon (k, 2) of the sole plane, or points (k, 3) of a curved sole, from above in world (k, 2) in m."""
+        """Polygon (k, 2) of the sole plane, or points (k, 3) of a curved sole, from above in world (k, 2) in m."""
         given = numbers(polygon, "polygon")
         if given.ndim == 2 and given.shape[1] == 3:
             return self.to_world(given)[:, :2]
         return polygon_in_world(polygon, self.rotation_sole_to_world, self.position_in_world)
 
     def outline_to_world(self, outline: Outline, layout: SoleLayout) -> Outline:
-        """A contact's outline from above in world in m, its corners on the sole's surface.
+        """Contact's outline from above in world in m, its corners on the sole's surface.
 
         Args:
             outline: Outline in sole frame in m, as of `concave_outline`.
@@ -183,7 +183,7 @@ def polygon_in_world(
     rotation_sole_to_world: ArrayLike,
     position_sole_in_world: ArrayLike,
 ) -> NDArray[np.float64]:
-    """A polygon of the sole plane, from above in world frame.
+    """Polygon of the sole plane, from above in world frame.
 
     Args:
         polygon_in_sole: Polygon (k, 2) in sole frame in m.

@@ -79,15 +79,10 @@ class TaxelActivation:
     Args:
         threshold: Force in N above which a taxel becomes active.
         release: Force in N up to which it stops, at most `threshold`; half of it if None.
-        saturation: Force in N from which a taxel is saturated and not active.
+        saturation: Force in N from which it is not active.
 
     Raises:
         InputError: If invalid.
-
-    Example:
-        >>> activation = TaxelActivation(1.5, 1.0)
-        >>> [activation.update([f]).tolist()[0] for f in (1.2, 1.6, 1.2, 0.8, 1.2)]
-        [False, True, True, False, False]
     """
 
     def __init__(self, threshold: float, release: float | None = None, saturation: float = math.inf) -> None:

@@ -86,7 +86,7 @@ def pressure_driven_wrench(
 
 
 def scaled_by_area(wrench: ArrayLike, contact_area: ArrayLike, reference_area: float) -> NDArray[np.float64]:
-    """A wrench scaled by its contact area: xi / area * w (T 3.27).
+    """Wrench scaled by its contact area: xi / area * w (T 3.27).
 
     Args:
         wrench: Wrench (6,) or (frames, 6) in N and N m.
@@ -98,10 +98,6 @@ def scaled_by_area(wrench: ArrayLike, contact_area: ArrayLike, reference_area: f
 
     Raises:
         InputError: If invalid.
-
-    Example:
-        >>> scaled_by_area([0, 0, 60.0, 0, 0, 0], 2e-3, 1e-3).tolist()
-        [0.0, 0.0, 30.0, 0.0, 0.0, 0.0]
     """
     reference = number(reference_area, "reference area", nan=True)
     if not 0.0 < reference < np.inf:

@@ -1,4 +1,4 @@
-"""The ground under a swinging sole as a plane."""
+"""Ground under a swinging sole as a plane."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def fit_ground_plane(
 
 
 def checked_range(layout: SoleLayout, sensing_range: float | None, tolerance: float) -> float:
-    """The range in m of a fit, checked with its tolerance: both above 0, else InputError.
+    """Range in m of a fit, checked with its tolerance: both above 0, else InputError.
 
     Args:
         layout: Sole.

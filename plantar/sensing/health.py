@@ -132,11 +132,6 @@ class StuckMonitor:
 
     Raises:
         InputError: If invalid.
-
-    Example:
-        >>> monitor = StuckMonitor(hold=1.0)
-        >>> [monitor.update(t, [5.0, 5.0 + t]).tolist() for t in (0.0, 1.0)]
-        [[False, False], [True, False]]
     """
 
     def __init__(self, hold: float = 1.0, tolerance: float = 0.0, rest: float = 0.0) -> None:

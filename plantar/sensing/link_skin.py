@@ -118,7 +118,7 @@ class BodySkin:
         return len(self.positions)
 
     def patch(self, name: str) -> SkinPatch:
-        """The patch of a name; InputError without."""
+        """Patch of a name; InputError without."""
         found = next((p for p in self.patches if p.name == name), None)
         if found is None:
             raise InputError(f"no patch is called '{name}'; allowed: {', '.join(self.slices)}")

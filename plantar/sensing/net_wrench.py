@@ -1,4 +1,4 @@
-"""The net wrench about a point of all that touches a body, or is about to, by its skin (K 2-5).
+"""Net wrench about a point of all that touches a body, or is about to, by its skin (K 2-5).
 
 A taxel counts if it measures force OR proximity (K 2, corrected: printed AND). Its pseudo-force is its force plus a
 share of its proximity (K 3), so a push is answered just before it arrives. K's weight of 99 turns full scale into
@@ -28,8 +28,7 @@ class NetWrenchRules(Part, table="push_felt", needs={"control.push_estimate": ("
 
     Attributes:
         near: theta_prox: share of range, from its end, that counts as near (K Table 1).
-        proximity_force: w_prox: force in N of taxel at distance 0 without contact: 1 N in K Table 1, for a robot of 86
-            kg; 0 counts contact alone.
+        proximity_force: w_prox: force in N of taxel at distance 0: 1 N in K Table 1, at 86 kg; 0 counts contact alone.
     """
 
     near: float = number(0.05, "1", 0, 1)
@@ -55,8 +54,8 @@ def net_wrench(
     Args:
         skin: Skin.
         reading: One reading of it; NaN for a silent taxel.
-        poses: Origin (3,) in m and rotation (3, 3) to world of each link that has skin and measures.
-        point: Point (3,) in world in m for moments, with K CoM.
+        poses: Origin (3,) in m and rotation (3, 3) to world of each measuring link.
+        point: Point (3,) in world in m for moments; in K the CoM.
         rules: What counts.
 
     Returns:

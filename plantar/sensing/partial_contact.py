@@ -1,4 +1,4 @@
-"""The supported part of a sole, finer than a cell: straight ground edges fitted to partial loads.
+"""Supported part of a sole, finer than a cell: straight ground edges fitted to partial loads.
 
 Cells cut by the ground's edge carry less than their neighbours. With an elastic foundation under a rigid foot the
 pressure on the supported part S is linear:

@@ -30,7 +30,7 @@ __all__ = [
 
 
 class HeightContour(NamedTuple):
-    """The ground nearer to the sole than a height."""
+    """Ground nearer to the sole than a height."""
 
     height: float
     """Height in m."""

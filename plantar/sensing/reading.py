@@ -64,7 +64,7 @@ class Reading(ReadingFields):
     def _checked(
         self, time: object, force: object, proximity: object, temperature: object, acceleration: object
     ) -> tuple[Any, ...]:
-        """The fields of a reading that is not plain."""
+        """Fields of a reading that is not plain."""
         at = number(time, _TIME, ReadingError, finite=True)
         values = own(numbers(force, _FORCE, ReadingError))
         if values.ndim != 1:
@@ -80,7 +80,7 @@ class Reading(ReadingFields):
 
     @classmethod
     def taken_over(cls, time: float, force: NDArray[np.float64], proximity: NDArray[np.float64] | None = None) -> Self:
-        """A reading of arrays made for it, neither copied nor checked.
+        """Reading of arrays made for it, neither copied nor checked.
 
         Args:
             time: Time in s.

@@ -36,7 +36,7 @@ class TaxelFaults:
         gain: Standard deviation of gains about 1.
         offset: Standard deviation in N of zeros.
         drift: Standard deviation in N of zeros' drift within minutes.
-        hysteresis: Share by which a taxel reads too little under rising load, and too much under falling load.
+        hysteresis: Share by which it reads too little under rising load, too much under falling.
         crosstalk: Share of each taxel's force that its neighbours read instead, in equal parts.
         dead: Share of dead taxels, which read NaN.
         shear: Share of tangential force that a taxel reads as normal force.
@@ -101,14 +101,7 @@ class WornFaults:
         faults: Hysteresis, crosstalk, shear, noise, resolution and delay of all taxels.
         gains: Gain (..., n) of each taxel; `offsets` its zero in N, `drifts` the final drift of that.
         dead: Whether each taxel (..., n) is dead.
-        rng: Source of noise; None without noise (else an InputError).
-
-    Example:
-        >>> from plantar import hex_layout
-        >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
-        >>> worn = TaxelFaults(hysteresis=0.2).worn(layout)
-        >>> [float(worn.read(t, np.full(len(layout), f))[0]) for t, f in ((0.0, 10.0), (0.1, 8.0))]
-        [8.0, 8.0]
+        rng: Source of noise; None without noise (else InputError).
     """
 
     def __init__(
@@ -173,7 +166,7 @@ class WornFaults:
         return self._held
 
     def _delayed(self, time: float, force: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The force one delay ago, interpolated; at first the first."""
+        """Force one delay ago, interpolated; at first the first."""
         late = self._late
         late.append((time, force))
         due = time - self.faults.delay

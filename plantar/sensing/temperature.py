@@ -1,4 +1,4 @@
-"""A virtual wrench away from heat, and the warm footprint."""
+"""Virtual wrench away from heat, and the warm footprint."""
 
 from __future__ import annotations
 

@@ -6,5 +6,5 @@ __all__ = ["at"]
 
 
 def at(address):
-    """The float64 numbers from a memory address on, in place."""
+    """Float64 numbers from a memory address on, in place."""
     return ctypes.cast(address, ctypes.POINTER(ctypes.c_double))

@@ -18,7 +18,7 @@ def are_plane_points(value, limit):
 
 
 def pair_of(value):
-    """The two numbers of a float64 array (2,); None for anything else."""
+    """Two numbers of a float64 array (2,); None for anything else."""
     if memory.size(value) != 2:
         return None
     p = memory.values(value)

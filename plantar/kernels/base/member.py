@@ -1,4 +1,4 @@
-"""The compiled descriptor behind `plantar.lazy`."""
+"""Compiled descriptor behind `plantar.lazy`."""
 
 from . import memory
 

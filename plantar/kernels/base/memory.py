@@ -10,7 +10,7 @@ __all__ += ["room", "rows", "size", "values"]
 
 
 def values(array):
-    """A contiguous float64 array's numbers, in place; else ValueError."""
+    """Contiguous float64 array's numbers, in place; else ValueError."""
     if type(array) is not np.ndarray or array.dtype != np.float64 or not array.flags.c_contiguous:
         raise ValueError("a kernel needs contiguous arrays of float64")
     return array.reshape(-1)
@@ -50,7 +50,7 @@ def is_mask(array, size):
 
 
 def flags(array):
-    """The bools of an array that `is_mask`, in place."""
+    """Bools of an array that `is_mask`, in place."""
     return array
 
 
@@ -60,15 +60,15 @@ def close(array):
 
 
 def new_mask(size):
-    """A new array (size,) of bools, not filled."""
+    """New array (size,) of bools, not filled."""
     return np.empty(size, dtype=np.bool_)
 
 
 def new_vector(size):
-    """A new array (size,) of float64, not filled."""
+    """New array (size,) of float64, not filled."""
     return np.empty(size)
 
 
 def new_matrix(rows, columns):
-    """A new array (rows, columns) of float64, not filled."""
+    """New array (rows, columns) of float64, not filled."""
     return np.empty((rows, columns))

@@ -16,7 +16,7 @@ def close(array):
 
 
 def kept(array):
-    """A read-only copy of a contiguous float64 array (n,); else None."""
+    """Read-only copy of a contiguous float64 array (n,); else None."""
     size = memory.size(array)
     if size < 0:
         return None
@@ -29,7 +29,7 @@ def kept(array):
 
 
 def points_of(room, size):
-    """A new array (size, 2) of a work array's first points."""
+    """New array (size, 2) of a work array's first points."""
     made = memory.new_matrix(size, 2)
     out = memory.room(made)
     for i in range(size):
@@ -38,7 +38,7 @@ def points_of(room, size):
 
 
 def vector2(x: float, y: float) -> NDArray[np.float64]:
-    """A new array (2,) of two numbers."""
+    """New array (2,) of two numbers."""
     made = memory.new_vector(2)
     out = memory.room(made)
     out[0], out[1] = x, y
@@ -46,7 +46,7 @@ def vector2(x: float, y: float) -> NDArray[np.float64]:
 
 
 def vector(x: float, y: float, z: float) -> NDArray[np.float64]:
-    """A new array (3,) of three numbers."""
+    """New array (3,) of three numbers."""
     made = memory.new_vector(3)
     out = memory.room(made)
     out[0], out[1], out[2] = x, y, z
@@ -56,7 +56,7 @@ def vector(x: float, y: float, z: float) -> NDArray[np.float64]:
 def matrix(
     xx: float, xy: float, xz: float, yx: float, yy: float, yz: float, zx: float, zy: float, zz: float
 ) -> NDArray[np.float64]:
-    """A new array (3, 3) of nine numbers, row by row."""
+    """New array (3, 3) of nine numbers, row by row."""
     made = memory.new_matrix(3, 3)
     out = memory.room(made)
     out[0], out[1], out[2] = xx, xy, xz

@@ -1,4 +1,4 @@
-"""A sole's contacts with ground of a flat face, continuous in both poses.
+"""Sole's contacts with ground of a flat face, continuous in both poses.
 
 Contacts are the corners of both faces' overlap, each as deep as the sole is there, along the normal of the ground's
 face, which the boxes' smallest overlap along their axes selects.
@@ -19,7 +19,7 @@ class FaceContacts:
     """Writes one pair's contacts into the simulator's memory.
 
     Args:
-        stride: Bytes from one contact to the next; each: position (3,), normal (3,) from the first geom to second,
+        stride: Bytes from one contact to the next; each: gap, position (3,), normal (3,) from first geom to second,
             first tangent (3,).
 
     Attributes:
@@ -48,7 +48,7 @@ class FaceContacts:
             ground: Ground's geom; `sole` the other.
             margin: Largest gap in m of contact.
             out: Address of contacts, with room for eight.
-            sign: 1 where ground is the first geom of pair, else -1.
+            sign: 1 if ground is first in pair, else -1.
         """
         self.count += 1
         base = addresses.at(places)
@@ -90,7 +90,7 @@ class FaceContacts:
         """Contacts of a box on a cylinder's end, at the corners furthest along the box's diagonals; as `box`.
 
         Returns:
-            Number of contacts; -1 where box does not lie on an end.
+            Number of contacts; -1 off the end.
         """
         self.count += 1
         base = addresses.at(places)

@@ -6,7 +6,7 @@ __all__ = ["ContactList", "ContactsInSole", "FootContacts", "gather_feet"]
 
 
 class ContactList:
-    """A simulator's list of n contacts of all bodies.
+    """Simulator's list of n contacts of all bodies.
 
     Args:
         geoms: Ids (n, 2) of touching geoms, -1 for none.
@@ -49,9 +49,8 @@ class FootContacts:
 
     Attributes:
         size: Number of contacts k.
-        ids: Foot's geom and the other one (room, 2) in the first k rows; -1 for none.
-        vectors: Position in m, force in N and torque in N m on foot of each contact in turn (3 room, 3), in world
-            frame.
+        ids: Foot's geom and the other (room, 2); -1 for none.
+        vectors: Each contact's position in m, force in N and torque in N m on foot (3 room, 3), in world frame.
         gaps: Gaps (room,) in m.
         carries: Whether a contact carries (room,).
     """
@@ -138,7 +137,7 @@ class FootContacts:
 
         Args:
             reach: Largest gap in m of point of support.
-            ground: Whether a geom is ground (geoms,), 0 or 1; None for all.
+            ground: Whether geoms are ground (geoms,); None for all.
             sums: Force, torque, and sum of height times vertical force (7,), added to.
             points: `FewPoints` that receive points of support.
         """
@@ -185,7 +184,7 @@ class FootContacts:
 
 
 def _along(listed, forces, i, m):
-    """A loaded contact's force or torque along one axis."""
+    """Loaded contact's force or torque along one axis."""
     start, size = listed.addresses[i], listed.sizes[i]
     if not listed.pyramid or size == 1:
         return forces[start + m]
@@ -205,7 +204,7 @@ class ContactsInSole:
     """Turns a foot's contacts into its sole frame.
 
     Attributes:
-        vectors: Position in m, force in N and torque in N m of each contact in turn (3 room, 3).
+        vectors: Each contact's position in m, force in N and torque in N m (3 room, 3).
         pressed: How often there were contacts.
         in_air: How often there were none.
     """

@@ -1,4 +1,4 @@
-"""The ground's reaction on all feet: wrench, ZMP, support, margin."""
+"""Ground's reaction on all feet: wrench, ZMP, support, margin."""
 
 import numpy as np
 
@@ -13,10 +13,10 @@ class GroundReaction:
     """Sums the contacts of all feet.
 
     Args:
-        height: Height in m of ZMP's plane; NaN for force-weighted mean height of contacts.
+        height: Height in m of ZMP's plane; NaN: force-weighted mean of contacts.
         least: Vertical force in N below which there is no ZMP.
         reach: Largest gap in m of contact that could carry.
-        ground: Whether a geom is ground (geoms,), 0 or 1; None for all.
+        ground: Whether geoms are ground (geoms,); None for all.
 
     Attributes:
         loads: Vertical force in N on each foot.
@@ -79,11 +79,11 @@ class GroundReaction:
         return self.sole.area()
 
     def found_now(self):
-        """The current result, to keep.
+        """Current result, to keep.
 
         Returns:
-            Wrench (6,) about the world's origin; ZMP (x, y) in m or None; convex hull of points of support,
-            counter-clockwise; margin in m or None; and points of support of each foot.
+            Wrench (6,) about the world's origin; ZMP (x, y) in m or None; support hull, counter-clockwise; margin in m
+            or None; each foot's points of support.
         """
         wrench = np.array(self.sums[:6])
         points = []

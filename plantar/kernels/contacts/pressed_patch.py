@@ -1,4 +1,4 @@
-"""A load on a patch of an elastic sole, spanned by contact points."""
+"""Load on a patch of an elastic sole, spanned by contact points."""
 
 import numpy as np
 
@@ -134,7 +134,7 @@ class PressedPatch:
             out: Receives cells' forces in N, if carried.
 
         Returns:
-            Whether carrying cells were found; if not, `part` may be tried from others.
+            Whether carrying cells were found; else try `part` from others.
         """
         self.x = (x - self.cx) / self.scale
         self.y = (y - self.cy) / self.scale

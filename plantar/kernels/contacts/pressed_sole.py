@@ -1,4 +1,4 @@
-"""An elastic sole: its taxels' load from its contacts."""
+"""Elastic sole: its taxels' load from its contacts."""
 
 import numpy as np
 
@@ -17,7 +17,7 @@ class PressedSole:
         grid: Distance in m within which contact points span the same patch.
         most: Number of patches to keep.
         make: Makes patch of contact points (k, 2) in m.
-        settle: Spreads a load in N that a patch does not settle over an array (n,).
+        settle: Spreads other loads in N over an array (n,).
 
     Attributes:
         forces: Last forces (n,) of taxels in N.
@@ -103,9 +103,7 @@ class PressedSole:
             self.forces[i] = 0.0
 
     def spread(self, points, force, x, y):
-        """Forces (n,) in N of the taxels under a load `force` above 0 at x, y in m, on the hull of `points` (x, y) in
-        m.
-        """
+        """Forces (n,) in N of taxels under a load `force` above 0 at x, y in m, on the hull of `points` in m."""
         self._clear()
         if len(points) > self.room:
             self._make_room(2 * len(points))
@@ -126,7 +124,7 @@ class PressedSole:
             self.forces[i] = self.forces[i] + self.part[i] * self.gains[i]
 
     def _patch(self, count):
-        """The patch of the first points, mostly a recent one."""
+        """Patch of the first points, mostly a recent one."""
         for i in range(_RECENT):
             slot = (self.slot + i) % _RECENT
             if self._is_recent(slot, count):

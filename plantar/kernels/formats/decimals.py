@@ -20,7 +20,7 @@ def read_rows(text, delimiter, comma, columns, out):
 
     Args:
         text: Lines, as bytes.
-        delimiter: Code of sign between numbers, with missing numbers between two of them; 0 for blanks.
+        delimiter: Code of sign between numbers, doubled for a missing one; 0 for blanks.
         comma: Whether numbers may have a decimal comma.
         columns: Column of `out` for each number of a line; -1 to skip it.
         out: Receives numbers, a row a line; NaN for a missing one.

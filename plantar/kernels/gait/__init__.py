@@ -1,1 +1,1 @@
-"""A control tick of walking: estimate, balance, feet."""
+"""Control tick of walking: estimate, balance, feet."""

@@ -33,7 +33,7 @@ class ComAdmittance:
 
     @property
     def offset(self):
-        """The offset (2,) in m."""
+        """Offset (2,) in m."""
         return vectors.vector2(self.x, self.y)
 
     def update(self, error):
@@ -61,7 +61,7 @@ class DcmFeedback:
     Args:
         omega: Pendulum frequency in rad/s.
         gain: k_xi of T 4.28 in 1/s.
-        integral: Gain in 1/s of integral of DCM error, its decay in 1/s, and its limit in m.
+        integral: Integral of DCM error: gain in 1/s, decay in 1/s, limit in m.
         period: Control period in s.
         admittance: Offset of CoM reference.
         yields: Whether offset follows ZMP's error.
@@ -155,12 +155,12 @@ def shared_load(zmp, acceleration, mass, gravity, left, right, stance):
         acceleration: Acceleration (2,) of CoM in m/s^2.
         mass: Mass m in kg.
         gravity: g in m/s^2.
-        left: Left foot, with `position` (3,) in m and `rotation` (3, 3) of its sole frame, and point `center` (2,) to
-            load in it; `right` likewise.
+        left: Left foot: `position` (3,) in m and `rotation` (3, 3) of its sole frame, `center` (2,) to load; `right`
+            likewise.
         stance: Only carrying foot: 1 left, 2 right, 0 for none.
 
     Returns:
-        Force (3,) on the left foot in N, where it acts (2,) in m, and the same of the right one.
+        Force (3,) on left foot in N, where it acts (2,) in m; right likewise.
     """
     goal, rate = memory.values(zmp), memory.values(acceleration)
     lx, ly = _loaded(left)

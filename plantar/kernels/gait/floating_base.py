@@ -1,4 +1,4 @@
-"""The floating base from leg kinematics, IMU and loads (equations: `plantar.gait.estimate.estimator`).
+"""Floating base from leg kinematics, IMU and loads (equations: `plantar.gait.estimate.estimator`).
 
 Feet are numbered as `plantar.sides.SIDES`.
 """
@@ -27,10 +27,10 @@ class FloatingBase:
         gains: Averaging in s, correction of tilt and heading in 1/s, observer bandwidth in rad/s, least load in N
             (`EstimatorGains`).
         state: Caller's arrays to write: rotation (3, 3) from base to world, base position (3,), CoM (3,), its velocity
-            (3,), sole origins (2, 3), sole rotations (2, 3, 3) to world, composite ZMP (2,) (NaN without load), and
-            turn (3,) of base in rad by still soles; in m and m/s.
+            (3,), sole origins (2, 3), sole rotations (2, 3, 3) to world, composite ZMP (2,) (NaN without load), base
+            turn (3,) in rad by still soles; in m and m/s.
         bias: `gyro_bias.GyroBias`; None disables bias correction.
-        steady: `SteadyLoad` that selects feet for it; None for all loaded ones.
+        steady: `SteadyLoad` that selects feet; None for all loaded.
     """
 
     def __init__(self, omega, period, gravity, gains, state, bias=None, steady=None):
@@ -109,9 +109,9 @@ class FloatingBase:
         """Read this tick's posture, and turn and move the base; returns the ZMP as `place`.
 
         Args:
-            gyro_x: Measured angular velocity about base's x in rad/s; `gyro_y` and `gyro_z` likewise.
+            gyro_x: Angular velocity about base's x in rad/s; `gyro_y` and `gyro_z` likewise.
             specific_x: Specific force along base's x in m/s^2; `specific_y` and `specific_z` likewise.
-            planned_x: Planned acceleration of CoM along the world's x in m/s^2; `planned_y` likewise.
+            planned_x: Planned CoM acceleration along world's x in m/s^2; `planned_y` likewise.
         """
         self.take()
         rate, bias = self.rate, self.bias
@@ -168,9 +168,9 @@ class FloatingBase:
         Args:
             rate: Angular velocity (3,) in base frame in rad/s, less bias.
             accelerometer: Specific force (3,) in base frame in m/s^2.
-            planned: Planned horizontal acceleration (2,) of CoM in m/s^2; None for none.
+            planned: Planned horizontal CoM acceleration (2,) in m/s^2, or None.
             by_legs: Whether `missed` or feet correct heading.
-            missed: Turn (3,) of legs beyond gyro in base frame in rad; None for none.
+            missed: Turn (3,) of legs beyond gyro in base frame in rad, or None.
         """
         rotation, specific, vector, before = self.rotation, self.other, self.vector, self.before
         rx, ry, rz = rate[0], rate[1], rate[2]
@@ -267,7 +267,7 @@ class FloatingBase:
                 self.position[i] += self.period * self.velocity[i]
 
     def _point(self, past, side, x, y, out):
-        """A sole's point in the base frame, now (0) or a tick ago (1)."""
+        """Sole's point in the base frame, now (0) or a tick ago (1)."""
         places, turns = self.places_in_base, self.turns_in_base
         for i in range(3):
             out[i] = places[past, side, i] + turns[past, side, i, 0] * x + turns[past, side, i, 1] * y
@@ -301,8 +301,8 @@ class FloatingBase:
         """Copies of the state.
 
         Returns:
-            Rotation (3, 3) from base to world; base position, CoM in m and its velocity in m/s (3,); origins (3,) of
-            the left and right sole frames in m; and their rotations (3, 3) to world.
+            Rotation (3, 3) from base to world; base position, CoM in m and its velocity in m/s (3,); left and right
+            sole origins (3,) in m; their rotations (3, 3) to world.
         """
         places, turns = self.places, self.turns
         return (

@@ -9,7 +9,7 @@ class SteadyLoad:
     """Compares each foot's load with the total and its own running mean.
 
     Args:
-        share: Share of total load from which a foot is still and the other is not.
+        share: Share of total load from which only this foot is still.
         follow: Share of new load in running mean.
         band: Largest difference in N of load and mean of still foot.
 
@@ -48,10 +48,10 @@ class GyroBias:
         largest: Largest bias of axis in rad/s.
         most_ticks: Ticks of piece.
         slip: Largest angle in rad about z by which noise differs in a piece.
-        one_foot: Weight of a tick with one still foot, relative to two.
+        one_foot: Weight of one still foot, relative to two.
         known: Weight from which a slip differs from bias.
         value: Receives bias (3,) in base frame in rad/s.
-        missed: Receives turn (3,) of legs beyond corrected gyro in the last piece, in base frame in rad.
+        missed: Receives turn (3,) of legs beyond corrected gyro in last piece, in base frame in rad.
 
     Attributes:
         concluded: Whether a piece ended at the last tick.
@@ -73,9 +73,9 @@ class GyroBias:
         """Advance by one control tick.
 
         Args:
-            gyro_x: Measured angular velocity of base about its x in rad/s; `gyro_y` and `gyro_z` likewise.
+            gyro_x: Angular velocity about base's x in rad/s; `gyro_y` and `gyro_z` likewise.
             stands: Whether a foot is still; `both` whether both are.
-            turn_x: Turn of base about its x in rad by still feet; `turn_y` and `turn_z` likewise.
+            turn_x: Turn about base's x in rad by still feet; `turn_y` and `turn_z` likewise.
         """
         self.concluded = False
         if stands:

@@ -1,4 +1,4 @@
-"""The plane through the highest ground under a swinging sole."""
+"""Plane through the highest ground under a swinging sole."""
 
 import math
 

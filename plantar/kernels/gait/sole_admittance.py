@@ -16,7 +16,7 @@ class SoleAdmittance:
         period: Control period in s.
         share: Share of new measurement in its low pass.
         turn_gain: Turning rate in rad/s per N m of moment error.
-        back: Rate in 1/s of return to zero in stance; may change from tick to tick. `release` the same in the air.
+        back: Rate in 1/s of return to zero in stance, may change; `release` in the air.
         largest_turn: Largest turn about an axis in rad.
         largest_lift: Largest shift in m.
     """
@@ -102,7 +102,7 @@ def risen(position, center, roll, pitch, shift):
 
 
 def pressed(wrench, level, position, center):
-    """A wrench on a sole as a force at its center of pressure.
+    """Wrench on a sole as a force at its center of pressure.
 
     Args:
         wrench: Wrench (6,) in sole frame about its origin in N and N m.

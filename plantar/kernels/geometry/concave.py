@@ -1,5 +1,5 @@
 # cython: infer_types=True
-"""The largest rectangle in an outline with islands and holes, exact."""
+"""Largest rectangle in an outline with islands and holes, exact."""
 
 import math
 
@@ -68,8 +68,7 @@ class OutlineRectangles:
 
         Lines through every vertex cut the area into slabs and these into trapezoids. A rectangle from one trapezoid to
         another may use a convex region: a window in y, cut by the slants of both. Branch and bound over the pairs: the
-        window's box bounds a pair, and the remaining pairs are solved as convex polygons. A pair whose whole window
-        passes one way into the trapezoid before the first, or after the last, is left out.
+        window's box bounds a pair, and the remaining pairs are solved as convex polygons.
 
         Args:
             angle: Angle of the first side in rad.
@@ -346,7 +345,7 @@ class OutlineRectangles:
         self.first[slabs] = count
 
     def _octagon(self, i, k, low, high, start, end):
-        """The region from slab i to slab k: the window, cut by the slants at its ends.
+        """Region from slab i to slab k: the window, cut by the slants at its ends.
 
         Returns:
             Number of vertices, up to 8, in `ring`, counter-clockwise; below 3 if empty.

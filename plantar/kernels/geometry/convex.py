@@ -169,7 +169,7 @@ def signed_margin(polygon, x, y):
 
 
 def seen_from_above(polygon, rotation, position):
-    """A polygon (k, 2) in m of a frame's x-y plane, seen along another frame's z axis.
+    """Polygon (k, 2) in m of a frame's x-y plane, seen along another frame's z axis.
 
     Args:
         rotation: Rotation (3, 3) from its frame to the other.
@@ -206,7 +206,7 @@ _FREE: list = []  # type: ignore[type-arg]  # rooms for `_FEW` vertices that no 
 
 
 def _borrow(corners):
-    """A room for so many vertices; a small one returns to `_FREE`."""
+    """Room for so many vertices; a small one returns to `_FREE`."""
     if corners > _FEW:
         return OffsetRoom(corners)
     try:
@@ -216,7 +216,7 @@ def _borrow(corners):
 
 
 def _entered(polygon, room):
-    """A polygon (k, 2) copied into a room, without its buffer unless strided or of another kind."""
+    """Polygon (k, 2) copied into a room, without its buffer unless strided or of another kind."""
     k = memory.rows(polygon, 2)
     if not 0 <= k <= room.given.shape[0]:
         return polygon

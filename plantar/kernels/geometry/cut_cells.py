@@ -9,7 +9,7 @@ def cut_cells(points, start, lines, scratch, tags, measure, chords):
     """Clip every cell by half-planes n . x <= h (Sutherland and Hodgman 1974); areas exact to 1e-12 of the cell's.
 
     Args:
-        points: Corners (c, 2) of all cells in m, cell by cell, counter-clockwise, with offsets `start` (n + 1,).
+        points: Corners (c, 2) of cells in m, in turn, counter-clockwise; offsets `start` (n + 1,).
         lines: Half-planes (m, 3): n of length 1, and h in m.
         scratch: Room (2, r, 2) for a cell's corners; if convex, r = its corners + m + 1.
         tags: Room (2, r) for lines that edges lie on.

@@ -12,7 +12,7 @@ _INFINITE = float("inf")
 
 
 class FewPoints:
-    """A few points, and the convex hull of some.
+    """Few points, and the convex hull of some.
 
     Attributes:
         count: Number of points.
@@ -98,5 +98,5 @@ class FewPoints:
         return [(self.points[i, 0], self.points[i, 1]) for i in range(first, end)]
 
     def corners_of(self):
-        """The hull's corners (x, y) in m, counter-clockwise from the lowest x."""
+        """Hull's corners (x, y) in m, counter-clockwise from the lowest x."""
         return [(self.ring[i, 0], self.ring[i, 1]) for i in range(self.corners)]

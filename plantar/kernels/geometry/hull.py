@@ -99,10 +99,10 @@ def hull_ring(points, way, forth, count, tolerance, ring):
 
     Args:
         points: Points (n, 2) in m, finite.
-        way: Indices (count,): first `forth` candidates of the lower chain, sorted by x, then y, from lowest to highest
-            of all points; then those of upper chain, back to lowest.
+        way: Indices (count,): first `forth` candidates of lower chain, sorted by x, then y; then those of upper chain,
+            back to lowest.
         tolerance: See `hull_tolerance`.
-        ring: Receives indices of corners, counter-clockwise from lowest x; room for count.
+        ring: Receives indices of corners, counter-clockwise from lowest x.
     """
     if count == 0:
         return 0

@@ -1,5 +1,5 @@
 # cython: infer_types=True
-"""The contact's outline: a walk along edges that no two active cells share."""
+"""Contact's outline: a walk along edges that no two active cells share."""
 
 import math
 
@@ -78,20 +78,14 @@ class Rings:
 
 
 class EdgeTable:
-    """The directed edges of a sole's cells, each counter-clockwise, in turn.
+    """Directed edges of a sole's cells, each counter-clockwise, in turn.
 
     Args:
         edges: Offsets (n + 1,) of each cell's edges and, for each edge (h,), its cell, neighbour's same edge or -1,
-            cell's next edge, and vertex it starts at.
-        vertices: Coordinates of v vertices, flat (2 v,), in m.
+            next edge, first vertex.
+        vertices: Coordinates of the v vertices, flat (2 v,), in m.
         straight: Distance in m of corner from its neighbours' line.
-        reuse: Keep work arrays from walk to walk. Compiled walks cannot interleave.
-
-    Example:
-        >>> from plantar.layouts.cell_edges import edge_table
-        >>> table = edge_table([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2, 3]])
-        >>> table.walk(bytes([1]))[1:], table.walk(bytes([0]))[1:]
-        (([0, 4], [1.0]), ([0], []))
+        reuse: Keep work arrays from walk to walk; compiled walks cannot interleave.
     """
 
     def __init__(self, edges, vertices, straight, reuse):
@@ -127,7 +121,7 @@ class EdgeTable:
 
         Args:
             active: As in `walk`.
-            kind: `Rings` or a class derived from it, whose `__init__` is not called.
+            kind: `Rings` or a derived class; its `__init__` is not called.
         """
         if len(active) != len(self.cell_start) - 1:
             return None

@@ -1,5 +1,5 @@
 # cython: infer_types=True
-"""The largest parallelogram in a convex ring.
+"""Largest parallelogram in a convex ring.
 
 One corner A of some largest parallelogram A B C D is a vertex. For each A, corner B walks once round; C and D end the
 far chord parallel and equal to AB. While B, C and D stay on their edges the area is a parabola.
@@ -14,7 +14,7 @@ _C_RETURNS = 3  # or C does, walking back
 
 
 class _ChordWalk:
-    """The walk of B round a ring from A, with C and D opposite, relative to A.
+    """Walk of B round a ring from A, with C and D opposite, relative to A.
 
     Attributes:
         best: Largest area so far.

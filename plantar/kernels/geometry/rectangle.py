@@ -1,5 +1,5 @@
 # cython: infer_types=True
-"""The largest rectangle in a convex ring, at a given angle."""
+"""Largest rectangle in a convex ring, at a given angle."""
 
 import math
 
@@ -7,7 +7,7 @@ __all__ = ["largest_rectangle", "write_corners"]
 
 
 class _Gap:
-    """The gap between a rotated ring's chains, for a rectangle's width.
+    """Gap between a rotated ring's chains, for a rectangle's width.
 
     Attributes:
         x: Where rectangle begins.
@@ -40,7 +40,7 @@ class _Gap:
         self.in_w = 0.0
 
     def edge_at(self, at, count, edge, x):
-        """A chain's edge at an x, walked from one of its edges."""
+        """Chain's edge at an x, walked from one of its edges."""
         while edge > 0 and self.work[at + 3 * edge] > x:
             edge -= 1
         while edge < count - 2 and self.work[at + 3 * edge + 3] < x:
@@ -48,7 +48,7 @@ class _Gap:
         return edge
 
     def measure(self, x, w):
-        """The gap's height at x, and its slopes in x and w."""
+        """Gap's height at x, and its slopes in x and w."""
         y = x + w
         self.over = self.edge_at(self.upper, self.tops, self.over, x)
         self.over_end = self.edge_at(self.upper, self.tops, self.over_end, y)

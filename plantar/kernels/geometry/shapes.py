@@ -61,7 +61,7 @@ class ConvexShapes:
         self.n = n
 
     def _corners(self, count):
-        """The first corners of `out`, at the polygon's place."""
+        """First corners of `out`, at the polygon's place."""
         room = np.empty((count, 2))
         corners = room
         for i in range(count):

@@ -20,13 +20,13 @@ class Setpoints:
         servos: Index (k,) of each joint's servo there.
         stiffness: Position gains (k,) in N m/rad.
         damping: Gains (k,) in N m s/rad of servo and joint.
-        per_way: One over largest change (k,) of set-point in a control period in 1/rad; empty without limits.
+        per_way: One over largest change (k,) per control period in 1/rad; empty without limits.
         period: Control period in s; `step` that of `advance`.
-        share: Share of its way that each stage of low pass moves in a step, above 0 to 1.
-        joints: Desired joint angles (k,) in rad, and `torques` (k,) in N m that hold them, written by caller.
+        share: Share of way per step of each low-pass stage, above 0 to 1.
+        joints: Desired joint angles (k,) in rad, and holding `torques` (k,) in N m, written by caller.
 
     Attributes:
-        reference: Desired joint angles (k,) in rad; NaN before the first ones; `velocity` their rates in rad/s.
+        reference: Desired joint angles (k,) in rad, first NaN; `velocity` in rad/s.
         goal: Set-points (k,) in rad with which joints follow reference.
         setpoint: Written set-points (k,) in rad.
     """

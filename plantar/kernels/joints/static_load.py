@@ -11,7 +11,7 @@ class StaticLoad:
     """Loads of a model and of its joints.
 
     Args:
-        parents: Parent of each body (b,), which comes before it; the first is world.
+        parents: Parent of each body (b,), listed before it; first the world.
         bodies: Body of each velocity (nv,).
         inertias: Each body's `cinert` (b, 10); the last four are mass times way, and mass.
         motions: Unit motion (nv, 6) of each velocity: w, then v.

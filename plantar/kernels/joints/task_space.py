@@ -22,7 +22,7 @@ class TaskSpace:
     Attributes:
         used: Number of owned directions.
         y: Mass-weighted acceleration (n,) in basis of owned directions, these first.
-        columns: Rows of the last level in that basis as columns (n, m), in order in which they were owned.
+        columns: Rows of last level in that basis as columns (n, m), in owned order.
         sizes: Size (m,) of each before any was owned.
         full: Size (m,) of each with a Jacobian row as long as level's longest.
         missing: Unmet part (m,) of wanted acceleration; 0 where met.
@@ -81,11 +81,11 @@ class TaskSpace:
             jacobian: Rows (m, n).
             wanted: Acceleration (m,) along each, used to meet it.
             meet: Whether it is met.
-            least: Share of a row's size below which the rest of it is no direction.
+            least: Share of row's size below which its rest is no direction.
 
         Returns:
-            Number of directions, and a lower bound on singular values of these rows over their full size. If small, or
-            rows have no direction, caller uses `rows`, `missing`.
+            Number of directions, and lower bound on these rows' singular values over full size. If small, or rows have
+            no direction, caller uses `rows`, `missing`.
         """
         n, count, first = self.size, jacobian.shape[0], self.used
         if count > self.room:

@@ -1,4 +1,4 @@
-"""A step of inverse kinematics: all tasks' rows, Newton's step, configuration."""
+"""Step of inverse kinematics: all tasks' rows, Newton's step, configuration."""
 
 import math
 
@@ -142,7 +142,7 @@ class PointRows:
 
 
 class TurnRows(Rows):
-    """A body's missing turn (3,) from `actual` to `wanted` (3, 3), and its angular velocity (3, nv), in world."""
+    """Body's missing turn (3,) from `actual` to `wanted` (3, 3), and its angular velocity (3, nv), in world."""
 
     def __init__(self, chain, motions, wanted, actual, error, jacobian):
         self.chain, self.motions, self.wanted, self.actual = chain, motions, wanted, actual
@@ -184,7 +184,7 @@ class ComRows(Rows):
     """Bodies' CoM `com` (3,) at a `target` (3,): missing way (3,) and Jacobian (3, nv).
 
     Args:
-        chains: Velocities that move each of b bodies, one after the other, up to its `ends` (b,).
+        chains: Velocities that move each of b bodies, in turn, up to its `ends` (b,).
         masses: Mass (b,) of each body; `share` one over their sum.
         centers: Centers (t, 3) of trees; `trees` (b,) that of each body.
         places: CoM (b, 3) of each body.
@@ -222,7 +222,7 @@ _LEAST = 1e-15  # length that counts as none, and what a quaternion's may differ
 
 
 class Configuration:
-    """A configuration (nq,) and its velocity (nv,).
+    """Configuration (nq,) and its velocity (nv,).
 
     Args:
         ways: Indices (w,) in configuration that velocities `speeds` (w,) add to.
@@ -273,7 +273,7 @@ class TaskStep:
         configuration: The `Configuration` to move.
 
     Attributes:
-        near: Whether rows held all errors at the last step; else a task has to write its own.
+        near: Whether rows held all errors at the last step.
     """
 
     def __init__(self, rows, newton, configuration):

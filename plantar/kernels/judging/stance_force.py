@@ -19,7 +19,7 @@ class StanceForce:
         mass: Robot's mass in kg.
         gravity: In m/s^2.
         period: Physics step in s.
-        steps: Numbers of steps: `span`, and those left out after a landing.
+        steps: `span`, and steps left out after a landing.
         least: Vertical force in N from which a foot touches ground.
         edge: Distance in m below which a ZMP is at edge of support.
 

@@ -30,8 +30,8 @@ class StepWatch:
         legs: Number (1,), above 0 where legs touch each other.
         warnings: Simulator's warning counts; `divergence` the indices of diverged state.
         least: Vertical ground force in N from which a foot touches ground.
-        windows: Steps in the air before a touch is a landing, after it for its impact, and for its contact area.
-        fallen: Cosine of torso's tilt, and height in m of CoM above the lower sole, below which it has fallen.
+        windows: Steps in the air before a landing, after it for impact, and for contact area.
+        fallen: Cosine of torso's tilt, and CoM height in m above lower sole, below which it has fallen.
 
     Attributes:
         up: Least cosine of torso's tilt.

@@ -1,4 +1,4 @@
-"""A pendulum over a VRP that moves along a line."""
+"""Pendulum over a VRP that moves along a line."""
 
 import math
 
@@ -8,14 +8,14 @@ __all__ = ["on_segment"]
 
 
 def on_segment(omega, since, until, segment, vrps, rates, growths, shrinkage):
-    """The pendulum within a plan's segment: VRP, DCM and rate, CoM, first and second rate, new arrays (2,).
+    """Pendulum within a plan's segment: VRP, DCM and rate, CoM, first and second rate, new arrays (2,).
 
     Args:
         omega: Pendulum frequency in rad/s.
         since: Time in s since segment began; `until` until it ends.
         segment: Number of segment.
         vrps: VRP (k, 2) at beginning of each segment in m, with `rates` in m/s.
-        growths: E^(w T) (k, 2) of each in m; `shrinkage` B (2,) of this one.
+        growths: A e^(w T) (k, 2) of each in m; `shrinkage` B (2,) of this one.
     """
     start, rate, growth = memory.values(vrps), memory.values(rates), memory.values(growths)
     offset, i, j = memory.values(shrinkage), 2 * segment, 2 * segment + 1

@@ -65,7 +65,7 @@ def exponential(x, y, z, out):
 
 
 def rotation_of(x, y, z):
-    """The same as a new array (3, 3)."""
+    """Same as a new array (3, 3)."""
     xx, xy, xz, yx, yy, yz, zx, zy, zz = _exponential(x, y, z)
     return vectors.matrix(xx, xy, xz, yx, yy, yz, zx, zy, zz)
 

@@ -1,4 +1,4 @@
-"""The quadratic program that shares a net wrench between contacts."""
+"""Quadratic program that shares a net wrench between contacts."""
 
 import math
 
@@ -10,13 +10,13 @@ __all__ = ["WrenchProgram"]
 
 
 class WrenchProgram:
-    """The program of n contacts, in its units; fills the caller's arrays.
+    """Program of n contacts, in its units; fills the caller's arrays.
 
     Args:
         scales: Weight of robot in N, unit of moments over forces in m, costs of net wrench and of proportion of normal
             forces.
         unit: Unit of each unknown (6 n,) in N and N m, contact by contact.
-        jacobian: Receives map (6, 6 n) from unknowns to net wrench about middle of contacts.
+        jacobian: Receives map (6, 6 n) from unknowns to net wrench about contacts' middle.
         fixed: Part of Hessian (6 n, 6 n) that does not depend on shares, filled by caller.
         hessian: Receives Hessian (6 n, 6 n).
         wanted: Receives wanted net wrench (6,) about middle of contacts.

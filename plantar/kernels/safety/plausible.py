@@ -42,8 +42,7 @@ class BodyCheck:
         m/s^2.
 
         Returns:
-            0 for no fault, 1 for an impossible joint angle, 2 for an impossible IMU, 3 for a stuck IMU, 4 for stuck
-            joints. NaN is not checked here.
+            0 for no fault, 1 impossible joint angle, 2 impossible IMU, 3 stuck IMU, 4 stuck joints. NaN is not checked.
         """
         q, w, a = memory.values(joints), memory.values(gyro), memory.values(accelerometer)
         kept, n = memory.room(self.kept), self.joints

@@ -14,7 +14,7 @@ def cast_rays(starts, ways, reach, ids, kinds, sizes, bounds, positions, frames,
         starts: Where rays begin (n, 3) in world in m, along unit vectors `ways` (n, 3); at least one.
         reach: Length in m beyond which a hit need not be found.
         ids: Rows (k,) of solids in `positions` and `frames`.
-        kinds: Kind (k,) of each, by MuJoCo's numbers: 0 plane, 2 sphere, 4 ellipsoid, 5 cylinder, 6 box.
+        kinds: MuJoCo kind (k,) of each: 0 plane, 2 sphere, 4 ellipsoid, 5 cylinder, 6 box.
         sizes: Half sizes (k, 3) in m as in MuJoCo.
         bounds: Radius (k,) in m of bounding sphere; not read for a plane.
         positions: Middles (m, 3) in world in m; `frames` (m, 9) their rotations, row by row.
@@ -121,7 +121,7 @@ def _cylinder(radius, half, px, py, pz, wx, wy, wz):
 
 
 def _face(p, q, r, wp, wq, wr, half_p, half_q, half_r, best):
-    """The lesser of the length so far and that to a box's faces across axis p."""
+    """Lesser of the length so far and that to a box's faces across axis p."""
     if abs(wp) > _TINY:
         for side in range(-1, 2, 2):
             t = (side * half_p - p) / wp

@@ -14,7 +14,7 @@ _dot = np.dot
 
 
 class SoleRays:
-    """The rays of n taxels, cast from the sole's current pose.
+    """Rays of n taxels, cast from the sole's current pose.
 
     Args:
         starts: Where rays begin (n, 3) in sole frame in m, along unit vectors `ways` (n, 3).

@@ -128,7 +128,7 @@ def hulls(sole, force, threshold, saturation, size, measure, points):
     Args:
         size: Receives number of vertices (frames,).
         measure: Receives area in m^2 and centroid in m (frames, 3), NaN without contact.
-        points: Receives vertices (room, 2) in m, one polygon after the other; empty where not wanted.
+        points: Receives polygons' vertices (room, 2) in m, in turn; empty if not wanted.
     """
     scratch = sole.borrow()
     with cython.nogil:

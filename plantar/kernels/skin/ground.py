@@ -1,4 +1,4 @@
-"""The ground's plane under a sole: least squares, or least median of squares if taxels disagree."""
+"""Ground's plane under a sole: least squares, or least median of squares if taxels disagree."""
 
 import math
 
@@ -217,7 +217,7 @@ def _least_squares(seen, scratch):
 
 
 def _ranked(seen, rank, scratch):
-    """The value of `miss` with so many below it; reorders (Hoare's selection)."""
+    """Value of `miss` with so many below it; reorders (Hoare's selection)."""
     miss = scratch.miss
     low, high = 0, seen - 1
     while low < high:

@@ -42,7 +42,7 @@ class SoleScratch:
         self.offset = convex.OffsetRoom(corners)
 
     def summed(self, first, count):
-        """A new array (count,) of the sums from one."""
+        """New array (count,) of the sums from one."""
         made = memory.new_vector(count)
         out = memory.room(made)
         for i in range(count):
@@ -50,7 +50,7 @@ class SoleScratch:
         return made
 
     def hull(self, size):
-        """The hull (size, 2) in m in `polygon`, as a new array."""
+        """Hull (size, 2) in m in `polygon`, as a new array."""
         return vectors.points_of(self.polygon, size)
 
     def copy_hull(self, size, out):
@@ -327,16 +327,15 @@ class SoleKernel:
         return polygon, area, x, y
 
     def tick(self, force, threshold, saturation, offset, x, y):
-        """A controller's needs of one foot: `active`, `loads`, `hull`, `convex.inner_offset`, `convex.closest_point`.
+        """Controller's needs of one foot: `active`, `loads`, `hull`, `convex.inner_offset`, `convex.closest_point`.
 
         Args:
             offset: How far hull's edges move inwards in m; not if 0 or less.
             x: Point in m to be close to; y likewise.
 
         Returns:
-            Mask (n,); wrench (6,) in N and N m, contact area in m^2, CoP (2,) in m or None; polygon (k, 2) in m, its
-            area in m^2, its centroid (2,) in m; smaller polygon (m, 2) in m; its closest point (2,) in m. The last two
-            points are None without contact.
+            Mask (n,); wrench (6,) in N and N m; contact area in m^2; CoP (2,) in m or None; polygon (k, 2), its area,
+            centroid (2,); smaller polygon (m, 2); its closest point (2,), in m. Points are None without contact.
         """
         scratch = self._borrow_with_active(force, threshold, saturation)
         self._loads(scratch.force, scratch.mask, scratch.sums)
