@@ -1,4 +1,4 @@
-"""`python -m plantar` and the console script: the command line, which Ctrl-C ends from its first moment."""
+"""`python -m plantar` and the console script; Ctrl-C ends it from its first moment."""
 
 from plantar.console.ending import leave_at_interrupt
 

@@ -1,4 +1,4 @@
-"""Files and folders that appear whole or not at all: written under a temporary name, then renamed.
+"""Files and folders that appear whole or not at all, written under temporary names.
 
 The next process that writes there removes what a killed one left.
 """

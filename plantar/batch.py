@@ -326,7 +326,7 @@ def ground_planes(
 
 
 def blocks(force: NDArray[np.float64], frames: int = BLOCK) -> Iterator[tuple[slice, NDArray[np.float64]]]:
-    """Cut a recording into blocks of frames, for large results.
+    """Cut a recording into blocks of frames.
 
     Args:
         force: Forces (frames, n), e.g. memory-mapped.
@@ -404,7 +404,7 @@ def _workers(threads: int | None) -> int:
 def _shared(work: Callable[[slice], _Done], pieces: list[slice], threads: int | None) -> list[_Done]:
     """Results of work on each piece, in order, by as many threads as there is work for.
 
-    The caller's thread is one; each takes the next piece when done, as waking threads costs up to 0.3 ms.
+    The caller's thread is one; waking threads costs up to 0.3 ms.
     """
     others = min(_workers(threads), len(pieces)) - 1
     if others <= 0:

@@ -1,4 +1,4 @@
-"""The command line, `plantar <command>`: the modules of `plantar.commands`, and entry points of other packages."""
+"""Command line, `plantar <command>`: modules of `plantar.commands`, and other packages' entry points."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def _commands(
 
 
 def _found() -> Iterator[Command]:
-    """Commands of this package, then those of other packages (entry points of `plantar.commands`)."""
+    """This package's commands, then others' (entry points of `plantar.commands`)."""
     for module in iter_modules(commands.__path__, f"{commands.__name__}."):
         yield import_module(module.name).COMMAND
     yield from extensions("plantar.commands", Command).values()

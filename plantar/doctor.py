@@ -1,4 +1,4 @@
-"""Which optional libraries are installed, missing or broken, and how to get them."""
+"""Which optional libraries are installed, missing or broken, and the remedy."""
 
 from __future__ import annotations
 

@@ -140,7 +140,7 @@ def _cells(axes: Any, layout: SoleLayout, **style: Any) -> Any:
 
 
 def ticks_in_mm(axes: Any) -> None:
-    """Label axes in m in whole millimetres, close enough together to measure an 80 mm wide foot by."""
+    """Label axes in m in whole millimetres, close enough for a foot's width."""
     from matplotlib.ticker import FuncFormatter, MaxNLocator
 
     for axis, most in ((axes.xaxis, 5), (axes.yaxis, 8)):
@@ -155,7 +155,7 @@ def draw_raster(axes: Any, picture: NDArray[np.uint8], pixel: float) -> Any:
 
 
 def png_of(picture: NDArray[np.float64]) -> bytes:
-    """Bytes of a PNG of a picture (height, width, 3), red, green and blue 0..1."""
+    """PNG bytes of a picture (height, width, 3), RGB 0..1."""
     from matplotlib.image import imsave
 
     file = io.BytesIO()

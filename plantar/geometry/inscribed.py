@@ -105,15 +105,11 @@ def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.fl
 
     Args:
         polygon: Convex polygon (k, 2) in m.
-        angle: Angle of the first side against x in rad.
+        angle: Angle of first side against x in rad.
 
     Returns:
         Corners (4, 2) in m from the lower left one at angle 0; area exact to 1e-12; to 1e-8 where edges are almost
         parallel to sides.
-
-    Example:
-        >>> inscribed_rectangle([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]).tolist()
-        [[0.0, 0.0], [2.0, 0.0], [2.0, 1.5], [0.0, 1.5]]
     """
     return np.asarray(convex_shapes().rectangle(convex_ring(polygon), angle))
 
@@ -133,7 +129,7 @@ def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.flo
 
     Args:
         outline: Outline with islands and holes in m.
-        angle: Angle of the first side against x in rad.
+        angle: Angle of first side against x in rad.
 
     Returns:
         Corners (4, 2) in m; area exact to 1e-12; to 1e-7 where edges are almost parallel to sides. (0, 2) if empty.
@@ -152,8 +148,8 @@ def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.flo
 def rectangle_in_outline_any_angle(outline: Outline, looks: int = _LOOKS) -> BoundedRectangle:
     """Largest rectangle in a concave outline by a scan of angles, and a proven bound on others.
 
-    A rectangle turned by t holds one of d^2 sin(2 t) / 2 less at the angle before, d its diagonal: one angle bounds
-    those near it. The interval of the largest bound is halved repeatedly.
+    A rectangle turned by t holds one of d^2 sin(2 t) / 2 less, d its diagonal; the interval of the largest bound is
+    halved.
 
     Args:
         outline: Outline with islands and holes in m.

@@ -201,17 +201,10 @@ def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:
         outlines_in_world: Outline of each foot in world frame in m; empty in the air.
 
     Returns:
-        All rings together; where boxes of two feet overlap, shapely's union.
+        All rings together; where the boxes of two feet overlap, shapely's union.
 
     Raises:
         InputError: If invalid.
-
-    Example:
-        >>> left = Outline.of_rings([[[0.0, 0.1], [0.2, 0.1], [0.2, 0.2], [0.0, 0.2]]])
-        >>> right = left.moved(np.eye(2), [0.0, -0.3])
-        >>> both = feet_outline([left, right])
-        >>> len(both), round(both.area, 12)
-        (2, 0.04)
     """
     parts = [o for o in (instance(o, Outline, "outline") for o in items(outlines_in_world, "outlines")) if len(o)]
     boxes = [bounding_box(o.points).tolist() for o in parts]

@@ -1,7 +1,7 @@
 """Convex polygons: hull, area, centroid, closest point, margin, inner offset.
 
-Vertices (k, 2) in m without repeated last point, counter-clockwise where returned. Points in one place or on one line
-give 1 or 2 vertices and area 0.
+Vertices (k, 2) in m without repeated last point, counter-clockwise where returned; 1 or 2, of area 0, for points on one
+line.
 """
 
 from __future__ import annotations
@@ -181,8 +181,7 @@ def inner_offset(polygon: ArrayLike, distance: float) -> NDArray[np.float64]:
         distance: Distance in m, 0 or more.
 
     Returns:
-        Smaller polygon (m, 2), counter-clockwise; if none, or NaN, deepest point (1, 2), middle of 1 or 2 vertices;
-        empty for empty, a copy for 0.
+        Smaller polygon (m, 2), counter-clockwise; if none, or NaN, deepest point (1, 2); empty for empty, a copy for 0.
 
     Raises:
         InputError: If invalid.

@@ -1,8 +1,8 @@
 """Hot functions, one plain-Python source each, compiled ahead of time where a compiler is found.
 
 `geometry/convex.py` is plain Python; `convex.pxd` next to it has the C types with which Cython compiles that very file.
-Without a compiler the source runs, slower, with the same results to the last bit. PLANTAR_KERNELS=python runs the
-sources even where extensions exist.
+Without a compiler the source runs, slower, equal to the last bit. PLANTAR_KERNELS=python runs the sources even where
+extensions exist.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def is_compiled(name: str) -> bool:
         name: One of KERNELS, or its last part.
 
     Returns:
-        False where no extension is there, or PLANTAR_KERNELS=python.
+        False without extension, or with PLANTAR_KERNELS=python.
     """
     room, kernel = _full(name).split(".")
     return not _PYTHON and any((_FOLDER / room / f"{kernel}{suffix}").is_file() for suffix in EXTENSION_SUFFIXES)

@@ -5,7 +5,7 @@ that passes to the ground. Moments about the ZMP give
 
     x'' = w^2 (x - u_ref) + F / m + w^2 [tau_y, -tau_x] / (m g) = w^2 (x - u),    u = u_ref - (u_F + u_tau),
 
-so both parts push the CoM away (printed: u_F - u_tau). The vertical force is left out, as in K.
+so both push the CoM away (printed: u_F - u_tau). The vertical force is left out.
 """
 
 from __future__ import annotations

@@ -78,10 +78,10 @@ def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Error of a rotation as a vector (3,) of the common frame, for feedback.
+    """Error of a rotation as a vector (3,) of the common frame.
 
-    Along the axis of the shortest turn from `actual` to `wanted`; its length is the sine of the angle up to a quarter
-    turn, 1 beyond.
+    Along the axis of the shortest turn from `actual` to `wanted`; of length sine of the angle up to a quarter turn, 1
+    beyond.
 
     Args:
         wanted: Rotation (3, 3) to common frame.

@@ -7,8 +7,7 @@ axes and e = sum J_i w_i - w_d, it minimises
 
 with m_i the moment (x, y) about the preferred center of pressure of contact i, s_i its wanted share of the normal
 force, forces in body weights and moments in body weights times 0.1 m. By Lagrange's identity the sum over pairs is
-|s|^2 |fz|^2 - (s . fz)^2; of two feet the ((1 - r) fz_1 - r fz_2)^2 of Caron et al. Each w_i stays in its wrench cone,
-its normal force at or above a minimum.
+|s|^2 |fz|^2 - (s . fz)^2. Each w_i stays in its wrench cone, its normal force at or above a minimum.
 """
 
 from __future__ import annotations

@@ -65,12 +65,6 @@ def loads(layout: SoleLayout, force: Any, threshold: float | None = None) -> Arr
 
     Raises:
         ReadingError: As `active`.
-
-    Example:
-        >>> from plantar import grid_layout
-        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.1, 0.1))
-        >>> loads(layout, np.array([10.0, 30.0])).center_of_pressure.round(3).tolist()
-        [0.125, 0.05]
     """
     xp = _namespace(layout, force)
     on = active(layout, force, threshold)

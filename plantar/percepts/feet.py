@@ -24,7 +24,7 @@ class FeetPercept:
     """Percepts of the soles with their poses.
 
     Args:
-        percepts: Percept of each sole.
+        percepts: Each sole's.
         poses: Pose of each sole in world.
         ground_height: Height in m of ZMP's horizontal plane.
 

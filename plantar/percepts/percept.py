@@ -34,8 +34,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
     """Percept of a reading through its layout.
 
     Members are computed at first use, and read-only. An unloaded sole has no CoP (None), area 0, an empty polygon and a
-    zero wrench; a modality that the reading lacks gives None. Faulty taxels are left out of every sum; `health` lists
-    them.
+    zero wrench; an absent modality None. Faulty taxels are left out of every sum; `health` lists them.
 
     Args:
         layout: Sole, n taxels.
@@ -188,9 +187,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @lazy
     def surface_cop_in_sole(self) -> NDArray[np.float64] | None:
-        """Center of pressure (3,) on the sole's surface in sole frame in m, or None without load; exact for a surface
-        of second order.
-        """
+        """Center of pressure (3,) on the surface in sole frame in m, or None without load; exact to second order."""
         cop = self.position_cop_in_sole
         if cop is None:
             return None

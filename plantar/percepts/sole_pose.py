@@ -93,7 +93,7 @@ class SolePose:
         return polygon_in_world(polygon, self.rotation_sole_to_world, self.position_in_world)
 
     def outline_to_world(self, outline: Outline, layout: SoleLayout) -> Outline:
-        """Contact's outline from above in world in m, its corners on the sole's surface.
+        """A contact's outline from above in world in m, corners on the sole's surface.
 
         Args:
             outline: Outline in sole frame in m, as of `concave_outline`.
@@ -152,10 +152,10 @@ def _turned(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose]) ->
 def zmp_of_soles(
     wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose], height: float = 0.0, minimum_force: float = 0.0
 ) -> NDArray[np.float64] | None:
-    """Composite ZMP (2,) of the soles in a horizontal plane in m (T 4.7-4.8), also tilted or at different heights.
+    """Composite ZMP (2,) of the soles in a horizontal plane in m (T 4.7-4.8), also tilted.
 
     Args:
-        wrenches_in_sole: Wrench (6,) of each sole about its own origin in N and N m, zero in the air; a pull is left
+        wrenches_in_sole: Wrench (6,) of each sole about its own origin in N and N m, zero in the air; pulls are left
             out.
         poses: Pose of each sole.
         height: Height of plane in world in m.
@@ -166,11 +166,6 @@ def zmp_of_soles(
 
     Raises:
         InputError: If invalid.
-
-    Example:
-        >>> load = [0.0, 0.0, 100.0, 0.0, 0.0, 0.0]
-        >>> zmp_of_soles([load, load], [SolePose.flat(0.2, 0.1), SolePose.flat(0.0, -0.1)]).tolist()
-        [0.1, 0.0]
     """
     turned = _turned(wrenches_in_sole, poses)
     if turned[0].shape != (6,):

@@ -22,7 +22,7 @@ def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.i
     Args:
         force: Normal forces (..., n) in N.
         threshold: Activation threshold epsilon_f in N.
-        saturation: Force in N from which a taxel is saturated.
+        saturation: Force in N from which taxel is saturated.
 
     Returns:
         Mask.

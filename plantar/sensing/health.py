@@ -96,7 +96,7 @@ def stuck_taxels(
     Args:
         times: Times (frames,) in s, increasing.
         values: Readings (frames, n), e.g. in N.
-        hold: Time in s without a change from which a taxel is stuck.
+        hold: Time in s without a change from which taxel is stuck.
         tolerance: Largest difference of two samples that is no change.
         rest: Taxel that reads this or less is never stuck.
 

@@ -50,22 +50,14 @@ def identify_faults(layout: SoleLayout, time: ArrayLike, force: ArrayLike, read:
     Args:
         layout: Sole, n taxels.
         time: Times (t,) in s, increasing, 20 or more.
-        force: Known normal force (t, n) on each taxel in N. Loads have to rise and fall.
-        read: Readings (t, n) of taxels in N; NaN if dead.
+        force: Known normal force (t, n) on each taxel in N, rising and falling.
+        read: Readings (t, n) in N; NaN if dead.
 
     Returns:
         Faults.
 
     Raises:
         ReadingError: If invalid.
-
-    Example:
-        >>> from plantar import hex_layout
-        >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
-        >>> time = 0.01 * np.arange(200)
-        >>> force = np.outer(10.0 + 10.0 * np.sin(6.0 * time), np.ones(len(layout)))
-        >>> round(float(identify_faults(layout, time, force, 1.2 * force + 0.5).worn.gains[0]), 3)
-        1.2
     """
     times = array(time, "times", ("t",), ReadingError, finite=True)
     if len(times) < 20 or not (np.diff(times) > 0.0).all():

@@ -1,8 +1,7 @@
-"""Net wrench about a point of all that touches a body, or is about to, by its skin (K 2-5).
+"""Net wrench about a point of all that touches a body, or is about to (K 2-5).
 
 A taxel counts if it measures force OR proximity (K 2, corrected: printed AND). Its pseudo-force is its force plus a
-share of its proximity (K 3), so a push is answered just before it arrives. K's weight of 99 turns full scale into
-newtons.
+share of its proximity (K 3), which answers a push before it arrives. K's weight of 99 turns full scale into newtons.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Supported part of a sole, finer than a cell: straight ground edges fitted to partial loads.
 
-Cells cut by the ground's edge carry less than their neighbours. With an elastic foundation under a rigid foot the
-pressure on the supported part S is linear:
+With an elastic foundation under a rigid foot the pressure on the supported part S is linear:
 
     F_i = int_(cell i and S) (a + b x + c y) dA = a A_i + b Mx_i + c My_i,
 

@@ -21,7 +21,7 @@ def temperature_measure(temperature: ArrayLike, threshold: float, highest: float
 
     Args:
         temperature: Temperatures (..., n) in degC; NaN or inf if dead.
-        threshold: Temperature kappa_0 in degC from which a taxel reacts.
+        threshold: Temperature kappa_0 in degC from which taxel reacts.
         highest: Upper end of sensors' range in degC, where readings are cut.
 
     Returns:
@@ -48,7 +48,7 @@ def temperature_wrench(
     Args:
         layout: Sole, n taxels.
         temperature: Temperatures (n,) or (frames, n) in degC; NaN if dead.
-        threshold: Temperature kappa_0 in degC from which a taxel reacts; layout's if None.
+        threshold: Temperature kappa_0 in degC from which taxel reacts; layout's if None.
         gain: Force of a kelvin of excess in N/K.
 
     Returns:

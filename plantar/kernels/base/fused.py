@@ -7,7 +7,7 @@ __all__ = ["multiply_add"]
 
 
 def multiply_add(a, b, c):
-    """Returns a b + c, rounded once as in IEEE 754 (by exact fractions)."""
+    """Returns a b + c, rounded once (by exact fractions)."""
     if math.isfinite(a) and math.isfinite(b) and math.isfinite(c):
         exact = Fraction(a) * Fraction(b) + Fraction(c)
         if exact:

@@ -6,7 +6,7 @@ __all__ = ["are_plane_points", "pair_of", "points_within", "values_within"]
 
 
 def are_plane_points(value, limit):
-    """Returns whether `value` is a contiguous float64 array (k, 2) with no coordinate beyond `limit`; NaN is."""
+    """Returns whether `value` is a contiguous float64 array (k, 2) within `limit`; NaN is."""
     k = memory.rows(value, 2)
     if k < 0:
         return False

@@ -126,7 +126,7 @@ class FaceContacts:
                     self.turn[3 * i + j] += rows[3 * g + 3 * k + i] * rows[3 * s + 3 * k + j]
 
     def _place_face(self, half, s, axis, height, side):
-        """Put the sole's facing face into `corners` in order, with the gap along the normal."""
+        """Put the sole's facing face into `corners`, with the gap along the normal."""
         own = 0
         for j in range(1, 3):
             if abs(self.turn[3 * axis + j]) > abs(self.turn[3 * axis + own]):
@@ -146,7 +146,7 @@ class FaceContacts:
             self.corners[3 * k + axis] = side * (self.corners[3 * k + axis] - height)
 
     def _cut_by(self, count, axis, reach):
-        """Cut the polygon in `corners` to -reach <= x <= reach along an axis; number of corners left."""
+        """Cut `corners` to -reach <= x <= reach along an axis; number left."""
         for side in (-1.0, 1.0):
             kept = 0
             for k in range(count):
@@ -200,7 +200,7 @@ class FaceContacts:
             to[7 + i] = 0.0
 
     def _write_disc(self, base, rows, ground, radius, height, depth, side, margin, out, sign):
-        """Write the covered disc's furthest points along the face's diagonals; -1 if the face touches the wall."""
+        """Write the covered disc's points along the face's diagonals; -1 at the wall."""
         ax = 0.5 * (self.corners[3] - self.corners[0])
         ay = 0.5 * (self.corners[4] - self.corners[1])
         az = 0.5 * (self.corners[5] - self.corners[2])
@@ -234,7 +234,7 @@ class FaceContacts:
         return found
 
     def _furthest(self, ax, ay, bx, by, mx, my, radius, p, q, da, db):
-        """Put the furthest point along a diagonal, inside disc and face, into `cut`."""
+        """Put a diagonal's furthest point, inside disc and face, into `cut`."""
         la, lb = math.sqrt(ax * ax + ay * ay), math.sqrt(bx * bx + by * by)
         wx, wy = da * ax / la + db * bx / lb, da * ay / la + db * by / lb
         size = math.sqrt(wx * wx + wy * wy)

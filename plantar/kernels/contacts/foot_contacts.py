@@ -45,14 +45,14 @@ class FootContacts:
     """One foot's contacts with everything else at each instant.
 
     Args:
-        own: Whether a geom belongs to foot (geoms,), 0 or 1.
+        own: Whether geom belongs to foot (geoms,), 0 or 1.
 
     Attributes:
         size: Number of contacts k.
         ids: Foot's geom and the other (room, 2); -1 for none.
         vectors: Each contact's position in m, force in N and torque in N m on foot (3 room, 3), in world frame.
         gaps: Gaps (room,) in m.
-        carries: Whether a contact carries (room,).
+        carries: Whether contact carries (room,).
     """
 
     def __init__(self, own):
@@ -75,7 +75,7 @@ class FootContacts:
         self.size = 0
 
     def take(self, ids, vectors, gaps, carries):
-        """Copy known contacts: ids (k, 2), vectors (3 k, 3), gaps (k,) and carries (k,) as the attributes."""
+        """Copy contacts: ids (k, 2), vectors (3 k, 3), gaps (k,) and carries (k,)."""
         count = ids.shape[0]
         if count > self.room:
             self._make_room(count)

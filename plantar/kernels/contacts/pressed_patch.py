@@ -37,10 +37,10 @@ def spread_whole(u, area, inverse, x, y, force, cells, out):
 
 
 def spread_part(u, area, x, y, force, active, cells, out):
-    """Spread a normal load where part of the cells lifts off: pressure max(0, a + b x + c y).
+    """Spread a normal load where some cells lift off: pressure max(0, a + b x + c y).
 
-    One or two 3 x 3 solves from the last carrying cells find cells and field. Arguments as of `spread_whole`; `active`
-    (m,) are the cells to start from, then those that carry. Returns whether eight rounds found them.
+    One or two 3 x 3 solves from the last carrying cells find them. Arguments as of `spread_whole`; `active` (m,) are
+    the cells to start from, then those that carry. Returns whether eight rounds found them.
     """
     count = u.shape[0]
     for _ in range(8):
@@ -155,5 +155,5 @@ class PressedPatch:
             self.x, self.y = nearest[0], nearest[1]
 
     def part(self, force, out):
-        """Spread the last load in N from the `carried` cells into `out`; whether they were found."""
+        """Spread the last load in N from `carried` cells into `out`; whether found."""
         return spread_part(self.u, self.area, self.x, self.y, force, self.carried, self.cells, out)

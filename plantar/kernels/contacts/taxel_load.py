@@ -15,11 +15,11 @@ class TaxelLoad:
     """Spreads a sole's current contact wrench over its taxels.
 
     - The contact points of each pair of geoms span a patch. A cell's weight w is its area times its covered share, a
-      ramp over the cell's width in its taxel's distance from the patch.
+      ramp over its width.
     - Each pair's normal load is spread as on springs that cannot pull: f = w max(0, a + b x + c y).
     - The sum is corrected likewise, with itself as weight, to the exact load and moments; if impossible, with
       neighbouring cells, then all.
-    - Tangential forces follow the normal ones, and turn about their center, to have the rest of the wrench.
+    - Tangential forces follow the normal oneswith the rest of the wrench.
 
     Args:
         positions: Taxels (n, 3) in sole frame in m.
@@ -146,7 +146,7 @@ class TaxelLoad:
                     self.prior[i] += self.normal[i]
 
     def _cover(self, size):
-        """Set `weights` to each cell's area in m^2 under the patch; of the nearest if it misses all."""
+        """Set `weights` to each cell's area in m^2 under the patch, else the nearest's."""
         corners = self._hull_of(size)
         count = self.areas.shape[0]
         for k in range(corners):
@@ -171,7 +171,7 @@ class TaxelLoad:
             self.weights[i] = self.areas[i] * share
 
     def _press_deep(self, size):
-        """Raise `depths` of covered cells to the first points' overlap, the nearer the more."""
+        """Raise `depths` of covered cells to the first points' overlap."""
         for i in range(self.areas.shape[0]):
             if self.weights[i] > 0.0:
                 total = depth = 0.0
@@ -205,8 +205,8 @@ class TaxelLoad:
     def _tilt(self, weights, force, x, y):
         """Set `normal` to weights (n,) times max(0, a + b x + c y), with a load in N at (x, y) in m.
 
-        Newton's method on 1/2 sum w max(0, p)^2 - load . field, scaled; False, with `normal` unchanged, if the cells
-        cannot carry the load.
+        Newton's method on 1/2 sum w max(0, p)^2 - load . field, scaled; False, with `normal` unchanged, without
+        solution.
         """
         cells, rows = 0, self.rows
         total = cx = cy = 0.0
@@ -362,7 +362,7 @@ class TaxelLoad:
         return False
 
     def _shear(self, force):
-        """Set `vectors` to the normal forces plus tangential ones with the rest of the wrench."""
+        """Set `vectors` to normal plus tangential forces with the wrench's rest."""
         count = self.areas.shape[0]
         cx = cy = 0.0
         for i in range(count):

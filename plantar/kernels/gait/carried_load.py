@@ -6,7 +6,7 @@ _INFINITE = float("inf")
 
 
 def take_in(force, forgetting, share, total, mean):
-    """Add a reading `force` (n,) in N to a running sum and mean, in place; not finite counts as 0.
+    """Add a reading `force` (n,) in N to running sum and mean; not finite counts as 0.
 
     Args:
         forgetting: Share of old value in sum `total` (n,) in N.
@@ -19,8 +19,8 @@ def take_in(force, forgetting, share, total, mean):
 
 
 def mark_carried(mean, near, least, beside, carried):
-    """Mark in `carried` (n,) the taxels whose `mean` (n,) in N is above `least`, and a share `beside` of their
-    strongest neighbour's; `near` (n, k), padded with -1.
+    """Mark in `carried` (n,) taxels whose `mean` (n,) in N exceeds `least`, and a share `beside` of their strongest
+    neighbour's; `near` (n, k), padded with -1.
     """
     for i in range(mean.shape[0]):
         around = 0.0

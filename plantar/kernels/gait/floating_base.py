@@ -18,7 +18,7 @@ _NONE = float("nan")
 
 
 class FloatingBase:
-    """A base that turns with the gyro and moves with the carrying feet, and its CoM velocity.
+    """Base that turns with the gyro and moves with carrying feet, and its CoM velocity.
 
     Args:
         omega: Pendulum frequency in rad/s.
@@ -55,7 +55,7 @@ class FloatingBase:
 
         Args:
             com: CoM (3,) in m.
-            left: Origin (3,) of the left sole frame in m; `right` likewise.
+            left: Origin (3,) of left sole frame in m; `right` likewise.
             turn_left: Rotation (3, 3) from the left sole frame; `turn_right` likewise.
         """
         self.com_now, self.left_now, self.right_now = com, left, right
@@ -140,7 +140,7 @@ class FloatingBase:
         self.bias.update(gyro_x, gyro_y, gyro_z, stands, stood[0], stood[1], stood[2], both)
 
     def stand_still(self, weight_left, weight_right):
-        """Weighted turn of the base in this tick by still soles, sin a of R_s(k-1) R_s(k)^T; whether one is still."""
+        """Weighted turn by still soles in this tick, sin a of R_s(k-1) R_s(k)^T; whether one is still."""
         turns, stood = self.turns_in_base, self.stood
         total = sx = sy = sz = 0.0
         for side in range(2):
@@ -273,7 +273,7 @@ class FloatingBase:
             out[i] = places[past, side, i] + turns[past, side, i, 0] * x + turns[past, side, i, 1] * y
 
     def place(self):
-        """Compute the soles' poses and their loads' ZMP (2,) in m; None without; InputError if not finite."""
+        """Compute soles' poses and their loads' ZMP (2,) in m; None without; InputError if not finite."""
         loads, cops = self.loads, self.cops
         rotation, position, places, turns = self.rotation, self.position, self.places, self.turns
         total = x = y = 0.0

@@ -14,7 +14,7 @@ class SteadyLoad:
         band: Largest difference in N of load and mean of still foot.
 
     Attributes:
-        left: Load of the left foot in N, 0 where it may turn.
+        left: Load of left foot in N, 0 where it may turn.
         right: Same of the right one.
     """
 
@@ -54,7 +54,7 @@ class GyroBias:
         missed: Receives turn (3,) of legs beyond corrected gyro in last piece, in base frame in rad.
 
     Attributes:
-        concluded: Whether a piece ended at the last tick.
+        concluded: Whether piece ended at the last tick.
     """
 
     def __init__(self, period, least, largest, most_ticks, slip, one_foot, known, value, missed):
@@ -74,7 +74,7 @@ class GyroBias:
 
         Args:
             gyro_x: Angular velocity about base's x in rad/s; `gyro_y` and `gyro_z` likewise.
-            stands: Whether a foot is still; `both` whether both are.
+            stands: Whether foot is still; `both` whether both are.
             turn_x: Turn about base's x in rad by still feet; `turn_y` and `turn_z` likewise.
         """
         self.concluded = False

@@ -15,10 +15,10 @@ _IN_A_ROW = 0.02  # share of the product of the variances below which the points
 
 
 def highest_plane(x, y, distance, readings, noise, least, used, plane):
-    """Fit the plane z = -level + sx x + sy y through the highest ground that a sole's taxels measure.
+    """Fit the plane z = -level + sx x + sy y through the highest ground under a sole.
 
-    Weighted least squares, repeated while ground is above by more than noise: with the points above, then without those
-    far below; at last with all points within the noise, unless one lies above.
+    Weighted least squares, repeated while ground is above the noise: with points above, then without those far below;
+    at last with all within the noise, unless one lies above.
 
     Args:
         x: Taxels (n,) in sole frame in m; y likewise.

@@ -88,7 +88,7 @@ def turned(level, x, y):
 
 
 def risen(position, center, roll, pitch, shift):
-    """Position (3,) in m of a turned, shifted sole: its center rises by the shift, to first order.
+    """Position (3,) in m of a turned, shifted sole; its center rises by the shift.
 
     Args:
         position: Origin (3,) of its frame in m.

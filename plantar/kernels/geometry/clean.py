@@ -80,7 +80,7 @@ def extent(polygon):
 
 def clean_ring(polygon, x0, y0, near):
     """Convex hull (m, 2) of a `polygon`'s finite vertices about x0, y0 in m, without near-duplicates (`near` as in
-    `turning`), counter-clockwise from its first given one.
+    `turning`), counter-clockwise.
     """
     k = polygon.shape[0]
     local = np.empty((k, 2))

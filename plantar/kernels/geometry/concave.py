@@ -71,7 +71,7 @@ class OutlineRectangles:
         window's box bounds a pair, and the remaining pairs are solved as convex polygons.
 
         Args:
-            angle: Angle of the first side in rad.
+            angle: Angle of first side in rad.
             out: Receives 4 corners about the first vertex, flat, counter-clockwise; untouched without area.
         """
         self.best = 0.0
@@ -108,7 +108,7 @@ class OutlineRectangles:
         return self.best
 
     def _find_ways(self, slabs):
-        """Find how far right a rectangle reaches from each trapezoid, and the widest ways through."""
+        """Find each trapezoid's reach to the right, and the widest ways through."""
         for t in range(self.first[0], self.first[1]):
             self.left[2 * t] = 1.0
             self.left[2 * t + 1] = 0.0
@@ -140,7 +140,7 @@ class OutlineRectangles:
                 self.reach[start] = far
 
     def _walk(self, start, slabs, exact):
-        """Walk from a trapezoid to all on the right where its rectangles may end."""
+        """Walk from a trapezoid to all where its rectangles may end."""
         i = self.slab[start]
         below = self.trapezoid[4 * start]
         above = self.trapezoid[4 * start + 1]
@@ -212,7 +212,7 @@ class OutlineRectangles:
             self._offer(self.corner[0], self.corner[4], self.corner[1], self.corner[5])
 
     def _cut(self, angle):
-        """Cut the outline, turned back by an angle, into trapezoids; the number of slabs."""
+        """Cut the turned outline into trapezoids; the number of slabs."""
         self._turn(angle)
         ys = self.ys
         rank = self.rank
@@ -361,7 +361,7 @@ class OutlineRectangles:
         return n if start == end else self._clip(n, self.line[k], x2, 4 * end, low, high)
 
     def _clip(self, n, x1, x2, at, low, high):
-        """Clip the ring to a trapezoid's bottom and top from x1 to x2, where these cut the window."""
+        """Clip the ring to a trapezoid's bottom and top from x1 to x2."""
         left = self.trapezoid[at]
         right = self.trapezoid[at + 2]
         if left > low or right > low:

@@ -56,10 +56,10 @@ def area_of(polygon):
 
 
 def area_and_centroid(polygon):
-    """Signed area in m^2, and centroid x, y in m of a simple polygon (k, 2), k 1 or more.
+    """Signed area in m^2, and centroid x, y in m of a simple polygon (k, 2), k above 0.
 
-    The mean of the vertices where the area is 0; its error is below 1e-15 times the extent; for thin polygons over
-    their width per length.
+    The vertices' mean without area; its error is below 1e-15 times the extent; for thin polygons over their width per
+    length.
     """
     k = polygon.shape[0]
     x0, y0 = polygon[0, 0], polygon[0, 1]
@@ -216,7 +216,7 @@ def _borrow(corners):
 
 
 def _entered(polygon, room):
-    """Polygon (k, 2) copied into a room, without its buffer unless strided or of another kind."""
+    """Polygon (k, 2) copied into a room."""
     k = memory.rows(polygon, 2)
     if not 0 <= k <= room.given.shape[0]:
         return polygon
@@ -230,8 +230,8 @@ def _entered(polygon, room):
 def inner_offset(polygon, distance):
     """`plantar.geometry.polygon.inner_offset` by a distance above 0 in m of a polygon with a vertex.
 
-    Each edge's half plane, moved inwards, cuts the polygon (Sutherland and Hodgman); if all is cut away, the deepest
-    point's depth is bisected. (0, 2) where no vertex is finite.
+    Each edge's half plane, moved inwards, cuts the polygon (Sutherland and Hodgman); else the deepest point is
+    bisected. (0, 2) where no vertex is finite.
     """
     room = _borrow(len(polygon))
     found = room.copied(offset(_entered(polygon, room), distance, room))
@@ -324,7 +324,7 @@ def _inner_offset(polygon, x0, y0, backwards, distance, lines, rings):
 
 
 def _keep_lines(lines, used, rings, size):
-    """Keep the lines that still bound ring 0: a vanished edge stays so deeper."""
+    """Keep lines that still bound ring 0: vanished edges stay so."""
     kept = 0
     for line in range(used):
         found = False

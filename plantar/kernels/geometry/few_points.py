@@ -16,7 +16,7 @@ class FewPoints:
 
     Attributes:
         count: Number of points.
-        corners: Number of corners of the last hull.
+        corners: Number of corners of last hull.
     """
 
     def __init__(self):

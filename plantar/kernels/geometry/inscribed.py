@@ -11,7 +11,7 @@ __all__ = ["ends_of_flat", "largest_circle", "largest_triangle"]
 
 
 def ends_of_flat(ring, n):
-    """Write the two ends of a ring without area, at most 1e-14 of its size squared, into it; its size: 2, else n."""
+    """Write the ends of a ring without area (1e-14 of its size squared) into it; its size: 2, else n."""
     x0 = ring[0]
     y0 = ring[1]
     far = 0  # the vertex farthest from the first

@@ -11,8 +11,8 @@ __all__ = ["EdgeTable", "Rings", "area_and_centroid", "ring_areas"]
 
 
 def area_and_centroid(points, starts):
-    """Area in m^2 and centroid x, y in m of an outline with vertices (k, 2) and ring offsets (r + 1), less holes; the
-    first vertex without area.
+    """Area in m^2 and centroid x, y in m of an outline with vertices (k, 2) and ring offsets (r + 1); the first vertex
+    without area.
     """
     x0 = points[0, 0]
     y0 = points[0, 1]
@@ -106,7 +106,7 @@ class EdgeTable:
         return type(self), (edges, np.array(self.vertices), self.straight, self.reuse)
 
     def walk(self, active):
-        """Rings around the active cells, bytes that are not 0, the contact on their left.
+        """Rings around the active cells (nonzero bytes), the contact on their left.
 
         Returns:
             Points (k, 2) of all rings in m; offsets (r + 1) of rings; their signed areas (r) in m^2, below 0 for a
@@ -135,7 +135,7 @@ class EdgeTable:
         return found
 
     def _trace(self, active, starts, areas):
-        """Walk; returns the points, and adds the rings' offsets and areas to two lists."""
+        """Walk; returns the points, and appends rings' offsets and areas."""
         n = len(self.cell_start) - 1
         # Of each edge: 0 not on the outline, 1 on it, 2 walked. Of each vertex: how many edges of the outline leave it.
         mark = self.mark

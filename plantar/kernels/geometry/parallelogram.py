@@ -173,9 +173,7 @@ class _ChordWalk:
         return higher or self.turn <= 1e-3 * self.lengths()
 
     def try_places(self, event):
-        """Try both ends of the stretch and the summit between, with D from its edge, then C: almost parallel edges are
-        rounded off.
-        """
+        """Try both ends of the stretch and the summit between, with D from its edge, then C, against rounding."""
         self.try_from_d(self.t, -1)
         self.try_from_c(self.t, -1)
         self.try_from_d(self.end, event)
@@ -216,7 +214,7 @@ class _ChordWalk:
             self.keep(ux, uy, vx, vy)
 
     def is_on(self, wx, wy, ex, ey):
-        """Whether a point lies on an edge to rounding, both relative to its beginning."""
+        """Whether a point lies on an edge to rounding, relative to its beginning."""
         off = wx * ey - wy * ex
         along = (wx * ex + wy * ey) / (ex * ex + ey * ey)
         return abs(off) <= 1e-14 * self.size * (abs(ex) + abs(ey)) and -1e-13 <= along <= 1.0 + 1e-13

@@ -145,7 +145,7 @@ class _Gap:
 
 
 class _Widths:
-    """Bracket of the largest rectangle's width: a cut h <= height + slope (w' - w) on each side."""
+    """Bracket of the largest width: a cut h <= height + slope (w' - w) on each side."""
 
     def start(self, reach):
         """Begin with all widths from 0."""
@@ -218,7 +218,7 @@ def largest_rectangle(ring, n, angle, floor, work, out):
     cuts (tangents) find both maxima.
 
     Args:
-        angle: Angle of the first side in rad.
+        angle: Angle of first side in rad.
         floor: Give up where no rectangle above this area is left; 0 to find largest.
         work: Room for 8 n + 16 numbers.
         out: Receives the 4 corners, flat, counter-clockwise; untouched unless area is above floor.
@@ -308,9 +308,7 @@ def write_corners(out, cosine, sine, x1, x2, y1, y2):
 
 
 def _chain(work, n, low, high, step, tolerance, at):
-    """Lower (step 1) or upper (step -1) chain of rotated vertices: x, y, finite slope each, at work[at:], without
-    upright sides.
-    """
+    """Lower (step 1) or upper (step -1) chain: x, y, finite slope each, at work[at:], without upright sides."""
     width = work[2 * high] - work[2 * low]
     i = low
     while True:  # up to the last vertex of an upright left side

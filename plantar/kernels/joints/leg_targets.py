@@ -11,7 +11,7 @@ class LegTargets:
     Args:
         com: CoM (3,).
         torso: Rotation (3, 3) of torso.
-        left: Position (3,) and rotation (3, 3) of the left sole.
+        left: Position (3,) and rotation (3, 3) of left sole.
         right: Same of the right sole.
     """
 

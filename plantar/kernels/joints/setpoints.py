@@ -12,8 +12,7 @@ _NONE = float("nan")
 class Setpoints:
     """Set-points of k joints, moving between control ticks without a jump.
 
-    They follow their goal by a critically damped low pass of second order; without lag they would move at 1.2 times a
-    joint's speed limit.
+    They follow their goal by a critically damped low pass of second order, with lag.
 
     Args:
         controls: Set-points (n,) of all servos, read by simulator.

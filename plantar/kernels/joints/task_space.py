@@ -275,7 +275,7 @@ class TaskSpace:
             out[j] = math.sqrt(out[j])
 
     def _bound(self, rank):
-        """Lower bound of the scaled triangle's singular values: one over its inverse's Frobenius norm."""
+        """Lower bound of the scaled triangle's singular values, by its inverse's Frobenius norm."""
         columns, full, column, first = self.columns, self.full, self.left, self.used - rank
         squares = 0.0
         for k in range(rank):
@@ -300,7 +300,7 @@ class TaskSpace:
         order[a], order[b] = order[b], order[a]
 
     def _reflect(self, place, count, smallest):
-        """Turn the first free direction into the column at `place`; others and y turn along."""
+        """Turn the first free direction into the column at `place`."""
         n, columns, sizes, left, y, first = self.size, self.columns, self.sizes, self.left, self.y, self.used + place
         vector, sums = self.vectors[first], self.sums
         total = 0.0

@@ -26,7 +26,7 @@ class StepWatch:
         reaction: `GroundReaction` of both feet; `stands`, `joints` and `stance` follow them.
         upright: Rotation (9,) of torso, row by row.
         center: CoM (3,) in m.
-        places: Origins (3,) of the left and the right sole in m; `turns` their rotations (9,).
+        places: Origins (3,) of left and the right sole in m; `turns` their rotations (9,).
         legs: Number (1,), above 0 where legs touch each other.
         warnings: Simulator's warning counts; `divergence` the indices of diverged state.
         least: Vertical ground force in N from which a foot touches ground.

@@ -90,7 +90,7 @@ class SoleCheck:
     """Plausibility of forces on the soles of a robot of a weight in N, tick by tick.
 
     Attributes:
-        left: Force in N on the left sole, of taxels that report one; `right` likewise.
+        left: Force in N on left sole, of taxels that report one; `right` likewise.
         left_same: Ticks without a change of `left`; `right_same` likewise.
         swapped: Whether soles have exchanged their reports.
     """
