@@ -48,7 +48,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def temporary_beside(path: str | os.PathLike[str]) -> Path:
-    """Empty temporary file beside `path`, with a new file's permissions.
+    """Empty temporary file next to `path`, with a new file's permissions.
 
     Args:
         path: Final path; temporary one keeps its suffix.

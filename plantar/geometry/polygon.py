@@ -41,7 +41,7 @@ def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
     1e-13 of the extent) is left out.
 
     Args:
-        points: Points (n, 2) in m; not finite, or beyond 1e100 m, are left out.
+        points: Points (n, 2) in m; those not finite, or beyond 1e100 m, are left out.
 
     Returns:
         Hull (k, 2), counter-clockwise from lowest x; vertices are input points.

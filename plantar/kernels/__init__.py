@@ -1,8 +1,7 @@
 """Hot functions, one plain-Python source each, compiled ahead of time where a compiler is found.
 
 `geometry/convex.py` is plain Python; `convex.pxd` next to it has the C types with which Cython compiles that very file.
-Without a compiler the source runs, slower, equal to the last bit. PLANTAR_KERNELS=python runs the sources even where
-extensions exist.
+Without a compiler the source runs, slower, equal to the last bit. PLANTAR_KERNELS=python always runs the sources.
 """
 
 from __future__ import annotations

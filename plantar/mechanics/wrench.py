@@ -29,7 +29,7 @@ class Wrench(NamedTuple):
 
     @classmethod
     def of(cls, wrench: ArrayLike) -> Wrench:
-        """Wrench of an array (6,)."""
+        """The wrench of an array (6,)."""
         return cls._make(np.asarray(wrench, dtype=float).tolist())
 
     @property

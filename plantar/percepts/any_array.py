@@ -44,7 +44,7 @@ def active(layout: SoleLayout, force: Any, threshold: float | None = None) -> An
         Mask (..., n) of the same library.
 
     Raises:
-        ReadingError: If the forces have another shape or type, or their library has no namespace.
+        ReadingError: If invalid.
     """
     instance(layout, SoleLayout, "layout")
     _namespace(layout, force)

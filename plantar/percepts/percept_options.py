@@ -1,4 +1,4 @@
-"""Options of a percept besides layout and reading."""
+"""Options of a percept beyond layout and reading."""
 
 from __future__ import annotations
 

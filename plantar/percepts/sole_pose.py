@@ -97,7 +97,7 @@ class SolePose:
 
         Args:
             outline: Outline in sole frame in m, as of `concave_outline`.
-            layout: Sole, whose corners outline has.
+            layout: Sole with the outline's corners.
 
         Returns:
             Outline.

@@ -30,7 +30,7 @@ class IdentifiedFaults(NamedTuple):
 
     Attributes:
         worn: Taxels' own faults, to apply to other forces; without noise.
-        faults: Their statistics, to draw other soles of kind.
+        faults: Their statistics, to draw other such soles.
         gain_error: Standard error (n,) of each gain; NaN for dead taxels.
         residual: RMS (n,) in N of each taxel's error after fit.
     """

@@ -23,7 +23,7 @@ __all__ = ["NetWrench", "NetWrenchRules", "net_wrench"]
 
 
 class NetWrenchRules(Part, table="push_felt", needs={"control.push_estimate": ("skin",)}):
-    """What counts as a push, besides force thresholds.
+    """What counts as a push, with force thresholds.
 
     Attributes:
         near: theta_prox: share of range, from its end, that counts as near (K Table 1).

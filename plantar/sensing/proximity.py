@@ -127,7 +127,7 @@ def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[f
         heights: Thresholds epsilon_p in m, in any order.
 
     Returns:
-        Contour a height, lowest first, each including the lower ones; read-only.
+        One per height, lowest first, each including lower ones; read-only.
 
     Raises:
         ReadingError, InputError: If invalid.

@@ -17,7 +17,7 @@ def values(array):
 
 
 def room(array):
-    """`values`, writable."""
+    """Contiguous, writable float64 array's numbers, in place; else ValueError."""
     numbers = values(array)
     if not array.flags.writeable:
         raise ValueError("a kernel needs arrays that may be written")
@@ -32,7 +32,7 @@ def size(array):
 
 
 def rows(array, columns):
-    """Number of rows of a matrix that `values` accepts; -1 for anything else."""
+    """Number of rows of a matrix of so many columns that `values` accepts; else -1."""
     if type(array) is not np.ndarray or array.dtype != np.float64 or array.ndim != 2 or not array.flags.c_contiguous:
         return -1
     return array.shape[0] if array.shape[1] == columns else -1

@@ -231,7 +231,7 @@ class ContactsInSole:
         self.heads = [(shifted[: 3 * k], turned[: 3 * k]) for k in range(room + 1)]
 
     def turn(self, contacts):
-        """Turn a foot's current `FootContacts`."""
+        """Turn the current contacts of a foot's `FootContacts`."""
         count = contacts.size
         if count == 0:
             self.in_air += 1

@@ -89,7 +89,7 @@ def spread_part(u, area, x, y, force, active, cells, out):
 
 
 def patch_key(points, grid):
-    """Grid points (x, y) in m, unique and sorted: equal for the same patch."""
+    """Points (x, y) in m on a grid, unique and sorted: equal for the same patch."""
     places = set()
     for x, y in points:
         places.add((round(x / grid), round(y / grid)))
@@ -155,5 +155,5 @@ class PressedPatch:
             self.x, self.y = nearest[0], nearest[1]
 
     def part(self, force, out):
-        """Spread the last load in N from `carried` cells into `out`; whether found."""
+        """Spread the last load, `force` in N, from `carried` cells into `out`; whether found."""
         return spread_part(self.u, self.area, self.x, self.y, force, self.carried, self.cells, out)

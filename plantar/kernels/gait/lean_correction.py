@@ -9,7 +9,7 @@ __all__ = ["correct", "headed", "turned"]
 
 
 def headed(rotation, yaw):
-    """Rotation (3, 3) to world, turned about the vertical to a heading in rad (summed as `fused`)."""
+    """A rotation (3, 3) to world, turned to a heading in rad (summed as `fused`)."""
     r, made = memory.values(rotation), memory.new_matrix(3, 3)
     out = memory.room(made)
     angle = yaw - math.atan2(r[3], r[0])
@@ -23,7 +23,7 @@ def headed(rotation, yaw):
 
 
 def turned(turn, rotation):
-    """Rotation (3, 3) after a turn (3,) in rad, summed likewise."""
+    """A rotation (3, 3) after a turn (3,) in rad, summed likewise."""
     t, r, made = memory.values(turn), memory.values(rotation), memory.new_matrix(3, 3)
     out = memory.room(made)
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotations._exponential(t[0], t[1], t[2])

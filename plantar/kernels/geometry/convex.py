@@ -169,7 +169,7 @@ def signed_margin(polygon, x, y):
 
 
 def seen_from_above(polygon, rotation, position):
-    """Polygon (k, 2) in m of a frame's x-y plane, seen along another frame's z axis.
+    """A polygon (k, 2) in m of a frame's x-y plane, seen along another's z axis.
 
     Args:
         rotation: Rotation (3, 3) from its frame to the other.
@@ -230,8 +230,8 @@ def _entered(polygon, room):
 def inner_offset(polygon, distance):
     """`plantar.geometry.polygon.inner_offset` by a distance above 0 in m of a polygon with a vertex.
 
-    Each edge's half plane, moved inwards, cuts the polygon (Sutherland and Hodgman); else the deepest point is
-    bisected. (0, 2) where no vertex is finite.
+    Each edge's half plane, moved inwards, cuts the polygon (Sutherland and Hodgman); if all is cut away, the deepest
+    point is found by bisection. (0, 2) where no vertex is finite.
     """
     room = _borrow(len(polygon))
     found = room.copied(offset(_entered(polygon, room), distance, room))
@@ -241,7 +241,7 @@ def inner_offset(polygon, distance):
 
 
 def offset(polygon, distance, room):
-    """`inner_offset` into a room's `result`; returns its size."""
+    """`inner_offset` of a polygon by a distance into a room's `result`; returns its size."""
     i = clean.anchor(polygon)
     x0, y0 = polygon[i, 0], polygon[i, 1]
     turn = clean.turning(polygon, x0, y0, 0.0)

@@ -10,7 +10,7 @@ __all__ = ["least_box", "least_parallelogram"]
 
 
 def least_box(ring, n, out):
-    """Rectangle of least area, by rotating calipers, along an edge."""
+    """Rectangle of least area around a ring, by rotating calipers."""
     best = -1.0
     right = 0
     top = 0
@@ -67,7 +67,7 @@ def _walk(ring, n, k, dx, dy):
 
 
 def least_parallelogram(ring, n, work, out):
-    """Parallelogram of least area, its sides along edges; `work` holds 4 n numbers."""
+    """Parallelogram of least area, along edges of a ring; `work` holds 4 n numbers."""
     # Of each edge: its direction, the level of its line along the inward normal, and how far the ring reaches from it.
     top = 0
     for i in range(n):

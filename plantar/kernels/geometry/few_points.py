@@ -12,7 +12,7 @@ _INFINITE = float("inf")
 
 
 class FewPoints:
-    """Few points, and the convex hull of some.
+    """A few points, and the convex hull of some.
 
     Attributes:
         count: Number of points.

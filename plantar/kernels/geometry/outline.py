@@ -11,7 +11,7 @@ __all__ = ["EdgeTable", "Rings", "area_and_centroid", "ring_areas"]
 
 
 def area_and_centroid(points, starts):
-    """Area in m^2 and centroid x, y in m of an outline with vertices (k, 2) and ring offsets (r + 1); the first vertex
+    """Area in m^2, less holes, and centroid x, y in m of vertices (k, 2) with ring offsets (r + 1); the first vertex
     without area.
     """
     x0 = points[0, 0]

@@ -103,7 +103,7 @@ class ConvexShapes:
         return self._corners(4)
 
     def circle(self, polygon):
-        """Center (1, 2), none if empty, and radius of the largest circle inside."""
+        """Center (1, 2), none for an empty polygon, and radius of the largest circle inside."""
         if self._clean(polygon) < 3:
             return self._middle(1), 0.0
         radius = inscribed.largest_circle(self.ring, self.n, self.work, self.out)

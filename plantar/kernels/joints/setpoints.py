@@ -12,7 +12,8 @@ _NONE = float("nan")
 class Setpoints:
     """Set-points of k joints, moving between control ticks without a jump.
 
-    They follow their goal by a critically damped low pass of second order, with lag.
+    They follow their goal by a critically damped low pass of second order; without lag they would exceed a joint's
+    speed limit.
 
     Args:
         controls: Set-points (n,) of all servos, read by simulator.

@@ -20,8 +20,8 @@ class StanceForce:
         gravity: In m/s^2.
         period: Physics step in s.
         steps: `span`, and steps left out after a landing.
-        least: Vertical force in N from which a foot touches ground.
-        edge: Distance in m below which a ZMP is at edge of support.
+        least: Vertical force in N from which a foot touches.
+        edge: Distance in m of ZMP at support's edge.
 
     Attributes:
         compared: Steps in which force and acceleration were compared.

@@ -26,12 +26,12 @@ class StepWatch:
         reaction: `GroundReaction` of both feet; `stands`, `joints` and `stance` follow them.
         upright: Rotation (9,) of torso, row by row.
         center: CoM (3,) in m.
-        places: Origins (3,) of left and the right sole in m; `turns` their rotations (9,).
+        places: Left and right sole origins (3,) in m; `turns` their rotations (9,).
         legs: Number (1,), above 0 where legs touch each other.
         warnings: Simulator's warning counts; `divergence` the indices of diverged state.
-        least: Vertical ground force in N from which a foot touches ground.
+        least: Vertical force in N from which a foot touches.
         windows: Steps in the air before a landing, after it for impact, and for contact area.
-        fallen: Cosine of torso's tilt, and CoM height in m above lower sole, below which it has fallen.
+        fallen: Cosine of torso's tilt, and CoM height in m above lower sole, below which it fell.
 
     Attributes:
         up: Least cosine of torso's tilt.

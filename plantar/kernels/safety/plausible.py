@@ -19,8 +19,8 @@ class BodyCheck:
 
     Args:
         joints: Number of joint angles.
-        frozen: Ticks after which sensors that report the same bits are stuck.
-        slip: Difference in rad of joint's last two steps from which its encoder has jumped.
+        frozen: Ticks of same bits after which sensors are stuck.
+        slip: Difference in rad of joint's last two steps by which encoders jump.
 
     Attributes:
         imu_same: Ticks without a change of IMU.

@@ -84,7 +84,7 @@ class TaxelSample:
     """Samples n taxels.
 
     Args:
-        noise: `NoiseRows` in N, of which each sample takes the next n numbers.
+        noise: `NoiseRows` in N, n a sample.
         count: n.
         least: Least force in N that taxels report.
         most: Largest one.

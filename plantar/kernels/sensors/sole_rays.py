@@ -22,7 +22,7 @@ class SoleRays:
         most: Range of sensors in m.
         origin: Sole's origin (3,) in world in m, and its `rotation` (3, 3), written by simulator.
         solids: Rows, kinds, sizes and bounds of solids, as in `cast_rays`.
-        positions: Middles (m, 3) of all solids in world in m, and their `frames` (m, 9), likewise.
+        positions: Middles (m, 3) of all solids in world in m; `frames` (m, 9) likewise.
 
     Attributes:
         starts: Where the last rays began (n, 3) in world in m; `ways` (n, 3) along them.

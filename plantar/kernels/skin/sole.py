@@ -60,7 +60,7 @@ class SoleScratch:
             out[i, 1] = self.polygon[i, 1]
 
     def measure_hull(self, size):
-        """Area in m^2 and centroid in m of the hull in `polygon`; NaN if empty."""
+        """Area in m^2 and centroid in m of the hull of `size` corners; NaN if empty."""
         if size == 0:
             return 0.0, _NONE, _NONE
         return convex.area_and_centroid(self.polygon[:size])
@@ -77,7 +77,7 @@ class SoleKernel:
         vertices: Corner points (v, 2) in m in sole plane, shared between cells that meet.
         corner_start: Offsets (n + 1,) of each taxel's corners.
         corner_vertex: Vertex indices of corners, taxel by taxel, counter-clockwise.
-        threshold: Default force in N up to which a taxel is not active.
+        threshold: Default activation threshold in N.
         limit: Force in N from which one is saturated.
     """
 
