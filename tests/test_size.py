@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 FILES = sorted((ROOT / "plantar").rglob("*.py"))
 
-LIMITS = {"lines": 109_900, "statements": 61_150, "docstring words": 185_200, "lines of a file": 600}
+LIMITS = {"lines": 100_300, "statements": 59_500, "docstring words": 114_400, "lines of a file": 500}
 """What the source has at most; `.pxd` files count as lines. Wanted: 80,000, 48,000, 120,000 and 450."""
 
 
