@@ -185,6 +185,11 @@ class Control(Settings):
     physics_period: float = number(0.001, "s", 0.0001, 0.002)
     skip: str = choice("auto", "none")
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.joint_stiffness and self.drives == "servo":
+            raise InputError("joint_stiffness does nothing to drives 'servo'; allowed: drives 'own' or 'torque'")
+
 
 CONTROL_PERIOD = Control().period
 """Control period in s of a scene that does not state one."""

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from plantar.errors import SceneError
 from plantar.gait.command import Command, Sensors
 from plantar.robots.controller import RobotController, load_controller
 from plantar.robots.motors.command_motors import motor_gains, planned_wrenches
@@ -24,6 +25,11 @@ def test_another_stiffness_keeps_the_damping_ratio() -> None:
     assert own.stiffness.tolist() == [*robot.own_stiffness] * 2
     assert (soft.stiffness == 200.0).all()
     assert soft.damping / np.sqrt(soft.stiffness) == pytest.approx(own.damping / np.sqrt(own.stiffness))
+
+
+def test_a_stiffness_that_does_nothing_is_refused() -> None:
+    with pytest.raises(SceneError, match="joint_stiffness does nothing to drives 'servo'"):
+        load_controller("h1", {"walk": {"steps": 4}, "control": {"joint_stiffness": 150}})
 
 
 def test_a_resting_robot_gets_the_torques_that_hold_it() -> None:
