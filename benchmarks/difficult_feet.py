@@ -20,7 +20,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from resumable import commit, write_table
+from resumable import append_row, commit, write_table
 
 from plantar.errors import PlantarError
 from plantar.shoes import ShoeParameters, build_shoe, export_shoe
@@ -79,12 +79,8 @@ def rows() -> dict[tuple[str, int], dict[str, str]]:
 def run(turns: int, names: list[str]) -> None:
     for turn, name in product(range(turns), names or sorted(FAMILY)):
         if (name, turn) not in rows():
-            row, new = shoe_of(name, turn), not TABLE.exists()
-            with TABLE.open("a", encoding="utf-8", newline="") as file:
-                writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-                if new:
-                    writer.writeheader()
-                writer.writerow(row)
+            row = shoe_of(name, turn)
+            append_row(TABLE, COLUMNS, row)
             print(*(row[c] for c in ("foot", "turn", "outcome", "seconds", "reason")), flush=True)
 
 

@@ -7,7 +7,6 @@ with a seed that the commit draws; the time of a control tick is of a computer w
 
 from __future__ import annotations
 
-import csv
 import json
 import subprocess
 import sys
@@ -15,7 +14,7 @@ import time
 from itertools import product
 from pathlib import Path
 
-from resumable import commit, drawn_seeds, rows_of, write_table
+from resumable import append_row, commit, drawn_seeds, rows_of, write_table
 
 FOLDER = Path(__file__).parent
 CSV = FOLDER / "motors.csv"
@@ -65,13 +64,7 @@ def run(minutes: float, robots: dict[str, str]) -> None:
         if time.monotonic() > began + 60.0 * minutes:
             return
         row = {"robot": name, "drives": drives, "scene": scene, "seed": seed, "commit": made}
-        row |= walked(robots[name], drives, scene, seed)
-        new = not CSV.exists()
-        with CSV.open("a", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")
-            if new:
-                writer.writeheader()
-            writer.writerow(row)
+        append_row(CSV, COLUMNS, row | walked(robots[name], drives, scene, seed))
 
 
 def report() -> None:

@@ -7,13 +7,12 @@ experiment is about.
 
 from __future__ import annotations
 
-import csv
 import sys
 from collections.abc import Mapping, Sequence
 from statistics import mean
 from typing import Any, NamedTuple
 
-from resumable import FOLDER, commit, drawn_seeds, rows_of, write_table
+from resumable import FOLDER, append_row, commit, drawn_seeds, rows_of, write_table
 
 from plantar.sim.run.scene_kind import open_scene, run
 
@@ -112,29 +111,19 @@ def run_missing(seeds: int, names: Sequence[str]) -> None:
     """Run what papers.csv lacks."""
     made = commit()
     done = {(r["experiment"], r["variant"], r["seed"]) for r in rows_of(TABLE)}
-    new = not TABLE.exists()
-    with TABLE.open("a", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-        if new:
-            writer.writeheader()
-        jobs = [
-            (s, e, v, given)
-            for s in drawn_seeds("papers", seeds)
-            for e in EXPERIMENTS
-            for v, given in variants(e).items()
-        ]
-        for seed, one, variant, given in jobs:
-            if (names and one.name not in names) or (one.name, variant, str(seed)) in done:
-                continue
-            summary = run(open_scene(one.scene, given, one.robot or None), seed)
-            found = figure_of(one.figure, summary)
-            row = (one.name, variant, seed, summary["completed"], summary["fell"])
-            failed = " ".join(r["criterion"] for r in summary["reasons"])
-            writer.writerow(
-                dict(zip(COLUMNS, (*row, failed, "" if found is None else round(found, 3), made), strict=True))
-            )
-            file.flush()
-            print(*row, failed, found, file=sys.stderr, flush=True)
+    jobs = [
+        (s, e, v, given) for s in drawn_seeds("papers", seeds) for e in EXPERIMENTS for v, given in variants(e).items()
+    ]
+    for seed, one, variant, given in jobs:
+        if (names and one.name not in names) or (one.name, variant, str(seed)) in done:
+            continue
+        summary = run(open_scene(one.scene, given, one.robot or None), seed)
+        found = figure_of(one.figure, summary)
+        row = (one.name, variant, seed, summary["completed"], summary["fell"])
+        failed = " ".join(r["criterion"] for r in summary["reasons"])
+        values = (*row, failed, "" if found is None else round(found, 3), made)
+        append_row(TABLE, COLUMNS, dict(zip(COLUMNS, values, strict=True)))
+        print(*row, failed, found, file=sys.stderr, flush=True)
 
 
 def cell(rows: Sequence[Mapping[str, str]]) -> str:

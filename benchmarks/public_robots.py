@@ -11,7 +11,6 @@ scene with a seed that the commit draws. Nothing of what `plantar robot` writes 
 
 from __future__ import annotations
 
-import csv
 import json
 import os
 import resource
@@ -22,7 +21,7 @@ from collections.abc import Sequence
 from itertools import product
 from pathlib import Path
 
-from resumable import commit, drawn_seeds, rows_of, write_table
+from resumable import append_row, commit, drawn_seeds, rows_of, write_table
 
 FOLDER = Path(__file__).parent
 CSV, MADE = FOLDER / "public_robots.csv", FOLDER.parent / "out" / "public"
@@ -111,12 +110,7 @@ def run(folder: Path, minutes: float) -> None:
             if time.monotonic() > began + 60.0 * minutes:
                 return
             found = introduced(name, folder / MODELS[name]) if case == "introduce" else walked(name, case, seed)
-            new = not CSV.exists()
-            with CSV.open("a", newline="", encoding="utf-8") as file:
-                writer = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")
-                if new:
-                    writer.writeheader()
-                writer.writerow({"robot": name, "case": case, "commit": made, **found})
+            append_row(CSV, COLUMNS, {"robot": name, "case": case, "commit": made, **found})
             print(name, case, found, file=sys.stderr, flush=True)
 
 

@@ -220,15 +220,20 @@ def add_row(benchmark: Benchmark, case: Case, run: tuple[str, int], made: str) -
             writer = csv.DictWriter(file, columns, restval="", extrasaction="ignore", lineterminator="\n")
             writer.writeheader()
             writer.writerows(older)
-    new = not benchmark.path.exists()
-    with benchmark.path.open("a", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, columns, lineterminator="\n")
+    append_row(benchmark.path, columns, row)
+    return row
+
+
+def append_row(path: Path, columns: Sequence[str], row: Mapping[str, Any]) -> None:
+    """Append a row to a CSV file, which is made with its heads where it is missing; what a row lacks stays empty."""
+    new = not path.exists()
+    with path.open("a", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, columns, restval="", lineterminator="\n")
         if new:
             writer.writeheader()
         writer.writerow(row)
         file.flush()
         os.fsync(file.fileno())
-    return row
 
 
 def differences(row: Row, again: dict[str, Any]) -> list[str]:

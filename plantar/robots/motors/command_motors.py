@@ -126,8 +126,8 @@ class CommandMotors:
         self.motion = PlannedMotion(model, self.dynamics.rows, period, body.beat)
         self._period = period
         self._angles: NDArray[np.float64] | None = None
-        speeds = robot.velocity_limits or (1e3,) * (len(names) // 2)
-        self._farthest = _SPEED_SHARE * period * np.array([*speeds] * 2)  # rad in a control period
+        self._limits = np.array([*(robot.velocity_limits or (1e3,) * (len(names) // 2))] * 2)
+        self._farthest = _SPEED_SHARE * period * self._limits  # rad in a control period
         self._friction = model.dof_frictionloss[self._dofs]
         self._slow = _SLOW / body.beat
 

@@ -59,12 +59,7 @@ class TorqueControl(CommandMotors):
         low, high = model.jnt_range[joints].T
         free = model.jnt_limited[joints] == 0
         self._low, self._high = np.where(free, -np.inf, low), np.where(free, np.inf, high)
-        self._fastest = _SPEED_SHARE * np.array(
-            [
-                *(robot.velocity_limits or (1e3,) * (len(names) // 2)),
-            ]
-            * 2
-        )
+        self._fastest = _SPEED_SHARE * self._limits
         motors = [list(model.actuator_trnid[:, 0]).index(j) for j in joints]
         self._torque = np.where(model.actuator_forcelimited[motors] > 0, model.actuator_forcerange[motors, 1], np.inf)
         edge = _EDGE * body.sole

@@ -59,9 +59,8 @@ class LegServos:
         )
         self._true = world.stiffness * (1.0 if plant is None else plant.stiffness_ratio)
         self._drives = None if plant is None else TrueDrives(plant, self._true, world.damping)
-        speeds = np.array([*world.robot.velocity_limits] * 2)
         corner = 1.0 if plant is None else plant.corner_speed
-        self._curve = TorqueCurve(world.model, world.servos, speeds, corner)
+        self._curve = TorqueCurve(world.model, world.servos, limits, corner)
         self._velocity = np.asarray(self._setpoints.velocity)  # views of what the kernel writes
         self._reference = np.asarray(self._setpoints.reference)
         self._stiffness = 1.0
@@ -79,19 +78,20 @@ class LegServos:
             self.out_of_reach_since = float(self._world.data.time)
         carry_command(self._legs, command)
         self._stiffness = command.stiffness
-        setpoints = self._setpoints
-        setpoints.go_to()
-        # Turns with the velocity gradually: at rest, where its sign is noise, a jump would make the joint chatter.
-        friction = self._friction * np.tanh(self._velocity / self._slow) if self._rubs else None
-        setpoints.load(friction, command.joint_offsets)
+        self._go_on(command.joint_offsets)
         return self._reference.copy()
 
     def follow(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
         """Go to `joints` (k,) in rad by the next tick with feed-forward `torques` (k,) in N m."""
         self._legs.joints[:], self._legs.torques[:] = joints, torques
+        self._go_on(None)
+
+    def _go_on(self, offsets: NDArray[np.float64] | None) -> None:
+        """Set the goal of the next tick."""
         self._setpoints.go_to()
+        # Turns with the velocity gradually: at rest, where its sign is noise, a jump would make the joint chatter.
         friction = self._friction * np.tanh(self._velocity / self._slow) if self._rubs else None
-        self._setpoints.load(friction, None)
+        self._setpoints.load(friction, offsets)
 
     def drive(self) -> None:
         """Write the set-points of one physics step."""
