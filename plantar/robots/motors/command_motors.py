@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.command import Command, JointTargets, Sensors
-from plantar.robots.kinematics.command_joints import follow_command
+from plantar.robots.kinematics.command_joints import REACH_ERROR, SLOW, SPEED_SHARE, follow_command
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.motors.body_dynamics import BodyDynamics
 from plantar.robots.robot import Robot
@@ -23,10 +23,7 @@ from plantar.sides import SIDES, Side
 
 __all__ = ["CommandMotors", "MotorGains", "PlannedMotion", "motor_gains", "planned_wrenches"]
 
-_REACH_ERROR = 0.02  # rad, or m on a leg of 0.6 m, of a joint solution, as of `plantar.sim.run.servos`
-_SPEED_SHARE = 0.9  # of a joint's speed limit that its target may have, as of `plantar.sim.run.servos`
 _SMOOTH = 0.04  # beat, time constant of the low pass on the acceleration: 10 ms on a leg of 0.6 m
-_SLOW = 0.0247  # rad/beat from which a joint moves against its friction
 
 
 class MotorGains(NamedTuple):
@@ -127,13 +124,13 @@ class CommandMotors:
         self._period = period
         self._angles: NDArray[np.float64] | None = None
         self._limits = np.array([*(robot.velocity_limits or (1e3,) * (len(names) // 2))] * 2)
-        self._farthest = _SPEED_SHARE * period * self._limits  # rad in a control period
+        self._farthest = SPEED_SHARE * period * self._limits  # rad in a control period
         self._friction = model.dof_frictionloss[self._dofs]
-        self._slow = _SLOW / body.beat
+        self._slow = SLOW / body.beat
 
     def targets(self, command: Command, sensors: Sensors) -> JointTargets:
         """Returns targets for the `command` that answers the `sensors` (`plantar.gait.command.Motors`)."""
-        self.out_of_reach = not follow_command(self._legs, command) <= _REACH_ERROR
+        self.out_of_reach = not follow_command(self._legs, command) <= REACH_ERROR
         self.motion.update(self._legs.configuration)
         torques = self.torques(command, sensors)
         angles, velocity = self.followed()

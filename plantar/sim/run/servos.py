@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from plantar.gait.command import Command
 from plantar.kernels.joints.setpoints import Setpoints
-from plantar.robots.kinematics.command_joints import carry_command, follow_command
+from plantar.robots.kinematics.command_joints import REACH_ERROR, SLOW, SPEED_SHARE, carry_command, follow_command
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.sim.model.world import World
 from plantar.sim.plant.draw import TruePlant
@@ -15,10 +15,7 @@ from plantar.sim.plant.drives import TorqueCurve, TrueDrives
 
 __all__ = ["LegServos"]
 
-_SPEED_SHARE = 0.9  # of a joint's speed limit that its set-point may have: the joint itself overshoots by up to a tenth
-_REACH_ERROR = 0.02  # rad, or m on a leg of 0.6 m, of a joint solution; the motion of one control period leaves 8 mm
 _LOW_PASS = 0.0202  # beat, time constant of each of two stages at the servo's own rate: 5 ms on a leg of 0.6 m
-_SLOW = 0.0247  # rad/beat from which a joint moves against its friction: 0.1 rad/s on a leg of 0.6 m
 
 
 class LegServos:
@@ -44,14 +41,14 @@ class LegServos:
         self._legs = legs
         self._friction = world.joint_friction
         self._rubs = bool(world.joint_friction.any())
-        self._slow = _SLOW / world.body.beat
+        self._slow = SLOW / world.body.beat
         limits = np.array([*world.robot.velocity_limits] * 2)
         self._setpoints = Setpoints(
             world.data.ctrl,
             world.servos,
             world.stiffness,
             world.damping + world.joint_damping,
-            1.0 / (_SPEED_SHARE * limits * period),
+            1.0 / (SPEED_SHARE * limits * period),
             period,
             world.period,
             world.period / (_LOW_PASS * world.body.beat + world.period),
@@ -74,7 +71,7 @@ class LegServos:
     def command(self, command: Command) -> NDArray[np.float64]:
         """Returns a command's joint references (k,) in rad, within speed limits."""
         missed = follow_command(self._legs, command)
-        if not missed <= _REACH_ERROR and self.out_of_reach_since is None:
+        if not missed <= REACH_ERROR and self.out_of_reach_since is None:
             self.out_of_reach_since = float(self._world.data.time)
         carry_command(self._legs, command)
         self._stiffness = command.stiffness
