@@ -184,7 +184,7 @@ def test_a_moved_step_is_reported_with_its_reason() -> None:
 
 def test_joints_that_are_faster_than_they_can_be_do_not_count(monkeypatch: pytest.MonkeyPatch) -> None:
     """Servos without speed limits, as they were."""
-    monkeypatch.setattr("plantar.sim.run.servos._SPEED_SHARE", 1e6)
+    monkeypatch.setattr("plantar.sim.run.servos.SPEED_SHARE", 1e6)
     summary = Simulation(load_scene("obstacle", ["settle=0.3"])).run()
     assert criteria(summary) == {"joint_speed"}
     assert summary["joint_speed"]["share_of_limit"] > 1.0
