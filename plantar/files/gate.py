@@ -91,7 +91,7 @@ def read_apart(
 
 
 PROMISES: Mapping[str, str] = {
-    "No file makes Plantar run code: pickled arrays are refused.": "tests/test_hostile_files.py",
+    "No file makes Plantar run code: pickled arrays are refused.": "tests/plantar/formats/test_tables_and_arrays.py",
     "A file is refused in one line, within 5 s and 500 MB.": "tests/test_hostile_files.py",
     "A pipe, a device or a folder is not read.": "tests/plantar/files/test_input_file.py",
     "XML that declares entities, or is deeper or larger than a model, is not read.": "tests/plantar/files/test_gate.py",

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import json
+import pickle
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -210,6 +213,34 @@ def test_arrays(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
     np.savez(path, name="x")
     with pytest.raises(FormatError, match="no array of frames and cells"):
         read_recording(path)
+
+
+class _Touch:
+    """Unpickled, it creates a file."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def __reduce__(self) -> tuple[object, tuple[Path]]:
+        return Path.touch, (self.path,)
+
+
+@pytest.mark.parametrize("name", ["a.npy", "a.npz"])
+def test_a_pickled_array_runs_no_code(tmp_path: Path, name: str) -> None:
+    """The shape agrees with the size of the pickle, so that no other check refuses it first."""
+    packed = pickle.dumps(np.array([_Touch(tmp_path / "ran")], dtype=object))
+    stream = io.BytesIO()
+    rows = -(-len(packed) // 8)
+    np.lib.format.write_array_header_1_0(stream, {"descr": "|O", "fortran_order": False, "shape": (rows,)})
+    content = stream.getvalue() + packed.ljust(8 * rows, b"\0")
+    if name.endswith("npz"):
+        with zipfile.ZipFile(tmp_path / name, "w") as archive:
+            archive.writestr("left.npy", content)
+    else:
+        (tmp_path / name).write_bytes(content)
+    with pytest.raises(FormatError, match="Python objects"):
+        read_recording(tmp_path / name)
+    assert not (tmp_path / "ran").exists()
 
 
 def test_a_plantar_recording_survives_the_way_over_npz_and_csv(
