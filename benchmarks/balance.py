@@ -4,8 +4,6 @@
 benchmarks/balance.py` draws both ZMPs of one run.
 """
 
-from __future__ import annotations
-
 import tempfile
 from pathlib import Path
 from typing import Any

@@ -14,8 +14,6 @@ Swing distances are bounded by polygons of 16 edges around a circle, at most 2 %
 no angular momentum.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 from dataclasses import dataclass, field
@@ -202,7 +200,7 @@ def _spread(exponent: float) -> float:
     return 1.0 if exponent < 1e-9 else -math.expm1(-exponent) / exponent
 
 
-def _connected(programs: list[_Program]) -> _Found | None:
+def _connected(programs: list["_Program"]) -> _Found | None:
     """The largest push below which all are captured, or None."""
     found = [(f, p) for p in programs for f in p.search()]
     found.sort(key=lambda item: item[0].most, reverse=True)

@@ -4,8 +4,6 @@ Each case is a sweep in FOLDER on fresh seeds from 1000 on, continued where it w
 companion_force.csv, the counts between the markers of companion_force.md.
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -12,8 +12,6 @@ mink is one of the project's tools. tsid gets its own environment:
 (The wheels of tsid 1.10.0 and of pin 4.0.0 or 4.1.0 do not fit each other: a RobotWrapper ends in a MemoryError.)
 """
 
-from __future__ import annotations
-
 import importlib
 import importlib.metadata
 import time

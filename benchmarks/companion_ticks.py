@@ -7,8 +7,6 @@ turn.
     OMP_NUM_THREADS=1 python benchmarks/companion_ticks.py        (writes companion_ticks.md and companion_ticks.png)
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from statistics import median
 from time import perf_counter

@@ -1,7 +1,5 @@
 """How forces and impacts depend on one setting of the physics at a time: `python benchmarks/convergence.py`."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable
 from pathlib import Path

@@ -8,8 +8,6 @@ An outcome is `holds`; `refused`, not a foot; `reported`, a shoe whose checks do
 whose checks hold and the witness finds a fault; or `crashed`, any other exception.
 """
 
-from __future__ import annotations
-
 import csv
 import sys
 import tempfile

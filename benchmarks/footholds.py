@@ -1,7 +1,5 @@
 """What the soles' view of a foothold is worth, and a map: `python benchmarks/outcomes.py MINUTES footholds`."""
 
-from __future__ import annotations
-
 from statistics import median
 
 import numpy as np

@@ -4,8 +4,6 @@ No proximity (`footholds=force`), and taxels on an elastic layer, which the fit 
 (`sensing.taxels=elastic`). Ablations get the first four of the seeds.
 """
 
-from __future__ import annotations
-
 from resumable import FEW, Benchmark, Case, Row, shown
 
 FORCE = ("footholds=force", "sensing.taxels=elastic")

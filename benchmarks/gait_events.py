@@ -6,8 +6,6 @@ A function of another algorithm takes times (n,) in s, vertical force (n,) in N 
 returns heel strikes and toe offs in s. No set is for tuning: a change is judged by all of them.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 from collections.abc import Callable, Iterator

@@ -3,8 +3,6 @@
 Each ablation gets the first four of the seeds.
 """
 
-from __future__ import annotations
-
 from resumable import FEW, SPREAD, Benchmark, Case, failed, fallen, shown
 
 HEADS = {

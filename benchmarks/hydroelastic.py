@@ -5,8 +5,6 @@ each cell is the truth of that taxel. The models get the simulator's input: cont
 pose, and the field's force and centre of pressure.
 """
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any

@@ -4,8 +4,6 @@
 missing.
 """
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from itertools import product

@@ -6,8 +6,6 @@ vertices. numba is measured where it is installed; Plantar does not need it.
     python benchmarks/kernel_forms.py
 """
 
-from __future__ import annotations
-
 import importlib.util
 import statistics
 import subprocess

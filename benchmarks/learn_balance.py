@@ -7,8 +7,6 @@ linear policy moves ankles and hips, the same on both sides. Each arm is trained
 episodes, in 5 minutes on 2 cores.
 """
 
-from __future__ import annotations
-
 import argparse
 import multiprocessing
 import time

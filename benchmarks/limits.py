@@ -4,8 +4,6 @@ Finds the push from each side, over one foot and the other, and the beam's width
 completed, on fresh seeds, to a tenth at 95 %. FOLDER keeps the rows of a stopped search.
 """
 
-from __future__ import annotations
-
 import os
 import resource
 import sys

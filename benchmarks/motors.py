@@ -5,8 +5,6 @@ the table; stopped, it goes on where it was. Robots are h1, hrp2kai and the file
 with a seed that the commit draws; the time of a control tick is of a computer with other work.
 """
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -8,8 +8,6 @@ change: `git worktree add ../tables`. Several processes can share the work by ta
 from `PLANTAR_REAL_DATA`; without it their rows wait.
 """
 
-from __future__ import annotations
-
 import csv
 import os
 import random

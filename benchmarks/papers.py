@@ -5,8 +5,6 @@ word. "as written" is the scene with `--set paper=...`, "ours" the scene by itse
 experiment is about.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Mapping, Sequence
 from statistics import mean

@@ -1,7 +1,5 @@
 """A periodic walk of the pendulum: DCM and feet at the moment of a push."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -6,8 +6,6 @@ pressuRe is not run: its definitions are computed here from the frames: sums tim
 platform and above 10 kPa of an insole, steps of insoles from 30 N to 30 N.
 """
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

@@ -9,8 +9,6 @@ Each row is a command that a user has: `plantar robot MODEL`, then `plantar robo
 scene with a seed that the commit draws. Nothing of what `plantar robot` writes is changed.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import resource

@@ -1,7 +1,5 @@
 """What feedback, and steps that move, are worth under pushes: `python benchmarks/outcomes.py MINUTES push`."""
 
-from __future__ import annotations
-
 from statistics import median
 
 from resumable import FOLDER, HEADS, Benchmark, Case, counted, of_now, origin, rows_of, write_table

@@ -3,8 +3,6 @@
 Each ablation changes one thing, on the first eight of the seeds.
 """
 
-from __future__ import annotations
-
 from introduced_robots import robot_file
 from resumable import Benchmark, Case, failed, fallen, shown
 

@@ -3,8 +3,6 @@
 python benchmarks/reactive_maths.py        (writes benchmarks/reactive_maths.md)
 """
 
-from __future__ import annotations
-
 import math
 import time
 from pathlib import Path

@@ -4,8 +4,6 @@ The path of the swing foot (`control.swing_shape`) and the estimate of the CoM's
 the same scenes and seeds, against the true motion.
 """
 
-from __future__ import annotations
-
 import math
 from statistics import median
 from typing import Any

@@ -4,8 +4,6 @@ Physics, sensors with noise, controller and judge are included. Scenes take turn
 meets each once. Needs a core without other work.
 """
 
-from __future__ import annotations
-
 import sys
 import time
 from pathlib import Path

@@ -6,8 +6,6 @@ first draw is published. Rows without a plant are of the older ground and judge,
 at every commit; they have a separate column until they are counted again.
 """
 
-from __future__ import annotations
-
 import csv
 import hashlib
 import os

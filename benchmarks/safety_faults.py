@@ -4,8 +4,6 @@ Each fault begins after 4 s on flat ground, in a separate control loop, and is w
 runs, so that a stopped benchmark continues.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Iterator

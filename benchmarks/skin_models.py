@@ -7,8 +7,6 @@ touch sensors, a box-shaped site a taxel; and the lit taxels of MuJoCo's tactile
 flat mesh with a vertex a taxel.
 """
 
-from __future__ import annotations
-
 import argparse
 import runpy
 import time

@@ -3,8 +3,6 @@
 Each ablation changes one thing, on the first ten of the seeds.
 """
 
-from __future__ import annotations
-
 from resumable import Benchmark, Case, shown
 
 SEEDS, FEW = 60, 10

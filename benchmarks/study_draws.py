@@ -8,8 +8,6 @@ slower or faster, lighter or heavier, and more or less on the forefoot. Each wal
 prolongs each stride by 6 %.
 """
 
-from __future__ import annotations
-
 import sys
 from itertools import pairwise
 from pathlib import Path

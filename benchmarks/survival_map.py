@@ -7,8 +7,6 @@ acceleration of the swing foot, times of a step, and the soles. Where the 85 % f
 the run is repeated with that joint's motor four times as strong, and if that fails, too, with all motors.
 """
 
-from __future__ import annotations
-
 import functools
 import math
 import shutil

@@ -1,7 +1,5 @@
 """Counts of scenes over fresh seeds: a case is a sweep in a folder, and all together are a table."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path

@@ -5,8 +5,6 @@ twice the time with two, valid only without other processes, whose share of the 
 sweep's part outside of its workers, and the processor time of a worker's start and of a run.
 """
 
-from __future__ import annotations
-
 import os
 import resource
 import sys

@@ -4,8 +4,6 @@ The fit (`plantar/sensing/partial_contact.py`) assumes springs side by side. Her
 12 mm and nearly a half-space: the same edges, loads and noise.
 """
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -7,8 +7,6 @@ Checksums, which need no memory and no interpreter, show what two cores of this 
 same to the last bit (tests/plantar/percepts/test_threads.py).
 """
 
-from __future__ import annotations
-
 import hashlib
 import statistics
 import time

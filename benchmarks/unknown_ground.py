@@ -4,8 +4,6 @@
 benchmarks/unknown_ground.py` draws the forces on the slab.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Walks at commanded velocities, drawn every 6 s for 60 s: `python benchmarks/outcomes.py MINUTES velocity`."""
 
-from __future__ import annotations
-
 from resumable import Benchmark, Case, shown
 
 SPREAD = "{median:.3f} ({least:.3f} to {most:.3f})"

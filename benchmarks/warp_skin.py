@@ -3,8 +3,6 @@
 python benchmarks/warp_skin.py
 """
 
-from __future__ import annotations
-
 import time
 
 import mujoco

@@ -1,13 +1,11 @@
 """What all tests share: soles to test on, and the switch to the real data."""
 
-from __future__ import annotations
-
 import os
 import re
 import signal
 import time
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -16,7 +14,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-from plantar import SoleLayout, hex_layout, kernels
+from plantar import hex_layout, kernels
 
 # MuJoCo looks for it when it is first imported, and an introduced robot is drawn. What tests start says so itself.
 if "MUJOCO_GL" not in os.environ and find_spec("mujoco") is not None:
@@ -40,7 +38,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 @pytest.fixture(autouse=True)
-def _same_environment(monkeypatch: pytest.MonkeyPatch) -> None:
+def _same_environment(monkeypatch):
     """Commands that run in this process say for it how MuJoCo draws; what later tests start must not inherit that."""
     if (said := os.environ.get("MUJOCO_GL")) is None:
         monkeypatch.setenv("MUJOCO_GL", "")
@@ -64,7 +62,7 @@ settings.load_profile("same")
 
 
 @pytest.fixture
-def within() -> Callable[..., AbstractContextManager[None]]:
+def within():
     """A limit of memory and time: `with within(megabytes=300, seconds=5.0): ...`.
 
     The memory is what the process comes to hold beyond what it held before; the time is the processor's. Whoever asks
@@ -95,13 +93,13 @@ def within() -> Callable[..., AbstractContextManager[None]]:
 
 
 @pytest.fixture(scope="session")
-def repository() -> Path:
+def repository():
     """Root folder of the project."""
     return Path(__file__).resolve().parent.parent
 
 
 @pytest.fixture(scope="session")
-def real_data() -> Path:
+def real_data():
     """Folder with real recordings, feet and robots, from PLANTAR_REAL_DATA; the test is skipped where it is not set."""
     folder = os.environ.get("PLANTAR_REAL_DATA")
     if not folder:
@@ -111,7 +109,7 @@ def real_data() -> Path:
 
 
 @pytest.fixture(scope="session")
-def sole() -> SoleLayout:
+def sole():
     """A foot-shaped sole: a rounded outline of 240 x 100 mm with a waist, its cells clipped."""
     angle = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)
     x = 0.12 * np.cos(angle)

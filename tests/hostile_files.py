@@ -4,8 +4,6 @@ A defect is a count that the file does not hold, what unpacks or grows to any si
 without end, numbers that are none, text without an end, or what is no file at all.
 """
 
-from __future__ import annotations
-
 import io
 import json
 import os

@@ -1,7 +1,5 @@
 """What a page's text holds, without a browser: whether all that is opened is closed, and which addresses it names."""
 
-from __future__ import annotations
-
 from html.parser import HTMLParser
 
 ALONE = ("meta", "link", "br", "img", "path", "circle")

@@ -1,7 +1,5 @@
 """docs/architecture.md speaks of what is there: its files, the names on a force's way, and every room."""
 
-from __future__ import annotations
-
 import ast
 import re
 from pathlib import Path

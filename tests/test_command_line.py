@@ -1,7 +1,5 @@
 """The command line as a process: its arguments, its streams, and what ends it from outside."""
 
-from __future__ import annotations
-
 import os
 import re
 import signal
@@ -35,12 +33,12 @@ def shell(command: str, **environment: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(["bash", "-c", command], capture_output=True, text=True, env=env, timeout=60)
 
 
-def test_the_version_is_the_packages(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_version_is_the_packages(monkeypatch, capsys):
     assert called(monkeypatch, "--version") == 0
     assert capsys.readouterr().out == f"plantar {plantar.__version__}\n"
 
 
-def test_a_shell_completes_commands() -> None:
+def test_a_shell_completes_commands():
     asked = {"_PLANTAR_COMPLETE": "complete_bash", "COMP_WORDS": "plantar sw", "COMP_CWORD": "1"}
     assert shell("plantar", **asked).stdout.split() == ["sweep"]
 
@@ -57,9 +55,7 @@ def test_a_shell_completes_commands() -> None:
         (["list", "formats", "twice", "thrice"], ("thrice",)),
     ],
 )
-def test_wrong_arguments_are_one_line(
-    arguments: list[str], words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_wrong_arguments_are_one_line(arguments, words, monkeypatch, capsys):
     assert called(monkeypatch, *arguments) == 2
     said = capsys.readouterr()
     assert said.out == ""
@@ -68,9 +64,7 @@ def test_wrong_arguments_are_one_line(
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_the_help_of_a_command_can_be_copied(
-    name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_help_of_a_command_can_be_copied(name, monkeypatch, capsys):
     """Examples stand in one line where the terminal is wide, and nothing shows how Python writes it."""
     monkeypatch.setenv("COLUMNS", "130")
     assert called(monkeypatch, name, "--help") == 0
@@ -81,14 +75,12 @@ def test_the_help_of_a_command_can_be_copied(
     assert not re.search(r"\[\[|list\[|default: (\(|None)", told), told
 
 
-def test_no_arguments_are_the_help(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_no_arguments_are_the_help(monkeypatch, capsys):
     assert called(monkeypatch) == 2
     assert "Commands:" in capsys.readouterr().err
 
 
-def test_the_simulators_benchmark_without_the_simulator_is_one_line(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
+def test_the_simulators_benchmark_without_the_simulator_is_one_line(monkeypatch, capsys, tmp_path):
     monkeypatch.setitem(sys.modules, "mujoco", None)  # as if it were not installed
     assert called(monkeypatch, "bench", "contact", "-o", str(tmp_path / "out")) == 2
     assert capsys.readouterr().err == "plantar: mujoco is not installed; install it with: pip install 'plantar[sim]'\n"
@@ -96,14 +88,14 @@ def test_the_simulators_benchmark_without_the_simulator_is_one_line(
 
 
 @linux
-def test_a_full_disk_behind_stdout_is_one_line() -> None:
+def test_a_full_disk_behind_stdout_is_one_line():
     done = shell("plantar list formats > /dev/full", PYTHONUNBUFFERED="")
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert "No space left" in done.stderr
 
 
 @linux
-def test_a_stdout_that_nobody_reads_is_no_message() -> None:
+def test_a_stdout_that_nobody_reads_is_no_message():
     done = shell("plantar list formats | head -c 1 > /dev/null; echo ${PIPESTATUS[0]}", PYTHONUNBUFFERED="1")
     assert done.stdout.strip() in ("0", "141")
     assert done.stderr == ""
@@ -112,7 +104,7 @@ def test_a_stdout_that_nobody_reads_is_no_message() -> None:
 
 
 @linux
-def test_an_ascii_terminal_is_written_to(tmp_path: Path) -> None:
+def test_an_ascii_terminal_is_written_to(tmp_path):
     (tmp_path / "größe.csv").write_text("t,a,b,c\n0,1,2,3\n0.01,1,2,3\n0.02,1,2,3\n")
     done = shell(
         f"cd {tmp_path} && plantar analyze größe.csv --layout ñ.json; plantar analyze größe.csv --side left -o ñ",
@@ -127,9 +119,7 @@ def test_an_ascii_terminal_is_written_to(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("number", "code", "words"), [(signal.SIGINT, 130, "interrupted"), (signal.SIGTERM, 143, "SIGTERM")]
 )
-def test_a_run_that_is_ended_leaves_nothing_and_says_so(
-    tmp_path: Path, number: signal.Signals, code: int, words: str
-) -> None:
+def test_a_run_that_is_ended_leaves_nothing_and_says_so(tmp_path, number, code, words):
     command = [*PLANTAR, "sim", "flat", "--set", "steps=200", "--plot", "plots", "--record", "run.mcap"]
     process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     for _ in range(600):
@@ -157,9 +147,7 @@ def test_a_run_that_is_ended_leaves_nothing_and_says_so(
         ["list", "settings", "x" * 300],
     ],
 )
-def test_an_argument_of_any_length_is_one_line(
-    arguments: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
+def test_an_argument_of_any_length_is_one_line(arguments, monkeypatch, capsys, tmp_path):
     monkeypatch.chdir(tmp_path)
     assert called(monkeypatch, *arguments) == 2
     said = capsys.readouterr()
@@ -168,7 +156,7 @@ def test_an_argument_of_any_length_is_one_line(
 
 
 @linux
-def test_a_recording_goes_into_a_folder_that_is_made_for_it(tmp_path: Path) -> None:
+def test_a_recording_goes_into_a_folder_that_is_made_for_it(tmp_path):
     done = shell(f"cd {tmp_path} && plantar sim flat --set steps=1 --record a/b/run.mcap --json")
     assert done.returncode in (0, 1), done.stderr  # whatever the judge says of so short a walk
     assert (tmp_path / "a" / "b" / "run.mcap").stat().st_size > 1000

@@ -1,7 +1,5 @@
 """The commands sim, sweep and demo as a user calls them: exit codes, one line for bad input, nothing left behind."""
 
-from __future__ import annotations
-
 import json
 import re
 import subprocess
@@ -21,7 +19,7 @@ def plantar(*arguments: str | Path, cwd: Path) -> subprocess.CompletedProcess[st
     return subprocess.run(command, cwd=cwd, capture_output=True, text=True, timeout=600)
 
 
-def test_sim_prints_one_json_object_and_writes_what_was_asked_into_folders_that_it_makes(tmp_path: Path) -> None:
+def test_sim_prints_one_json_object_and_writes_what_was_asked_into_folders_that_it_makes(tmp_path):
     hard = ["--set", "pfc=false"]  # a foot that gives way lands with 20 N, which its taxels' noise hides for a while
     run = plantar("sim", "flat", *SHORT, *hard, "--json", "--record", "a/b/run.mcap", "--plot", "c/d", cwd=tmp_path)
     assert run.returncode == 0, run.stderr
@@ -40,7 +38,7 @@ def test_sim_prints_one_json_object_and_writes_what_was_asked_into_folders_that_
     assert landings == pytest.approx(summary["landings_s"], abs=0.010)
 
 
-def test_a_fall_is_exit_code_1(tmp_path: Path) -> None:
+def test_a_fall_is_exit_code_1(tmp_path):
     settings = ["impulse=90", "push.step=0", "direction=right", "feedback=false", "steps=2"]
     run = plantar("sim", "push", *[x for s in settings for x in ("--set", s)], "--json", cwd=tmp_path)
     assert run.returncode == 1
@@ -68,13 +66,7 @@ def test_a_fall_is_exit_code_1(tmp_path: Path) -> None:
         (["view", "none.mcap", "-o", "view.mp4"], ("view.mp4", ".html")),
     ],
 )
-def test_bad_input_is_one_line_exit_2_and_nothing_left(
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capfd: pytest.CaptureFixture[str],
-    arguments: list[str],
-    words: tuple[str, ...],
-) -> None:
+def test_bad_input_is_one_line_exit_2_and_nothing_left(tmp_path, monkeypatch, capfd, arguments, words):
     """In this process, since starting one of its own for each takes a second; `test_command_line.py` starts some."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "argv", ["plantar", *arguments])
@@ -90,14 +82,14 @@ def test_bad_input_is_one_line_exit_2_and_nothing_left(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_run_that_does_not_begin_leaves_no_folder(tmp_path: Path) -> None:
+def test_a_run_that_does_not_begin_leaves_no_folder(tmp_path):
     run = plantar("sim", "flat", "--robot", "r2d2", "--record", "a/run.mcap", "--plot", "b", cwd=tmp_path)
     assert run.returncode == 2
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.long
-def test_demo_makes_all_three_and_names_them(tmp_path: Path) -> None:
+def test_demo_makes_all_three_and_names_them(tmp_path):
     run = plantar("demo", "-o", "out", "--json", cwd=tmp_path)
     assert run.returncode == 0, run.stderr
     made = json.loads(run.stdout)

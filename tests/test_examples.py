@@ -1,7 +1,5 @@
 """Every example runs, says what it is about in its first line, and finds what it claims."""
 
-from __future__ import annotations
-
 import ast
 import re
 import runpy
@@ -132,9 +130,7 @@ def numbers_in(pattern: str, text: str) -> list[float]:
 
 
 @pytest.mark.parametrize("name", QUICK)
-def test_an_example_finds_what_it_says(
-    name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_example_finds_what_it_says(name, monkeypatch, capsys):
     example = QUICK[name]
     monkeypatch.setattr(sys, "argv", [f"{name}.py", *example.arguments])
     runpy.run_path(str(ROOT / "examples" / f"{name}.py"), run_name="__main__")
@@ -143,16 +139,14 @@ def test_an_example_finds_what_it_says(
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", LONG)
-def test_a_simulated_example_finds_what_it_says(name: str) -> None:
+def test_a_simulated_example_finds_what_it_says(name):
     command = [sys.executable, "-W", "error", f"examples/{name}.py", *LONG[name].arguments]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     assert LONG[name].holds(*numbers_in(LONG[name].pattern, done.stdout))
 
 
-def test_a_recording_becomes_tables(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_recording_becomes_tables(tmp_path, monkeypatch, capsys):
     for name, arguments in (
         ("record_own_sensor", (tmp_path / "run.mcap",)),
         ("record_to_tables", (tmp_path / "run.mcap", tmp_path / "out")),
@@ -163,12 +157,12 @@ def test_a_recording_becomes_tables(
     assert {"run.npz", "motors.csv"} <= {p.name for p in (tmp_path / "out").iterdir()}
 
 
-def test_every_example_is_run_by_a_test() -> None:
+def test_every_example_is_run_by_a_test():
     assert {e.stem for e in EXAMPLES} == {*QUICK, *LONG, *ELSEWHERE}
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda e: e.stem)
-def test_an_example_is_one_idea_in_60_lines_and_says_how_it_is_run(example: Path) -> None:
+def test_an_example_is_one_idea_in_60_lines_and_says_how_it_is_run(example):
     source = example.read_text(encoding="utf-8")
     told = ast.get_docstring(ast.parse(source))
     assert told is not None
@@ -176,11 +170,11 @@ def test_an_example_is_one_idea_in_60_lines_and_says_how_it_is_run(example: Path
     assert len(source.splitlines()) <= (300 if example.stem in PICTURES else 60)
 
 
-def test_the_page_of_examples_names_each() -> None:
+def test_the_page_of_examples_names_each():
     page = (ROOT / "examples" / "README.md").read_text(encoding="utf-8")
     assert set(re.findall(r"\((\w+)\.py\)", page)) == {e.stem for e in EXAMPLES}
 
 
-def test_the_page_that_compares_counts_them() -> None:
+def test_the_page_that_compares_counts_them():
     page = (ROOT / "docs" / "compare.md").read_text(encoding="utf-8")
     assert f" {len(EXAMPLES)}, one idea each, and four notebooks" in page

@@ -1,7 +1,5 @@
 """Each module says what it exports, and what it exports is there and explained."""
 
-from __future__ import annotations
-
 import ast
 import importlib
 import inspect

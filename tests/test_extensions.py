@@ -1,7 +1,5 @@
 """Parts of a user's own package, found by entry points from outside the checkout: one new file each."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess
@@ -60,7 +58,7 @@ class HighSwing(SwingKind, table="high_swing", needs={"control.swing_shape": ("h
 
 
 @pytest.fixture
-def plugin(tmp_path: Path) -> Path:
+def plugin(tmp_path):
     """A folder on the path with a package of a user's own, as pip would install it."""
     package, info = tmp_path / "mine", tmp_path / "mine-1.0.dist-info"
     package.mkdir()
@@ -84,19 +82,19 @@ def plantar(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, cwd=folder, env=os.environ | {"PYTHONPATH": path}, capture_output=True, text=True)
 
 
-def test_a_command_of_a_users_package_runs(plugin: Path) -> None:
+def test_a_command_of_a_users_package_runs(plugin):
     assert json.loads(plantar(plugin, "hello", "--name", "Ada").stdout) == {"hello": "Ada"}
     assert "hello" in plantar(plugin, "--help").stdout
 
 
-def test_a_kind_of_ground_of_a_users_package_has_settings(plugin: Path) -> None:
+def test_a_kind_of_ground_of_a_users_package_has_settings(plugin):
     pytest.importorskip("mujoco")
     done = plantar(plugin, "list", "settings", "terrain.ditch", "--json")
     assert done.returncode == 0, done.stderr
     assert "terrain.ditch.depth" in {row["name"] for row in json.loads(done.stdout)["settings"]}
 
 
-def test_a_scene_stands_on_a_users_ground(plugin: Path) -> None:
+def test_a_scene_stands_on_a_users_ground(plugin):
     pytest.importorskip("mujoco")
     code = (
         "import plantar; from plantar.sim.run.runner import Simulation; "
@@ -111,7 +109,7 @@ def test_a_scene_stands_on_a_users_ground(plugin: Path) -> None:
     assert "ditch" in done.stdout.lower()
 
 
-def test_a_robot_swings_its_foot_as_a_users_package_does(plugin: Path) -> None:
+def test_a_robot_swings_its_foot_as_a_users_package_does(plugin):
     pytest.importorskip("mujoco")
     code = (
         "import plantar, numpy as np; from plantar.gait.feet.swing_kind import SwingStart; "
@@ -132,7 +130,7 @@ def test_a_robot_swings_its_foot_as_a_users_package_does(plugin: Path) -> None:
     assert "high_swing.more" in plantar(plugin, "list", "settings", "high_swing").stdout
 
 
-def test_a_part_of_another_kind_is_named(plugin: Path) -> None:
+def test_a_part_of_another_kind_is_named(plugin):
     (plugin / "mine-1.0.dist-info" / "entry_points.txt").write_text("[plantar.terrain]\nditch = mine.hello:hello\n")
     done = plantar(plugin, "list", "settings", "terrain")
     assert done.returncode == 2

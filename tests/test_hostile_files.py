@@ -5,8 +5,6 @@ command and of what it starts, since the wall clock tells how busy the machine i
 ended after a minute. The memory is that of the largest process.
 """
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys
@@ -104,10 +102,10 @@ ONE_OF_KIND = {f"{kind}: {list(DEFECTS_OF_ANY)[i % len(DEFECTS_OF_ANY)]}" for i,
 
 
 @pytest.mark.parametrize("name", _quick_or_long(list(FAMILIES), FIRST_OF_KIND))
-def test_a_hostile_file_is_refused_in_one_line_at_once(name: str, tmp_path: Path) -> None:
+def test_a_hostile_file_is_refused_in_one_line_at_once(name, tmp_path):
     refused(tmp_path, *FAMILIES[name])
 
 
 @pytest.mark.parametrize("name", _quick_or_long(list(ANY), ONE_OF_KIND))
-def test_what_may_stand_behind_any_name_is_refused(name: str, tmp_path: Path) -> None:
+def test_what_may_stand_behind_any_name_is_refused(name, tmp_path):
     refused(tmp_path, *ANY[name])

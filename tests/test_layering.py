@@ -1,7 +1,5 @@
 """Who may import whom: the layers and rooms of docs/architecture.md, and one place for each heavy library."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Iterator
 from functools import cache
@@ -261,21 +259,9 @@ def plant(root, file, source):
     ("file", "source", "reason"),
     [
         ("plantar/gait/plan/phases.py", "from plantar.gait.feet import swing", "plan imports plantar.gait.feet"),
-        (
-            "plantar/gait/analysis/compare.py",
-            "import plantar.gait.plan.phases",
-            "analysis imports plantar.gait.plan",
-        ),
-        (
-            "plantar/gait/controller.py",
-            "from plantar.gait.analysis.events import Contact",
-            "controller imports",
-        ),
-        (
-            "plantar/gait/analysis/steps/events.py",
-            "from plantar.gait.analysis.pages import page",
-            "steps imports",
-        ),
+        ("plantar/gait/analysis/compare.py", "import plantar.gait.plan.phases", "analysis imports plantar.gait.plan"),
+        ("plantar/gait/controller.py", "from plantar.gait.analysis.events import Contact", "controller imports"),
+        ("plantar/gait/analysis/steps/events.py", "from plantar.gait.analysis.pages import page", "steps imports"),
         (
             "plantar/sim/sensing/sensors.py",
             "def f():\n    from plantar.sim.run.scene import Scene",
@@ -315,11 +301,7 @@ def test_benchmarks_and_examples_do_not_import_the_command_line():
     ("file", "source", "reason"),
     [
         ("plantar/sensing/force.py", "import plantar.gait", "plantar imports plantar.gait"),
-        (
-            "plantar/sensing/force.py",
-            "from plantar.sim.sensing.skin import Skin",
-            "plantar imports plantar.sim",
-        ),
+        ("plantar/sensing/force.py", "from plantar.sim.sensing.skin import Skin", "plantar imports plantar.sim"),
         (
             "plantar/formats/pedar.py",
             "def read():\n    import plantar.shoes.papers.export",
@@ -328,11 +310,7 @@ def test_benchmarks_and_examples_do_not_import_the_command_line():
         ("plantar/gait/plan/phases.py", "if True:\n    from plantar.sim import world", "gait imports plantar.sim"),
         ("plantar/gait/plan/phases.py", "import plantar.shoes", "gait imports plantar.shoes"),
         ("plantar/shoes/solid/tray.py", "from plantar.gait.plan import phases", "shoes imports plantar.gait"),
-        (
-            "plantar/shoes/solid/tray.py",
-            "import plantar.robots.robot as r",
-            "shoes imports plantar.robots",
-        ),
+        ("plantar/shoes/solid/tray.py", "import plantar.robots.robot as r", "shoes imports plantar.robots"),
         (
             "plantar/sim/run/runner.py",
             "from importlib import import_module\nimport_module('plantar.shoes.solid.tray')",
@@ -348,11 +326,7 @@ def test_benchmarks_and_examples_do_not_import_the_command_line():
             "from mujoco import MjModel",
             "mujoco is imported outside plantar.sim, plantar.robots",
         ),
-        (
-            "plantar/gait/plot.py",
-            "from matplotlib.figure import Figure",
-            "matplotlib is imported outside",
-        ),
+        ("plantar/gait/plot.py", "from matplotlib.figure import Figure", "matplotlib is imported outside"),
         ("plantar/robots/kinematics/inverse_kinematics.py", "import mink", "mink is imported outside tests"),
         ("stray.py", "", "no layer"),
     ],

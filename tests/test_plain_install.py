@@ -1,7 +1,5 @@
 """What `pip install plantar` promises without an extra works with the libraries that it declares, and no other."""
 
-from __future__ import annotations
-
 import os
 import re
 import subprocess
@@ -48,7 +46,7 @@ def declared() -> set[str]:
 
 
 @pytest.fixture(scope="module")
-def environment(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+def environment(tmp_path_factory):
     """An environment in which the libraries of the extras cannot be imported, as if they were not installed."""
     allowed = declared() | {"plantar"}
     others = {module for module, of in packages_distributions().items() if not {plain(d) for d in of} & allowed}
@@ -66,7 +64,7 @@ def run(environment: dict[str, str], cwd: Path, *words: str | Path) -> str:
     return done.stdout
 
 
-def test_recordings_are_analysed_compared_and_studied(environment: dict[str, str], tmp_path: Path) -> None:
+def test_recordings_are_analysed_compared_and_studied(environment, tmp_path):
     (tmp_path / "study").mkdir()
     for name in ("a.asc", "b.asc"):
         run(environment, tmp_path, ROOT / "examples" / "insole_walk.py", f"study/{name}")
@@ -90,7 +88,7 @@ def test_recordings_are_analysed_compared_and_studied(environment: dict[str, str
     assert {"one/report.html", "both/report.html", "all/study.html"} <= made
 
 
-def test_a_sensor_is_recorded_and_viewed(environment: dict[str, str], tmp_path: Path) -> None:
+def test_a_sensor_is_recorded_and_viewed(environment, tmp_path):
     run(environment, tmp_path, ROOT / "examples" / "record_own_sensor.py", "run.mcap")
     run(environment, tmp_path, "-m", "plantar", "analyze", "run.mcap", "-o", "walk")
     run(environment, tmp_path, "-m", "plantar", "view", "run.mcap", "-o", "view.html")
@@ -101,5 +99,5 @@ def test_a_sensor_is_recorded_and_viewed(environment: dict[str, str], tmp_path: 
     "name",
     ["sole_hexagons", "percept_one_foot", "percept_stream", "percept_faults", "record_formats", "record_own_metric"],
 )
-def test_an_example_of_perception_or_of_recordings_runs(name: str, environment: dict[str, str], tmp_path: Path) -> None:
+def test_an_example_of_perception_or_of_recordings_runs(name, environment, tmp_path):
     assert run(environment, tmp_path, ROOT / "examples" / f"{name}.py").strip()

@@ -1,7 +1,5 @@
 """The files around the code: workflows, citation and licences agree with what they speak of."""
 
-from __future__ import annotations
-
 import json
 import re
 import subprocess
@@ -27,7 +25,7 @@ def steps(workflow: Path) -> list[dict[str, Any]]:
 
 
 @pytest.mark.parametrize("workflow", WORKFLOWS, ids=lambda w: w.stem)
-def test_what_a_workflow_runs_is_there(workflow: Path) -> None:
+def test_what_a_workflow_runs_is_there(workflow):
     for step in steps(workflow):
         words = str(step.get("run", "")).split()
         paths = [w for w in words if re.fullmatch(r"(\.ci|tools|tests|plantar)/[\w./]+", w)]
@@ -37,7 +35,7 @@ def test_what_a_workflow_runs_is_there(workflow: Path) -> None:
             assert set(extras.split(",")) <= set(known)
 
 
-def test_every_job_ends_by_itself_and_may_write_only_where_it_says_so() -> None:
+def test_every_job_ends_by_itself_and_may_write_only_where_it_says_so():
     assert {w.stem for w in WORKFLOWS} == {"tests", "docs", "release"}
     for workflow in WORKFLOWS:
         content = yaml.safe_load(workflow.read_text(encoding="utf-8"))
@@ -46,7 +44,7 @@ def test_every_job_ends_by_itself_and_may_write_only_where_it_says_so() -> None:
             assert "timeout-minutes" in job or name in ("deploy", "publish")
 
 
-def test_the_pythons_of_the_workflow_are_those_of_the_wheels_and_not_older_than_declared() -> None:
+def test_the_pythons_of_the_workflow_are_those_of_the_wheels_and_not_older_than_declared():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())
     tested = yaml.safe_load((ROOT / ".github/workflows/tests.yml").read_text())["jobs"]["tests"]["strategy"]["matrix"]
     built = [f"{w[2]}.{w[3:5]}" for w in project["tool"]["cibuildwheel"]["build"].split()]
@@ -54,25 +52,25 @@ def test_the_pythons_of_the_workflow_are_those_of_the_wheels_and_not_older_than_
     assert project["project"]["requires-python"] == f">={built[0]}"
 
 
-def test_the_citation_names_this_version_and_licence() -> None:
+def test_the_citation_names_this_version_and_licence():
     cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     assert cited["version"] == plantar.__version__
     assert cited["license"] == tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["license"]
 
 
-def test_the_licences_of_all_dependencies_are_told() -> None:
+def test_the_licences_of_all_dependencies_are_told():
     done = subprocess.run([sys.executable, "tools/licences.py", "--check"], cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize("workflow", WORKFLOWS, ids=lambda w: w.stem)
-def test_actions_are_pinned_by_their_hash_and_say_their_version(workflow: Path) -> None:
+def test_actions_are_pinned_by_their_hash_and_say_their_version(workflow):
     used = re.findall(r"uses: (.*)", workflow.read_text(encoding="utf-8"))
     assert used
     assert [line for line in used if not re.fullmatch(r"[\w./-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+", line)] == []
 
 
-def test_the_bill_of_materials_names_all_that_is_pinned(tmp_path: Path) -> None:
+def test_the_bill_of_materials_names_all_that_is_pinned(tmp_path):
     subprocess.run([sys.executable, "tools/sbom.py", str(tmp_path / "a.json")], cwd=ROOT, check=True)
     bill = json.loads((tmp_path / "a.json").read_text())
     names = {component["name"].lower() for component in bill["components"]}
@@ -83,7 +81,7 @@ def test_the_bill_of_materials_names_all_that_is_pinned(tmp_path: Path) -> None:
     assert all(component["licenses"][0]["license"] for component in bill["components"])
 
 
-def test_no_declared_floor_has_a_published_vulnerability() -> None:
+def test_no_declared_floor_has_a_published_vulnerability():
     # CVE-2026-23528 (distributed), CVE-2025-66034 (fonttools), CVE-2025-47273 (setuptools): fixed from these on.
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())
     text = " ".join(

@@ -1,7 +1,5 @@
 """What the README and the documents show works: commands run, examples run, links lead somewhere."""
 
-from __future__ import annotations
-
 import os
 import re
 import shlex
@@ -33,7 +31,7 @@ COMMANDS = commands(README)
 
 
 @pytest.fixture(scope="module")
-def user(tmp_path_factory) -> Path:
+def user(tmp_path_factory):
     """A folder as after a clone, in which the commands run one after the other."""
     folder = tmp_path_factory.mktemp("readme")
     for name in ("examples", "docs"):

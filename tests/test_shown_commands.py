@@ -3,8 +3,6 @@
 `test_readme.py` and `test_site.py` run what the README and the tutorials show; the long test here runs the other pages.
 """
 
-from __future__ import annotations
-
 import math
 import os
 import re
@@ -73,13 +71,13 @@ def understand(command: str) -> None:
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda d: str(d.relative_to(ROOT)))
-def test_every_command_is_one_that_would_run(document: Path) -> None:
+def test_every_command_is_one_that_would_run(document):
     text = document.read_text(encoding="utf-8")
     for command in (*in_blocks(text), *in_sentences(text)):
         understand(command)
 
 
-def test_a_command_that_would_not_run_is_found() -> None:
+def test_a_command_that_would_not_run_is_found():
     for wrong in ("sim nowhere", "sim flat --sed 3", "sim flat --set stepz=3", "sim flat --set steps=many", "fly"):
         with pytest.raises((Exception, SystemExit)):
             understand(wrong)
@@ -91,7 +89,7 @@ def test_a_command_that_would_not_run_is_found() -> None:
     ]
 
 
-def test_every_setting_that_a_sentence_changes_is_one() -> None:
+def test_every_setting_that_a_sentence_changes_is_one():
     """`--set key=value` apart from its command: a scene takes it, of some kind of ground or push, or a shoe does."""
     scenes = ("shoe", "flat", "push-step", "beam", "leader-follower", "guide", "balance", "lean")
     for document in DOCUMENTS:
@@ -125,14 +123,14 @@ SCENES = [
 
 
 @pytest.mark.parametrize("block", SCENES)
-def test_a_scene_that_is_shown_opens(block: str, tmp_path: Path) -> None:
+def test_a_scene_that_is_shown_opens(block, tmp_path):
     """A part of one is put into a scene on level ground."""
     whole = block if re.search(r"^name =", block, re.MULTILINE) else f'robot = "h1"\n[terrain]\nkind = "flat"\n{block}'
     (tmp_path / "shown.toml").write_text(whole)
     open_scene(tmp_path / "shown.toml")
 
 
-def test_a_cell_that_is_shown_is_read(tmp_path: Path) -> None:
+def test_a_cell_that_is_shown_is_read(tmp_path):
     shown = [b for page in PAGES for b in blocks(page.read_text("utf-8"), "toml") if is_cell(b)]
     assert shown
     for block in shown:
@@ -146,7 +144,7 @@ def shown_model(page: str) -> str:
     return found
 
 
-def test_a_robot_that_is_shown_is_read(tmp_path: Path) -> None:
+def test_a_robot_that_is_shown_is_read(tmp_path):
     for layout in (ROOT / "plantar" / "robots" / "h1").glob("layout_*.json"):
         shutil.copy(layout, tmp_path)
     (tmp_path / "jvrc1.xml").write_text("<mujoco/>")
@@ -160,14 +158,14 @@ ARM = """<mujoco><worldbody><body name="base"><geom size=".1"/><body name="arm">
 </worldbody></mujoco>"""
 
 
-def test_a_machine_that_is_shown_is_read(tmp_path: Path) -> None:
+def test_a_machine_that_is_shown_is_read(tmp_path):
     (tmp_path / "arm.xml").write_text(ARM)
     (tmp_path / "machine.toml").write_text(shown_model("companion.md"))
     assert load_machine(tmp_path / "machine.toml").description == "my arm"
 
 
 @pytest.fixture(scope="module")
-def desk(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def desk(tmp_path_factory):
     """A folder with the files that the pages speak of: a foot, its outline, a robot's model, a recording, a study."""
     import trimesh
     from ezdxf.filemanagement import new
@@ -222,7 +220,7 @@ def shown(page: str) -> list[object]:
 @pytest.mark.parametrize(
     "command", [c for p in ("shoes", "robots", "companion", "simulation", "scenes") for c in shown(p)]
 )
-def test_a_command_of_a_page_runs(command: str, desk: Path) -> None:
+def test_a_command_of_a_page_runs(command, desk):
     """Exit code 1 is an answer, too: a check found something, or a robot without a part of its control fell."""
     scripts = Path(sys.executable).parent
     env = os.environ | {"PATH": f"{scripts}{os.pathsep}{os.environ.get('PATH', '')}"}
@@ -235,7 +233,7 @@ def test_a_command_of_a_page_runs(command: str, desk: Path) -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize("page", ["shoes", "metrics", "perception", "companion"])
-def test_code_of_a_page_runs(page: str, desk: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_code_of_a_page_runs(page, desk, tmp_path, monkeypatch):
     """With the names and files that the page speaks of."""
     from plantar import hex_layout
 

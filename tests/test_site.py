@@ -1,7 +1,5 @@
 """The pages of the site: what they show runs from nothing to its end, and all of them can be gathered."""
 
-from __future__ import annotations
-
 import importlib.util
 import os
 import re
@@ -11,7 +9,6 @@ import subprocess
 import sys
 from contextlib import ExitStack
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 
@@ -65,13 +62,13 @@ def free_port() -> int:
     "page", [pytest.param(p, id=p.stem, marks=[] if p.stem in QUICK else [pytest.mark.long]) for p in PAGES]
 )
 @pytest.mark.filterwarnings("ignore::ResourceWarning")
-def test_a_newcomer_comes_to_the_end_of_a_page(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_newcomer_comes_to_the_end_of_a_page(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     follow(page, tmp_path)
 
 
 @pytest.fixture(scope="module")
-def docs_pages() -> ModuleType:
+def docs_pages():
     """The script that gathers the pages."""
     spec = importlib.util.spec_from_file_location("docs_pages", ROOT / "tools" / "docs_pages.py")
     assert spec is not None
@@ -81,9 +78,7 @@ def docs_pages() -> ModuleType:
     return module
 
 
-def test_the_site_has_every_page_and_names_no_other(
-    docs_pages: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_site_has_every_page_and_names_no_other(docs_pages, tmp_path, monkeypatch):
     yaml = pytest.importorskip("yaml")
     monkeypatch.setattr(docs_pages, "PAGES", tmp_path / "pages")
     docs_pages.main()
@@ -101,7 +96,7 @@ def test_the_site_has_every_page_and_names_no_other(
         assert [t for t in links if not (page.parent / t).exists()] == [], page
 
 
-def test_every_error_is_explained(docs_pages: ModuleType) -> None:
+def test_every_error_is_explained(docs_pages):
     from plantar import errors
 
     assert set(docs_pages.WHAT_TO_DO) == set(errors.__all__)

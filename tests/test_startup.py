@@ -1,7 +1,5 @@
 """What a command loads and how long it takes to start: what is not needed is skipped."""
 
-from __future__ import annotations
-
 import os
 import re
 import subprocess

@@ -1,7 +1,5 @@
 """A user's typed script, checked by mypy against the two ways to install Plantar."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil
@@ -78,7 +76,7 @@ Spring("stiff")  # arg-type
 
 
 @pytest.fixture(scope="module")
-def editable(tmp_path_factory) -> Path:
+def editable(tmp_path_factory):
     """The interpreter of an environment with an editable install, as `tools/make-venv` makes one, of a copy of the
     checkout; without Cython, so that nothing is compiled. The libraries come from this environment by a path file."""
     folder = tmp_path_factory.mktemp("editable")

@@ -1,7 +1,5 @@
 """The wheel as a user gets it: built, installed in an environment of its own, and used away from the checkout."""
 
-from __future__ import annotations
-
 import importlib.util
 import json
 import os
@@ -62,7 +60,7 @@ def built_wheel(folder: Path, source: Path, **more: str) -> Path:
 
 
 @pytest.fixture(scope="module")
-def wheel(tmp_path_factory) -> Path:
+def wheel(tmp_path_factory):
     """The wheel of what is in the checkout.
 
     `make test` has compiled the kernels by the same setup.py just before; only what is stale is compiled once more.
@@ -88,7 +86,7 @@ def tracked() -> list[Path]:
 
 
 @pytest.fixture(scope="module")
-def installed(wheel, tmp_path_factory) -> Path:
+def installed(wheel, tmp_path_factory):
     """The scripts folder of an environment with the wheel in it.
 
     The libraries that Plantar needs come from this environment by a path file. Path files found in a folder that is

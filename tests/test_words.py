@@ -4,8 +4,6 @@ The list is of expressions that engineers do not use of code: a file does not "t
 limit can be lowered, lower it.
 """
 
-from __future__ import annotations
-
 import ast
 import io
 import re
@@ -58,11 +56,11 @@ def rate(found: list[str]) -> tuple[float, list[str]]:
 
 
 @pytest.mark.parametrize("area", LIMITS)
-def test_prose_is_plain(area: str) -> None:
+def test_prose_is_plain(area):
     found, shown = rate(texts(area))
     assert found <= LIMITS[area], f"{found:.2f} in a thousand, allowed {LIMITS[area]}; for example {shown[:20]}"
 
 
-def test_the_words_are_found() -> None:
+def test_the_words_are_found():
     assert rate(["The file tells what nobody felt."]) == (1000 * 3 / 6, ["The file tells what nobody felt."] * 3)
     assert rate(["The file lists what no sensor measured."])[0] == 0.0

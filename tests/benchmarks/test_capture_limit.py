@@ -1,7 +1,5 @@
 """The bound on captured pushes against linear programs with every ZMP written out, and against simulated pushes."""
 
-from __future__ import annotations
-
 import itertools
 import math
 
@@ -133,7 +131,7 @@ CASES = [(phase, side, angle) for phase, side in ((0.3, "left"), (0.8, "right"))
 
 
 @pytest.mark.parametrize(("phase", "side", "angle"), CASES)
-def test_its_steps_capture_the_push_when_simulated(phase: float, side: str, angle: float) -> None:
+def test_its_steps_capture_the_push_when_simulated(phase, side, angle):
     limits, instant = robot(), WALK.instant(phase, side)
     toward = np.array([math.cos(angle), math.sin(angle)])
     found = capture_limit(limits, instant, toward)
@@ -180,7 +178,7 @@ def brute_force(limits: CaptureLimits, instant: Instant, toward: np.ndarray, imp
 
 
 @pytest.mark.parametrize("angle", [0.0, 1.2, 2.5, 4.0, 5.2])
-def test_trying_everything_captures_a_little_less(angle: float) -> None:
+def test_trying_everything_captures_a_little_less(angle):
     limits, instant = robot(steps=1, times=9, shares=9, swing_acceleration=math.inf), WALK.instant(0.5)
     toward = np.array([math.cos(angle), math.sin(angle)])
     most = capture_limit(limits, instant, toward).impulse
@@ -188,7 +186,7 @@ def test_trying_everything_captures_a_little_less(angle: float) -> None:
     assert 0.899 * most <= tried < most
 
 
-def test_random_plans_never_capture_more() -> None:
+def test_random_plans_never_capture_more():
     limits, instant, rng = robot(swing_acceleration=math.inf), WALK.instant(0.6), np.random.default_rng(0)
     toward = np.array([0.6, -0.8])
     most, caught = capture_limit(limits, instant, toward).impulse, 0
@@ -215,15 +213,10 @@ def test_random_plans_never_capture_more() -> None:
     assert caught > 20
 
 
-def test_more_of_anything_captures_no_less() -> None:
+def test_more_of_anything_captures_no_less():
     instant, toward = WALK.instant(0.4), np.array([0.5, -0.5])
     usual = capture_limit(robot(), instant, toward).impulse
-    for change in (
-        {"swing_speed": 3.0},
-        {"swing_acceleration": 40.0},
-        {"steps": 3, "times": 3},
-        {"landing": 0.0},
-    ):
+    for change in ({"swing_speed": 3.0}, {"swing_acceleration": 40.0}, {"steps": 3, "times": 3}, {"landing": 0.0}):
         assert capture_limit(robot(**change), instant, toward).impulse >= usual * 0.999, change
     for change in (
         {"swing_speed": 0.5},
@@ -236,7 +229,7 @@ def test_more_of_anything_captures_no_less() -> None:
         assert capture_limit(robot(**change), instant, toward).impulse < usual, change
 
 
-def test_both_sides_are_alike() -> None:
+def test_both_sides_are_alike():
     for angle in (0.7, 2.9, 5.0):
         left = capture_limit(robot(), WALK.instant(0.3, "left"), (math.cos(angle), math.sin(angle)))
         right = capture_limit(robot(), WALK.instant(0.3, "right"), (math.cos(angle), -math.sin(angle)))
@@ -246,7 +239,7 @@ def test_both_sides_are_alike() -> None:
             assert a.place == pytest.approx(mirrored(b.place), abs=1e-6)
 
 
-def test_a_push_that_lasts_and_one_above_the_com_count_as_they_move_the_dcm() -> None:
+def test_a_push_that_lasts_and_one_above_the_com_count_as_they_move_the_dcm():
     standing = Instant("left", np.zeros(2), np.array([0.0, -0.2]))
     at_once = capture_limit(robot(steps=0), standing, [1.0, 0.0]).impulse
     assert at_once == pytest.approx(0.12 * MASS * OMEGA)
@@ -258,7 +251,7 @@ def test_a_push_that_lasts_and_one_above_the_com_count_as_they_move_the_dcm() ->
     assert dcm == pytest.approx(0.12, abs=1e-6)
 
 
-def test_the_walk_repeats_itself() -> None:
+def test_the_walk_repeats_itself():
     for walk in (WALK, PeriodicWalk(OMEGA, 0.0, 0.2, 0.5, 0.0, (0.02, 0.01))):
         begin, end = walk.instant(0.0), walk.instant(1.0)
         step = np.array([walk.length, -walk.width])
@@ -277,19 +270,19 @@ def test_the_walk_repeats_itself() -> None:
     assert WALK.instant(0.1 / 0.6).dcm == pytest.approx(found.y[:, -1], abs=1e-8)
 
 
-def test_the_map_has_a_cell_for_each_phase_and_direction() -> None:
+def test_the_map_has_a_cell_for_each_phase_and_direction():
     limits = robot(steps=1, times=3)
     found = capture_map(limits, WALK, directions=2, phases=3)
     assert found.shape == (3, 2)
     assert found[1, 1] == pytest.approx(capture_limit(limits, WALK.instant(1 / 3), [-1.0, 0.0]).impulse)
 
 
-def test_one_who_falls_anyway_captures_nothing() -> None:
+def test_one_who_falls_anyway_captures_nothing():
     falling = Instant("left", np.array([3.0, 0.0]), np.array([0.0, -0.2]))
     assert capture_limit(robot(), falling, [1.0, 0.0]) == (0.0, ())
 
 
-def test_wrong_arguments_are_named() -> None:
+def test_wrong_arguments_are_named():
     with pytest.raises(InputError, match="sole has no vertices"):
         CaptureLimits(MASS, OMEGA, np.empty((0, 2)), REGION, 0.3, 0.8)
     with pytest.raises(InputError, match=r"longest is 0\.2"):

@@ -1,7 +1,5 @@
 """Measures beside another package's definitions: every difference above 1 % has its causes, which add up."""
 
-from __future__ import annotations
-
 import importlib.util
 import re
 from pathlib import Path
@@ -12,7 +10,7 @@ SOURCE = Path(__file__).parents[2] / "benchmarks" / "pressure_definitions.py"
 
 
 @pytest.mark.parametrize("name", ["emed_step.lst", "fscan_walk_left.asf"])
-def test_causes_make_up_the_difference(real_data: Path, name: str) -> None:
+def test_causes_make_up_the_difference(real_data, name):
     specification = importlib.util.spec_from_file_location("pressure_definitions", SOURCE)
     assert specification is not None
     assert specification.loader is not None

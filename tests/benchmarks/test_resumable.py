@@ -1,7 +1,5 @@
 """Tables of outcomes: which runs are asked for, which rows count."""
 
-from __future__ import annotations
-
 import csv
 import importlib.util
 import re
@@ -15,7 +13,7 @@ FOLDER = Path(__file__).resolve().parents[2] / "benchmarks"
 
 
 @pytest.fixture
-def resumable(monkeypatch: pytest.MonkeyPatch) -> Any:
+def resumable(monkeypatch):
     spec = importlib.util.spec_from_file_location("resumable", FOLDER / "resumable.py")
     assert spec is not None
     assert spec.loader is not None
@@ -39,14 +37,14 @@ def benchmark(resumable: Any, path: Path, rows: list[dict[str, Any]], aside: boo
     return resumable.Benchmark(path.stem, {}, [case], folder=path.parent)
 
 
-def test_seeds_are_drawn_from_the_commit_the_same_for_all_cases(resumable: Any) -> None:
+def test_seeds_are_drawn_from_the_commit_the_same_for_all_cases(resumable):
     first, other = resumable.drawn_seeds("1234567", 8), resumable.drawn_seeds("1234568", 8)
     assert first == resumable.drawn_seeds("1234567", 10)[:8]
     assert len({*first, *other}) == 16
     assert all(0 <= seed < 2**32 for seed in first)
 
 
-def test_what_is_missing_is_asked_for_on_both_plants_drawn_ones_first(resumable: Any, tmp_path: Path) -> None:
+def test_what_is_missing_is_asked_for_on_both_plants_drawn_ones_first(resumable, tmp_path):
     seeds = resumable.drawn_seeds("made", 6)
     runs = sorted(resumable.wanted(benchmark(resumable, tmp_path / "a.csv", []), "made"), key=lambda r: r[0])
     assert [run for _, _, run in runs][:4] == [(p, s) for s in seeds[:2] for p in ("drawn", "exact")]
@@ -59,7 +57,7 @@ def test_what_is_missing_is_asked_for_on_both_plants_drawn_ones_first(resumable:
     assert len(other) == 12  # another commit draws others
 
 
-def test_comparisons_come_later_a_few_of_each_first(resumable: Any, tmp_path: Path) -> None:
+def test_comparisons_come_later_a_few_of_each_first(resumable, tmp_path):
     aside = {run: rank for rank, _, run in resumable.wanted(benchmark(resumable, tmp_path / "a.csv", [], True), "made")}
     plain = {run: rank for rank, _, run in resumable.wanted(benchmark(resumable, tmp_path / "b.csv", []), "made")}
     seeds = resumable.drawn_seeds("made", 6)
@@ -68,7 +66,7 @@ def test_comparisons_come_later_a_few_of_each_first(resumable: Any, tmp_path: Pa
     assert max(aside["exact", s] for s in few) < min(plain["drawn", s] for s in rest)
 
 
-def test_completed_runs_are_counted_by_plant_with_their_interval(resumable: Any, tmp_path: Path) -> None:
+def test_completed_runs_are_counted_by_plant_with_their_interval(resumable, tmp_path):
     rows = [row(0, True), row(1, True), row(1, False, commit="new"), row(1, True, "exact"), row(7, True, "")]
     told = [{k: str(v) for k, v in r.items()} for r in rows]
     assert resumable.counted(told) == ["1/2 (9-91)", "1/1 (21-100)", "1/1 (21-100)"]
@@ -78,7 +76,7 @@ def test_completed_runs_are_counted_by_plant_with_their_interval(resumable: Any,
     assert "1 of made (older ground)" in resumable.origin(benchmark(resumable, tmp_path / "a.csv", rows))
 
 
-def test_a_row_is_added_to_a_file_of_older_rows(resumable: Any, tmp_path: Path, monkeypatch: Any) -> None:
+def test_a_row_is_added_to_a_file_of_older_rows(resumable, tmp_path, monkeypatch):
     path = tmp_path / "a.csv"
     path.write_text("case,robot,seed,completed,failed,commit\na,h1,3,True,,old\n")
     monkeypatch.setattr(resumable, "run_row", lambda *_: row(5, False))
@@ -89,7 +87,7 @@ def test_a_row_is_added_to_a_file_of_older_rows(resumable: Any, tmp_path: Path, 
     assert (newer["plant"], newer["seed"], newer["completed"]) == ("drawn", "5", "False")
 
 
-def test_the_index_names_every_page_and_every_page_its_command() -> None:
+def test_the_index_names_every_page_and_every_page_its_command():
     index = (FOLDER / "README.md").read_text(encoding="utf-8")
     pages = {p.name for p in FOLDER.glob("*.md")} - {"README.md"}
     assert pages == set(re.findall(r"\]\((\w+\.md)\)", index))
@@ -98,7 +96,7 @@ def test_the_index_names_every_page_and_every_page_its_command() -> None:
         assert re.search(r"plantar (bench|sweep)|make bench|python\s+benchmarks/\w+\.py", text), page
 
 
-def test_every_case_of_the_tables_is_a_scene_that_loads(resumable: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_case_of_the_tables_is_a_scene_that_loads(resumable, monkeypatch):
     monkeypatch.syspath_prepend(str(FOLDER))
     from plantar.sim.run.scene import load_scene
 

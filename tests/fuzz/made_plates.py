@@ -1,7 +1,5 @@
 """Recordings of force plates drawn by a seed, with the walk in them: plates of types 1 to 5, and split belts."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Tables drawn by a seed, with the walk in them: forces of feet, plates, cells of insoles, sensors by place."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -120,11 +118,7 @@ def _plates(made: Table, random: np.random.Generator) -> list[np.ndarray]:
     for k, side in enumerate(pair):
         load = made.force[side]
         gone = np.clip(((made.time - made.begins[side][0]) % made.period) / made.stance, 0.0, 1.0)
-        parts = {
-            ahead: 0.2 * load * (gone - 0.5),
-            across: (-0.04 if side == "left" else 0.04) * load,
-            up: load,
-        }
+        parts = {ahead: 0.2 * load * (gone - 0.5), across: (-0.04 if side == "left" else 0.04) * load, up: load}
         places = {ahead: 0.2 * gone, across: np.full_like(load, 0.1 if side == "left" else -0.1), up: 0.0 * load}
         for axis in "xyz":
             stem = (

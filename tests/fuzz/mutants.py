@@ -6,8 +6,6 @@ python -m tests.fuzz.mutants view --seconds 60 --atheris  # the same, guided by 
 A failing mutant is kept as tests/fuzz/cases/READER-HASH; the tests read it from then on.
 """
 
-from __future__ import annotations
-
 import argparse
 import contextlib
 import hashlib

@@ -1,7 +1,5 @@
 """What is fuzzed: each reader with small files that it reads."""
 
-from __future__ import annotations
-
 import io
 import json
 import os

@@ -1,9 +1,5 @@
 """Files of force plates drawn by seeds: each is read right, refused in one line, or warned of."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -48,7 +44,7 @@ def _check_places(walk: Analysis, lab: Laboratory) -> None:
 
 @pytest.mark.parametrize("seed", [*range(12), *LONG])
 @pytest.mark.parametrize("hard", [False, True])
-def test_made_plates_are_right_refused_or_warned_of(tmp_path: Path, seed: int, hard: bool) -> None:
+def test_made_plates_are_right_refused_or_warned_of(tmp_path, seed, hard):
     lab, random = made_laboratory(seed, hard)
     path = tmp_path / "walk.c3d"
     write_c3d(path, lab, random)

@@ -1,9 +1,5 @@
 """Tables drawn by seeds: each is read right, or what was assumed is stated."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -16,7 +12,7 @@ LONG = [pytest.param(seed, marks=pytest.mark.long) for seed in range(24, 324)]
 
 @pytest.mark.parametrize("seed", [*range(24), *LONG])
 @pytest.mark.parametrize("hard", [False, True])
-def test_made_tables_are_right(tmp_path: Path, seed: int, hard: bool) -> None:
+def test_made_tables_are_right(tmp_path, seed, hard):
     path = tmp_path / "walk.csv"
     made = made_table(seed, path, hard)
     walk = analyse(path)

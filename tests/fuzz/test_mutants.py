@@ -1,7 +1,5 @@
 """No damage of a file traces back, takes 10 s or a gigabyte: some mutants at every run, ten minutes in all tests."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path
@@ -21,14 +19,14 @@ def _fuzz(name: str, seconds: float, most: int, folder: Path) -> int:
 
 
 @pytest.mark.parametrize("name", TARGETS)
-def test_some_mutants_are_read_or_refused(name: str, tmp_path: Path) -> None:
+def test_some_mutants_are_read_or_refused(name, tmp_path):
     count = _fuzz(name, seconds=2.0, most=60, folder=tmp_path)
     assert count or not TARGETS[name].seeds(tmp_path)
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", TARGETS)
-def test_ten_minutes_of_mutants_are_read_or_refused_within_a_gigabyte(name: str, tmp_path: Path) -> None:
+def test_ten_minutes_of_mutants_are_read_or_refused_within_a_gigabyte(name, tmp_path):
     code = (
         "import resource, sys; from pathlib import Path; from tests.fuzz.mutants import read_all\n"
         f"found = list(read_all({name!r}, {600.0 / len(TARGETS):.1f}, 10**9, Path(sys.argv[1]), 7))\n"
@@ -42,12 +40,12 @@ def test_ten_minutes_of_mutants_are_read_or_refused_within_a_gigabyte(name: str,
 
 
 @pytest.mark.parametrize("case", _KEPT, ids=lambda case: case.name)
-def test_a_file_that_failed_once_is_read_or_refused(case: Path, tmp_path: Path) -> None:
+def test_a_file_that_failed_once_is_read_or_refused(case, tmp_path):
     target = TARGETS[case.name.partition("-")[0]]
     tried(target, tmp_path / f"case{target.suffix}", case.read_bytes())
 
 
-def test_the_loop_finds_what_traces_back(tmp_path: Path) -> None:
+def test_the_loop_finds_what_traces_back(tmp_path):
     def read(path: Path) -> object:
         return {b"a": 1}[path.read_bytes()[:1]]
 

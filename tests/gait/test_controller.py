@@ -1,7 +1,5 @@
 """Parts of the control tick that a walk on the flat would not miss at once."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from types import SimpleNamespace
@@ -12,7 +10,6 @@ import numpy as np
 import pytest
 
 from plantar.gait.command import Command, FootTarget
-from plantar.gait.controller import WalkingController
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.rotation import level_rotation
@@ -21,7 +18,7 @@ from plantar.sim.run.scene import load_scene
 
 
 @pytest.fixture
-def controller() -> WalkingController:
+def controller():
     return Simulation(load_scene("flat", ["steps=2"])).controller
 
 
@@ -32,9 +29,7 @@ def rolled(angle: float) -> np.ndarray:
 
 @pytest.mark.parametrize("yaw", [0.0, 0.7])
 @pytest.mark.parametrize("aside", [0.04, -0.04])
-def test_the_trunk_leans_over_the_foot_that_the_com_moves_to(
-    controller: WalkingController, yaw: float, aside: float
-) -> None:
+def test_the_trunk_leans_over_the_foot_that_the_com_moves_to(controller, yaw, aside):
     places = [controller.footing.motion.footholds[side][0][:2] for side in ("left", "right")]
     left = level_rotation(yaw)[:, 1]
     com = np.array([*np.mean(places, axis=0), 0.8]) + aside * left
@@ -49,9 +44,7 @@ def test_the_trunk_leans_over_the_foot_that_the_com_moves_to(
 
 
 @pytest.mark.parametrize("lean", [0.03, -0.03])
-def test_a_swing_foot_of_a_body_that_leans_comes_to_its_place_in_the_world(
-    controller: WalkingController, lean: float
-) -> None:
+def test_a_swing_foot_of_a_body_that_leans_comes_to_its_place_in_the_world(controller, lean):
     """What is commanded, seen from the body and turned by its lean, is the place that was wanted."""
     side = "left"
     controller.footing.motion = SimpleNamespace(last_side=side)  # type: ignore[assignment]
@@ -89,7 +82,7 @@ def first_tick(robot: str = "h1", settings: tuple[str, ...] = (), body: Any = No
 
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
-def test_the_feet_carry_the_weight_within_their_soles(robot: str) -> None:
+def test_the_feet_carry_the_weight_within_their_soles(robot):
     run, command = first_tick(robot)
     forces = {side: foot.force for side, foot in command.feet.items()}
     assert sum(force[2] for force in forces.values()) == pytest.approx(run.body.weight, rel=0.02)
@@ -105,7 +98,7 @@ def test_the_feet_carry_the_weight_within_their_soles(robot: str) -> None:
 
 
 @pytest.mark.parametrize("source", ["skin", "force_torque"])
-def test_loads_of_the_ankles_are_those_of_the_soles(source: str) -> None:
+def test_loads_of_the_ankles_are_those_of_the_soles(source):
     run, command = first_tick(settings=("sensing.force_torque=true", f"zmp_source={source}"))
     assert sum(load.vertical_force for load in command.ankle_loads.values()) == pytest.approx(run.body.weight, rel=0.1)
     for side, load in command.ankle_loads.items():
@@ -114,14 +107,14 @@ def test_loads_of_the_ankles_are_those_of_the_soles(source: str) -> None:
         assert load.position_cop_in_sole == pytest.approx(skin.position_cop_in_sole, abs=0.01)
 
 
-def test_a_body_whose_com_is_elsewhere_is_commanded_so() -> None:
+def test_a_body_whose_com_is_elsewhere_is_commanded_so():
     shift = np.array([0.012, -0.007, 0.003])
     body: Any = SimpleNamespace(com_shift=shift, lean=0.0, joint_offsets=None, stand=lambda *_: None)
     (_, plain), (_, shifted) = first_tick(settings=("identify=false",)), first_tick(body=body)
     assert plain.com - shifted.com == pytest.approx(shifted.rotation_torso @ shift, abs=1e-6)
 
 
-def test_where_the_feet_level_themselves_each_tick_teaches_the_slope(controller: WalkingController) -> None:
+def test_where_the_feet_level_themselves_each_tick_teaches_the_slope(controller):
     seen: list[tuple[Any, ...]] = []
     slope: Any = SimpleNamespace(update=lambda *given: seen.append(given), slope=lambda side: np.zeros(2))
     state: Any = SimpleNamespace(rotations_sole={"left": np.eye(3)}, loads={"left": 400.0, "right": 400.0})
@@ -132,7 +125,7 @@ def test_where_the_feet_level_themselves_each_tick_teaches_the_slope(controller:
     assert all(given[:2] == (state.rotations_sole, state.loads) for given in seen)
 
 
-def test_silent_encoders_are_bridged_for_a_fifth_of_a_beat() -> None:
+def test_silent_encoders_are_bridged_for_a_fifth_of_a_beat():
     run, _ = first_tick()
     sensors, period = run.sensors.read_body(), run.settings.period
     for ticks in range(1, 100):
@@ -144,7 +137,7 @@ def test_silent_encoders_are_bridged_for_a_fifth_of_a_beat() -> None:
 
 
 @pytest.mark.parametrize("one_by_one", [False, True])
-def test_steps_that_come_one_by_one_are_no_other_plan(one_by_one: bool) -> None:
+def test_steps_that_come_one_by_one_are_no_other_plan(one_by_one):
     run, _ = first_tick()
     change = PlanChange("a test", 0, shift=(0.01, 0.0))
     if one_by_one:

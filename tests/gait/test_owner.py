@@ -1,7 +1,5 @@
 """The plan has one owner: nobody but `WalkPlan` changes footsteps, timing or VRPs."""
 
-from __future__ import annotations
-
 import ast
 from pathlib import Path
 
@@ -39,7 +37,7 @@ def writes(source: str) -> list[str]:
     return found
 
 
-def test_only_the_controller_applies_changes_and_nobody_writes_into_the_plan() -> None:
+def test_only_the_controller_applies_changes_and_nobody_writes_into_the_plan():
     found = {}
     for path in sorted([*(ROOT / "gait").rglob("*.py"), *(ROOT / "sim" / "run").rglob("*.py")]):
         name = path.relative_to(ROOT).as_posix()
@@ -60,11 +58,11 @@ def test_only_the_controller_applies_changes_and_nobody_writes_into_the_plan() -
         "self.plan.apply(change, time, region)",
     ],
 )
-def test_a_planted_write_is_found(source: str) -> None:
+def test_a_planted_write_is_found(source):
     assert writes(source)
 
 
-def test_no_proposer_holds_the_plan_or_the_feet() -> None:
+def test_no_proposer_holds_the_plan_or_the_feet():
     """They get values and return one: neither the plan nor foot motion is imported by them."""
     for path in (ROOT / "gait" / "propose").glob("*.py"):
         names = {

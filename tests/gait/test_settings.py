@@ -1,7 +1,5 @@
 """Every settings class of the controller says all that there is to say of each of its settings."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -23,7 +21,6 @@ from plantar.gait.plan.phases import Timing
 from plantar.gait.propose.feasibility import FeasibilityRules
 from plantar.gait.propose.foothold_rules import FootholdRules
 from plantar.gait.propose.slope_inside import SlopeRules
-from plantar.settings.schema import Settings
 
 CLASSES = (
     AdmittanceGains,
@@ -44,7 +41,7 @@ CLASSES = (
 
 
 @pytest.mark.parametrize("kind", CLASSES)
-def test_each_setting_has_a_meaning_a_unit_and_a_range(kind: type[Settings]) -> None:
+def test_each_setting_has_a_meaning_a_unit_and_a_range(kind):
     for told in kind.described():
         assert told.meaning, f"{kind.__name__}.{told.name} has no meaning in the docstring"
         assert told.allowed
@@ -52,7 +49,7 @@ def test_each_setting_has_a_meaning_a_unit_and_a_range(kind: type[Settings]) -> 
 
 
 @pytest.mark.parametrize("kind", CLASSES)
-def test_no_setting_takes_what_is_not_allowed(kind: type[Settings]) -> None:
+def test_no_setting_takes_what_is_not_allowed(kind):
     for name in kind.names():
         owner = kind if name in kind.__dataclass_fields__ else AdmittanceGains
         for value in (math.nan, math.inf, -math.inf, None, "none of these", [1.0]):
@@ -62,7 +59,7 @@ def test_no_setting_takes_what_is_not_allowed(kind: type[Settings]) -> None:
 
 @pytest.mark.parametrize("name", ["com_height", "mass"])
 @pytest.mark.parametrize("value", [0.0, -1.0, float("nan"), float("inf")])
-def test_a_controller_needs_a_height_and_a_mass(name: str, value: float) -> None:
+def test_a_controller_needs_a_height_and_a_mass(name, value):
     good = ControllerSettings(com_height=0.8, mass=60.0)
     with pytest.raises(InputError, match=f"'{name}' is .*; allowed: a finite number above 0"):
         replace(good, **{name: value})
@@ -71,7 +68,7 @@ def test_a_controller_needs_a_height_and_a_mass(name: str, value: float) -> None
 @pytest.mark.parametrize(
     ("table", "name"), [(table, name) for table, (kind, *_) in CONTROLLER_TABLES.items() for name in kind.given_by]
 )
-def test_a_setting_that_a_scene_gives_elsewhere_is_refused_with_its_name_there(table: str, name: str) -> None:
+def test_a_setting_that_a_scene_gives_elsewhere_is_refused_with_its_name_there(table, name):
     kind = CONTROLLER_TABLES[table][0]
     assert name in kind.names()
     assert name not in controller_keys(table)

@@ -1,7 +1,5 @@
 """What several tests of wrenches share: curved soles, and a slow and plain reference."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation

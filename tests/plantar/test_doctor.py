@@ -1,20 +1,16 @@
 """What the doctor says of libraries that are there, missing or broken."""
 
-from __future__ import annotations
-
 import json
 import re
 import tomllib
-from pathlib import Path
 
-import pytest
 from typer.testing import CliRunner
 
 from plantar import __version__, cli
 from plantar.doctor import LIBRARIES, PURPOSES, doctor_text, examine
 
 
-def test_it_knows_every_library_that_is_declared(repository: Path) -> None:
+def test_it_knows_every_library_that_is_declared(repository):
     project = tomllib.loads((repository / "pyproject.toml").read_text())["project"]
     declared = {"": project["dependencies"]} | project["optional-dependencies"]
     for extra, libraries in LIBRARIES.items():
@@ -23,7 +19,7 @@ def test_it_knows_every_library_that_is_declared(repository: Path) -> None:
     assert set(PURPOSES) == set(LIBRARIES)
 
 
-def test_all_is_well_where_all_is_installed() -> None:
+def test_all_is_well_where_all_is_installed():
     found = examine({"": LIBRARIES[""]})
     assert found["plantar"] == __version__
     assert found["holds"]
@@ -32,9 +28,7 @@ def test_all_is_well_where_all_is_installed() -> None:
     assert "get them" not in doctor_text(found)
 
 
-def test_an_extra_that_is_missing_is_no_failure_and_a_broken_library_is(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_extra_that_is_missing_is_no_failure_and_a_broken_library_is(tmp_path, monkeypatch):
     missing = examine({"sim": {"no-such-library": "no_such_library"}})
     assert missing["holds"]
     assert "no-such-library missing" in doctor_text(missing)
@@ -48,7 +42,7 @@ def test_an_extra_that_is_missing_is_no_failure_and_a_broken_library_is(
     assert "libGL.so.1" in doctor_text(broken)
 
 
-def test_the_command_says_how_things_stand(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_command_says_how_things_stand(monkeypatch):
     monkeypatch.setattr("plantar.doctor.examine", lambda: examine({"": LIBRARIES[""]}))
     done = CliRunner().invoke(cli.app, ["doctor", "--json"])
     assert done.exit_code == 0

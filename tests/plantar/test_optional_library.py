@@ -1,13 +1,10 @@
 """An optional library that is missing, one that is broken, and a user who interrupts while it loads are told apart."""
 
-from __future__ import annotations
-
 import importlib
 import signal
 import subprocess
 import sys
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
@@ -28,7 +25,7 @@ except KeyboardInterrupt:
 
 
 @pytest.fixture
-def load(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Load:
+def load(tmp_path, monkeypatch):
     """Loads a module "frail" of some source under the guard."""
     monkeypatch.syspath_prepend(tmp_path)
 
@@ -45,7 +42,7 @@ def load(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Load:
     return loaded
 
 
-def test_a_library_that_is_not_there_is_not_installed() -> None:
+def test_a_library_that_is_not_there_is_not_installed():
     with pytest.raises(DependencyError, match=r"frail is not installed; install it with: pip install 'plantar\[sim\]'"):  # noqa: SIM117
         with optional_library("frail", "sim"):
             importlib.import_module("frail")
@@ -61,7 +58,7 @@ def test_a_library_that_is_not_there_is_not_installed() -> None:
         ("raise OSError('libstdc++ is too old')", "OSError: libstdc"),
     ],
 )
-def test_a_library_that_is_there_and_broken_says_why(load: Load, source: str, words: str) -> None:
+def test_a_library_that_is_there_and_broken_says_why(load, source, words):
     with pytest.raises(DependencyError) as caught:
         load(source)
     text = str(caught.value)
@@ -72,19 +69,19 @@ def test_a_library_that_is_there_and_broken_says_why(load: Load, source: str, wo
 
 
 @pytest.mark.parametrize("then", ["pass", "raise ImportError('no libGL')"], ids=["loaded", "broken"])
-def test_an_interrupt_stays_an_interrupt_and_does_not_meet_the_library(load: Load, then: str) -> None:
+def test_an_interrupt_stays_an_interrupt_and_does_not_meet_the_library(load, then):
     with pytest.raises(KeyboardInterrupt):
         load(INTERRUPTED.format(then=then))
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
-def test_who_insists_need_not_wait(load: Load) -> None:
+def test_who_insists_need_not_wait(load):
     with pytest.raises(KeyboardInterrupt) as caught:
         load(INTERRUPTED.format(then="os.kill(os.getpid(), signal.SIGINT); [0 for _ in range(1000)]"))
     assert "interrupted in the middle" in str(caught.value.__context__)  # what the library made of it
 
 
-def test_an_interrupt_while_the_cad_kernel_loads_is_no_missing_library() -> None:
+def test_an_interrupt_while_the_cad_kernel_loads_is_no_missing_library():
     """Its native modules turn what interrupts them into import errors, swallow it, or crash."""
     code = (
         "import os, signal, sys, threading, time\n"
@@ -100,14 +97,14 @@ def test_an_interrupt_while_the_cad_kernel_loads_is_no_missing_library() -> None
     assert (done.stdout, done.returncode) == ("interrupted\n", 0), done.stdout + done.stderr
 
 
-def test_the_error_crosses_processes() -> None:
+def test_the_error_crosses_processes():
     import pickle
 
     copy = pickle.loads(pickle.dumps(DependencyError("cadquery", "shoes", "no libGL")))
     assert (str(copy), copy.reason) == (str(DependencyError("cadquery", "shoes", "no libGL")), "no libGL")
 
 
-def test_the_first_library_that_is_missing_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_first_library_that_is_missing_is_named(monkeypatch):
     need_libraries("sim", "json", "math")
     monkeypatch.setitem(sys.modules, "json", None)  # as if it were not installed
     with pytest.raises(DependencyError, match=r"json is not installed.*plantar\[sim\]"):

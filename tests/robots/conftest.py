@@ -1,12 +1,10 @@
 """Tests of robots share the one that is built in."""
 
-from __future__ import annotations
-
 import pytest
 
-from plantar.robots import Robot, load_robot
+from plantar.robots import load_robot
 
 
 @pytest.fixture(scope="session")
-def h1() -> Robot:
+def h1():
     return load_robot("h1")

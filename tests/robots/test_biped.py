@@ -1,7 +1,5 @@
 """The dimensions of a generated biped, checked however they are made."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, replace
 
 import pytest

@@ -1,18 +1,15 @@
 """The box step: six steps a round, feet in turn that never cross, and back where it began."""
 
-from __future__ import annotations
-
 import math
 
 import pytest
 
 from plantar.errors import InputError
 from plantar.robots.start import box_plan
-from plantar.sides import Side
 
 
 @pytest.mark.parametrize("first", ["left", "right"])
-def test_a_round_ends_where_it_began_and_every_step_goes_somewhere(first: Side) -> None:
+def test_a_round_ends_where_it_began_and_every_step_goes_somewhere(first):
     feet, plan = box_plan(12, stride=0.05, width=0.17, first=first)
     assert [s.side for s in plan[::2]] == [first] * 6
     standing = dict(feet)
@@ -25,7 +22,7 @@ def test_a_round_ends_where_it_began_and_every_step_goes_somewhere(first: Side) 
             assert standing == feet
 
 
-def test_the_two_sides_mirror_each_other() -> None:
+def test_the_two_sides_mirror_each_other():
     _, left = box_plan(6, stride=0.1, width=0.2, first="left")
     _, right = box_plan(6, stride=0.1, width=0.2, first="right")
     for one, other in zip(left, right, strict=True):
@@ -35,6 +32,6 @@ def test_the_two_sides_mirror_each_other() -> None:
 @pytest.mark.parametrize(
     ("steps", "stride", "words"), [(8, 0.05, "whole rounds"), (6, 0.0, "above 0"), (6, math.nan, "above 0")]
 )
-def test_what_is_no_box_is_refused(steps: int, stride: float, words: str) -> None:
+def test_what_is_no_box_is_refused(steps, stride, words):
     with pytest.raises(InputError, match=words):
         box_plan(steps, stride=stride, width=0.17)

@@ -1,7 +1,5 @@
 """A robot's controller without a simulator: its stance, the joint targets of a robot at rest, and what it refuses."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 
@@ -16,7 +14,7 @@ from plantar.sides import SIDES
 
 
 @pytest.fixture(scope="module")
-def walker() -> RobotController:
+def walker():
     return load_controller("h1", {"walk": {"steps": 2}})
 
 
@@ -29,14 +27,14 @@ def resting(walker: RobotController, time: float) -> Sensors:
     return Sensors(time, walker.stance.angles, np.zeros(3), np.array([0.0, 0.0, 9.81]), readings)
 
 
-def test_no_simulator_is_loaded() -> None:
+def test_no_simulator_is_loaded():
     code = "import sys, plantar; plantar.load_controller('h1'); print([m for m in sys.modules if 'plantar.sim' in m])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
 
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
-def test_the_stance_is_the_planned_one(robot: str) -> None:
+def test_the_stance_is_the_planned_one(robot):
     walker = load_controller(robot, {"walk": {"steps": 2, "crouch": 0.0}})
     posture = walker.legs.posture(walker.stance.angles)
     for side in SIDES:
@@ -46,7 +44,7 @@ def test_the_stance_is_the_planned_one(robot: str) -> None:
     assert (walker.base_position + posture.com)[2] == pytest.approx(walker.robot.com_height, abs=1e-6)
 
 
-def test_joint_targets_of_a_robot_at_rest_are_its_stance(walker: RobotController) -> None:
+def test_joint_targets_of_a_robot_at_rest_are_its_stance(walker):
     command = walker.step(resting(walker, 0.0))
     targets = walker.joint_targets(command)
     assert targets.angles == pytest.approx(walker.stance.angles, abs=2e-3)
@@ -55,7 +53,7 @@ def test_joint_targets_of_a_robot_at_rest_are_its_stance(walker: RobotController
     assert np.abs(targets.torques - walker.stance.torques).max() < 0.02 * weight
 
 
-def test_targets_are_the_callers_own(walker: RobotController) -> None:
+def test_targets_are_the_callers_own(walker):
     command = walker.step(resting(walker, 0.005))
     first = walker.joint_targets(command)
     kept = first.angles.copy()
@@ -73,11 +71,11 @@ def test_targets_are_the_callers_own(walker: RobotController) -> None:
         ({"conformity": {"firm": 0.289}, "control": {"conform": True, "pfc": False}}, "pfc = true"),
     ],
 )
-def test_a_wrong_table_is_named(tables: dict[str, dict[str, object]], words: str) -> None:
+def test_a_wrong_table_is_named(tables, words):
     with pytest.raises(SceneError, match=words):
         load_controller("h1", tables)
 
 
-def test_an_unknown_robot_is_named() -> None:
+def test_an_unknown_robot_is_named():
     with pytest.raises(RobotError, match="h1"):
         load_controller("h2")

@@ -1,9 +1,6 @@
 """Every setting of the controller's parts is reached by its dotted name: from a scene, `--set`, a robot file."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -28,7 +25,7 @@ def value_of(settings: object, table: str, name: str) -> object:
 
 
 @pytest.mark.parametrize("table", CONTROLLER_TABLES)
-def test_every_setting_is_reached_by_its_dotted_name(table: str) -> None:
+def test_every_setting_is_reached_by_its_dotted_name(table):
     for robot in ("h1", "hrp2kai"):
         law = load_robot(robot).balance.get("law", "com_admittance")
         for told in controller_settings_described(table):
@@ -46,7 +43,7 @@ def test_every_setting_is_reached_by_its_dotted_name(table: str) -> None:
             assert str(found).lower() in (other, f"{other}.0") or float(str(found)) == float(other), told
 
 
-def test_a_scene_goes_before_the_robot_and_the_robot_before_the_default() -> None:
+def test_a_scene_goes_before_the_robot_and_the_robot_before_the_default():
     robot = replace(load_robot("h1"), controller={"estimator": {"gravity": 0.3, "observer": 15.0}})
     made = controller_settings(load_scene("flat", ["estimator.gravity=0.4"]), robot, REFERENCE_BODY, {})
     assert (made.estimator.gravity, made.estimator.observer, made.estimator.tare) == (0.4, 15.0, EstimatorGains().tare)
@@ -80,12 +77,12 @@ def test_a_scene_goes_before_the_robot_and_the_robot_before_the_default() -> Non
         (["clearance=0.02"], "compliance.clearance, feasibility.clearance"),
     ],
 )
-def test_a_wrong_setting_is_refused_with_what_is_right(settings: list[str], words: str) -> None:
+def test_a_wrong_setting_is_refused_with_what_is_right(settings, words):
     with pytest.raises(SceneError, match=words):
         controller_settings(load_scene("flat", settings), load_robot("h1"), REFERENCE_BODY, {})
 
 
-def test_a_setting_that_a_scene_gives_elsewhere_is_pointed_to(tmp_path: Path) -> None:
+def test_a_setting_that_a_scene_gives_elsewhere_is_pointed_to(tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text('robot = "h1"\n[walk]\nsteps = 2\n[landing]\napproach_height = 0.01\n')
     with pytest.raises(SceneError, match=r"\[landing\] 'approach_height' is given by 'walk.approach_height'"):
@@ -100,7 +97,7 @@ def test_a_setting_that_a_scene_gives_elsewhere_is_pointed_to(tmp_path: Path) ->
         ("[ground_map]\nreadings = 2.5", "a whole number"),
     ],
 )
-def test_a_robot_file_is_checked_when_it_is_read(lines: str, words: str, tmp_path: Path) -> None:
+def test_a_robot_file_is_checked_when_it_is_read(lines, words, tmp_path):
     source = load_robot("h1").path
     text = source.read_text(encoding="utf-8").replace("layout_{side}.json", str(source.parent / "layout_{side}.json"))
     path = tmp_path / "robot.toml"
@@ -115,7 +112,7 @@ def test_a_robot_file_is_checked_when_it_is_read(lines: str, words: str, tmp_pat
         load_robot(str(path))
 
 
-def test_a_short_name_is_completed() -> None:
+def test_a_short_name_is_completed():
     scene = load_scene("flat")
     assert scene.setting_name("dcm_gain") == "balance.dcm_gain"
     assert scene.setting_name("estimator.gravity") == "estimator.gravity"

@@ -1,7 +1,5 @@
 """Legs collide with each other, and with nothing else."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 
@@ -36,7 +34,7 @@ def placed(world: World) -> None:
 
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
-def test_thigh_shank_and_foot_are_clear_of_the_other_leg_in_the_robots_posture(robot: str) -> None:
+def test_thigh_shank_and_foot_are_clear_of_the_other_leg_in_the_robots_posture(robot):
     world = build_world(load_robot(robot), GROUND)
     placed(world)
     assert legs_that_touch(world) is None
@@ -47,7 +45,7 @@ def test_thigh_shank_and_foot_are_clear_of_the_other_leg_in_the_robots_posture(r
             assert mujoco.mj_geomDistance(world.model, world.data, a, b, 1.0, None) > 0.005
 
 
-def test_a_shape_meets_the_other_legs_shapes_alone(h1: Robot) -> None:
+def test_a_shape_meets_the_other_legs_shapes_alone(h1):
     world = build_world(h1, GROUND)
     model = world.model
     for side, other in (("left", "right"), ("right", "left")):
@@ -62,7 +60,7 @@ def test_a_shape_meets_the_other_legs_shapes_alone(h1: Robot) -> None:
 
 
 @pytest.mark.parametrize(("angle", "link"), [(-0.06, "foot"), (-0.25, "thigh")])
-def test_a_leg_that_swings_into_the_other_is_seen(h1: Robot, angle: float, link: str) -> None:
+def test_a_leg_that_swings_into_the_other_is_seen(h1, angle, link):
     world = build_world(h1, GROUND)
     placed(world)
     watch = LegContact(world)
@@ -77,7 +75,7 @@ def test_a_leg_that_swings_into_the_other_is_seen(h1: Robot, angle: float, link:
     assert watch.duration == pytest.approx(0.002)
 
 
-def test_legs_whose_first_links_have_no_name_are_seen_to_touch(h1: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_legs_whose_first_links_have_no_name_are_seen_to_touch(h1, monkeypatch):
     named = plantar.robots.kinematics.robot_model.robot_spec
 
     def unnamed(robot: Robot) -> Any:
@@ -96,7 +94,7 @@ def test_legs_whose_first_links_have_no_name_are_seen_to_touch(h1: Robot, monkey
     assert watch.duration == pytest.approx(0.001)
 
 
-def test_hips_that_are_close_together_get_thinner_thighs(h1: Robot) -> None:
+def test_hips_that_are_close_together_get_thinner_thighs(h1):
     assert h1.biped is not None
     narrow = replace(h1, biped=replace(h1.biped, hip_offset=(0.0, 0.035, -0.1435), ankle_offset=(0.0, 0.04)))
     world, usual = build_world(narrow, GROUND), build_world(h1, GROUND)
@@ -106,13 +104,13 @@ def test_hips_that_are_close_together_get_thinner_thighs(h1: Robot) -> None:
     assert legs_that_touch(world) is None
 
 
-def test_feet_that_overlap_where_they_stand_are_refused() -> None:
+def test_feet_that_overlap_where_they_stand_are_refused():
     with pytest.raises(SceneError, match=r"0.100 m apart: left_foot and right_foot touch.*stance_width"):
         Simulation(load_scene("flat", ["stance_width=0.1"]))
 
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
-def test_legs_that_keep_apart_move_as_if_they_had_no_shapes_to_the_last_bit(robot: str) -> None:
+def test_legs_that_keep_apart_move_as_if_they_had_no_shapes_to_the_last_bit(robot):
     ends = []
     for kept in (True, False):
         simulation = Simulation(load_scene("flat", ["steps=1", "settle=0.2", "t_ss=0.9", "t_ds=0.3"], robot))

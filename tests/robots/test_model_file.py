@@ -1,10 +1,7 @@
 """Robots from model files: the H1 written out as MJCF, with parts that a walking robot does not need, and JVRC-1."""
 
-from __future__ import annotations
-
 import re
 import shutil
-from pathlib import Path
 
 import mujoco
 import numpy as np
@@ -60,7 +57,7 @@ NAMES = ("hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll"
 
 
 @pytest.fixture
-def own(tmp_path: Path) -> Path:
+def own(tmp_path):
     """The H1 as somebody else would hand it over: motors, a floor, a moving arm, a keyframe; no shoes."""
     h1 = load_robot("h1")
     spec = robot_spec(h1)
@@ -85,7 +82,7 @@ def own(tmp_path: Path) -> Path:
     return tmp_path / "robot.toml"
 
 
-def test_legs_are_kept_and_the_rest_is_welded(own: Path) -> None:
+def test_legs_are_kept_and_the_rest_is_welded(own):
     world = build_world(load_robot(own), Ground((), 0.0, 0.8))
     model = world.model
     assert model.nv == 18
@@ -100,7 +97,7 @@ def test_legs_are_kept_and_the_rest_is_welded(own: Path) -> None:
         assert np.sign(site[1]) == (1 if side == "left" else -1)
 
 
-def test_it_walks(own: Path) -> None:
+def test_it_walks(own):
     summary = run_scene(load_scene("flat", ["steps=4", "settle=1.0"], robot=str(own)))
     assert summary["completed"], summary
     assert summary["robot"] == "own"
@@ -139,7 +136,7 @@ def test_it_walks(own: Path) -> None:
         ("com_height = 0.80", "com_height = 1.20", ("CoM at 1.200",)),
     ],
 )
-def test_bad_files_say_what_is_wrong(own: Path, old: str, new: str, words: tuple[str, ...]) -> None:
+def test_bad_files_say_what_is_wrong(own, old, new, words):
     text = own.read_text()
     assert old in text
     own.write_text(text.replace(old, new))
@@ -149,23 +146,21 @@ def test_bad_files_say_what_is_wrong(own: Path, old: str, new: str, words: tuple
     assert "\n" not in str(caught.value)
 
 
-def test_a_file_that_is_no_model_is_one_line(own: Path) -> None:
+def test_a_file_that_is_no_model_is_one_line(own):
     (own.parent / "own.xml").write_text("<mujoco><worldbody><body></mujoco>")
     with pytest.raises(RobotError, match=r"own\.xml") as caught:
         build_world(load_robot(own), Ground((), 0.0, 0.8))
     assert "\n" not in str(caught.value)
 
 
-def test_left_and_right_are_not_mixed_up(own: Path) -> None:
+def test_left_and_right_are_not_mixed_up(own):
     swapped = own.read_text().replace('"left_', '"LEFT_').replace('"right_', '"left_').replace('"LEFT_', '"right_')
     own.write_text(swapped)
     with pytest.raises(RobotError, match=r"\[legs\.left\] is to the right"):
         run_scene(load_scene("flat", ["steps=2"], robot=str(own)))
 
 
-def test_unstable_physics_is_an_error_that_leaves_no_log(
-    own: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_unstable_physics_is_an_error_that_leaves_no_log(own, tmp_path, monkeypatch, capfd):
     monkeypatch.chdir(tmp_path)
     # It stands, and the servos' set-points diverge as it walks.
     monkeypatch.setattr(LegServos, "drive", lambda servos: servos._world.data.ctrl.fill(1e11))
@@ -175,7 +170,7 @@ def test_unstable_physics_is_an_error_that_leaves_no_log(
     assert not (tmp_path / "MUJOCO_LOG.TXT").exists()
 
 
-def test_a_model_s_own_settings_names_and_unlimited_joints_do_not_matter(own: Path) -> None:
+def test_a_model_s_own_settings_names_and_unlimited_joints_do_not_matter(own):
     model = own.parent / "own.xml"
     text = model.read_text()
     plain = build_world(load_robot(own), Ground((), 0.0, 0.8)).model
@@ -195,7 +190,7 @@ def test_a_model_s_own_settings_names_and_unlimited_joints_do_not_matter(own: Pa
     assert summary["completed"], summary
 
 
-def test_an_imu_may_be_mounted_any_way_round(own: Path) -> None:
+def test_an_imu_may_be_mounted_any_way_round(own):
     model = own.parent / "own.xml"
     text = model.read_text()
     assert '<site name="imu"' in text
@@ -206,7 +201,7 @@ def test_an_imu_may_be_mounted_any_way_round(own: Path) -> None:
     assert summary["tilt_max_deg"] < 1.5
 
 
-def test_a_byte_order_mark_is_no_error(own: Path) -> None:
+def test_a_byte_order_mark_is_no_error(own):
     for path in (own, own.parent / "layout_left.json"):
         path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
     assert load_robot(own).name == "own"
@@ -237,7 +232,7 @@ def urdf_inertial(mass: float, place: str, inertia: float) -> str:
     return f'<inertial><origin xyz="{place}"/><mass value="{mass}"/><inertia {moments}/></inertial>'
 
 
-def test_a_urdf_gets_a_floating_base_and_walks(own: Path) -> None:
+def test_a_urdf_gets_a_floating_base_and_walks(own):
     (own.parent / "own.urdf").write_text(h1_urdf())
     text = own.read_text().replace('kind = "mjcf"', 'kind = "urdf"').replace("own.xml", "own.urdf")
     own.write_text(text.replace("com_height = 0.80", "com_height = 0.76"))
@@ -285,9 +280,7 @@ com_gain = 1.0
 """
 
 
-def test_jvrc1_walks_in_a_shoe_of_its_own_foot(
-    real_data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_jvrc1_walks_in_a_shoe_of_its_own_foot(real_data, tmp_path, monkeypatch):
     build = build_shoe(foot_from_mesh(real_data / "feet" / "jvrc1.stl"), side="both", layout_only=True)
     export_shoe(build, tmp_path)
     path = tmp_path / "robot.toml"
@@ -301,7 +294,7 @@ def test_jvrc1_walks_in_a_shoe_of_its_own_foot(
     assert summary["tilt_max_deg"] < 2.0
 
 
-def test_a_leg_keeps_the_models_own_shapes_and_gets_capsules_where_it_has_none(own: Path) -> None:
+def test_a_leg_keeps_the_models_own_shapes_and_gets_capsules_where_it_has_none(own):
     text = (own.parent / "own.xml").read_text()
     spec = mujoco.MjSpec.from_string(text)
     for geom in spec.geoms:
@@ -323,7 +316,7 @@ def test_a_leg_keeps_the_models_own_shapes_and_gets_capsules_where_it_has_none(o
     assert not model.geom("belly").contype
 
 
-def test_a_gain_of_each_joint_reaches_its_servo(own: Path) -> None:
+def test_a_gain_of_each_joint_reaches_its_servo(own):
     gains = [8000.0, 7000.0, 6000.0, 5000.0, 4000.0, 3000.0]
     own.write_text(own.read_text().replace("stiffness = 8000.0", f"stiffness = {gains}"))
     world = build_world(load_robot(own), Ground((), 0.0, 0.8))
@@ -331,7 +324,7 @@ def test_a_gain_of_each_joint_reaches_its_servo(own: Path) -> None:
     np.testing.assert_array_equal(world.damping, 150.0)
 
 
-def test_set_points_lead_by_the_joints_own_damping(own: Path) -> None:
+def test_set_points_lead_by_the_joints_own_damping(own):
     spec = mujoco.MjSpec.from_file(str(own.parent / "own.xml"))
     spec.joint("left_knee").damping[0] = 30.0
     (own.parent / "own.xml").write_text(spec.to_xml())
@@ -348,7 +341,7 @@ def test_set_points_lead_by_the_joints_own_damping(own: Path) -> None:
     np.testing.assert_allclose(gain - world.damping, [0, 0, 0, 30.0, *[0] * 8], atol=1e-9)
 
 
-def test_a_foot_frame_that_is_turned_against_its_sole_walks_as_one_that_is_not(own: Path) -> None:
+def test_a_foot_frame_that_is_turned_against_its_sole_walks_as_one_that_is_not(own):
     """The same robot, its left foot's frame turned and the right one's otherwise: the file says by how much."""
     straight = robot_spec(load_robot(own)).compile()
     spec = mujoco.MjSpec.from_file(str(own.parent / "own.xml"))

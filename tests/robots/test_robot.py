@@ -9,7 +9,7 @@ from plantar.robots import builtin_robots, load_robot
 
 
 @pytest.mark.parametrize("name", builtin_robots())
-def test_built_in_robots_load(name: str) -> None:
+def test_built_in_robots_load(name):
     robot = load_robot(name)
     assert robot.name == name
     assert set(robot.layouts) == set(robot.legs) == {"left", "right"}
@@ -19,13 +19,13 @@ def test_built_in_robots_load(name: str) -> None:
 
 
 @pytest.fixture
-def own(tmp_path: Path) -> Path:
+def own(tmp_path):
     folder = tmp_path / "mine"
     shutil.copytree(load_robot("h1").path.parent, folder)
     return folder / "robot.toml"
 
 
-def test_a_robot_file_of_ones_own(own: Path) -> None:
+def test_a_robot_file_of_ones_own(own):
     assert load_robot(own).name == "h1"
 
 
@@ -46,7 +46,7 @@ def test_a_robot_file_of_ones_own(own: Path) -> None:
         ("effort_limits = [51.0, ", "effort_limits = [", "effort_limits"),
     ],
 )
-def test_bad_robot_files_name_the_field(own: Path, old: str, new: str, word: str) -> None:
+def test_bad_robot_files_name_the_field(own, old, new, word):
     text = own.read_text()
     assert old in text
     own.write_text(text.replace(old, new))
@@ -56,12 +56,12 @@ def test_bad_robot_files_name_the_field(own: Path, old: str, new: str, word: str
 
 
 @pytest.mark.parametrize("name", ["nobody", "../h1", "none.toml", ""])
-def test_unknown_robots_are_named(name: str) -> None:
+def test_unknown_robots_are_named(name):
     with pytest.raises(RobotError, match=r"h1|none\.toml"):
         load_robot(name)
 
 
-def test_mass_and_thickness_come_with_the_shoes_layout(tmp_path: Path) -> None:
+def test_mass_and_thickness_come_with_the_shoes_layout(tmp_path):
     for name in ("robot.toml", "layout_left.json", "layout_right.json"):
         text = (Path(load_robot("h1").path).parent / name).read_text()
         if name == "robot.toml":

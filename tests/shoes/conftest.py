@@ -1,15 +1,12 @@
 """Feet that the shoe tests generate, and one shoe built and exported for all of them."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from plantar.shoes import Foot, ShoeReport, build_shoe, export_shoe, foot_from_dimensions
+from plantar.shoes import build_shoe, export_shoe, foot_from_dimensions
 
 from .foot_family import box as box_of
 from .foot_family import loft, oval
@@ -73,25 +70,25 @@ def _generated() -> dict[str, Triangles]:
 
 
 @pytest.fixture(scope="session")
-def generated_feet() -> dict[str, Triangles]:
+def generated_feet():
     """Surfaces (n, 3, 3) in mm of feet of many shapes, by name."""
     return _generated()
 
 
 @pytest.fixture(scope="session")
-def prism() -> Callable[..., Triangles]:
+def prism():
     """Makes the closed surface of a prism from its outline (k, 2) and two heights."""
     return prism_of
 
 
 @pytest.fixture(scope="session")
-def box() -> Callable[..., Triangles]:
+def box():
     """Makes the closed surface of a box from its extents along x, y and z."""
     return box_of
 
 
 @pytest.fixture
-def stl(tmp_path: Path) -> Callable[..., Path]:
+def stl(tmp_path):
     """Writes triangles to an STL file and gives its path."""
     from plantar.shoes.papers.mesh_files import write_stl
 
@@ -103,13 +100,13 @@ def stl(tmp_path: Path) -> Callable[..., Path]:
 
 
 @pytest.fixture(scope="session")
-def small_foot() -> Foot:
+def small_foot():
     """A foot of 120 x 70 mm, its middle 15 mm before and 5 mm left of the ankle."""
     return foot_from_dimensions("small", length=0.12, width=0.07, sole_center=(0.015, 0.005), corner_radius=0.01)
 
 
 @pytest.fixture(scope="session")
-def exported(small_foot: Foot, tmp_path_factory: pytest.TempPathFactory) -> tuple[ShoeReport, Path]:
+def exported(small_foot, tmp_path_factory):
     """Both shoes of the small foot, built and exported once; and the folder they are in."""
     folder = tmp_path_factory.mktemp("shoe")
     return export_shoe(build_shoe(small_foot), folder), folder

@@ -1,7 +1,5 @@
 """Feet that break shoe makers: split, padded, pitched soles, round heels, plates, toes of two parts, double, small."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from itertools import pairwise
 

@@ -4,8 +4,6 @@ Nothing here is built on the code that makes the shoe: rays meet triangles by Mo
 come from `check.json`'s parameters and the layout file, as a buyer of the shoe has them.
 """
 
-from __future__ import annotations
-
 import json
 from collections import deque
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Tests of the one call from foot to shoes, on feet of many shapes."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys
@@ -11,12 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
-from numpy.typing import NDArray
 
 from plantar import Percept, Reading, read_layout
 from plantar.errors import FootError, InputError
 from plantar.gait.analysis.analyse import analyse, with_layout
-from plantar.shoes import Foot, ShoeBuild, ShoeParameters, build_shoe, export_shoe, foot_from_dimensions, foot_from_mesh
+from plantar.shoes import ShoeBuild, ShoeParameters, build_shoe, export_shoe, foot_from_dimensions, foot_from_mesh
 from plantar.shoes.build import build_insole
 from plantar.shoes.checks.check import ShoeCheck, check_shoe
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
@@ -53,7 +50,7 @@ def checked(build: ShoeBuild, folder: Path) -> ShoeCheck:
     return check_shoe(shoe, build, surface=read_mesh(folder / "shoe.stl")[0], step=read_step(folder / "shoe.step"))
 
 
-def test_sides_are_what_was_asked_and_mirror_each_other(small_foot: Foot) -> None:
+def test_sides_are_what_was_asked_and_mirror_each_other(small_foot):
     both = build_shoe(small_foot, layout_only=True)
     assert [s.side for s in both.shoes] == ["left", "right"]
     for side in ("left", "right"):
@@ -63,7 +60,7 @@ def test_sides_are_what_was_asked_and_mirror_each_other(small_foot: Foot) -> Non
     np.testing.assert_array_equal(left.positions * [1, -1, 1], right.positions)
 
 
-def test_arguments_out_of_range_are_refused(small_foot: Foot) -> None:
+def test_arguments_out_of_range_are_refused(small_foot):
     with pytest.raises(InputError, match="side is 'middle'; allowed: left, right, both"):
         build_shoe(small_foot, side="middle")  # type: ignore[arg-type]
     with pytest.raises(InputError, match="overhang of the taxels is 11 mm; allowed: 0 to 10 mm"):
@@ -74,7 +71,7 @@ def test_arguments_out_of_range_are_refused(small_foot: Foot) -> None:
         build_shoe(small_foot, taxels=60)
 
 
-def test_progress_rises_to_one(small_foot: Foot) -> None:
+def test_progress_rises_to_one(small_foot):
     seen: list[tuple[float, str]] = []
     build_shoe(small_foot, layout_only=True, progress=lambda fraction, text: seen.append((fraction, text)))
     fractions = [f for f, _ in seen]
@@ -83,7 +80,7 @@ def test_progress_rises_to_one(small_foot: Foot) -> None:
     assert all(text for _, text in seen)
 
 
-def test_a_layout_needs_no_cad_kernel() -> None:
+def test_a_layout_needs_no_cad_kernel():
     code = (
         "import sys; from plantar.shoes import build_shoe, foot_from_dimensions;"
         "foot = foot_from_dimensions('a', length=.2, width=.1, sole_center=(0, 0), corner_radius=.01);"
@@ -95,9 +92,7 @@ def test_a_layout_needs_no_cad_kernel() -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_feet_of_every_shape_are_covered_almost_as_well_as_can_be(
-    generated_feet: dict[str, NDArray[np.float64]], name: str
-) -> None:
+def test_feet_of_every_shape_are_covered_almost_as_well_as_can_be(generated_feet, name):
     foot = foot_from_triangles(name, generated_feet[name], where=name)
     fit = build_shoe(foot, cell_area=300.0 if name == "short" else 691.0, layout_only=True).fit
     assert 0 < 0.9 * fit.bound <= fit.whole <= fit.bound
@@ -105,9 +100,7 @@ def test_feet_of_every_shape_are_covered_almost_as_well_as_can_be(
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", NAMES)
-def test_feet_of_every_shape_pass_their_checks(
-    generated_feet: dict[str, NDArray[np.float64]], tmp_path: Path, name: str
-) -> None:
+def test_feet_of_every_shape_pass_their_checks(generated_feet, tmp_path, name):
     foot = foot_from_triangles(name, generated_feet[name], where=name)
     build = build_shoe(foot, side="right", cell_area=300.0 if name == "short" else 691.0)
     check = checked(build, tmp_path)
@@ -118,9 +111,7 @@ def test_feet_of_every_shape_pass_their_checks(
 
 @pytest.mark.long
 @pytest.mark.parametrize("change", [{"retention": "screws"}, {"board_length": 0.0, "scribe": 0.0}, {"material": "PLA"}])
-def test_other_kinds_of_shoe_pass_their_checks(
-    generated_feet: dict[str, NDArray[np.float64]], tmp_path: Path, change: dict[str, object]
-) -> None:
+def test_other_kinds_of_shoe_pass_their_checks(generated_feet, tmp_path, change):
     foot = foot_from_triangles("toe_out", generated_feet["toe_out"], where="toe_out")
     check = checked(build_shoe(foot, side="left", parameters=ShoeParameters(**change)), tmp_path)  # type: ignore[arg-type]
     assert check.holds, [c for c in check.checks if not c.holds]
@@ -128,7 +119,7 @@ def test_other_kinds_of_shoe_pass_their_checks(
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", ["jvrc1", "talos", "robotis_op3"])
-def test_real_feet_give_shoes_that_hold(real_data: Path, tmp_path: Path, name: str) -> None:
+def test_real_feet_give_shoes_that_hold(real_data, tmp_path, name):
     truth = json.loads((real_data / "feet" / f"{name}.json").read_text())
     foot = foot_from_mesh(real_data / "feet" / f"{name}.stl")
     report = export_shoe(build_shoe(foot, side="left"), tmp_path)
@@ -147,7 +138,7 @@ def test_real_feet_give_shoes_that_hold(real_data: Path, tmp_path: Path, name: s
     assert (corners.max(axis=0)[:2] < outline.max(axis=0) - 1.0).all()
 
 
-def test_fifty_one_taxels_on_the_foot_of_the_other_paper() -> None:
+def test_fifty_one_taxels_on_the_foot_of_the_other_paper():
     """HRP-2Kai: 51 taxels on 241 x 138 mm. No 51 whole cells fit within 10 mm of it: ten are trimmed a little."""
     foot = foot_from_dimensions("b", length=0.241, width=0.138, sole_center=(0.015, 0.0), corner_radius=0.0196)
     build = build_shoe(foot, taxels=51, layout_only=True)
@@ -164,7 +155,7 @@ PERSON = foot_from_dimensions("person", length=0.255, width=0.095, corner_radius
 
 
 @pytest.mark.parametrize("thickness", [4.0, 5.5, 8.0, 15.0])
-def test_an_insole_is_as_thick_as_asked_for_and_covers_the_sole(thickness: float) -> None:
+def test_an_insole_is_as_thick_as_asked_for_and_covers_the_sole(thickness):
     build = build_insole(PERSON, thickness, layout_only=True)
     p, plan = build.parameters, build.shoes[0].plan
     assert p.thickness == pytest.approx(thickness)
@@ -178,7 +169,7 @@ def test_an_insole_is_as_thick_as_asked_for_and_covers_the_sole(thickness: float
     assert build.shoes[1].layout.positions[:, 1] == pytest.approx(-build.shoes[0].layout.positions[:, 1])
 
 
-def test_what_cannot_be_an_insole_is_refused() -> None:
+def test_what_cannot_be_an_insole_is_refused():
     for thickness, change, reason in (
         (3.0, {}, "insole is 3 mm thick; allowed: 4 to 15 mm"),
         (float("nan"), {}, "insole is nan mm thick"),
@@ -190,7 +181,7 @@ def test_what_cannot_be_an_insole_is_refused() -> None:
 
 
 @pytest.mark.parametrize(("length", "width"), [(0.24, 0.09), (0.29, 0.105)])
-def test_whole_cells_that_miss_too_much_of_the_pressure_are_refused(length: float, width: float) -> None:
+def test_whole_cells_that_miss_too_much_of_the_pressure_are_refused(length, width):
     foot = foot_from_dimensions("person", length=length, width=width, corner_radius=0.035)
     with pytest.raises(FootError, match=r"whole cells of 691 mm\^2 cover 7\d % of the foot's outline; .*--rim fine"):
         build_insole(foot, 6.0, rim="whole", layout_only=True)
@@ -214,7 +205,7 @@ def walk(weights: dict[str, np.ndarray], steps: int = 8) -> dict[str, np.ndarray
     return out
 
 
-def test_a_walk_on_insoles_is_read_and_measured(tmp_path: Path) -> None:
+def test_a_walk_on_insoles_is_read_and_measured(tmp_path):
     export_shoe(build_insole(PERSON, 6.0, layout_only=True), tmp_path)
     layouts = {side: read_layout(tmp_path / f"layout_{side}.json") for side in ("left", "right")}
     made = walk({side: layout.positions[:, 0] for side, layout in layouts.items()})
@@ -236,7 +227,7 @@ def test_a_walk_on_insoles_is_read_and_measured(tmp_path: Path) -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize("thickness", [4.0, 6.0])
-def test_an_insole_holds_and_a_witness_agrees(small_foot: Foot, tmp_path: Path, thickness: float) -> None:
+def test_an_insole_holds_and_a_witness_agrees(small_foot, tmp_path, thickness):
     build = build_insole(replace(small_foot, mass=40.0), thickness, side="left", cell_area=300.0)
     report = export_shoe(build, tmp_path)
     assert report.holds, [c for c in report.checks["left"].checks if not c.holds]

@@ -1,16 +1,12 @@
 """Tests of coupons: pieces of the shoe, met by rays where the shoe is."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 import shapely
 import trimesh
 
 from plantar.errors import InputError
-from plantar.shoes import Foot, ShoeReport, build_shoe
+from plantar.shoes import build_shoe
 from plantar.shoes.cells.cell import read_cell
 from plantar.shoes.coupon import build_coupons, write_coupons
 from plantar.shoes.foot.foot import foot_from_dimensions
@@ -18,7 +14,7 @@ from plantar.shoes.foot.foot import foot_from_dimensions
 from .shoe_witness import hits
 
 
-def test_coupons_are_what_rays_meet_in_the_shoe(exported: tuple[ShoeReport, Path], tmp_path: Path) -> None:
+def test_coupons_are_what_rays_meet_in_the_shoe(exported, tmp_path):
     report, folder = exported
     whole = np.asarray(trimesh.load(folder / "shoe_left.stl", force="mesh").triangles)
     coupons = build_coupons(report.build)
@@ -44,13 +40,13 @@ def test_coupons_are_what_rays_meet_in_the_shoe(exported: tuple[ShoeReport, Path
         assert met > 40
 
 
-def test_a_coupon_is_of_the_left_shoe(small_foot: Foot) -> None:
+def test_a_coupon_is_of_the_left_shoe(small_foot):
     with pytest.raises(InputError, match="a coupon is a piece of the left shoe"):
         build_coupons(build_shoe(small_foot, side="right", layout_only=True))
 
 
 @pytest.mark.parametrize("cell", ["fsr_402", "square", "sheet"])
-def test_a_coupon_of_other_cells_has_their_pocket_and_walls_around_it(cell: str) -> None:
+def test_a_coupon_of_other_cells_has_their_pocket_and_walls_around_it(cell):
     foot = foot_from_dimensions("foot", length=0.2, width=0.09, corner_radius=0.01)
     build = build_shoe(foot, side="left", cell=read_cell(cell), layout_only=True)
     coupon = build_coupons(build)[0]

@@ -1,16 +1,12 @@
 """Difficult feet in small rotations: no traceback, and no shoe that passes its checks and is not good."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 import trimesh
 
 from plantar.errors import FootError
 from plantar.layouts.layout import SoleLayout
-from plantar.shoes import ShoeParameters, ShoeReport, build_shoe, export_shoe
+from plantar.shoes import ShoeParameters, build_shoe, export_shoe
 from plantar.shoes.foot.foot import Foot
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
 
@@ -47,7 +43,7 @@ def sees_both_ways(layout: SoleLayout) -> bool:
 
 
 @pytest.mark.parametrize("name", sorted(set(FAMILY) - {"fine"}))
-def test_each_foot_of_the_family_stands_right_or_is_refused(name: str) -> None:
+def test_each_foot_of_the_family_stands_right_or_is_refused(name):
     turn = 1 + sum(map(ord, name)) % (TURNS - 1)
     if name in REFUSED:
         with pytest.raises(FootError, match=r"holds 2 bodies|no flat sole|on its side"):
@@ -56,9 +52,7 @@ def test_each_foot_of_the_family_stands_right_or_is_refused(name: str) -> None:
     stands_right(name, foot_of(name, turn))
 
 
-def test_the_witness_agrees_with_a_good_shoe_and_sees_bad_ones(
-    small_foot: Foot, exported: tuple[ShoeReport, Path]
-) -> None:
+def test_the_witness_agrees_with_a_good_shoe_and_sees_bad_ones(small_foot, exported):
     report, folder = exported
     assert report.holds
     foot = prism(np.array(small_foot.sole.exterior.coords)[:-1], 0.0, 40.0)
@@ -72,7 +66,7 @@ def test_the_witness_agrees_with_a_good_shoe_and_sees_bad_ones(
     assert any("ceilings" in text for text in witness.problems())
 
 
-def test_rays_meet_a_box_where_its_faces_are() -> None:
+def test_rays_meet_a_box_where_its_faces_are():
     box = np.asarray(trimesh.creation.box((2.0, 2.0, 2.0)).triangles)
     np.testing.assert_allclose(hits(box, np.array([0.1, 0.2, -5.0]), np.array([0.0, 0.0, 1.0])), [4.0, 6.0])
     assert len(hits(box, np.array([3.0, 0.0, -5.0]), np.array([0.0, 0.0, 1.0]))) == 0
@@ -80,7 +74,7 @@ def test_rays_meet_a_box_where_its_faces_are() -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", sorted(set(FAMILY) - REFUSED))
-def test_the_family_in_small_rotations_is_planned(name: str) -> None:
+def test_the_family_in_small_rotations_is_planned(name):
     for turn in range(TURNS):
         foot = foot_of(name, turn)
         stands_right(name, foot)
@@ -95,7 +89,7 @@ def test_the_family_in_small_rotations_is_planned(name: str) -> None:
 @pytest.mark.long
 @pytest.mark.parametrize("turn", [0, 7, 23])
 @pytest.mark.parametrize("name", sorted(set(FAMILY) - REFUSED))
-def test_the_family_gives_shoes_that_hold(name: str, turn: int, tmp_path: Path) -> None:
+def test_the_family_gives_shoes_that_hold(name, turn, tmp_path):
     foot = foot_of(name, turn)
     bed = {"bed_length": 500.0} if name in TOO_LARGE else {}
     report = export_shoe(build_shoe(foot, side="left", parameters=ShoeParameters(**bed)), tmp_path)
@@ -105,7 +99,7 @@ def test_the_family_gives_shoes_that_hold(name: str, turn: int, tmp_path: Path) 
 
 
 @pytest.mark.long
-def test_a_face_that_runs_along_the_wall_gives_a_closed_surface() -> None:
+def test_a_face_that_runs_along_the_wall_gives_a_closed_surface():
     # The concave foot in this turn: the plate left the wall by a hair, and an edge of 20 nm was lost in the STL.
     shoe = build_shoe(foot_of("concave", 18), side="left").shoes[0]
     assert shoe.surface is not None

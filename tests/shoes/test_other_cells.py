@@ -1,12 +1,9 @@
 """Shoes of other cells than hexagons: built, written, and judged by the witness; and as the command makes them."""
 
-from __future__ import annotations
-
 import csv
 import json
 import sys
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +12,6 @@ from plantar import cli
 from plantar.layouts.layout_file import read_layout
 from plantar.shoes import ShoeParameters, build_shoe, export_shoe
 from plantar.shoes.cells.cell import read_cell
-from plantar.shoes.foot.foot import Foot
 
 from .foot_family import prism
 from .shoe_witness import Witness
@@ -33,7 +29,7 @@ thickness = 0.8
 @pytest.mark.parametrize(
     "name", ["own", *(pytest.param(n, marks=pytest.mark.long) for n in ("square", "fsr_402", "sheet"))]
 )
-def test_the_witness_finds_nothing_wrong(name: str, small_foot: Foot, tmp_path: Path) -> None:
+def test_the_witness_finds_nothing_wrong(name, small_foot, tmp_path):
     (tmp_path / "own.toml").write_text(OWN)
     cell = read_cell(str(tmp_path / "own.toml") if name == "own" else name)
     folder = tmp_path / "shoe"
@@ -48,13 +44,7 @@ def test_the_witness_finds_nothing_wrong(name: str, small_foot: Foot, tmp_path: 
         assert len(list(csv.DictReader(file))) == len(layout)
 
 
-def test_the_command_writes_a_layout_of_the_stated_cell(
-    monkeypatch: pytest.MonkeyPatch,
-    capfd: pytest.CaptureFixture[str],
-    stl: Callable[..., Path],
-    box: Shape,
-    tmp_path: Path,
-) -> None:
+def test_the_command_writes_a_layout_of_the_stated_cell(monkeypatch, capfd, stl, box, tmp_path):
     own, out = tmp_path / "own.toml", tmp_path / "shoe"
     own.write_text(OWN)
     foot = stl(box((-40, 90), (-35, 35), (0, 50)))

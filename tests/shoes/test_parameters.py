@@ -1,10 +1,7 @@
 """Tests of the shoe's parameters."""
 
-from __future__ import annotations
-
 import json
 import tomllib
-from pathlib import Path
 
 import pytest
 
@@ -12,7 +9,7 @@ from plantar.errors import InputError
 from plantar.shoes.parameters import ShoeParameters, read_parameters
 
 
-def test_defaults_are_in_their_ranges_and_leave_a_floor() -> None:
+def test_defaults_are_in_their_ranges_and_leave_a_floor():
     p = ShoeParameters()
     for row in ShoeParameters.table():
         value = p.as_dict()[row["name"]]
@@ -29,13 +26,13 @@ def test_defaults_are_in_their_ranges_and_leave_a_floor() -> None:
 
 @pytest.mark.parametrize("name", [row["name"] for row in ShoeParameters.table() if "low" in row])
 @pytest.mark.parametrize("bad", [-1.0, 1e6, float("nan"), float("inf"), "3", None, True])
-def test_a_value_out_of_range_is_named_with_what_is_allowed(name: str, bad: object) -> None:
+def test_a_value_out_of_range_is_named_with_what_is_allowed(name, bad):
     low, high, unit, _ = ShoeParameters.range_of(name)
     with pytest.raises(InputError, match=f"shoe parameter {name} is .*; allowed: {low:g} to {high:g} {unit}"):
         ShoeParameters.from_mapping({name: bad})
 
 
-def test_values_that_contradict_each_other_are_refused() -> None:
+def test_values_that_contradict_each_other_are_refused():
     with pytest.raises(InputError, match="floor is 1 mm; allowed: wall_min"):
         ShoeParameters(floor=1.0)
     with pytest.raises(InputError, match="rib is 1 mm"):
@@ -50,19 +47,19 @@ def test_values_that_contradict_each_other_are_refused() -> None:
 
 @pytest.mark.parametrize("name", ["material", "retention", "strengthen"])
 @pytest.mark.parametrize("bad", ["steel", "", 3.0, None, True])
-def test_a_choice_that_there_is_not_is_named_with_those_there_are(name: str, bad: object) -> None:
+def test_a_choice_that_there_is_not_is_named_with_those_there_are(name, bad):
     with pytest.raises(InputError, match=f"shoe parameter {name} is .*; allowed: .*, .*"):
         ShoeParameters.from_mapping({name: bad})
     with pytest.raises(InputError, match=f"{name} is a choice"):
         ShoeParameters.range_of(name)
 
 
-def test_a_density_of_its_own_takes_the_materials_place() -> None:
+def test_a_density_of_its_own_takes_the_materials_place():
     assert ShoeParameters(material="PETG").printed.density == 1.27
     assert ShoeParameters(material="PETG", density=1.1).printed.density == 1.1
 
 
-def test_files_replace_what_they_name(tmp_path: Path) -> None:
+def test_files_replace_what_they_name(tmp_path):
     values = {"floor": 7, "rim_height": 20.5, "material": "PLA"}
     (tmp_path / "p.json").write_text(json.dumps(values))
     (tmp_path / "p.toml").write_text('floor = 7\nrim_height = 20.5\nmaterial = "PLA"\n')
@@ -83,7 +80,7 @@ def test_files_replace_what_they_name(tmp_path: Path) -> None:
         ("p.yaml", "a: 3", "allowed: .json, .toml"),
     ],
 )
-def test_a_bad_file_is_refused_in_one_line(tmp_path: Path, name: str, text: str, message: str) -> None:
+def test_a_bad_file_is_refused_in_one_line(tmp_path, name, text, message):
     (tmp_path / name).write_text(text)
     with pytest.raises(InputError, match=message) as caught:
         read_parameters(tmp_path / name)
@@ -91,7 +88,7 @@ def test_a_bad_file_is_refused_in_one_line(tmp_path: Path, name: str, text: str,
     assert name in str(caught.value)
 
 
-def test_a_missing_or_binary_file_is_refused(tmp_path: Path) -> None:
+def test_a_missing_or_binary_file_is_refused(tmp_path):
     with pytest.raises(InputError, match="cannot be read"):
         read_parameters(tmp_path / "none.toml")
     (tmp_path / "b.toml").write_bytes(b"\xff\xfe\x00")
@@ -99,7 +96,7 @@ def test_a_missing_or_binary_file_is_refused(tmp_path: Path) -> None:
         read_parameters(tmp_path / "b.toml")
 
 
-def test_the_guide_names_every_parameter_with_its_default(repository: Path) -> None:
+def test_the_guide_names_every_parameter_with_its_default(repository):
     guide = (repository / "docs" / "shoes.md").read_text(encoding="utf-8")
     for row in ShoeParameters.table():
         if "choices" in row:
@@ -110,6 +107,6 @@ def test_the_guide_names_every_parameter_with_its_default(repository: Path) -> N
             assert f"| `{row['name']}` | {row['default']:g} | {allowed} | {row['unit']} |" in guide
 
 
-def test_toml_written_from_the_defaults_reads_back() -> None:
+def test_toml_written_from_the_defaults_reads_back():
     text = "\n".join(f"{k} = {json.dumps(v)}" for k, v in ShoeParameters().as_dict().items())
     assert ShoeParameters.from_mapping(tomllib.loads(text)) == ShoeParameters()

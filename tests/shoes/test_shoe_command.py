@@ -1,7 +1,5 @@
 """Tests of `plantar shoe` as it is called: files, JSON, exit codes, and nothing left behind."""
 
-from __future__ import annotations
-
 import json
 import os
 import re
@@ -21,7 +19,7 @@ Run = Callable[..., tuple[int, str, str]]
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> Run:
+def run(monkeypatch, capfd):
     """Runs `plantar shoe` with arguments; gives exit code, stdout, stderr."""
 
     def call(*arguments: object) -> tuple[int, str, str]:
@@ -49,7 +47,7 @@ def refused(result: tuple[int, str, str], folder: Path) -> str:
     return err
 
 
-def test_a_mesh_gives_files_and_one_json_object(run: Run, stl: Writer, box: Shape, tmp_path: Path) -> None:
+def test_a_mesh_gives_files_and_one_json_object(run, stl, box, tmp_path):
     folder = tmp_path / "new" / "shoe"
     code, out, err = run(stl(box((-40, 90), (-35, 35), (0, 50))), "--side", "left", "-o", folder, "--json")
     assert (code, err) == (0, "")
@@ -63,7 +61,7 @@ def test_a_mesh_gives_files_and_one_json_object(run: Run, stl: Writer, box: Shap
     assert any("unit mm" in n for n in figures["notes"])
 
 
-def test_a_robot_gives_its_layouts(run: Run, tmp_path: Path, repository: Path) -> None:
+def test_a_robot_gives_its_layouts(run, tmp_path, repository):
     """H1, the papers' shoe: 42 taxels of 691 mm^2, at most 250 mm long, overhang below 10 mm; stored in its folder."""
     code, out, err = run("--robot", "h1", "--layout-only", "-o", tmp_path / "out")
     assert (code, err) == (0, "")
@@ -78,7 +76,7 @@ def test_a_robot_gives_its_layouts(run: Run, tmp_path: Path, repository: Path) -
         assert 0.0 < layout["shoe"]["overhang"] <= 0.010
 
 
-def test_a_check_that_does_not_hold_is_exit_1(run: Run, stl: Writer, box: Shape, tmp_path: Path) -> None:
+def test_a_check_that_does_not_hold_is_exit_1(run, stl, box, tmp_path):
     (tmp_path / "wide.toml").write_text("clearance = 5.0\nrim_thickness = 8.0\nboard_length = 0\n")
     code, out, err = run(
         stl(box((-40, 90), (-35, 35), (0, 50))), "--side", "left", "--parameters", tmp_path / "wide.toml",
@@ -91,7 +89,7 @@ def test_a_check_that_does_not_hold_is_exit_1(run: Run, stl: Writer, box: Shape,
     assert json.loads((tmp_path / "out" / "check.json").read_text())["holds"] is False
 
 
-def test_bad_meshes_are_refused_in_one_line(run: Run, stl: Writer, box: Shape, tmp_path: Path) -> None:
+def test_bad_meshes_are_refused_in_one_line(run, stl, box, tmp_path):
     good = box((-50, 150), (-40, 40), (0, 60))
     broken = good.copy()
     broken[2, 0, 0] = np.nan
@@ -114,7 +112,7 @@ def test_bad_meshes_are_refused_in_one_line(run: Run, stl: Writer, box: Shape, t
         assert path.name in line
 
 
-def test_bad_options_are_refused_in_one_line(run: Run, stl: Writer, box: Shape, tmp_path: Path) -> None:
+def test_bad_options_are_refused_in_one_line(run, stl, box, tmp_path):
     foot, out = stl(box((-50, 150), (-40, 40), (0, 60))), tmp_path / "out"
     letter = tmp_path / "letter.doc"
     letter.write_text("Dear reader")
@@ -152,7 +150,7 @@ def test_bad_options_are_refused_in_one_line(run: Run, stl: Writer, box: Shape, 
         assert reason in refused(run(*arguments, "-o", out), out)
 
 
-def test_an_output_that_cannot_be_written_is_refused(run: Run, stl: Writer, box: Shape, tmp_path: Path) -> None:
+def test_an_output_that_cannot_be_written_is_refused(run, stl, box, tmp_path):
     foot = stl(box((-50, 150), (-40, 40), (0, 60)))
     (tmp_path / "file").write_text("kept")
     code, out, err = run(foot, "--layout-only", "-o", tmp_path / "file")
@@ -168,7 +166,7 @@ def test_an_output_that_cannot_be_written_is_refused(run: Run, stl: Writer, box:
     assert run(foot, "--layout-only", "-o", "/proc/none")[0] == 2
 
 
-def test_a_robots_model_and_a_drawing_give_layouts(run: Run, stl: Writer, box: Shape, tmp_path: Path) -> None:
+def test_a_robots_model_and_a_drawing_give_layouts(run, stl, box, tmp_path):
     stl(box((-60, 140), (-45, 45), (-100, -40)), "foot.stl")
     (tmp_path / "robot.urdf").write_text(
         '<robot name="r"><link name="r_sole"><visual><geometry><mesh filename="foot.stl" scale=".001 .001 .001"/>'
@@ -188,7 +186,7 @@ def test_a_robots_model_and_a_drawing_give_layouts(run: Run, stl: Writer, box: S
     assert json.loads((tmp_path / "c" / "layout_left.json").read_text())["name"] == "box"
 
 
-def test_a_step_file_is_a_foot(run: Run, tmp_path: Path) -> None:
+def test_a_step_file_is_a_foot(run, tmp_path):
     from plantar.shoes.plan.block import Step, box_block
     from plantar.shoes.solid.kernel import build_solid
     from plantar.shoes.solid.step_model import StepPart, write_step
@@ -203,7 +201,7 @@ def test_a_step_file_is_a_foot(run: Run, tmp_path: Path) -> None:
     assert "cut.step" in refused(run(tmp_path / "cut.step", "-o", tmp_path / "none"), tmp_path / "none")
 
 
-def test_a_layout_that_does_not_see_the_center_of_pressure_fails(run: Run, tmp_path: Path) -> None:
+def test_a_layout_that_does_not_see_the_center_of_pressure_fails(run, tmp_path):
     code, out, err = run("--dimensions", "200x90x0", "--taxels", "3", "--layout-only", "-o", tmp_path / "a", "--json")
     assert code == 1
     assert "taxels' centres over the face's" in err
@@ -211,7 +209,7 @@ def test_a_layout_that_does_not_see_the_center_of_pressure_fails(run: Run, tmp_p
     assert len(json.loads(out)["sides"]["left"]["checks"]) > 5
 
 
-def test_a_layout_takes_no_cad_kernel_and_little_work(tmp_path: Path) -> None:
+def test_a_layout_takes_no_cad_kernel_and_little_work(tmp_path):
     import resource
     import subprocess
 
@@ -228,7 +226,7 @@ def test_a_layout_takes_no_cad_kernel_and_little_work(tmp_path: Path) -> None:
     assert after.ru_utime - before.ru_utime < 4.0
 
 
-def test_files_of_others_stay(run: Run, stl: Writer, box: Shape, tmp_path: Path) -> None:
+def test_files_of_others_stay(run, stl, box, tmp_path):
     folder = tmp_path / "out"
     folder.mkdir()
     (folder / "mine.txt").write_text("mine")

@@ -1,9 +1,5 @@
 """The scene `balance`: pushes on a standing robot, sensed by skin and ankles (T 4.3.1)."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -16,7 +12,7 @@ SHORT = ["push.count=2", "settle=8"]
 
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
-def test_skin_and_ankles_agree_and_the_robot_recovers(robot: str, tmp_path: Path) -> None:
+def test_skin_and_ankles_agree_and_the_robot_recovers(robot, tmp_path):
     summary = run_scene(load_scene("balance", SHORT, robot), 0, record=tmp_path / "run.mcap")
     assert summary["completed"]
     balance = summary["balance"]
@@ -36,7 +32,7 @@ def test_skin_and_ankles_agree_and_the_robot_recovers(robot: str, tmp_path: Path
     assert {p.name for p in plot_run(run, tmp_path)} >= {"zmp.png", "zmp_plane.png"}
 
 
-def test_force_torque_is_a_source_of_feedback_too() -> None:
+def test_force_torque_is_a_source_of_feedback_too():
     by_skin = run_scene(load_scene("balance", SHORT), 1)
     by_ankles = run_scene(load_scene("balance", [*SHORT, "zmp_source=force_torque"]), 1)
     assert by_skin["completed"]
@@ -50,7 +46,7 @@ def test_force_torque_is_a_source_of_feedback_too() -> None:
 @pytest.mark.parametrize("source", ["skin", "force_torque"])
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 @pytest.mark.parametrize("seed", range(5))
-def test_the_whole_scene(robot: str, source: str, seed: int) -> None:
+def test_the_whole_scene(robot, source, seed):
     summary = run_scene(load_scene("balance", [f"zmp_source={source}"], robot), seed)
     assert summary["completed"]
     assert summary["balance"]["recovered"] == 6

@@ -1,7 +1,5 @@
 """Contact models on the test rig, and the report of the comparison."""
 
-from __future__ import annotations
-
 import csv
 import json
 import math
@@ -12,9 +10,9 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from plantar import InputError, SoleLayout, cli, hex_layout
+from plantar import InputError, cli, hex_layout
 from plantar.layouts.hex_lattice import HexLattice
-from plantar.sim.contact_models.comparison import PLANE, ContactRow, Rig, compare_contact_models, full_stance, tip_over
+from plantar.sim.contact_models.comparison import PLANE, Rig, compare_contact_models, full_stance, tip_over
 from plantar.sim.contact_models.parameters import study_contact_parameters
 from plantar.sim.contact_models.report import holds, write_contact_report
 from plantar.sim.contact_models.sole import build_sole
@@ -30,12 +28,12 @@ def by_name(name: str) -> Candidate:
 
 
 @pytest.fixture(scope="module")
-def rows() -> dict[str, ContactRow]:
+def rows():
     few = (CHOSEN, by_name("box + tactile, fz"), by_name("1 sphere a taxel"))
     return {r.name: r for r in compare_contact_models(LAYOUT, candidates=few, seeds=1)}
 
 
-def test_chosen_model_keeps_what_is_required(rows: dict[str, ContactRow]) -> None:
+def test_chosen_model_keeps_what_is_required(rows):
     row = rows[CHOSEN.name]
     assert row.cop_max_mm < 2.0
     assert abs(row.edge_x_mm) < 1.0
@@ -47,7 +45,7 @@ def test_chosen_model_keeps_what_is_required(rows: dict[str, ContactRow]) -> Non
     assert holds(row)
 
 
-def test_known_faults_of_others_are_found(rows: dict[str, ContactRow]) -> None:
+def test_known_faults_of_others_are_found(rows):
     """The comparison can tell: a penetration field misplaces the load, one sphere a taxel topples early."""
     assert rows["box + tactile, fz"].cop_max_mm > 10.0
     sphere = rows["1 sphere a taxel"]
@@ -63,7 +61,7 @@ def test_known_faults_of_others_are_found(rows: dict[str, ContactRow]) -> None:
     [hex_layout(OUTLINE, cell_area=300e-6, clip=False), hex_layout(OUTLINE, cell_area=900e-6, angle=0.4)],
     ids=["small whole cells", "large turned cells"],
 )
-def test_chosen_model_on_other_layouts(layout: SoleLayout) -> None:
+def test_chosen_model_on_other_layouts(layout):
     sole = build_sole(CHOSEN, layout, PLANE)
     assert full_stance(sole, layout, seeds=1)["cop_max_mm"] < 2.0
     edges = tip_over(sole, layout)
@@ -72,7 +70,7 @@ def test_chosen_model_on_other_layouts(layout: SoleLayout) -> None:
 
 
 @pytest.mark.parametrize("candidate", CANDIDATES, ids=lambda c: c.name)
-def test_rig_pushes_as_wanted(candidate: Candidate) -> None:
+def test_rig_pushes_as_wanted(candidate):
     """Every candidate, at rest, shows the pushed wrench in MuJoCo's contacts and the normal force in its taxels."""
     sole = build_sole(candidate, LAYOUT, PLANE)
     rig = Rig(sole, LAYOUT)
@@ -85,7 +83,7 @@ def test_rig_pushes_as_wanted(candidate: Candidate) -> None:
     assert sole.read(rig.data).min() >= 0.0
 
 
-def test_toppling_sole_is_reported_not_hidden() -> None:
+def test_toppling_sole_is_reported_not_hidden():
     """A layout of cells in the middle only cannot carry the outer loads."""
     cells = np.array([[q, r] for q in (-1, 0, 1) for r in (-1, 0, 1)])
     layout = hex_layout(OUTLINE, cells=cells)
@@ -95,12 +93,12 @@ def test_toppling_sole_is_reported_not_hidden() -> None:
     assert HexLattice(691e-6).centres(cells).max() < 0.05
 
 
-def test_unknown_candidate_is_refused() -> None:
+def test_unknown_candidate_is_refused():
     with pytest.raises(InputError, match="unknown kind"):
         build_sole(replace(CHOSEN, kind="cones"), LAYOUT, PLANE)
 
 
-def test_report_reads_back(rows: dict[str, ContactRow], tmp_path: Path) -> None:
+def test_report_reads_back(rows, tmp_path):
     parameters = study_contact_parameters(LAYOUT)
     toppled = replace(rows[CHOSEN.name], name="toppled", cop_max_mm=math.inf)
     names = write_contact_report(tmp_path, LAYOUT, [*rows.values(), toppled], parameters)
@@ -117,7 +115,7 @@ def test_report_reads_back(rows: dict[str, ContactRow], tmp_path: Path) -> None:
     assert by["recommended"].penetration_mm < by["solref 0.02"].penetration_mm
 
 
-def test_command_refuses_what_it_does_not_know(tmp_path: Path) -> None:
+def test_command_refuses_what_it_does_not_know(tmp_path):
     result = CliRunner().invoke(cli.app, ["bench", "speed", "-o", str(tmp_path / "out")])
     assert isinstance(result.exception, InputError)
     assert "allowed: kernels, contact, skip, scenes, stress, footholds, all" in str(result.exception)
@@ -125,7 +123,7 @@ def test_command_refuses_what_it_does_not_know(tmp_path: Path) -> None:
 
 
 @pytest.mark.long
-def test_command_writes_one_json_object_and_its_files(tmp_path: Path) -> None:
+def test_command_writes_one_json_object_and_its_files(tmp_path):
     result = CliRunner().invoke(cli.app, ["bench", "contact", "-o", str(tmp_path / "out"), "--json"])
     assert result.exit_code == 0
     summary = json.loads(result.stdout)

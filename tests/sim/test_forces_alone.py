@@ -1,7 +1,5 @@
 """Partial footholds walked by forces alone, under a model of the taxels that the controller does not know."""
 
-from __future__ import annotations
-
 import pytest
 
 from plantar.sim.run.runner import run_scene
@@ -9,7 +7,7 @@ from plantar.sim.run.scene import load_scene
 
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
-def test_a_level_foot_finds_the_rear_half_that_carries(robot: str) -> None:
+def test_a_level_foot_finds_the_rear_half_that_carries(robot):
     """In two walks of the first three: one in ten falls, and which one depends on the processor's last bits."""
     scene = load_scene("partial-rear", ["footholds=force", "sensing.taxels=elastic"], robot)
     completed = 0
@@ -23,7 +21,7 @@ def test_a_level_foot_finds_the_rear_half_that_carries(robot: str) -> None:
     raise AssertionError(f"{completed} of 3 walks completed")
 
 
-def test_a_foot_that_comes_as_it_does_stays_on_the_edge_that_it_met() -> None:
+def test_a_foot_that_comes_as_it_does_stays_on_the_edge_that_it_met():
     """Neither levelled nor told by its slope where the ground is, it takes the edge for the foothold.
 
     Nor does it come slowly, from as high as over rough ground, or does the robot crouch or move its steps.
@@ -39,7 +37,7 @@ BEAM = ("footholds=force", "sensing.taxels=elastic", "terrain.width=0.34 sole", 
 
 
 @pytest.mark.xfail(strict=True, reason="step 4 is on the platform's edge, and probing is for feet without pfc alone")
-def test_a_foot_looks_for_the_rest_of_a_beam_that_it_met_the_edge_of() -> None:
+def test_a_foot_looks_for_the_rest_of_a_beam_that_it_met_the_edge_of():
     """Before the weight comes; a foot that does not takes a part of what carries it for all of it."""
     missed = []
     for probing in ("true", "false"):

@@ -1,7 +1,5 @@
 """Rays against simple solids: to the last bit what MuJoCo's own rays find, and both forms of the kernel agree."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import mujoco
@@ -57,7 +55,7 @@ def within_reach(lengths: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.where((lengths >= 0.0) & (lengths <= REACH), lengths, np.inf)
 
 
-def test_rays_are_those_of_mujoco_to_the_last_bit() -> None:
+def test_rays_are_those_of_mujoco_to_the_last_bit():
     rng = np.random.default_rng(0)
     met = 0
     for _ in range(150):
@@ -72,7 +70,7 @@ def test_rays_are_those_of_mujoco_to_the_last_bit() -> None:
     assert met > 500
 
 
-def test_both_forms_agree_to_the_last_bit() -> None:
+def test_both_forms_agree_to_the_last_bit():
     rng = np.random.default_rng(1)
     python = kernels.python_form("ground_rays")
     for _ in range(20):
@@ -83,7 +81,7 @@ def test_both_forms_agree_to_the_last_bit() -> None:
 
 
 @pytest.mark.parametrize("height", [0.03, 0.045])
-def test_ground_of_another_kind_is_seen_by_mujocos_rays(height: float) -> None:
+def test_ground_of_another_kind_is_seen_by_mujocos_rays(height):
     """A capsule is none of the kernel's solids: the sole sees it all the same, and what lies beside it."""
     layout = hex_layout([[-0.1, -0.06], [0.1, -0.06], [0.1, 0.06], [-0.1, 0.06]])
     seen = []

@@ -1,7 +1,6 @@
 """The built-in robots against the published figures (ROBOTS facts), and what a robot file may leave out."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import mujoco
 import numpy as np
@@ -15,7 +14,7 @@ from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sim.run.scene import load_scene
 
 
-def test_hrp2kai_has_the_published_masses_limits_and_heights() -> None:
+def test_hrp2kai_has_the_published_masses_limits_and_heights():
     robot = load_robot("hrp2kai")
     model = robot_spec(robot).compile()
     assert mujoco.mj_getTotalmass(model) == pytest.approx(65.0, abs=1e-9)
@@ -51,7 +50,7 @@ def test_hrp2kai_has_the_published_masses_limits_and_heights() -> None:
     assert data.body("left_ankle").xpos[1] == pytest.approx(0.095)
 
 
-def test_the_hrp2kai_shoe_carries_51_taxels_and_overhangs_the_foot() -> None:
+def test_the_hrp2kai_shoe_carries_51_taxels_and_overhangs_the_foot():
     robot = load_robot("hrp2kai")
     assert robot.foot is not None
     for side in ("left", "right"):
@@ -65,7 +64,7 @@ def test_the_hrp2kai_shoe_carries_51_taxels_and_overhangs_the_foot() -> None:
         assert (x, y) == pytest.approx(robot.foot.center, abs=2e-3)
 
 
-def test_the_pace_of_a_robot_is_its_own_or_the_default(tmp_path: Path) -> None:
+def test_the_pace_of_a_robot_is_its_own_or_the_default(tmp_path):
     assert (load_robot("h1").single_support, load_robot("h1").double_support) == (0.9, 0.3)
     kai = load_robot("hrp2kai")
     assert (kai.single_support, kai.double_support) == (1.4, 0.5)
@@ -87,7 +86,7 @@ def test_the_pace_of_a_robot_is_its_own_or_the_default(tmp_path: Path) -> None:
         load_robot(file)
 
 
-def test_a_robot_that_rocks_keeps_its_own_time_and_lands_without_a_slow_approach() -> None:
+def test_a_robot_that_rocks_keeps_its_own_time_and_lands_without_a_slow_approach():
     h1 = load_robot("h1")
     scene = load_scene("uneven", ["t_ss=0.9", "t_ds=0.3"]).for_body(REFERENCE_BODY)
     rocks = replace(h1, rocks=True, single_support=0.27, double_support=0.16)

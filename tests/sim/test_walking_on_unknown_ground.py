@@ -1,7 +1,5 @@
 """Soft landing and step feasibility, judged by true contacts: one seed each, all of them in the long tests."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +11,7 @@ from plantar.sim.run.scene import load_scene
 WEIGHT = 86.0 * 9.81
 
 
-def test_proximity_softens_the_landing_on_ground_that_is_not_where_it_is_expected() -> None:
+def test_proximity_softens_the_landing_on_ground_that_is_not_where_it_is_expected():
     on = run_scene(load_scene("uneven", ["steps=6", "settle=0.5"]), 1)
     off = run_scene(load_scene("uneven", ["steps=6", "settle=0.5", "pfc=false"]), 1)
     assert on["completed"]
@@ -23,7 +21,7 @@ def test_proximity_softens_the_landing_on_ground_that_is_not_where_it_is_expecte
     assert on["landings_s"][-1] == pytest.approx(off["landings_s"][-1], abs=0.4)
 
 
-def test_computing_everything_leaves_the_motion_with_proximity_the_same() -> None:
+def test_computing_everything_leaves_the_motion_with_proximity_the_same():
     runs = []
     for skip in ("auto", "none"):
         simulation = Simulation(load_scene("uneven", ["steps=2", "settle=0.3", f"skip={skip}"]), 3)
@@ -35,13 +33,13 @@ def test_computing_everything_leaves_the_motion_with_proximity_the_same() -> Non
 
 
 @pytest.mark.parametrize("slope", ["pitch=10", "roll=-10"])
-def test_the_sole_lies_on_a_slope_when_it_touches_it(slope: str) -> None:
+def test_the_sole_lies_on_a_slope_when_it_touches_it(slope):
     summary = run_scene(load_scene("tilt", ["pitch=0", slope, "settle=0.5"]), 0)
     assert summary["completed"]
     assert summary["sole_angles_deg"][4] < 2.0
 
 
-def test_a_slab_is_stepped_on_softly() -> None:
+def test_a_slab_is_stepped_on_softly():
     summary = run_scene(load_scene("obstacle", ["settle=0.5"]), 0)
     assert summary["completed"]
     assert max(summary["impacts_N"]) < 0.5 * WEIGHT
@@ -51,7 +49,7 @@ def test_a_slab_is_stepped_on_softly() -> None:
     ("scene", "robot", "feasible"),
     [("feasibility-1", "h1", True), ("feasibility-2", "h1", False), ("feasibility-3", "hrp2kai", False)],
 )
-def test_footholds_are_judged_before_weight_is_put_on_them(scene: str, robot: str, feasible: bool) -> None:
+def test_footholds_are_judged_before_weight_is_put_on_them(scene, robot, feasible):
     summary = run_scene(load_scene(scene, ["settle=0.5"], robot), 0)
     assert summary["completed"]
     assert summary["steps_taken"] == 8
@@ -60,7 +58,7 @@ def test_footholds_are_judged_before_weight_is_put_on_them(scene: str, robot: st
     assert not summary["emergency_stop"]
 
 
-def test_a_long_way_back_is_followed_by_a_step_past_what_was_refused() -> None:
+def test_a_long_way_back_is_followed_by_a_step_past_what_was_refused():
     simulation = Simulation(load_scene("feasibility-4", ["settle=0.5"], "hrp2kai"), 0)
     summary = simulation.run()
     assert summary["completed"]
@@ -73,7 +71,7 @@ def test_a_long_way_back_is_followed_by_a_step_past_what_was_refused() -> None:
 
 
 @pytest.mark.long
-def test_heading_does_not_drift_in_a_long_walk() -> None:
+def test_heading_does_not_drift_in_a_long_walk():
     simulation = Simulation(load_scene("uneven"), 1)
     assert simulation.run()["completed"]
     world = simulation.world
@@ -81,7 +79,7 @@ def test_heading_does_not_drift_in_a_long_walk() -> None:
         assert abs(world.data.site_xpos[world.sole_sites[side]][1] - y) < 0.03
 
 
-def test_where_there_is_no_way_the_robot_stops() -> None:
+def test_where_there_is_no_way_the_robot_stops():
     simulation = Simulation(load_scene("feasibility-3", ["settle=0.5"]), 0)
     guard = simulation.controller.footing.guard
     assert guard is not None
@@ -94,7 +92,7 @@ def test_where_there_is_no_way_the_robot_stops() -> None:
     assert simulation.controller.schedule.steps == 5
 
 
-def test_a_robot_that_does_not_see_the_ground_judges_no_footholds_and_takes_no_shapes() -> None:
+def test_a_robot_that_does_not_see_the_ground_judges_no_footholds_and_takes_no_shapes():
     blind = Simulation(load_scene("feasibility-1", ["pfc=false"])).settings
     assert (blind.compliance, blind.feasibility, blind.conformity) == (None, None, None)
     sees = Simulation(load_scene("feasibility-1")).settings
@@ -102,7 +100,7 @@ def test_a_robot_that_does_not_see_the_ground_judges_no_footholds_and_takes_no_s
 
 
 @pytest.mark.parametrize("seeds", [(1, 2), pytest.param((1, 2, 7), marks=pytest.mark.long)])
-def test_feet_that_take_the_shape_of_bumps_walk_further(seeds: tuple[int, ...]) -> None:
+def test_feet_that_take_the_shape_of_bumps_walk_further(seeds):
     def upright(*settings: str) -> float:
         """Time in s until they fell or ended, in all."""
         # Of conforming feet alone: bumps that are judged, or taken for partial footholds, make the walk no longer.
@@ -116,5 +114,5 @@ def test_feet_that_take_the_shape_of_bumps_walk_further(seeds: tuple[int, ...]) 
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(20))
 @pytest.mark.parametrize("scene", ["obstacle", "tilt", *(f"feasibility-{k}" for k in range(1, 5))])
-def test_every_seed_walks_on(scene: str, seed: int) -> None:
+def test_every_seed_walks_on(scene, seed):
     assert run_scene(load_scene(scene), seed)["completed"]

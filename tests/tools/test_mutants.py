@@ -1,7 +1,5 @@
 """The mutants: each is another program, and a sample of them is noticed by the tests."""
 
-from __future__ import annotations
-
 import ast
 import os
 import subprocess
@@ -30,7 +28,7 @@ def clipped(x: float, side: str = "left") -> float:
 '''
 
 
-def test_every_kind_of_change_is_made_and_nothing_that_is_no_logic() -> None:
+def test_every_kind_of_change_is_made_and_nothing_that_is_no_logic():
     found = [mutants.mutant_at("a.py", SOURCE, site) for site in mutants.sites_of(SOURCE)]
     changes = {m.change for m in found}
     for change in (
@@ -60,7 +58,7 @@ def test_every_kind_of_change_is_made_and_nothing_that_is_no_logic() -> None:
 
 
 @pytest.mark.parametrize("room", mutants.ROOMS)
-def test_each_room_is_there_with_its_tests(room: str) -> None:
+def test_each_room_is_there_with_its_tests(room):
     files = mutants.files_of(room)
     assert files
     for path in files:
@@ -69,7 +67,7 @@ def test_each_room_is_there_with_its_tests(room: str) -> None:
         assert (mutants.ROOT / test).exists()
 
 
-def test_a_mutant_takes_the_place_of_its_module(tmp_path: Path) -> None:
+def test_a_mutant_takes_the_place_of_its_module(tmp_path):
     source = tmp_path / "changed.py"
     source.write_text("GRAVITY = 1.0\n")
     environment = dict(os.environ, PYTHONPATH=os.pathsep.join([str(mutants.ROOT), str(mutants.ROOT / "tools")]))
@@ -80,7 +78,7 @@ def test_a_mutant_takes_the_place_of_its_module(tmp_path: Path) -> None:
 
 
 @pytest.mark.long
-def test_most_of_a_sample_is_noticed() -> None:
+def test_most_of_a_sample_is_noticed():
     """Of 24 mutants that a commit has not seen before; 95 % are meant to be, and chance lets a few more survive."""
     commit = subprocess.run(
         ["git", "rev-parse", "HEAD"], cwd=mutants.ROOT, capture_output=True, text=True, check=False

@@ -1,7 +1,5 @@
 """The tool that compares walks sees a difference where there is one."""
 
-from __future__ import annotations
-
 import importlib.util
 from pathlib import Path
 

@@ -1,8 +1,5 @@
 """Robots to try fusion and tasks on: random equations of motion, and random chains of links in MuJoCo."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import mujoco
@@ -26,7 +23,7 @@ class RandomRobot:
 
 
 @pytest.fixture
-def random_robot() -> Callable[..., RandomRobot]:
+def random_robot():
     """`random_robot(rng, size, base=0)`: `base` coordinates come first that no joint drives."""
 
     def make(rng: np.random.Generator, size: int, base: int = 0) -> RandomRobot:
@@ -68,7 +65,7 @@ def chain_xml(rng: np.random.Generator, joints: int, floating: bool, parallel: b
 
 
 @pytest.fixture
-def random_chain() -> Callable[..., MujocoDynamics]:
+def random_chain():
     """`random_chain(rng, joints, floating=False, parallel=False)`: its joints at 0 and at rest until it is updated."""
 
     def make(rng: np.random.Generator, joints: int, floating: bool = False, parallel: bool = False) -> MujocoDynamics:

@@ -1,7 +1,5 @@
 """Compliance gives no energy away: what is led along a closed path never gets back more than it put in."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """What holds of stacks of tasks on any robot: strict order, bounded and continuous torques, a support that stays."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

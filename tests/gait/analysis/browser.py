@@ -1,7 +1,5 @@
 """A headless Chromium for tests of pages: opens a page with a probe in it and gives back what the probe found."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

@@ -1,8 +1,5 @@
 """Synthetic walks whose events and measures are known in closed form."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -73,6 +70,6 @@ def make_walk(
 
 
 @pytest.fixture
-def walk() -> Callable[..., Walk]:
+def walk():
     """Maker of synthetic walks."""
     return make_walk

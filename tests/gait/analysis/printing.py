@@ -1,7 +1,5 @@
 """A page printed to PDF by Chromium, and where its figures lie on the sheets."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import zlib

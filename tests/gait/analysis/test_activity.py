@@ -1,7 +1,5 @@
 """Walking, running and standing told apart, and the sway of standing against closed forms."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 
@@ -32,7 +30,7 @@ from .walks import made_walk
         (0.62, 0.3, "running"),
     ],
 )
-def test_a_run_has_flight_and_a_walk_none(stride: float, stance: float, name: str, one_foot: bool) -> None:
+def test_a_run_has_flight_and_a_walk_none(stride, stance, name, one_foot):
     recording = made_walk(stride=stride, stance=stance, strides=7).recording
     if one_foot:
         recording = replace(recording, feet={"left": recording.feet["left"]})
@@ -55,7 +53,7 @@ def test_a_run_has_flight_and_a_walk_none(stride: float, stance: float, name: st
         ("toe walking", ((0.0, 0.75), (1.0, 0.9))),
     ],
 )
-def test_where_the_foot_lands_names_the_walk(name: str, roll: tuple[tuple[float, float], ...], side: str) -> None:
+def test_where_the_foot_lands_names_the_walk(name, roll, side):
     recording = made_walk(strides=5, roll=roll).recording
     recording = replace(recording, feet={side: recording.feet[side]})  # type: ignore[index]
     feet = analyse_feet(recording)
@@ -64,10 +62,7 @@ def test_where_the_foot_lands_names_the_walk(name: str, roll: tuple[tuple[float,
 
 
 def stairs_up(
-    seed: int,
-    stance: float | None = None,
-    landing: float | None = None,
-    peaks: tuple[float, float] | None = None,
+    seed: int, stance: float | None = None, landing: float | None = None, peaks: tuple[float, float] | None = None
 ) -> PressureRecording:
     """A walk up stairs as the literature describes it: front or middle of the foot first, slow, a strong push-off."""
     random = np.random.default_rng(seed)
@@ -85,7 +80,7 @@ def stairs_up(
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_stairs_up_take_three_evidences(seed: int) -> None:
+def test_stairs_up_take_three_evidences(seed):
     def name(recording: PressureRecording) -> str:
         return activity_of(recording, analyse_feet(recording)).name
 
@@ -95,7 +90,7 @@ def test_stairs_up_take_three_evidences(seed: int) -> None:
     assert name(stairs_up(seed, landing=0.3)) == "walking"
 
 
-def test_a_foot_that_is_rolled_over_backwards_is_told() -> None:
+def test_a_foot_that_is_rolled_over_backwards_is_told():
     """As cells in the reversed order show it."""
     recording = made_walk(strides=5, roll=((0.0, 0.9), (1.0, 0.1))).recording
     doubts = progression_doubts(recording, analyse_feet(recording))
@@ -105,7 +100,7 @@ def test_a_foot_that_is_rolled_over_backwards_is_told() -> None:
     assert all("sets its soles down flat" in d for d in progression_doubts(robot, analyse_feet(robot)))
 
 
-def test_feet_that_were_not_recorded_at_one_time_are_told() -> None:
+def test_feet_that_were_not_recorded_at_one_time_are_told():
     """A walk whose right foot is 0.3 s late seems to fly; a run, which does, is not doubted."""
     recording = made_walk(strides=6).recording
     right = replace(recording.feet["right"], force=np.roll(recording.feet["right"].force, 30, axis=0))
@@ -133,7 +128,7 @@ def standing(seconds: float = 20.0, seed: int = 0) -> PressureRecording:
     return PressureRecording(Path("standing"), "synthetic", 50.0, time, feet)  # type: ignore[arg-type]
 
 
-def test_standing_is_named_and_its_sway_measured() -> None:
+def test_standing_is_named_and_its_sway_measured():
     recording = standing()
     feet = analyse_feet(recording)
     metrics = metrics_of(recording, feet)
@@ -150,7 +145,7 @@ def test_standing_is_named_and_its_sway_measured() -> None:
 
 
 @pytest.mark.parametrize("steps", [(40, 50), (1, 2)])
-def test_steps_that_nobody_asked_for_are_a_walk_all_the_same(steps: tuple[int, int]) -> None:
+def test_steps_that_nobody_asked_for_are_a_walk_all_the_same(steps):
     recording = made_walk(strides=7).recording
     feet = analyse_feet(recording, options=AnalysisOptions(steps=steps))
     metrics = metrics_of(recording, feet)
@@ -160,7 +155,7 @@ def test_steps_that_nobody_asked_for_are_a_walk_all_the_same(steps: tuple[int, i
 
 
 @pytest.mark.parametrize("walk", [{"stride": 0.4, "stance": 0.2}, {"stride": 1.1, "rate": 10.0}])
-def test_feet_that_are_lifted_do_not_stand_though_no_step_is_found(walk: dict[str, float]) -> None:
+def test_feet_that_are_lifted_do_not_stand_though_no_step_is_found(walk):
     """A sprint whose contacts are all shorter than 0.1 s, and ten frames a second."""
     recording = made_walk(strides=30, **walk).recording  # type: ignore[arg-type]
     feet = analyse_feet(recording)
@@ -170,7 +165,7 @@ def test_feet_that_are_lifted_do_not_stand_though_no_step_is_found(walk: dict[st
     assert "lifted and set down" in found.why
 
 
-def test_events_by_another_clock_are_refused() -> None:
+def test_events_by_another_clock_are_refused():
     """In ms, a walk would be called standing."""
     made = made_walk(strides=7)
     for factor, offset in ((1000.0, 0.0), (1.0, 1.7e9)):
@@ -181,7 +176,7 @@ def test_events_by_another_clock_are_refused() -> None:
 
 @pytest.mark.parametrize("period", [2.5, 4.0, 8.0])
 @pytest.mark.parametrize("depth", [0.3, 0.6])
-def test_weight_that_goes_from_foot_to_foot_is_no_walk(period: float, depth: float) -> None:
+def test_weight_that_goes_from_foot_to_foot_is_no_walk(period, depth):
     """No foot is lifted: each carries a fifth of a body weight or more at any time."""
     layout = nominal_insole("x", "left")
     time = np.arange(0.0, 30.0, 0.01)
@@ -196,7 +191,7 @@ def test_weight_that_goes_from_foot_to_foot_is_no_walk(period: float, depth: flo
         assert activity_of(given, found).name == "standing"
 
 
-def test_the_ellipse_holds_95_of_100_points() -> None:
+def test_the_ellipse_holds_95_of_100_points():
     random = np.random.default_rng(2)
     turn = np.array([[0.8, -0.6], [0.6, 0.8]])
     points = random.normal(0.0, 1.0, (4000, 2)) * (0.006, 0.002) @ turn.T

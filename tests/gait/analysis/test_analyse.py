@@ -1,15 +1,11 @@
 """From the file to the report, and the command."""
 
-from __future__ import annotations
-
 import csv
 import json
 import re
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -31,7 +27,7 @@ FILES = {"metrics.json", "steps.csv", "regions.csv", "report.html", "summary.htm
 
 
 @pytest.fixture
-def run(tmp_path: Path, walk: Callable[..., Any]) -> tuple[Path, Any]:
+def run(tmp_path, walk):
     """A robot's recording of 8 steps with its truth."""
     made = walk(steps=8, noise=1.4715)
     feet = made.recording.feet
@@ -45,7 +41,7 @@ def run(tmp_path: Path, walk: Callable[..., Any]) -> tuple[Path, Any]:
     return path, made
 
 
-def test_all_outputs_of_a_robot_recording(tmp_path: Path, run: tuple[Path, Any]) -> None:
+def test_all_outputs_of_a_robot_recording(tmp_path, run):
     path, made = run
     calls: list[float] = []
     result = analyse_recording(path, tmp_path / "out", progress=lambda fraction, text: calls.append(fraction))
@@ -69,7 +65,7 @@ def test_all_outputs_of_a_robot_recording(tmp_path: Path, run: tuple[Path, Any])
     assert {r["side"] for r in rows} == {"left", "right"}
 
 
-def test_report_stands_alone(tmp_path: Path, run: tuple[Path, Any]) -> None:
+def test_report_stands_alone(tmp_path, run):
     path, _ = run
     strange = path.rename(tmp_path / "a <b> & c.mcap")
     analyse_recording(strange, tmp_path / "out")
@@ -84,7 +80,7 @@ def test_report_stands_alone(tmp_path: Path, run: tuple[Path, Any]) -> None:
     assert "@media print" in page
 
 
-def test_nothing_is_left_behind_on_an_error(tmp_path: Path, run: tuple[Path, Any]) -> None:
+def test_nothing_is_left_behind_on_an_error(tmp_path, run):
     (tmp_path / "bad.asc").write_bytes(b"nonsense")
     with pytest.raises(FormatError):
         analyse_recording(tmp_path / "bad.asc", tmp_path / "out")
@@ -95,7 +91,7 @@ def test_nothing_is_left_behind_on_an_error(tmp_path: Path, run: tuple[Path, Any
     assert not (tmp_path / "out").exists()
 
 
-def test_a_recording_without_steps_still_gives_a_report(tmp_path: Path) -> None:
+def test_a_recording_without_steps_still_gives_a_report(tmp_path):
     with Recorder(tmp_path / "still.mcap") as recorder:
         channel = recorder.channel("/skin/left", [("force", 3)])
         for i in range(100):
@@ -107,7 +103,7 @@ def test_a_recording_without_steps_still_gives_a_report(tmp_path: Path) -> None:
     assert "no complete step" in (tmp_path / "out" / "report.html").read_text()
 
 
-def test_random_corruption_never_breaks_the_analysis(tmp_path: Path, run: tuple[Path, Any]) -> None:
+def test_random_corruption_never_breaks_the_analysis(tmp_path, run):
     whole = run[0].read_bytes()
     random = np.random.default_rng(3)
     analysed = 0
@@ -127,7 +123,7 @@ def test_random_corruption_never_breaks_the_analysis(tmp_path: Path, run: tuple[
     assert analysed > 10
 
 
-def test_command_prints_one_json_object(tmp_path: Path, run: tuple[Path, Any]) -> None:
+def test_command_prints_one_json_object(tmp_path, run):
     done = CliRunner().invoke(cli.app, ["analyze", str(run[0]), "-o", str(tmp_path / "out"), "--json"])
     assert done.exit_code == 0
     result = json.loads(done.stdout)
@@ -140,7 +136,7 @@ def plantar(*arguments: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run([sys.executable, "-c", code, *arguments], capture_output=True, text=True, check=False)
 
 
-def test_bad_input_is_one_line_and_exit_code_2(tmp_path: Path) -> None:
+def test_bad_input_is_one_line_and_exit_code_2(tmp_path):
     (tmp_path / "bad.asc").write_bytes(b"\x00" * 100)
     for arguments, text in (
         (["analyze", str(tmp_path / "bad.asc")], "known: mcap"),
@@ -158,7 +154,7 @@ def test_bad_input_is_one_line_and_exit_code_2(tmp_path: Path) -> None:
     assert not (tmp_path / "out").exists()
 
 
-def test_list_names_what_there_is() -> None:
+def test_list_names_what_there_is():
     for what, name in (("formats", "pedar"), ("robots", "h1"), ("scenes", "flat")):
         done = CliRunner().invoke(cli.app, ["list", what, "--json"])
         assert done.exit_code == 0
@@ -166,9 +162,7 @@ def test_list_names_what_there_is() -> None:
 
 
 @pytest.mark.parametrize("arguments", [["analyze", "--help"], ["list", "robots"], ["analyze", "RUN", "-o", "OUT"]])
-def test_analysis_loads_neither_mujoco_nor_cadquery(
-    tmp_path: Path, run: tuple[Path, Any], arguments: list[str]
-) -> None:
+def test_analysis_loads_neither_mujoco_nor_cadquery(tmp_path, run, arguments):
     words = {"RUN": str(run[0]), "OUT": str(tmp_path / "out")}
     code = (
         "import atexit, sys, cli\n"
@@ -183,7 +177,7 @@ def test_analysis_loads_neither_mujoco_nor_cadquery(
     assert done.stdout.splitlines()[-1] == "LOADED []"
 
 
-def test_thinned_lines_keep_their_extremes() -> None:
+def test_thinned_lines_keep_their_extremes():
     x = np.arange(100_000.0)
     y = np.sin(x / 900.0)
     y[54_321] = 5.0
@@ -194,7 +188,7 @@ def test_thinned_lines_keep_their_extremes() -> None:
     assert (np.diff(few_x) > 0).all()
 
 
-def test_real_pedar_walk_has_9_and_8_complete_steps(tmp_path: Path, real_data: Path) -> None:
+def test_real_pedar_walk_has_9_and_8_complete_steps(tmp_path, real_data):
     path = real_data / "recordings" / "pedar_walk.asc"
     result = analyse_recording(path, tmp_path / "out")
     assert {side: foot["steps"] for side, foot in result["feet"].items()} == {"left": 9, "right": 8}
@@ -204,7 +198,7 @@ def test_real_pedar_walk_has_9_and_8_complete_steps(tmp_path: Path, real_data: P
 
 @pytest.mark.parametrize("gain", [1e-9, 1.0, 1e9])
 @pytest.mark.parametrize("lost", [None, "cells", "all"])
-def test_odd_recordings_still_give_a_report(tmp_path: Path, gain: float, lost: str | None) -> None:
+def test_odd_recordings_still_give_a_report(tmp_path, gain, lost):
     """Forces of no foot, cells that never measure, and nothing at all: a page and warnings, never an exception."""
     time = np.arange(0.0, 4.0, 0.01)
     phase = ((time - 0.2) % 1.1) / 0.65

@@ -1,7 +1,5 @@
 """The weight that forces imply, against weights that are known."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -21,7 +19,7 @@ def of_side(recording: PressureRecording, side: str) -> PressureRecording:
 
 @pytest.mark.parametrize("only", ["", "left"])
 @pytest.mark.parametrize(("unit", "doubted"), [(1.0, False), (6.895, True), (0.1333, True), (10.0, True), (0.1, True)])
-def test_a_wrong_unit_implies_nobodys_weight(unit: float, doubted: bool, only: str) -> None:
+def test_a_wrong_unit_implies_nobodys_weight(unit, doubted, only):
     """Units of pressure that are mistaken for kPa: psi, mmHg, N/cm2."""
     recording = made_walk(weight=700.0 * unit, rate=50.0, strides=5).recording
     recording = of_side(recording, only) if only else recording
@@ -33,7 +31,7 @@ def test_a_wrong_unit_implies_nobodys_weight(unit: float, doubted: bool, only: s
     assert all(f"a person of {weight / GRAVITY:.3g} kg" in line for line in doubts)
 
 
-def test_standing_and_raw_counts() -> None:
+def test_standing_and_raw_counts():
     recording = made_walk(strides=2).recording
     assert implied_weight(replace(recording, raw=True), analyse_feet(recording)) is None
     still = {side: replace(foot, force=foot.force * 0.0 + 350.0 / 99.0) for side, foot in recording.feet.items()}
@@ -41,7 +39,7 @@ def test_standing_and_raw_counts() -> None:
     assert implied_weight(standing, analyse_feet(standing)) == pytest.approx(700.0)
 
 
-def test_taxels_of_a_robot_are_held_against_their_range() -> None:
+def test_taxels_of_a_robot_are_held_against_their_range():
     recording = replace(made_walk().recording, kind="robot")
     layout = recording.feet["left"].layout
     assert layout is not None

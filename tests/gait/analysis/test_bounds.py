@@ -1,9 +1,6 @@
 """What holds of any walk, over made ones of feet and of a robot's soles."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,7 +16,7 @@ from .walks import made_walk
 
 @pytest.mark.parametrize("kind", ["insole", "robot"])
 @pytest.mark.parametrize("noise", [0.0, 0.3])
-def test_physical_bounds(kind: str, noise: float) -> None:
+def test_physical_bounds(kind, noise):
     recording = replace(made_walk(strides=4, rate=50.0, noise=noise).recording, kind=kind)  # type: ignore[arg-type]
     steps = [step for gait in analyse_feet(recording).values() for step in gait.steps]
     assert len(steps) == 8
@@ -58,22 +55,22 @@ def _check_bounds(walk: Analysis) -> int:
 @pytest.mark.parametrize(
     "name", ["emed_step.lst", "fscan_walk_left.asf", "moticon_walk_a.txt", "pedar_walk.asc", "xsensor_walk.csv"]
 )
-def test_bounds_of_recordings(real_data: Path, name: str) -> None:
+def test_bounds_of_recordings(real_data, name):
     assert _check_bounds(analyse(real_data / "recordings" / name)) > 0
 
 
 @pytest.mark.parametrize("seed", range(0, 60, 7))
-def test_bounds_of_made_files(tmp_path: Path, seed: int) -> None:
+def test_bounds_of_made_files(tmp_path, seed):
     made_table(seed, tmp_path / "walk.csv")
     assert _check_bounds(analyse(tmp_path / "walk.csv")) > 0
 
 
-def test_angles_have_a_circular_mean() -> None:
+def test_angles_have_a_circular_mean():
     found = spread([175.0, -175.0, 179.0, -179.0], circular=True)
     assert abs(abs(found.mean or 0.0) - 180.0) < 1e-6
     assert (found.sd or 0.0) < 6.0
 
 
 @pytest.mark.parametrize(("freedom", "true"), [(1.0, 12.706204736), (2.0, 4.30265272991), (3.0, 3.18244630528)])
-def test_students_quantile_of_small_samples(freedom: float, true: float) -> None:
+def test_students_quantile_of_small_samples(freedom, true):
     assert student_quantile(0.975, freedom) == pytest.approx(true, rel=1e-9)

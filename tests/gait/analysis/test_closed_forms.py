@@ -1,7 +1,5 @@
 """Measures against closed forms: an elliptic contact that rolls over a fine mat, and prints of known shape."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 
@@ -61,7 +59,7 @@ def gait_of(recording: PressureRecording) -> FootGait:
 
 
 @pytest.mark.parametrize("kind", ["insole", "platform"])
-def test_a_rolling_ellipse_has_the_measures_of_its_formulas(kind: Kind) -> None:
+def test_a_rolling_ellipse_has_the_measures_of_its_formulas(kind):
     gait = gait_of(rolling_ellipse(kind))
     assert len(gait.steps) == 3
     for step in gait.steps:
@@ -101,7 +99,7 @@ def stadium_arch_index() -> float:
     return (area(2 * length / 3) - area(length / 3)) / area(length)
 
 
-def test_the_arch_index_of_the_swept_strip() -> None:
+def test_the_arch_index_of_the_swept_strip():
     gait = gait_of(rolling_ellipse())
     assert gait.footprint is not None
     assert gait.footprint.toe_line is None  # nothing tells toes: the index is that of the whole print
@@ -120,7 +118,7 @@ def ellipse_print(a: float, b: float, turn: float, pitch: float = 0.001, side: S
 
 @pytest.mark.parametrize("turn", [0.0, 0.3, -1.2, 2.5])
 @pytest.mark.parametrize("side", ["left", "right"])
-def test_an_ellipse_has_its_arch_index_axis_and_size_at_any_angle(turn: float, side: Side) -> None:
+def test_an_ellipse_has_its_arch_index_axis_and_size_at_any_angle(turn, side):
     print_ = ellipse_print(0.12, 0.045, turn, side=side)
     third = (2 / math.pi) * (math.asin(1 / 3) + math.sqrt(8) / 9)  # middle third of an ellipse: 0.4126
     assert print_.arch_index() == pytest.approx(third, rel=0.01)
@@ -148,7 +146,7 @@ def foot_print(side: Side) -> Footprint:
 
 
 @pytest.mark.parametrize("side", ["left", "right"])
-def test_toes_and_regions_of_a_drawn_foot(side: Side) -> None:
+def test_toes_and_regions_of_a_drawn_foot(side):
     print_ = with_toe_line(foot_print(side))
     assert print_.toe_line is not None
     assert 0.188 < print_.toeless_length < 0.195
@@ -166,7 +164,7 @@ def test_toes_and_regions_of_a_drawn_foot(side: Side) -> None:
     assert 0.15 < print_.arch_index() < 0.35
 
 
-def test_cpei_of_a_bowed_path() -> None:
+def test_cpei_of_a_bowed_path():
     from plantar.gait.analysis.steps.cop_path import excursion_index
 
     for side, outward in (("left", 1.0), ("right", -1.0)):
@@ -182,7 +180,7 @@ def test_cpei_of_a_bowed_path() -> None:
         assert math.isnan(excursion_index(print_, np.column_stack([x[:80], bow[:80]])))
 
 
-def test_force_curve_of_a_trapezoid_and_of_two_humps() -> None:
+def test_force_curve_of_a_trapezoid_and_of_two_humps():
     time = np.linspace(0.0, 1.0, 1001)
     ramp = np.minimum(np.minimum(time / 0.2, 1.0), (1.0 - time) / 0.2) * 500.0
     got = force_measures(time, ramp, 0.0, 1.0)
@@ -201,7 +199,7 @@ def test_force_curve_of_a_trapezoid_and_of_two_humps() -> None:
 
 @pytest.mark.parametrize("noise", [0.0, 3.0])
 @pytest.mark.parametrize("later", [0.9, 1.0, 1.03])
-def test_a_later_hump_of_slow_gait_is_not_the_first_peak(later: float, noise: float) -> None:
+def test_a_later_hump_of_slow_gait_is_not_the_first_peak(later, noise):
     """Loading to 700 N at 20 % of the stance, a hump in mid-stance that may be higher, push-off at 80 %."""
     time = np.linspace(0.0, 1.2, 121)
     places = [0.0, 0.03, 0.05, 0.2, 0.32, 0.44, 0.6, 0.8, 1.0]

@@ -1,7 +1,5 @@
 """Two recordings side by side."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
@@ -31,11 +29,11 @@ def write_walk(path: Path, sides: tuple[str, ...], gain: float = 1.0, unit: str 
 
 
 @pytest.fixture
-def layout(tmp_path: Path) -> Path:
+def layout(tmp_path):
     return write_layout(nominal_insole("y", "left"), tmp_path / "layout.json")
 
 
-def test_before_and_after(tmp_path: Path, layout: Path) -> None:
+def test_before_and_after(tmp_path, layout):
     a = write_walk(tmp_path / "before.npz", ("left", "right"))
     b = write_walk(tmp_path / "after.npz", ("left", "right"), 1.25)
     result = compare_recordings(a, b, tmp_path / "out", layout=layout)
@@ -56,7 +54,7 @@ def test_before_and_after(tmp_path: Path, layout: Path) -> None:
     assert 'href="a/report.html"' in page
 
 
-def test_left_against_right(tmp_path: Path, layout: Path) -> None:
+def test_left_against_right(tmp_path, layout):
     a = write_walk(tmp_path / "l.npz", ("left",))
     b = write_walk(tmp_path / "r.npz", ("right",), 2.0)
     arguments = ["analyze", "--compare", str(a), str(b), "--layout", str(layout), "-o", str(tmp_path / "out"), "--json"]
@@ -67,7 +65,7 @@ def test_left_against_right(tmp_path: Path, layout: Path) -> None:
     assert result["difference"]["left and right"]["impulse_Ns"]["percent"] == pytest.approx(100.0, abs=3.0)
 
 
-def test_what_cannot_be_compared(tmp_path: Path, layout: Path) -> None:
+def test_what_cannot_be_compared(tmp_path, layout):
     a = write_walk(tmp_path / "a.npz", ("left",))
     b = write_walk(tmp_path / "b.npz", ("left",), unit="raw")
     with pytest.raises(InputError, match="cannot be compared"):

@@ -1,7 +1,5 @@
 """Masks and measures of one's own."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -17,12 +15,12 @@ WHOLE = [[-0.1, -0.1], [1.1, -0.1], [1.1, 1.1], [-0.1, 1.1]]
 
 
 @pytest.fixture(scope="module")
-def analysis() -> Analysis:
+def analysis():
     recording = made_walk(strides=5).recording
     return Analysis(recording, analyse_feet(recording), {})
 
 
-def test_a_mask_of_everything_measures_the_foot(analysis: Analysis) -> None:
+def test_a_mask_of_everything_measures_the_foot(analysis):
     for side, rows in mask_measures(analysis, {"all": WHOLE}).items():
         for row, step in zip(rows, analysis.feet[side].steps, strict=True):
             assert row["all"]["peak_pressure_Pa"] == step["peak_pressure_Pa"]
@@ -30,7 +28,7 @@ def test_a_mask_of_everything_measures_the_foot(analysis: Analysis) -> None:
             assert row["all"]["impulse_percent"] == pytest.approx(100.0)
 
 
-def test_a_mask_is_the_same_part_of_both_feet(analysis: Analysis) -> None:
+def test_a_mask_is_the_same_part_of_both_feet(analysis):
     """The medial half of the forefoot; a mask with a notch leaves out what lies in the notch."""
     medial = [[0.7, 0.55], [1.0, 0.55], [1.0, 1.0], [0.7, 1.0]]
     left, right = (mask_cells(analysis, side, medial) for side in ("left", "right"))
@@ -45,19 +43,19 @@ def test_a_mask_is_the_same_part_of_both_feet(analysis: Analysis) -> None:
     assert kept == set(mask_cells(analysis, "left", notch[::-1]).tolist())
 
 
-def test_a_measure_of_ones_own(analysis: Analysis) -> None:
+def test_a_measure_of_ones_own(analysis):
     found = custom_measures(analysis, {"peak": lambda v: v.load.force.sum(axis=1).max(), "none": lambda v: np.nan})
     for side, gait in analysis.feet.items():
         assert found[side]["peak"] == pytest.approx([s["peak_force_N"] for s in gait.steps])
         assert np.isnan(found[side]["none"]).all()
 
 
-def test_what_is_no_mask_is_refused(analysis: Analysis) -> None:
+def test_what_is_no_mask_is_refused(analysis):
     with pytest.raises(InputError, match=r"mine has corners of shape \(2, 2\); allowed: three or more"):
         mask_measures(analysis, {"mine": [[0, 0], [1, 1]]})
 
 
-def test_an_axis_beside_the_print_is_not_drawn(analysis: Analysis) -> None:
+def test_an_axis_beside_the_print_is_not_drawn(analysis):
     from dataclasses import replace
 
     print_ = analysis.feet["left"].footprint

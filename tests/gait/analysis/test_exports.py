@@ -1,7 +1,5 @@
 """Exports are read again, by Plantar and by ezc3d, and say what they hold."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from pathlib import Path
@@ -23,14 +21,14 @@ from .walks import made_walk
 
 
 @pytest.fixture(scope="module")
-def analysis() -> Analysis:
+def analysis():
     recording = made_walk(strides=3, rate=50.0).recording
     feet = analyse_feet(recording)
     return Analysis(recording, feet, metrics_of(recording, feet))
 
 
 @pytest.mark.parametrize("suffix", [".npz", ".csv"])
-def test_what_was_exported_measures_the_same(tmp_path: Path, analysis: Analysis, suffix: str) -> None:
+def test_what_was_exported_measures_the_same(tmp_path, analysis, suffix):
     files = export_analysis(analysis, tmp_path / "made" / f"walk{suffix}")
     assert [f.name for f in files] == [f"walk{suffix}", f"walk{suffix}.json"]
     layout = nominal_insole("x", "left") if suffix == ".csv" else None
@@ -42,7 +40,7 @@ def test_what_was_exported_measures_the_same(tmp_path: Path, analysis: Analysis,
             assert other["cop_path_m"] == pytest.approx(one["cop_path_m"], rel=1e-5)
 
 
-def test_the_sidecar_says_what_the_file_holds(tmp_path: Path, analysis: Analysis) -> None:
+def test_the_sidecar_says_what_the_file_holds(tmp_path, analysis):
     _, sidecar = export_analysis(analysis, tmp_path / "walk.csv")
     held = json.loads(sidecar.read_text())
     assert held["SamplingFrequency"] == 50.0
@@ -52,7 +50,7 @@ def test_the_sidecar_says_what_the_file_holds(tmp_path: Path, analysis: Analysis
     assert strikes == [s.heel_strike_s for s in analysis.feet["left"].steps]
 
 
-def test_a_c3d_file_has_forces_and_events(tmp_path: Path, analysis: Analysis) -> None:
+def test_a_c3d_file_has_forces_and_events(tmp_path, analysis):
     ezc3d = pytest.importorskip("ezc3d", reason="ezc3d is not installed")
     path, _ = export_analysis(analysis, tmp_path / "walk.c3d")
     file = ezc3d.c3d(str(path))
@@ -70,7 +68,7 @@ def test_a_c3d_file_has_forces_and_events(tmp_path: Path, analysis: Analysis) ->
     assert left == pytest.approx([s.heel_strike_s for s in analysis.feet["left"].steps], abs=1e-4)
 
 
-def test_a_c3d_file_has_no_centre_of_pressure_without_load(tmp_path: Path, analysis: Analysis) -> None:
+def test_a_c3d_file_has_no_centre_of_pressure_without_load(tmp_path, analysis):
     ezc3d = pytest.importorskip("ezc3d", reason="ezc3d is not installed")
     path, _ = export_analysis(analysis, tmp_path / "walk.c3d")
     file = ezc3d.c3d(str(path))
@@ -82,7 +80,7 @@ def test_a_c3d_file_has_no_centre_of_pressure_without_load(tmp_path: Path, analy
     assert written == pytest.approx(cop[there], abs=1e-6)
 
 
-def test_the_command_exports_beside_its_report(tmp_path: Path, analysis: Analysis) -> None:
+def test_the_command_exports_beside_its_report(tmp_path, analysis):
     pytest.importorskip("ezc3d", reason="ezc3d is not installed")
     walk, _ = export_analysis(analysis, tmp_path / "walk.npz")
     arguments = ["analyze", str(walk), "-o", str(tmp_path / "out"), "--json", "--figures"]
@@ -102,14 +100,14 @@ def test_the_command_exports_beside_its_report(tmp_path: Path, analysis: Analysi
     assert not (tmp_path / "none").exists()
 
 
-def test_other_suffixes_are_refused(tmp_path: Path, analysis: Analysis) -> None:
+def test_other_suffixes_are_refused(tmp_path, analysis):
     with pytest.raises(InputError, match=r"cannot export to 'walk.xls'; allowed: .npz, .csv, .c3d"):
         export_analysis(analysis, tmp_path / "walk.xls")
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("suffix", [".c3d", ".mot"])
-def test_forces_are_read_back_as_plates(tmp_path: Path, analysis: Analysis, suffix: str) -> None:
+def test_forces_are_read_back_as_plates(tmp_path, analysis, suffix):
     if suffix == ".c3d":
         pytest.importorskip("ezc3d", reason="ezc3d is not installed")
     path = export_analysis(analysis, tmp_path / f"walk{suffix}")[0]
@@ -127,7 +125,7 @@ def test_forces_are_read_back_as_plates(tmp_path: Path, analysis: Analysis, suff
         assert np.abs(axes - cop[there]).max() < 1e-5
 
 
-def test_ezc3d_reads_force_platforms(tmp_path: Path, analysis: Analysis) -> None:
+def test_ezc3d_reads_force_platforms(tmp_path, analysis):
     ezc3d = pytest.importorskip("ezc3d", reason="ezc3d is not installed")
     path, _ = export_analysis(analysis, tmp_path / "walk.c3d")
     plates = ezc3d.c3d(str(path), extract_forceplat_data=True)["data"]["platform"]
@@ -136,7 +134,7 @@ def test_ezc3d_reads_force_platforms(tmp_path: Path, analysis: Analysis) -> None
         assert np.abs(plate["force"][2] - force).max() < 1e-6 * force.max()
 
 
-def test_opensim_reads_the_motion_file(tmp_path: Path, analysis: Analysis) -> None:
+def test_opensim_reads_the_motion_file(tmp_path, analysis):
     opensim = pytest.importorskip("opensim", reason="opensim is not installed: pip install opensim")
     motion, loads, _ = export_analysis(analysis, tmp_path / "walk.mot")
     table = opensim.TimeSeriesTable(str(motion))

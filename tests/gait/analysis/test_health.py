@@ -1,7 +1,5 @@
 """Silent cells and creeping gain are reported with the size of the error; healthy walks are not."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -14,7 +12,7 @@ from .walks import made_walk
 
 
 @pytest.mark.parametrize("share", [0.1, 0.3])
-def test_silent_cells_and_what_they_lack(share: float) -> None:
+def test_silent_cells_and_what_they_lack(share):
     recording = made_walk(strides=5, rate=50.0).recording
     foot = recording.feet["left"]
     random = np.random.default_rng(1)
@@ -30,7 +28,7 @@ def test_silent_cells_and_what_they_lack(share: float) -> None:
     assert silent_cell_doubts(recording) == []
 
 
-def test_gain_that_creeps() -> None:
+def test_gain_that_creeps():
     gains = np.linspace(1.0, 1.3, 20)
     for side_gains, expected in ((gains, 2), (None, 0)):
         feet = analyse_feet(made_walk(strides=20, rate=50.0, gains=side_gains).recording)

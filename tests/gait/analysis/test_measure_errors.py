@@ -1,7 +1,5 @@
 """Stated errors against what noise, frames and cells do to made walks whose truth is known."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +16,7 @@ KEYS = ("contact_time_s", "stride_time_s", "peak_force_N", "impulse_Ns", "cop_pa
 
 
 @pytest.mark.parametrize(("rate", "noise"), [(50.0, 0.3), (100.0, 0.3), (100.0, 1.0)])
-def test_errors_are_those_that_noise_makes(rate: float, noise: float) -> None:
+def test_errors_are_those_that_noise_makes(rate, noise):
     clean = made_walk(strides=8, rate=400.0)
     noisy = made_walk(strides=8, rate=rate, noise=noise, seed=3)
     true = analyse_feet(clean.recording)["left"]
@@ -32,7 +30,7 @@ def test_errors_are_those_that_noise_makes(rate: float, noise: float) -> None:
         assert stated[key] < 0.2 * abs(float(np.nanmean([s[key] for s in found.steps]))), key
 
 
-def test_every_measure_of_an_insole_has_an_error() -> None:
+def test_every_measure_of_an_insole_has_an_error():
     recording = made_walk(strides=8, noise=0.3).recording
     gait = analyse_feet(recording)["left"]
     stated = errors_of_foot(recording, gait)
@@ -40,7 +38,7 @@ def test_every_measure_of_an_insole_has_an_error() -> None:
     assert all(0.0 <= error < np.inf for error in stated.values())
 
 
-def test_coarser_cells_and_frames_err_more() -> None:
+def test_coarser_cells_and_frames_err_more():
     def errors(rate: float, size: str) -> dict[str, float]:
         layouts = {side: nominal_insole(size, side) for side in ("left", "right")}
         recording = made_walk(strides=6, rate=rate, noise=0.3, layouts=layouts).recording  # type: ignore[arg-type]
@@ -50,7 +48,7 @@ def test_coarser_cells_and_frames_err_more() -> None:
     assert errors(100.0, "z")["contact_area_m2"] > errors(100.0, "u")["contact_area_m2"]
 
 
-def test_no_load_has_no_errors() -> None:
+def test_no_load_has_no_errors():
     recording = made_walk(strides=6).recording
     empty = replace(recording, feet={s: replace(f, force=np.zeros_like(f.force)) for s, f in recording.feet.items()})
     assert errors_of_foot(empty, analyse_feet(empty)["left"]) == {}

@@ -1,9 +1,6 @@
 """Feet whose load lies as in the other foot."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,7 +8,6 @@ import pytest
 from plantar.gait.analysis.health import inward_of_toes, mirrored_doubts
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.parameters import analyse_feet
-from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 from plantar.sides import SIDES, other_side
 
@@ -36,7 +32,7 @@ def arched(mirrored: tuple[str, ...] = ()) -> PressureRecording:
     return replace(recording, feet=feet)
 
 
-def test_feet_as_they_are_and_mirrored() -> None:
+def test_feet_as_they_are_and_mirrored():
     for mirrored, doubted in (((), 0), (("left",), 0), (SIDES, 1)):
         recording = arched(mirrored)
         feet = analyse_feet(recording)
@@ -45,7 +41,7 @@ def test_feet_as_they_are_and_mirrored() -> None:
     assert any("as mirrored feet do" in warning for warning in metrics_of(recording, feet)["warnings"])
 
 
-def test_swapped_matrices_are_mirrored_feet() -> None:
+def test_swapped_matrices_are_mirrored_feet():
     recording = arched()
     feet = {
         side: FootRecording(side, recording.feet[other_side(side)].force, layout) for side, layout in LAYOUTS.items()
@@ -54,14 +50,14 @@ def test_swapped_matrices_are_mirrored_feet() -> None:
     assert len(mirrored_doubts(swapped, analyse_feet(swapped))) == 1
 
 
-def test_one_foot_and_robots_are_not_doubted() -> None:
+def test_one_foot_and_robots_are_not_doubted():
     recording = arched(SIDES)
     one = replace(recording, feet={"left": recording.feet["left"]})
     robot = replace(recording, kind="robot")
     assert mirrored_doubts(one, analyse_feet(one)) == mirrored_doubts(robot, analyse_feet(robot)) == []
 
 
-def test_real_feet_are_not_doubted(real_data: Path) -> None:
+def test_real_feet_are_not_doubted(real_data):
     from plantar.gait.analysis.analyse import analyse
 
     for name in ("pedar_walk.asc", "moticon_walk_a.txt", "xsensor_walk.csv", "fscan_walk_left.asf"):
@@ -71,7 +67,7 @@ def test_real_feet_are_not_doubted(real_data: Path) -> None:
 
 
 @pytest.mark.parametrize("layout", [None, LAYOUTS["left"]])
-def test_a_foot_without_geometry_or_load_has_no_inward(layout: SoleLayout | None) -> None:
+def test_a_foot_without_geometry_or_load_has_no_inward(layout):
     recording = arched()
     foot = FootRecording("left", np.zeros_like(recording.feet["left"].force), layout)
     empty = replace(recording, feet={"left": foot})

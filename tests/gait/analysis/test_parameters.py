@@ -1,10 +1,6 @@
 """Measures of steps against closed forms."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -32,7 +28,7 @@ def rolling(steps: int = 4, rate: float = 200.0, peak: float = 800.0) -> Pressur
     return PressureRecording(Path("x"), "synthetic", rate, time, {"left": FootRecording("left", force, layout)})
 
 
-def test_a_rolling_half_sine_has_the_measures_of_its_formula() -> None:
+def test_a_rolling_half_sine_has_the_measures_of_its_formula():
     recording = rolling()
     gait = analyse_foot(recording, "left")
     assert len(gait.steps) == 4
@@ -60,7 +56,7 @@ def test_a_rolling_half_sine_has_the_measures_of_its_formula() -> None:
     assert np.isnan(gait.steps[-1]["stride_time_s"])
 
 
-def test_contact_area_of_a_uniform_load_is_the_loaded_area(walk: Callable[..., Any]) -> None:
+def test_contact_area_of_a_uniform_load_is_the_loaded_area(walk):
     made = walk(steps=8)
     for side, foot in made.recording.feet.items():
         for step in analyse_foot(made.recording, side).steps:
@@ -69,7 +65,7 @@ def test_contact_area_of_a_uniform_load_is_the_loaded_area(walk: Callable[..., A
             assert step["cop_excursion_ap_m"] < 1e-9
 
 
-def test_walk_as_a_whole(walk: Callable[..., Any]) -> None:
+def test_walk_as_a_whole(walk):
     made = walk(steps=20, noise=1.4715)
     feet = {side: analyse_foot(made.recording, side) for side in made.recording.feet}
     whole = gait_of_feet(feet)
@@ -91,13 +87,13 @@ def test_walk_as_a_whole(walk: Callable[..., Any]) -> None:
     assert abs(index) < 1.0
 
 
-def test_noise_does_not_count_as_contact_area(walk: Callable[..., Any]) -> None:
+def test_noise_does_not_count_as_contact_area(walk):
     made = walk(steps=8, noise=1.4715)
     gait = analyse_foot(made.recording, "left")
     assert gait.cell_threshold == pytest.approx([3 * 1.4715] * len(gait.cell_threshold), rel=0.2)
 
 
-def test_symmetry_index_has_the_sign_of_the_larger_side(walk: Callable[..., Any]) -> None:
+def test_symmetry_index_has_the_sign_of_the_larger_side(walk):
     made = walk(steps=12)
     recording = made.recording
     left = recording.feet["left"]
@@ -108,7 +104,7 @@ def test_symmetry_index_has_the_sign_of_the_larger_side(walk: Callable[..., Any]
     assert set(symmetry({"left": feet["left"]}).values()) == {None}
 
 
-def test_a_foot_without_geometry_gives_forces_only(walk: Callable[..., Any]) -> None:
+def test_a_foot_without_geometry_gives_forces_only(walk):
     made = walk(steps=6)
     bare = FootRecording("left", made.recording.feet["left"].force, None)
     recording = PressureRecording(Path("x"), "x", 250.0, made.recording.time, {"left": bare})
@@ -118,7 +114,7 @@ def test_a_foot_without_geometry_gives_forces_only(walk: Callable[..., Any]) -> 
 
 
 @pytest.mark.parametrize("forefoot", [1.0, 0.4, 0.1, 0.02])
-def test_an_insole_gives_no_outline_of_a_foot(forefoot: float) -> None:
+def test_an_insole_gives_no_outline_of_a_foot(forefoot):
     """Which of its cells pass the threshold would decide: nothing of that is a measure, and the CPEI takes the sole."""
     gait = analyse_feet(made_walk(forefoot=forefoot).recording)["left"]
     assert not set(gait.steps[2].measures) & {"arch_index", "foot_length_m", "foot_width_m"}
@@ -131,7 +127,7 @@ def test_an_insole_gives_no_outline_of_a_foot(forefoot: float) -> None:
 
 
 @pytest.mark.parametrize(("noise", "told"), [(0.0, 0), (0.3, 0), (2.0, 2)])
-def test_noise_that_moves_events_is_told(noise: float, told: int) -> None:
+def test_noise_that_moves_events_is_told(noise, told):
     """Noise of the 99 cells of an insole in N: that of a foot is ten times as large."""
     feet = analyse_feet(made_walk(noise=noise).recording)
     lines = [line for gait in feet.values() for line in gait.warnings]

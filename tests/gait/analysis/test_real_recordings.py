@@ -1,7 +1,5 @@
 """Real recordings against what is known of them; skipped where PLANTAR_REAL_DATA is not set."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys
@@ -16,7 +14,6 @@ from plantar import PlantarError
 from plantar.formats import read_recording
 from plantar.gait.analysis.analyse import analyse
 from plantar.gait.analysis.steps.swing_levels import swing_levels
-from plantar.sides import Side
 
 EXAMPLES = ("pedar_walk.asc", "emed_step.lst", "fscan_walk_left.asf", "xsensor_walk.csv", "moticon_walk_a.txt")
 
@@ -30,7 +27,7 @@ def vendor_events(report: Path, sheet: int) -> np.ndarray:
     return np.array([[float(r[1]), float(r[2])] for r in rows[1:]])
 
 
-def test_moticon_events_agree_with_the_vendors(real_data: Path) -> None:
+def test_moticon_events_agree_with_the_vendors(real_data):
     folder = real_data / "recordings"
     analysis = analyse(folder / "moticon_walk_a.txt")
     strides = []
@@ -50,7 +47,7 @@ def test_moticon_events_agree_with_the_vendors(real_data: Path) -> None:
     assert cadence == pytest.approx(120.0 / np.mean(strides), rel=0.003)
 
 
-def test_steps_of_the_other_recordings(real_data: Path) -> None:
+def test_steps_of_the_other_recordings(real_data):
     found = {}
     for name in EXAMPLES:
         metrics = analyse(real_data / "recordings" / name).metrics
@@ -64,7 +61,7 @@ def test_steps_of_the_other_recordings(real_data: Path) -> None:
     }
 
 
-def test_the_emed_step_is_a_foot(real_data: Path) -> None:
+def test_the_emed_step_is_a_foot(real_data):
     metrics = analyse(real_data / "recordings" / "emed_step.lst").metrics
     assert metrics["frames"] == 106
     assert metrics["grid"] == {"rows": 95, "columns": 64}
@@ -79,7 +76,7 @@ def test_the_emed_step_is_a_foot(real_data: Path) -> None:
     assert set(foot["regions"]) >= {"heel", "midfoot", "forefoot_central", "hallux", "toes"}
 
 
-def test_the_emed_step_by_another_packages_definitions(real_data: Path) -> None:
+def test_the_emed_step_by_another_packages_definitions(real_data):
     """pressuRe's definitions, computed here from the frames: sums times frame time, cells above 0."""
     analysis = analyse(real_data / "recordings" / "emed_step.lst")
     (gait,) = analysis.feet.values()
@@ -103,7 +100,7 @@ def test_the_emed_step_by_another_packages_definitions(real_data: Path) -> None:
 
 
 @pytest.mark.parametrize(("side", "share"), [("left", 0.065), ("right", 0.017)])
-def test_the_pedar_steps_by_another_packages_definitions(real_data: Path, side: Side, share: float) -> None:
+def test_the_pedar_steps_by_another_packages_definitions(real_data, side, share):
     """pressuRe's steps reach from 30 N to 30 N; all that does not depend on where they begin is the same."""
     gait = analyse(real_data / "recordings" / "pedar_walk.asc").feet[side]
     force, pressure, layout = gait.foot.vertical_force, gait.foot.pressure(), gait.foot.layout
@@ -125,7 +122,7 @@ def test_the_pedar_steps_by_another_packages_definitions(real_data: Path, side: 
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", EXAMPLES)
-def test_a_hundred_corruptions_of_each(real_data: Path, tmp_path: Path, name: str) -> None:
+def test_a_hundred_corruptions_of_each(real_data, tmp_path, name):
     """Never anything but one clear line or a result; a wrong unit never without a new warning."""
     whole = (real_data / "recordings" / name).read_bytes()
     whole = whole[:300_000] if name != "pedar_walk.asc" else whole  # the first part is as good and faster
@@ -157,7 +154,7 @@ def test_a_hundred_corruptions_of_each(real_data: Path, tmp_path: Path, name: st
 
 
 @pytest.mark.long
-def test_a_long_recording_is_quick_and_small(tmp_path: Path) -> None:
+def test_a_long_recording_is_quick_and_small(tmp_path):
     """12 minutes of two 99-cell insoles at 100 Hz, within a fifth of the 30 s and 1 GB of an hour, and a start."""
     random = np.random.default_rng(0)
     path = tmp_path / "long.asc"
@@ -190,7 +187,7 @@ def test_a_long_recording_is_quick_and_small(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("end", [6.0, 8.0, 9.0, 11.0, 13.0])
-def test_an_insole_that_stops_in_mid_load_changes_nothing_before(real_data: Path, end: float) -> None:
+def test_an_insole_that_stops_in_mid_load_changes_nothing_before(real_data, end):
     """What is drawn on from its last value is flat, and was taken for a swing at 74 N."""
     recording = read_recording(real_data / "recordings" / "moticon_walk_a.txt")
     right = recording.feet["right"]

@@ -1,9 +1,6 @@
 """The report in a real browser: it opens, its player moves, and what it shows can be read and reached."""
 
-from __future__ import annotations
-
 import re
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -102,7 +99,7 @@ return {weak, texts, wide, cut, outline, axe: audit.map(v => [v.impact, v.id, v.
 
 
 @pytest.fixture(scope="module")
-def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def report(tmp_path_factory):
     """The report of a walk of 60 s in two insoles of 99 cells at 100 Hz."""
     folder = tmp_path_factory.mktemp("report")
     path = folder / "walk.npz"
@@ -135,7 +132,7 @@ def insole_walk(seconds: float, rate: float = 100.0) -> tuple[np.ndarray, np.nda
     return time, feet[0], feet[1]
 
 
-def test_the_player_moves_by_mouse_and_keyboard_without_errors(report: Path, tmp_path: Path) -> None:
+def test_the_player_moves_by_mouse_and_keyboard_without_errors(report, tmp_path):
     assert report.stat().st_size < 3_000_000
     seen = visit(report, PLAY, tmp_path)
     found: dict[str, Any] = seen.found
@@ -156,7 +153,7 @@ def test_the_player_moves_by_mouse_and_keyboard_without_errors(report: Path, tmp
 
 
 @pytest.mark.long
-def test_the_page_is_ready_within_2_seconds(report: Path, tmp_path: Path) -> None:
+def test_the_page_is_ready_within_2_seconds(report, tmp_path):
     """From navigation to the first frame in the page's own time; the browser's start does not count."""
     probe = WAIT + "return {at: performance.now(), ready: player.dataset.ready};"
     best = min(visit(report, probe, tmp_path).found["at"] for _ in range(2))
@@ -164,7 +161,7 @@ def test_the_page_is_ready_within_2_seconds(report: Path, tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("dark", [False, pytest.param(True, marks=pytest.mark.long)])
-def test_everything_can_be_read_and_reached(report: Path, tmp_path: Path, dark: bool) -> None:
+def test_everything_can_be_read_and_reached(report, tmp_path, dark):
     found = visit(report, READABLE, tmp_path, dark=dark, width=1000 if dark else 390).found  # a telephone's width
     assert found["texts"] > 100
     assert found["weak"] == []
@@ -177,7 +174,7 @@ def test_everything_can_be_read_and_reached(report: Path, tmp_path: Path, dark: 
 
 
 @pytest.mark.long
-def test_the_comparison_opens_without_errors(tmp_path: Path) -> None:
+def test_the_comparison_opens_without_errors(tmp_path):
     paths = []
     for i, gain in enumerate((1.0, 1.2)):
         time, left, right = insole_walk(12.0)
@@ -189,14 +186,14 @@ def test_the_comparison_opens_without_errors(tmp_path: Path) -> None:
     assert seen.found["weak"] == seen.found["unnamed"] == seen.found["axe"] == []
 
 
-def test_axe_is_there() -> None:
+def test_axe_is_there():
     """The tests of pages run axe-core where it is; elsewhere this test says how to get it."""
     if not AXE.exists():
         pytest.skip(f"no axe-core at {AXE}: pages are not checked by it (sh tools/fetch-axe .venv/axe)")
     assert "axe.run" in axe_script()
 
 
-def test_the_summary_is_one_sheet(report: Path, tmp_path: Path) -> None:
+def test_the_summary_is_one_sheet(report, tmp_path):
     page = report.with_name("summary.html")
     assert printed(page, tmp_path).count(b"/Type /Page\n") == 1
     images = printed_images(page, tmp_path)
@@ -205,7 +202,7 @@ def test_the_summary_is_one_sheet(report: Path, tmp_path: Path) -> None:
     assert (images[0].high <= 1.0).all()
 
 
-def test_no_figure_is_cut_in_print(report: Path, tmp_path: Path) -> None:
+def test_no_figure_is_cut_in_print(report, tmp_path):
     """Every figure of the page lies whole on one sheet, none is left out, and each is large enough to be read."""
     images = printed_images(report, tmp_path)
     assert len(images) == report.read_text().count("<figure") >= 5
@@ -220,7 +217,7 @@ def whole(images: list[PrintedImage]) -> bool:
 
 
 @pytest.mark.long
-def test_a_figure_that_is_cut_is_noticed(report: Path, tmp_path: Path) -> None:
+def test_a_figure_that_is_cut_is_noticed(report, tmp_path):
     """A figure higher than a sheet is cut, whatever the page says."""
     text = report.read_text()
     page = tmp_path / "cut.html"

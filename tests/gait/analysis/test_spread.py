@@ -1,14 +1,12 @@
 """Mean and spread over few values."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
 from plantar.gait.analysis.summary import spread
 
 
-def test_spread_of_few_values() -> None:
+def test_spread_of_few_values():
     assert spread([]).mean is None
     assert spread([float("nan")]).n == 0
     one = spread([2.0])

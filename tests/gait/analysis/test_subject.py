@@ -1,11 +1,8 @@
 """Who walks and what measured: checked, held against the forces, and told at the head of the report."""
 
-from __future__ import annotations
-
 import json
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -34,19 +31,19 @@ from .walks import made_walk
         ({"foot_length_m": 265.0}, "--foot-length is 265; allowed: 0.05 to 0.45 m"),
     ],
 )
-def test_impossible_bodies_are_refused(values: dict[str, float], message: str) -> None:
+def test_impossible_bodies_are_refused(values, message):
     with pytest.raises(InputError, match=re.escape(message)):
         Subject(**values)  # type: ignore[arg-type]
 
 
-def test_a_mass_that_is_not_of_these_forces_is_doubted() -> None:
+def test_a_mass_that_is_not_of_these_forces_is_doubted():
     assert mass_doubts(Subject(mass_kg=70.0), 70.0 * 1.25 * GRAVITY) == []
     assert mass_doubts(Subject(), 700.0) == mass_doubts(Subject(mass_kg=70.0), None) == []
     (doubt,) = mass_doubts(Subject(mass_kg=70.0), 90.0 * 1.1 * GRAVITY)
     assert "the forces imply 99 kg, the stated mass is 70 kg" in doubt
 
 
-def test_an_offset_that_is_cut_off_below_zero_shows_beside_the_mass() -> None:
+def test_an_offset_that_is_cut_off_below_zero_shows_beside_the_mass():
     """It looks like a lighter person's walk with shorter steps: nothing but the mass tells."""
     walk = made_walk(weight=700.0)
     for cut, told in ((0.0, 0), (3.0, 1)):
@@ -57,7 +54,7 @@ def test_an_offset_that_is_cut_off_below_zero_shows_beside_the_mass() -> None:
         assert sum("what it reads below zero may be cut off" in d for d in doubts) == told
 
 
-def test_the_head_of_the_report_tells_of_whom_it_is() -> None:
+def test_the_head_of_the_report_tells_of_whom_it_is():
     """Escaped, with the device and its size, and peak forces in percent of the stated weight."""
     recording = replace(made_walk(weight=700.0, rate=50.0, strides=5).recording, metadata={"sensor": "X-1234"})
     feet = analyse_feet(recording)
@@ -83,7 +80,7 @@ def test_the_head_of_the_report_tells_of_whom_it_is() -> None:
     assert "kg, which the forces imply)" in unknown
 
 
-def test_the_command_takes_who_walks(tmp_path: Path) -> None:
+def test_the_command_takes_who_walks(tmp_path):
     recording = made_walk(rate=50.0, strides=4).recording
     path = tmp_path / "walk.npz"
     layout = json.dumps(layout_to_dict(nominal_insole("x", "left")))

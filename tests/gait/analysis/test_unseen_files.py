@@ -1,7 +1,5 @@
 """Files as they come from elsewhere: whatever locale, clock or transfer made of them, the walk in them is the same."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 
@@ -63,21 +61,21 @@ def check_with_stance(found: Analysis, walk: MadeWalk, sides: tuple = SIDES) -> 
     ],
     ids=str,
 )
-def test_pedar(tmp_path: Path, changes: dict) -> None:
+def test_pedar(tmp_path, changes):
     how = replace(PLAIN, **changes)
     check_with_stance(analysed(tmp_path / "walk.asc", pedar(WALK, how)), WALK, how.sides)
 
 
 @pytest.mark.parametrize("rate", [50.0, 128.0, 500.0])
 @pytest.mark.parametrize(("kilograms", "stride"), [(12.0, 0.7), (70.0, 1.1), (160.0, 2.2)])
-def test_people_of_all_weights_at_all_cadences(tmp_path: Path, rate: float, kilograms: float, stride: float) -> None:
+def test_people_of_all_weights_at_all_cadences(tmp_path, rate, kilograms, stride):
     insoles = {side: moticon_insole(3 if kilograms < 20.0 else 7, side) for side in SIDES}
     made = {"rate": rate, "weight": 9.81 * kilograms, "stride": stride, "strides": 3}
     walk = made_walk(**made, layouts=insoles)  # type: ignore[arg-type]
     check_with_stance(analysed(tmp_path / "walk.txt", moticon(walk, replace(PLAIN, unit="n/cm2"))), walk)
 
 
-def test_names_that_stand_on_each_page(tmp_path: Path) -> None:
+def test_names_that_stand_on_each_page(tmp_path):
     lines = pedar(WALK, PLAIN).decode().splitlines()
     first = next(i for i, line in enumerate(lines) if line.startswith("time"))
     head, names, rows = lines[:first], lines[first], lines[first + 1 :]
@@ -85,7 +83,7 @@ def test_names_that_stand_on_each_page(tmp_path: Path) -> None:
     check(analysed(tmp_path / "walk.asc", "\n".join([*head, *pages]).encode()), WALK)
 
 
-def test_numbers_of_frames_for_times(tmp_path: Path) -> None:
+def test_numbers_of_frames_for_times(tmp_path):
     found = analysed(tmp_path / "walk.asc", pedar(WALK, PLAIN, times=1.0 + np.arange(len(WALK.recording.time))))
     assert any("the frames' times count them" in warning for warning in found.metrics["warnings"])
     cadence = 120.0 / np.mean([np.diff(WALK.strikes[side]) for side in SIDES])
@@ -93,14 +91,14 @@ def test_numbers_of_frames_for_times(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("rate", [30.0, 200.0])
-def test_a_clock_of_hundredths(tmp_path: Path, rate: float) -> None:
+def test_a_clock_of_hundredths(tmp_path, rate):
     walk = made_walk(strides=3, rate=rate)
     check(analysed(tmp_path / "walk.asc", pedar(walk, replace(PLAIN, decimals=2, short=True))), walk)
 
 
 @pytest.mark.parametrize("short", [False, True])
 @pytest.mark.parametrize("every", [3, 10, 150, 0])
-def test_a_clock_that_stands_still_now_and_then(tmp_path: Path, every: int, short: bool) -> None:
+def test_a_clock_that_stands_still_now_and_then(tmp_path, every, short):
     times = WALK.recording.time.copy()
     held = np.arange(5, len(times), every) if every else np.random.default_rng(0).integers(1, len(times), 60)
     times[held] = times[held - 1]
@@ -110,7 +108,7 @@ def test_a_clock_that_stands_still_now_and_then(tmp_path: Path, every: int, shor
 
 
 @pytest.mark.parametrize("every", [1, 10, 150, 0])
-def test_frames_that_were_written_twice(tmp_path: Path, every: int) -> None:
+def test_frames_that_were_written_twice(tmp_path, every):
     n = len(WALK.recording.time)
     again = np.arange(0, n, every) if every else np.random.default_rng(0).choice(n, n // 10, replace=False)
     frames = np.sort(np.concatenate([np.arange(n), again])).tolist()
@@ -119,7 +117,7 @@ def test_frames_that_were_written_twice(tmp_path: Path, every: int) -> None:
     assert any("time" in warning for warning in found.metrics["warnings"])
 
 
-def test_frames_that_were_lost(tmp_path: Path) -> None:
+def test_frames_that_were_lost(tmp_path):
     kept = np.flatnonzero(np.random.default_rng(0).random(len(WALK.recording.time)) > 0.2).tolist()
     found = analysed(tmp_path / "walk.asc", pedar(WALK, PLAIN, frames=kept))
     check(found, WALK)
@@ -129,7 +127,7 @@ def test_frames_that_were_lost(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "changes", [{"sep": ",", "encoding": "utf-16"}, {"sep": ";", "comma": True, "end": "\r\n"}], ids=str
 )
-def test_tekscan(tmp_path: Path, changes: dict) -> None:
+def test_tekscan(tmp_path, changes):
     walk = made_walk(strides=2, rate=50.0, layouts=matrix_insoles(30, 11, 10.16e-3))
     text = tekscan(walk, replace(PLAIN, sides=("right",), **changes), 30, 11, 10.16)
     check_with_stance(analysed(tmp_path / "walk.asf", text), walk, ("right",))
@@ -140,7 +138,7 @@ def test_tekscan(tmp_path: Path, changes: dict) -> None:
     [{"sep": ",", "unit": "mmhg"}, {"sep": ";", "comma": True, "encoding": "utf-16-le"}, {"sep": "\t", "end": "\r"}],
     ids=str,
 )
-def test_xsensor(tmp_path: Path, changes: dict) -> None:
+def test_xsensor(tmp_path, changes):
     walk = made_walk(strides=2, rate=50.0, layouts=matrix_insoles(31, 11, 8.6e-3))
     check_with_stance(analysed(tmp_path / "walk.csv", xsensor(walk, replace(PLAIN, **changes))), walk)
 
@@ -150,6 +148,6 @@ def test_xsensor(tmp_path: Path, changes: dict) -> None:
     [{"sep": ";", "comma": True, "encoding": "utf-16"}, {"seconds": 1e-3, "decimals": 0, "end": "\r"}],
     ids=str,
 )
-def test_moticon(tmp_path: Path, changes: dict) -> None:
+def test_moticon(tmp_path, changes):
     walk = made_walk(strides=3, layouts={side: moticon_insole(7, side) for side in SIDES})
     check_with_stance(analysed(tmp_path / "walk.txt", moticon(walk, replace(PLAIN, unit="n/cm2", **changes))), walk)

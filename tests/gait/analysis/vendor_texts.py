@@ -1,7 +1,5 @@
 """Walks written as vendors' programs write them, in the variations that locale, operator and transfer make."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Made walks in two 99-cell insoles whose every property is chosen: for tests of what recordings may be like."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path

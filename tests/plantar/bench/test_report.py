@@ -1,7 +1,5 @@
 """The comparison of kernels: references that agree with what is known, targets, tables and figure."""
 
-from __future__ import annotations
-
 import csv
 import math
 import subprocess

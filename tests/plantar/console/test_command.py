@@ -1,7 +1,5 @@
 """What all commands share: exit codes, and words or JSON."""
 
-from __future__ import annotations
-
 import json
 import sys
 from typing import Annotated

@@ -1,7 +1,5 @@
 """How a command ends: exit codes, one line on stderr, and nothing temporary left behind."""
 
-from __future__ import annotations
-
 import ast
 import errno
 import os
@@ -40,9 +38,7 @@ def raising(error: BaseException) -> Callable[[], int]:
         (OSError(errno.ENAMETOOLONG, "File name too long", "x" * 9), 2, "plantar: xxxxxxxxx: File name too long"),
     ],
 )
-def test_what_goes_wrong_is_one_line_and_a_code(
-    error: BaseException, code: int, line: str, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_what_goes_wrong_is_one_line_and_a_code(error, code, line, capfd):
     assert run(raising(error)) == code
     said = capfd.readouterr()
     assert said.out == ""
@@ -50,26 +46,24 @@ def test_what_goes_wrong_is_one_line_and_a_code(
     assert said.err.count("\n") == 1
 
 
-def test_a_fault_of_the_program_is_not_hidden() -> None:
+def test_a_fault_of_the_program_is_not_hidden():
     with pytest.raises(ZeroDivisionError):
         run(raising(ZeroDivisionError()))
 
 
-def test_a_pipe_that_nobody_reads_is_told_by_the_code_alone(capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_pipe_that_nobody_reads_is_told_by_the_code_alone(capfd):
     assert run(raising(BrokenPipeError(errno.EPIPE, "Broken pipe"))) == 141
     assert capfd.readouterr().err == ""
 
 
 @pytest.mark.parametrize("code", [0, 1])
-def test_what_a_command_returns_is_its_code(code: int) -> None:
+def test_what_a_command_returns_is_its_code(code):
     assert run(lambda: code) == code
     assert run(lambda: None) == 0
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGHUP, 129)])
-def test_a_process_that_is_told_to_end_leaves_nothing(
-    tmp_path: Path, number: signal.Signals, code: int, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_a_process_that_is_told_to_end_leaves_nothing(tmp_path, number, code, capfd):
     def command() -> int:
         with output_folder(tmp_path / "out") as folder:
             (folder / "half").write_text("half")
@@ -84,7 +78,7 @@ def test_a_process_that_is_told_to_end_leaves_nothing(
     assert signal.getsignal(number) == before
 
 
-def test_a_signal_that_is_ignored_stays_ignored() -> None:
+def test_a_signal_that_is_ignored_stays_ignored():
     """As `nohup` does it."""
 
     def command() -> int:
@@ -98,21 +92,19 @@ def test_a_signal_that_is_ignored_stays_ignored() -> None:
         signal.signal(signal.SIGHUP, before)
 
 
-def test_a_closed_stderr_does_not_turn_into_stdout(
-    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_a_closed_stderr_does_not_turn_into_stdout(monkeypatch, capfd):
     monkeypatch.setattr(sys, "stderr", None)
     assert run(raising(InputError("wrong"))) == 2
     sys.stderr.close()
     assert capfd.readouterr().out == ""
 
 
-def test_one_line_keeps_letters_of_any_language() -> None:
+def test_one_line_keeps_letters_of_any_language():
     assert one_line(" größe – 足\t\n") == "größe – 足"
     assert one_line("a\tb\r\n\u2028c") == "a\\tb\\r\\n\\u2028c"
 
 
-def test_an_interrupt_that_python_ignores_comes_once_more(capfd: pytest.CaptureFixture[str]) -> None:
+def test_an_interrupt_that_python_ignores_comes_once_more(capfd):
     class Closing:
         def __del__(self) -> None:
             raise KeyboardInterrupt
@@ -127,7 +119,7 @@ def test_an_interrupt_that_python_ignores_comes_once_more(capfd: pytest.CaptureF
     assert capfd.readouterr().err == "plantar: interrupted\n"
 
 
-def test_ctrl_c_at_any_moment_of_the_start_ends_the_command_in_one_line() -> None:
+def test_ctrl_c_at_any_moment_of_the_start_ends_the_command_in_one_line():
     for wait in (0.03, 0.06, 0.1, 0.15, 0.2, 0.3):
         command = [sys.executable, "-m", "plantar", "list", "papers"]
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -141,13 +133,13 @@ def test_ctrl_c_at_any_moment_of_the_start_ends_the_command_in_one_line() -> Non
 
 
 @given(st.text())
-def test_no_text_moves_the_cursor(text: str) -> None:
+def test_no_text_moves_the_cursor(text):
     shown = plain_lines(text)
     assert all(line.isprintable() for line in shown.split("\n"))
     assert len(shown.split("\n")) == len(text.split("\n"))
 
 
-def test_no_module_prints_past_the_console() -> None:
+def test_no_module_prints_past_the_console():
     source = Path(__file__).parents[3] / "plantar"
     other = {
         path.relative_to(source).as_posix()

@@ -1,7 +1,5 @@
 """Options of a command that are declared as dataclasses."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Any
 

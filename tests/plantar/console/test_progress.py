@@ -1,9 +1,5 @@
 """Progress of a command and of its parts."""
 
-from __future__ import annotations
-
-import pytest
-
 from plantar.console.progress import part_of, progress_bar
 
 
@@ -15,7 +11,7 @@ def test_parts_of_a_part_fill_the_whole():
     assert told == [(0.75, "b: half"), (1.0, "b: c: whole")]
 
 
-def test_the_bar_is_silent_where_nobody_looks(capsys: pytest.CaptureFixture[str]):
+def test_the_bar_is_silent_where_nobody_looks(capsys):
     with progress_bar() as tell:
         tell(0.3, "some of it")
         tell(1.0, "all of it")

@@ -1,7 +1,5 @@
 """What a library does to a process of its own does not reach who called it."""
 
-from __future__ import annotations
-
 import os
 import time
 from pathlib import Path
@@ -37,7 +35,7 @@ def objects(path): return {"a": np.array([{}], dtype=object)}
 
 
 @pytest.fixture
-def library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def library(tmp_path, monkeypatch):
     (tmp_path / "library_of_test.py").write_text(LIBRARY)
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
     return tmp_path / "library_of_test.py"
@@ -47,7 +45,7 @@ def call(name: str, path: Path, seconds: float = 20.0) -> dict[str, np.ndarray]:
     return confined(f"library_of_test:{name}", path, FormatError, "a thing", memory=300e6, seconds=seconds)
 
 
-def test_arrays_come_back_whatever_is_printed(library: Path) -> None:
+def test_arrays_come_back_whatever_is_printed(library):
     held = call("arrays", library)
     assert int(held["size"]) == library.stat().st_size
     assert held["names"].tolist() == ["library_of_test.py", "ä"]
@@ -66,7 +64,7 @@ def test_arrays_come_back_whatever_is_printed(library: Path) -> None:
         ("none", "no attribute 'none'|has no attribute"),
     ],
 )
-def test_what_goes_wrong_is_one_line(library: Path, name: str, reason: str) -> None:
+def test_what_goes_wrong_is_one_line(library, name, reason):
     with pytest.raises(FormatError, match=reason) as caught:
         call(name, library)
     assert str(caught.value).startswith(f"{library}: not a thing that can be read")
@@ -74,7 +72,7 @@ def test_what_goes_wrong_is_one_line(library: Path, name: str, reason: str) -> N
 
 
 @pytest.mark.parametrize("name", ["turns", "waits", "fills"])
-def test_what_never_ends_is_ended(library: Path, name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_never_ends_is_ended(library, name, tmp_path, monkeypatch):
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     monkeypatch.setattr("tempfile.tempdir", None)
     monkeypatch.setattr("plantar.files.confined._LARGEST_FILE", 50_000_000)
@@ -87,9 +85,7 @@ def test_what_never_ends_is_ended(library: Path, name: str, tmp_path: Path, monk
     assert [p for p in tmp_path.iterdir() if p.name.startswith("plantar-")] == []
 
 
-def test_the_folder_one_works_in_is_no_place_for_modules(
-    library: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_folder_one_works_in_is_no_place_for_modules(library, tmp_path, monkeypatch):
     """A folder of downloaded files may hold a numpy.py."""
     (tmp_path / "here").mkdir()
     (tmp_path / "here" / "numpy.py").write_text("raise SystemExit('taken in')")

@@ -1,7 +1,5 @@
 """What the gate declares is what it does, and what SECURITY.md promises has a test."""
 
-from __future__ import annotations
-
 import ast
 import subprocess
 import sys
@@ -20,25 +18,25 @@ from plantar.files.xml_file import parse_xml
 ROOT = Path(__file__).parents[3]
 
 
-def test_security_md_is_made_of_what_the_gate_declares() -> None:
+def test_security_md_is_made_of_what_the_gate_declares():
     command = [sys.executable, "tools/security_page.py", "--check"]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize("promise", PROMISES)
-def test_a_promise_has_a_test(promise: str) -> None:
+def test_a_promise_has_a_test(promise):
     tree = ast.parse((ROOT / PROMISES[promise]).read_text(encoding="utf-8"))
     assert any(isinstance(node, ast.FunctionDef) and node.name.startswith("test_") for node in tree.body)
 
 
 @pytest.mark.parametrize("kind", HELPERS)
-def test_a_helper_is_there(kind: str) -> None:
+def test_a_helper_is_there(kind):
     module, _, name = HELPERS[kind].function.partition(":")
     assert callable(getattr(import_module(module), name))
 
 
-def test_native_readers_are_called_by_helpers_alone() -> None:
+def test_native_readers_are_called_by_helpers_alone():
     native = {"ezc3d", "rosbags", "ezdxf", "trimesh", "collada"}
     own = {HELPERS[kind].function.partition(":")[0].replace(".", "/") + ".py" for kind in HELPERS}
     for path in sorted((ROOT / "plantar").rglob("*.py")):
@@ -56,9 +54,7 @@ def test_native_readers_are_called_by_helpers_alone() -> None:
     ("memory", "seconds", "does", "why"),
     [(300e6, 10.0, "bytearray(2_000_000_000)", "MB of memory"), (300e6, 1.0, "sum(iter(int, 1))", "longer")],
 )
-def test_a_helper_ends_at_its_limit(
-    memory: float, seconds: float, does: str, why: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_helper_ends_at_its_limit(memory, seconds, does, why, tmp_path, monkeypatch):
     (tmp_path / "greedy.py").write_text(f"def read(path):\n    while True:\n        {does}\n        return {{}}\n")
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{ROOT}")
     helper = Helper("greedy:read", "a thing", (memory, 0.0), (seconds, 0.0), "none")
@@ -82,25 +78,25 @@ def test_a_helper_ends_at_its_limit(
         '<worldbody><flexcomp count="1000 1000 1000"/></worldbody>',
     ],
 )
-def test_a_model_that_asks_for_more_than_a_robot_is_refused(inside: str) -> None:
+def test_a_model_that_asks_for_more_than_a_robot_is_refused(inside):
     root = parse_xml(f"<mujoco>{inside}</mujoco>".encode(), PlantarError, "a.xml")
     with pytest.raises(PlantarError, match=r"a\.xml: .*allowed: up to"):
         check_model_size(root, PlantarError, "a.xml")
 
 
-def test_a_robots_model_passes(tmp_path: Path) -> None:
+def test_a_robots_model_passes(tmp_path):
     text = '<size memory="100M" nuserdata="9"/><worldbody><replicate count="20"><body><geom/></body></replicate>'
     root = parse_xml(f"<mujoco>{text}</worldbody></mujoco>".encode(), PlantarError, "a.xml")
     check_model_size(root, PlantarError, "a.xml")
 
 
 @pytest.mark.parametrize("text", ['<!DOCTYPE a [<!ENTITY b "c">]><a>&b;</a>', "<a>" * 300, "<a>" + "<b/>" * 200_001])
-def test_xml_that_grows_is_refused(text: str) -> None:
+def test_xml_that_grows_is_refused(text):
     with pytest.raises(PlantarError, match=r"entities|deep|elements"):
         parse_xml(text.encode(), PlantarError, "a.xml")
 
 
-def test_models_that_attach_each_other_are_refused_after_a_trial(tmp_path: Path) -> None:
+def test_models_that_attach_each_other_are_refused_after_a_trial(tmp_path):
     pytest.importorskip("mujoco")
     for i in range(5):
         inner = "".join(f'<attach model="m" prefix="p{j}"/>' for j in range(9)) if i < 4 else '<geom size="1"/>'

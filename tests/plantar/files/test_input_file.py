@@ -1,11 +1,8 @@
 """What is no regular file, or too large, is refused in one line before it is read."""
 
-from __future__ import annotations
-
 import os
 import socket
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -16,7 +13,7 @@ linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="pipes, 
 
 
 @pytest.fixture
-def strange(tmp_path: Path) -> dict[str, str]:
+def strange(tmp_path):
     """Names of things that are no regular files, by what they are."""
     os.mkfifo(tmp_path / "pipe")
     (tmp_path / "loop").symlink_to("loop")
@@ -50,7 +47,7 @@ def strange(tmp_path: Path) -> dict[str, str]:
         ("newline", "No such file"),
     ],
 )
-def test_what_is_no_regular_file_is_refused_at_once(strange: dict[str, str], what: str, reason: str) -> None:
+def test_what_is_no_regular_file_is_refused_at_once(strange, what, reason):
     for read in (check_input, open_input, lambda path, error: read_input(path, error, 10)):
         with pytest.raises(FormatError, match=reason):
             read(strange[what], FormatError)  # type: ignore[operator]
@@ -58,7 +55,7 @@ def test_what_is_no_regular_file_is_refused_at_once(strange: dict[str, str], wha
 
 
 @linux
-def test_a_socket_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_socket_is_refused(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # a socket's name is short
     with socket.socket(socket.AF_UNIX) as server:
         server.bind("s")
@@ -66,7 +63,7 @@ def test_a_socket_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
             check_input("s", FormatError)
 
 
-def test_a_regular_file_is_read_whatever_its_name(tmp_path: Path) -> None:
+def test_a_regular_file_is_read_whatever_its_name(tmp_path):
     for name in ("a b", "zwei\nzeilen", "größe", os.fsdecode(b"\xff\xfe")):
         path = tmp_path / name
         path.write_bytes(b"text")
@@ -77,7 +74,7 @@ def test_a_regular_file_is_read_whatever_its_name(tmp_path: Path) -> None:
             assert stream.read() == b"text"
 
 
-def test_what_is_too_large_is_refused_unread(tmp_path: Path) -> None:
+def test_what_is_too_large_is_refused_unread(tmp_path):
     path = tmp_path / "sparse.stl"
     with path.open("wb") as stream:
         stream.truncate(10**12)  # takes no room on the disk
@@ -87,12 +84,12 @@ def test_what_is_too_large_is_refused_unread(tmp_path: Path) -> None:
 
 
 @linux
-def test_a_file_that_holds_more_than_it_states_is_refused() -> None:
+def test_a_file_that_holds_more_than_it_states_is_refused():
     assert os.stat("/proc/cpuinfo").st_size == 0
     with pytest.raises(PlantarError, match="holds more than 100 bytes"):
         read_input("/proc/cpuinfo", PlantarError, 100)
 
 
-def test_the_message_begins_as_told() -> None:
+def test_the_message_begins_as_told():
     with pytest.raises(FootError, match=r"^parameter file none cannot be read \(No such file"):
         check_input("none", FootError, where="parameter file none")

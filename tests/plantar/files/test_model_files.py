@@ -1,7 +1,5 @@
 """A robot reads nothing but what came with it, unless the user says so; models of any shape are refused in one line."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from contextlib import AbstractContextManager
@@ -17,7 +15,7 @@ Within = Callable[..., AbstractContextManager[None]]
 
 
 @pytest.fixture
-def package(tmp_path: Path) -> Path:
+def package(tmp_path):
     """A package with its model in xml/ and meshes beside, and something next to it that is none of its business."""
     for folder in ("robot/xml", "robot/meshes", "other"):
         (tmp_path / folder).mkdir(parents=True)
@@ -54,14 +52,14 @@ ELSEWHERE = (
         '<compiler meshdir="."/><asset><mesh file="{}"/></asset>',
     ],
 )
-def test_a_model_that_leads_out_of_its_package_is_refused(package: Path, inside: str, name: str) -> None:
+def test_a_model_that_leads_out_of_its_package_is_refused(package, inside, name):
     path = model(package, inside.format(name))
     with pytest.raises(RobotError, match=rf"lies elsewhere; allowed: .*{VARIABLE}") as caught:
         check_model(path, RobotError)
     assert "\n" not in str(caught.value)
 
 
-def test_folders_for_assets_and_nested_models_lead_out_neither(package: Path) -> None:
+def test_folders_for_assets_and_nested_models_lead_out_neither(package):
     path = model(package, '<compiler meshdir="../../other"/><asset><mesh file="secret.stl"/></asset>')
     with pytest.raises(RobotError, match="lies elsewhere"):
         check_model(path, RobotError)
@@ -71,7 +69,7 @@ def test_folders_for_assets_and_nested_models_lead_out_neither(package: Path) ->
             check_model(model(package, inside), RobotError)
 
 
-def test_a_link_leads_out_neither(package: Path) -> None:
+def test_a_link_leads_out_neither(package):
     (package / "meshes" / "foot.stl").unlink()
     (package / "meshes" / "foot.stl").symlink_to(package.parent / "other" / "secret.stl")
     path = model(package, '<asset><mesh file="../meshes/foot.stl"/></asset>')
@@ -82,14 +80,14 @@ def test_a_link_leads_out_neither(package: Path) -> None:
         named_file(package / "meshes" / "loop.stl", (package / "xml",), RobotError, "x")
 
 
-def test_a_package_is_read_as_packages_are(package: Path) -> None:
+def test_a_package_is_read_as_packages_are(package):
     (package / "xml" / "parts.xml").write_text('<mujoco><asset><mesh file="../meshes/foot.stl"/></asset></mujoco>')
     check_model(model(package, '<compiler meshdir="../meshes"/><asset><mesh file="foot.stl"/></asset>'), RobotError)
     check_model(model(package, '<include file="parts.xml"/>'), RobotError)
     assert folders_of_model(package / "xml" / "model.xml") == (package / "xml", package)
 
 
-def test_the_user_can_allow_a_folder(package: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_user_can_allow_a_folder(package, monkeypatch):
     path = model(package, '<asset><mesh file="../../other/secret.stl"/></asset>')
     monkeypatch.setenv(VARIABLE, os.pathsep.join(["/nowhere", str(package.parent / "other")]))
     check_model(path, RobotError)
@@ -97,7 +95,7 @@ def test_the_user_can_allow_a_folder(package: Path, monkeypatch: pytest.MonkeyPa
         check_model(model(package, '<asset><mesh file="/etc/passwd"/></asset>'), RobotError)
 
 
-def test_the_home_folder_is_no_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_home_folder_is_no_package(tmp_path, monkeypatch):
     (tmp_path / "downloads").mkdir()
     monkeypatch.setenv("HOME", str(tmp_path))
     assert folders_of_model(tmp_path / "downloads" / "model.xml") == (tmp_path / "downloads",)
@@ -114,7 +112,7 @@ def test_the_home_folder_is_no_package(tmp_path: Path, monkeypatch: pytest.Monke
         "../meshes/foot.stl",
     ],
 )
-def test_a_mesh_of_a_urdf_is_found(package: Path, name: str) -> None:
+def test_a_mesh_of_a_urdf_is_found(package, name):
     found = mesh_of_urdf(package / "xml" / "robot.urdf", name, RobotError, "robot.urdf")
     assert found.resolve() == package / "meshes" / "foot.stl"
 
@@ -122,7 +120,7 @@ def test_a_mesh_of_a_urdf_is_found(package: Path, name: str) -> None:
 @pytest.mark.parametrize(
     "name", ["package://etc/passwd", "file:///etc/passwd", "/etc/passwd", "package://robot/../other/x"]
 )
-def test_a_mesh_of_a_urdf_leads_out_neither(package: Path, name: str) -> None:
+def test_a_mesh_of_a_urdf_leads_out_neither(package, name):
     try:
         found = mesh_of_urdf(package / "xml" / "robot.urdf", name, RobotError, "robot.urdf")
     except RobotError as error:
@@ -144,7 +142,7 @@ def test_a_mesh_of_a_urdf_leads_out_neither(package: Path, name: str) -> None:
         ("<a" + " b='" + "x" * 11_000_000 + "'/>", "allowed: up to 10 MB"),
     ],
 )
-def test_models_without_end_are_one_line(package: Path, within: Within, inside: str, words: str) -> None:
+def test_models_without_end_are_one_line(package, within, inside, words):
     os.mkfifo(package / "xml" / "pipe")
     model(package, "", "a.xml")
     path = model(package, inside)
@@ -153,7 +151,7 @@ def test_models_without_end_are_one_line(package: Path, within: Within, inside: 
     assert "\n" not in str(caught.value)
 
 
-def test_entities_are_not_read(within: Within) -> None:
+def test_entities_are_not_read(within):
     lines = ["<!DOCTYPE r [<!ENTITY e0 'ha'>"] + [f"<!ENTITY e{i} '{f'&e{i - 1};' * 10}'>" for i in range(1, 12)]
     with within(megabytes=20), pytest.raises(RobotError, match="declares entities"):
         parse_xml("".join([*lines, "]><r>&e11;</r>"]).encode(), RobotError, "x.xml")

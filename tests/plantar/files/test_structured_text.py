@@ -1,11 +1,8 @@
 """TOML and JSON of strangers: nothing that is deep, long or no text takes time or ends in a traceback."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import pytest
 
@@ -37,14 +34,14 @@ LARGE = {
 
 
 @pytest.mark.parametrize("text", LARGE.values(), ids=LARGE.keys())
-def test_no_toml_takes_long_or_raises_anything_but_one_line(text: str) -> None:
+def test_no_toml_takes_long_or_raises_anything_but_one_line(text):
     start = time.process_time()
     with pytest.raises(ValueError, match=r"^[^\n]*$"):
         parse_toml(text)
     assert time.process_time() - start < 5.0
 
 
-def test_what_is_written_by_people_is_read() -> None:
+def test_what_is_written_by_people_is_read():
     table = parse_toml('a.b.c = 1\n[x."y z".\'w\']\nversion = "1.2.3.4.5.6"\nlist = [[1, [2]], {k = 0x7f}]\n')
     assert table["a"] == {"b": {"c": 1}}
     assert table["x"]["y z"]["w"] == {"version": "1.2.3.4.5.6", "list": [[1, [2]], {"k": 127}]}
@@ -61,7 +58,7 @@ def test_what_is_written_by_people_is_read() -> None:
         (b"\0", "not valid TOML"),
     ],
 )
-def test_a_toml_file_that_is_none_is_one_line(tmp_path: Path, data: bytes, reason: str) -> None:
+def test_a_toml_file_that_is_none_is_one_line(tmp_path, data, reason):
     path = tmp_path / "x.toml"
     path.write_bytes(data)
     with pytest.raises(InputError, match=f"^file x .*{reason}") as caught:
@@ -80,14 +77,14 @@ def test_a_toml_file_that_is_none_is_one_line(tmp_path: Path, data: bytes, reaso
         (b" " * (JSON_MOST + 1), "allowed: up to 16 MB"),
     ],
 )
-def test_a_json_file_that_is_none_is_one_line(tmp_path: Path, data: bytes, reason: str) -> None:
+def test_a_json_file_that_is_none_is_one_line(tmp_path, data, reason):
     path = tmp_path / "x.json"
     path.write_bytes(data)
     with pytest.raises(InputError, match=f"^file x .*{reason}"):
         read_json(path, InputError, "file x")
 
 
-def test_a_byte_order_mark_is_no_error(tmp_path: Path) -> None:
+def test_a_byte_order_mark_is_no_error(tmp_path):
     path = tmp_path / "x"
     path.write_bytes(b"\xef\xbb\xbfa = 1")
     assert read_toml(path, InputError, "x") == {"a": 1}

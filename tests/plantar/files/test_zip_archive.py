@@ -1,7 +1,5 @@
 """Archives: what they would unpack to is known before anything is unpacked."""
 
-from __future__ import annotations
-
 import io
 import zipfile
 from collections.abc import Callable, Iterator
@@ -64,7 +62,7 @@ BOMBS: dict[str, tuple[Callable[[], dict[str, Iterator[bytes]]], str]] = {
 
 
 @pytest.mark.parametrize("name", BOMBS)
-def test_a_bomb_of_arrays_is_refused_unpacked(tmp_path: Path, within: Within, name: str) -> None:
+def test_a_bomb_of_arrays_is_refused_unpacked(tmp_path, within, name):
     parts, words = BOMBS[name]
     path = packed(tmp_path / "bomb.npz", parts())
     assert path.stat().st_size < 6e6
@@ -73,20 +71,20 @@ def test_a_bomb_of_arrays_is_refused_unpacked(tmp_path: Path, within: Within, na
     assert "\n" not in str(caught.value)
 
 
-def test_what_is_larger_than_a_reader_takes_is_refused(tmp_path: Path) -> None:
+def test_what_is_larger_than_a_reader_takes_is_refused(tmp_path):
     path = packed(tmp_path / "walk.npz", {"left.npy": array((1000, 1000), 8)}, zipfile.ZIP_STORED)
     with pytest.raises(FormatError, match="unpacks to 8 MB; allowed: up to 7 MB"), open_archive(path, FormatError, 7e6):
         pytest.fail("nothing may be unpacked")
 
 
-def test_an_array_that_states_more_than_it_holds_is_refused(tmp_path: Path, within: Within) -> None:
+def test_an_array_that_states_more_than_it_holds_is_refused(tmp_path, within):
     path = tmp_path / "lie.npy"
     path.write_bytes(header((100_000_000, 1000)) + bytes(800))
     with within(megabytes=50), pytest.raises(FormatError, match="its 800 bytes are not"):
         read_recording(path, options=SIDE)
 
 
-def test_only_the_array_that_is_wanted_is_read(tmp_path: Path, within: Within) -> None:
+def test_only_the_array_that_is_wanted_is_read(tmp_path, within):
     parts = {
         "left.npy": array((1000, 1000), 8),
         "image.npy": array((9_000_000,), 72),
@@ -99,13 +97,13 @@ def test_only_the_array_that_is_wanted_is_read(tmp_path: Path, within: Within) -
 
 
 @pytest.mark.parametrize("method", [zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
-def test_packings_that_need_any_memory_are_refused(tmp_path: Path, method: int) -> None:
+def test_packings_that_need_any_memory_are_refused(tmp_path, method):
     path = packed(tmp_path / "walk.npz", {"left.npy": array((1000, 1000), 8)}, method)
     with pytest.raises(FormatError, match="allowed: stored or deflated"):
         read_recording(path, "arrays", options=SIDE)
 
 
-def test_a_large_recording_that_is_stored_is_no_bomb(tmp_path: Path) -> None:
+def test_a_large_recording_that_is_stored_is_no_bomb(tmp_path):
     path = packed(tmp_path / "walk.npz", {"left.npy": array((20_000, 1000), 160)}, zipfile.ZIP_STORED)
     with open_archive(path, FormatError, 1e9) as (archive, stream):
         assert archive.namelist() == ["left.npy"]
@@ -114,7 +112,7 @@ def test_a_large_recording_that_is_stored_is_no_bomb(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("cut", [10, 100, 2000])
-def test_a_damaged_archive_is_one_line(tmp_path: Path, cut: int) -> None:
+def test_a_damaged_archive_is_one_line(tmp_path, cut):
     path = packed(
         tmp_path / "walk.npz", {"left.npy": iter([header((100, 100)), np.random.default_rng(0).bytes(80_000)])}
     )

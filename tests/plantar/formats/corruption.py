@@ -1,7 +1,5 @@
 """Random damage to files: a reader raises a PlantarError of one line or gives a recording, never anything else."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

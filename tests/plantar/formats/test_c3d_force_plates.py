@@ -1,7 +1,5 @@
 """Force plates in C3D files that ezc3d writes."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -79,7 +77,7 @@ def stance(begin: float, end: float, peak: float, seconds: float = 2.0) -> np.nd
 
 
 @pytest.mark.parametrize(("sign", "unit"), [(-1.0, "mm"), (1.0, "mm"), (-1.0, "m")])
-def test_two_plates_are_two_feet(tmp_path: Path, sign: float, unit: str) -> None:
+def test_two_plates_are_two_feet(tmp_path, sign, unit):
     path = tmp_path / "walk.c3d"
     forces = [stance(0.2, 0.9, 800.0), stance(0.8, 1.5, 700.0)]
     write_c3d(path, forces, sign, unit)
@@ -101,7 +99,7 @@ def test_two_plates_are_two_feet(tmp_path: Path, sign: float, unit: str) -> None
     assert ("point down" in text) == (sign < 0)
 
 
-def test_events_of_the_file_are_read(tmp_path: Path) -> None:
+def test_events_of_the_file_are_read(tmp_path):
     path = tmp_path / "walk.c3d"
     stated = (("Foot Strike", "Left", 0.21), ("Foot Off", "Left", 0.89), ("Foot Strike", "Right", 0.82))
     write_c3d(path, [stance(0.2, 0.9, 800.0), stance(0.8, 1.5, 700.0)], events=(*stated, ("General", "General", 1.0)))
@@ -112,7 +110,7 @@ def test_events_of_the_file_are_read(tmp_path: Path) -> None:
     assert len(events["right"].toe_offs) == 0
 
 
-def test_one_plate_and_other_files(tmp_path: Path) -> None:
+def test_one_plate_and_other_files(tmp_path):
     path = tmp_path / "walk.c3d"
     write_c3d(path, [stance(0.2, 0.9, 800.0)])
     assert any("does not say which foot" in w for w in read_recording(path).warnings)
@@ -126,7 +124,7 @@ def test_one_plate_and_other_files(tmp_path: Path) -> None:
 
 
 @pytest.mark.long
-def test_damage(tmp_path: Path) -> None:
+def test_damage(tmp_path):
     path = tmp_path / "walk.c3d"
     write_c3d(path, [stance(0.2, 0.9, 800.0, 1.2)])
     whole = path.read_bytes()

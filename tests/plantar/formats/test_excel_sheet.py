@@ -1,9 +1,6 @@
 """Binary Excel workbooks, written here record by record, are read as the text that they would be saved as."""
 
-from __future__ import annotations
-
 import struct
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -64,12 +61,12 @@ def workbook(rows: list[list[float | str]]) -> bytes:
     return bytes(head) + fat + directory + stream
 
 
-def test_cells_of_all_kinds() -> None:
+def test_cells_of_all_kinds():
     rows: list[list[float | str]] = [["Time (s)", "Kräfte", "x"], [0.0, 1.5, -3.0], [1e-3, 123456789.25, "end"]]
     assert lines_of_workbook(workbook(rows)) == ["Time (s)\tKräfte\tx", "0\t1.5\t-3", "0.001\t123456789.25\tend"]
 
 
-def test_a_plate(tmp_path: Path) -> None:
+def test_a_plate(tmp_path):
     rows: list[list[float | str]] = [["footscan entire plate roll off"]]
     for i in range(30):
         rows.append([f"Frame {i} ({12.5 * i:g} ms)"])
@@ -86,7 +83,7 @@ def test_a_plate(tmp_path: Path) -> None:
     assert foot.vertical_force.max() == pytest.approx(6.5 * 120)
 
 
-def test_damage_is_refused_in_one_line(tmp_path: Path) -> None:
+def test_damage_is_refused_in_one_line(tmp_path):
     whole = workbook([["Time (s)", "Left Fz (N)", "Right Fz (N)"], *([0.01 * i, 700.5, 650.0] for i in range(60))])
     path = tmp_path / "walk.xls"
     path.write_bytes(whole)

@@ -1,7 +1,5 @@
 """Footprints in images, drawn so that their measures are known."""
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path
@@ -52,7 +50,7 @@ def save(path: Path, image: np.ndarray) -> Path:
 
 
 @pytest.mark.parametrize("side", ["left", "right"])
-def test_a_foot_without_a_midfoot_is_one_foot(tmp_path: Path, side: str) -> None:
+def test_a_foot_without_a_midfoot_is_one_foot(tmp_path, side):
     image = canvas()
     draw_foot(image, 160, side, (60, 60, 160), arch=True)
     result = analyse_recording(save(tmp_path / "print.png", image), tmp_path / "out", mm_per_pixel=MM)
@@ -64,7 +62,7 @@ def test_a_foot_without_a_midfoot_is_one_foot(tmp_path: Path, side: str) -> None
 
 @pytest.mark.parametrize("suffix", ["png", "jpg", "tif", "bmp"])
 @pytest.mark.parametrize("side", ["left", "right"])
-def test_a_drawn_foot(tmp_path: Path, suffix: str, side: str) -> None:
+def test_a_drawn_foot(tmp_path, suffix, side):
     image = canvas()
     draw_foot(image, 160, side, (60, 60, 160))
     path = save(tmp_path / f"print.{suffix}", image)
@@ -85,7 +83,7 @@ def test_a_drawn_foot(tmp_path: Path, suffix: str, side: str) -> None:
     assert json.loads((tmp_path / "out" / "metrics.json").read_text())["feet"][side]["footprint"] == foot
 
 
-def test_an_ellipse_has_its_measures_at_any_angle_and_background(tmp_path: Path) -> None:
+def test_an_ellipse_has_its_measures_at_any_angle_and_background(tmp_path):
     third = (2 / math.pi) * (math.asin(1 / 3) + math.sqrt(8) / 9)
     for angle, background, colour in ((0, 255, (40, 40, 40)), (25, 20, (200, 220, 210)), (-40, 128, (60, 180, 60))):
         image = canvas(2, background)
@@ -103,7 +101,7 @@ def test_an_ellipse_has_its_measures_at_any_angle_and_background(tmp_path: Path)
         ) == pytest.approx(0.0, abs=1.0)
 
 
-def test_two_feet_a_scan_with_noise_and_resolution(tmp_path: Path) -> None:
+def test_two_feet_a_scan_with_noise_and_resolution(tmp_path):
     image = canvas(2, 235)
     draw_foot(image, 170, "left", (120, 140, 90))
     draw_foot(image, 470, "right", (120, 140, 90))
@@ -122,7 +120,7 @@ def test_two_feet_a_scan_with_noise_and_resolution(tmp_path: Path) -> None:
     assert any("give --mm-per-pixel" in w for w in bare["warnings"])
 
 
-def test_the_stated_resolution_is_used(tmp_path: Path) -> None:
+def test_the_stated_resolution_is_used(tmp_path):
     from PIL import Image
 
     image = canvas()
@@ -135,7 +133,7 @@ def test_the_stated_resolution_is_used(tmp_path: Path) -> None:
         assert any("resolution that the image states" in w for w in found.warnings)
 
 
-def test_what_is_no_footprint(tmp_path: Path) -> None:
+def test_what_is_no_footprint(tmp_path):
     blank = save(tmp_path / "blank.png", canvas())
     with pytest.raises(FormatError, match="no footprint stands out"):
         read_footprints(blank)
@@ -152,7 +150,7 @@ def test_what_is_no_footprint(tmp_path: Path) -> None:
     assert not (tmp_path / "none").exists()
 
 
-def test_damage(tmp_path: Path) -> None:
+def test_damage(tmp_path):
     image = canvas()
     draw_foot(image, 160, "left", (40, 40, 40))
     random = np.random.default_rng(0)

@@ -1,7 +1,5 @@
 """The footscan reader, on exports with plates, delimiters, rates and damages of every kind."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +23,7 @@ def export(path: Path, frames: np.ndarray, *, delimiter: str = "\t", period: flo
 
 
 @pytest.fixture
-def frames() -> np.ndarray:
+def frames():
     """A foot of 24 x 12 cells that is rolled over from its hind rows to its front ones on a plate of 48 x 64."""
     out = np.zeros((60, 48, 64))
     for i in range(6, 54):
@@ -37,7 +35,7 @@ def frames() -> np.ndarray:
 
 
 @pytest.mark.parametrize(("delimiter", "comma"), [("\t", False), (";", True), (",", False)])
-def test_a_plate(tmp_path: Path, frames: np.ndarray, delimiter: str, comma: bool) -> None:
+def test_a_plate(tmp_path, frames, delimiter, comma):
     path = tmp_path / "walk_left.txt"
     export(path, frames, delimiter=delimiter, comma=comma)
     assert detect_format(path).name == "footscan"
@@ -54,7 +52,7 @@ def test_a_plate(tmp_path: Path, frames: np.ndarray, delimiter: str, comma: bool
     assert 0.0 < 32 * 5.08e-3 - 30 * 5.08e-3 - cop[30, 1] < 12 * 5.08e-3  # columns from the left
 
 
-def test_a_step_is_measured(tmp_path: Path, frames: np.ndarray) -> None:
+def test_a_step_is_measured(tmp_path, frames):
     """Contact time, impulse and length of the foot are those of what was written."""
     path = tmp_path / "walk.txt"
     export(path, frames)
@@ -67,7 +65,7 @@ def test_a_step_is_measured(tmp_path: Path, frames: np.ndarray) -> None:
     assert step["foot_length_m"] == pytest.approx(24 * 7.62e-3, rel=0.1)
 
 
-def test_a_plate_that_is_walked_across_its_rows(tmp_path: Path, frames: np.ndarray) -> None:
+def test_a_plate_that_is_walked_across_its_rows(tmp_path, frames):
     """64 rows of 48 cells: the cells' long side goes with the columns."""
     path = tmp_path / "walk.txt"
     export(path, frames.transpose(0, 2, 1))
@@ -85,7 +83,7 @@ def test_a_plate_that_is_walked_across_its_rows(tmp_path: Path, frames: np.ndarr
         (lambda t: t[: t.index("Frame 1")], "holds one frame"),
     ],
 )
-def test_damaged_files_are_named(tmp_path: Path, frames: np.ndarray, change: object, message: str) -> None:
+def test_damaged_files_are_named(tmp_path, frames, change, message):
     path = tmp_path / "walk.txt"
     export(path, frames[:5])
     path.write_text(change(path.read_text()))  # type: ignore[operator]
@@ -93,14 +91,14 @@ def test_damaged_files_are_named(tmp_path: Path, frames: np.ndarray, change: obj
         read_recording(path)
 
 
-def test_excel_files_are_told_what_to_do(tmp_path: Path) -> None:
+def test_excel_files_are_told_what_to_do(tmp_path):
     path = tmp_path / "walk.xls"
     path.write_bytes(b"\xd0\xcf\x11\xe0" + bytes(600))
     with pytest.raises(FormatError, match="a binary Excel file; save it as text"):
         read_recording(path, "footscan")
 
 
-def test_random_damage(tmp_path: Path, frames: np.ndarray) -> None:
+def test_random_damage(tmp_path, frames):
     path = tmp_path / "walk.txt"
     export(path, frames[20:32, 8:36, 28:44])
     assert survive_corruption(path, trials=30) > 5

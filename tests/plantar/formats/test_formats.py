@@ -1,16 +1,12 @@
 """The registry of formats."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 
 from plantar import FormatError
 from plantar.formats import detect_format, formats, read_recording
 
 
-def test_each_format_is_registered_under_its_own_name() -> None:
+def test_each_format_is_registered_under_its_own_name():
     for name, entry in formats().items():
         assert name == entry.name
         assert entry.title
@@ -19,12 +15,12 @@ def test_each_format_is_registered_under_its_own_name() -> None:
         assert not entry.recognises(b"\x00" * 64)
 
 
-def test_an_unknown_format_lists_the_allowed_ones(tmp_path: Path) -> None:
+def test_an_unknown_format_lists_the_allowed_ones(tmp_path):
     with pytest.raises(FormatError, match="unknown format 'gaitrite'; allowed: mcap, pedar"):
         read_recording(tmp_path / "x", "gaitrite")
 
 
-def test_unreadable_files_are_named(tmp_path: Path) -> None:
+def test_unreadable_files_are_named(tmp_path):
     for path in (tmp_path / "none.asc", tmp_path):
         with pytest.raises(FormatError, match="cannot be read"):
             detect_format(path)

@@ -1,7 +1,5 @@
 """Recordings from what a program holds: arrays, mappings and data frames."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -23,7 +21,7 @@ class Frame:
         return self._columns[name]
 
 
-def test_a_data_frame_is_read_as_its_table_would_be() -> None:
+def test_a_data_frame_is_read_as_its_table_would_be():
     time = np.arange(300)
     cells = {f"left {i} [N]": np.abs(np.sin(time / 30.0 + i)) * 100.0 for i in (1, 2)}
     recording = recording_of(Frame({"time [ms]": 10 * time, **cells}))
@@ -31,7 +29,7 @@ def test_a_data_frame_is_read_as_its_table_would_be() -> None:
     np.testing.assert_allclose(recording.feet["left"].force, np.column_stack(list(cells.values())))
 
 
-def test_arrays_keep_their_values_and_are_not_changed() -> None:
+def test_arrays_keep_their_values_and_are_not_changed():
     values = np.full((200, 3), 2.0)
     recording = recording_of({"right": values, "unit": "kg"}, options=ReadOptions(rate_hz=50.0))
     assert list(recording.feet) == ["right"]
@@ -40,6 +38,6 @@ def test_arrays_keep_their_values_and_are_not_changed() -> None:
 
 
 @pytest.mark.parametrize("given", [3, object(), {"left": np.zeros(0)}, np.zeros((2, 0))])
-def test_what_holds_no_frames_is_refused(given: Any) -> None:
+def test_what_holds_no_frames_is_refused(given):
     with pytest.raises((InputError, FormatError)):
         recording_of(given)

@@ -1,7 +1,5 @@
 """Binary files that announce, unpack to or lead to any amount of memory or time are refused in one line."""
 
-from __future__ import annotations
-
 import os
 import struct
 import sys
@@ -29,7 +27,7 @@ linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="pipes a
 
 @linux
 @pytest.mark.parametrize("name", [None, *formats()])
-def test_a_pipe_does_not_hang_whatever_it_is_taken_for(tmp_path: Path, name: str | None) -> None:
+def test_a_pipe_does_not_hang_whatever_it_is_taken_for(tmp_path, name):
     os.mkfifo(tmp_path / "pipe")
     for path in (tmp_path / "pipe", Path("/dev/zero"), tmp_path / ("x" * 300), tmp_path / "none"):
         with pytest.raises(FormatError, match=r"cannot be read") as caught:
@@ -42,7 +40,7 @@ def test_a_pipe_does_not_hang_whatever_it_is_taken_for(tmp_path: Path, name: str
 
 
 @pytest.mark.parametrize("name", formats())
-def test_any_bytes_are_one_line_for_every_reader(tmp_path: Path, name: str) -> None:
+def test_any_bytes_are_one_line_for_every_reader(tmp_path, name):
     path = tmp_path / "zwei\nzeilen"
     random = np.random.default_rng(0)
     for data in (b"", b"\0" * 3000, random.bytes(3000), b"1" * 5000, b"a,b\n" * 900, b'{"a":' * 900, b"\xff\xfe\0\0"):
@@ -101,9 +99,7 @@ def bmp(width: int, height: int) -> bytes:
         (b"RIFF\0\0\0\0WEBPVP8 ", "not an image"),
     ],
 )
-def test_an_image_that_announces_too_much_is_not_decoded(
-    tmp_path: Path, within: Within, data: bytes, words: str
-) -> None:
+def test_an_image_that_announces_too_much_is_not_decoded(tmp_path, within, data, words):
     pytest.importorskip("cv2")
     path = tmp_path / "scan"
     path.write_bytes(data)
@@ -113,7 +109,7 @@ def test_an_image_that_announces_too_much_is_not_decoded(
 
 @pytest.mark.parametrize("suffix", [".png", ".jpg", ".tif", ".bmp"])
 @pytest.mark.parametrize("channels", [1, 3])
-def test_the_stated_size_is_that_of_the_decoded_image(tmp_path: Path, suffix: str, channels: int) -> None:
+def test_the_stated_size_is_that_of_the_decoded_image(tmp_path, suffix, channels):
     cv2: Any = pytest.importorskip("cv2")
     image = np.zeros((37, 53, channels), dtype=np.uint8)
     path = tmp_path / f"image{suffix}"
@@ -124,7 +120,7 @@ def test_the_stated_size_is_that_of_the_decoded_image(tmp_path: Path, suffix: st
     assert size.memory >= image.nbytes
 
 
-def test_an_image_of_usual_size_fits() -> None:
+def test_an_image_of_usual_size_fits():
     assert ImageSize(7016, 9933, 3).memory < 250e6  # A3 at 600 dpi
 
 
@@ -144,7 +140,7 @@ def mcap_of(path: Path, compression: CompressionType, rows: int, width: int, chu
 
 
 @pytest.mark.parametrize("compression", [CompressionType.ZSTD, CompressionType.LZ4])
-def test_a_bomb_of_chunks_is_refused(tmp_path: Path, within: Within, compression: CompressionType) -> None:
+def test_a_bomb_of_chunks_is_refused(tmp_path, within, compression):
     path = mcap_of(tmp_path / "bomb.mcap", compression, 400, 100_000, 100_000_000)
     with within(megabytes=450), pytest.raises(FormatError, match=r"unpack to more than .* allowed: up to 100 MB"):
         read_mcap(path)
@@ -152,9 +148,7 @@ def test_a_bomb_of_chunks_is_refused(tmp_path: Path, within: Within, compression
 
 @pytest.mark.parametrize("compression", [CompressionType.ZSTD, CompressionType.LZ4])
 @pytest.mark.parametrize("stated", [0, 1, 10**4, 10**8, 2**62])
-def test_a_chunk_that_lies_about_its_size_is_left_out(
-    tmp_path: Path, within: Within, compression: CompressionType, stated: int
-) -> None:
+def test_a_chunk_that_lies_about_its_size_is_left_out(tmp_path, within, compression, stated):
     path = mcap_of(tmp_path / "lie.mcap", compression, 50, 1000)
     data = bytearray(path.read_bytes())
     at = data.index(b"\x06", data.index(b"\x01") + 20)
@@ -171,7 +165,7 @@ def test_a_chunk_that_lies_about_its_size_is_left_out(
             assert recording.warnings
 
 
-def test_a_recording_is_read_chunk_by_chunk(tmp_path: Path, within: Within) -> None:
+def test_a_recording_is_read_chunk_by_chunk(tmp_path, within):
     path = mcap_of(tmp_path / "run.mcap", CompressionType.NONE, 20_000, 200)
     with within(megabytes=1.6 * 32 + 25, seconds=30.0):
         recording = read_mcap(path)
@@ -179,7 +173,7 @@ def test_a_recording_is_read_chunk_by_chunk(tmp_path: Path, within: Within) -> N
 
 
 @pytest.mark.parametrize("opcode", [0x03, 0x04, 0x05, 0x06, 0x09, 0x0C, 0x55])
-def test_a_record_of_any_length_is_not_taken_into_memory(tmp_path: Path, within: Within, opcode: int) -> None:
+def test_a_record_of_any_length_is_not_taken_into_memory(tmp_path, within, opcode):
     path = mcap_of(tmp_path / "run.mcap", CompressionType.NONE, 20, 5)
     data = path.read_bytes()
     with path.open("wb") as stream:
@@ -194,7 +188,7 @@ def test_a_record_of_any_length_is_not_taken_into_memory(tmp_path: Path, within:
 # --- libraries in a process of their own ------------------------------------------------------------------------------
 
 
-def test_a_crash_of_the_c3d_library_is_one_line(tmp_path: Path) -> None:
+def test_a_crash_of_the_c3d_library_is_one_line(tmp_path):
     pytest.importorskip("ezc3d")
     data = bytearray(6000)
     data[0:2] = b"\x02\x50"
@@ -210,7 +204,7 @@ def test_a_crash_of_the_c3d_library_is_one_line(tmp_path: Path) -> None:
         assert "\n" not in str(caught.value)
 
 
-def test_pictures_in_a_bag_are_no_soles() -> None:
+def test_pictures_in_a_bag_are_no_soles():
     from plantar.formats.ros_bag import _arrays
 
     class Picture:

@@ -1,7 +1,5 @@
 """One value that stands apart from all others is a mark for what was not measured; what a sensor can read is none."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -43,7 +41,7 @@ def lost_somewhere(kind: str, shape: tuple[int, ...]) -> np.ndarray:
 @pytest.mark.parametrize(
     ("mark", "layout"), [(9999e3, True), (-999e3, True), (-1e4, True), (65535.0, False), (-999.0, False)]
 )
-def test_a_mark_counts_as_not_measured(mark: float, layout: bool, kind: str) -> None:
+def test_a_mark_counts_as_not_measured(mark, layout, kind):
     shape = steps().feet["left"].force.shape
     lost = lost_somewhere(kind, shape)
     recording, true = marked(mark, lost, layout)
@@ -56,7 +54,7 @@ def test_a_mark_counts_as_not_measured(mark: float, layout: bool, kind: str) -> 
     assert ("kPa" in warning) == layout
 
 
-def test_a_mark_above_and_one_below() -> None:
+def test_a_mark_above_and_one_below():
     recording, _ = marked(9999e3, lost_somewhere("anywhere", steps().feet["left"].force.shape), True)
     foot = recording.feet["left"]
     assert foot.layout is not None
@@ -66,7 +64,7 @@ def test_a_mark_above_and_one_below() -> None:
 
 
 @pytest.mark.parametrize("what", ["peaks", "clipped", "two", "switch", "noise", "floor", "small", "quantum"])
-def test_what_a_sensor_reads_is_no_mark(what: str) -> None:
+def test_what_a_sensor_reads_is_no_mark(what):
     recording = steps()
     foot = recording.feet["left"]
     assert foot.layout is not None
@@ -93,6 +91,6 @@ def test_what_a_sensor_reads_is_no_mark(what: str) -> None:
     assert without_marks(recording) is recording
 
 
-def test_an_empty_recording_has_none() -> None:
+def test_an_empty_recording_has_none():
     recording = steps()
     assert without_marks(with_force(recording, recording.feet["left"].force[:0])).warnings == ()

@@ -1,7 +1,5 @@
 """The project's own recordings, read as plantar pressure."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +12,7 @@ from plantar.recordings.recorder import Recorder
 
 
 @pytest.fixture
-def layout() -> SoleLayout:
+def layout():
     return hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
 
 
@@ -28,7 +26,7 @@ def write(path: Path, layouts: dict[str, SoleLayout], sides: tuple[str, ...], ta
     return force
 
 
-def test_two_soles(tmp_path: Path, layout: SoleLayout) -> None:
+def test_two_soles(tmp_path, layout):
     layouts = {"left": layout, "right": mirrored(layout)}
     force = write(tmp_path / "run.mcap", layouts, ("left", "right"), len(layout))
     recording = read_recording(tmp_path / "run.mcap")
@@ -40,7 +38,7 @@ def test_two_soles(tmp_path: Path, layout: SoleLayout) -> None:
     assert recording.feet["left"].vertical_force == pytest.approx(force.sum(axis=1))
 
 
-def test_one_sole_without_layout_says_so(tmp_path: Path, layout: SoleLayout) -> None:
+def test_one_sole_without_layout_says_so(tmp_path, layout):
     write(tmp_path / "run.mcap", {}, ("right",), len(layout))
     recording = read_recording(tmp_path / "run.mcap")
     assert recording.feet["right"].pressure() is None
@@ -52,20 +50,20 @@ def test_one_sole_without_layout_says_so(tmp_path: Path, layout: SoleLayout) -> 
     assert given.side == "right"
 
 
-def test_a_recording_without_skin_names_its_topics(tmp_path: Path) -> None:
+def test_a_recording_without_skin_names_its_topics(tmp_path):
     with Recorder(tmp_path / "run.mcap") as recorder:
         recorder.channel("/joints", [("position", 2)]).write(0.0, np.zeros(2))
     with pytest.raises(FormatError, match=r"no taxel forces .* its topics: /joints"):
         read_recording(tmp_path / "run.mcap")
 
 
-def test_a_layout_of_another_size_is_refused(tmp_path: Path, layout: SoleLayout) -> None:
+def test_a_layout_of_another_size_is_refused(tmp_path, layout):
     write(tmp_path / "run.mcap", {"left": layout}, ("left",), 5)
     with pytest.raises(FormatError, match="5 cells"):
         read_recording(tmp_path / "run.mcap")
 
 
-def test_a_frame_that_is_written_twice_counts_once(tmp_path: Path, layout: SoleLayout) -> None:
+def test_a_frame_that_is_written_twice_counts_once(tmp_path, layout):
     """A run writes its first instant when it begins and again with its first tick: nothing of that is damage."""
     path = tmp_path / "run.mcap"
     with Recorder(path, {}, {"left": layout}) as recorder:

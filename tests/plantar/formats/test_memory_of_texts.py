@@ -1,10 +1,7 @@
 """Text exports are read in memory once, and files that would make much of little are refused at once."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -104,7 +101,7 @@ HOSTILE: dict[str, tuple[str, Callable[[], Iterable[str]], str]] = {
 
 
 @pytest.mark.parametrize("name", HOSTILE)
-def test_what_would_make_much_of_little_is_refused(tmp_path: Path, within: Within, name: str) -> None:
+def test_what_would_make_much_of_little_is_refused(tmp_path, within, name):
     kind, pieces, words = HOSTILE[name]
     path = tmp_path / "file"
     with path.open("w") as stream:
@@ -123,7 +120,7 @@ NAMES = {
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_names_and_numbers_of_any_length_take_no_time(tmp_path: Path, within: Within, name: str) -> None:
+def test_names_and_numbers_of_any_length_take_no_time(tmp_path, within, name):
     kind, head = NAMES[name]
     path = tmp_path / "file"
     path.write_text(
@@ -183,7 +180,7 @@ LONG = {
 
 
 @pytest.mark.parametrize("kind", LONG)
-def test_a_long_recording_is_in_memory_once(tmp_path: Path, within: Within, kind: str) -> None:
+def test_a_long_recording_is_in_memory_once(tmp_path, within, kind):
     """The array that comes out is 13 to 49 MB large; a second one of it would not find room."""
     make, frames, cells = LONG[kind]
     path = tmp_path / "file"
@@ -194,7 +191,7 @@ def test_a_long_recording_is_in_memory_once(tmp_path: Path, within: Within, kind
     assert recording.feet["left"].force.shape == (frames, cells)
 
 
-def test_a_table_that_outgrows_its_estimate_keeps_its_rows() -> None:
+def test_a_table_that_outgrows_its_estimate_keeps_its_rows():
     values = np.arange(3000.0).reshape(1000, 3)
     table = FrameTable(3, expected=10)
     for start in range(0, 1000, 7):
@@ -207,13 +204,13 @@ def test_a_table_that_outgrows_its_estimate_keeps_its_rows() -> None:
     assert len(table) == 0
 
 
-def test_a_table_of_more_than_can_be_held_is_refused() -> None:
+def test_a_table_of_more_than_can_be_held_is_refused():
     table = FrameTable(1_000_000, expected=0)
     with pytest.raises(FormatError, match=r"more than 400 frames of 1000000 values; allowed: 400 million values"):
         table.add(np.broadcast_to(0.0, (401, 1_000_000)))
 
 
-def test_blocks_hold_all_lines_in_order() -> None:
+def test_blocks_hold_all_lines_in_order():
     lines = [f"{i}\n" * (1 + i % 3) for i in range(1000)]
     blocks = list(blocks_of_lines(iter(lines), most=50, characters=100))
     assert [line for block in blocks for line in block] == lines
@@ -222,7 +219,7 @@ def test_blocks_hold_all_lines_in_order() -> None:
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "latin-1", "utf-8-sig"])
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
-def test_lines_of_any_encoding_and_end_are_one(tmp_path: Path, encoding: str, end: str) -> None:
+def test_lines_of_any_encoding_and_end_are_one(tmp_path, encoding, end):
     path = tmp_path / "file"
     lines = [f"größe {i}" for i in range(50_000)]
     path.write_bytes(end.join(lines).encode(encoding))

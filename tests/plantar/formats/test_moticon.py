@@ -1,7 +1,5 @@
 """The Moticon reader, on exports of every kind that the format allows."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -77,13 +75,13 @@ def export(
 
 
 @pytest.fixture
-def feet() -> dict[str, np.ndarray]:
+def feet():
     random = np.random.default_rng(3)
     share = np.abs(np.sin(np.linspace(0.0, 9.0, 200)))[:, None]
     return {side: np.round(share * random.uniform(0.0, 6.0, size=(1, 16)) * 4.0) / 4.0 for side in ("left", "right")}
 
 
-def test_two_insoles_with_dropouts(tmp_path: Path, feet: dict[str, np.ndarray]) -> None:
+def test_two_insoles_with_dropouts(tmp_path, feet):
     path = tmp_path / "walk.txt"
     export(path, feet, missing={"left": slice(0, 50), "right": slice(100, 103)}, events=True)
     assert detect_format(path).name == "moticon"
@@ -116,7 +114,7 @@ def test_two_insoles_with_dropouts(tmp_path: Path, feet: dict[str, np.ndarray]) 
         {"total": False, "cop": False},
     ],
 )
-def test_ways_to_write_it(tmp_path: Path, feet: dict[str, np.ndarray], options: dict[str, object]) -> None:
+def test_ways_to_write_it(tmp_path, feet, options):
     path = tmp_path / "walk.txt"
     export(path, feet, **options)  # type: ignore[arg-type]
     recording = read_recording(path)
@@ -129,7 +127,7 @@ def test_ways_to_write_it(tmp_path: Path, feet: dict[str, np.ndarray], options: 
         assert any("no total force" in w for w in recording.warnings)
 
 
-def test_one_foot_and_units(tmp_path: Path, feet: dict[str, np.ndarray]) -> None:
+def test_one_foot_and_units(tmp_path, feet):
     path = tmp_path / "walk.txt"
     export(path, {"right": feet["right"]})
     recording = read_recording(path)
@@ -147,7 +145,7 @@ def test_one_foot_and_units(tmp_path: Path, feet: dict[str, np.ndarray]) -> None
     assert raw.feet["left"].vertical_force == pytest.approx(feet["left"].sum(axis=1))
 
 
-def test_a_cut_end_and_damaged_values(tmp_path: Path, feet: dict[str, np.ndarray]) -> None:
+def test_a_cut_end_and_damaged_values(tmp_path, feet):
     path = tmp_path / "walk.txt"
     export(path, feet)
     text = path.read_text()
@@ -166,7 +164,7 @@ def test_a_cut_end_and_damaged_values(tmp_path: Path, feet: dict[str, np.ndarray
     assert any("1 value(s) are no numbers" in w for w in damaged.warnings)
 
 
-def test_damage(tmp_path: Path, feet: dict[str, np.ndarray]) -> None:
+def test_damage(tmp_path, feet):
     path = tmp_path / "walk.txt"
     export(path, feet)
     assert survive_corruption(path) > 15

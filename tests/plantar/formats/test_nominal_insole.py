@@ -1,7 +1,5 @@
 """The nominal 99-cell insole."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np
@@ -12,7 +10,7 @@ from plantar.geometry.polygon import area, signed_margin
 
 
 @pytest.mark.parametrize("size", sorted(CELL_AREAS))
-def test_areas_tile_the_outline(size: str) -> None:
+def test_areas_tile_the_outline(size):
     layout = nominal_insole(size, "left")
     assert len(layout) == sum(ROWS) == 99
     assert layout.areas.sum() == pytest.approx(layout.sole_area)
@@ -23,14 +21,14 @@ def test_areas_tile_the_outline(size: str) -> None:
         assert layout.areas.std() / layout.areas.mean() < 0.02
 
 
-def test_rows_of_a_wide_insole_end_in_two_of_five() -> None:
+def test_rows_of_a_wide_insole_end_in_two_of_five():
     assert sum(WIDE_ROWS) == 99
     layout = nominal_insole("xw", "left")
     assert len({round(float(x), 6) for x in layout.positions[-5:, 0]}) <= 5
     assert layout.positions[-5:, 0].min() > layout.positions[-10:-5, 0].max()
 
 
-def test_numbering_runs_heel_to_toe_and_medial_to_lateral() -> None:
+def test_numbering_runs_heel_to_toe_and_medial_to_lateral():
     for side, medial in (("left", -1.0), ("right", 1.0)):
         layout = nominal_insole("x", side)  # type: ignore[arg-type]
         starts = np.concatenate([[0], np.cumsum(ROWS)])
@@ -41,7 +39,7 @@ def test_numbering_runs_heel_to_toe_and_medial_to_lateral() -> None:
         assert hallux[1] * medial > 0.0
 
 
-def test_positions_lie_in_their_cells_and_neighbours_are_mutual() -> None:
+def test_positions_lie_in_their_cells_and_neighbours_are_mutual():
     layout = nominal_insole("y", "right")
     for i in range(len(layout)):
         assert signed_margin(layout.cell_polygon(i), layout.positions[i, :2]) > 0.003

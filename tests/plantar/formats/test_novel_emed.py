@@ -1,7 +1,5 @@
 """The emed reader, on exports of every kind that the format allows."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -71,13 +69,13 @@ def table(shown: np.ndarray, row: int, column: int, whole: np.ndarray | None, fa
 
 
 @pytest.fixture
-def step() -> np.ndarray:
+def step():
     random = np.random.default_rng(3)
     share = np.sin(np.pi * np.linspace(0.05, 0.95, 30))[:, None, None]
     return np.round(share * random.uniform(0.0, 160.0, size=(30, 20, 12)) / 5.0) * 5.0
 
 
-def test_a_step_with_its_forces(tmp_path: Path, step: np.ndarray) -> None:
+def test_a_step_with_its_forces(tmp_path, step):
     path = tmp_path / "step.lst"
     export(path, step, summary=True)
     assert detect_format(path).name == "emed"
@@ -109,7 +107,7 @@ def test_a_step_with_its_forces(tmp_path: Path, step: np.ndarray) -> None:
         {"time": "0.01 s"},
     ],
 )
-def test_ways_to_write_it(tmp_path: Path, step: np.ndarray, options: dict[str, object]) -> None:
+def test_ways_to_write_it(tmp_path, step, options):
     path = tmp_path / "step.lst"
     export(path, step, **options)  # type: ignore[arg-type]
     recording = read_recording(path)
@@ -118,7 +116,7 @@ def test_ways_to_write_it(tmp_path: Path, step: np.ndarray, options: dict[str, o
     assert recording.rate_hz == pytest.approx(100.0)
 
 
-def test_the_unit_follows_from_the_forces(tmp_path: Path, step: np.ndarray) -> None:
+def test_the_unit_follows_from_the_forces(tmp_path, step):
     path = tmp_path / "step.lst"
     export(path, step / 10.0, scale=1e4)  # N/cm2
     (foot,) = read_recording(path).feet.values()
@@ -133,7 +131,7 @@ def test_the_unit_follows_from_the_forces(tmp_path: Path, step: np.ndarray) -> N
     assert any("kPa is assumed" in w for w in recording.warnings)
 
 
-def test_what_is_missing_is_assumed_aloud(tmp_path: Path, step: np.ndarray) -> None:
+def test_what_is_missing_is_assumed_aloud(tmp_path, step):
     path = tmp_path / "step.lst"
     export(path, step, size=None, area=None, time=None)
     recording = read_recording(path)
@@ -145,7 +143,7 @@ def test_what_is_missing_is_assumed_aloud(tmp_path: Path, step: np.ndarray) -> N
     assert any("do not agree" in w for w in read_recording(path).warnings)
 
 
-def test_a_last_frame_that_is_cut_short_and_several_trials(tmp_path: Path, step: np.ndarray) -> None:
+def test_a_last_frame_that_is_cut_short_and_several_trials(tmp_path, step):
     path = tmp_path / "step.lst"
     export(path, step)
     text = path.read_bytes()
@@ -161,7 +159,7 @@ def test_a_last_frame_that_is_cut_short_and_several_trials(tmp_path: Path, step:
     assert any("2 trials" in w for w in twice.warnings)
 
 
-def test_damage(tmp_path: Path, step: np.ndarray) -> None:
+def test_damage(tmp_path, step):
     path = tmp_path / "step.lst"
     export(path, step[:8])
     assert survive_corruption(path) > 20
@@ -170,7 +168,7 @@ def test_damage(tmp_path: Path, step: np.ndarray) -> None:
         read_recording(path)
 
 
-def test_the_real_step_agrees_with_its_force_column(real_data: Path) -> None:
+def test_the_real_step_agrees_with_its_force_column(real_data):
     path = real_data / "recordings" / "emed_step.lst"
     recording = read_recording(path)
     (foot,) = recording.feet.values()

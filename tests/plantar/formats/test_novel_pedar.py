@@ -1,7 +1,5 @@
 """The pedar and pliance reader, on exports of every kind that the format allows."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +9,7 @@ from plantar import FormatError, InputError, PlantarError, write_layout
 from plantar.formats import ReadOptions, detect_format, read_recording
 from plantar.formats.nominal_insole import CELL_AREAS, nominal_insole
 from plantar.formats.recorded_layouts import polygon_layout
-from plantar.sides import Side, other_side
+from plantar.sides import other_side
 
 
 def export(
@@ -57,7 +55,7 @@ def export(
 
 
 @pytest.fixture
-def pressures() -> tuple[np.ndarray, np.ndarray]:
+def pressures():
     random = np.random.default_rng(5)
     left, right = (np.round(random.uniform(0, 200, size=(50, 99)), 3) for _ in range(2))
     return left, right
@@ -69,7 +67,7 @@ def read_pa(path: Path, side: str) -> np.ndarray:
     return pressure
 
 
-def test_two_insoles(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
+def test_two_insoles(tmp_path, pressures):
     path = tmp_path / "walk.asc"
     time = export(path, *pressures)
     assert detect_format(path).name == "pedar"
@@ -86,7 +84,7 @@ def test_two_insoles(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -
     assert any("nominal 99-cell insole of size Y" in w for w in recording.warnings)
 
 
-def test_a_mask_that_lists_the_right_insole_first(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
+def test_a_mask_that_lists_the_right_insole_first(tmp_path, pressures):
     path = tmp_path / "walk.asc"
     export(path, *pressures)
     text = path.read_text(encoding="latin-1")
@@ -98,18 +96,14 @@ def test_a_mask_that_lists_the_right_insole_first(tmp_path: Path, pressures: tup
 
 
 @pytest.mark.parametrize(("mask", "sensor", "told"), [(True, "y", 0), (False, "y-1865l-1870r", 0), (False, "y", 1)])
-def test_which_insole_is_first_is_known_or_told(
-    tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray], mask: bool, sensor: str, told: int
-) -> None:
+def test_which_insole_is_first_is_known_or_told(tmp_path, pressures, mask, sensor, told):
     path = tmp_path / "walk.asc"
     export(path, *pressures, mask=mask, sensor=sensor)
     assert sum("which of the two insoles is which" in w for w in read_recording(path).warnings) == told
 
 
 @pytest.mark.parametrize("first", ["left", "right"])
-def test_side_says_whose_the_first_columns_are(
-    tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray], first: Side
-) -> None:
+def test_side_says_whose_the_first_columns_are(tmp_path, pressures, first):
     path = tmp_path / "walk.asc"
     export(path, *pressures, mask=False, sensor="y")
     recording = read_recording(path, options=ReadOptions(side=first))
@@ -120,7 +114,7 @@ def test_side_says_whose_the_first_columns_are(
         assert recording.feet[side].force == pytest.approx(truth * 1e3 * layout.areas)
 
 
-def test_side_is_not_used_where_the_file_knows(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
+def test_side_is_not_used_where_the_file_knows(tmp_path, pressures):
     path = tmp_path / "walk.asc"
     export(path, *pressures)
     recording = read_recording(path, options=ReadOptions(side="right"))
@@ -140,9 +134,7 @@ def test_side_is_not_used_where_the_file_knows(tmp_path: Path, pressures: tuple[
         {"end": "\r\n", "comma": True, "mask": False, "rate": 200.0},
     ],
 )
-def test_variants_hold_the_same_values(
-    tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray], options: dict[str, object]
-) -> None:
+def test_variants_hold_the_same_values(tmp_path, pressures, options):
     path = tmp_path / "walk.ASC"
     export(path, *pressures, **options)  # type: ignore[arg-type]
     recording = read_recording(path)
@@ -154,15 +146,13 @@ def test_variants_hold_the_same_values(
 @pytest.mark.parametrize(
     ("unit", "pascals"), [("kPa", 1e3), ("N/cm²", 1e4), ("N/cm2", 1e4), ("mmHg", 133.322387415), ("psi", 6894.757)]
 )
-def test_units(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray], unit: str, pascals: float) -> None:
+def test_units(tmp_path, pressures, unit, pascals):
     path = tmp_path / "walk.asc"
     export(path, *pressures, unit=unit)
     assert read_pa(path, "left") == pytest.approx(pressures[0] * pascals)
 
 
-def test_unit_that_is_missing_is_said_and_an_unknown_one_refused(
-    tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]
-) -> None:
+def test_unit_that_is_missing_is_said_and_an_unknown_one_refused(tmp_path, pressures):
     path = tmp_path / "walk.asc"
     export(path, *pressures, unit=None)
     assert any("kPa is assumed" in w for w in read_recording(path).warnings)
@@ -181,15 +171,7 @@ def test_unit_that_is_missing_is_said_and_an_unknown_one_refused(
         ("right", False, "w", "left", True),
     ],
 )
-def test_one_foot(
-    tmp_path: Path,
-    pressures: tuple[np.ndarray, np.ndarray],
-    which: str,
-    mask: bool,
-    sensor: str,
-    side: str,
-    assumed: bool,
-) -> None:
+def test_one_foot(tmp_path, pressures, which, mask, sensor, side, assumed):
     path = tmp_path / "walk.asc"
     export(path, *((pressures[0], None) if which == "left" else (None, pressures[0])), mask=mask, sensor=sensor)
     recording = read_recording(path)
@@ -198,7 +180,7 @@ def test_one_foot(
     assert read_pa(path, side) == pytest.approx(pressures[0] * 1e3)
 
 
-def test_masked_cells_keep_their_places(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
+def test_masked_cells_keep_their_places(tmp_path, pressures):
     path = tmp_path / "walk.asc"
     cells = [1, 2, 3, 50, 98, 99]
     export(path, pressures[0][:, :6], pressures[1][:, :6], cells=cells)
@@ -211,9 +193,7 @@ def test_masked_cells_keep_their_places(tmp_path: Path, pressures: tuple[np.ndar
 
 @pytest.mark.parametrize("after", ["-12l-12r", "_v-1865l-1870r-pxf306", " 12", "_V2"])
 @pytest.mark.parametrize("size", sorted(CELL_AREAS))
-def test_the_size_is_taken_from_the_sensor(
-    tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray], size: str, after: str
-) -> None:
+def test_the_size_is_taken_from_the_sensor(tmp_path, pressures, size, after):
     """Whatever follows the letters of the size; the force is that of each cell's own area."""
     path = tmp_path / "walk.asc"
     export(path, *pressures, sensor=size.upper() + after)
@@ -225,9 +205,7 @@ def test_the_size_is_taken_from_the_sensor(
     assert not any("assumed" in w for w in recording.warnings)
 
 
-def test_a_size_that_is_not_known_is_said_with_what_it_may_cost(
-    tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]
-) -> None:
+def test_a_size_that_is_not_known_is_said_with_what_it_may_cost(tmp_path, pressures):
     path = tmp_path / "walk.asc"
     export(path, *pressures, sensor="custom-12l-12r")
     (warning,) = (w for w in read_recording(path).warnings if "nominal" in w)
@@ -242,7 +220,7 @@ def test_a_size_that_is_not_known_is_said_with_what_it_may_cost(
         read_recording(table, options=ReadOptions(insole_size="x"))
 
 
-def test_truncated_last_row_is_dropped_and_said(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
+def test_truncated_last_row_is_dropped_and_said(tmp_path, pressures):
     path = tmp_path / "walk.asc"
     export(path, *pressures)
     whole = path.read_bytes()
@@ -252,7 +230,7 @@ def test_truncated_last_row_is_dropped_and_said(tmp_path: Path, pressures: tuple
     assert any("last frame is cut short" in w for w in recording.warnings)
 
 
-def test_a_damaged_frame_is_a_dropout_not_a_zero(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
+def test_a_damaged_frame_is_a_dropout_not_a_zero(tmp_path, pressures):
     path = tmp_path / "walk.asc"
     export(path, *pressures)
     lines = path.read_text("latin-1").splitlines(keepends=True)
@@ -265,7 +243,7 @@ def test_a_damaged_frame_is_a_dropout_not_a_zero(tmp_path: Path, pressures: tupl
     assert any("1 damaged frame" in w for w in recording.warnings)
 
 
-def test_layout_file_overrides_the_geometry(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
+def test_layout_file_overrides_the_geometry(tmp_path, pressures):
     path = tmp_path / "walk.asc"
     export(path, *pressures)
     small = nominal_insole("u", "left")
@@ -308,7 +286,7 @@ def pliance(path: Path, *, geometry: bool = True) -> np.ndarray:
     return values
 
 
-def test_pliance_mat_with_its_own_geometry(tmp_path: Path) -> None:
+def test_pliance_mat_with_its_own_geometry(tmp_path):
     values = pliance(tmp_path / "mat.asc")
     recording = read_recording(tmp_path / "mat.asc")
     foot = recording.feet["left"]
@@ -320,7 +298,7 @@ def test_pliance_mat_with_its_own_geometry(tmp_path: Path) -> None:
     assert [len(n) for n in foot.layout.neighbours] == [2, 3, 2, 2, 3, 2]
 
 
-def test_cells_without_geometry_ask_for_a_layout(tmp_path: Path) -> None:
+def test_cells_without_geometry_ask_for_a_layout(tmp_path):
     pliance(tmp_path / "mat.asc", geometry=False)
     text = (tmp_path / "mat.asc").read_text().replace("     14\n", "    400\n")
     (tmp_path / "mat.asc").write_text(text)
@@ -341,7 +319,7 @@ def test_cells_without_geometry_ask_for_a_layout(tmp_path: Path) -> None:
         b"scanning rate [Hz]: 100\ntime[secs]\t1\t2\t1\t2\t1\t2\n0.0\t1\t2\t1\t2\t1\t2\n",
     ],
 )
-def test_nonsense_is_refused_in_one_line(tmp_path: Path, content: bytes) -> None:
+def test_nonsense_is_refused_in_one_line(tmp_path, content):
     path = tmp_path / "bad.asc"
     path.write_bytes(content)
     for name in (None, "pedar"):
@@ -351,7 +329,7 @@ def test_nonsense_is_refused_in_one_line(tmp_path: Path, content: bytes) -> None
         assert "\n" not in str(caught.value)
 
 
-def test_random_corruption_never_gives_a_traceback(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
+def test_random_corruption_never_gives_a_traceback(tmp_path, pressures):
     path = tmp_path / "walk.asc"
     export(path, *pressures)
     whole = path.read_bytes()
@@ -373,7 +351,7 @@ def test_random_corruption_never_gives_a_traceback(tmp_path: Path, pressures: tu
     assert read > 20
 
 
-def test_real_recording(real_data: Path) -> None:
+def test_real_recording(real_data):
     path = real_data / "recordings" / "pedar_walk.asc"
     recording = read_recording(path)
     assert (recording.format, len(recording.time), recording.rate_hz) == ("pedar", 1505, 100.0)

@@ -1,7 +1,5 @@
 """Force plates as laboratories have them: types, axes, offsets, markers, events; the same walk comes out of each."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -140,7 +138,7 @@ def check(found: Analysis, contacts: Sequence[Contact] = WALK) -> None:
 
 @pytest.mark.parametrize("kind", [1, 2, 3])
 @pytest.mark.parametrize("down", [True, False])
-def test_plate_types(tmp_path: Path, kind: int, down: bool) -> None:
+def test_plate_types(tmp_path, kind, down):
     if kind == 3 and not down:
         pytest.skip("a Kistler plate's z points down")
     write(tmp_path / "walk.c3d", kind=kind, down=down)
@@ -148,7 +146,7 @@ def test_plate_types(tmp_path: Path, kind: int, down: bool) -> None:
 
 
 @pytest.mark.parametrize("axes", [Y_UP, X_UP])
-def test_the_vertical_axis_follows_from_the_corners(tmp_path: Path, axes: Sequence[int]) -> None:
+def test_the_vertical_axis_follows_from_the_corners(tmp_path, axes):
     write(tmp_path / "walk.c3d", axes=axes)
     found = analyse(tmp_path / "walk.c3d")
     assert any("laboratory's vertical axis" in w for w in found.warnings)
@@ -158,7 +156,7 @@ def test_the_vertical_axis_follows_from_the_corners(tmp_path: Path, axes: Sequen
 
 
 @pytest.mark.parametrize("kind", [1, 2, 3])
-def test_each_plate_is_zeroed_by_its_empty_frames(tmp_path: Path, kind: int) -> None:
+def test_each_plate_is_zeroed_by_its_empty_frames(tmp_path, kind):
     write(tmp_path / "walk.c3d", kind=kind, offsets=(-32.0, 22.0))
     found = analyse(tmp_path / "walk.c3d")
     assert sum("when empty" in w for w in found.warnings) == 2
@@ -166,7 +164,7 @@ def test_each_plate_is_zeroed_by_its_empty_frames(tmp_path: Path, kind: int) -> 
     assert peaks == pytest.approx([c.force[:, 2].max() for c in WALK], abs=4.0)
 
 
-def test_markers_show_that_both_contacts_are_of_one_foot(tmp_path: Path) -> None:
+def test_markers_show_that_both_contacts_are_of_one_foot(tmp_path):
     path = tmp_path / "walk.c3d"
     still = {f"{p}{i}": (0.8, y) for p, y in (("LFT", 0.6), ("RFT", 0.02)) for i in (1, 2)}
     write(path, SAME, offsets=(-32.0, 22.0), markers=still)
@@ -179,7 +177,7 @@ def test_markers_show_that_both_contacts_are_of_one_foot(tmp_path: Path) -> None
         analyse(path, options=ReadOptions(plates=("left",)))
 
 
-def test_events_without_contexts(tmp_path: Path) -> None:
+def test_events_without_contexts(tmp_path):
     write(tmp_path / "walk.c3d", events=(("LHS", 0.61), ("LTO", 1.29), ("RHS", 1.21), ("RTO", 1.88)))
     found = analyse(tmp_path / "walk.c3d")
     assert found.recording.events["left"].heel_strikes == pytest.approx([0.61])
@@ -193,7 +191,7 @@ def test_events_without_contexts(tmp_path: Path) -> None:
     ]
 
 
-def test_what_is_no_force_of_a_foot_is_refused(tmp_path: Path) -> None:
+def test_what_is_no_force_of_a_foot_is_refused(tmp_path):
     path = tmp_path / "walk.c3d"
     write(path, units=("V", "V"))
     with pytest.raises(FormatError, match="are in v, and no calibration matrix"):

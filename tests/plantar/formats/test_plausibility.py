@@ -1,7 +1,5 @@
 """Doubts about recordings whose sensor was at its end, slower than its file, or of an odd rate."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 
@@ -31,11 +29,11 @@ def with_force(recording: PressureRecording, force: np.ndarray) -> PressureRecor
 
 @pytest.mark.parametrize("resolution", [0.0, 0.4])
 @pytest.mark.parametrize("rate", [25.0, 100.0, 500.0])
-def test_a_usual_recording_is_not_doubted(rate: float, resolution: float) -> None:
+def test_a_usual_recording_is_not_doubted(rate, resolution):
     assert doubts(steps(rate, resolution)) == []
 
 
-def test_cells_at_the_end_of_their_range_are_told() -> None:
+def test_cells_at_the_end_of_their_range_are_told():
     recording = steps()
     foot = recording.feet["left"]
     assert foot.layout is not None
@@ -44,7 +42,7 @@ def test_cells_at_the_end_of_their_range_are_told() -> None:
     assert "cells of the left foot stay at 50 kPa" in doubt
 
 
-def test_values_that_stand_alone_are_told() -> None:
+def test_values_that_stand_alone_are_told():
     recording = steps()
     force = recording.feet["left"].force.copy()
     force[[120, 460, 700], 30] += 100.0
@@ -53,7 +51,7 @@ def test_values_that_stand_alone_are_told() -> None:
 
 
 @pytest.mark.parametrize(("threshold", "told"), [(15e3, 0), (28e3, 1), (40e3, 1)])
-def test_cells_that_read_nothing_at_low_load_are_told(threshold: float, told: int) -> None:
+def test_cells_that_read_nothing_at_low_load_are_told(threshold, told):
     """Usual thresholds of vendors, up to an eighth of the high readings, move events by less than 20 ms."""
     recording = steps()
     foot = recording.feet["left"]
@@ -67,19 +65,19 @@ def test_cells_that_read_nothing_at_low_load_are_told(threshold: float, told: in
     assert not any("reads between 0 and" in doubt for doubt in doubts(offset))
 
 
-def test_frames_that_repeat_are_told() -> None:
+def test_frames_that_repeat_are_told():
     recording = steps()
     slow = recording.feet["left"].force[np.arange(1000) // 5 * 5]
     (doubt,) = doubts(with_force(recording, slow))
     assert "81 % of the left foot's frames repeat the one before: the sensor gives about 19 new frames" in doubt
 
 
-def test_a_slow_sensor_is_told() -> None:
+def test_a_slow_sensor_is_told():
     assert any("10 frames a second is an unusual rate" in doubt for doubt in doubts(steps(10.0)))
 
 
 @pytest.mark.parametrize(("wide", "doubted"), [(1.0, 0), (0.8, 0), (0.5, 1), (2.0, 1)])
-def test_an_insole_that_is_too_slender_or_too_wide(wide: float, doubted: int) -> None:
+def test_an_insole_that_is_too_slender_or_too_wide(wide, doubted):
     recording = steps()
     layout = recording.feet["left"].layout
     assert layout is not None

@@ -1,7 +1,5 @@
 """A rate that no device has is refused by every reader, whatever states it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 
@@ -67,7 +65,7 @@ KINDS: dict[str, tuple[Callable[[Path, str], None], str]] = {
 
 @pytest.mark.parametrize("period", ["1e-300", "1e-7", "0", "0.0", "-0.02", "nan", "inf", "1e300", "60"])
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_rate_that_no_device_has_is_one_line(tmp_path: Path, kind: str, period: str) -> None:
+def test_a_rate_that_no_device_has_is_one_line(tmp_path, kind, period):
     write, format_name = KINDS[kind]
     path = tmp_path / "file"
     write(path, period)
@@ -82,7 +80,7 @@ def test_a_rate_that_no_device_has_is_one_line(tmp_path: Path, kind: str, period
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_usual_rate_is_read(tmp_path: Path, kind: str) -> None:
+def test_a_usual_rate_is_read(tmp_path, kind):
     write, format_name = KINDS[kind]
     path = tmp_path / "file"
     write(path, "0.02")
@@ -90,7 +88,7 @@ def test_a_usual_rate_is_read(tmp_path: Path, kind: str) -> None:
 
 
 @pytest.mark.parametrize("rate", [0.0, -1.0, 0.09, 1.1e5, float("nan"), float("inf")])
-def test_nobody_may_give_such_a_rate(tmp_path: Path, rate: float) -> None:
+def test_nobody_may_give_such_a_rate(tmp_path, rate):
     with pytest.raises(FormatError, match=r"the file states .* allowed: 0\.1 to 100000"):
         possible_rate(rate, "the file states")
     tekscan(tmp_path / "file", "0.02")
@@ -98,12 +96,12 @@ def test_nobody_may_give_such_a_rate(tmp_path: Path, rate: float) -> None:
         read_recording(tmp_path / "file", options=ReadOptions(rate_hz=rate))
 
 
-def test_the_ends_of_the_range_are_in_it() -> None:
+def test_the_ends_of_the_range_are_in_it():
     for rate in RATES:
         assert possible_rate(rate, "") == rate
 
 
-def test_frames_that_almost_coincide_have_no_velocity_of_any_size() -> None:
+def test_frames_that_almost_coincide_have_no_velocity_of_any_size():
     time = 0.01 * np.arange(300.0)
     time[100] = time[99] + 1e-300
     time[200] = time[199] + 1e-15

@@ -1,14 +1,12 @@
 """Bags with arrays, as ROS 2 writes them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from plantar import FormatError, SoleLayout, hex_layout
+from plantar import FormatError, hex_layout
 from plantar.formats import detect_format, read_recording
 from plantar.formats.format import ReadOptions
 
@@ -16,7 +14,7 @@ pytest.importorskip("rosbags", reason="rosbags is not installed: pip install 'pl
 
 
 @pytest.fixture(scope="module")
-def layout() -> SoleLayout:
+def layout():
     return hex_layout([[0, -0.04], [0.2, -0.04], [0.2, 0.04], [0, 0.04]], name="mine", cell_area=691e-6)
 
 
@@ -39,7 +37,7 @@ def write_bag(path: Path, topics: dict[str, np.ndarray], kind: str = "sqlite3", 
 
 
 @pytest.mark.parametrize("kind", ["sqlite3", "mcap"])
-def test_a_bag_of_two_feet(tmp_path: Path, layout: SoleLayout, kind: str) -> None:
+def test_a_bag_of_two_feet(tmp_path, layout, kind):
     values = np.random.default_rng(3).uniform(0.0, 90.0, size=(80, len(layout)))
     write_bag(tmp_path / "bag", {"/left_foot/forces": values, "/right_foot/forces": 2 * values}, kind)
     assert detect_format(tmp_path / "bag").name == "rosbag"
@@ -55,7 +53,7 @@ def test_a_bag_of_two_feet(tmp_path: Path, layout: SoleLayout, kind: str) -> Non
     assert raw.raw
 
 
-def test_names_that_say_nothing_are_raw(tmp_path: Path) -> None:
+def test_names_that_say_nothing_are_raw(tmp_path):
     write_bag(tmp_path / "bag", {"/cells": np.ones((20, 8)), "/few": np.ones((20, 2))})
     recording = read_recording(tmp_path / "bag")
     assert recording.raw
@@ -63,7 +61,7 @@ def test_names_that_say_nothing_are_raw(tmp_path: Path) -> None:
     assert recording.feet["left"].force.shape == (20, 8)
 
 
-def test_what_is_no_bag(tmp_path: Path) -> None:
+def test_what_is_no_bag(tmp_path):
     write_bag(tmp_path / "bag", {"/few": np.ones((20, 2))})
     with pytest.raises(FormatError, match="no topic of the bag carries an array"):
         read_recording(tmp_path / "bag")
@@ -76,7 +74,7 @@ def test_what_is_no_bag(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("trials", [8, pytest.param(40, marks=pytest.mark.long)])
-def test_a_damaged_bag_is_one_line(tmp_path: Path, trials: int) -> None:
+def test_a_damaged_bag_is_one_line(tmp_path, trials):
     """Each is read in a process of its own, which takes half a second to start."""
     random = np.random.default_rng(0)
     write_bag(tmp_path / "whole", {"/left/force": np.ones((30, 8))})

@@ -1,9 +1,6 @@
 """Tables of forces by any sensible heading, and text formats of laboratories: columns are taken by what they hold."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -78,7 +75,7 @@ def check(walk: Analysis, sides: Sequence[str] = ("left", "right"), weight: floa
 
 
 @pytest.mark.parametrize("names", HEADINGS)
-def test_headings_of_two_feet(tmp_path: Path, names: str) -> None:
+def test_headings_of_two_feet(tmp_path, names):
     path = tmp_path / "walk.csv"
     path.write_text("Time (s)," + names.replace("|", ",") + "\n" + rows([TIME, LEFT, RIGHT], ","))
     check(analyse(path))
@@ -87,7 +84,7 @@ def test_headings_of_two_feet(tmp_path: Path, names: str) -> None:
 @pytest.mark.parametrize(
     ("unit", "factor"), [("%BW", 100.0 / WEIGHT), ("BW", 1.0 / WEIGHT), ("N/kg", 9.80665 / WEIGHT)]
 )
-def test_forces_relative_to_body_weight(tmp_path: Path, unit: str, factor: float) -> None:
+def test_forces_relative_to_body_weight(tmp_path, unit, factor):
     from plantar.gait.analysis.subject import Subject
 
     path = tmp_path / "walk.csv"
@@ -159,7 +156,7 @@ def bioware() -> str:
         ("bioware.txt", bioware, "plate", ("right",)),
     ],
 )
-def test_text_of_laboratories(tmp_path: Path, name: str, text: object, kind: str, sides: Sequence[str]) -> None:
+def test_text_of_laboratories(tmp_path, name, text, kind, sides):
     path = tmp_path / name
     path.write_text(text())  # type: ignore[operator]
     walk = analyse(path)
@@ -167,7 +164,7 @@ def test_text_of_laboratories(tmp_path: Path, name: str, text: object, kind: str
     assert walk.recording.kind == kind
 
 
-def test_sensors_by_place_and_times_in_milliseconds(tmp_path: Path) -> None:
+def test_sensors_by_place_and_times_in_milliseconds(tmp_path):
     path = tmp_path / "fsr.csv"
     shares = {"heel": 0.3, "mid": 0.1, "met1": 0.2, "met5": 0.2, "toe": 0.2}
     path.write_text("millis," + ",".join(shares) + "\n" + rows([1e3 * TIME, *(k * LEFT for k in shares.values())], ","))
@@ -190,7 +187,7 @@ def test_sensors_by_place_and_times_in_milliseconds(tmp_path: Path) -> None:
         ("time,Fz\n" + rows([TIME, 700.0 + 200.0 * np.sin(12.0 * TIME)], ","), "both feet walk on one plate"),
     ],
 )
-def test_what_is_no_walk_of_feet_is_refused(tmp_path: Path, text: str, message: str) -> None:
+def test_what_is_no_walk_of_feet_is_refused(tmp_path, text, message):
     path = tmp_path / "table.csv"
     path.write_text(text)
     with pytest.raises(FormatError, match=message):

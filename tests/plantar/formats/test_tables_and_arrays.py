@@ -1,7 +1,5 @@
 """Tables and arrays of any origin, with a layout file beside them."""
 
-from __future__ import annotations
-
 import io
 import json
 import pickle
@@ -21,12 +19,12 @@ from .corruption import survive_corruption
 
 
 @pytest.fixture(scope="module")
-def layout() -> SoleLayout:
+def layout():
     return hex_layout([[0, -0.04], [0.2, -0.04], [0.2, 0.04], [0, 0.04]], name="mine", cell_area=691e-6)
 
 
 @pytest.fixture(scope="module")
-def values(layout: SoleLayout) -> np.ndarray:
+def values(layout):
     return np.round(np.random.default_rng(3).uniform(0.0, 90.0, size=(50, len(layout))), 3)
 
 
@@ -64,9 +62,7 @@ def both(layout: SoleLayout, values: np.ndarray, unit: str = "[kPa]") -> dict[st
         {"comments": ("# unit: kPa", "# hello")},
     ],
 )
-def test_two_feet_with_units(
-    tmp_path: Path, layout: SoleLayout, values: np.ndarray, options: dict[str, object]
-) -> None:
+def test_two_feet_with_units(tmp_path, layout, values, options):
     path = tmp_path / "walk.csv"
     write_csv(path, both(layout, values, "" if "comments" in options else "[kPa]"), **options)  # type: ignore[arg-type]
     assert detect_format(path).name == "csv"
@@ -77,7 +73,7 @@ def test_two_feet_with_units(
     assert recording.feet["right"].layout.side == "right"  # type: ignore[union-attr]
 
 
-def test_the_cells_are_found_by_their_ids(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+def test_the_cells_are_found_by_their_ids(tmp_path, layout, values):
     path = tmp_path / "walk.csv"
     columns = {"t_ms": np.arange(50) * 10.0}
     columns |= {f"L_{i}_N": values[:, k] for k, i in reversed(list(enumerate(layout.ids)))}
@@ -90,7 +86,7 @@ def test_the_cells_are_found_by_their_ids(tmp_path: Path, layout: SoleLayout, va
     assert foot.force == pytest.approx(values[:, ::-1], rel=1e-4)
 
 
-def test_what_is_not_stated_is_raw_or_assumed_aloud(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+def test_what_is_not_stated_is_raw_or_assumed_aloud(tmp_path, layout, values):
     path = tmp_path / "walk.csv"
     write_csv(path, both(layout, values, ""))
     recording = read_recording(path, layout=layout)
@@ -111,7 +107,7 @@ def test_what_is_not_stated_is_raw_or_assumed_aloud(tmp_path: Path, layout: Sole
         read_recording(path, options=ReadOptions(rate_hz=-1.0))
 
 
-def test_missing_values_stay_missing(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+def test_missing_values_stay_missing(tmp_path, layout, values):
     path = tmp_path / "walk.csv"
     columns = both(layout, values)
     gone = columns["left 0 [kPa]"].copy()
@@ -130,7 +126,7 @@ def test_missing_values_stay_missing(tmp_path: Path, layout: SoleLayout, values:
     assert "last row is cut short" in text
 
 
-def test_columns_in_other_units_are_no_cells(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+def test_columns_in_other_units_are_no_cells(tmp_path, layout, values):
     path = tmp_path / "table.csv"
     columns = both(layout, values) | {
         "temperature [C]": np.full(50, 25.0),
@@ -143,7 +139,7 @@ def test_columns_in_other_units_are_no_cells(tmp_path: Path, layout: SoleLayout,
     assert sum("is no cell" in w for w in found.warnings) == 3
 
 
-def test_a_table_in_utf_16(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+def test_a_table_in_utf_16(tmp_path, layout, values):
     path = tmp_path / "table.csv"
     write_csv(path, both(layout, values), delimiter="\t")
     path.write_text(path.read_text(), encoding="utf-16")
@@ -154,9 +150,7 @@ def test_a_table_in_utf_16(tmp_path: Path, layout: SoleLayout, values: np.ndarra
 
 
 @pytest.mark.parametrize("decimals", [2, 1])
-def test_times_that_frames_share_do_not_change_the_rate(
-    tmp_path: Path, layout: SoleLayout, values: np.ndarray, decimals: int
-) -> None:
+def test_times_that_frames_share_do_not_change_the_rate(tmp_path, layout, values, decimals):
     path = tmp_path / "table.csv"
     columns = both(layout, values)
     columns["time [s]"] = np.floor(np.arange(50) / 500.0 * 10**decimals + 1e-9) / 10**decimals  # 500 Hz
@@ -172,7 +166,7 @@ def test_times_that_frames_share_do_not_change_the_rate(
     assert any("share their times" in w for w in found.warnings)
 
 
-def test_a_table_that_fits_no_layout(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+def test_a_table_that_fits_no_layout(tmp_path, layout, values):
     path = tmp_path / "walk.csv"
     write_csv(path, {"time": np.arange(50) * 0.01, **{f"left {i} [N]": values[:, i] for i in range(3)}})
     small = read_recording(path, layout=layout)  # the ids are there: a part of the sole
@@ -189,7 +183,7 @@ def test_a_table_that_fits_no_layout(tmp_path: Path, layout: SoleLayout, values:
         read_recording(path)
 
 
-def test_arrays(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+def test_arrays(tmp_path, layout, values):
     path = tmp_path / "walk.npz"
     text = json.dumps(layout_to_dict(layout))
     np.savez(path, time=np.arange(50) * 0.02, left=values, right=2 * values, unit="kPa", layout_left=text)
@@ -226,7 +220,7 @@ class _Touch:
 
 
 @pytest.mark.parametrize("name", ["a.npy", "a.npz"])
-def test_a_pickled_array_runs_no_code(tmp_path: Path, name: str) -> None:
+def test_a_pickled_array_runs_no_code(tmp_path, name):
     """The shape agrees with the size of the pickle, so that no other check refuses it first."""
     packed = pickle.dumps(np.array([_Touch(tmp_path / "ran")], dtype=object))
     stream = io.BytesIO()
@@ -243,9 +237,7 @@ def test_a_pickled_array_runs_no_code(tmp_path: Path, name: str) -> None:
     assert not (tmp_path / "ran").exists()
 
 
-def test_a_plantar_recording_survives_the_way_over_npz_and_csv(
-    tmp_path: Path, layout: SoleLayout, values: np.ndarray
-) -> None:
+def test_a_plantar_recording_survives_the_way_over_npz_and_csv(tmp_path, layout, values):
     from plantar.recordings.recorder import Recorder
     from plantar.recordings.recording import read_mcap
 
@@ -265,7 +257,7 @@ def test_a_plantar_recording_survives_the_way_over_npz_and_csv(
     assert table.feet["left"].force == pytest.approx(values)
 
 
-def test_damage(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+def test_damage(tmp_path, layout, values):
     options = ReadOptions(layout=layout)
     write_csv(tmp_path / "walk.csv", both(layout, values))
     assert survive_corruption(tmp_path / "walk.csv", options=options) > 5
@@ -278,9 +270,7 @@ def test_damage(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
 
 @pytest.mark.parametrize("words", [("left", "right"), ("L", "R"), ("0", "1"), ("1", "2")])
 @pytest.mark.parametrize("shift", [0.0, 0.004])
-def test_a_table_with_a_column_of_sides_is_two_feet(
-    tmp_path: Path, layout: SoleLayout, values: np.ndarray, words: tuple[str, str], shift: float
-) -> None:
+def test_a_table_with_a_column_of_sides_is_two_feet(tmp_path, layout, values, words, shift):
     """Rows of both feet in turn; with a shift, the right foot is measured between the left one's times."""
     path = tmp_path / "soles.csv"
     rows = ["time [s],sole," + ",".join(f"cell {i} [N]" for i in layout.ids)]
@@ -305,9 +295,7 @@ def test_a_table_with_a_column_of_sides_is_two_feet(
 @pytest.mark.parametrize("shift", [0.0, 0.004])
 @pytest.mark.parametrize("span", [(0.0, 0.2), (0.15, 0.3), (0.3, 0.6)])
 @pytest.mark.parametrize("unit", ["s", "ms"])
-def test_rows_that_a_foot_lacks_are_not_drawn_and_cost_the_other_none(
-    tmp_path: Path, layout: SoleLayout, lost: str, shift: float, span: tuple[float, float], unit: str
-) -> None:
+def test_rows_that_a_foot_lacks_are_not_drawn_and_cost_the_other_none(tmp_path, layout, lost, shift, span, unit):
     """One foot's connection breaks, at the begin, in between, or at the end."""
     path, rows = tmp_path / "soles.csv", [f"time [{unit}],sole," + ",".join(f"cell {i} [N]" for i in layout.ids)]
     for k in range(50):
@@ -342,9 +330,7 @@ def clock(seconds: float, form: str) -> str:
 @pytest.mark.parametrize("form", ["day", "comma", "iso", "date", "german", "half"])
 @pytest.mark.parametrize("delimiter", [";", "\t", ","])
 @pytest.mark.parametrize("header", [True, False])
-def test_times_of_day_and_dates(
-    tmp_path: Path, layout: SoleLayout, values: np.ndarray, form: str, delimiter: str, header: bool
-) -> None:
+def test_times_of_day_and_dates(tmp_path, layout, values, form, delimiter, header):
     if form == "comma" and delimiter == ",":
         return  # would be two cells
     names = delimiter.join(["Time", *(f"left {i} [kPa]" for i in layout.ids)])
@@ -359,7 +345,7 @@ def test_times_of_day_and_dates(
     assert recording.feet["left"].force == pytest.approx(values * 1e3 * layout.areas)
 
 
-def test_times_of_day_in_the_last_column_of_rows_that_may_be_damaged(tmp_path: Path, layout: SoleLayout) -> None:
+def test_times_of_day_in_the_last_column_of_rows_that_may_be_damaged(tmp_path, layout):
     """Also where the last line that is looked at first is the damaged one."""
     names = [*(f"left {i} [kPa]" for i in layout.ids), "Time"]
     rows = [[*("1" for _ in layout.ids), clock(0.01 * k, "day")] for k in range(100)]
@@ -375,9 +361,7 @@ def test_times_of_day_in_the_last_column_of_rows_that_may_be_damaged(tmp_path: P
 @pytest.mark.parametrize(
     ("name", "factor"), [("time [min]", 60.0), ("time_min", 60.0), ("t (h)", 3600.0), ("time [s]", 1.0)]
 )
-def test_times_in_minutes_and_hours(
-    tmp_path: Path, layout: SoleLayout, values: np.ndarray, name: str, factor: float
-) -> None:
+def test_times_in_minutes_and_hours(tmp_path, layout, values, name, factor):
     columns = both(layout, values)
     columns = {name: columns.pop("time [s]") / factor, **columns}
     path = tmp_path / "table.csv"
@@ -396,18 +380,18 @@ def test_times_in_minutes_and_hours(
 @pytest.mark.parametrize(
     ("after", "seconds"), [(" [s]", 1.0), ("_ms", 1e-3), ("/s", 1.0), (" (usec)", 1e-6), (" in min", 60.0), ("", 0.0)]
 )
-def test_names_of_times_say_their_unit(before: str, word: str, after: str, seconds: float) -> None:
+def test_names_of_times_say_their_unit(before, word, after, seconds):
     assert time_unit(before + word + after) == seconds
 
 
 @pytest.mark.parametrize(
     "name", ["T [C]", "T (deg)", "min", "h", "left 1", "t1", "time to peak", "total [N]", "temperature", ""]
 )
-def test_other_names_are_no_times(name: str) -> None:
+def test_other_names_are_no_times(name):
     assert time_unit(name) is None
 
 
-def test_quoted_numbers_may_have_a_decimal_comma(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+def test_quoted_numbers_may_have_a_decimal_comma(tmp_path, layout, values):
     columns = both(layout, values)
     names = ",".join(f'"{name}, of the insole"' if i == 0 else f'"{name}"' for i, name in enumerate(columns))
     rows = [",".join(f'"{v:.6g}"'.replace(".", ",") for v in row) for row in np.column_stack(list(columns.values()))]
@@ -418,7 +402,7 @@ def test_quoted_numbers_may_have_a_decimal_comma(tmp_path: Path, layout: SoleLay
     assert recording.feet["right"].force == pytest.approx(2.0 * values * 1e3 * layout.areas)
 
 
-def test_times_that_begin_again_are_told(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+def test_times_that_begin_again_are_told(tmp_path, layout, values):
     """Two recordings one after the other, with the row of names between them or without."""
     path = tmp_path / "table.csv"
     values = np.tile(values, (3, 1))
@@ -436,7 +420,7 @@ def test_times_that_begin_again_are_told(tmp_path: Path, layout: SoleLayout, val
     assert not any("begin again" in w for w in read_recording(path, layout=layout).warnings)
 
 
-def test_stated_raw_counts_are_told(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+def test_stated_raw_counts_are_told(tmp_path, layout, values):
     path = tmp_path / "table.csv"
     write_csv(path, both(layout, values, "[raw]"))
     recording = read_recording(path, layout=layout)
@@ -444,7 +428,7 @@ def test_stated_raw_counts_are_told(tmp_path: Path, layout: SoleLayout, values: 
     assert sum("raw counts" in warning for warning in recording.warnings) == 1
 
 
-def test_times_of_a_clock_count_from_the_first_frame_and_it_is_told(tmp_path: Path, layout: SoleLayout) -> None:
+def test_times_of_a_clock_count_from_the_first_frame_and_it_is_told(tmp_path, layout):
     rows = ["time [s]," + ",".join(f"left {i} [N]" for i in layout.ids)]
     rows += [f"{1.7e9 + k / 100:.2f}," + ",".join("1" for _ in layout.ids) for k in range(50)]
     (tmp_path / "clock.csv").write_text("\n".join(rows) + "\n")

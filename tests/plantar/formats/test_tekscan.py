@@ -1,7 +1,5 @@
 """The Tekscan reader, on exports of every kind that the format allows."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -53,14 +51,14 @@ def export(
 
 
 @pytest.fixture
-def frames() -> np.ndarray:
+def frames():
     random = np.random.default_rng(3)
     out = np.round(random.uniform(0.0, 150.0, size=(40, 30, 11)), 1)
     out[:, 0, :4] = np.nan
     return out
 
 
-def test_an_insole(tmp_path: Path, frames: np.ndarray) -> None:
+def test_an_insole(tmp_path, frames):
     path = tmp_path / "walk.asf"
     export(path, frames)
     assert detect_format(path).name == "tekscan"
@@ -79,14 +77,14 @@ def test_an_insole(tmp_path: Path, frames: np.ndarray) -> None:
     [("KPa", 1e3), ("PSI", 6894.757293168), ("mmHg", 133.322387415), ("N/cm2", 1e4), ("g/cm2", 98.0665)],
 )
 @pytest.mark.parametrize("delimiter", [",", ";", "\t"])
-def test_units_and_delimiters(tmp_path: Path, frames: np.ndarray, unit: str, factor: float, delimiter: str) -> None:
+def test_units_and_delimiters(tmp_path, frames, unit, factor, delimiter):
     path = tmp_path / "walk.csv"
     export(path, frames, unit=unit, delimiter=delimiter, comma=delimiter != ",", end="\n")
     foot = read_recording(path).feet["left"]
     assert foot.vertical_force == pytest.approx(np.nansum(frames, axis=(1, 2)) * factor * 5.08e-3**2)
 
 
-def test_raw_counts_stay_raw_and_say_so(tmp_path: Path, frames: np.ndarray) -> None:
+def test_raw_counts_stay_raw_and_say_so(tmp_path, frames):
     path = tmp_path / "walk.csv"
     for unit, word in (("Raw", "raw counts"), (None, "states no unit")):
         export(path, frames, unit=unit)
@@ -101,7 +99,7 @@ def test_raw_counts_stay_raw_and_say_so(tmp_path: Path, frames: np.ndarray) -> N
     assert foot.vertical_force[0] == pytest.approx(np.nansum(frames[0]) * 1e3 * 5.08e-3**2)
 
 
-def test_other_sizes_sides_and_a_platform(tmp_path: Path, frames: np.ndarray) -> None:
+def test_other_sizes_sides_and_a_platform(tmp_path, frames):
     path = tmp_path / "x.csv"
     export(path, frames, name="walk_R.fsx", spacing=("0.2 in", "0.508 cm"), separator=",")
     recording = read_recording(path)
@@ -114,7 +112,7 @@ def test_other_sizes_sides_and_a_platform(tmp_path: Path, frames: np.ndarray) ->
     assert read_recording(path).kind == "platform"
 
 
-def test_missing_fields_are_assumed_aloud(tmp_path: Path, frames: np.ndarray) -> None:
+def test_missing_fields_are_assumed_aloud(tmp_path, frames):
     path = tmp_path / "walk.csv"
     export(path, frames, spacing=None, area=None, period=None, sizes=False)
     recording = read_recording(path)
@@ -128,7 +126,7 @@ def test_missing_fields_are_assumed_aloud(tmp_path: Path, frames: np.ndarray) ->
     assert any("do not agree" in w for w in read_recording(path).warnings)
 
 
-def test_lost_damaged_and_cut_frames(tmp_path: Path, frames: np.ndarray) -> None:
+def test_lost_damaged_and_cut_frames(tmp_path, frames):
     path = tmp_path / "walk.asf"
     export(path, frames, numbers=[i + 1 if i < 20 else i + 31 for i in range(40)])
     recording = read_recording(path)
@@ -150,14 +148,14 @@ def test_lost_damaged_and_cut_frames(tmp_path: Path, frames: np.ndarray) -> None
 
 
 @pytest.mark.parametrize("numbers", [[1] * 40, [*range(1, 21), *range(1, 21)], list(range(40, 0, -1))], ids=str)
-def test_frame_numbers_that_do_not_rise_are_told(tmp_path: Path, frames: np.ndarray, numbers: list[int]) -> None:
+def test_frame_numbers_that_do_not_rise_are_told(tmp_path, frames, numbers):
     export(tmp_path / "walk.asf", frames, numbers=numbers)
     recording = read_recording(tmp_path / "walk.asf")
     assert recording.time == pytest.approx(np.arange(40) * 0.01)
     assert any("numbers do not rise" in warning for warning in recording.warnings)
 
 
-def test_damage(tmp_path: Path, frames: np.ndarray) -> None:
+def test_damage(tmp_path, frames):
     path = tmp_path / "walk.asf"
     export(path, frames)
     assert survive_corruption(path, header=500) > 15
@@ -166,7 +164,7 @@ def test_damage(tmp_path: Path, frames: np.ndarray) -> None:
         read_recording(path)
 
 
-def test_the_real_insole(real_data: Path) -> None:
+def test_the_real_insole(real_data):
     recording = read_recording(real_data / "recordings" / "fscan_walk_left.asf")
     assert (len(recording.time), recording.rate_hz, recording.grid) == (205, 31.25, (60, 21))
     assert list(recording.feet) == ["left"]

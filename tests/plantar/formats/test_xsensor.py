@@ -1,7 +1,5 @@
 """The XSENSOR reader, on exports of every kind that the format allows."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
@@ -68,7 +66,7 @@ def export(
 
 
 @pytest.fixture
-def feet() -> list[np.ndarray]:
+def feet():
     random = np.random.default_rng(3)
     out = []
     for rows, columns in ((13, 5), (13, 5)):
@@ -79,7 +77,7 @@ def feet() -> list[np.ndarray]:
     return out
 
 
-def test_two_insoles_with_their_stated_loads(tmp_path: Path, feet: list[np.ndarray]) -> None:
+def test_two_insoles_with_their_stated_loads(tmp_path, feet):
     path = tmp_path / "walk.csv"
     export(path, feet)
     assert detect_format(path).name == "xsensor"
@@ -109,7 +107,7 @@ def test_two_insoles_with_their_stated_loads(tmp_path: Path, feet: list[np.ndarr
         {"loads": False, "true_area": 0.86e-2**2},
     ],
 )
-def test_ways_to_write_it(tmp_path: Path, feet: list[np.ndarray], options: dict[str, object]) -> None:
+def test_ways_to_write_it(tmp_path, feet, options):
     path = tmp_path / "walk.csv"
     export(path, feet, **options)  # type: ignore[arg-type]
     recording = read_recording(path)
@@ -118,7 +116,7 @@ def test_ways_to_write_it(tmp_path: Path, feet: list[np.ndarray], options: dict[
     assert recording.rate_hz == pytest.approx(1.0 / float(options.get("step", 1 / 75)), rel=0.01)  # type: ignore[arg-type]
 
 
-def test_frames_without_times_lie_where_their_numbers_say(tmp_path: Path, feet: list[np.ndarray]) -> None:
+def test_frames_without_times_lie_where_their_numbers_say(tmp_path, feet):
     path = tmp_path / "walk.csv"
     export(path, feet, clock=False)
     blocks = re.split(r"(?m)^(?=FRAME)", path.read_text(encoding="utf-8-sig"))
@@ -128,7 +126,7 @@ def test_frames_without_times_lie_where_their_numbers_say(tmp_path: Path, feet: 
     assert "2 frame number(s) are missing: gaps in time" in recording.warnings
 
 
-def test_one_foot_other_names_and_missing_fields(tmp_path: Path, feet: list[np.ndarray]) -> None:
+def test_one_foot_other_names_and_missing_fields(tmp_path, feet):
     path = tmp_path / "walk.csv"
     export(path, feet[1:], names=NAMES[1:])
     assert list(read_recording(path).feet) == ["right"]
@@ -147,7 +145,7 @@ def test_one_foot_other_names_and_missing_fields(tmp_path: Path, feet: list[np.n
     assert any("raw counts" in w for w in raw.warnings)
 
 
-def test_a_wrong_unit_or_cell_size_is_found_out(tmp_path: Path, feet: list[np.ndarray]) -> None:
+def test_a_wrong_unit_or_cell_size_is_found_out(tmp_path, feet):
     path = tmp_path / "walk.csv"
     export(path, feet, unit="kPa", factor=MMHG)
     assert any("times the one that the file states: check unit" in w for w in read_recording(path).warnings)
@@ -158,7 +156,7 @@ def test_a_wrong_unit_or_cell_size_is_found_out(tmp_path: Path, feet: list[np.nd
         read_recording(path)
 
 
-def test_a_cut_end_and_missing_cells(tmp_path: Path, feet: list[np.ndarray]) -> None:
+def test_a_cut_end_and_missing_cells(tmp_path, feet):
     path = tmp_path / "walk.csv"
     export(path, feet)
     whole = path.read_bytes()
@@ -176,7 +174,7 @@ def test_a_cut_end_and_missing_cells(tmp_path: Path, feet: list[np.ndarray]) -> 
     assert any("no numbers" in w for w in damaged.warnings)
 
 
-def test_damage(tmp_path: Path, feet: list[np.ndarray]) -> None:
+def test_damage(tmp_path, feet):
     path = tmp_path / "walk.csv"
     export(path, [f[:20] for f in feet])
     assert survive_corruption(path) > 20
@@ -185,7 +183,7 @@ def test_damage(tmp_path: Path, feet: list[np.ndarray]) -> None:
         read_recording(path)
 
 
-def test_the_real_walk_agrees_with_its_frame_headers(real_data: Path) -> None:
+def test_the_real_walk_agrees_with_its_frame_headers(real_data):
     path = real_data / "recordings" / "xsensor_walk.csv"
     recording = read_recording(path)
     assert (len(recording.time), recording.grid) == (101, (31, 11))

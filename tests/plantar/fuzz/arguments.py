@@ -5,8 +5,6 @@ One array of a right call is replaced by a member of a family. Where the member 
 function takes, there is an answer; anything else is a PlantarError of one line that names the argument.
 """
 
-from __future__ import annotations
-
 import math
 import warnings
 from collections.abc import Callable, Iterator

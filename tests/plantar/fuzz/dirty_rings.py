@@ -3,8 +3,6 @@
 What each of them stands for is known exactly: the hull of its vertices in fractions, in a frame of its own size.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from fractions import Fraction
@@ -39,7 +37,7 @@ class ExactRing:
     size: Fraction
 
     @classmethod
-    def of(cls, ring: Array) -> ExactRing:
+    def of(cls, ring: Array) -> "ExactRing":
         """The exact ring of vertices (k, 2) in m, not all at one place."""
         hull = exact_hull([(Fraction(float(x)), Fraction(float(y))) for x, y in ring])
         low = min(x for x, _ in hull), min(y for _, y in hull)

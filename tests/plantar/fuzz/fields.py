@@ -1,7 +1,5 @@
 """Checks of proximity, temperature, acceleration, the ground's plane and the wrenches that nothing exerts."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Checks of the sums over forces, the activation, the faults, the points of balance, and the batch functions."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

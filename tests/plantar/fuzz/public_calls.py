@@ -1,7 +1,5 @@
 """Public functions of the perception that take arrays, each with a right call: what wrong calls are made of."""
 
-from __future__ import annotations
-
 import inspect
 import pkgutil
 from collections.abc import Callable, Iterator
@@ -257,12 +255,7 @@ def _of_polygons(sole: SoleLayout) -> list[Call]:
     return [
         *found,
         Call(_name(polygon.inner_offset), polygon.inner_offset, {"polygon": _polygon()}, {"distance": 0.03125}),
-        Call(
-            _name(inscribed.safe_rectangle),
-            inscribed.safe_rectangle,
-            {"polygon": _polygon()},
-            {"offset": 0.03125},
-        ),
+        Call(_name(inscribed.safe_rectangle), inscribed.safe_rectangle, {"polygon": _polygon()}, {"offset": 0.03125}),
         Call(_name(outline.concave_outline), lambda active: outline.concave_outline(sole, active), {"active": active}),
         Call(_name(sole_pose.polygon_in_world), sole_pose.polygon_in_world, frame),
         Call(
@@ -470,10 +463,7 @@ def _of_readings(sole: SoleLayout) -> list[Call]:
         Call(
             "taxel_faults.WornFaults.read",
             lambda force_, vectors: taxel_faults.TaxelFaults(shear=0.5).worn(sole).read(0.0, force_, vectors),
-            {
-                "force_": Argument(one.value, (n,), "force"),
-                "vectors": Argument(np.ones((n, 3)), (n, 3), "vectors"),
-            },
+            {"force_": Argument(one.value, (n,), "force"), "vectors": Argument(np.ones((n, 3)), (n, 3), "vectors")},
         ),
         Call(
             "identify_faults.identify_faults",

@@ -1,7 +1,5 @@
 """Stress of the largest rectangle at any angle in outlines of thousands of cells at random."""
 
-from __future__ import annotations
-
 import math
 import time
 

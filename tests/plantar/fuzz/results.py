@@ -1,7 +1,5 @@
 """Many results at once: the numbers in them, and which of them differ."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import chain
 from typing import Any

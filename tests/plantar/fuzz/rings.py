@@ -1,7 +1,5 @@
 """Many polygons at once, for checks that must not cost more than what they check."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import cached_property

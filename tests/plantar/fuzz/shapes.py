@@ -1,7 +1,5 @@
 """Checks of the polygons and shapes: exact convexity, containment, areas, distances, bounds from theorems."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 

@@ -1,7 +1,5 @@
 """Soles and readings that try to break the perception: lattices, clipped and mixed cells, faults, odd forces."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from functools import cache, cached_property

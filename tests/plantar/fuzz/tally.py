@@ -1,7 +1,5 @@
 """What a check of the fuzz tests has seen: errors of one function on one block of readings, each within its bound."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 

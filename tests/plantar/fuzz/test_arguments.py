@@ -1,7 +1,5 @@
 """No public function takes a wrong argument in silence, or answers it with anything but one line of Plantar's own."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 
@@ -20,14 +18,14 @@ CALLS = {call.name: call for call in public_calls()}
 ARRAYS = [(name, array) for name, call in CALLS.items() for array in call.arrays]
 
 
-def test_every_public_function_that_takes_arrays_has_a_call() -> None:
+def test_every_public_function_that_takes_arrays_has_a_call():
     found = set(array_functions())
     assert found - CALLS.keys() - INNER == set(), "give each a call in public_calls.py"
     assert found >= INNER, "names of functions that are gone"
     assert not CALLS.keys() & INNER
 
 
-def test_what_the_package_exports_lies_in_the_rooms_that_are_walked() -> None:
+def test_what_the_package_exports_lies_in_the_rooms_that_are_walked():
     doors = {"read", "analyse", "view", "mujoco", "load_robot", "load_controller", "load_scene", "run"}
     for name in {*plantar.__all__} - doors:
         module = getattr(getattr(plantar, name), "__module__", "plantar.errors") or "plantar.errors"
@@ -35,12 +33,12 @@ def test_what_the_package_exports_lies_in_the_rooms_that_are_walked() -> None:
 
 
 @pytest.mark.parametrize("name", CALLS)
-def test_a_right_call_answers_the_same_each_time(name: str) -> None:
+def test_a_right_call_answers_the_same_each_time(name):
     assert same_answer(CALLS[name](), CALLS[name]())
 
 
 @pytest.mark.parametrize("name", CALLS)
-def test_a_quarter_of_the_wrong_arguments(name: str) -> None:
+def test_a_quarter_of_the_wrong_arguments(name):
     turn = list(CALLS).index(name)
     faults = [
         (array, member, fault)
@@ -53,14 +51,14 @@ def test_a_quarter_of_the_wrong_arguments(name: str) -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize(("name", "array"), ARRAYS)
-def test_all_wrong_arguments(name: str, array: str) -> None:
+def test_all_wrong_arguments(name, array):
     faults = {m: fault for m in MEMBERS if (fault := complaint(CALLS[name], array, m, np.random.default_rng(1)))}
     assert faults == {}
 
 
 @given(st.sampled_from(ARRAYS), st.sampled_from(sorted(MEMBERS)), st.integers(0, 2**32 - 1))
 @settings(max_examples=100)
-def test_any_wrong_argument(place: tuple[str, str], member: str, seed: int) -> None:
+def test_any_wrong_argument(place, member, seed):
     name, array = place
     assert complaint(CALLS[name], array, member, np.random.default_rng(seed)) is None
 
@@ -93,12 +91,12 @@ def raising(error: Exception) -> Callable[[Any], Any]:
         (lambda forces: np.log(np.asarray(forces) - 1e9), "list", "raises RuntimeWarning"),
     ],
 )
-def test_faults_are_found(function: Callable[[Any], Any], member: str, words: str | None) -> None:
+def test_faults_are_found(function, member, words):
     fault = complaint(fake(function), "forces", member, np.random.default_rng(0))
     assert fault is None if words is None else words in str(fault)
 
 
-def test_a_shape_fits_by_itself_and_with_the_others() -> None:
+def test_a_shape_fits_by_itself_and_with_the_others():
     frames = Argument(np.zeros((4, 3)), (..., "n"), "force")
     call = Call("fake", lambda **_: None, {"a": frames, "b": Argument(np.zeros((3, 6)), ("n", 6), "wrench")})
     assert call.taken("a", (3,))

@@ -4,8 +4,6 @@ A block of readings is drawn by hypothesis: a sole (lattices, clipped, mixed, cu
 distances, temperatures and accelerations with faults (`soles.py`). A warning of numpy is a failure.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -18,7 +16,7 @@ from .force import FORCE_CHECKS, LAST_CHECKS
 from .random_cells import RANDOM_CHECKS
 from .rings import Rings
 from .shapes import SHAPE_CHECKS
-from .soles import Block, block_of, stress_soles
+from .soles import block_of, stress_soles
 from .tally import Tally
 
 SOLES = stress_soles()
@@ -33,7 +31,7 @@ blocks = st.builds(
 @pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.__name__.strip("_"))
 @given(block=blocks)
 @settings(max_examples=12, deadline=None)
-def test_odd_readings(check, block: Block) -> None:
+def test_odd_readings(check, block):
     check(block, Tally())
     for last in LAST_CHECKS:
         last(block, Tally())
@@ -43,17 +41,17 @@ def test_odd_readings(check, block: Block) -> None:
 @pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.__name__.strip("_"))
 @given(block=blocks)
 @settings(max_examples=300, deadline=None)
-def test_many_odd_readings(check, block: Block) -> None:
+def test_many_odd_readings(check, block):
     check(block, Tally())
 
 
 @pytest.mark.parametrize("check", RANDOM_CHECKS, ids=lambda check: check.__name__.strip("_"))
 @pytest.mark.parametrize("number", [0, 40])
-def test_patterns_of_a_thousand_cells(check, number: int) -> None:
+def test_patterns_of_a_thousand_cells(check, number):
     check(block_of(SOLES[0], 16, number, number), Tally())
 
 
-def test_every_function_is_met() -> None:
+def test_every_function_is_met():
     """Of each function that `__all__` of the perception's rooms names, as of each member, some reading is seen."""
     tally = Tally()
     for k, sole in enumerate(SOLES[:3]):
@@ -63,7 +61,7 @@ def test_every_function_is_met() -> None:
     assert min(tally.readings.values()) > 0
 
 
-def test_a_planted_fault_is_found(monkeypatch) -> None:
+def test_a_planted_fault_is_found(monkeypatch):
     right = polygon.signed_margin
     monkeypatch.setattr(polygon, "signed_margin", lambda ring, point: 1.001 * right(ring, point))
     block = block_of(SOLES[0], 60, 0, 0)
@@ -71,18 +69,18 @@ def test_a_planted_fault_is_found(monkeypatch) -> None:
         [check(block, Tally()) for check in SHAPE_CHECKS]
 
 
-def test_the_same_seed_gives_the_same_readings() -> None:
+def test_the_same_seed_gives_the_same_readings():
     one, two, other = (block_of(SOLES[4], 50, seed, 0).force for seed in (3, 3, 4))
     assert np.array_equal(one, two, equal_nan=True)
     assert not np.array_equal(one, other, equal_nan=True)
 
 
-def test_every_pattern_of_a_lattice_of_three_rows_comes() -> None:
+def test_every_pattern_of_a_lattice_of_three_rows_comes():
     force = np.concatenate([block_of(SOLES[0], 512, k, 0).active for k in range(10)])
     assert len({tuple(row) for row in force.tolist()}) == 2**9
 
 
-def test_rings_find_a_dent_of_one_unit_in_the_last_place() -> None:
+def test_rings_find_a_dent_of_one_unit_in_the_last_place():
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     flat = np.insert(square, 1, [0.5, 0.0], axis=0)
     dented = np.insert(square, 1, [0.5, 5e-324], axis=0)

@@ -1,7 +1,5 @@
 """Results at once: every number is found, and a single one that is wrong is told."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

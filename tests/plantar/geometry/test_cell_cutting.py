@@ -1,7 +1,5 @@
 """Cells that lines cut, against shapely's intersections."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -21,7 +19,7 @@ def comb(teeth: int) -> list[tuple[float, float]]:
 
 
 @pytest.mark.parametrize("form", ["compiled", "interpreted"])
-def test_cells_of_any_shape_keep_what_shapely_keeps(form: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_cells_of_any_shape_keep_what_shapely_keeps(form, monkeypatch):
     if form == "interpreted":
         monkeypatch.setattr(plantar.geometry.cell_cutting, "cut_cells", python_form("cut_cells").cut_cells)
     cells = [comb(9), [(0.3, 0.0), (0.4, 0.0), (0.4, 0.1)]]

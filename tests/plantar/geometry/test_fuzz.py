@@ -4,8 +4,6 @@ Whatever an array looks like, a function gives what it gives for the same number
 leaves the array as it was, and that is right; or it raises one `InputError`.
 """
 
-from __future__ import annotations
-
 import math
 import warnings
 from fractions import Fraction

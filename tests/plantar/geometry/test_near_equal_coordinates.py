@@ -4,8 +4,6 @@ Corners that a simulator or a lattice computes twice differ so. A hull is compar
 measure of a polygon is continuous, so points that move by a hair change it by little.
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import pairwise
 

@@ -1,7 +1,5 @@
 """The scan for the largest rectangle in an outline at any angle: its gap is true, and more looks give no less."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, settings

@@ -1,7 +1,5 @@
 """What taxels have carried: the compiled kernel, its source, and the formulas in numpy, to the same last bit."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -12,7 +10,7 @@ PYTHON = kernels.python_form("carried_load")
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_both_forms_are_the_formulas(seed: int) -> None:
+def test_both_forms_are_the_formulas(seed):
     rng = np.random.default_rng(seed)
     n, k = int(rng.integers(1, 60)), int(rng.integers(1, 8))
     near = rng.integers(-1, n, (n, k)).astype(np.intp)

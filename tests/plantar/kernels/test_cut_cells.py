@@ -1,7 +1,5 @@
 """The kernel that cuts a polygon at a line: both forms, against shapely."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import shapely
@@ -14,7 +12,7 @@ INTERPRETED = python_form("cut_cells")
 
 
 @pytest.mark.parametrize("seed", range(60))
-def test_a_polygon_is_cut_as_shapely_cuts_it_and_both_forms_give_the_same_bits(seed: int) -> None:
+def test_a_polygon_is_cut_as_shapely_cuts_it_and_both_forms_give_the_same_bits(seed):
     rng = np.random.default_rng(seed)
     polygon = convex_hull(rng.normal(scale=0.1, size=(rng.integers(3, 30), 2)))
     angle, h = rng.uniform(0.0, 2.0 * np.pi), rng.normal(scale=0.08)
@@ -31,7 +29,7 @@ def test_a_polygon_is_cut_as_shapely_cuts_it_and_both_forms_give_the_same_bits(s
     assert part_inside(np.asfortranarray(polygon), nx, ny, h).tobytes() == left.tobytes()
 
 
-def test_nothing_is_left_of_nothing_or_beyond_the_line() -> None:
+def test_nothing_is_left_of_nothing_or_beyond_the_line():
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     for form in (cut_cells, INTERPRETED):
         assert form.part_below(np.empty((0, 2)), 1.0, 0.0, 0.0).shape == (0, 2)

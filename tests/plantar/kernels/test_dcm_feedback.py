@@ -1,7 +1,5 @@
 """The kernel of the DCM feedback in both forms against numpy, tick after tick."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import numpy as np

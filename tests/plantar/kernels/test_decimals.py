@@ -1,7 +1,5 @@
 """Numbers read from text are what Python's `float` makes of them, to the last bit, in either form of the kernel."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The kernel of a foot's contacts: compiled against interpreted, and against numpy's sums."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, settings

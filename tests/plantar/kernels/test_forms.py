@@ -158,7 +158,7 @@ def test_no_extension_is_older_than_its_source():
 
 
 @pytest.mark.parametrize("changed", [".py", ".pxd", None])
-def test_a_kernel_compiled_before_its_last_change_is_found(tmp_path: Path, changed: str | None) -> None:
+def test_a_kernel_compiled_before_its_last_change_is_found(tmp_path, changed):
     room = tmp_path / "room"
     room.mkdir()
     for name in ("one.py", "one.pxd", "plain.py", f"one{EXTENSION_SUFFIXES[0]}"):

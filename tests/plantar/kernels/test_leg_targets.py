@@ -1,7 +1,5 @@
 """The kernel of the legs' targets in both forms: each argument comes to its array."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The kernel of encoders and IMU against numpy, in both forms."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """The kernel of a pressed patch: compiled against interpreted, and against the load that it spreads."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import scipy.optimize

@@ -1,7 +1,5 @@
 """The kernel of a sole that several things press on: both forms, and against one load at a time."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, settings

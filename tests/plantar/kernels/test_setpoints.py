@@ -1,7 +1,5 @@
 """The kernel of set-points in both forms against the same in numpy, tick after tick."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, settings

@@ -1,7 +1,5 @@
 """The kernel of foot damping in both forms against the same in numpy, tick after tick."""
 
-from __future__ import annotations
-
 import decimal
 import math
 
@@ -68,7 +66,7 @@ def test_what_fades_ends_at_none():
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
 @pytest.mark.parametrize("axis", [2, 3, 4])
-def test_a_wrench_that_is_no_number_turns_nothing(axis: int, value: float) -> None:
+def test_a_wrench_that_is_no_number_turns_nothing(axis, value):
     sole, wanted = sole_admittance.SoleAdmittance(0.005, 0.2, 0.01, 1.0, 10.0, 0.08, 0.02), np.zeros(6)
     sound = np.array([0.0, 0.0, 400.0, 5.0, -5.0, 0.0])
     sole.turn(sound, wanted)

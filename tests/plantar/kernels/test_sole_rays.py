@@ -1,7 +1,5 @@
 """The kernel of a sole's proximity sensors against numpy and rays cast one by one, in both forms."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The kernel of static loads against numpy's cross products over each velocity's bodies, in both forms."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The kernels of the judge, which follow each physics step, against plain counting; both forms."""
 
-from __future__ import annotations
-
 import math
 from types import SimpleNamespace
 

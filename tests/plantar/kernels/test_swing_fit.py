@@ -1,7 +1,5 @@
 """The kernel of the swing foot's path: both forms give the same bits, and a path that keeps its ends."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -31,12 +29,12 @@ def path(form, seed: int, now: float | None = None) -> tuple[np.ndarray, np.ndar
 
 @given(st.integers(0, 2**32 - 1))
 @settings(max_examples=30)
-def test_both_forms_agree_to_the_last_bit(seed: int) -> None:
+def test_both_forms_agree_to_the_last_bit(seed):
     assert np.array_equal(path(swing_fit, seed)[0], path(INTERPRETED, seed)[0])
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_the_path_begins_at_nothing_and_ends_at_its_way(seed: int) -> None:
+def test_the_path_begins_at_nothing_and_ends_at_its_way(seed):
     begin, _ = path(swing_fit, seed, 0.0)
     end, way = path(swing_fit, seed, 1.0)
     assert begin[0] == pytest.approx(np.zeros(3), abs=1e-12)

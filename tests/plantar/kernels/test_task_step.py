@@ -1,7 +1,5 @@
 """The kernel of a step in both forms: it is taken where all of its parts agree, and only there."""
 
-from __future__ import annotations
-
 import importlib
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Small arrays made of numbers, and what reaches into an array's memory: new arrays, in both forms, that own theirs."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

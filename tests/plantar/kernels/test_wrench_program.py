@@ -1,7 +1,5 @@
 """The kernel of the wrench distribution's program in both forms against the same in numpy."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, settings

@@ -1,7 +1,5 @@
 """Layout files whose cells contradict themselves are refused in one line that names the taxel."""
 
-from __future__ import annotations
-
 import copy
 
 import pytest

@@ -138,11 +138,7 @@ def test_joined_parts_keep_cells_positions_and_rotations():
     at_border = [i for i in range(len(heel)) if heel.cell_polygon(i)[:, 0].max() > -1e-9]
     assert all(max(sole.neighbours[i]) >= len(heel) for i in at_border)
     assert joined_layout([toes]).cell_shape == "rectangle"
-    for parts, message in (
-        ([], "one part or more"),
-        ([heel, mirrored(toes)], "both sides"),
-        ([heel, heel], "overlap"),
-    ):
+    for parts, message in (([], "one part or more"), ([heel, mirrored(toes)], "both sides"), ([heel, heel], "overlap")):
         with pytest.raises(LayoutError, match=message):
             joined_layout(parts)
 

@@ -1,7 +1,5 @@
 """A wrench on the body against the moment balance of a pendulum, and against the printed signs."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -34,7 +32,7 @@ numbers = st.floats(-1.0, 1.0)
 
 @given(numbers, numbers, numbers, numbers, numbers)
 @settings(max_examples=40)
-def test_it_is_the_moment_balance_about_the_zmp(fx: float, fy: float, above: float, aside: float, out: float) -> None:
+def test_it_is_the_moment_balance_about_the_zmp(fx, fy, above, aside, out):
     com, zmp = np.array([0.3, -0.1, HEIGHT]), np.array([0.25, 0.02, 0.0])
     force, point = 1e4 * np.array([fx, fy]), com + np.array([out, aside, above])
     wrench = wrench_at([*force, 0.0, *np.cross(point, [*force, 0.0])], com)
@@ -45,7 +43,7 @@ def test_it_is_the_moment_balance_about_the_zmp(fx: float, fy: float, above: flo
     assert external_acceleration(wrench, MASS, OMEGA) == pytest.approx(wanted - free, rel=1e-12, abs=1e-9)
 
 
-def test_the_printed_sign_would_let_a_push_at_the_shoulder_accelerate_less() -> None:
+def test_the_printed_sign_would_let_a_push_at_the_shoulder_accelerate_less():
     force, above = 50.0, 0.4
     com = np.array([0.0, 0.0, HEIGHT])
     right = moment_balance(np.array([force, 0.0]), com + np.array([0.0, 0.0, above]), com, np.zeros(3))[0]
@@ -56,12 +54,12 @@ def test_the_printed_sign_would_let_a_push_at_the_shoulder_accelerate_less() -> 
     assert printed == pytest.approx(0.301, abs=5e-4)
 
 
-def test_a_smaller_virtual_mass_gives_way_more() -> None:
+def test_a_smaller_virtual_mass_gives_way_more():
     wrench = [3.0, -2.0, 5.0, 0.7, 0.2, 0.1]
     assert vrp_offset(wrench, MASS, OMEGA, 0.5) == pytest.approx(2.0 * vrp_offset(wrench, MASS, OMEGA))
 
 
-def test_a_short_push_moves_the_dcm_by_the_offset_it_lasts() -> None:
+def test_a_short_push_moves_the_dcm_by_the_offset_it_lasts():
     impulse, above, lasts = np.array([12.0, -30.0]), 0.3, 1e-7
     force = impulse / lasts
     offset = vrp_offset([*force, 0.0, -above * force[1], above * force[0], 0.0], MASS, OMEGA)
@@ -69,7 +67,7 @@ def test_a_short_push_moves_the_dcm_by_the_offset_it_lasts() -> None:
     assert push_of_dcm(impulse, MASS, OMEGA) == pytest.approx(impulse / MASS / OMEGA, rel=1e-12)
 
 
-def test_many_wrenches_at_once_and_those_that_are_not_finite() -> None:
+def test_many_wrenches_at_once_and_those_that_are_not_finite():
     wrenches = np.array([[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [1e4, 0, 0, 0, 1e4, 0], [math.nan, 0, 0, 0, 0, 0]])
     found = vrp_offset(wrenches, MASS, OMEGA)
     assert found[0] == pytest.approx(vrp_offset(wrenches[0], MASS, OMEGA))
@@ -79,7 +77,7 @@ def test_many_wrenches_at_once_and_those_that_are_not_finite() -> None:
 
 
 @pytest.mark.parametrize("wrong", [0.0, -1.0, math.nan, math.inf])
-def test_what_is_no_body_is_refused(wrong: float) -> None:
+def test_what_is_no_body_is_refused(wrong):
     wrench = np.zeros(6)
     with pytest.raises(InputError, match="mass is"):
         vrp_offset(wrench, wrong, OMEGA)

@@ -9,17 +9,17 @@ from plantar.errors import InputError
 from plantar.mechanics.lip import GRAVITY, divergent_component, pendulum_frequency
 
 
-def test_frequency_is_that_of_the_pendulum() -> None:
+def test_frequency_is_that_of_the_pendulum():
     assert pendulum_frequency(0.8) == pytest.approx(math.sqrt(GRAVITY / 0.8), rel=1e-15)
 
 
 @pytest.mark.parametrize("height", [0.0, -1.0, math.nan, math.inf])
-def test_bad_height_is_named(height: float) -> None:
+def test_bad_height_is_named(height):
     with pytest.raises(InputError, match="CoM height"):
         pendulum_frequency(height)
 
 
-def test_a_pendulum_whose_foot_is_at_the_dcm_settles_there() -> None:
+def test_a_pendulum_whose_foot_is_at_the_dcm_settles_there():
     omega, x, v = 3.5, 0.02, 0.3
     xi = float(divergent_component([x], [v], omega)[0])
     start, dt = x, 1e-6
@@ -30,7 +30,7 @@ def test_a_pendulum_whose_foot_is_at_the_dcm_settles_there() -> None:
     assert divergent_component(x, v, omega) == pytest.approx(xi, abs=1e-5)
 
 
-def test_free_fall_stands_in_one_place() -> None:
+def test_free_fall_stands_in_one_place():
     root = Path(plantar.__file__).resolve().parents[1]  # of what is imported, a checkout or an installation
     files = (root / "plantar").rglob("*.py")
     # 9.80665 in plantar/formats/units.py is the definition of a unit.

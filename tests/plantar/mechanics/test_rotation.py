@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from plantar.mechanics.rotation import (
@@ -31,7 +30,7 @@ any_vectors = st.builds(np.multiply, st.floats(0.0, 50.0), axes)
 
 
 @given(any_vectors)
-def test_exponential_is_that_of_scipy_and_a_rotation(vector: NDArray[np.float64]) -> None:
+def test_exponential_is_that_of_scipy_and_a_rotation(vector):
     rotation = rotation_from_vector(vector)
     assert np.abs(rotation - Rotation.from_rotvec(vector).as_matrix()).max() < 1e-14
     assert np.abs(rotation @ rotation.T - np.eye(3)).max() < 2e-15
@@ -39,7 +38,7 @@ def test_exponential_is_that_of_scipy_and_a_rotation(vector: NDArray[np.float64]
 
 
 @given(vectors, vectors, vectors)
-def test_rotations_are_a_group(a: NDArray[np.float64], b: NDArray[np.float64], c: NDArray[np.float64]) -> None:
+def test_rotations_are_a_group(a, b, c):
     p, q, r = (rotation_from_vector(v) for v in (a, b, c))
     assert np.abs((p @ q) @ r - p @ (q @ r)).max() < 1e-14
     assert np.array_equal(rotation_from_vector(np.zeros(3)), np.eye(3))
@@ -50,7 +49,7 @@ def test_rotations_are_a_group(a: NDArray[np.float64], b: NDArray[np.float64], c
 
 
 @given(vectors)
-def test_logarithm_of_the_exponential_leads_back(vector: NDArray[np.float64]) -> None:
+def test_logarithm_of_the_exponential_leads_back(vector):
     found = vector_from_rotation(rotation_from_vector(vector))
     same, opposite = np.abs(found - vector).max(), np.abs(found + vector).max()
     if np.linalg.norm(vector) > math.pi - 1e-7:  # of half a turn, either vector
@@ -60,14 +59,14 @@ def test_logarithm_of_the_exponential_leads_back(vector: NDArray[np.float64]) ->
 
 
 @given(vectors)
-def test_exponential_of_the_logarithm_leads_back(vector: NDArray[np.float64]) -> None:
+def test_exponential_of_the_logarithm_leads_back(vector):
     rotation = np.asarray(Rotation.from_rotvec(vector).as_matrix())
     found = vector_from_rotation(rotation)
     assert np.linalg.norm(found) <= math.pi + 1e-15
     assert np.abs(rotation_from_vector(found) - rotation).max() < 1e-14
 
 
-def test_half_turns_about_every_axis_have_a_logarithm() -> None:
+def test_half_turns_about_every_axis_have_a_logarithm():
     """The antisymmetric part is 0 there: it alone would give no turn at all."""
     rng = np.random.default_rng(0)
     for unit in [*np.eye(3), *-np.eye(3), *rng.normal(size=(50, 3))]:
@@ -80,18 +79,14 @@ def test_half_turns_about_every_axis_have_a_logarithm() -> None:
 
 
 @given(vectors, units)
-def test_small_turns_change_the_exponential_by_their_cross_product(
-    vector: NDArray[np.float64], turn: NDArray[np.float64]
-) -> None:
+def test_small_turns_change_the_exponential_by_their_cross_product(vector, turn):
     rotation, h = rotation_from_vector(vector), 1e-5
     ahead, behind = (rotation_from_vector(s * h * turn) @ rotation for s in (1.0, -1.0))
     assert np.abs((ahead - behind) / (2.0 * h) - np.cross(turn, rotation.T).T).max() < 1e-9
 
 
 @given(vectors, units)
-def test_error_turns_the_actual_rotation_towards_the_wanted_one(
-    vector: NDArray[np.float64], axis: NDArray[np.float64]
-) -> None:
+def test_error_turns_the_actual_rotation_towards_the_wanted_one(vector, axis):
     actual = rotation_from_vector(2.5 * axis)
     wanted = rotation_from_vector(vector) @ actual
     error, angle = rotation_error(wanted, actual), float(np.linalg.norm(vector))
@@ -103,20 +98,20 @@ def test_error_turns_the_actual_rotation_towards_the_wanted_one(
 
 
 @given(units, st.floats(-1e-5, 1e-5))
-def test_error_is_continuous_at_the_quarter_turn(axis: NDArray[np.float64], beyond: float) -> None:
+def test_error_is_continuous_at_the_quarter_turn(axis, beyond):
     turn = rotation_from_vector((0.5 * math.pi + beyond) * axis)
     assert rotation_error(turn, np.eye(3)) == pytest.approx(axis, abs=1e-9)
 
 
 @given(units, st.floats(-1e-4, 1e-4))
-def test_derivative_of_the_error_at_the_target_is_the_turn(axis: NDArray[np.float64], h: float) -> None:
+def test_derivative_of_the_error_at_the_target_is_the_turn(axis, h):
     rotation = rotation_from_vector(2.0 * axis[::-1])
     assert rotation_error(rotation_from_vector(h * axis) @ rotation, rotation) == pytest.approx(h * axis, abs=1e-12)
     assert sine_vector(rotation_from_vector(h * axis)) == pytest.approx(h * axis, abs=1e-12)
 
 
 @given(st.floats(-3.1, 3.1), st.floats(-1.5, 1.5), st.floats(-3.1, 3.1))
-def test_angles_are_turns_about_fixed_axes(yaw: float, pitch: float, roll: float) -> None:
+def test_angles_are_turns_about_fixed_axes(yaw, pitch, roll):
     rotation = rotation_from_angles(yaw, pitch, roll)
     assert np.abs(rotation - Rotation.from_euler("xyz", [roll, pitch, yaw]).as_matrix()).max() < 1e-15
     assert heading(rotation) == pytest.approx(yaw, abs=1e-12)
@@ -125,7 +120,7 @@ def test_angles_are_turns_about_fixed_axes(yaw: float, pitch: float, roll: float
 
 
 @given(vectors, st.integers(0, 2**32 - 1), st.floats(1e-9, 1e-2))
-def test_one_step_of_orthonormalisation_squares_the_error(vector: NDArray[np.float64], seed: int, size: float) -> None:
+def test_one_step_of_orthonormalisation_squares_the_error(vector, seed, size):
     off = rotation_from_vector(vector) + size * np.random.default_rng(seed).uniform(-1.0, 1.0, (3, 3))
     left, _, right = np.linalg.svd(off)
     before, found = np.linalg.norm(off - left @ right), orthonormalised(off)

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import numpy as np
 
 from plantar.mechanics.within_limits import Box, nearest_within

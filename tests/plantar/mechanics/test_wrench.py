@@ -20,7 +20,7 @@ def random_pose(rng: np.random.Generator) -> tuple[NDArray[np.float64], NDArray[
 
 
 @given(seeds)
-def test_a_moved_wrench_is_that_of_the_moved_forces(seed: int) -> None:
+def test_a_moved_wrench_is_that_of_the_moved_forces(seed):
     rng = np.random.default_rng(seed)
     points, forces = rng.uniform(-1.0, 1.0, (2, 5, 3))
     rotation, position = random_pose(rng)
@@ -31,7 +31,7 @@ def test_a_moved_wrench_is_that_of_the_moved_forces(seed: int) -> None:
 
 
 @given(seeds)
-def test_moves_follow_each_other_and_lead_back(seed: int) -> None:
+def test_moves_follow_each_other_and_lead_back(seed):
     rng = np.random.default_rng(seed)
     wrench = rng.normal(size=(4, 6))
     (r, p), (s, q) = random_pose(rng), random_pose(rng)
@@ -43,7 +43,7 @@ def test_moves_follow_each_other_and_lead_back(seed: int) -> None:
 
 
 @given(seeds)
-def test_power_does_not_depend_on_the_frame(seed: int) -> None:
+def test_power_does_not_depend_on_the_frame(seed):
     """A wrench and a twist move contragrediently: f . v + tau . w is the same number in every frame."""
     rng = np.random.default_rng(seed)
     wrench, velocity, rate = rng.normal(size=6), rng.normal(size=3), rng.normal(size=3)
@@ -54,7 +54,7 @@ def test_power_does_not_depend_on_the_frame(seed: int) -> None:
     assert moved @ there == pytest.approx(wrench @ np.concatenate([velocity, rate]), abs=1e-12)
 
 
-def test_named_components_are_those_of_the_array() -> None:
+def test_named_components_are_those_of_the_array():
     wrench = Wrench.of(np.arange(1.0, 7.0))
     assert (wrench.fx, wrench.fy, wrench.fz, wrench.tx, wrench.ty, wrench.tz) == (1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
     assert np.asarray(wrench).tolist() == [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]
@@ -67,7 +67,7 @@ def test_named_components_are_those_of_the_array() -> None:
 
 
 @given(seeds)
-def test_a_contact_knows_its_wrench_and_its_centre_in_the_world(seed: int) -> None:
+def test_a_contact_knows_its_wrench_and_its_centre_in_the_world(seed):
     rng = np.random.default_rng(seed)
     rotation, position = random_pose(rng)
     contact = Contact(position, rotation, Rectangle(-0.1, 0.16, -0.04, 0.06))

@@ -36,7 +36,7 @@ def hull_facets(r: Rectangle, mu: float) -> np.ndarray:
 
 @pytest.mark.parametrize("mu", [0.2, 0.6, 1.1])
 @pytest.mark.parametrize("rectangle", [ASYMMETRIC, Rectangle(0.02, 0.2, 0.01, 0.05), Rectangle(-0.1, 0.1, -0.1, 0.1)])
-def test_the_facets_are_those_of_the_corner_rays_hull(rectangle: Rectangle, mu: float) -> None:
+def test_the_facets_are_those_of_the_corner_rays_hull(rectangle, mu):
     rows = wrench_cone(rectangle, mu)
     ours = rows / np.linalg.norm(rows, axis=1)[:, None]
     hull = hull_facets(rectangle, mu)
@@ -45,7 +45,7 @@ def test_the_facets_are_those_of_the_corner_rays_hull(rectangle: Rectangle, mu: 
         assert np.abs(hull - row).max(axis=1).min() < 1e-6
 
 
-def test_the_printed_yaw_limits_are_not_the_hull() -> None:
+def test_the_printed_yaw_limits_are_not_the_hull():
     """T 4.38 splits |Y fx - mu tx| with Y = Ymax: on an asymmetric rectangle a corner ray then leaves the cone."""
     x0, x1, y0, y1 = ASYMMETRIC
     mu = 0.6
@@ -69,9 +69,7 @@ def test_the_printed_yaw_limits_are_not_the_hull() -> None:
     size=st.tuples(st.floats(0.0, 0.3), st.floats(0.0, 0.3)),
     mu=st.floats(0.05, 2.0),
 )
-def test_sums_of_corner_forces_are_inside(
-    seed: int, low: tuple[float, float], size: tuple[float, float], mu: float
-) -> None:
+def test_sums_of_corner_forces_are_inside(seed, low, size, mu):
     r = Rectangle(low[0], low[0] + size[0], low[1], low[1] + size[1])
     rng = np.random.default_rng(seed)
     wrench = rng.exponential(50.0, (20, 16)) @ corner_rays(r, mu)
@@ -88,6 +86,6 @@ def test_sums_of_corner_forces_are_inside(
         (ASYMMETRIC, float("inf")),
     ],
 )
-def test_what_is_no_contact_is_refused(rectangle: Rectangle, mu: float) -> None:
+def test_what_is_no_contact_is_refused(rectangle, mu):
     with pytest.raises(InputError, match="allowed"):
         wrench_cone(rectangle, mu)

@@ -1,7 +1,5 @@
 """The distribution against quadprog, against its own definition, and where it cannot be met."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -112,13 +110,13 @@ def compare(contacts_count: int, count: int, seed: int) -> set[DistributionState
 
 
 @pytest.mark.parametrize("contacts", [1, 2, 3, 4])
-def test_it_is_what_quadprog_finds(contacts: int) -> None:
+def test_it_is_what_quadprog_finds(contacts):
     assert compare(contacts, 200, contacts) == {DistributionState.TRACKED, DistributionState.SATURATED}
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("contacts", [1, 2, 3, 4])
-def test_it_is_what_quadprog_finds_5000_times(contacts: int) -> None:
+def test_it_is_what_quadprog_finds_5000_times(contacts):
     compare(contacts, 5_000, 10 + contacts)
 
 
@@ -141,7 +139,7 @@ def cost(weights: DistributionWeights, problem: Problem, wrenches: np.ndarray) -
     return float(total)
 
 
-def test_no_wrench_nearby_costs_less() -> None:
+def test_no_wrench_nearby_costs_less():
     rng = np.random.default_rng(3)
     weights = DistributionWeights(net=100.0, ankle=5.0, pressure=2.0, friction=0.5)
     distribution = WrenchDistribution(WEIGHT, weights)
@@ -169,7 +167,7 @@ def left_share(left: float) -> dict[str, float]:
     return {"left": left, "right": 1.0 - left}
 
 
-def test_the_result_does_not_depend_on_where_the_robot_stands_and_heads() -> None:
+def test_the_result_does_not_depend_on_where_the_robot_stands_and_heads():
     wrench, point = np.array([20.0, -10.0, 650.0, 25.0, -12.0, 3.0]), np.array([0.02, 0.01, 0.87])
     here = WrenchDistribution(WEIGHT).solve(two_feet(), wrench, point, left_share(0.3))
     for yaw, shift in ((1.0, [10.0, -10.0, 0.0]), (-3.0, [-10.0, 3.0, 0.7])):
@@ -182,7 +180,7 @@ def test_the_result_does_not_depend_on_where_the_robot_stands_and_heads() -> Non
         assert rows(there) == pytest.approx(rows(here), abs=1e-7)
 
 
-def test_one_foot_takes_what_it_can() -> None:
+def test_one_foot_takes_what_it_can():
     foot = {"left": two_feet()["left"]}
     place = foot["left"].position
     wrench = np.array([30.0, 10.0, 640.0, 20.0, -30.0, 2.0])
@@ -196,7 +194,7 @@ def test_one_foot_takes_what_it_can() -> None:
     assert cop[1] == pytest.approx(SOLE.y_max, abs=1e-9)
 
 
-def test_weight_follows_the_zmp_and_each_foot_keeps_its_pressure_in_the_middle() -> None:
+def test_weight_follows_the_zmp_and_each_foot_keeps_its_pressure_in_the_middle():
     feet = two_feet()
     middle = SOLE.center[0]
     for share_left in (0.2, 0.5, 0.9):
@@ -209,7 +207,7 @@ def test_weight_follows_the_zmp_and_each_foot_keeps_its_pressure_in_the_middle()
             assert share.center_of_pressure(side) == pytest.approx([middle, 0.0], abs=1e-3)
 
 
-def test_contradicting_constraints_give_the_least_violating_wrench() -> None:
+def test_contradicting_constraints_give_the_least_violating_wrench():
     """A rectangle turned inside out by a safety offset carries nothing, yet the foot shall press with 15 N."""
     from scipy.optimize import minimize
 
@@ -246,7 +244,7 @@ def test_contradicting_constraints_give_the_least_violating_wrench() -> None:
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
 @pytest.mark.parametrize("where", ["wrench", "point", "share", "position", "rotation", "rectangle", "preferred"])
 @pytest.mark.parametrize("feet", [1, 2, 3])
-def test_numbers_that_are_not_finite_give_the_bodys_weight(feet: int, where: str, bad: float) -> None:
+def test_numbers_that_are_not_finite_give_the_bodys_weight(feet, where, bad):
     hand = Contact(np.array([0.4, 0.0, 0.9]), turn(0.0, 0.3), SOLE)
     contacts = dict(list({**two_feet(), "hand": hand}.items())[:feet])
     wrench, point = np.array([0.0, 0.0, WEIGHT, 0.0, 0.0, 0.0]), np.zeros(3)
@@ -277,7 +275,7 @@ def test_numbers_that_are_not_finite_give_the_bodys_weight(feet: int, where: str
     assert rows(again) == pytest.approx(rows(before), abs=1e-9)
 
 
-def test_no_contact_no_wrench() -> None:
+def test_no_contact_no_wrench():
     share = WrenchDistribution(WEIGHT).solve({}, [0.0, 0.0, 640.0, 0.0, 0.0, 0.0], np.zeros(3))
     assert share.state == DistributionState.AIRBORNE
     assert share.wrenches == {}
@@ -285,19 +283,19 @@ def test_no_contact_no_wrench() -> None:
         WrenchDistribution(WEIGHT).program({}, np.zeros(6), np.zeros(3))
 
 
-def test_shares_of_other_contacts_are_refused() -> None:
+def test_shares_of_other_contacts_are_refused():
     for shares in ({}, {"left": 1.0}, {"left": 0.5, "hand": 0.5}, {"left": 0.5, "right": 0.25, "hand": 0.25}):
         with pytest.raises(InputError, match="allowed: for left, right"):
             WrenchDistribution(WEIGHT).solve(two_feet(), np.zeros(6), np.zeros(3), shares)
 
 
-def test_shares_that_add_up_to_nothing_give_the_bodys_weight_evenly() -> None:
+def test_shares_that_add_up_to_nothing_give_the_bodys_weight_evenly():
     share = WrenchDistribution(WEIGHT).solve(two_feet(), np.zeros(6), np.zeros(3), {"left": 0.0, "right": 0.0})
     assert share.state == DistributionState.INVALID
     assert rows(share)[:, 2].tolist() == [0.5 * WEIGHT, 0.5 * WEIGHT]
 
 
-def test_a_stool_of_four_legs_carries_the_wanted_shares() -> None:
+def test_a_stool_of_four_legs_carries_the_wanted_shares():
     """Their normal forces are not determined by the net wrench: the wanted proportion decides."""
     legs = {
         name: Contact(np.array([x, y, 0.0]), np.eye(3), Rectangle(-0.01, 0.01, -0.01, 0.01))
@@ -312,7 +310,7 @@ def test_a_stool_of_four_legs_carries_the_wanted_shares() -> None:
     assert rows(share)[:, 2] / WEIGHT == pytest.approx(list(diagonal.values()), rel=1e-3)
 
 
-def test_contacts_that_are_a_line_or_a_point_are_contacts() -> None:
+def test_contacts_that_are_a_line_or_a_point_are_contacts():
     for rectangle in (Rectangle(-0.1, 0.1, 0.02, 0.02), Rectangle(0.03, 0.03, 0.02, 0.02)):
         foot = {"left": Contact(np.zeros(3), np.eye(3), rectangle)}
         share = WrenchDistribution(WEIGHT).solve(foot, [0.0, 0.0, WEIGHT, 0.0, 0.0, 0.0], np.zeros(3))
@@ -325,7 +323,7 @@ def test_contacts_that_are_a_line_or_a_point_are_contacts() -> None:
 @pytest.mark.parametrize(
     ("weight", "force", "word"), [(0.0, 15.0, "weight"), (math.nan, 15.0, "weight"), (600.0, -1.0, "minimum force")]
 )
-def test_a_distribution_of_nothing_is_refused(weight: float, force: float, word: str) -> None:
+def test_a_distribution_of_nothing_is_refused(weight, force, word):
     with pytest.raises(InputError, match=word):
         WrenchDistribution(weight, minimum_force=force)
     with pytest.raises(InputError, match="net"):

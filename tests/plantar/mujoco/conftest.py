@@ -1,7 +1,5 @@
 """Models of many kinds, and MuJoCo's own sum of a sole's contacts."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

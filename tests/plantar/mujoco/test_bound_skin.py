@@ -1,7 +1,5 @@
 """Skin on models of many kinds: its taxels' forces against MuJoCo's own contact forces."""
 
-from __future__ import annotations
-
 import pickle
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path

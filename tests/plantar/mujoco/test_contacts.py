@@ -1,7 +1,5 @@
 """The reader of contacts against one that looks anew each time, while their number changes."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 

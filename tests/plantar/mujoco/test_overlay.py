@@ -1,7 +1,5 @@
 """What is drawn of a skin."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 

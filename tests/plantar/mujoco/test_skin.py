@@ -1,7 +1,5 @@
 """Placing a skin on a body: frames found from geometry, wrong set-ups refused, physics untouched."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import mujoco

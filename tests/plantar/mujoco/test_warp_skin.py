@@ -1,7 +1,5 @@
 """Skin in the worlds of MuJoCo Warp, on the CPU, against `BoundSkin`."""
 
-from __future__ import annotations
-
 import importlib.util
 from pathlib import Path
 

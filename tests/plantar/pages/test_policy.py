@@ -1,7 +1,5 @@
 """Pages state a policy that holds for their own scripts and for no other."""
 
-from __future__ import annotations
-
 import base64
 import hashlib
 import re
@@ -10,7 +8,7 @@ from plantar.pages.page import Section, page
 from plantar.pages.policy import with_policy
 
 
-def test_a_page_allows_its_own_scripts_alone() -> None:
+def test_a_page_allows_its_own_scripts_alone():
     code = "document.title = 'a';"
     text = page("A title", "", [Section("a", "A", "<p>text</p>")], script=f"<script>{code}</script>")
     policy = re.findall(r'<meta http-equiv="Content-Security-Policy" content="([^"]*)">', text)
@@ -23,6 +21,6 @@ def test_a_page_allows_its_own_scripts_alone() -> None:
     assert text.index("Content-Security-Policy") < text.index("<style>")
 
 
-def test_a_page_without_scripts_runs_none_and_data_is_no_script() -> None:
+def test_a_page_without_scripts_runs_none_and_data_is_no_script():
     data = '<head></head><script type="application/json" id="d">{"a": 1}</script>'
     assert "script-src 'none'" in with_policy(data)

@@ -1,7 +1,5 @@
 """Sums of forces in arrays of other libraries, against `plantar.batch`; of those that are installed."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 
@@ -15,8 +13,7 @@ from plantar.percepts import any_array
 FLAT = hex_layout([[-0.12, -0.05], [0.12, -0.04], [0.12, 0.04], [-0.12, 0.05]])
 _SLOPE = 5.0 * FLAT.positions[:, 0]
 CURVED = replace(
-    FLAT,
-    rotations=rotations_to_normals(np.column_stack([-np.sin(_SLOPE), np.zeros(len(FLAT)), np.cos(_SLOPE)])),
+    FLAT, rotations=rotations_to_normals(np.column_stack([-np.sin(_SLOPE), np.zeros(len(FLAT)), np.cos(_SLOPE)]))
 )
 LIBRARIES = ("numpy", "array_api_strict", "torch", "jax.numpy")
 
@@ -43,7 +40,7 @@ def library(name: str) -> Any:
 @pytest.mark.parametrize("name", LIBRARIES)
 @pytest.mark.parametrize("sole", [FLAT, CURVED], ids=["flat", "curved"])
 @pytest.mark.parametrize("bits", [64, 32])
-def test_every_library_gives_what_batch_gives(name: str, sole: Any, bits: int) -> None:
+def test_every_library_gives_what_batch_gives(name, sole, bits):
     xp = library(name)
     force = forces(3, 4).astype(f"float{bits}")
     given = xp.asarray(force)
@@ -75,7 +72,7 @@ def jacobians(name: str, sole: Any, force: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("name", ["torch", "jax.numpy"])
 @pytest.mark.parametrize("sole", [FLAT, CURVED], ids=["flat", "curved"])
-def test_derivatives_are_those_of_finite_differences(name: str, sole: Any) -> None:
+def test_derivatives_are_those_of_finite_differences(name, sole):
     force = np.where(np.arange(len(sole)) % 3 == 0, 30.0 + np.arange(len(sole)), 0.5)
     force[4] = np.nan  # a dead taxel must not spoil the others' derivatives
     found = jacobians(name, sole, force)
@@ -95,7 +92,7 @@ def test_derivatives_are_those_of_finite_differences(name: str, sole: Any) -> No
 
 
 @pytest.mark.parametrize("name", ["torch", "jax.numpy"])
-def test_without_load_a_cop_is_none_and_its_derivative_zero(name: str) -> None:
+def test_without_load_a_cop_is_none_and_its_derivative_zero(name):
     assert not jacobians(name, FLAT, np.zeros(len(FLAT)))[7:].any()
 
 
@@ -110,7 +107,7 @@ def test_without_load_a_cop_is_none_and_its_derivative_zero(name: str) -> None:
         (None, "NoneType"),
     ],
 )
-def test_bad_forces_are_named(force: Any, words: str) -> None:
+def test_bad_forces_are_named(force, words):
     for function in (any_array.active, any_array.loads):
         with pytest.raises(ReadingError, match=words):
             function(FLAT, force)

@@ -1,8 +1,6 @@
 """Poses, mirrors and permutations change results as they must; one reading, a batch and feet give the same; on flat,
 curved and mixed soles."""
 
-from __future__ import annotations
-
 from dataclasses import fields, replace
 
 import numpy as np

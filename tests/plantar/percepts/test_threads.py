@@ -46,9 +46,7 @@ BATCHES = {
     "polygons": lambda force, threads: list(
         vars(batch.support_polygons(SOLE, force, vertices=True, threads=threads)).values()
     ),
-    "planes": lambda force, threads: list(
-        vars(batch.ground_planes(SOLE, force * 1e-3, threads=threads)).values(),
-    ),
+    "planes": lambda force, threads: list(vars(batch.ground_planes(SOLE, force * 1e-3, threads=threads)).values()),
 }
 
 

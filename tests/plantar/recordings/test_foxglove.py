@@ -1,9 +1,6 @@
 """Foxglove's own package describes the same schemas and reads the same messages."""
 
-from __future__ import annotations
-
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -20,9 +17,7 @@ RED = (1.0, 0.0, 0.25, 0.5)
 
 
 @pytest.mark.parametrize("schema", foxglove.SCHEMAS)
-def test_a_recording_carries_the_descriptors_that_the_package_has(
-    schema: str, repository: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_recording_carries_the_descriptors_that_the_package_has(schema, repository, monkeypatch):
     monkeypatch.syspath_prepend(str(repository / "tools"))
     from foxglove_schemas import descriptor_set
 
@@ -30,7 +25,7 @@ def test_a_recording_carries_the_descriptors_that_the_package_has(
     assert foxglove.descriptor(schema) == descriptor_set(schema)
 
 
-def test_a_frame_transform() -> None:
+def test_a_frame_transform():
     slots = [Slot(i) for i in range(7)]
     message = Template(foxglove.frame_transform("pelvis", slots[:3], slots[3:])).filled(2.25, [1, 2, 3, 0, 0, 0.6, 0.8])
     (found,) = FrameTransforms.FromString(message).transforms
@@ -40,7 +35,7 @@ def test_a_frame_transform() -> None:
     assert found.timestamp.ToNanoseconds() == 2_250_000_000
 
 
-def test_an_entity_of_every_primitive() -> None:
+def test_an_entity_of_every_primitive():
     place = foxglove.pose((0.1, 0.2, 0.3), (0.0, 0.6, 0.0, 0.8))
     parts = (
         foxglove.cube(place, (1.0, 2.0, 3.0), RED),
@@ -72,7 +67,7 @@ def test_an_entity_of_every_primitive() -> None:
 
 
 @pytest.mark.parametrize("level", foxglove.LEVELS)
-def test_a_log_message(level: str) -> None:
+def test_a_log_message(level):
     found = Log.FromString(foxglove.log_message(3.125, "step 3: foothold seen", level, "plan"))
     assert Log.Level.Name(found.level) == level.upper()
     assert (found.message, found.name, found.timestamp.ToNanoseconds()) == (

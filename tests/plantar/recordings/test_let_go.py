@@ -1,7 +1,5 @@
 """Large tables of frames: what lies in a file behaves as what lies in memory."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +10,7 @@ from plantar.recordings.frame_table import FrameTable, blocks_of_frames, column_
 
 
 @pytest.mark.parametrize("large", [0, 10**9])
-def test_a_table_keeps_its_numbers_wherever_it_lies(monkeypatch: pytest.MonkeyPatch, large: int) -> None:
+def test_a_table_keeps_its_numbers_wherever_it_lies(monkeypatch, large):
     """Growing, letting go, scaling and reading again; with a limit of 0 everything lies in a file."""
     monkeypatch.setattr(module, "LARGE", large)
     monkeypatch.setattr(module, "_BLOCK", 50)
@@ -31,7 +29,7 @@ def test_a_table_keeps_its_numbers_wherever_it_lies(monkeypatch: pytest.MonkeyPa
 
 
 @pytest.mark.skipif("not __import__('sys').platform.startswith('linux')", reason="reads /proc")
-def test_room_in_a_file_takes_no_memory() -> None:
+def test_room_in_a_file_takes_no_memory():
     before = _resident()
     table = room(50_000_000, 4)
     table[::10_000_000] = 1.0

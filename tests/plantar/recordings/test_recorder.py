@@ -1,7 +1,5 @@
 """The recorder: what it writes is MCAP that the library reads too, and a killed run keeps its chunks."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess
@@ -34,7 +32,7 @@ def write_walk(path: Path, seconds: float = 2.0) -> np.ndarray:
     return force
 
 
-def test_values_and_times_come_back_exactly(tmp_path: Path) -> None:
+def test_values_and_times_come_back_exactly(tmp_path):
     force = write_walk(tmp_path / "run.mcap")
     recording = read_mcap(tmp_path / "run.mcap")
     assert recording.warnings == ()
@@ -47,7 +45,7 @@ def test_values_and_times_come_back_exactly(tmp_path: Path) -> None:
     assert body.fields["tilt"][:, 0].tolist() == list(range(0, 500, 5))
 
 
-def test_mcap_library_reads_and_seeks_the_file(tmp_path: Path) -> None:
+def test_mcap_library_reads_and_seeks_the_file(tmp_path):
     write_walk(tmp_path / "run.mcap")
     with (tmp_path / "run.mcap").open("rb") as stream:
         reader = make_reader(stream, validate_crcs=True)
@@ -65,7 +63,7 @@ def test_mcap_library_reads_and_seeks_the_file(tmp_path: Path) -> None:
     assert len(message.data) == 4 + 42 * 8
 
 
-def test_messages_for_viewers_are_kept_beside_the_numbers_and_read_where_they_are_wanted(tmp_path: Path) -> None:
+def test_messages_for_viewers_are_kept_beside_the_numbers_and_read_where_they_are_wanted(tmp_path):
     path = tmp_path / "run.mcap"
     said = [foxglove.log_message(0.1 * i, f"line {i}") for i in range(20)]
     ball = Template(
@@ -92,7 +90,7 @@ def test_messages_for_viewers_are_kept_beside_the_numbers_and_read_where_they_ar
     assert [message_values(m, [("a", 1)]).tolist() for _, m in taken["/numbers"]] == [[float(i)] for i in range(20)]
 
 
-def test_a_schema_that_is_unknown_and_a_topic_that_exists_are_refused(tmp_path: Path) -> None:
+def test_a_schema_that_is_unknown_and_a_topic_that_exists_are_refused(tmp_path):
     with Recorder(tmp_path / "run.mcap") as recorder:
         channel = recorder.message_channel("/log", "foxglove.Log")
         with pytest.raises(RecordingError, match=r"foxglove\.Log"):
@@ -103,7 +101,7 @@ def test_a_schema_that_is_unknown_and_a_topic_that_exists_are_refused(tmp_path: 
             channel.write(-1.0, b"")
 
 
-def test_layouts_are_kept(tmp_path: Path) -> None:
+def test_layouts_are_kept(tmp_path):
     layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
     with Recorder(tmp_path / "run.mcap", layouts={"left": layout}):
         pass
@@ -112,7 +110,7 @@ def test_layouts_are_kept(tmp_path: Path) -> None:
     assert back.corners == layout.corners
 
 
-def test_truncated_file_reads_up_to_its_last_whole_chunk(tmp_path: Path) -> None:
+def test_truncated_file_reads_up_to_its_last_whole_chunk(tmp_path):
     force = write_walk(tmp_path / "run.mcap")
     whole = (tmp_path / "run.mcap").read_bytes()
     counts = []
@@ -131,7 +129,7 @@ def test_truncated_file_reads_up_to_its_last_whole_chunk(tmp_path: Path) -> None
     assert counts[-1] > counts[0]
 
 
-def test_killed_writer_leaves_a_readable_file(tmp_path: Path) -> None:
+def test_killed_writer_leaves_a_readable_file(tmp_path):
     path = tmp_path / "killed.mcap"
     code = (
         "import sys, numpy as np\n"
@@ -159,7 +157,7 @@ def test_killed_writer_leaves_a_readable_file(tmp_path: Path) -> None:
     assert any("cut short" in w for w in recording.warnings)
 
 
-def test_chunks_reach_the_disk_while_the_run_goes_on(tmp_path: Path) -> None:
+def test_chunks_reach_the_disk_while_the_run_goes_on(tmp_path):
     path = tmp_path / "run.mcap"
     with Recorder(path, chunk_duration=0.5) as recorder:
         channel = recorder.channel("/a", [("x", 1)])
@@ -169,7 +167,7 @@ def test_chunks_reach_the_disk_while_the_run_goes_on(tmp_path: Path) -> None:
     assert len(read_mcap(path).topics["/a"]) == 251
 
 
-def test_bad_calls_name_what_is_wrong(tmp_path: Path) -> None:
+def test_bad_calls_name_what_is_wrong(tmp_path):
     with pytest.raises(RecordingError, match="choose a folder"):
         Recorder(tmp_path / "missing" / "run.mcap")
     with pytest.raises(RecordingError, match="JSON"):
@@ -188,7 +186,7 @@ def test_bad_calls_name_what_is_wrong(tmp_path: Path) -> None:
                 recorder.channel("/b", fields)
 
 
-def test_a_full_channel_is_flushed_before_its_time(tmp_path: Path) -> None:
+def test_a_full_channel_is_flushed_before_its_time(tmp_path):
     with Recorder(tmp_path / "run.mcap", chunk_duration=1e6) as recorder:
         channel = recorder.channel("/a", [("x", 1)])
         for i in range(1000):
@@ -196,7 +194,7 @@ def test_a_full_channel_is_flushed_before_its_time(tmp_path: Path) -> None:
     assert read_mcap(tmp_path / "run.mcap").topics["/a"].fields["x"][:, 0].tolist() == list(range(1000))
 
 
-def test_a_message_is_cheap(tmp_path: Path) -> None:
+def test_a_message_is_cheap(tmp_path):
     values = np.random.default_rng(0).normal(size=42)
     best = np.inf
     for _ in range(3):
@@ -222,9 +220,7 @@ def record(path: Path, messages: int, error: BaseException | None) -> None:
 @pytest.mark.parametrize("old", [True, False])
 @pytest.mark.parametrize("error", [ZeroDivisionError, KeyboardInterrupt])
 @pytest.mark.parametrize("messages", [0, 1])
-def test_a_run_that_fails_keeps_what_it_recorded_and_else_leaves_what_there_was(
-    tmp_path: Path, messages: int, error: type[BaseException], old: bool
-) -> None:
+def test_a_run_that_fails_keeps_what_it_recorded_and_else_leaves_what_there_was(tmp_path, messages, error, old):
     path = tmp_path / "run.mcap"
     if old:
         path.write_bytes(b"old")
@@ -237,7 +233,7 @@ def test_a_run_that_fails_keeps_what_it_recorded_and_else_leaves_what_there_was(
         assert path.read_bytes() == b"old"
 
 
-def test_a_full_disk_leaves_an_old_recording_alone(tmp_path: Path) -> None:
+def test_a_full_disk_leaves_an_old_recording_alone(tmp_path):
     resource = pytest.importorskip("resource")
     path = tmp_path / "run.mcap"
     path.write_bytes(b"old")
@@ -254,13 +250,13 @@ def test_a_full_disk_leaves_an_old_recording_alone(tmp_path: Path) -> None:
     assert [p.name for p in tmp_path.iterdir()] == ["run.mcap"]
 
 
-def test_a_folder_is_no_name_for_a_recording(tmp_path: Path) -> None:
+def test_a_folder_is_no_name_for_a_recording(tmp_path):
     with pytest.raises(RecordingError, match="it is a folder"):
         Recorder(tmp_path)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_chunks_are_compressed(tmp_path: Path) -> None:
+def test_chunks_are_compressed(tmp_path):
     rows = np.round(np.random.default_rng(0).normal(size=(2000, 6)), 3)
     with Recorder(tmp_path / "run.mcap") as recorder:
         channel = recorder.channel("/a", [("values", 6)])

@@ -1,10 +1,7 @@
 """Recordings read back, exported, and damaged."""
 
-from __future__ import annotations
-
 import json
 from io import BytesIO
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,7 +13,7 @@ from plantar.recordings.recording import read_mcap
 
 
 @pytest.fixture
-def run(tmp_path: Path) -> Path:
+def run(tmp_path):
     """A small recording with a layout and two topics."""
     layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
     path = tmp_path / "run.mcap"
@@ -29,7 +26,7 @@ def run(tmp_path: Path) -> Path:
     return path
 
 
-def test_npz_export_holds_every_table(run: Path, tmp_path: Path) -> None:
+def test_npz_export_holds_every_table(run, tmp_path):
     recording = read_mcap(run)
     out = recording.to_npz(tmp_path / "run")
     assert out == tmp_path / "run.npz"
@@ -40,7 +37,7 @@ def test_npz_export_holds_every_table(run: Path, tmp_path: Path) -> None:
         assert json.loads(str(arrays["layout_left"]))["side"] == "left"
 
 
-def test_csv_export_keeps_all_digits_and_the_layout(run: Path, tmp_path: Path) -> None:
+def test_csv_export_keeps_all_digits_and_the_layout(run, tmp_path):
     recording = read_mcap(run)
     names = {p.name for p in recording.to_csv(tmp_path / "csv")}
     assert names == {"metadata.json", "layout_left.json", "skin_left.csv", "truth_body.csv"}
@@ -61,7 +58,7 @@ def test_csv_export_keeps_all_digits_and_the_layout(run: Path, tmp_path: Path) -
         (bytes([137, 77, 67, 65, 80, 48, 13, 10]) + b"\xff" * 100, "holds nothing"),
     ],
 )
-def test_foreign_and_empty_files_are_named(tmp_path: Path, content: bytes, text: str) -> None:
+def test_foreign_and_empty_files_are_named(tmp_path, content, text):
     path = tmp_path / "x.mcap"
     path.write_bytes(content)
     with pytest.raises(FormatError, match=text) as caught:
@@ -69,13 +66,13 @@ def test_foreign_and_empty_files_are_named(tmp_path: Path, content: bytes, text:
     assert "\n" not in str(caught.value)
 
 
-def test_a_missing_file_and_a_folder_are_named(tmp_path: Path) -> None:
+def test_a_missing_file_and_a_folder_are_named(tmp_path):
     for path in (tmp_path / "none.mcap", tmp_path):
         with pytest.raises(FormatError, match="cannot be read"):
             read_mcap(path)
 
 
-def test_random_corruption_never_gives_anything_but_a_format_error(run: Path, tmp_path: Path) -> None:
+def test_random_corruption_never_gives_anything_but_a_format_error(run, tmp_path):
     whole = run.read_bytes()
     truth = read_mcap(run).topics["/skin/left"].fields["force"]
     random = np.random.default_rng(11)
@@ -100,7 +97,7 @@ def test_random_corruption_never_gives_anything_but_a_format_error(run: Path, tm
 
 
 @pytest.mark.parametrize("compression", list(CompressionType))
-def test_files_of_other_writers_are_read(tmp_path: Path, compression: CompressionType) -> None:
+def test_files_of_other_writers_are_read(tmp_path, compression):
     path = tmp_path / "other.mcap"
     stream = BytesIO()
     writer = Writer(stream, compression=compression)

@@ -1,7 +1,5 @@
 """The net wrench against sums taxel by taxel in the world, and against the printed active set."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -29,7 +27,7 @@ def body(seed: int = 0) -> tuple[BodySkin, dict]:
     return skin, {link: (rng.normal(size=3), turned(rng, 1)[0]) for link in skin.links}
 
 
-def test_it_is_the_sum_over_taxels_in_the_world() -> None:
+def test_it_is_the_sum_over_taxels_in_the_world():
     skin, poses = body()
     rng, rules = np.random.default_rng(1), NetWrenchRules(near=0.2, proximity_force=2.0)
     force = rng.uniform(0.0, 5.0, len(skin)) * (rng.random(len(skin)) < 0.5)
@@ -52,7 +50,7 @@ def test_it_is_the_sum_over_taxels_in_the_world() -> None:
     assert found.wrench == pytest.approx(wanted, abs=1e-12)
 
 
-def test_what_is_about_to_touch_counts_and_with_the_printed_active_set_would_not() -> None:
+def test_what_is_about_to_touch_counts_and_with_the_printed_active_set_would_not():
     skin, poses = body()
     distance = np.full(len(skin), np.inf)
     distance[skin.slices["hand"]] = 0.01
@@ -64,7 +62,7 @@ def test_what_is_about_to_touch_counts_and_with_the_printed_active_set_would_not
     assert not printed.any()
 
 
-def test_each_link_that_moves_carries_its_wrench_with_it() -> None:
+def test_each_link_that_moves_carries_its_wrench_with_it():
     skin, poses = body()
     rng = np.random.default_rng(2)
     reading = SkinReading(0.0, rng.uniform(0.0, 5.0, len(skin)), np.full(len(skin), np.inf))
@@ -75,7 +73,7 @@ def test_each_link_that_moves_carries_its_wrench_with_it() -> None:
     assert after == pytest.approx([*turn @ before[:3], *turn @ before[3:]], abs=1e-12)
 
 
-def test_silence_is_no_push() -> None:
+def test_silence_is_no_push():
     skin, _ = body()
     quiet = SkinReading(0.0, np.full(len(skin), np.nan), np.full(len(skin), np.nan))
     found = net_wrench(skin, quiet, {}, np.zeros(3), NetWrenchRules())
@@ -85,7 +83,7 @@ def test_silence_is_no_push() -> None:
     assert np.isfinite(net_wrench(skin, loud, body()[1], np.zeros(3), NetWrenchRules()).wrench).all()
 
 
-def test_wrong_arguments_are_named() -> None:
+def test_wrong_arguments_are_named():
     skin, poses = body()
     reading = SkinReading(0.0, np.ones(len(skin)), np.zeros(len(skin)))
     with pytest.raises(ReadingError, match="link 'leg' feels something and has no pose; given: arm, torso"):

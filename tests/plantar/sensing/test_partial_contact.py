@@ -30,7 +30,7 @@ def half_plane(line: np.ndarray) -> shapely.Polygon:
 
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 10**6))
-def test_covered_cells_are_those_of_shapely(seed: int) -> None:
+def test_covered_cells_are_those_of_shapely(seed):
     rng = np.random.default_rng(seed)
     angles = rng.uniform(0.0, 2.0 * math.pi, int(rng.integers(0, 4)))
     lines = np.column_stack([np.cos(angles), np.sin(angles), rng.uniform(-0.05, 0.12, len(angles))])
@@ -44,7 +44,7 @@ def test_covered_cells_are_those_of_shapely(seed: int) -> None:
             assert row[1:] / row[0] == pytest.approx([left.centroid.x, left.centroid.y], abs=1e-9)
 
 
-def test_both_forms_of_the_kernel_agree_to_the_last_bit() -> None:
+def test_both_forms_of_the_kernel_agree_to_the_last_bit():
     rng = np.random.default_rng(4)
     points = np.ascontiguousarray(SOLE.vertices[SOLE.corner_vertex, :2])
     start = SOLE.corner_start.astype(np.intp)
@@ -62,7 +62,7 @@ def test_both_forms_of_the_kernel_agree_to_the_last_bit() -> None:
 
 @settings(max_examples=40, deadline=None)
 @given(st.floats(0.07, 0.14), st.floats(-0.03, 0.03), st.floats(-0.08, 0.08), st.integers(0, 10**6))
-def test_edges_of_a_strip_are_found_within_millimetres(width: float, middle: float, angle: float, seed: int) -> None:
+def test_edges_of_a_strip_are_found_within_millimetres(width, middle, angle, seed):
     rng = np.random.default_rng(seed)
     fit, true = PartialContact(SOLE), strip(width, middle, angle)
     pressure = np.array([1.0, rng.uniform(-2.0, 2.0), rng.uniform(-4.0, 4.0)])
@@ -82,20 +82,20 @@ def test_edges_of_a_strip_are_found_within_millimetres(width: float, middle: flo
 
 @settings(max_examples=40, deadline=None)
 @given(st.floats(-0.04, 0.04), st.floats(-0.03, 0.03), st.floats(1.0, 2000.0))
-def test_expected_forces_carry_the_load_where_it_acts(x: float, y: float, load: float) -> None:
+def test_expected_forces_carry_the_load_where_it_acts(x, y, load):
     forces = PartialContact(SOLE).expected(load, (x, y), strip(0.15, 0.0))
     assert forces.min() >= 0.0
     assert forces.sum() == pytest.approx(load, rel=1e-8)
 
 
-def test_a_load_near_the_edge_lifts_the_rest_of_the_sole_off() -> None:
+def test_a_load_near_the_edge_lifts_the_rest_of_the_sole_off():
     fit = PartialContact(SOLE)
     even, heel = fit.expected(100.0, (0.0, 0.0), []), fit.expected(100.0, (-0.1, 0.0), [])
     assert (even > 0.0).all()
     assert (heel[SOLE.positions[:, 0] > 0.0] == 0.0).all()
 
 
-def test_lines_between_seen_cells_turn_to_the_widest_gap() -> None:
+def test_lines_between_seen_cells_turn_to_the_widest_gap():
     fit = PartialContact(SOLE)
     for angle in np.radians([-12.0, 0.0, 12.0]):
         supported = (SOLE.positions[:, :2] @ [math.cos(angle), math.sin(angle)]) < 0.02
@@ -104,7 +104,7 @@ def test_lines_between_seen_cells_turn_to_the_widest_gap() -> None:
         assert abs(line[2] - 0.02) < 0.008
 
 
-def test_what_is_no_foothold_gives_no_edges() -> None:
+def test_what_is_no_foothold_gives_no_edges():
     fit = PartialContact(SOLE)
     n = len(SOLE)
     assert len(fit.update(np.zeros(n), np.zeros(n, dtype=bool)).polygon) == 0

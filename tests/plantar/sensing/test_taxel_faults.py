@@ -1,7 +1,5 @@
 """Faults of taxels: each does what its name states, many soles are as single ones, and a recording gives them back."""
 
-from __future__ import annotations
-
 from dataclasses import fields
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Shares of a body: what they come to in SI, for which robot, and what is refused."""
 
-from __future__ import annotations
-
 import copy
 import dataclasses
 import math
@@ -34,7 +32,7 @@ class Foot(Settings):
     time: float = number(0.5, "s", 0.0, 10.0)
 
 
-def test_a_share_is_the_same_part_of_every_body() -> None:
+def test_a_share_is_the_same_part_of_every_body():
     for body in (REFERENCE_BODY, SMALL):
         foot = Foot().for_body(body)
         assert foot.body == body
@@ -45,7 +43,7 @@ def test_a_share_is_the_same_part_of_every_body() -> None:
     assert Foot() == Foot().for_body(REFERENCE_BODY)
 
 
-def test_a_pace_is_a_beat_unless_motors_are_slow() -> None:
+def test_a_pace_is_a_beat_unless_motors_are_slow():
     assert SMALL.in_si("pace") == SMALL.in_si("beat")
     slow = dataclasses.replace(SMALL, pace_beats=1.6)
     assert slow.in_si("pace") == pytest.approx(1.6 * SMALL.beat)
@@ -55,7 +53,7 @@ def test_a_pace_is_a_beat_unless_motors_are_slow() -> None:
         dataclasses.replace(SMALL, pace_beats=0.0)
 
 
-def test_a_number_is_in_si_and_stays() -> None:
+def test_a_number_is_in_si_and_stays():
     foot = Foot(force=70.0, time="2 beat").for_body(SMALL)  # type: ignore[arg-type]
     assert foot.force == 70.0
     assert foot.time == pytest.approx(2.0 * SMALL.beat)
@@ -69,7 +67,7 @@ def test_a_number_is_in_si_and_stays() -> None:
 @pytest.mark.parametrize(
     ("text", "value"), [("70 N", 70.0), ("0.2 weight", 0.2 * SMALL.weight), ("3/4 mass m/s^2", 2.25), ("0 N", 0.0)]
 )
-def test_a_text_names_its_unit(text: str, value: float) -> None:
+def test_a_text_names_its_unit(text, value):
     assert Foot(force=text).for_body(SMALL).force == pytest.approx(value)  # type: ignore[arg-type]
 
 
@@ -85,18 +83,18 @@ def test_a_text_names_its_unit(text: str, value: float) -> None:
         ("time", "1 weight", "allowed: a number 0 to 10, in s$"),
     ],
 )
-def test_a_text_that_means_no_such_number_is_refused(name: str, text: str, problem: str) -> None:
+def test_a_text_that_means_no_such_number_is_refused(name, text, problem):
     with pytest.raises(SceneError, match=problem):
         Foot.from_table({name: text}, "[foot]", SceneError)
 
 
-def test_a_share_that_a_body_makes_too_large_is_refused() -> None:
+def test_a_share_that_a_body_makes_too_large_is_refused():
     tall = BodyScale(mass=86.0, leg=1.2, sole=0.3, sole_width=0.15)
     with pytest.raises(InputError, match=r"'depth' is '0.3333 leg' = 0.4 m; allowed: a number 0 to 0.3"):
         Foot().for_body(tall)
 
 
-def test_settings_inside_settings_are_of_the_same_body() -> None:
+def test_settings_inside_settings_are_of_the_same_body():
     class Leg(Settings):
         """A leg.
 
@@ -109,7 +107,7 @@ def test_settings_inside_settings_are_of_the_same_body() -> None:
     assert Leg().for_body(SMALL).foot == Foot().for_body(SMALL)
 
 
-def test_a_list_of_settings_says_share_and_number() -> None:
+def test_a_list_of_settings_says_share_and_number():
     told = {s.name: s for s in Foot.described(SMALL)}
     assert told["force"][1:4] == ("2.943", "N", "a number 0 to 1000")
     assert (told["force"].share, told["time"].share) == ("0.1 weight", "")
@@ -117,14 +115,14 @@ def test_a_list_of_settings_says_share_and_number() -> None:
 
 
 @pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda s: pickle.loads(pickle.dumps(s))])
-def test_a_copy_keeps_body_and_shares(again: object) -> None:
+def test_a_copy_keeps_body_and_shares(again):
     foot = again(Foot().for_body(SMALL))  # type: ignore[operator]
     assert foot.body == SMALL
     assert foot.for_body(REFERENCE_BODY) == Foot()
 
 
 @given(st.floats(0.1, 3.0), st.sampled_from(BODY_UNITS))
-def test_units_scale_as_bodies_of_one_shape_do(s: float, unit: str) -> None:
+def test_units_scale_as_bodies_of_one_shape_do(s, unit):
     big = BodyScale(SMALL.mass * s**3, SMALL.leg * s, SMALL.sole * s, SMALL.sole_width * s)
     power = {"mass": 3.0, "weight": 3.0, "beat": 0.5, "pace": 0.5}.get(unit, 1.0)
     assert big.in_si(unit) == pytest.approx(SMALL.in_si(unit) * s**power)
@@ -132,6 +130,6 @@ def test_units_scale_as_bodies_of_one_shape_do(s: float, unit: str) -> None:
 
 
 @pytest.mark.parametrize("mass", [0.0, -1.0, math.nan, math.inf])
-def test_a_body_has_a_size(mass: float) -> None:
+def test_a_body_has_a_size(mass):
     with pytest.raises(InputError, match="mass of a body is"):
         BodyScale(mass, 0.6, 0.2, 0.1)

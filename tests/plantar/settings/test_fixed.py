@@ -1,7 +1,5 @@
 """Constants of a class of settings that grow with the robot: no file sets them."""
 
-from __future__ import annotations
-
 import pytest
 
 from plantar.errors import InputError
@@ -20,7 +18,7 @@ class _Step(Settings):
     near: float = fixed(0.5, "leg")
 
 
-def test_a_fixed_value_grows_with_the_robot_and_is_no_setting() -> None:
+def test_a_fixed_value_grows_with_the_robot_and_is_no_setting():
     body = BodyScale(30.0, 0.4, 0.2, 0.1)
     assert _Step().near == pytest.approx(0.5 * REFERENCE_BODY.leg)
     assert _Step(length=0.3).for_body(body).near == pytest.approx(0.2)

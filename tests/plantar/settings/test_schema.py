@@ -1,11 +1,8 @@
 """Settings check themselves when they are made, say what they allow, and come from tables."""
 
-from __future__ import annotations
-
 import copy
 import pickle
 from dataclasses import MISSING, FrozenInstanceError, asdict, dataclass, field, fields, replace
-from typing import Any
 
 import pytest
 
@@ -35,7 +32,7 @@ class Spring(Settings):
     place: tuple[float, ...] = field(default=())
 
 
-def test_values_take_the_type_of_their_default() -> None:
+def test_values_take_the_type_of_their_default():
     spring = Spring(stiffness=3, coils=4.0)  # type: ignore[arg-type]
     assert (spring.stiffness, type(spring.stiffness)) == (3.0, float)
     assert (spring.coils, type(spring.coils)) == (4, int)
@@ -58,7 +55,7 @@ def test_values_take_the_type_of_their_default() -> None:
         ("label", 3, "a text"),
     ],
 )
-def test_a_wrong_value_is_refused_wherever_it_comes_from(name: str, value: Any, allowed: str) -> None:
+def test_a_wrong_value_is_refused_wherever_it_comes_from(name, value, allowed):
     message = rf"'{name}' is .*; allowed: {allowed.replace('+', '.')}$"
     with pytest.raises(InputError, match=message):
         Spring(**{name: value})
@@ -68,7 +65,7 @@ def test_a_wrong_value_is_refused_wherever_it_comes_from(name: str, value: Any, 
         Spring.from_table({name: value}, "[spring]", SceneError)
 
 
-def test_an_unknown_key_is_refused_with_the_nearest_right_one() -> None:
+def test_an_unknown_key_is_refused_with_the_nearest_right_one():
     with pytest.raises(InputError, match=r"^\[spring\] has an unknown key 'stifness'; nearest: stiffness; "):
         Spring.from_table({"stifness": 3.0}, "[spring]")
     with pytest.raises(InputError, match=r"unknown key 'place'"):
@@ -77,7 +74,7 @@ def test_an_unknown_key_is_refused_with_the_nearest_right_one() -> None:
         Spring.from_table([1], "[spring]")
 
 
-def test_each_setting_says_all_that_there_is_to_say() -> None:
+def test_each_setting_says_all_that_there_is_to_say():
     told = {s.name: s for s in Spring.described()}
     assert tuple(told) == Spring.names() == ("stiffness", "coils", "metal", "loaded", "label")
     assert told["stiffness"] == (
@@ -92,7 +89,7 @@ def test_each_setting_says_all_that_there_is_to_say() -> None:
     assert told["loaded"][1:4] == ("false", "", "true, false")
 
 
-def test_no_upper_bound_is_said_in_words() -> None:
+def test_no_upper_bound_is_said_in_words():
     class Open(Settings):
         size: float = number(1.0, "m")
 
@@ -101,7 +98,7 @@ def test_no_upper_bound_is_said_in_words() -> None:
     assert Open(size=1e300).size == 1e300
 
 
-def test_deriving_makes_a_frozen_dataclass_of_keyword_and_positional_fields() -> None:
+def test_deriving_makes_a_frozen_dataclass_of_keyword_and_positional_fields():
     spring = Spring(7.0, 2)
     assert [f.name for f in fields(Spring)] == ["stiffness", "coils", "metal", "loaded", "label", "place"]
     assert (spring.stiffness, spring.coils, spring == Spring(coils=2, stiffness=7)) == (7.0, 2, True)
@@ -112,7 +109,7 @@ def test_deriving_makes_a_frozen_dataclass_of_keyword_and_positional_fields() ->
 
 
 @pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda s: pickle.loads(pickle.dumps(s)), replace])
-def test_a_copy_is_equal_and_frozen(again: Any) -> None:
+def test_a_copy_is_equal_and_frozen(again):
     spring = Spring(stiffness=3.0, metal="brass", place=(1.0, 2.0))
     other = again(spring)
     assert other == spring
@@ -121,7 +118,7 @@ def test_a_copy_is_equal_and_frozen(again: Any) -> None:
         other.coils = 3
 
 
-def test_a_class_between_inherits_settings_and_may_check_more() -> None:
+def test_a_class_between_inherits_settings_and_may_check_more():
     class Damped(Spring):
         """A spring with a damper.
 
@@ -145,7 +142,7 @@ def test_a_class_between_inherits_settings_and_may_check_more() -> None:
 
 
 @pytest.mark.parametrize("options", [{}, {"frozen": True}, {"frozen": True, "slots": True}])
-def test_a_decorator_that_could_undo_it_is_refused(options: dict[str, bool]) -> None:
+def test_a_decorator_that_could_undo_it_is_refused(options):
     class Decorated(Settings):
         size: float = number(1.0, "m", 0.0, 2.0)
 
@@ -153,7 +150,7 @@ def test_a_decorator_that_could_undo_it_is_refused(options: dict[str, bool]) -> 
         dataclass(**options)(Decorated)
 
 
-def test_every_class_of_settings_in_the_repository_checks_its_settings() -> None:
+def test_every_class_of_settings_in_the_repository_checks_its_settings():
     import plantar.gait.controller
     import plantar.sim.run.scene
 
@@ -178,7 +175,7 @@ def _instance(kind: type[Settings]) -> Settings:
     return kind(**{f.name: 1.0 for f in fields(kind) if f.default is MISSING and f.default_factory is MISSING})
 
 
-def test_a_word_may_stand_instead_of_a_number_or_a_list() -> None:
+def test_a_word_may_stand_instead_of_a_number_or_a_list():
     class Drawn(Settings):
         mass: float | str = number(1.0, "kg", 0.5, 2.0, ("random",))
         place: tuple[float, ...] | str = tables("a list [x, y]", ("random",))
@@ -198,7 +195,7 @@ def test_a_word_may_stand_instead_of_a_number_or_a_list() -> None:
         Drawn(place="chance")
 
 
-def test_a_member_of_a_list_is_told_in_si_for_the_body() -> None:
+def test_a_member_of_a_list_is_told_in_si_for_the_body():
     spring = Spring().for_body(BodyScale(30.0, 0.5, 0.1, 0.05))
     assert (spring.in_si("0.1 leg", "m"), spring.in_si(0.3, "m"), spring.in_si("left", "m")) == (0.05, 0.3, "left")
     with pytest.raises(InputError, match=r"a list holds '2 N'; allowed: a number in m$"):

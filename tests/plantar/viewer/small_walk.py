@@ -1,7 +1,5 @@
 """A small recording with all that a viewer shows, made without a simulator."""
 
-from __future__ import annotations
-
 from functools import cache
 from pathlib import Path
 

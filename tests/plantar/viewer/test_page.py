@@ -1,7 +1,5 @@
 """The page in a real browser: it plays, can be read and reached, and asks for nothing."""
 
-from __future__ import annotations
-
 import json
 import os
 import re
@@ -66,21 +64,21 @@ return {trouble: byId('trouble').textContent, begun, half, stepped, told, jumped
 
 
 @pytest.fixture(scope="module")
-def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def page(tmp_path_factory):
     folder = tmp_path_factory.mktemp("view")
     write_page([write_walk(folder / "run.mcap")], folder / "view.html")
     return folder / "view.html"
 
 
 @pytest.fixture(scope="module")
-def both(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def both(tmp_path_factory):
     folder = tmp_path_factory.mktemp("both")
     runs = [write_walk(folder / f"{name}.mcap", drawn=name == "new") for name in ("new", "old")]
     write_page(runs, folder / "view.html")
     return folder / "view.html"
 
 
-def test_the_page_plays_steps_jumps_and_asks_for_nothing(page: Path, tmp_path: Path) -> None:
+def test_the_page_plays_steps_jumps_and_asks_for_nothing(page, tmp_path):
     seen = visit(page, PLAY, tmp_path, webgl=True)
     found = seen.found
     assert found["trouble"] == ""
@@ -99,9 +97,7 @@ def test_the_page_plays_steps_jumps_and_asks_for_nothing(page: Path, tmp_path: P
 @pytest.mark.long
 @pytest.mark.parametrize("dark", [False, True])
 @pytest.mark.parametrize("which", ["page", "both"])
-def test_the_page_can_be_read_and_reached(
-    which: str, dark: bool, tmp_path: Path, request: pytest.FixtureRequest
-) -> None:
+def test_the_page_can_be_read_and_reached(which, dark, tmp_path, request):
     probe = READY + READABLE
     found = visit(request.getfixturevalue(which), probe, tmp_path, dark=dark, width=1000 if dark else 390, webgl=True)
     assert found.found["texts"] > 30
@@ -112,7 +108,7 @@ def test_the_page_can_be_read_and_reached(
 @pytest.mark.skipif("PLANTAR_AXE" not in os.environ, reason="PLANTAR_AXE does not name an axe.min.js")
 @pytest.mark.parametrize("dark", [False, True])
 @pytest.mark.parametrize("width", [390, 1000])
-def test_axe_has_no_finding(both: Path, tmp_path: Path, dark: bool, width: int) -> None:
+def test_axe_has_no_finding(both, tmp_path, dark, width):
     axe = Path(os.environ["PLANTAR_AXE"]).read_text(encoding="utf-8").replace("</script", "<\\/script")
     copy = tmp_path / "with_axe.html"
     copy.write_text(both.read_text(encoding="utf-8").replace("</main>", f"</main><script>{axe}</script>"))
@@ -121,7 +117,7 @@ def test_axe_has_no_finding(both: Path, tmp_path: Path, dark: bool, width: int) 
     assert found == [], json.dumps(found, indent=1)
 
 
-def test_the_page_is_one_small_file_and_shows_text_as_text(page: Path, both: Path) -> None:
+def test_the_page_is_one_small_file_and_shows_text_as_text(page, both):
     text = page.read_text()
     assert len(text) < 1.2e6
     assert "foothold found &lt;b&gt;&amp;" in text
@@ -135,6 +131,6 @@ def test_the_page_is_one_small_file_and_shows_text_as_text(page: Path, both: Pat
     assert "test, box, seed 4: 2.0 s" in view_text(told)
 
 
-def test_three_recordings_are_too_many(tmp_path: Path) -> None:
+def test_three_recordings_are_too_many(tmp_path):
     with pytest.raises(InputError, match="allowed: 1, or 2"):
         write_page(["a.mcap"] * 3, tmp_path / "x.html")

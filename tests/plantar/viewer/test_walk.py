@@ -1,7 +1,5 @@
 """What is shown of a recording is what it holds, of new ones and of old."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys
@@ -23,7 +21,7 @@ from plantar.viewer.walk import read_walk
 from .small_walk import SECONDS, WEIGHT, forces, soles, turned, write_walk
 
 
-def test_a_recording_with_frames_is_shown_as_it_was_drawn(tmp_path: Path) -> None:
+def test_a_recording_with_frames_is_shown_as_it_was_drawn(tmp_path):
     walk = read_walk(write_walk(tmp_path / "run.mcap"))
     assert walk.name == "test, box, seed 4"
     assert walk.time == pytest.approx(np.arange(0, SECONDS + 0.01, 0.02))
@@ -47,7 +45,7 @@ def test_a_recording_with_frames_is_shown_as_it_was_drawn(tmp_path: Path) -> Non
     assert walk.weight == pytest.approx(WEIGHT)
 
 
-def test_an_old_recording_shows_its_soles_where_they_were(tmp_path: Path) -> None:
+def test_an_old_recording_shows_its_soles_where_they_were(tmp_path):
     new, old = (read_walk(write_walk(tmp_path / f"{drawn}.mcap", drawn=drawn)) for drawn in (True, False))
     assert set(old.poses) == {"sole_left", "sole_right"}
     assert old.time == pytest.approx(new.time)
@@ -57,7 +55,7 @@ def test_an_old_recording_shows_its_soles_where_they_were(tmp_path: Path) -> Non
     assert np.isnan(old.zmp).all()
 
 
-def test_a_robots_own_recording_shows_its_soles_side_by_side(tmp_path: Path) -> None:
+def test_a_robots_own_recording_shows_its_soles_side_by_side(tmp_path):
     path = tmp_path / "mine.mcap"
     with Recorder(path, {}, soles()) as recorder:
         channel = recorder.channel("/skin/right", [("force", 8)])
@@ -71,7 +69,7 @@ def test_a_robots_own_recording_shows_its_soles_side_by_side(tmp_path: Path) -> 
     assert 0.0 < walk.weight <= 8 * 190.0  # nobody says it: nine tenths of the time the soles carry less
 
 
-def test_what_has_no_soles_is_refused_in_a_line(tmp_path: Path) -> None:
+def test_what_has_no_soles_is_refused_in_a_line(tmp_path):
     path = tmp_path / "other.mcap"
     with Recorder(path) as recorder:
         recorder.channel("/joints", [("position", 2)]).write(0.0, np.zeros(2))
@@ -79,7 +77,7 @@ def test_what_has_no_soles_is_refused_in_a_line(tmp_path: Path) -> None:
         read_walk(path)
 
 
-def test_every_rotation_has_its_quaternion() -> None:
+def test_every_rotation_has_its_quaternion():
     from plantar.viewer.walk import _quaternions
 
     rng = np.random.default_rng(5)
@@ -132,7 +130,7 @@ def rewritten(path: Path, change: Callable[[str, bytes], bytes]) -> Path:
     return out
 
 
-def test_frames_that_another_library_wrote_are_where_they_were(tmp_path: Path) -> None:
+def test_frames_that_another_library_wrote_are_where_they_were(tmp_path):
     path = write_walk(tmp_path / "run.mcap")
     other = rewritten(path, lambda topic, data: other_library(data) if topic == "/tf" else data)
     ours, theirs = read_walk(path), read_walk(other)
@@ -142,7 +140,7 @@ def test_frames_that_another_library_wrote_are_where_they_were(tmp_path: Path) -
         assert theirs.poses[frame] == pytest.approx(poses)
 
 
-def test_damaged_messages_of_what_is_drawn_are_left_out_and_counted(tmp_path: Path) -> None:
+def test_damaged_messages_of_what_is_drawn_are_left_out_and_counted(tmp_path):
     path = write_walk(tmp_path / "run.mcap")
     for topic in ("/tf", "/scene/world", "/scene/balance", "/scene/footsteps", "/log"):
         bomb = integer(1 if topic == "/tf" else 2, 2**40).data  # a number where a frame, an entity or a level is due
@@ -154,7 +152,7 @@ def test_damaged_messages_of_what_is_drawn_are_left_out_and_counted(tmp_path: Pa
             assert found.warnings or damage != bomb or topic == "/log", (topic, damage)
 
 
-def test_random_changes_of_a_recording_are_shown_or_refused(tmp_path: Path) -> None:
+def test_random_changes_of_a_recording_are_shown_or_refused(tmp_path):
     rng, good = np.random.default_rng(11), write_walk(tmp_path / "run.mcap")
     for _ in range(15):
         bad = rewritten_at_random(good, rng)
@@ -176,9 +174,7 @@ def rewritten_at_random(path: Path, rng: np.random.Generator) -> Path:
     return rewritten(path, change)
 
 
-def test_a_long_recording_is_shown_at_fewer_times_with_what_held_at_each(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_long_recording_is_shown_at_fewer_times_with_what_held_at_each(tmp_path, monkeypatch):
     path = tmp_path / "long.mcap"
     with Recorder(path, {"mass_kg": 40.0}, soles()) as recorder:
         channel = recorder.channel("/skin/left", [("force", 8)])
@@ -191,7 +187,7 @@ def test_a_long_recording_is_shown_at_fewer_times_with_what_held_at_each(
 
 
 @pytest.mark.long
-def test_an_hour_is_shown_with_less_than_500_mb(tmp_path: Path) -> None:
+def test_an_hour_is_shown_with_less_than_500_mb(tmp_path):
     layout = grid_layout([[-0.13, -0.05], [0.13, -0.05], [0.13, 0.05], [-0.13, 0.05]], pitch=(0.0118, 0.0118))
     path, names = tmp_path / "hour.mcap", ["sole_left", "sole_right", *(f"link_{i}" for i in range(18))]
     frames = Template(*(frame_transform(name, [Slot(0)] * 3, (0.0, 0.0, 0.0, 1.0)) for name in names))

@@ -1,7 +1,5 @@
 """Random robots for kinematics: chains of hinges, fixed or floating, one limb or two."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import mujoco
@@ -35,7 +33,7 @@ def _limb(rng: np.random.Generator, name: str, joints: int, limited: bool) -> st
 
 
 @pytest.fixture
-def random_robot() -> Robots:
+def random_robot():
     """A model and its data for a seed: `limbs` chains of `joints` hinges on a body that floats or not."""
 
     def build(
@@ -66,7 +64,7 @@ def refresh(model: mujoco.MjModel, data: mujoco.MjData) -> None:
 
 
 @pytest.fixture
-def differentiate() -> Callable[[mujoco.MjModel, mujoco.MjData, Task], None]:
+def differentiate():
     """Check a task whose target is met: its error changes by minus its Jacobian, along every velocity."""
 
     def check(model: mujoco.MjModel, data: mujoco.MjData, task: Task) -> None:

@@ -10,7 +10,7 @@ from plantar.sides import SIDES
 
 
 @pytest.mark.parametrize("name", ["h1", "hrp2kai"])
-def test_weight_at_the_edge_of_a_strip_takes_the_limit_of_its_joint(name: str) -> None:
+def test_weight_at_the_edge_of_a_strip_takes_the_limit_of_its_joint(name):
     robot = load_robot(name)
     model = build_leg_model(robot).model
     weight = body_of(robot, model).weight
@@ -33,7 +33,7 @@ def test_weight_at_the_edge_of_a_strip_takes_the_limit_of_its_joint(name: str) -
 
 
 @pytest.mark.parametrize("name", ["h1", "hrp2kai"])
-def test_weight_under_the_hip_loads_the_knee_as_its_strip_says(name: str) -> None:
+def test_weight_under_the_hip_loads_the_knee_as_its_strip_says(name):
     robot = load_robot(name)
     model = build_leg_model(robot).model
     weight = body_of(robot, model).weight
@@ -63,7 +63,7 @@ def test_weight_under_the_hip_loads_the_knee_as_its_strip_says(name: str) -> Non
         assert (abs(more) < abs(torque) < abs(less)) == (middle > front)
 
 
-def test_joints_without_limits_have_no_strips() -> None:
+def test_joints_without_limits_have_no_strips():
     robot = load_robot("h1")
     model = build_leg_model(robot).model
     model.actuator_forcelimited[:] = 0

@@ -1,7 +1,5 @@
 """How large a robot is: its leg's length from its model, whatever the posture."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -14,7 +12,7 @@ from plantar.sides import SIDES
 
 
 @pytest.mark.parametrize("name", builtin_robots())
-def test_a_leg_is_as_long_as_thigh_and_shank(name: str) -> None:
+def test_a_leg_is_as_long_as_thigh_and_shank(name):
     robot = load_robot(name)
     model = build_leg_model(robot).model
     assert robot.biped is not None
@@ -25,7 +23,7 @@ def test_a_leg_is_as_long_as_thigh_and_shank(name: str) -> None:
     assert (body.sole, body.sole_width) == pytest.approx(tuple(outline.max(axis=0) - outline.min(axis=0)))
 
 
-def test_the_posture_does_not_change_it() -> None:
+def test_the_posture_does_not_change_it():
     robot = load_robot("h1")
     model = build_leg_model(robot).model
     straight = replace(robot, posture=dict.fromkeys(SIDES, (0.0,) * 6))
@@ -34,6 +32,6 @@ def test_the_posture_does_not_change_it() -> None:
     assert leg_length(turned, model) == pytest.approx(leg_length(robot, model), abs=1e-6)
 
 
-def test_the_file_may_say_it() -> None:
+def test_the_file_may_say_it():
     robot = replace(load_robot("h1"), leg_length=0.55)
     assert body_of(robot, build_leg_model(robot).model).leg == 0.55

@@ -1,7 +1,5 @@
 """Newton steps on random robots: like mink where targets are in reach, and calm where they are not."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 import mujoco
@@ -70,8 +68,8 @@ def far_from_singular(build: Callable[..., Robot], seed: int) -> Robot:
 @settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(seed=st.integers(0, 10**6), floating=st.booleans(), size=st.floats(-2.0, 2.0), largest=st.floats(0.01, 0.5))
 def test_no_target_makes_a_step_too_large_or_leaves_a_limit(  # type: ignore[no-untyped-def]
-    random_robot, seed: int, floating: bool, size: float, largest: float
-) -> None:
+    random_robot, seed, floating, size, largest
+):
     rng = np.random.default_rng(seed)
     model, data = random_robot(seed, limbs=2, joints=int(rng.integers(2, 8)), floating=floating)
     tasks = [PoseTask(model, data, model.site(f"{name}_end").id) for name in "ab"]
@@ -101,7 +99,7 @@ class AskedPose(PoseTask):
 
 @pytest.mark.parametrize("seed", range(6))
 @pytest.mark.parametrize("floating", [False, True])
-def test_a_kernel_takes_the_step_of_what_a_task_says(random_robot, floating: bool, seed: int) -> None:  # type: ignore[no-untyped-def]
+def test_a_kernel_takes_the_step_of_what_a_task_says(random_robot, floating, seed):  # type: ignore[no-untyped-def]
     """Of all turns, also of more than a quarter, whose error the task writes itself."""
     ways, counts = [], []
     for kind in (PoseTask, AskedPose):
@@ -125,7 +123,7 @@ def test_a_kernel_takes_the_step_of_what_a_task_says(random_robot, floating: boo
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_it_goes_where_mink_goes(random_robot, seed: int) -> None:  # type: ignore[no-untyped-def]
+def test_it_goes_where_mink_goes(random_robot, seed):  # type: ignore[no-untyped-def]
     mink = pytest.importorskip("mink")
     model, data = far_from_singular(random_robot, seed)
     goal, start = data.qpos.copy(), data.qpos.copy()
@@ -148,7 +146,7 @@ def test_it_goes_where_mink_goes(random_robot, seed: int) -> None:  # type: igno
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_well_conditioned_steps_are_newtons(random_robot, seed: int) -> None:  # type: ignore[no-untyped-def]
+def test_well_conditioned_steps_are_newtons(random_robot, seed):  # type: ignore[no-untyped-def]
     model, data = far_from_singular(random_robot, seed)
     task = PoseTask(model, data, model.site("a_end").id)
     jacobian, error = np.empty((6, 6)), np.empty(6)
@@ -180,7 +178,7 @@ def planar(ranges: Sequence[float]) -> Robot:
 
 @pytest.mark.parametrize("distance", [0.001, 0.05, 1.0, 100.0])
 @pytest.mark.parametrize("angle", [0.3, -1.2, 2.5])
-def test_out_of_reach_it_points_at_the_target_and_stands_still(angle: float, distance: float) -> None:
+def test_out_of_reach_it_points_at_the_target_and_stands_still(angle, distance):
     model, data = planar([3.0, 3.0, 3.0, 3.0])
     data.qpos[:] = [0.2, -0.7, 0.4, 0.9]
     mujoco.mj_kinematics(model, data)
@@ -196,7 +194,7 @@ def test_out_of_reach_it_points_at_the_target_and_stands_still(angle: float, dis
     assert max(steps[-100:]) < 1e-3
 
 
-def test_a_joint_at_its_limit_leaves_the_rest_to_the_others() -> None:
+def test_a_joint_at_its_limit_leaves_the_rest_to_the_others():
     """The posture draws the first of three joints beyond its limit: it stops, and the end is where it shall be."""
     model, data = planar([0.2, 2.5, 2.5])
     data.qpos[:] = [0.1, 0.5, 0.5]
@@ -210,7 +208,7 @@ def test_a_joint_at_its_limit_leaves_the_rest_to_the_others() -> None:
     assert data.qpos[0] <= 0.2
 
 
-def test_what_is_straight_bends_again() -> None:
+def test_what_is_straight_bends_again():
     """Two links in line and a target on that line: no task moves them, and the posture does."""
     model = mujoco.MjModel.from_xml_string(
         '<mujoco><worldbody><body><joint name="hip" axis="0 1 0"/><geom type="sphere" size="0.02" mass="1"/>'
@@ -228,7 +226,7 @@ def test_what_is_straight_bends_again() -> None:
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_a_lower_level_does_not_move_the_upper(random_robot, seed: int) -> None:  # type: ignore[no-untyped-def]
+def test_a_lower_level_does_not_move_the_upper(random_robot, seed):  # type: ignore[no-untyped-def]
     """Two limbs of a floating robot: whatever is asked of one, the other and the CoM stay where they are."""
     model, data = random_robot(seed, limbs=2, joints=6, floating=True, limited=False)
     stays, goes = (PoseTask(model, data, model.site(f"{name}_end").id) for name in "ab")
@@ -245,7 +243,7 @@ def test_a_lower_level_does_not_move_the_upper(random_robot, seed: int) -> None:
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
-def test_a_target_that_is_no_number_moves_nothing(random_robot, bad: float) -> None:  # type: ignore[no-untyped-def]
+def test_a_target_that_is_no_number_moves_nothing(random_robot, bad):  # type: ignore[no-untyped-def]
     model, data = random_robot(0)
     task = PointTask(model, data, model.site("a_end").id)
     before, inverse = data.qpos.copy(), solver((model, data), [task])

@@ -1,7 +1,5 @@
 """A biped's legs against mink (the field's library), swings out of reach, and torques against inverse dynamics."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 
@@ -12,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from plantar.layouts.layout import Side
-from plantar.robots import Robot, load_robot
+from plantar.robots import load_robot
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model, robot_spec
 from plantar.sides import SIDES
@@ -22,7 +20,7 @@ LEVEL: dict[Side, NDArray[np.float64]] = {"left": np.eye(3), "right": np.eye(3)}
 
 
 @pytest.fixture
-def legs(h1: Robot) -> LegModel:
+def legs(h1):
     model = build_leg_model(h1)
     model.set_configuration(
         np.array([0.0, 0.0, 0.84]),
@@ -46,7 +44,7 @@ def random_targets(
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_converges_to_every_target(legs: LegModel, seed: int) -> None:
+def test_converges_to_every_target(legs, seed):
     com, torso, positions, rotations = random_targets(seed)
     joints, error = legs.solve(com, torso, positions, rotations, iterations=12)
     assert error < 1e-9
@@ -64,7 +62,7 @@ def test_converges_to_every_target(legs: LegModel, seed: int) -> None:
     assert base + base_to_world @ posture.com == pytest.approx(com, abs=1e-8)
 
 
-def test_a_live_posture_is_the_same_in_arrays_that_stay(legs: LegModel) -> None:
+def test_a_live_posture_is_the_same_in_arrays_that_stay(legs):
     rng, joints = np.random.default_rng(7), legs.configuration[7:]
     first = legs.live_posture(joints)
     for _ in range(3):
@@ -81,7 +79,7 @@ def test_a_live_posture_is_the_same_in_arrays_that_stay(legs: LegModel) -> None:
         assert all(np.array_equal(a, b) for a, b in pairs)
 
 
-def test_targets_may_have_any_strides_and_results_stay(legs: LegModel) -> None:
+def test_targets_may_have_any_strides_and_results_stay(legs):
     com, torso, positions, rotations = random_targets(0)
     joints, _ = legs.solve(com, torso, positions, rotations, iterations=20)
     torques = legs.static_torques(dict.fromkeys(SIDES, np.array([0.0, 0.0, 250.0])), positions)
@@ -94,7 +92,7 @@ def test_targets_may_have_any_strides_and_results_stay(legs: LegModel) -> None:
     assert np.array_equal(torques, held)
 
 
-def test_agrees_with_mink(h1: Robot, legs: LegModel) -> None:
+def test_agrees_with_mink(h1, legs):
     mink = pytest.importorskip("mink")
     model = robot_spec(h1).compile()
     com, torso, positions, rotations = random_targets(1)
@@ -120,7 +118,7 @@ def test_agrees_with_mink(h1: Robot, legs: LegModel) -> None:
     assert configuration.data.qpos[7:] == pytest.approx(joints, abs=1e-6)
 
 
-def test_joint_limits_hold_and_unreachable_targets_stay_finite(legs: LegModel) -> None:
+def test_joint_limits_hold_and_unreachable_targets_stay_finite(legs):
     joints, error = legs.solve(np.array([0.05, 0.0, 1.5]), np.eye(3), STANCE, LEVEL, iterations=50)
     assert np.isfinite(joints).all()
     assert error > 0.1
@@ -128,7 +126,7 @@ def test_joint_limits_hold_and_unreachable_targets_stay_finite(legs: LegModel) -
     assert joints[9] >= 0.0
 
 
-def test_torques_balance_gravity_and_ground_forces(legs: LegModel) -> None:
+def test_torques_balance_gravity_and_ground_forces(legs):
     legs.solve(np.array([0.05, 0.0, 0.79]), np.eye(3), STANCE, LEVEL, iterations=12)
     weight = legs.mass * 9.81
     forces: dict[Side, NDArray[np.float64]] = {
@@ -172,7 +170,7 @@ def swings_out_of_reach() -> dict[str, Swing]:
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 @pytest.mark.parametrize("case", swings_out_of_reach())
-def test_a_swing_out_of_reach_does_not_move_the_stance(robot: str, case: str) -> None:
+def test_a_swing_out_of_reach_does_not_move_the_stance(robot, case):
     """It used to throw the stance knee by 0.5 rad in a tick: every joint's step was clamped by itself."""
     biped, swing = load_robot(robot), swings_out_of_reach()[case]
     legs = build_leg_model(biped)
@@ -204,7 +202,7 @@ def test_a_swing_out_of_reach_does_not_move_the_stance(robot: str, case: str) ->
 
 
 @pytest.mark.parametrize("height", [1.0, 1.5])
-def test_a_stance_out_of_reach_stretches_and_stays_calm(legs: LegModel, height: float) -> None:
+def test_a_stance_out_of_reach_stretches_and_stays_calm(legs, height):
     joints, _ = legs.solve(np.array([0.05, 0.0, 0.79]), np.eye(3), STANCE, LEVEL, iterations=12)
     start, steps = joints, []
     for k in range(400):
@@ -217,7 +215,7 @@ def test_a_stance_out_of_reach_stretches_and_stays_calm(legs: LegModel, height: 
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_legs_without_ankle_roll_leave_the_roll_of_their_soles(h1: Robot, seed: int) -> None:
+def test_legs_without_ankle_roll_leave_the_roll_of_their_soles(h1, seed):
     spec = robot_spec(h1)
     names = [name for side in SIDES for name in h1.legs[side].joints if not name.endswith("ankle_roll")]
     for side in SIDES:

@@ -11,7 +11,7 @@ from plantar.sides import SIDES
 
 
 @pytest.fixture(params=["h1", "hrp2kai"])
-def robot(request: pytest.FixtureRequest) -> Robot:
+def robot(request):
     return load_robot(request.param)
 
 
@@ -28,7 +28,7 @@ def random_state(model: mujoco.MjModel, seed: int) -> tuple[np.ndarray, np.ndarr
     return configuration, rng.normal(size=model.nv)
 
 
-def test_forces_are_those_of_mujocos_inverse_dynamics(robot: Robot) -> None:
+def test_forces_are_those_of_mujocos_inverse_dynamics(robot):
     legs = build_leg_model(robot)
     model, dynamics = legs.model, dynamics_of(robot, legs)
     model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
@@ -53,7 +53,7 @@ def test_forces_are_those_of_mujocos_inverse_dynamics(robot: Robot) -> None:
         assert np.abs(found - expected[dynamics.rows]).max() < 1e-9 * max(1.0, np.abs(expected).max())
 
 
-def test_drifts_are_what_is_left_of_the_soles_acceleration_without_a(robot: Robot) -> None:
+def test_drifts_are_what_is_left_of_the_soles_acceleration_without_a(robot):
     legs = build_leg_model(robot)
     model, dynamics = legs.model, dynamics_of(robot, legs)
     configuration, velocity = random_state(model, 3)

@@ -19,7 +19,7 @@ def first_command(walker: RobotController) -> Command:
     return walker.step(Sensors(0.0, walker.stance.angles, np.zeros(3), np.array([0.0, 0.0, 9.81]), readings))
 
 
-def test_another_stiffness_keeps_the_damping_ratio() -> None:
+def test_another_stiffness_keeps_the_damping_ratio():
     robot = load_robot("h1")
     own, soft = motor_gains(robot, 0.0), motor_gains(robot, 200.0)
     assert own.stiffness.tolist() == [*robot.own_stiffness] * 2
@@ -27,12 +27,12 @@ def test_another_stiffness_keeps_the_damping_ratio() -> None:
     assert soft.damping / np.sqrt(soft.stiffness) == pytest.approx(own.damping / np.sqrt(own.stiffness))
 
 
-def test_a_stiffness_that_does_nothing_is_refused() -> None:
+def test_a_stiffness_that_does_nothing_is_refused():
     with pytest.raises(SceneError, match="joint_stiffness does nothing to drives 'servo'"):
         load_controller("h1", {"walk": {"steps": 4}, "control": {"joint_stiffness": 150}})
 
 
-def test_a_resting_robot_gets_the_torques_that_hold_it() -> None:
+def test_a_resting_robot_gets_the_torques_that_hold_it():
     walker = load_controller("h1", {"walk": {"steps": 4}, "control": {"drives": "own", "joint_stiffness": 150}})
     command = first_command(walker)
     targets = command.joints
@@ -46,7 +46,7 @@ def test_a_resting_robot_gets_the_torques_that_hold_it() -> None:
     assert walker.joint_targets(command) is targets
 
 
-def test_planned_wrenches_act_at_the_centers_of_pressure() -> None:
+def test_planned_wrenches_act_at_the_centers_of_pressure():
     command = first_command(load_controller("hrp2kai", {"walk": {"steps": 4}}))
     wrenches = planned_wrenches(command)
     assert set(wrenches) == set(SIDES)

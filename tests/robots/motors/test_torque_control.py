@@ -9,7 +9,7 @@ from plantar.sim.run.scene import load_scene
 
 
 @pytest.fixture(scope="module")
-def stood() -> Simulation:
+def stood():
     """h1 after the first tick with feedback."""
     run = Simulation(load_scene("flat", ["steps=2", "drives=torque", "joint_stiffness=150"]))
     for k in range(600):
@@ -32,7 +32,7 @@ def ask(run: Simulation, **changes: Any) -> np.ndarray:
     return motors_of(run).torques(command, reading.changed(**changes))
 
 
-def test_a_standing_robot_is_carried(stood: Simulation) -> None:
+def test_a_standing_robot_is_carried(stood):
     motors = motors_of(stood)
     assert motors.unsolved == 0
     planned = super(TorqueControl, motors).torques(stood._tick[1], stood._tick[0])
@@ -40,14 +40,14 @@ def test_a_standing_robot_is_carried(stood: Simulation) -> None:
     assert motors.unsolved == 0
 
 
-def test_a_base_that_turns_is_braked(stood: Simulation) -> None:
+def test_a_base_that_turns_is_braked(stood):
     """Pitching forward asks both ankles to push the toes down."""
     still, turning = ask(stood), ask(stood, gyro=np.array([0.0, 0.5, 0.0]))
     hips = [2, 8]
     assert (turning - still)[hips].sum() > 20.0
 
 
-def test_without_a_solution_torques_are_the_planned_ones(stood: Simulation) -> None:
+def test_without_a_solution_torques_are_the_planned_ones(stood):
     motors = motors_of(stood)
     before = motors.unsolved
     found = ask(stood, gyro=np.full(3, np.nan))
@@ -58,6 +58,6 @@ def test_without_a_solution_torques_are_the_planned_ones(stood: Simulation) -> N
 
 @pytest.mark.long
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
-def test_a_robot_walks_by_torque(robot: str) -> None:
+def test_a_robot_walks_by_torque(robot):
     summary = run_scene(load_scene("flat", ["steps=6", "drives=torque", "joint_stiffness=150"], robot))
     assert summary["completed"], summary["reasons"]

@@ -41,7 +41,7 @@ class Body:
 
 @pytest.mark.parametrize("feet", [("left",), ("right",), SIDES])
 @pytest.mark.parametrize("name", ["h1", "hrp2kai"])
-def test_all_constraints_hold_in_random_states(name: str, feet: tuple[Side, ...]) -> None:
+def test_all_constraints_hold_in_random_states(name, feet):
     for seed in range(10):
         body = Body(name, seed, feet)
         dynamics, wish = body.dynamics, body.wish
@@ -61,7 +61,7 @@ def test_all_constraints_hold_in_random_states(name: str, feet: tuple[Side, ...]
         assert np.abs(found.acceleration[6:]).max() <= 100.0 + 1e-6
 
 
-def test_a_body_on_two_soles_does_what_it_should() -> None:
+def test_a_body_on_two_soles_does_what_it_should():
     body = Body("h1", 1, SIDES)
     found = torques_of(body.dynamics, replace(body.wish, com_weight=1e4), GRAVITY)
     assert found is not None
@@ -70,7 +70,7 @@ def test_a_body_on_two_soles_does_what_it_should() -> None:
     assert com == pytest.approx(body.wish.com, abs=1e-3)
 
 
-def test_a_tight_torque_limit_holds() -> None:
+def test_a_tight_torque_limit_holds():
     body = Body("h1", 2, SIDES)
     free = torques_of(body.dynamics, body.wish, GRAVITY)
     assert free is not None
@@ -80,7 +80,7 @@ def test_a_tight_torque_limit_holds() -> None:
     assert np.abs(found.torques).max() == pytest.approx(limits[0])
 
 
-def test_what_cannot_be_has_no_solution() -> None:
+def test_what_cannot_be_has_no_solution():
     body = Body("h1", 3, SIDES)
     sinking = {s: replace(foot, acceleration=np.full(6, -500.0)) for s, foot in body.wish.standing.items()}
     weak = replace(body.wish, torque=np.full(12, 0.1), standing=sinking)

@@ -1,9 +1,6 @@
 """Tests of a cell's TOML: built-in ones, and one clear line for what is not allowed."""
 
-from __future__ import annotations
-
 import math
-from pathlib import Path
 
 import pytest
 
@@ -12,20 +9,20 @@ from plantar.shoes.cells.cell import KEYS, SHAPES, Cell, built_in_cells, read_ce
 
 
 @pytest.mark.parametrize("name", sorted(built_in_cells()))
-def test_built_in_cells_read_back_from_what_they_tell(name: str) -> None:
+def test_built_in_cells_read_back_from_what_they_tell(name):
     cell = read_cell(name)
     assert cell.name == name
     assert cell.about
     assert Cell.from_mapping(cell.as_dict(), "again") == cell
 
 
-def test_the_film_is_that_of_its_data_sheet() -> None:
+def test_the_film_is_that_of_its_data_sheet():
     fsr = read_cell("fsr_402")
     assert (fsr.kind, fsr.rated_load, fsr.size + fsr.tail_length) == ("film", 20.0, 25.0)
     assert fsr.active_area == pytest.approx(math.pi * 6.35**2)
 
 
-def test_every_key_belongs_to_a_shape_and_is_described() -> None:
+def test_every_key_belongs_to_a_shape_and_is_described():
     rows = {row["name"]: row for row in Cell.table()}
     assert set(rows) == {key for keys in KEYS.values() for key in keys}
     assert all(row["text"] and set(row["shapes"]) <= set(SHAPES) for row in rows.values())
@@ -58,7 +55,7 @@ def test_every_key_belongs_to_a_shape_and_is_described() -> None:
         ("shape = ", "is not valid TOML"),
     ],
 )  # fmt: skip
-def test_what_is_wrong_is_told_in_one_line(text: str, told: str, tmp_path: Path) -> None:
+def test_what_is_wrong_is_told_in_one_line(text, told, tmp_path):
     (tmp_path / "mine.toml").write_text(text)
     with pytest.raises(InputError) as refused:
         read_cell(tmp_path / "mine.toml")
@@ -67,14 +64,14 @@ def test_what_is_wrong_is_told_in_one_line(text: str, told: str, tmp_path: Path)
     assert "\n" not in str(refused.value)
 
 
-def test_an_unknown_name_is_answered_with_those_there_are(tmp_path: Path) -> None:
+def test_an_unknown_name_is_answered_with_those_there_are(tmp_path):
     with pytest.raises(InputError, match=r"no cell 'fsr'; allowed: fsr_402, fsr_402_long, hex, sheet, square, or"):
         read_cell("fsr")
     with pytest.raises(InputError, match="cannot be read"):
         read_cell(tmp_path / "none.toml")
 
 
-def test_a_cell_in_code_is_checked_too() -> None:
+def test_a_cell_in_code_is_checked_too():
     with pytest.raises(InputError, match="line_width is not of a round cell"):
         Cell(shape="round", size=20.0, line_width=2.0)
     with pytest.raises(InputError, match="shape is 'oval'"):

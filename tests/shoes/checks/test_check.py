@@ -1,10 +1,7 @@
 """Tests of the checks: each holds on a good shoe and fails on one that is broken in its way."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +9,6 @@ import pytest
 import shapely
 from numpy.typing import NDArray
 
-from plantar.shoes import ShoeReport
 from plantar.shoes.checks.check import check_shoe, corner_errors
 from plantar.shoes.solid.step_model import read_step
 
@@ -20,7 +16,7 @@ Shape = Callable[..., NDArray[np.float64]]
 
 
 @pytest.fixture(scope="module")
-def failed(exported: tuple[ShoeReport, Path]) -> Callable[..., set[str]]:
+def failed(exported):
     """Gives the names of the checks that do not hold when one input of the check is replaced."""
     report, folder = exported
     step = read_step(folder / "shoe_left.step")
@@ -33,7 +29,7 @@ def failed(exported: tuple[ShoeReport, Path]) -> Callable[..., set[str]]:
     return call
 
 
-def test_a_good_shoe_passes(exported: tuple[ShoeReport, Path], failed: Callable[..., set[str]]) -> None:
+def test_a_good_shoe_passes(exported, failed):
     report, _ = exported
     assert failed() == set()
     p = report.build.parameters
@@ -49,14 +45,14 @@ def test_a_good_shoe_passes(exported: tuple[ShoeReport, Path], failed: Callable[
         assert check.mounting.support_share == pytest.approx(1.0)
 
 
-def test_an_open_surface_fails(exported: tuple[ShoeReport, Path], failed: Callable[..., set[str]]) -> None:
+def test_an_open_surface_fails(exported, failed):
     surface = exported[0].build.shoes[0].surface
     assert surface is not None
     assert "watertight" in failed(surface=surface[5:])
     assert "watertight" in failed(surface=surface[:, ::-1])  # inside out
 
 
-def test_two_bodies_fail(exported: tuple[ShoeReport, Path], failed: Callable[..., set[str]], box: Shape) -> None:
+def test_two_bodies_fail(exported, failed, box):
     surface = exported[0].build.shoes[0].surface
     assert surface is not None
     two = np.concatenate([surface, box((200, 210), (0, 10), (0, 10))])
@@ -64,23 +60,21 @@ def test_two_bodies_fail(exported: tuple[ShoeReport, Path], failed: Callable[...
     assert {"separate surfaces in the STL", "reach of lugs, clips and holder, mm"} <= names
 
 
-def test_another_volume_fails(exported: tuple[ShoeReport, Path], failed: Callable[..., set[str]]) -> None:
+def test_another_volume_fails(exported, failed):
     surface = exported[0].build.shoes[0].surface
     assert surface is not None
     assert "STL against STEP volume, %" in failed(surface=surface * 1.01)
     assert "STL against STEP volume, %" not in failed(surface=surface * 1.001)
 
 
-def test_thin_walls_fail(exported: tuple[ShoeReport, Path], failed: Callable[..., set[str]]) -> None:
+def test_thin_walls_fail(exported, failed):
     build = exported[0].build
     assert failed(build=replace(build, parameters=replace(build.parameters, wall_min=1.5))) == set()
     demanding = replace(build.parameters, wall_min=1.6)
     assert failed(build=replace(build, parameters=demanding)) == {"thinnest wall, mm"}
 
 
-def test_a_layout_that_is_not_the_solid_fails(
-    exported: tuple[ShoeReport, Path], failed: Callable[..., set[str]]
-) -> None:
+def test_a_layout_that_is_not_the_solid_fails(exported, failed):
     shoe = exported[0].build.shoes[0]
     layout = shoe.layout
     by = np.array([1e-4, 0, 0])
@@ -94,7 +88,7 @@ def test_a_layout_that_is_not_the_solid_fails(
     assert "taxels beyond the contact face" in failed(shoe=replace(shoe, plan=replace(shoe.plan, layout=narrow)))
 
 
-def test_the_layouts_corners_are_corners_of_the_solid(exported: tuple[ShoeReport, Path]) -> None:
+def test_the_layouts_corners_are_corners_of_the_solid(exported):
     report, folder = exported
     for shoe in report.build.shoes:
         step = read_step(folder / f"shoe_{shoe.side}.step")
@@ -106,7 +100,7 @@ def test_the_layouts_corners_are_corners_of_the_solid(exported: tuple[ShoeReport
         assert np.mean(np.array(gaps) < 0.05) > 0.9
 
 
-def test_a_foot_that_does_not_fit_fails(exported: tuple[ShoeReport, Path], failed: Callable[..., set[str]]) -> None:
+def test_a_foot_that_does_not_fit_fails(exported, failed):
     build = exported[0].build
     for grown in (0.2, 5.0):
         sole = build.foot.sole.buffer(grown, join_style="mitre")
@@ -118,9 +112,7 @@ def test_a_foot_that_does_not_fit_fails(exported: tuple[ShoeReport, Path], faile
     assert "overhang, mm" in failed(shoe=small)
 
 
-def test_a_heavier_robot_and_a_small_bed_fail(
-    exported: tuple[ShoeReport, Path], failed: Callable[..., set[str]]
-) -> None:
+def test_a_heavier_robot_and_a_small_bed_fail(exported, failed):
     build = exported[0].build
     heavy = replace(build, parameters=replace(build.parameters, robot_mass=400.0))
     assert "stress of the wall, MPa" in failed(build=heavy)
@@ -128,9 +120,7 @@ def test_a_heavier_robot_and_a_small_bed_fail(
     assert failed(build=replace(build, parameters=light)) == {"longest side on the printer, mm"}
 
 
-def test_ceilings_too_wide_to_bridge_fail_but_in_a_powder_bed(
-    exported: tuple[ShoeReport, Path], failed: Callable[..., set[str]]
-) -> None:
+def test_ceilings_too_wide_to_bridge_fail_but_in_a_powder_bed(exported, failed):
     build = exported[0].build
     narrow = replace(build.parameters, bridge_max=10.0)
     assert failed(build=replace(build, parameters=narrow)) == set()

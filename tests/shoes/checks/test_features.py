@@ -1,9 +1,5 @@
 """The feature reader: finds what a good shoe has, and misses what is cut away from one."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 import shapely
 
@@ -29,7 +25,7 @@ def missing(report: ShoeReport, cut: Block | None = None, add: Block | None = No
     return {f.name for f in printed_features(shoe, report.build, surface) if not f.holds}
 
 
-def test_each_feature_is_missed_where_it_is_not_there(exported: tuple[ShoeReport, Path]) -> None:
+def test_each_feature_is_missed_where_it_is_not_there(exported):
     report, _ = exported
     build = report.build
     plan, p = build.shoes[0].plan, build.parameters
@@ -50,7 +46,7 @@ def test_each_feature_is_missed_where_it_is_not_there(exported: tuple[ShoeReport
 
 
 @pytest.mark.parametrize("radius", [20.0, 40.0, 47.0])
-def test_round_heels_have_their_rails(radius: float) -> None:
+def test_round_heels_have_their_rails(radius):
     """Both posts reach the board's ends behind the plate, whatever the heel's radius."""
     box = shapely.box(-80.0, -47.5, 160.0, 47.5)
     outline = box.buffer(-radius).buffer(radius, quad_segs=32) if radius < 47.0 else (

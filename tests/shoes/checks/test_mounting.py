@@ -1,7 +1,5 @@
 """Tests of the foot in the shoe: gaps measured on a surface whose gaps are known."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -9,7 +7,6 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from plantar.shoes import Foot
 from plantar.shoes.checks.mounting import check_mounting
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.parameters import ShoeParameters
@@ -29,14 +26,14 @@ def tray(box: Shape, gap: float, floor: float = P.thickness) -> NDArray[np.float
 
 
 @pytest.fixture(scope="module")
-def foot(box: Shape) -> Foot:
+def foot(box):
     body = np.concatenate([box((-60, 140), (-40, 40), (0, 30)), box((-20, 20), (-20, 20), (30, 80))])
     return foot_from_triangles("a", body, where="a")
 
 
 @pytest.mark.parametrize("side", ["left", "right"])
 @pytest.mark.parametrize("gap", [0.5, 2.0])
-def test_gaps_are_those_of_the_tray(box: Shape, foot: Foot, side: str, gap: float) -> None:
+def test_gaps_are_those_of_the_tray(box, foot, side, gap):
     found = check_mounting(foot, side, tray(box, gap), NONE, P)  # type: ignore[arg-type]
     assert found.gap == pytest.approx(gap, abs=1e-3)
     assert found.gap_on_the_way == pytest.approx(gap, abs=1e-3)
@@ -45,7 +42,7 @@ def test_gaps_are_those_of_the_tray(box: Shape, foot: Foot, side: str, gap: floa
     assert found.support_share == pytest.approx(1.0)
 
 
-def test_a_foot_that_is_wider_above_is_caught_on_its_way(box: Shape, foot: Foot) -> None:
+def test_a_foot_that_is_wider_above_is_caught_on_its_way(box, foot):
     wide = np.concatenate([box((-60, 140), (-40, 40), (0, 6)), box((-60, 140), (-41, 41), (6, 30))])
     higher = foot_from_triangles("a", wide, where="a")
     found = check_mounting(higher, "left", tray(box, 0.5), NONE, P)
@@ -62,7 +59,7 @@ def test_a_foot_that_is_wider_above_is_caught_on_its_way(box: Shape, foot: Foot)
     assert shut.gap_on_the_way == 0.0
 
 
-def test_a_hole_in_the_floor_and_a_foot_above_it_are_told(box: Shape, foot: Foot) -> None:
+def test_a_hole_in_the_floor_and_a_foot_above_it_are_told(box, foot):
     holed = np.concatenate([tray(box, 0.5), box((0, 100), (-40, 40), (P.bottom + 0.1, P.thickness - 0.01))[:, ::-1]])
     found = check_mounting(foot, "left", holed, NONE, P)
     assert found.support_share == pytest.approx(0.5, abs=1e-3)

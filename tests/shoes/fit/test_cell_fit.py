@@ -1,7 +1,5 @@
 """Tests of the fit of stated cells: inside, apart by the ribs, and as many as a search over placements finds."""
 
-from __future__ import annotations
-
 import itertools
 import math
 
@@ -51,7 +49,7 @@ def some(*quick: str) -> list[object]:
 
 @pytest.mark.parametrize("notched", [False, pytest.param(True, marks=pytest.mark.long)])
 @pytest.mark.parametrize("name", some("square", "wide", "hex film"))
-def test_cells_are_inside_and_ribs_are_left_between_their_pockets(name: str, notched: bool) -> None:
+def test_cells_are_inside_and_ribs_are_left_between_their_pockets(name, notched):
     cell, sole = CELLS[name], outline(3, notched)
     fit = fit_cells(sole, cell, rib=RIB)
     pockets, felt = polygons(fit.pockets), polygons(fit.cells)
@@ -90,7 +88,7 @@ def brute_force(sole: shapely.Polygon, cell: Cell, steps: int, angles: np.ndarra
 
 
 @pytest.mark.parametrize("name", some("square"))
-def test_no_placement_of_a_grid_of_them_holds_more(name: str) -> None:
+def test_no_placement_of_a_grid_of_them_holds_more(name):
     sole = outline(11)
     fit = fit_cells(sole, CELLS[name], rib=RIB)
     period = pattern_of(CELLS[name], RIB).period
@@ -101,7 +99,7 @@ def test_no_placement_of_a_grid_of_them_holds_more(name: str) -> None:
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(12))
 @pytest.mark.parametrize("name", CELLS)
-def test_no_placement_of_a_fine_grid_beats_the_bound(name: str, seed: int) -> None:
+def test_no_placement_of_a_fine_grid_beats_the_bound(name, seed):
     sole, cell = outline(seed, notched=seed % 2 == 1), CELLS[name]
     fit = fit_cells(sole, cell, rib=RIB)
     period = pattern_of(cell, RIB).period
@@ -113,7 +111,7 @@ def test_no_placement_of_a_fine_grid_beats_the_bound(name: str, seed: int) -> No
 
 @pytest.mark.parametrize(("columns", "rows"), [(4, 3), (1, 1)])
 @pytest.mark.parametrize("turn", [0.0, 21.0])
-def test_a_box_made_for_squares_is_proven_to_hold_just_those(columns: int, rows: int, turn: float) -> None:
+def test_a_box_made_for_squares_is_proven_to_hold_just_those(columns, rows, turn):
     pitch = 20.0 + 0.4 + RIB
     box = shapely.affinity.rotate(shapely.box(0, 0, columns * pitch + 0.2, rows * pitch + 0.2), turn)
     fit = fit_cells(box, CELLS["square"], rib=RIB)
@@ -121,7 +119,7 @@ def test_a_box_made_for_squares_is_proven_to_hold_just_those(columns: int, rows:
 
 
 @pytest.mark.long
-def test_a_number_of_cells_takes_the_least_overhang() -> None:
+def test_a_number_of_cells_takes_the_least_overhang():
     sole = shapely.box(0, 0, 4 * 22.8 - 5.0, 3 * 22.8)
     fit = fit_cells(sole, CELLS["square"], rib=RIB, taxels=12, overhang_max=8.0)
     assert len(fit.cells) == 12
@@ -130,14 +128,14 @@ def test_a_number_of_cells_takes_the_least_overhang() -> None:
         fit_cells(sole, CELLS["square"], rib=RIB, taxels=40, overhang_max=8.0)
 
 
-def test_a_pitch_that_leaves_no_rib_is_refused() -> None:
+def test_a_pitch_that_leaves_no_rib_is_refused():
     near = Cell(shape="round", size=18.0, thickness=0.5, pitch_x=19.0)
     with pytest.raises(FootError, match=r"pitch_x is 19 mm; allowed: 20\.8 mm or more, which leaves a rib of 2\.4 mm"):
         fit_cells(outline(1), near, rib=RIB)
 
 
 @pytest.mark.parametrize("seed", [0, 3])
-def test_a_sheet_has_the_crossings_that_lie_inside_and_is_cut_there(seed: int) -> None:
+def test_a_sheet_has_the_crossings_that_lie_inside_and_is_cut_there(seed):
     sole, cell = outline(seed, notched=seed > 1), read_cell("sheet")
     fit = fit_cells(sole, cell, rib=RIB)
     felt, (recess,) = polygons(fit.cells), polygons(fit.pockets)
@@ -159,7 +157,7 @@ def test_a_sheet_has_the_crossings_that_lie_inside_and_is_cut_there(seed: int) -
         fit_cells(sole, cell, rib=RIB, taxels=20)
 
 
-def test_a_sheet_with_too_many_lines_or_none_is_refused() -> None:
+def test_a_sheet_with_too_many_lines_or_none_is_refused():
     fine = Cell(shape="sheet", pitch_x=2.0, pitch_y=2.0, line_width=1.0, thickness=0.5)
     with pytest.raises(FootError, match="allowed: 128 together"):
         fit_cells(outline(1).buffer(50), fine, rib=RIB)

@@ -1,7 +1,5 @@
 """A fine rim: cells that fill the edge of the face, and a blind rim of 12 mm at most."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import shapely

@@ -1,7 +1,5 @@
 """Tests of the proven bound: never below what is known to fit, and reached where the best is known."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -28,7 +26,7 @@ def whole_cells(region: shapely.Polygon, lattice: HexLattice) -> int:
     st.booleans(),
     st.integers(0, 10_000),
 )
-def test_no_placement_beats_the_bound(points: list[tuple[float, float]], notched: bool, seed: int) -> None:
+def test_no_placement_beats_the_bound(points, notched, seed):
     region = shapely.MultiPoint(points).convex_hull.buffer(15)
     if notched:
         notch = shapely.Point(region.centroid.x, region.bounds[3]).buffer(25.0, quad_segs=4)
@@ -54,7 +52,7 @@ def test_no_placement_beats_the_bound(points: list[tuple[float, float]], notched
 
 @pytest.mark.parametrize(("columns", "rows"), [(3, 2), (5, 4), (8, 3)])
 @pytest.mark.parametrize("turn", [0.0, 17.0])
-def test_a_box_made_for_a_patch_is_proven_to_hold_just_that(columns: int, rows: int, turn: float) -> None:
+def test_a_box_made_for_a_patch_is_proven_to_hold_just_that(columns, rows, turn):
     side = math.sqrt(2 * 691 / (3 * math.sqrt(3)))
     length, height = math.sqrt(3) * side * (columns + 0.5), side * (1.5 * rows + 0.5)
     box = shapely.affinity.rotate(shapely.box(0, 0, length + 0.3, height + 0.3), turn)
@@ -63,7 +61,7 @@ def test_a_box_made_for_a_patch_is_proven_to_hold_just_that(columns: int, rows: 
     assert len(fit.cells) == fit.bound == columns * rows
 
 
-def test_the_best_is_proven_on_the_papers_feet() -> None:
+def test_the_best_is_proven_on_the_papers_feet():
     for sole, most in (
         (rounded_rectangle(223.7, 146.5, (25.0, 10.0), 20.0), 36),
         (rounded_rectangle(241.0, 138.0, (15.0, 0.0), 19.6), 39),
@@ -74,7 +72,7 @@ def test_the_best_is_proven_on_the_papers_feet() -> None:
     assert bound_whole_cells(wider, hex_pattern(691.0)).bound < 51
 
 
-def test_the_search_ends_early_where_less_is_asked_for() -> None:
+def test_the_search_ends_early_where_less_is_asked_for():
     sole = rounded_rectangle(241.0, 138.0, (15.0, 0.0), 19.6)
     rough = bound_whole_cells(sole, hex_pattern(691.0), known=39, share=0.9)
     exact = bound_whole_cells(sole, hex_pattern(691.0), known=39)

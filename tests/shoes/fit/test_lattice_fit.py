@@ -1,7 +1,5 @@
 """Tests of the lattice fit: whole cells, as many as can be, where they should be."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -25,7 +23,7 @@ def cells(fit: object) -> list[shapely.Polygon]:
 
 @pytest.mark.parametrize(("columns", "rows"), [(5, 4), (1, 1), (7, 2), (3, 3)])
 @pytest.mark.parametrize("slack", [0.0, 0.12])
-def test_a_box_made_for_a_patch_holds_just_that_patch(columns: int, rows: int, slack: float) -> None:
+def test_a_box_made_for_a_patch_holds_just_that_patch(columns, rows, slack):
     width, side = WIDTH * math.sqrt(691), WIDTH * math.sqrt(691 / 3)
     length = columns * width + (0.5 * width if rows > 1 else 0.0)
     height = (1.5 * rows + 0.5) * side
@@ -35,7 +33,7 @@ def test_a_box_made_for_a_patch_holds_just_that_patch(columns: int, rows: int, s
     assert shapely.union_all(cells(fit)).bounds == pytest.approx((0, 0, length, height), abs=0.1201)
 
 
-def test_rows_along_y_are_found() -> None:
+def test_rows_along_y_are_found():
     width, side = WIDTH * math.sqrt(691), WIDTH * math.sqrt(691 / 3)
     fit = fit_lattice(shapely.box(0, 0, (1.5 * 4 + 0.5) * side + 0.12, 3.5 * width + 0.12))
     assert len(fit.cells) == 12
@@ -44,7 +42,7 @@ def test_rows_along_y_are_found() -> None:
 
 @settings(max_examples=10)
 @given(st.lists(st.tuples(st.floats(-120, 120), st.floats(-60, 60)), min_size=6, max_size=14), st.floats(400, 900))
-def test_cells_are_whole_inside_and_apart(points: list[tuple[float, float]], area: float) -> None:
+def test_cells_are_whole_inside_and_apart(points, area):
     sole = shapely.MultiPoint(points).convex_hull.buffer(15)
     try:
         fit = fit_lattice(sole, cell_area=area)
@@ -63,7 +61,7 @@ def test_cells_are_whole_inside_and_apart(points: list[tuple[float, float]], are
         assert inside <= len(polygons)
 
 
-def test_a_waist_and_a_split_keep_cells_inside() -> None:
+def test_a_waist_and_a_split_keep_cells_inside():
     dumbbell = shapely.union_all(
         [shapely.box(-100, -40, -20, 40), shapely.box(20, -40, 100, 40), shapely.box(-30, -4, 30, 4)]
     )
@@ -73,7 +71,7 @@ def test_a_waist_and_a_split_keep_cells_inside() -> None:
     assert {p.centroid.x < 0 for p in cells(fit)} == {True, False}
 
 
-def test_the_whole_cell_region_is_where_a_cell_fits() -> None:
+def test_the_whole_cell_region_is_where_a_cell_fits():
     shape = shapely.Polygon([(0, 0), (90, 0), (90, 70), (50, 40), (0, 60)])
     side, angle = 9.0, 0.3
     area = 1.5 * math.sqrt(3) * side**2
@@ -85,7 +83,7 @@ def test_the_whole_cell_region_is_where_a_cell_fits() -> None:
             assert region.contains(shapely.Point(x, y)) == shape.covers(hexagon)
 
 
-def test_a_number_of_taxels_takes_the_least_overhang() -> None:
+def test_a_number_of_taxels_takes_the_least_overhang():
     sole = rounded_rectangle(223.7, 146.5, (25.0, 10.0), 20.0)
     fit = fit_lattice(sole, taxels=42, overhang_max=7.7)
     assert len(fit.cells) == 42
@@ -106,7 +104,7 @@ def test_a_number_of_taxels_takes_the_least_overhang() -> None:
         fit_lattice(sole, taxels=42, overhang_max=4.0)
 
 
-def test_fewer_taxels_than_fit_leave_out_those_that_matter_least() -> None:
+def test_fewer_taxels_than_fit_leave_out_those_that_matter_least():
     sole = rounded_rectangle(223.7, 146.5, (25.0, 10.0), 20.0)
     most = len(fit_lattice(sole).cells)
     for wanted in (1, 5, most - 1, most):
@@ -116,7 +114,7 @@ def test_fewer_taxels_than_fit_leave_out_those_that_matter_least() -> None:
         assert all(sole.buffer(0.01).covers(p) for p in cells(fit))
 
 
-def test_the_same_sole_gives_the_same_fit_and_a_shifted_one_the_shifted() -> None:
+def test_the_same_sole_gives_the_same_fit_and_a_shifted_one_the_shifted():
     sole = shapely.Polygon([(-77, -42), (-74, 43), (105, 45), (120, 42), (150, -42), (137, -45)])
     first, again = fit_lattice(sole), fit_lattice(sole)
     assert first.lattice == again.lattice
@@ -125,7 +123,7 @@ def test_the_same_sole_gives_the_same_fit_and_a_shifted_one_the_shifted() -> Non
     assert len(moved.cells) == len(first.cells)
 
 
-def test_arguments_out_of_range_are_refused() -> None:
+def test_arguments_out_of_range_are_refused():
     sole = shapely.box(0, 0, 200, 100)
     for bad in (0.0, -1.0, float("nan"), 99.0, 1e9):
         with pytest.raises(InputError, match="allowed: 100 to 5000"):

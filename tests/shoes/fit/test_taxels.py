@@ -1,7 +1,5 @@
 """Tests of the taxels of a sole: borders, cut cells, parts."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import shapely
@@ -13,7 +11,7 @@ from plantar.shoes.geometry.outline import rounded_rectangle
 SOLE = rounded_rectangle(241.0, 138.0, (15.0, 0.0), 19.6)
 
 
-def test_as_many_whole_cells_as_fit() -> None:
+def test_as_many_whole_cells_as_fit():
     fit = fit_taxels(SOLE, border=2.0, overhang_max=10.0)
     assert fit.whole == len(fit.cells) == fit.bound == 39
     assert fit.border == 2.0
@@ -22,7 +20,7 @@ def test_as_many_whole_cells_as_fit() -> None:
     assert fit.lattice_cells is not None
 
 
-def test_a_number_narrows_the_border_before_it_cuts_cells() -> None:
+def test_a_number_narrows_the_border_before_it_cuts_cells():
     kept = fit_taxels(SOLE, taxels=42, border=2.0, overhang_max=10.0)
     assert (kept.border, kept.whole, kept.notes) == (2.0, 42, ())
     narrow = fit_taxels(SOLE, taxels=47, border=2.0, overhang_max=10.0)
@@ -30,7 +28,7 @@ def test_a_number_narrows_the_border_before_it_cuts_cells() -> None:
     assert "the border around the cells is 0.5 instead of 2 mm" in narrow.notes[0]
 
 
-def test_cut_cells_stay_within_reach_and_do_not_overlap() -> None:
+def test_cut_cells_stay_within_reach_and_do_not_overlap():
     fit = fit_taxels(SOLE, taxels=51, border=2.0, overhang_max=10.0)
     assert len(fit.cells) == 51
     assert fit.whole < fit.bound < 51
@@ -47,12 +45,12 @@ def test_cut_cells_stay_within_reach_and_do_not_overlap() -> None:
     assert all((a == b).all() for a, b in zip(fit.cells, again.cells, strict=True))
 
 
-def test_too_many_are_refused() -> None:
+def test_too_many_are_refused():
     with pytest.raises(FootError, match=r"90 taxels of 691 mm.2 do not fit: at most"):
         fit_taxels(SOLE, taxels=90, border=2.0, overhang_max=10.0)
 
 
-def test_taxels_lie_wherever_the_plate_meets_the_ground() -> None:
+def test_taxels_lie_wherever_the_plate_meets_the_ground():
     face = shapely.box(-110, -50, 110, 50)
     wide = fit_taxels(face, overhang=1.5)
     assert all(face.buffer(1.51, join_style="mitre").covers(shapely.Polygon(c)) for c in wide.cells)

@@ -1,7 +1,5 @@
 """Tests of feet that are given by dimensions or an outline."""
 
-from __future__ import annotations
-
 import pytest
 import shapely
 
@@ -20,13 +18,13 @@ from plantar.shoes.foot.foot import foot_from_dimensions, foot_from_outline
         {"sole_center": (0.0, float("inf"))},
     ],
 )
-def test_dimensions_out_of_range_are_refused(change: dict[str, float]) -> None:
+def test_dimensions_out_of_range_are_refused(change):
     good = {"length": 0.2, "width": 0.1, "sole_center": (0.0, 0.0), "corner_radius": 0.01}
     with pytest.raises(FootError, match="foot of a"):
         foot_from_dimensions("a", **(good | change))  # type: ignore[arg-type]
 
 
-def test_an_outline_of_a_foots_size_is_a_foot() -> None:
+def test_an_outline_of_a_foots_size_is_a_foot():
     outline = shapely.Polygon([(-60, -40), (120, -30), (140, 10), (110, 50), (-60, 35)])
     foot = foot_from_outline("a", outline)
     assert foot.sole.equals(outline)
@@ -36,7 +34,7 @@ def test_an_outline_of_a_foots_size_is_a_foot() -> None:
             foot_from_outline("a", bad)
 
 
-def test_what_passes_a_height_holds_the_sole_and_is_worked_out_once() -> None:
+def test_what_passes_a_height_holds_the_sole_and_is_worked_out_once():
     calls = []
     sole = shapely.box(-60, -30, 90, 30)
     foot = foot_from_outline("a", sole)

@@ -1,7 +1,5 @@
 """Tests of feet from a surface: units, sole plane, frames, and bodies that are no foot."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -30,7 +28,7 @@ Writer = Callable[..., Path]
         (1 / 25.4, "in", "unit in as given"),
     ],
 )
-def test_the_unit_is_found_and_stated(box: Shape, stl: Writer, scale: float, unit: str | None, note: str) -> None:
+def test_the_unit_is_found_and_stated(box, stl, scale, unit, note):
     foot = foot_from_mesh(stl(box((-50, 150), (-40, 40), (10, 70)) * scale), unit=unit)  # type: ignore[arg-type]
     assert note in foot.notes
     assert foot.sole.bounds == pytest.approx((-50, -40, 150, 40), abs=2e-3)
@@ -38,7 +36,7 @@ def test_the_unit_is_found_and_stated(box: Shape, stl: Writer, scale: float, uni
     assert any("sole plane at the mesh's lowest point, z = 10.0 mm" in n for n in foot.notes)
 
 
-def test_another_sole_plane_and_forward_axis_can_be_given(box: Shape, stl: Writer) -> None:
+def test_another_sole_plane_and_forward_axis_can_be_given(box, stl):
     # Along y: a foot of 200 x 80 with a stud below its sole.
     body = np.concatenate([box((-40, 40), (-50, 150), (0, 60)), box((-5, 5), (0, 10), (-8, 0))])
     with pytest.raises(FootError, match="no flat sole"):
@@ -50,35 +48,35 @@ def test_another_sole_plane_and_forward_axis_can_be_given(box: Shape, stl: Write
 
 
 @pytest.mark.parametrize("forward", ["x", "-x", "y", "-y"])
-def test_a_turned_foot_is_the_same_foot(prism: Shape, stl: Writer, forward: str) -> None:
+def test_a_turned_foot_is_the_same_foot(prism, stl, forward):
     outline = np.array([[-60, -40], [120, -30], [140, 10], [110, 50], [-60, 35]], dtype=float)
     turn = {"x": [[1, 0], [0, 1]], "-x": [[-1, 0], [0, -1]], "y": [[0, -1], [1, 0]], "-y": [[0, 1], [-1, 0]]}[forward]
     foot = foot_from_mesh(stl(prism(outline @ np.array(turn).T, 0, 50)), forward=forward)  # type: ignore[arg-type]
     assert foot.sole.equals(shapely.Polygon(outline))
 
 
-def test_a_right_foot_is_mirrored_to_the_left(prism: Shape, stl: Writer) -> None:
+def test_a_right_foot_is_mirrored_to_the_left(prism, stl):
     outline = np.array([[-60, -40], [120, -30], [140, 10], [110, 50], [-60, 35]], dtype=float)
     left = foot_from_mesh(stl(prism(outline, 0, 50)))
     right = foot_from_mesh(stl(prism(outline * [1, -1], 0, 50)), mesh_side="right")
     assert right.sole.equals(left.sole)
 
 
-def test_a_foot_that_widens_upwards_has_an_outline_for_every_height(box: Shape, stl: Writer) -> None:
+def test_a_foot_that_widens_upwards_has_an_outline_for_every_height(box, stl):
     body = np.concatenate([box((-50, 150), (-40, 40), (0, 8)), box((-60, 170), (-50, 55), (8, 60))])
     foot = foot_from_mesh(stl(body))
     assert foot.sole.bounds == (-50, -40, 150, 40)
     assert foot.outline_up_to(12.0).bounds == (-60, -50, 170, 55)
 
 
-def test_open_meshes_and_far_origins_are_noted(box: Shape, stl: Writer) -> None:
+def test_open_meshes_and_far_origins_are_noted(box, stl):
     body = box((-50, 150), (-40, 40), (0, 60))
     assert not any("not closed" in n or "far from the sole" in n for n in foot_from_mesh(stl(body)).notes)
     assert any("not closed" in n for n in foot_from_mesh(stl(body[1:])).notes)
     assert any("far from the sole" in n for n in foot_from_mesh(stl(body + np.array([900, 0, 0]))).notes)
 
 
-def test_bodies_that_are_no_foot_are_refused(box: Shape, stl: Writer) -> None:
+def test_bodies_that_are_no_foot_are_refused(box, stl):
     with pytest.raises(FootError, match="no flat sole: the lowest 5 mm cover 16 %"):
         foot_from_mesh(stl(trimesh.creation.icosphere(radius=60.0).triangles))
     with pytest.raises(FootError, match="is a block, not a foot"):
@@ -100,7 +98,7 @@ def test_bodies_that_are_no_foot_are_refused(box: Shape, stl: Writer) -> None:
         foot_from_mesh(stl(box((0, 200), (0, 80), (0, 60))), forward="z")  # type: ignore[arg-type]
 
 
-def test_a_plate_is_a_foot_whichever_way_it_lies(box: Shape, stl: Writer) -> None:
+def test_a_plate_is_a_foot_whichever_way_it_lies(box, stl):
     plate = box((-60, 140), (-50, 50), (0, 2.0))
     for order in ((0, 1, 2), (0, 2, 1)):
         foot = foot_from_mesh(stl(plate[..., order]))
@@ -108,19 +106,19 @@ def test_a_plate_is_a_foot_whichever_way_it_lies(box: Shape, stl: Writer) -> Non
         assert any("a plate of 2 mm" in note for note in foot.notes)
 
 
-def test_a_surface_whose_triangles_do_not_join_has_the_outline_of_one_that_does() -> None:
+def test_a_surface_whose_triangles_do_not_join_has_the_outline_of_one_that_does():
     foot = rounded(160, 20)
     apart = foot + np.random.default_rng(0).normal(0.0, 0.005, (len(foot), 1, 3))
     soles = [foot_from_triangles("a", t, where="a").sole for t in (foot, apart)]
     assert soles[0].symmetric_difference(soles[1]).area < 0.002 * soles[0].area
 
 
-def test_a_square_flat_foot_is_a_foot(box: Shape, stl: Writer) -> None:
+def test_a_square_flat_foot_is_a_foot(box, stl):
     assert foot_from_mesh(stl(box((0, 120), (0, 120), (0, 40)))).sole.area == pytest.approx(120 * 120)
 
 
 @pytest.mark.parametrize("name", ["jvrc1", "talos", "robotis_op3"])
-def test_real_feet_have_their_known_soles(real_data: Path, name: str) -> None:
+def test_real_feet_have_their_known_soles(real_data, name):
     truth = json.loads((real_data / "feet" / f"{name}.json").read_text())
     foot = foot_from_mesh(real_data / "feet" / f"{name}.stl")
     assert foot.sole.area == pytest.approx(truth["lowest_5mm"]["hull_area_mm2"], rel=2e-3)
@@ -133,7 +131,7 @@ def test_real_feet_have_their_known_soles(real_data: Path, name: str) -> None:
     assert any("not closed" in n for n in foot.notes) == (not truth["watertight"])
 
 
-def test_a_foot_along_y_is_turned_by_its_ankle(box: Shape, stl: Writer) -> None:
+def test_a_foot_along_y_is_turned_by_its_ankle(box, stl):
     for ends, axis in (((-50, 150), "y"), ((-150, 50), "-y")):
         foot = foot_from_mesh(stl(box((-40, 40), ends, (0, 60))))
         assert foot.sole.equals(shapely.box(-50, -40, 150, 40))
@@ -145,7 +143,7 @@ def test_a_foot_along_y_is_turned_by_its_ankle(box: Shape, stl: Writer) -> None:
 
 
 @pytest.mark.parametrize(("up", "axes"), [("y", (0, 2, 1)), ("-x", (2, 1, 0)), ("-z", (0, 1, 2))])
-def test_another_axis_may_point_up(prism: Shape, stl: Writer, up: str, axes: tuple[int, int, int]) -> None:
+def test_another_axis_may_point_up(prism, stl, up, axes):
     outline = np.array([[-60, -40], [120, -30], [140, 10], [110, 50], [-60, 35]], dtype=float)
     from plantar.shoes.foot.orientation import rotation_up
 
@@ -155,7 +153,7 @@ def test_another_axis_may_point_up(prism: Shape, stl: Writer, up: str, axes: tup
     assert any(f"the mesh's {up} axis points up, as given" in n for n in foot.notes)
 
 
-def test_a_foot_that_lies_on_its_side_is_put_up(stl: Writer, prism: Shape) -> None:
+def test_a_foot_that_lies_on_its_side_is_put_up(stl, prism):
     side = np.array([[-60, 0], [140, 0], [140, 15], [40, 50], [20, 120], [-30, 120], [-60, 40]], dtype=float)
     upright = prism(side, -45, 45)[..., [0, 2, 1]][:, ::-1]  # x forward, z up, extruded along y
     foot = foot_from_mesh(stl(upright))
@@ -163,7 +161,7 @@ def test_a_foot_that_lies_on_its_side_is_put_up(stl: Writer, prism: Shape) -> No
     assert lying.sole.bounds == pytest.approx(foot.sole.bounds)
 
 
-def test_a_foot_that_rests_on_a_slanted_side_is_put_up(prism: Shape, box: Shape, stl: Writer) -> None:
+def test_a_foot_that_rests_on_a_slanted_side_is_put_up(prism, box, stl):
     # Levelled on its outer side, which is 6 degrees askew, origin and ankle would contradict each other.
     outline = np.array([[-75, -36], [60, -50], [130, -12], [138, 26], [118, 54], [40, 60], [-72, 34]], dtype=float)
     standing = np.concatenate([prism(outline, 0, 28), box((-22, 22), (-24, 24), (15, 70))])
@@ -172,7 +170,7 @@ def test_a_foot_that_rests_on_a_slanted_side_is_put_up(prism: Shape, box: Shape,
     assert any("-y axis is taken to point up" in n for n in foot.notes)
 
 
-def test_a_tilted_sole_is_levelled(box: Shape, stl: Writer) -> None:
+def test_a_tilted_sole_is_levelled(box, stl):
     angle = np.radians(6.0)
     turn = np.array([[np.cos(angle), 0, -np.sin(angle)], [0, 1, 0], [np.sin(angle), 0, np.cos(angle)]])
     body = np.concatenate([box((-50, 150), (-40, 40), (0, 60)), box((-20, 20), (-20, 20), (60, 90))])
@@ -183,7 +181,7 @@ def test_a_tilted_sole_is_levelled(box: Shape, stl: Writer) -> None:
     assert np.ptp(foot.triangles[..., 2]) == pytest.approx(90.0, abs=0.01)
 
 
-def test_what_touches_the_floor_is_told(generated_feet: dict[str, NDArray[np.float64]]) -> None:
+def test_what_touches_the_floor_is_told(generated_feet):
     from plantar.shoes.foot.foot_mesh import foot_from_triangles
 
     far = foot_from_triangles("a", generated_feet["far_patches"], where="a")

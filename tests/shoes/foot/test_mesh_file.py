@@ -1,7 +1,5 @@
 """Tests of mesh files: every format read gives the same triangles, and a bad file one clear line."""
 
-from __future__ import annotations
-
 import zipfile
 from collections.abc import Callable
 from itertools import pairwise
@@ -53,7 +51,7 @@ def _sorted(triangles: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 @pytest.mark.parametrize("ending", ["stl", "STL", "stl_ascii", "obj", "ply", "off"])
-def test_every_format_gives_the_same_triangles(tmp_path: Path, box: Shape, ending: str) -> None:
+def test_every_format_gives_the_same_triangles(tmp_path, box, ending):
     mesh = _mesh(box)
     path = tmp_path / f"foot.{ending.split('_')[0]}"
     mesh.export(path, file_type=ending.lower())
@@ -62,14 +60,14 @@ def test_every_format_gives_the_same_triangles(tmp_path: Path, box: Shape, endin
     np.testing.assert_allclose(_sorted(triangles), _sorted(mesh.triangles), atol=1e-4)
 
 
-def test_an_obj_of_several_parts_is_put_together(tmp_path: Path) -> None:
+def test_an_obj_of_several_parts_is_put_together(tmp_path):
     path = tmp_path / "parts.obj"
     tetrahedron = "v 0 0 0\nv 90 0 0\nv 0 90 0\nv 0 0 90\n"
     path.write_text(f"o a\n{tetrahedron}f 1 3 2\nf 1 2 4\no b\n{tetrahedron}f 5 7 8\nf 6 8 7\nf 1/1/1 2/2/2 3/3/3\n")
     assert read_mesh(path)[0].shape == (5, 3, 3)
 
 
-def test_3mf_items_are_placed_and_state_their_unit(tmp_path: Path, box: Shape) -> None:
+def test_3mf_items_are_placed_and_state_their_unit(tmp_path, box):
     mesh = _mesh(box)
     items = '<item objectid="1"/><item objectid="2" transform="0 1 0 -1 0 0 0 0 1 0 0 5"/>'
     triangles, unit = read_mesh(_write_3mf(tmp_path / "foot.3mf", mesh, "centimeter", items))
@@ -81,7 +79,7 @@ def test_3mf_items_are_placed_and_state_their_unit(tmp_path: Path, box: Shape) -
 
 
 @pytest.mark.parametrize(("unit", "factor"), [("micron", 1e-3), ("foot", 12.0)])
-def test_3mf_units_without_a_name_here_are_scaled(tmp_path: Path, box: Shape, unit: str, factor: float) -> None:
+def test_3mf_units_without_a_name_here_are_scaled(tmp_path, box, unit, factor):
     mesh = _mesh(box)
     triangles, _ = read_mesh(_write_3mf(tmp_path / "foot.3mf", mesh, unit, '<item objectid="1"/>'))
     np.testing.assert_allclose(triangles, mesh.triangles * factor)
@@ -99,7 +97,7 @@ def test_3mf_units_without_a_name_here_are_scaled(tmp_path: Path, box: Shape, un
         _MODEL.format(unit="meter", vertices="", triangles="", items='<item objectid="9"/>'),
     ],
 )
-def test_a_bad_3mf_gives_one_line(tmp_path: Path, model: str) -> None:
+def test_a_bad_3mf_gives_one_line(tmp_path, model):
     with zipfile.ZipFile(tmp_path / "foot.3mf", "w") as package:
         package.writestr("3D/3dmodel.model", model)
     with pytest.raises(FootError, match=r"foot\.3mf") as caught:
@@ -109,7 +107,7 @@ def test_a_bad_3mf_gives_one_line(tmp_path: Path, model: str) -> None:
 
 @pytest.mark.parametrize("ending", ["stl", "obj", "ply", "off", "3mf"])
 @pytest.mark.parametrize("content", [b"", b"hello\n" * 30, b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 8, b"solid \n"])
-def test_a_foreign_file_gives_one_line(tmp_path: Path, ending: str, content: bytes) -> None:
+def test_a_foreign_file_gives_one_line(tmp_path, ending, content):
     path = tmp_path / f"foot.{ending}"
     path.write_bytes(content)
     with pytest.raises(FootError, match=rf"foot\.{ending}") as caught:
@@ -119,7 +117,7 @@ def test_a_foreign_file_gives_one_line(tmp_path: Path, ending: str, content: byt
 
 @pytest.mark.parametrize("share", [0.02, 0.3, 0.5, 0.99])
 @pytest.mark.parametrize("kind", ["stl", "stl_ascii", "ply", "3mf"])
-def test_a_truncated_file_gives_one_line(tmp_path: Path, box: Shape, kind: str, share: float) -> None:
+def test_a_truncated_file_gives_one_line(tmp_path, box, kind, share):
     mesh = _mesh(box)
     path = tmp_path / f"foot.{kind.split('_')[0]}"
     if kind == "3mf":
@@ -133,7 +131,7 @@ def test_a_truncated_file_gives_one_line(tmp_path: Path, box: Shape, kind: str, 
     assert "\n" not in str(caught.value)
 
 
-def test_what_is_wrong_is_named(tmp_path: Path, box: Shape, stl: Callable[..., Path]) -> None:
+def test_what_is_wrong_is_named(tmp_path, box, stl):
     triangles = box((-50, 150), (-40, 40), (0, 60))
     broken = triangles.copy()
     broken[3, 1, 2] = np.nan
@@ -151,7 +149,7 @@ def test_what_is_wrong_is_named(tmp_path: Path, box: Shape, stl: Callable[..., P
         read_mesh(tmp_path / "foot.jpg")
 
 
-def test_faces_of_an_obj_are_those_that_trimesh_finds(tmp_path: Path) -> None:
+def test_faces_of_an_obj_are_those_that_trimesh_finds(tmp_path):
     random = np.random.default_rng(0)
     lines = [f"v {x} {y} {z} 0.5 0.5 0.5" for x, y, z in random.uniform(-100, 100, (30, 3)).round(3).tolist()]
     for _ in range(40):
@@ -172,7 +170,7 @@ def test_faces_of_an_obj_are_those_that_trimesh_finds(tmp_path: Path) -> None:
     np.testing.assert_allclose(_sorted(read_mesh(path)[0]), _sorted(theirs.triangles))
 
 
-def test_an_obj_may_count_back_and_go_on_in_the_next_line(tmp_path: Path) -> None:
+def test_an_obj_may_count_back_and_go_on_in_the_next_line(tmp_path):
     corners = "v 0 0 0\nv 90 0 0\nv 0 90 0\nv 0 0 90\n"
     (tmp_path / "a.obj").write_text(f"{corners}f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3 # the last\n")
     (tmp_path / "b.obj").write_text(f"{corners}f -4 -2 \\\n-3\r\nf -4 -3 -1\nf -3 -2 \\\r\n -1\nf -4 -1 -2")
@@ -180,7 +178,7 @@ def test_an_obj_may_count_back_and_go_on_in_the_next_line(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("faces", ["f 1 2 5\n", "f 0 1 2\n", "f -5 1 2\n", "f 1 2 x\n", "f 1 2 99999999999999999999\n"])
-def test_an_obj_that_names_no_vertex_gives_one_line(tmp_path: Path, faces: str) -> None:
+def test_an_obj_that_names_no_vertex_gives_one_line(tmp_path, faces):
     path = tmp_path / "foot.obj"
     path.write_text("v 0 0 0\nv 90 0 0\nv 0 90 0\nv 0 0 90\n" + 4 * faces)
     with pytest.raises(FootError, match="not a readable OBJ mesh") as caught:
@@ -188,7 +186,7 @@ def test_an_obj_that_names_no_vertex_gives_one_line(tmp_path: Path, faces: str) 
     assert "\n" not in str(caught.value)
 
 
-def test_a_step_file_gives_the_triangles_that_cadquery_finds(tmp_path: Path) -> None:
+def test_a_step_file_gives_the_triangles_that_cadquery_finds(tmp_path):
     cadquery = pytest.importorskip("cadquery")
     solid = cadquery.Workplane().box(200, 80, 60).edges("|Z").fillet(20).faces(">Z").hole(30)
     path = str(tmp_path / "foot.step")
@@ -203,9 +201,7 @@ def test_a_step_file_gives_the_triangles_that_cadquery_finds(tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize("name", ["foot.stl", "text.stl", "foot.obj", "foot.ply", "foot.off", "foot.3mf"])
-def test_a_mesh_of_too_many_triangles_is_refused(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, box: Shape, name: str
-) -> None:
+def test_a_mesh_of_too_many_triangles_is_refused(tmp_path, monkeypatch, box, name):
     mesh, path = _mesh(box).subdivide(), tmp_path / name
     if name == "text.stl":
         path.write_text(trimesh.exchange.stl.export_stl_ascii(mesh))
@@ -232,7 +228,7 @@ count="{count}" stride="3"><param name="X" type="float"/><param name="Y" type="f
 
 
 @pytest.mark.parametrize("metre", [0.001, 1.0, 0.0254])
-def test_collada_is_read_in_metres_with_its_nodes(tmp_path: Path, box: Shape, metre: float) -> None:
+def test_collada_is_read_in_metres_with_its_nodes(tmp_path, box, metre):
     body = box((-60, 140), (-45, 45), (0, 40))
     points = body.reshape(-1, 3)
     (tmp_path / "foot.dae").write_text(
@@ -254,7 +250,7 @@ def test_collada_is_read_in_metres_with_its_nodes(tmp_path: Path, box: Shape, me
         read_mesh(tmp_path / "foot.dae")
 
 
-def test_a_3mf_may_keep_its_objects_in_parts_of_their_own(tmp_path: Path, box: Shape) -> None:
+def test_a_3mf_may_keep_its_objects_in_parts_of_their_own(tmp_path, box):
     mesh = trimesh.Trimesh(**trimesh.triangles.to_kwargs(box((-60, 140), (-45, 45), (0, 40))))
     _write_3mf(tmp_path / "plain.3mf", mesh, "millimeter", '<item objectid="1"/>')
     with zipfile.ZipFile(tmp_path / "plain.3mf") as plain:

@@ -1,7 +1,5 @@
 """Tests of reading a robot's model: shapes and mass are MuJoCo's own, of whatever structure the file has."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -106,7 +104,7 @@ def skew(path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", STRUCTURES)
-def test_shapes_and_mass_are_mujocos_in_every_structure(tmp_path: Path, name: str) -> None:
+def test_shapes_and_mass_are_mujocos_in_every_structure(tmp_path, name):
     skew(tmp_path / "skew.stl")
     skew(tmp_path / "part" / "assets" / "skew.stl") if (tmp_path / "part").mkdir() is None else None
     (tmp_path / "part" / "leg.xml").write_text(LEG)
@@ -130,7 +128,7 @@ scale="0.001 -0.001 0.001"/></geometry></visual>
 
 
 @pytest.mark.parametrize("top", ["pelvis", "world"])
-def test_a_urdf_keeps_its_root_and_meshes_of_the_same_name(tmp_path: Path, top: str) -> None:
+def test_a_urdf_keeps_its_root_and_meshes_of_the_same_name(tmp_path, top):
     folder = tmp_path / "r" / "meshes"
     folder.mkdir(parents=True)
     skew(folder / "visual" / "skew.stl")
@@ -147,7 +145,7 @@ def test_a_urdf_keeps_its_root_and_meshes_of_the_same_name(tmp_path: Path, top: 
     assert told_mass(file, "foot")[0] == pytest.approx(32.0 if top == "pelvis" else 2.0, rel=1e-6)
 
 
-def test_meshes_that_mujoco_does_not_read_are_read_here(tmp_path: Path) -> None:
+def test_meshes_that_mujoco_does_not_read_are_read_here(tmp_path):
     skew(tmp_path / "skew.stl")
     file = tmp_path / "robot.xml"
     file.write_text(f"<mujoco>{STRUCTURES['refpos']}</mujoco>")
@@ -160,7 +158,7 @@ def test_meshes_that_mujoco_does_not_read_are_read_here(tmp_path: Path) -> None:
         read_foot_body(file, "foot")
 
 
-def test_the_mass_is_mujocos_of_the_robot_alone(tmp_path: Path) -> None:
+def test_the_mass_is_mujocos_of_the_robot_alone(tmp_path):
     file = tmp_path / "robot.xml"
     file.write_text(MJCF.format(inertial="", mesh="").replace('<asset><mesh name="m" file="m.stl"/></asset>', ""))
     model = mujoco.MjModel.from_xml_path(str(file))
@@ -172,7 +170,7 @@ def test_the_mass_is_mujocos_of_the_robot_alone(tmp_path: Path) -> None:
     assert load_case(foot, ShoeParameters()).mass == pytest.approx(mass)
 
 
-def test_a_mesh_that_is_not_there_weighs_nothing_where_the_inertia_is_stated(tmp_path: Path) -> None:
+def test_a_mesh_that_is_not_there_weighs_nothing_where_the_inertia_is_stated(tmp_path):
     file = tmp_path / "robot.xml"
     stated = "<inertial pos='0 0 0' mass='2' diaginertia='.01 .01 .01'/>"
     file.write_text(MJCF.format(inertial=stated, mesh="<geom type='mesh' mesh='m'/>"))
@@ -183,14 +181,14 @@ def test_a_mesh_that_is_not_there_weighs_nothing_where_the_inertia_is_stated(tmp
 
 
 @pytest.mark.parametrize("path", ["jvrc1/xml/jvrc1.xml", "robotis_op3/op3.xml", "unitree_h1/h1.xml"])
-def test_real_robots_weigh_what_mujoco_says(real_data: Path, path: str) -> None:
+def test_real_robots_weigh_what_mujoco_says(real_data, path):
     file = real_data / "robots" / path
     model = mujoco.MjModel.from_xml_path(str(file))
     body = next(n for i in range(model.nbody) if "ank" in (n := model.body(i).name).lower())
     assert told_mass(file, body)[0] == pytest.approx(float(model.body_mass.sum()), rel=0.01)
 
 
-def test_a_urdf_is_the_sum_of_its_links(tmp_path: Path) -> None:
+def test_a_urdf_is_the_sum_of_its_links(tmp_path):
     link = "<link name='{0}'><inertial><mass value='{1}'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>"
     link += "</inertial></link>"
     joint = "<joint name='j' type='revolute'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint>"
@@ -201,7 +199,7 @@ def test_a_urdf_is_the_sum_of_its_links(tmp_path: Path) -> None:
     assert told_mass(file, "a") == (None, "the robot's model states no mass")
 
 
-def test_a_model_of_too_many_triangles_is_read_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_model_of_too_many_triangles_is_read_once(tmp_path, monkeypatch):
     trimesh.creation.icosphere(radius=0.1).export(tmp_path / "m.stl")
     file = tmp_path / "robot.xml"
     file.write_text(MJCF.format(inertial="", mesh='<geom type="mesh" mesh="m"/>'))

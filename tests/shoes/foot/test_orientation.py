@@ -1,7 +1,5 @@
 """Tests of how a foot stands: rotations, flat planes, tilt and toes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
@@ -27,7 +25,7 @@ Shape = Callable[..., NDArray[np.float64]]
 
 
 @pytest.mark.parametrize("axis", AXES)
-def test_rotations_bring_their_axis_where_it_should_be(axis: str) -> None:
+def test_rotations_bring_their_axis_where_it_should_be(axis):
     direction = np.zeros(3)
     direction["xyz".index(axis[-1])] = -1.0 if axis[0] == "-" else 1.0
     up = rotation_up(axis)  # type: ignore[arg-type]
@@ -40,14 +38,14 @@ def test_rotations_bring_their_axis_where_it_should_be(axis: str) -> None:
         assert np.linalg.det(forward) == pytest.approx(1.0)
 
 
-def test_flat_soles_are_told_from_round_ones(box: Shape) -> None:
+def test_flat_soles_are_told_from_round_ones(box):
     assert flat_share(box((0, 200), (0, 90), (0, 40))) == pytest.approx(1.0)
     assert flat_share(trimesh.creation.icosphere(radius=60.0).triangles) < 0.1
     assert flat_share(np.zeros((4, 3, 3))) == 0.0
 
 
 @pytest.mark.parametrize("tilt", [-12.0, 3.0, 20.0])
-def test_a_tilt_is_taken_out_and_small_and_large_ones_are_left(box: Shape, tilt: float) -> None:
+def test_a_tilt_is_taken_out_and_small_and_large_ones_are_left(box, tilt):
     body = np.concatenate([box((-50, 150), (-40, 40), (0, 30)), box((-20, 20), (-20, 20), (30, 80))])
 
     def turned(degrees: float) -> NDArray[np.float64]:
@@ -64,7 +62,7 @@ def test_a_tilt_is_taken_out_and_small_and_large_ones_are_left(box: Shape, tilt:
         np.testing.assert_array_equal(same, turned(small))
 
 
-def test_toes_are_along_x_or_where_the_foot_is_longer(box: Shape) -> None:
+def test_toes_are_along_x_or_where_the_foot_is_longer(box):
     assert forward_axis(box((0, 200), (0, 90), (0, 40)))[0] == "x"
     assert forward_axis(box((-45, 45), (-50, 150), (0, 40)))[0] == "y"
     assert forward_axis(box((-45, 45), (-150, 50), (0, 40)))[0] == "-y"
@@ -72,7 +70,7 @@ def test_toes_are_along_x_or_where_the_foot_is_longer(box: Shape) -> None:
     assert "or give the forward axis" in forward_axis(box((-45, 45), (-100, 100), (0, 40)))[1]
 
 
-def test_a_foot_that_points_backwards_is_seen_by_its_ankle(box: Shape) -> None:
+def test_a_foot_that_points_backwards_is_seen_by_its_ankle(box):
     backwards = box((-150, 50), (-40, 40), (0, 40))
     assert forward_axis(backwards)[0] == "-x"
     column = box((60, 90), (-20, 20), (40, 90))  # over the toes, by the origin
@@ -83,7 +81,7 @@ def test_a_foot_that_points_backwards_is_seen_by_its_ankle(box: Shape) -> None:
 
 
 @pytest.mark.parametrize("yaw", [30.0, -40.0, 100.0, 3.0])
-def test_a_turned_foot_is_straightened_by_its_symmetry(prism: Shape, yaw: float) -> None:
+def test_a_turned_foot_is_straightened_by_its_symmetry(prism, yaw):
     outline = np.array([[-80, -32], [60, -46], [130, -25], [140, 0], [130, 25], [60, 46], [-80, 32]], dtype=float)
     foot = prism(outline, 0, 40)
     turn = trimesh.transformations.rotation_matrix(np.radians(yaw), [0, 0, 1])[:3, :3]
@@ -97,7 +95,7 @@ def test_a_turned_foot_is_straightened_by_its_symmetry(prism: Shape, yaw: float)
         assert "degrees past an axis" in notes[0]
 
 
-def test_two_feet_are_told_from_a_foot_and_a_loose_part(box: Shape) -> None:
+def test_two_feet_are_told_from_a_foot_and_a_loose_part(box):
     foot = box((-50, 150), (-40, 40), (0, 40))
     check_one_body(np.concatenate([foot, box((-20, 20), (-20, 20), (45, 60))]), "a.stl")
     check_one_body(np.concatenate([foot, box((160, 170), (-20, 20), (0, 20))]), "a.stl")
@@ -105,7 +103,7 @@ def test_two_feet_are_told_from_a_foot_and_a_loose_part(box: Shape) -> None:
         check_one_body(np.concatenate([foot, foot + np.array([0.0, 120.0, 0.0])]), "a.stl")
 
 
-def test_a_foot_that_lies_on_its_side_is_refused_and_a_slender_one_is_not(box: Shape) -> None:
+def test_a_foot_that_lies_on_its_side_is_refused_and_a_slender_one_is_not(box):
     foot = np.concatenate([box((-80, 150), (-45, 45), (0, 40)), box((-20, 20), (-20, 20), (40, 70))])
     assert check_upright(foot, "foot") == []
     for up in ("x", "-x", "y", "-y"):
@@ -129,7 +127,7 @@ def rocker(radius: float, prism: Shape) -> NDArray[np.float64]:
 
 
 @pytest.mark.parametrize("radius", [400.0, 800.0])
-def test_a_rounded_sole_that_is_tilted_with_its_foot_is_refused(prism: Shape, radius: float) -> None:
+def test_a_rounded_sole_that_is_tilted_with_its_foot_is_refused(prism, radius):
     foot = rocker(radius, prism)
     assert "level as the mesh's axes" in check_level(foot, "foot")[0]
     for tilt in (4.0, 8.0, -8.0, 15.0):
@@ -139,14 +137,14 @@ def test_a_rounded_sole_that_is_tilted_with_its_foot_is_refused(prism: Shape, ra
             check_level(tilted, "foot")
 
 
-def test_what_could_stand_on_either_side_is_told(box: Shape) -> None:
+def test_what_could_stand_on_either_side_is_told(box):
     plate = box((-80, 150), (-45, 45), (0, 30))
     assert "upper side as well" in check_level(plate, "foot")[0]
     assert check_level(np.concatenate([plate, box((-20, 20), (-20, 20), (30, 80))]), "foot") == []
 
 
 @pytest.mark.parametrize("yaw", [8.0, 20.0, -25.0, 40.0, 5.0])
-def test_a_foot_about_as_wide_as_long_is_straightened_where_its_sides_tell(box: Shape, yaw: float) -> None:
+def test_a_foot_about_as_wide_as_long_is_straightened_where_its_sides_tell(box, yaw):
     foot = box((-60, 100), (-78, 78), (0, 25))
     c, s = np.cos(np.radians(yaw)), np.sin(np.radians(yaw))
     turned = foot @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]).T

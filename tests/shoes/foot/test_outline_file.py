@@ -1,7 +1,5 @@
 """Tests of drawings: DXF, SVG and GeoJSON give the outline that is drawn."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
@@ -43,7 +41,7 @@ def geojson(path: Path, scale: float = 1.0) -> Path:
     return path
 
 
-def test_every_kind_gives_the_same_outline(tmp_path: Path) -> None:
+def test_every_kind_gives_the_same_outline(tmp_path):
     up = " ".join(f"{x},{-y}" for x, y in RING)
     pieces = f'<g transform="translate(10 5)"><polygon transform="translate(-10,-5)" points="{up}"/></g>'
     for path, note in (
@@ -66,7 +64,7 @@ def test_every_kind_gives_the_same_outline(tmp_path: Path) -> None:
         assert any("sides are taken to be upright" in n for n in foot.notes)
 
 
-def test_curves_are_followed(tmp_path: Path) -> None:
+def test_curves_are_followed(tmp_path):
     import ezdxf
 
     document = ezdxf.new(units=4)
@@ -88,7 +86,7 @@ def test_curves_are_followed(tmp_path: Path) -> None:
         assert foot_from_drawing(path).sole.area == pytest.approx(np.pi * 100 * 45, rel=6e-3), path.name
 
 
-def test_the_toes_the_side_and_the_origin_are_found_or_given(tmp_path: Path) -> None:
+def test_the_toes_the_side_and_the_origin_are_found_or_given(tmp_path):
     right = foot_from_drawing(geojson(tmp_path / "a.geojson"), mesh_side="right")
     assert right.sole.symmetric_difference(shapely.affinity.scale(OUTLINE, 1, -1, origin=(0, 0))).area < 15.0
     (tmp_path / "up.geojson").write_text(
@@ -104,7 +102,7 @@ def test_the_toes_the_side_and_the_origin_are_found_or_given(tmp_path: Path) -> 
         foot_from_drawing(geojson(tmp_path / "a.geojson"), forward="z")
 
 
-def test_bad_drawings_are_refused_in_one_line(tmp_path: Path) -> None:
+def test_bad_drawings_are_refused_in_one_line(tmp_path):
     open_line = json.dumps({"type": "LineString", "coordinates": [[0, 0], [200, 0], [200, 80]]})
     cases = {
         "empty.dxf": ("", "is empty"),
@@ -134,7 +132,7 @@ def test_bad_drawings_are_refused_in_one_line(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("kind", ["svg", "geojson"])
-def test_an_outline_that_crosses_itself_is_refused(tmp_path: Path, kind: str) -> None:
+def test_an_outline_that_crosses_itself_is_refused(tmp_path, kind):
     eight = [[0, 0], [240, 95], [240, 0], [0, 95]]
     path = tmp_path / f"eight.{kind}"
     if kind == "svg":
@@ -145,13 +143,13 @@ def test_an_outline_that_crosses_itself_is_refused(tmp_path: Path, kind: str) ->
         foot_from_drawing(path)
 
 
-def test_ends_that_overlap_are_no_crossing(tmp_path: Path) -> None:
+def test_ends_that_overlap_are_no_crossing(tmp_path):
     up = " ".join(f"{x},{-y}" for x, y in [*RING, [-60, -41], [-58, -38]])
     foot = foot_from_drawing(svg(tmp_path / "a.svg", f'<path d="M {up}"/>'))
     assert foot.sole.symmetric_difference(OUTLINE).area < 100.0
 
 
-def test_holes_are_left_out_aloud(tmp_path: Path) -> None:
+def test_holes_are_left_out_aloud(tmp_path):
     hole = [[0, 0], [10, 0], [10, 10], [0, 10]]
     path = tmp_path / "hole.geojson"
     path.write_text(json.dumps({"type": "Polygon", "coordinates": [[*RING, RING[0]], [*hole, hole[0]]]}))
@@ -162,7 +160,7 @@ def test_holes_are_left_out_aloud(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("turn", "said"), [(0.0, False), (5.0, False), (37.0, True), (90.0, False), (-30.0, True)])
-def test_a_sole_askew_on_the_sheet_is_pointed_out(tmp_path: Path, turn: float, said: bool) -> None:
+def test_a_sole_askew_on_the_sheet_is_pointed_out(tmp_path, turn, said):
     c, s = np.cos(np.radians(turn)), np.sin(np.radians(turn))
     ring = (np.array([[-80, -35], [120, -35], [120, 35], [-80, 35]]) @ np.array([[c, s], [-s, c]])).tolist()
     path = tmp_path / "turned.geojson"
@@ -170,7 +168,7 @@ def test_a_sole_askew_on_the_sheet_is_pointed_out(tmp_path: Path, turn: float, s
     assert any("askew" in note and f"{abs(turn):.0f} degrees" in note for note in foot_from_drawing(path).notes) == said
 
 
-def test_blocks_of_a_dxf_and_used_shapes_of_an_svg_are_drawn(tmp_path: Path) -> None:
+def test_blocks_of_a_dxf_and_used_shapes_of_an_svg_are_drawn(tmp_path):
     import ezdxf
 
     document = ezdxf.new(units=4)

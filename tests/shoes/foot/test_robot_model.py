@@ -1,7 +1,5 @@
 """Tests of reading a robot's foot from MJCF and URDF."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 
@@ -55,20 +53,20 @@ def mjcf(folder: Path, box: Shape, visual: str = "", angle: str = "degree") -> P
 
 
 @pytest.mark.parametrize("angle", ["degree", "radian"])
-def test_simple_shapes_of_a_body_and_what_is_fixed_to_it(tmp_path: Path, box: Shape, angle: str) -> None:
+def test_simple_shapes_of_a_body_and_what_is_fixed_to_it(tmp_path, box, angle):
     found = read_foot_body(mjcf(tmp_path, box, angle=angle), "left_foot")
     assert found.side == "left"
     assert "2 colliding shape(s)" in found.notes[0]
     assert bounds(found.triangles) == pytest.approx([-0.07, -0.04, -0.1, 0.15, 0.04, -0.06], abs=1e-3)
 
 
-def test_what_is_drawn_comes_before_what_collides(tmp_path: Path, box: Shape) -> None:
+def test_what_is_drawn_comes_before_what_collides(tmp_path, box):
     found = read_foot_body(mjcf(tmp_path, box, '<geom class="visual" mesh="foot"/>'), "left_foot")
     assert "1 drawn shape(s)" in found.notes[0]
     assert bounds(found.triangles) == pytest.approx([-0.06, -0.045, -0.1, 0.14, 0.045, -0.04], abs=1e-6)
 
 
-def test_a_body_is_turned_as_in_the_zero_pose(tmp_path: Path, box: Shape) -> None:
+def test_a_body_is_turned_as_in_the_zero_pose(tmp_path, box):
     shin = mjcf(tmp_path, box).read_text().replace('euler="0 0 -90"', "")
     (tmp_path / "turned.xml").write_text(shin)
     found = read_foot_body(tmp_path / "turned.xml", "left_foot")  # its x points to the world's y
@@ -90,7 +88,7 @@ URDF = """<robot name="walker">
 </robot>"""
 
 
-def test_a_urdf_link_with_what_is_fixed_to_it(tmp_path: Path, box: Shape) -> None:
+def test_a_urdf_link_with_what_is_fixed_to_it(tmp_path, box):
     (tmp_path / "walker" / "meshes").mkdir(parents=True)
     (tmp_path / "walker" / "urdf").mkdir()
     write_stl(box((-60, 140), (-45, 45), (-100, -40)), tmp_path / "walker" / "meshes" / "foot.stl")
@@ -104,7 +102,7 @@ def test_a_urdf_link_with_what_is_fixed_to_it(tmp_path: Path, box: Shape) -> Non
     assert "plantar_world" not in str(told.value)
 
 
-def test_bad_models_are_refused_in_one_line(tmp_path: Path, box: Shape) -> None:
+def test_bad_models_are_refused_in_one_line(tmp_path, box):
     path = mjcf(tmp_path, box)
     cases = {
         "missing": (tmp_path / "none.xml", "left_foot", "cannot be read"),
@@ -145,11 +143,11 @@ def test_bad_models_are_refused_in_one_line(tmp_path: Path, box: Shape) -> None:
         ("left_right_adapter", None),
     ],
 )
-def test_the_side_is_read_from_the_name(name: str, side: str | None) -> None:
+def test_the_side_is_read_from_the_name(name, side):
     assert side_of_name(name) == side
 
 
-def test_the_real_robots_feet_are_those_of_its_meshes(real_data: Path) -> None:
+def test_the_real_robots_feet_are_those_of_its_meshes(real_data):
     model = real_data / "robots" / "jvrc1" / "xml" / "scene.xml"
     left, right = (read_foot_body(model, f"{s}_ANKLE_P_S") for s in "LR")
     assert (left.side, right.side) == ("left", "right")
@@ -158,7 +156,7 @@ def test_the_real_robots_feet_are_those_of_its_meshes(real_data: Path) -> None:
     assert bounds(right.triangles) == pytest.approx(expected, abs=2e-4)
 
 
-def test_links_that_are_fixed_in_a_circle_are_refused(tmp_path: Path) -> None:
+def test_links_that_are_fixed_in_a_circle_are_refused(tmp_path):
     path = tmp_path / "circle.urdf"
     joint = '<joint name="{0}{1}" type="fixed"><parent link="{0}"/><child link="{1}"/></joint>'
     joints = joint.format("a", "b") + joint.format("b", "a")
@@ -167,7 +165,7 @@ def test_links_that_are_fixed_in_a_circle_are_refused(tmp_path: Path) -> None:
         read_foot_body(path, "a")
 
 
-def test_a_mesh_that_lies_elsewhere_is_not_read(tmp_path: Path, box: Shape) -> None:
+def test_a_mesh_that_lies_elsewhere_is_not_read(tmp_path, box):
     (tmp_path / "robot" / "xml").mkdir(parents=True)
     (tmp_path / "other").mkdir()
     write_stl(box((-60, 140), (-45, 45), (-100, -40)), tmp_path / "other" / "foot.stl")

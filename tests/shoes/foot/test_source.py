@@ -1,7 +1,5 @@
 """Where a foot comes from: one source at a time, and options that its kind knows."""
 
-from __future__ import annotations
-
 from itertools import combinations
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Tests of outlines: a sole's, of any number of patches."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
@@ -23,26 +21,26 @@ from plantar.shoes.geometry.outline import (
 Shape = Callable[..., NDArray[np.float64]]
 
 
-def test_the_outline_of_a_box_is_its_rectangle(box: Shape) -> None:
+def test_the_outline_of_a_box_is_its_rectangle(box):
     outline = outline_below(box((-50, 100), (-30, 40), (0, 60)), 5.0)
     assert outline.equals(shapely.box(-50, -30, 100, 40))
     assert outline.exterior.is_ccw
 
 
-def test_two_patches_give_their_hull(box: Shape) -> None:
+def test_two_patches_give_their_hull(box):
     patches = np.concatenate([box((-80, -20), (-30, 30), (0, 40)), box((60, 120), (-40, 40), (0, 40))])
     outline = outline_below(patches, 5.0)
     corners = [(-80, -30), (-80, 30), (60, 40), (120, 40), (120, -40), (60, -40)]
     assert outline.equals(shapely.MultiPoint(corners).convex_hull)
 
 
-def test_a_groove_and_a_hole_are_bridged() -> None:
+def test_a_groove_and_a_hole_are_bridged():
     area = shapely.box(-80, -40, 80, 40) - shapely.box(-5, -40, 5, 30) - shapely.Point(40, 0).buffer(6)
     outline = single_outline(area, area.convex_hull)
     assert outline.equals(shapely.box(-80, -40, 80, 40))
 
 
-def test_a_marked_waist_is_kept(prism: Shape) -> None:
+def test_a_marked_waist_is_kept(prism):
     angle = np.linspace(0, 2 * np.pi, 120, endpoint=False)
     x, y = 120 * np.cos(angle), 50 * np.sin(angle)
     waist = y * (1 - 0.6 * np.exp(-((x / 40) ** 2)))
@@ -52,13 +50,13 @@ def test_a_marked_waist_is_kept(prism: Shape) -> None:
     assert outline.area < 0.9 * outline.convex_hull.area
 
 
-def test_only_what_lies_below_the_height_counts(box: Shape) -> None:
+def test_only_what_lies_below_the_height_counts(box):
     wide_above = np.concatenate([box((-50, 50), (-20, 20), (0, 10)), box((-90, 90), (-60, 60), (10, 40))])
     assert outline_below(wide_above, 5.0).bounds == (-50, -20, 50, 20)
     assert outline_below(wide_above, 12.0).bounds == (-90, -60, 90, 60)
 
 
-def test_a_wedge_is_cut_at_the_height() -> None:
+def test_a_wedge_is_cut_at_the_height():
     # A slope from z = 0 at x = 0 to z = 20 at x = 100: its lowest 5 mm end at x = 25.
     slope = np.array([[[0, 0, 0], [100, 0, 20], [100, 50, 20]], [[0, 0, 0], [100, 50, 20], [0, 50, 0]]], dtype=float)
     assert outline_below(slope, 5.0).bounds == pytest.approx((0, 0, 25, 50))
@@ -67,7 +65,7 @@ def test_a_wedge_is_cut_at_the_height() -> None:
     assert area == pytest.approx(np.hypot(25, 5) * 50)
 
 
-def test_an_edge_is_no_sole() -> None:
+def test_an_edge_is_no_sole():
     ridge = np.array([[[0, 0, 0], [100, 0, 0], [50, 0, 30]], [[0, 0, 0], [50, 0, 30], [100, 0, 0]]], dtype=float)
     with pytest.raises(FootError, match="no area"):
         outline_below(ridge, 5.0)
@@ -75,7 +73,7 @@ def test_an_edge_is_no_sole() -> None:
         outline_below(ridge + np.array([0, 0, 50]), 5.0)
 
 
-def test_tidy_takes_the_largest_part_without_holes() -> None:
+def test_tidy_takes_the_largest_part_without_holes():
     shape = shapely.MultiPolygon([shapely.box(0, 0, 1, 1), shapely.box(5, 5, 15, 15) - shapely.box(7, 7, 9, 9)])
     assert tidy(shape).equals(shapely.box(5, 5, 15, 15))
     assert len(ring(tidy(shape))) == 4
@@ -84,13 +82,13 @@ def test_tidy_takes_the_largest_part_without_holes() -> None:
 
 
 @pytest.mark.parametrize("radius", [0.0, 10.0, 35.0, 50.0])
-def test_a_rounded_rectangle_has_its_size_and_area(radius: float) -> None:
+def test_a_rounded_rectangle_has_its_size_and_area(radius):
     shape = rounded_rectangle(200.0, 100.0, (20.0, -5.0), radius)
     assert shape.bounds == pytest.approx((-80, -55, 120, 45), abs=1e-3)
     assert shape.area == pytest.approx(200 * 100 - (4 - np.pi) * radius**2, rel=5e-3)
 
 
-def test_a_fine_mesh_keeps_its_waist() -> None:
+def test_a_fine_mesh_keeps_its_waist():
     x, y = np.meshgrid(np.linspace(-100, 100, 160), np.linspace(-1, 1, 80))
     grid = np.stack([x, y * 40 * (1 - 0.5 * np.exp(-((x / 30) ** 2))), np.zeros_like(x)], axis=-1)
     a, b, c, d = (s.reshape(-1, 3) for s in (grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]))
@@ -101,7 +99,7 @@ def test_a_fine_mesh_keeps_its_waist() -> None:
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_outlines_that_are_about_the_same_are_the_same(seed: int) -> None:
+def test_outlines_that_are_about_the_same_are_the_same(seed):
     # A rim and a face around it, a hair apart on the grid for most of their way, as bridging and rounding leave them.
     chance = np.random.default_rng(seed)
     angle = np.sort(chance.uniform(0.0, 2.0 * np.pi, 60))

@@ -1,7 +1,5 @@
 """Tests of sections and of wall thickness measured in them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 
@@ -17,12 +15,12 @@ Shape = Callable[..., NDArray[np.float64]]
 
 
 @pytest.fixture
-def hollow(box: Shape) -> NDArray[np.float64]:
+def hollow(box):
     """A box with walls of 5, 6, 3 and 4 mm, 10 mm above and below."""
     return np.concatenate([box((0, 50), (0, 40), (0, 30)), box((5, 44), (3, 36), (10, 20))[:, ::-1]])
 
 
-def test_sections_of_a_hollow_box(hollow: NDArray[np.float64]) -> None:
+def test_sections_of_a_hollow_box(hollow):
     assert section(hollow, 5.0).equals(shapely.box(0, 0, 50, 40))
     assert section(hollow, 15.0).area == pytest.approx(50 * 40 - 39 * 33)
     assert section(hollow, 40.0).is_empty
@@ -30,7 +28,7 @@ def test_sections_of_a_hollow_box(hollow: NDArray[np.float64]) -> None:
     assert section_along(hollow, 0, 20.0).bounds == (0.0, 0.0, 40.0, 30.0)  # over y and z
 
 
-def test_the_thinnest_of_its_walls_counts(hollow: NDArray[np.float64]) -> None:
+def test_the_thinnest_of_its_walls_counts(hollow):
     assert wall_thickness(*cut_segments(hollow, 15.0)) == pytest.approx(3.0)
     assert wall_thickness(*cut_segments(hollow, 5.0)) == pytest.approx(40.0)
     assert thinnest_wall(hollow) == pytest.approx(3.0)
@@ -39,14 +37,14 @@ def test_the_thinnest_of_its_walls_counts(hollow: NDArray[np.float64]) -> None:
     assert thinnest_wall(hollow @ turned.T) == pytest.approx(3.0, abs=1e-3)
 
 
-def test_a_floor_and_a_bar_are_walls_too(box: Shape) -> None:
+def test_a_floor_and_a_bar_are_walls_too(box):
     inside = box((5, 45), (5, 35), (2, 29.9))[:, ::-1]  # closed a little below the top
     assert thinnest_wall(np.concatenate([box((0, 50), (0, 40), (0, 30)), inside])) == pytest.approx(0.1, abs=1e-6)
     bar = np.concatenate([box((0, 50), (0, 30), (0, 30)), box((10, 40), (5, 25), (8, 28.8))[:, ::-1]])
     assert thinnest_wall(bar) == pytest.approx(1.2)
 
 
-def test_engraved_bands_and_sharp_edges_are_no_walls(box: Shape, prism: Shape) -> None:
+def test_engraved_bands_and_sharp_edges_are_no_walls(box, prism):
     fins = np.concatenate([box((0, 50), (0, 40), (0, 10)), box((10, 20), (5, 35), (9, 10))[:, ::-1]])
     thin = np.concatenate([fins, box((20.4, 30), (5, 35), (9, 10))[:, ::-1]])
     assert thinnest_wall(thin) < 1.01

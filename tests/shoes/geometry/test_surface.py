@@ -1,7 +1,5 @@
 """Surfaces of many triangles: what they cover, whether they are closed, and their hull, against shapely's own."""
 
-from __future__ import annotations
-
 import time
 
 import numpy as np
@@ -104,7 +102,7 @@ def test_a_million_triangles_take_seconds():
         ("ellipsoid", [1.0, 2.0, 3.0], [1.0, 2.0, 3.0], 4 / 3 * np.pi * 6),
     ],
 )
-def test_shapes_have_their_size(kind: str, size: list[float], half: list[float], volume: float) -> None:
+def test_shapes_have_their_size(kind, size, half, volume):
     triangles = primitive(kind, np.array(size), "g")
     points = triangles.reshape(-1, 3)
     np.testing.assert_allclose(points.max(axis=0), half, rtol=1e-2)
@@ -112,7 +110,7 @@ def test_shapes_have_their_size(kind: str, size: list[float], half: list[float],
     assert volume_of(triangles) == pytest.approx(volume, rel=0.03)
 
 
-def test_what_is_no_shape_is_refused() -> None:
+def test_what_is_no_shape_is_refused():
     for kind, size in (("torus", [1.0, 1.0]), ("box", [1.0, 1.0]), ("sphere", [0.0]), ("capsule", [1.0, np.nan])):
         with pytest.raises(FootError, match=r"^g: "):
             primitive(kind, np.array(size), "g")

@@ -1,7 +1,5 @@
 """The files of a shoe opened as a maker would, by other programs' readers, and held against each other."""
 
-from __future__ import annotations
-
 import csv
 import json
 import re
@@ -16,8 +14,6 @@ import pytest
 import shapely
 import trimesh
 from numpy.typing import NDArray
-
-from plantar.shoes import ShoeReport
 
 from ..shoe_witness import hits
 
@@ -54,7 +50,7 @@ def inside(triangles: Triangles, points: Triangles) -> int:
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_the_parts_of_the_assembly_fit_and_nothing_intersects(exported: tuple[ShoeReport, Path], side: str) -> None:
+def test_the_parts_of_the_assembly_fit_and_nothing_intersects(exported, side):
     _, folder = exported
     bodies = bodies_of(folder / f"assembly_{side}.3mf")
     layout = json.loads((folder / f"layout_{side}.json").read_text())
@@ -81,7 +77,7 @@ def test_the_parts_of_the_assembly_fit_and_nothing_intersects(exported: tuple[Sh
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_the_mould_holds_the_pad_and_lets_it_out(exported: tuple[ShoeReport, Path], side: str) -> None:
+def test_the_mould_holds_the_pad_and_lets_it_out(exported, side):
     """Mould and pad fill the block between them; no face of the cavity looks down: the pad comes out upwards."""
     _, folder = exported
     mould, pad = (trimesh.load(folder / f"{name}_{side}.stl", force="mesh") for name in ("mould", "pad"))
@@ -94,9 +90,7 @@ def test_the_mould_holds_the_pad_and_lets_it_out(exported: tuple[ShoeReport, Pat
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_the_boards_outlines_are_closed_in_mm_and_free_of_the_ways(
-    exported: tuple[ShoeReport, Path], side: str
-) -> None:
+def test_the_boards_outlines_are_closed_in_mm_and_free_of_the_ways(exported, side):
     _, folder = exported
     drawing: Any = ezdxf.readfile(folder / f"cells_{side}.dxf")
     assert drawing.header["$INSUNITS"] == 4
@@ -119,7 +113,7 @@ def test_the_boards_outlines_are_closed_in_mm_and_free_of_the_ways(
 
 @pytest.mark.long
 @pytest.mark.parametrize("side", SIDES)
-def test_the_step_file_is_the_stl_in_mm(exported: tuple[ShoeReport, Path], side: str) -> None:
+def test_the_step_file_is_the_stl_in_mm(exported, side):
     import cadquery
 
     _, folder = exported

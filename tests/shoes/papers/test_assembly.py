@@ -1,17 +1,13 @@
 """Tests of the assembly page: it is whole, its counts and lengths are the files', and it can be read."""
 
-from __future__ import annotations
-
 import base64
 import csv
 import re
-from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
 
-from plantar.shoes import ShoeReport
 from plantar.shoes.papers.picture import rendered_png
 from plantar.shoes.solid.pad import prism_surface
 
@@ -20,14 +16,14 @@ from ...gait.analysis.test_report_in_browser import READABLE
 from ...html_text import addresses_of
 
 
-def test_the_page_is_whole_and_needs_no_network(exported: tuple[ShoeReport, Path]) -> None:
+def test_the_page_is_whole_and_needs_no_network(exported):
     text = (exported[1] / "assembly.html").read_text()
     addresses = addresses_of(text)
     assert all(a.startswith(("#", "data:")) for a in addresses)
     assert "url(" not in text
 
 
-def test_each_step_has_a_picture_that_shows_its_parts(exported: tuple[ShoeReport, Path]) -> None:
+def test_each_step_has_a_picture_that_shows_its_parts(exported):
     text = (exported[1] / "assembly.html").read_text()
     steps = re.findall(r'<section aria-labelledby="step\d+">.*?</section>', text, re.DOTALL)
     assert len(steps) == 9
@@ -45,7 +41,7 @@ def test_each_step_has_a_picture_that_shows_its_parts(exported: tuple[ShoeReport
     assert len({image.tobytes() for image in seen}) == len(seen)
 
 
-def test_counts_and_lengths_are_those_of_the_files(exported: tuple[ShoeReport, Path]) -> None:
+def test_counts_and_lengths_are_those_of_the_files(exported):
     _, folder = exported
     text = re.sub(r"<[^>]+>", " ", (folder / "assembly.html").read_text())
     with (folder / "wiring.csv").open() as file:
@@ -69,7 +65,7 @@ def test_counts_and_lengths_are_those_of_the_files(exported: tuple[ShoeReport, P
     assert told == {int(r["cell"]) for r in rows if r["from_cell"]}
 
 
-def test_wires_are_no_shorter_than_straight_and_as_long_as_their_ways(exported: tuple[ShoeReport, Path]) -> None:
+def test_wires_are_no_shorter_than_straight_and_as_long_as_their_ways(exported):
     _, folder = exported
     with (folder / "wiring.csv").open() as file:
         rows = [r for r in csv.DictReader(file) if r["side"] == "right"]
@@ -81,7 +77,7 @@ def test_wires_are_no_shorter_than_straight_and_as_long_as_their_ways(exported: 
             assert float(r["wire_mm"]) == pytest.approx(way, abs=0.06)
 
 
-def test_a_rendered_file_is_a_png_of_what_was_rendered() -> None:
+def test_a_rendered_file_is_a_png_of_what_was_rendered():
     import shapely
 
     body = prism_surface(shapely.box(0.0, 0.0, 40.0, 20.0), 0.0, 5.0)
@@ -94,9 +90,7 @@ def test_a_rendered_file_is_a_png_of_what_was_rendered() -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize(("dark", "width"), [(False, 390), (True, 390), (False, 1100), (True, 1100)])
-def test_the_page_can_be_read_and_reached(
-    exported: tuple[ShoeReport, Path], dark: bool, width: int, tmp_path: Path
-) -> None:
+def test_the_page_can_be_read_and_reached(exported, dark, width, tmp_path):
     seen = visit(exported[1] / "assembly.html", READABLE, tmp_path, dark=dark, width=width)
     assert seen.console == []
     found = seen.found

@@ -1,7 +1,5 @@
 """Tests of the drawing: a reviewer's list, and its sections against rays in the print."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import Any
@@ -27,9 +25,7 @@ def sheet(exported: tuple[ShoeReport, Path], index: int) -> Sheet:
 
 
 @pytest.mark.parametrize("index", [0, 1])
-def test_a_reviewer_finds_datums_every_feature_tolerances_and_the_title(
-    exported: tuple[ShoeReport, Path], index: int
-) -> None:
+def test_a_reviewer_finds_datums_every_feature_tolerances_and_the_title(exported, index):
     report, shoe = exported[0], exported[0].build.shoes[index]
     p, plan = report.build.parameters, shoe.plan
     drawn = sheet(exported, index)
@@ -63,7 +59,7 @@ def test_a_reviewer_finds_datums_every_feature_tolerances_and_the_title(
         assert ((points >= [19.9, 9.9]) & (points <= [410.1, 287.1])).all()
 
 
-def test_every_format_holds_the_drawing(exported: tuple[ShoeReport, Path], tmp_path: Path) -> None:
+def test_every_format_holds_the_drawing(exported, tmp_path):
     build = exported[0].build
     surface = build.shoes[0].surface
     assert surface is not None
@@ -76,9 +72,7 @@ def test_every_format_holds_the_drawing(exported: tuple[ShoeReport, Path], tmp_p
 
 
 @pytest.mark.parametrize("index", [0, 1])
-def test_the_sections_are_what_rays_meet_in_the_print(
-    exported: tuple[ShoeReport, Path], index: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_sections_are_what_rays_meet_in_the_print(exported, index, monkeypatch):
     surface = exported[0].build.shoes[index].surface
     assert surface is not None
     shapes: list[Any] = []
@@ -97,7 +91,7 @@ def test_the_sections_are_what_rays_meet_in_the_print(
 
 
 @pytest.mark.parametrize("index", [0, 1])
-def test_sides_toes_and_heel_are_named_where_they_are(exported: tuple[ShoeReport, Path], index: int) -> None:
+def test_sides_toes_and_heel_are_named_where_they_are(exported, index):
     places = {t[1]: t[0] for t in sheet(exported, index).texts}
     side = exported[0].build.shoes[index].side
     inner = places["right, inner side" if side == "left" else "left, inner side"]

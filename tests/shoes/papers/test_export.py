@@ -1,7 +1,5 @@
 """Tests of the exported files."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json
@@ -14,14 +12,14 @@ import trimesh
 
 from plantar import read_layout
 from plantar.errors import InputError
-from plantar.shoes import Foot, ShoeReport, build_shoe, export_shoe
+from plantar.shoes import build_shoe, export_shoe
 from plantar.shoes.checks import check
 from plantar.shoes.foot.mesh_file import read_mesh
 from plantar.shoes.parameters import ShoeParameters, read_parameters
 from plantar.shoes.solid.step_model import read_step
 
 
-def test_every_file_is_there_and_says_the_same(exported: tuple[ShoeReport, Path]) -> None:
+def test_every_file_is_there_and_says_the_same(exported):
     report, folder = exported
     assert sorted(report.files) == sorted(f.name for f in folder.iterdir())
     assert len(report.files) == 2 * 16 + 4
@@ -51,7 +49,7 @@ def test_every_file_is_there_and_says_the_same(exported: tuple[ShoeReport, Path]
         assert (folder / f"drawing_{side}.svg").read_text().lstrip().startswith("<?xml")
 
 
-def test_the_layout_tells_a_simulator_of_the_shoe(exported: tuple[ShoeReport, Path]) -> None:
+def test_the_layout_tells_a_simulator_of_the_shoe(exported):
     report, folder = exported
     for side in ("left", "right"):
         layout = read_layout(folder / f"layout_{side}.json")
@@ -69,7 +67,7 @@ def test_the_layout_tells_a_simulator_of_the_shoe(exported: tuple[ShoeReport, Pa
         assert len(told["cable_route"]) == len(layout) - len(told["connectors"])
 
 
-def test_the_bill_lists_what_a_shoe_needs(exported: tuple[ShoeReport, Path]) -> None:
+def test_the_bill_lists_what_a_shoe_needs(exported):
     report, folder = exported
     rows = list(csv.DictReader(io.StringIO((folder / "parts.csv").read_text())))
     left = {row["part"]: row for row in rows if row["side"] == "left"}
@@ -79,21 +77,19 @@ def test_the_bill_lists_what_a_shoe_needs(exported: tuple[ShoeReport, Path]) -> 
     assert left["shoe, left"]["material"] == "PA12"
 
 
-def test_a_report_gives_the_same_shoe_again(exported: tuple[ShoeReport, Path]) -> None:
+def test_a_report_gives_the_same_shoe_again(exported):
     report, folder = exported
     assert read_parameters(folder / "check.json") == report.build.parameters
 
 
-def test_the_same_foot_gives_the_same_bytes(
-    small_foot: Foot, exported: tuple[ShoeReport, Path], tmp_path: Path
-) -> None:
+def test_the_same_foot_gives_the_same_bytes(small_foot, exported, tmp_path):
     export_shoe(build_shoe(small_foot, side="right"), tmp_path)
     for path in tmp_path.iterdir():
         if path.name not in ("assembly.html", "check.json", "parts.csv", "wiring.csv"):  # which list both sides there
             assert path.read_bytes() == (exported[1] / path.name).read_bytes(), path.name
 
 
-def test_only_layouts_are_written_where_only_they_were_asked_for(small_foot: Foot, tmp_path: Path) -> None:
+def test_only_layouts_are_written_where_only_they_were_asked_for(small_foot, tmp_path):
     report = export_shoe(build_shoe(small_foot, layout_only=True), tmp_path)
     assert sorted(f.name for f in tmp_path.iterdir()) == ["layout_left.json", "layout_right.json"]
     assert report.holds
@@ -104,14 +100,12 @@ def test_only_layouts_are_written_where_only_they_were_asked_for(small_foot: Foo
     assert "mass" not in told
 
 
-def test_a_missing_folder_is_refused(small_foot: Foot, tmp_path: Path) -> None:
+def test_a_missing_folder_is_refused(small_foot, tmp_path):
     with pytest.raises(InputError, match="cannot write"):
         export_shoe(build_shoe(small_foot, layout_only=True), tmp_path / "none")
 
 
-def test_every_figure_of_a_report_has_its_unit_limit_and_source_in_the_docs(
-    exported: tuple[ShoeReport, Path], repository: Path
-) -> None:
+def test_every_figure_of_a_report_has_its_unit_limit_and_source_in_the_docs(exported, repository):
     """The names of all checks, and of all other figures, stand in the tables of docs/shoes.md."""
     _, folder = exported
     text = (repository / "docs" / "shoes.md").read_text()

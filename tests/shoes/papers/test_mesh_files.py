@@ -1,20 +1,15 @@
 """Tests of 3MF files: what is read back, and the bytes."""
 
-from __future__ import annotations
-
 import zipfile
-from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import trimesh
-from numpy.typing import NDArray
 
 from plantar.shoes.foot.mesh_file import read_mesh
 from plantar.shoes.papers.mesh_files import write_3mf, write_stl
 
 
-def test_triangles_come_back_in_mm_and_bytes_repeat(tmp_path: Path, box: Callable[..., NDArray[np.float64]]) -> None:
+def test_triangles_come_back_in_mm_and_bytes_repeat(tmp_path, box):
     surface = box((-10.25, 20), (0, 3.125), (1, 2))
     first = write_3mf(surface, 'a <shoe> & "left"', tmp_path / "a.3mf")
     second = write_3mf(surface, 'a <shoe> & "left"', tmp_path / "b.3mf")
@@ -30,13 +25,13 @@ def test_triangles_come_back_in_mm_and_bytes_repeat(tmp_path: Path, box: Callabl
     assert model.count("<vertex ") == len(np.unique(surface.reshape(-1, 3), axis=0))  # corners are shared
 
 
-def test_triangles_without_area_are_left_out(tmp_path: Path, box: Callable[..., NDArray[np.float64]]) -> None:
+def test_triangles_without_area_are_left_out(tmp_path, box):
     surface = np.concatenate([box((0, 1), (0, 1), (0, 1)), np.zeros((1, 3, 3))])
     triangles, _ = read_mesh(write_3mf(surface, "a", tmp_path / "a.3mf"))
     assert len(triangles) == len(surface) - 1
 
 
-def test_triangles_come_back_and_bytes_repeat(tmp_path: Path, box: Callable[..., NDArray[np.float64]]) -> None:
+def test_triangles_come_back_and_bytes_repeat(tmp_path, box):
     triangles = box((-10.5, 20), (0, 3), (1, 2))
     first, second = write_stl(triangles, tmp_path / "a.stl"), write_stl(triangles, tmp_path / "b.stl")
     assert first.read_bytes() == second.read_bytes()
@@ -49,6 +44,6 @@ def test_triangles_come_back_and_bytes_repeat(tmp_path: Path, box: Callable[...,
     assert len(first.read_bytes()) == 84 + 50 * len(triangles)
 
 
-def test_a_triangle_without_area_has_no_normal(tmp_path: Path) -> None:
+def test_a_triangle_without_area_has_no_normal(tmp_path):
     path = write_stl(np.zeros((1, 3, 3)), tmp_path / "flat.stl")
     assert not any(path.read_bytes()[84:])

@@ -1,14 +1,10 @@
 """Tests of the renderer: what is in front is seen, where it is, in its colour."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.shoes import Foot
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.papers.picture import draw_preview, render
 
@@ -16,7 +12,7 @@ Shape = Callable[..., NDArray[np.float64]]
 RED, GREEN = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 
 
-def test_a_box_from_above_fills_its_rectangle(box: Shape) -> None:
+def test_a_box_from_above_fills_its_rectangle(box):
     picture = render([(box((0, 40), (0, 20), (0, 10)), RED)], azimuth=-90.0, elevation=90.0, width=400, margin=0.1)
     assert picture.shape[1:] == (400, 3)
     assert abs(picture.shape[0] - 240) <= 1
@@ -28,7 +24,7 @@ def test_a_box_from_above_fills_its_rectangle(box: Shape) -> None:
     assert (picture[100:140, 100:300, 1:] == 0.0).all()
 
 
-def test_the_nearer_body_hides_the_other(box: Shape) -> None:
+def test_the_nearer_body_hides_the_other(box):
     low, high = box((0, 40), (0, 40), (0, 5)), box((10, 30), (10, 30), (20, 25))
     above = render([(low, RED), (high, GREEN)], azimuth=-90.0, elevation=90.0, width=200)
     below = render([(low, RED), (high, GREEN)], azimuth=-90.0, elevation=-90.0, width=200)
@@ -38,9 +34,7 @@ def test_the_nearer_body_hides_the_other(box: Shape) -> None:
     assert (render([(low, RED)], azimuth=0.0, elevation=30.0, width=60) >= 0.0).all()
 
 
-def test_a_foot_is_drawn_with_its_axes(
-    small_foot: Foot, generated_feet: dict[str, NDArray[np.float64]], tmp_path: Path
-) -> None:
+def test_a_foot_is_drawn_with_its_axes(small_foot, generated_feet, tmp_path):
     mesh = foot_from_triangles("a", generated_feet["toe_out"], where="a")
     for foot, name in ((small_foot, "box"), (mesh, "mesh")):
         text = draw_preview(foot, tmp_path / f"{name}.svg").read_text()

@@ -1,12 +1,9 @@
 """Tests of the wiring list, the cells' outlines and the assembly, on the one shoe that all tests share."""
 
-from __future__ import annotations
-
 import csv
 import json
 import re
 from collections import Counter
-from pathlib import Path
 
 import ezdxf
 import numpy as np
@@ -14,7 +11,7 @@ import pytest
 import shapely
 import trimesh
 
-from plantar.shoes import Foot, ShoeParameters, ShoeReport, build_shoe, export_shoe, foot_from_dimensions
+from plantar.shoes import ShoeParameters, build_shoe, export_shoe, foot_from_dimensions
 from plantar.shoes.build import build_insole
 from plantar.shoes.cells.cell import read_cell
 from plantar.shoes.foot.mesh_file import read_mesh
@@ -24,7 +21,7 @@ from plantar.shoes.solid.pad import taxel_surfaces
 from plantar.shoes.units import to_mm
 
 
-def test_each_cell_is_wired_once_from_one_that_is(exported: tuple[ShoeReport, Path]) -> None:
+def test_each_cell_is_wired_once_from_one_that_is(exported):
     report, folder = exported
     with (folder / "wiring.csv").open() as file:
         rows = [r for r in csv.DictReader(file) if r["side"] == "left"]
@@ -44,7 +41,7 @@ def test_each_cell_is_wired_once_from_one_that_is(exported: tuple[ShoeReport, Pa
 
 
 @pytest.mark.parametrize("side", [0, 1])
-def test_cells_come_back_from_the_dxf(exported: tuple[ShoeReport, Path], side: int) -> None:
+def test_cells_come_back_from_the_dxf(exported, side):
     report, folder = exported
     shoe = report.build.shoes[side]
     found = ezdxf.readfile(folder / f"cells_{shoe.side}.dxf").modelspace().query("POLYLINE")
@@ -57,7 +54,7 @@ def test_cells_come_back_from_the_dxf(exported: tuple[ShoeReport, Path], side: i
     assert sum(c.area for c in cells) == pytest.approx(1e6 * shoe.layout.areas.sum(), rel=1e-4)
 
 
-def test_the_assembly_holds_all_parts_by_name_in_their_places(exported: tuple[ShoeReport, Path]) -> None:
+def test_the_assembly_holds_all_parts_by_name_in_their_places(exported):
     import zipfile
 
     report, folder = exported
@@ -77,7 +74,7 @@ def test_the_assembly_holds_all_parts_by_name_in_their_places(exported: tuple[Sh
     )
 
 
-def test_cells_that_are_wired_by_themselves_have_no_route(small_foot: Foot) -> None:
+def test_cells_that_are_wired_by_themselves_have_no_route(small_foot):
     build = build_shoe(small_foot, parameters=ShoeParameters(port_width=0.0), layout_only=True)
     assert any("port_width 0" in note for note in build.notes)
     for shoe in build.shoes:
@@ -88,9 +85,7 @@ def test_cells_that_are_wired_by_themselves_have_no_route(small_foot: Foot) -> N
 
 
 @pytest.mark.long
-def test_cells_that_are_wired_by_themselves_have_no_ways_for_a_cable_in_any_file(
-    small_foot: Foot, tmp_path: Path
-) -> None:
+def test_cells_that_are_wired_by_themselves_have_no_ways_for_a_cable_in_any_file(small_foot, tmp_path):
     build = build_shoe(small_foot, side="left", parameters=ShoeParameters(port_width=0.0))
     report = export_shoe(build, tmp_path)
     assert report.holds
@@ -112,7 +107,7 @@ def test_cells_that_are_wired_by_themselves_have_no_ways_for_a_cable_in_any_file
 
 
 @pytest.mark.parametrize("side", ["left", "right"])
-def test_the_board_has_the_ids_and_places_of_the_layout(exported: tuple[ShoeReport, Path], side: str) -> None:
+def test_the_board_has_the_ids_and_places_of_the_layout(exported, side):
     report, folder = exported
     (shoe,) = (s for s in report.build.shoes if s.side == side)
     board, nets = ((folder / f"board_{side}.{e}").read_text() for e in ("kicad_pcb", "net"))
@@ -132,7 +127,7 @@ def test_the_board_has_the_ids_and_places_of_the_layout(exported: tuple[ShoeRepo
     assert all(outline.covers(shapely.Point(x, y)) for x, y, _ in wanted)
 
 
-def test_a_sheet_has_a_line_for_each_row_and_column() -> None:
+def test_a_sheet_has_a_line_for_each_row_and_column():
     foot = foot_from_dimensions("a", length=0.26, width=0.095, corner_radius=0.03)
     shoe = build_insole(foot, 6.0, cell=read_cell("sheet"), layout_only=True).shoes[0]
     rows, columns = shoe.plan.sheet_lines

@@ -1,7 +1,5 @@
 """Tests of blocks: edges that move, and mirror images."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import shapely
@@ -13,9 +11,7 @@ from plantar.shoes.plan.block import Block, Groove, Step, box_block, mirrored_bl
 
 
 @given(st.lists(st.tuples(st.integers(-90, 90), st.integers(-50, 50)), min_size=4, max_size=9), st.floats(-3, 3))
-def test_moved_edges_keep_their_corners_and_lie_at_their_distance(
-    points: list[tuple[int, int]], distance: float
-) -> None:
+def test_moved_edges_keep_their_corners_and_lie_at_their_distance(points, distance):
     hull = shapely.geometry.polygon.orient(shapely.MultiPoint(points).convex_hull.buffer(20, quad_segs=2))
     corners = ring(hull)
     moved = moved_edges(corners, distance)
@@ -29,14 +25,14 @@ def test_moved_edges_keep_their_corners_and_lie_at_their_distance(
             assert (np.array(point) - corners[i]) @ normal == pytest.approx(distance, abs=1e-6)
 
 
-def test_an_edge_that_would_vanish_is_told() -> None:
+def test_an_edge_that_would_vanish_is_told():
     square = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [0.0, 2.0]])
     assert moved_edges(square, -1.1) is None
     assert moved_edges(np.array([[0.0, 0.0], [0.0, 0.0], [4.0, 2.0]]), 0.1) is None
     assert tapered(shapely.box(0, 0, 4, 2), 0.0, -1.1, 0.0, 1.0) is None
 
 
-def test_mirror_images_stay_in_step() -> None:
+def test_mirror_images_stay_in_step():
     block = tapered(shapely.box(1, 2, 5, 9), 0.0, -0.5, 0.0, 1.0)
     assert block is not None
     mirror = mirrored_block(block)

@@ -1,7 +1,5 @@
 """Straps, lugs and clips keep out of the way of the robot's other links."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -34,7 +32,7 @@ def column(low: float, high: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize("links", [None, column(-40.0, 40.0), column(-80.0, 20.0), column(20.0, 150.0)])
-def test_straps_are_where_links_leave_room(links: np.ndarray | None) -> None:
+def test_straps_are_where_links_leave_room(links):
     foot = foot_with(links)
     plan = build_shoe(foot, side="left", layout_only=True).shoes[0].plan
     held = choose_retention(foot, plan, STRAPS)
@@ -45,7 +43,7 @@ def test_straps_are_where_links_leave_room(links: np.ndarray | None) -> None:
         assert not (near[:, 2] < 40.0).any()  # by hand: none of the shank over the strap's width
 
 
-def test_screws_where_neither_straps_nor_clips_have_room() -> None:
+def test_screws_where_neither_straps_nor_clips_have_room():
     sides = np.stack(np.meshgrid(np.arange(-80, 150, 2.0), [-48.0, 48.0], np.arange(20, 40, 2.0)), -1).reshape(-1, 3)
     for links, kind in ((column(-80.0, 150.0), "clips"), (np.concatenate([column(-80.0, 150.0), sides]), "screws")):
         foot = foot_with(links)
@@ -53,7 +51,7 @@ def test_screws_where_neither_straps_nor_clips_have_room() -> None:
         assert choose_retention(foot, plan, ShoeParameters()).kind == kind
 
 
-def test_a_strap_below_a_link_passes() -> None:
+def test_a_strap_below_a_link_passes():
     foot = foot_with(column(-40.0, 40.0) + np.array([0.0, 0.0, 80.0]))
     plan = build_shoe(foot, side="left", layout_only=True).shoes[0].plan
     assert strap_meets(keep_out(foot), plan.foot, 0.0, 20.0, STRAPS) == 0

@@ -1,7 +1,5 @@
 """Tests of the strength check against beams worked out by hand."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -15,7 +13,7 @@ from plantar.shoes.plan.strength import check_strength, estimated_mass, load_cas
 FOOT = foot_from_dimensions("a", length=0.2, width=0.1, mass=60.0)
 
 
-def test_the_load_is_one_and_a_half_weights_on_a_third() -> None:
+def test_the_load_is_one_and_a_half_weights_on_a_third():
     load = load_case(FOOT, ShoeParameters())
     assert load.force == pytest.approx(1.5 * 60 * 9.81, abs=0.1)
     assert load.pressure == pytest.approx(1.5 * 60 * 9.81 / (20_000 / 3))
@@ -26,7 +24,7 @@ def test_the_load_is_one_and_a_half_weights_on_a_third() -> None:
     assert estimated_mass(450.0) == 150.0
 
 
-def test_beams_are_those_of_the_textbook() -> None:
+def test_beams_are_those_of_the_textbook():
     p = ShoeParameters()
     contact = shapely.box(-108, -50, 108, 50)  # 8 mm beyond the foot at both ends
     foot = replace(FOOT, support=shapely.union_all([shapely.box(-100, -50, -20, 50), shapely.box(20, -50, 100, 50)]))
@@ -46,7 +44,7 @@ def test_beams_are_those_of_the_textbook() -> None:
     assert wall.deflection == pytest.approx(bent, abs=1e-3)
 
 
-def test_floor_and_wall_are_raised_until_they_hold() -> None:
+def test_floor_and_wall_are_raised_until_they_hold():
     contact = shapely.box(-110, -60, 110, 60)
     wide = replace(FOOT, support=shapely.union_all([shapely.box(-100, -50, -70, 50), shapely.box(70, -50, 100, 50)]))
     weak = ShoeParameters(material="PLA", robot_mass=120.0)
@@ -66,7 +64,7 @@ def test_floor_and_wall_are_raised_until_they_hold() -> None:
 
 
 @pytest.mark.parametrize("mass", [40.0 + 2.5 * k for k in range(41)])
-def test_what_is_raised_by_the_load_case_passes_its_check(mass: float) -> None:
+def test_what_is_raised_by_the_load_case_passes_its_check(mass):
     foot = foot_from_dimensions("a", length=0.24, width=0.1)
     for reach in (8.0, 9.37, 11.003):
         contact = foot.sole.buffer(reach, join_style="mitre")

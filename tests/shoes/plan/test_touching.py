@@ -1,7 +1,5 @@
 """Taxels that touch while their seats scatter: against one plate worked out by hand, and for every process."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -20,14 +18,14 @@ from plantar.shoes.plan.touching import check_touching, observability
 FOOT = foot_from_dimensions("a", length=0.2, width=0.1, corner_radius=0.02, mass=60.0)
 
 
-def test_foam_follows_the_figures_of_a_data_sheet() -> None:
+def test_foam_follows_the_figures_of_a_data_sheet():
     """Plastazote LD33: pressure at four compressions; the law has one constant, from the first of them."""
     p = ShoeParameters(pad_foam=40.0)
     for strain, pressure in ((0.25, 0.040), (0.40, 0.075), (0.50, 0.115), (0.60, 0.175)):
         assert pressure / strain == pytest.approx(pad_modulus(p, 1.0, 1.0, 1.0, pressure), rel=0.04)
 
 
-def test_springs_balance_the_load_and_stay_below_the_energy_of_any_other_plate() -> None:
+def test_springs_balance_the_load_and_stay_below_the_energy_of_any_other_plate():
     chance = np.random.default_rng(3)
     points, heights = chance.uniform(-50, 50, (20, 2)), chance.normal(0.0, 0.1, (5, 20))
     points -= points.mean(axis=0)
@@ -48,7 +46,7 @@ def test_springs_balance_the_load_and_stay_below_the_energy_of_any_other_plate()
         assert energy(plate) <= minimize(energy, plate, method="Nelder-Mead").fun + 1e-6
 
 
-def test_stiff_springs_touch_where_a_plate_rests_on_three() -> None:
+def test_stiff_springs_touch_where_a_plate_rests_on_three():
     """Almost without load a plate rests on three seats: those that the lowest plane above all of them meets."""
     chance = np.random.default_rng(5)
     points, heights = chance.uniform(-50, 50, (12, 2)), chance.normal(0.0, 0.1, (1, 12))
@@ -61,7 +59,7 @@ def test_stiff_springs_touch_where_a_plate_rests_on_three() -> None:
 
 @pytest.mark.parametrize("process", sorted(PROCESSES))
 @pytest.mark.parametrize("mass", [4.0, 60.0])
-def test_the_pad_is_soft_enough_for_every_process(process: str, mass: float) -> None:
+def test_the_pad_is_soft_enough_for_every_process(process, mass):
     build = build_shoe(replace(FOOT, mass=mass), layout_only=True, parameters=ShoeParameters(process=process))
     assert build.touching is not None
     assert build.touching.holds()
@@ -74,13 +72,13 @@ def test_the_pad_is_soft_enough_for_every_process(process: str, mass: float) -> 
     assert check_touching(plan, load_case(replace(FOOT, mass=mass), p), rough).active < 0.95
 
 
-def test_a_coupon_replaces_the_gaps_of_the_process() -> None:
+def test_a_coupon_replaces_the_gaps_of_the_process():
     made = ShoeParameters(process="SLS", gap_slide=0.33, seat_scatter=0.02).made_by
     assert (made.name, made.slide, made.scatter, made.play) == ("SLS", 0.33, 0.02, PROCESSES["SLS"].play)
     assert ShoeParameters(material="PETG").made_by.name == "FDM"
 
 
-def test_taxels_in_a_line_see_nothing_across_it() -> None:
+def test_taxels_in_a_line_see_nothing_across_it():
     foot = foot_from_dimensions("a", length=0.2, width=0.04)
     seen = observability(build_shoe(foot, layout_only=True, taxels=5).shoes[0].plan)
     assert seen.across < 0.1
@@ -88,13 +86,13 @@ def test_taxels_in_a_line_see_nothing_across_it() -> None:
 
 
 @pytest.mark.parametrize("length", [0.065, 0.08, 0.12, 0.24])
-def test_cells_are_made_smaller_until_both_directions_are_seen(length: float) -> None:
+def test_cells_are_made_smaller_until_both_directions_are_seen(length):
     foot = foot_from_dimensions("a", length=length, width=0.5 * length, corner_radius=0.005)
     seen = observability(build_shoe(foot, layout_only=True).shoes[0].plan)
     assert seen.holds
     assert seen.error <= 0.4 * seen.width
 
 
-def test_a_foot_on_which_no_cells_see_it_is_refused() -> None:
+def test_a_foot_on_which_no_cells_see_it_is_refused():
     with pytest.raises(FootError, match="no cells of 100 to 691"):
         build_shoe(foot_from_dimensions("a", length=0.08, width=0.018), layout_only=True)

@@ -1,17 +1,13 @@
 """Tests of the body's parts: walls that follow the foot, and the mark."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
 import shapely
-from numpy.typing import NDArray
 
 from plantar.shoes import build_shoe
-from plantar.shoes.foot.foot import Foot
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import mirrored_step
@@ -22,7 +18,7 @@ from plantar.shoes.solid.retention import choose_retention
 from ..foot_family import FAMILY, prism, small_turns, turned
 
 
-def test_upright_walls_have_one_level(small_foot: Foot) -> None:
+def test_upright_walls_have_one_level(small_foot):
     p = ShoeParameters()
     plan = build_shoe(small_foot, layout_only=True).shoes[0].plan
     ((low, high, outline),) = cavity_levels(small_foot, plan, p)
@@ -31,7 +27,7 @@ def test_upright_walls_have_one_level(small_foot: Foot) -> None:
 
 
 @pytest.mark.parametrize("name", ["rounded", "flared", "plate"])
-def test_walls_leave_room_for_all_that_passes(generated_feet: dict[str, NDArray[np.float64]], name: str) -> None:
+def test_walls_leave_room_for_all_that_passes(generated_feet, name):
     p = ShoeParameters()
     foot = foot_from_triangles(name, generated_feet[name], where=name)
     plan = build_shoe(foot, layout_only=True).shoes[0].plan
@@ -47,7 +43,7 @@ def test_walls_leave_room_for_all_that_passes(generated_feet: dict[str, NDArray[
     assert (above.area > below.area + 500.0) == (name != "plate")
 
 
-def test_the_mark_says_side_and_name_and_fits(small_foot: Foot) -> None:
+def test_the_mark_says_side_and_name_and_fits(small_foot):
     p = ShoeParameters()
     plans = {s.side: s.plan for s in build_shoe(small_foot, layout_only=True).shoes}
     for side, plan in plans.items():
@@ -60,7 +56,7 @@ def test_the_mark_says_side_and_name_and_fits(small_foot: Foot) -> None:
     assert mark_outline(tight, p, "left").is_empty
 
 
-def test_the_mark_lies_beside_what_rises_below_an_arch() -> None:
+def test_the_mark_lies_beside_what_rises_below_an_arch():
     sole = np.array(
         [[-80, -40], [-40, -40], [-38, 22], [55, 26], [60, -48], [190, -48], [190, 60], [60, 60], [-80, 40]]
     )
@@ -83,7 +79,7 @@ def test_the_mark_lies_beside_what_rises_below_an_arch() -> None:
     assert bare_floor(insole_steps(plan, p)) is None
 
 
-def test_levels_lie_on_each_other_or_clearly_apart() -> None:
+def test_levels_lie_on_each_other_or_clearly_apart():
     """A step of a hair between two levels gives faces of no width, and a surface that is not closed."""
     p = ShoeParameters()
     foot = foot_from_triangles("a", turned(FAMILY["pitched"](), *small_turns("pitched")[4]), where="a")

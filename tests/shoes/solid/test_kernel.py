@@ -1,23 +1,20 @@
 """Tests of the solid: measured on what the kernel built, against the plan and the parameters."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 import shapely
 
 from plantar.errors import FootError
-from plantar.shoes import Foot, ShoeParameters, ShoeReport, build_shoe
+from plantar.shoes import ShoeParameters, build_shoe
 from plantar.shoes.geometry.section import section
 from plantar.shoes.plan.block import Block, Groove, Step, box_block, tapered
 from plantar.shoes.plan.wiring import cable_outlines, hole_outline, pocket_outlines
 from plantar.shoes.solid.kernel import build_solid
 
 
-def test_the_solid_is_one_and_its_sections_are_the_plan(exported: tuple[ShoeReport, Path]) -> None:
+def test_the_solid_is_one_and_its_sections_are_the_plan(exported):
     report, _ = exported
     p = report.build.parameters
     for shoe in report.build.shoes:
@@ -38,7 +35,7 @@ def test_the_solid_is_one_and_its_sections_are_the_plan(exported: tuple[ShoeRepo
         assert ((plan.rim - plan.cavity) - wall).area < 0.5
 
 
-def test_the_pockets_leave_their_ribs_but_for_the_cable(exported: tuple[ShoeReport, Path]) -> None:
+def test_the_pockets_leave_their_ribs_but_for_the_cable(exported):
     report, _ = exported
     plan, p = report.build.shoes[0].plan, report.build.parameters
     openings = shapely.union_all(pocket_outlines(plan, p))
@@ -49,7 +46,7 @@ def test_the_pockets_leave_their_ribs_but_for_the_cable(exported: tuple[ShoeRepo
     assert hole_outline(plan, p).covers(shapely.Point(plan.heel.point(-0.5 * p.board_gap, 0.0)))
 
 
-def test_the_surface_is_closed_and_points_outwards(exported: tuple[ShoeReport, Path]) -> None:
+def test_the_surface_is_closed_and_points_outwards(exported):
     shoe = exported[0].build.shoes[0]
     assert shoe.surface is not None
     a, b, c = np.moveaxis(shoe.surface, 1, 0)
@@ -57,7 +54,7 @@ def test_the_surface_is_closed_and_points_outwards(exported: tuple[ShoeReport, P
     np.testing.assert_allclose(np.cross(b - a, c - a).sum(axis=0), 0.0, atol=1e-4)
 
 
-def test_the_sides_mirror_each_other_but_for_the_mark(small_foot: Foot) -> None:
+def test_the_sides_mirror_each_other_but_for_the_mark(small_foot):
     build = build_shoe(small_foot, parameters=ShoeParameters(mark_height=0.0))
     left, right = (shoe.solid for shoe in build.shoes)
     assert left is not None
@@ -68,7 +65,7 @@ def test_the_sides_mirror_each_other_but_for_the_mark(small_foot: Foot) -> None:
     assert 5.0 < left.volume - marked.volume < 200.0
 
 
-def test_blocks_have_the_volumes_they_should() -> None:
+def test_blocks_have_the_volumes_they_should():
     square = shapely.box(0, 0, 10, 10)
     assert build_solid([Step("add", "a", (box_block((0, 0, 0), (10, 10, 5)),))]).volume == pytest.approx(500.0)
     frustum = tapered(square, 0.0, -2.0, 0.0, 3.0)
@@ -82,13 +79,13 @@ def test_blocks_have_the_volumes_they_should() -> None:
     assert build_solid([plate, limited]).volume == pytest.approx(2000 + 15 * 10 * 3)
 
 
-def test_a_body_that_falls_apart_is_refused() -> None:
+def test_a_body_that_falls_apart_is_refused():
     apart = Step("add", "a", (box_block((0, 0, 0), (1, 1, 1)), box_block((5, 0, 0), (6, 1, 1))))
     with pytest.raises(FootError, match="falls into 2 solids"):
         build_solid([apart])
 
 
-def test_other_dimensions_give_another_solid(small_foot: Foot) -> None:
+def test_other_dimensions_give_another_solid(small_foot):
     p = ShoeParameters(floor=4.0, pad_thickness=0.0, rim_height=5.0, rim_thickness=1.5, retention="none", scribe=0.0)
     build = build_shoe(small_foot, side="left", parameters=replace(p, board_length=0.0, fillet=0.0, lead_in=0.0))
     shoe = build.shoes[0]

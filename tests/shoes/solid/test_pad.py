@@ -1,12 +1,10 @@
 """Tests of the pad: closed, of the right volume, with a rim beside the taxels."""
 
-from __future__ import annotations
-
 import pytest
 import shapely
 import trimesh
 
-from plantar.shoes import Foot, ShoeParameters, build_shoe
+from plantar.shoes import ShoeParameters, build_shoe
 from plantar.shoes.foot.foot import foot_from_dimensions
 from plantar.shoes.plan.shoe_plan import pad_rim
 from plantar.shoes.solid.pad import mould_surface, pad_surface, taxel_surfaces
@@ -15,7 +13,7 @@ from plantar.shoes.solid.polyhedron import volume_of
 
 @pytest.mark.parametrize("side", [0, 1])
 @pytest.mark.parametrize("protrusion", [0.0, 2.5])
-def test_the_pad_is_closed_and_encloses_the_taxels(small_foot: Foot, side: int, protrusion: float) -> None:
+def test_the_pad_is_closed_and_encloses_the_taxels(small_foot, side, protrusion):
     build = build_shoe(small_foot, layout_only=True, parameters=ShoeParameters(taxel_protrusion=protrusion))
     p, plan = build.parameters, build.shoes[side].plan
     surface = pad_surface(plan, p)
@@ -34,7 +32,7 @@ def test_the_pad_is_closed_and_encloses_the_taxels(small_foot: Foot, side: int, 
 
 
 @pytest.mark.parametrize(("length", "width"), [(0.24, 0.08), (0.2, 0.1), (0.11, 0.07)])
-def test_the_taxels_of_a_fine_rim_are_solids_of_their_volumes(length: float, width: float) -> None:
+def test_the_taxels_of_a_fine_rim_are_solids_of_their_volumes(length, width):
     """Cut cells with an edge that vanishes where the rib is taken off came out inside out."""
     foot = foot_from_dimensions("foot", length=length, width=width, corner_radius=0.0)
     build = build_shoe(foot, side="left", rim="fine", layout_only=True)
@@ -46,7 +44,7 @@ def test_the_taxels_of_a_fine_rim_are_solids_of_their_volumes(length: float, wid
         assert volume_of(surface) == pytest.approx(true, rel=1e-6)
 
 
-def test_the_mould_is_what_the_pad_leaves_of_a_block(small_foot: Foot) -> None:
+def test_the_mould_is_what_the_pad_leaves_of_a_block(small_foot):
     build = build_shoe(small_foot, layout_only=True)
     p, plan = build.parameters, build.shoes[0].plan
     mould = trimesh.Trimesh(**trimesh.triangles.to_kwargs(mould_surface(plan, p)))

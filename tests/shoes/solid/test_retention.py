@@ -1,30 +1,23 @@
 """Tests of what holds the shoe: chosen by what the foot offers."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from dataclasses import replace
 
-import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from plantar.errors import FootError
 from plantar.shoes import build_shoe
-from plantar.shoes.foot.foot import Foot
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.parameters import ShoeParameters
-from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.solid.retention import choose_retention, retention_steps
 
 
 @pytest.fixture(scope="module")
-def plate(generated_feet: dict[str, NDArray[np.float64]]) -> tuple[Foot, ShoePlan]:
+def plate(generated_feet):
     foot = foot_from_triangles("plate", generated_feet["plate"], where="plate")
     return foot, build_shoe(foot, layout_only=True).shoes[0].plan
 
 
-def test_clips_reach_over_a_free_edge(plate: tuple[Foot, ShoePlan]) -> None:
+def test_clips_reach_over_a_free_edge(plate):
     foot, plan = plate
     found = choose_retention(foot, plan, ShoeParameters())
     assert found.kind == "clips"
@@ -40,7 +33,7 @@ def test_clips_reach_over_a_free_edge(plate: tuple[Foot, ShoePlan]) -> None:
     assert any(b.low.intersection(plan.foot).area > p.clip_hook for b in hooks)  # type: ignore[union-attr]
 
 
-def test_straps_take_over_where_clips_cannot_hold(plate: tuple[Foot, ShoePlan]) -> None:
+def test_straps_take_over_where_clips_cannot_hold(plate):
     foot, plan = plate
     for change, reason in (
         ({"clip_height_max": 12.0}, "18 mm high, above clip_height_max"),
@@ -56,7 +49,7 @@ def test_straps_take_over_where_clips_cannot_hold(plate: tuple[Foot, ShoePlan]) 
     assert "upper side is not known" in choose_retention(flat, plan, ShoeParameters()).note
 
 
-def test_a_short_foot_takes_one_narrow_strap(small_foot: Foot) -> None:
+def test_a_short_foot_takes_one_narrow_strap(small_foot):
     plan = build_shoe(small_foot, layout_only=True).shoes[0].plan
     found = choose_retention(small_foot, plan, ShoeParameters())
     assert (found.kind, found.straps, found.width) == ("straps", 1, 20.0)
@@ -64,7 +57,7 @@ def test_a_short_foot_takes_one_narrow_strap(small_foot: Foot) -> None:
     assert narrow.width == pytest.approx(120.0 / 6.0)
 
 
-def test_what_is_asked_for_is_given(plate: tuple[Foot, ShoePlan]) -> None:
+def test_what_is_asked_for_is_given(plate):
     foot, plan = plate
     for kind, places in (("none", 0), ("screws", 4), ("straps", 4), ("clips", 4)):
         found = choose_retention(foot, plan, ShoeParameters(retention=kind))
@@ -79,9 +72,7 @@ def test_what_is_asked_for_is_given(plate: tuple[Foot, ShoePlan]) -> None:
         (16.0, 200.0, {"robot_mass": 60.0, "clip_width": 40.0, "clip_thickness": 4.0}, "200 N"),
     ],
 )
-def test_clips_that_would_not_hold_or_not_snap_on_give_way_to_straps(
-    box: Callable[..., NDArray[np.float64]], height: float, size: float, change: dict[str, float], reason: str
-) -> None:
+def test_clips_that_would_not_hold_or_not_snap_on_give_way_to_straps(box, height, size, change, reason):
     foot = foot_from_triangles("f", box((-0.4 * size, 0.6 * size), (-0.22 * size, 0.22 * size), (0, height)), where="f")
     build = build_shoe(foot, cell_area=300.0, layout_only=True, parameters=ShoeParameters(**change))  # type: ignore[arg-type]
     found = choose_retention(foot, build.shoes[0].plan, build.parameters)

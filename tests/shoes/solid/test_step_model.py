@@ -1,16 +1,12 @@
 """Tests of STEP files: arcs, short edges, names, the date, and assemblies, measured on what is read back."""
 
-from __future__ import annotations
-
 import math
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
 import shapely
 
-from plantar.shoes import ShoeReport
 from plantar.shoes.plan.block import Block, Step, box_block, tapered
 from plantar.shoes.solid.arcs import with_arcs
 from plantar.shoes.solid.kernel import build_solid
@@ -27,9 +23,7 @@ def edge_lengths(body: Polyhedron) -> np.ndarray:
     return np.linalg.norm(body.corners[ends[:, 0]] - body.corners[ends[:, 1]], axis=1)
 
 
-def test_step_reads_back_with_a_name_and_a_date_that_does_not_change(
-    exported: tuple[ShoeReport, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_step_reads_back_with_a_name_and_a_date_that_does_not_change(exported, tmp_path, monkeypatch):
     solid = exported[0].build.shoes[0].solid
     assert solid is not None
     part = StepPart("my foot's shoe", solid, {})
@@ -44,7 +38,7 @@ def test_step_reads_back_with_a_name_and_a_date_that_does_not_change(
     assert "'2026-01-01T00:01:01'" in (tmp_path / "a.step").read_text()[:1000]
 
 
-def test_the_shoes_step_is_valid_small_and_round(exported: tuple[ShoeReport, Path]) -> None:
+def test_the_shoes_step_is_valid_small_and_round(exported):
     report, folder = exported
     for shoe in report.build.shoes:
         assert shoe.solid is not None
@@ -57,7 +51,7 @@ def test_the_shoes_step_is_valid_small_and_round(exported: tuple[ShoeReport, Pat
         assert path.stat().st_size < 1.5e6
 
 
-def test_the_assembly_names_its_parts_in_their_places(exported: tuple[ShoeReport, Path]) -> None:
+def test_the_assembly_names_its_parts_in_their_places(exported):
     report, folder = exported
     shoe = report.build.shoes[0]
     text = (folder / "assembly_left.step").read_text()
@@ -70,7 +64,7 @@ def test_the_assembly_names_its_parts_in_their_places(exported: tuple[ShoeReport
     assert step.solids == len(named)
 
 
-def test_a_round_wall_becomes_cylinders_and_its_bevel_cones() -> None:
+def test_a_round_wall_becomes_cylinders_and_its_bevel_cones():
     disc = shapely.Point(0.0, 0.0).buffer(30.0, quad_segs=16)
     bevel = tapered(disc, 0.0, -1.0, 8.0, 9.0)
     assert bevel is not None
@@ -83,7 +77,7 @@ def test_a_round_wall_becomes_cylinders_and_its_bevel_cones() -> None:
     assert all(math.hypot(*a.centre) < 1e-3 for a in round_.arcs.values())
 
 
-def test_a_concave_wall_and_a_round_hole_are_valid(tmp_path: Path) -> None:
+def test_a_concave_wall_and_a_round_hole_are_valid(tmp_path):
     plate = shapely.box(-40, -40, 40, 40).difference(shapely.Point(45, 0).buffer(25, quad_segs=24))
     plate = plate.difference(shapely.Point(-15, 0).buffer(10, quad_segs=24))
     write_step([StepPart("a", of_blocks(Block(plate, 0.0, 10.0)), {})], tmp_path / "a.step", "a")
@@ -94,14 +88,14 @@ def test_a_concave_wall_and_a_round_hole_are_valid(tmp_path: Path) -> None:
     assert step.volume == pytest.approx(plate.area * 10.0, rel=5e-3)
 
 
-def test_polygons_of_few_corners_stay_polygons() -> None:
+def test_polygons_of_few_corners_stay_polygons():
     angle = np.radians(np.arange(0, 360, 45))
     octagon = shapely.Polygon(30.0 * np.column_stack([np.cos(angle), np.sin(angle)]))
     assert not with_arcs(of_blocks(Block(octagon, 0.0, 5.0))).curved
 
 
 @pytest.mark.parametrize("step", [0.004, 0.05, 0.15])
-def test_short_edges_vanish_and_the_solid_stays_closed(step: float) -> None:
+def test_short_edges_vanish_and_the_solid_stays_closed(step):
     body = of_blocks(box_block((0, 0, 0), (20, 20, 5)), box_block((0, 20 - 4, 0), (20 + step, 20 + step, 9)))
     assert edge_lengths(body).min() >= 0.2
     outline = shapely.Polygon([(0, 0), (20, 0), (20, 10), (20 + step, 10 + step), (20, 20), (0, 20)])

@@ -1,7 +1,5 @@
 """The look at which room a program is in."""
 
-from __future__ import annotations
-
 import time
 from pathlib import Path
 

@@ -1,41 +1,31 @@
 """`plantar bench skip` on a walk of one step."""
 
-from __future__ import annotations
-
 import csv
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
 from plantar.percepts.percept import Percept
 from plantar.sim.bench import skipping
-from plantar.sim.bench.skipping import (
-    SkipRow,
-    WatchedSimulation,
-    compare_skipping,
-    measure_skipping,
-    replay_physics,
-    skip_text,
-)
+from plantar.sim.bench.skipping import WatchedSimulation, compare_skipping, measure_skipping, replay_physics, skip_text
 from plantar.sim.run.scene import load_scene
 
 SHORT = ("steps=1", "walk.start=0.2", "walk.end=0.2", "walk.settle=0")
 
 
 @pytest.fixture(scope="module")
-def row() -> SkipRow:
+def row():
     return compare_skipping("flat", "h1", SHORT, rounds=1)
 
 
 @pytest.mark.long
-def test_what_is_skipped_does_not_change_the_motion(row: SkipRow):
+def test_what_is_skipped_does_not_change_the_motion(row):
     assert row.same_motion
     assert len(row.motion) == 64
 
 
 @pytest.mark.long
-def test_parts_add_up_to_what_there_could_have_been(row: SkipRow):
+def test_parts_add_up_to_what_there_could_have_been(row):
     ticks = row.skipped["recorded ticks"]
     members = sum(row.skipped[n] + row.computed[n] for n in ("polygons and other shapes", "other percept members"))
     assert members == 2 * ticks * len(Percept.members())
@@ -47,14 +37,14 @@ def test_parts_add_up_to_what_there_could_have_been(row: SkipRow):
 
 
 @pytest.mark.long
-def test_physics_alone_is_less_than_the_run(row: SkipRow):
+def test_physics_alone_is_less_than_the_run(row):
     assert 0.0 < row.physics_s < row.run_s < row.everything_s
     assert row.factor == pytest.approx((row.run_s - row.physics_s) / row.physics_s)
     assert sum(row.shares.values()) == pytest.approx(1.0)
 
 
 @pytest.mark.long
-def test_a_motion_that_differs_is_reported(row: SkipRow, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def test_a_motion_that_differs_is_reported(row, tmp_path, monkeypatch):
     differs = replace(row, same_motion=False)
     monkeypatch.setattr(skipping, "compare_skipping", lambda scene, *_: {"flat": row, "beam": differs}[scene])
     told: list[float] = []

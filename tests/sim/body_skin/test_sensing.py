@@ -54,7 +54,7 @@ SHAPES = [
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_obstacle_and_robot_feel_the_same_force_reversed(shape: str) -> None:
+def test_obstacle_and_robot_feel_the_same_force_reversed(shape):
     model, data, sensor = world(shape, "0.05 0.02 .638", slab="<freejoint/>")
     data.qvel[:6] = [0.1, 0.3, 0.2, 0.5, 0.0, 1.0]
     data.qvel[-6:] = [0.3, -0.1, -0.4, 1.0, 2.0, -1.0]
@@ -76,7 +76,7 @@ def test_obstacle_and_robot_feel_the_same_force_reversed(shape: str) -> None:
     assert np.ptp(momentum, axis=0) == pytest.approx(0.0, abs=1e-3)  # of about 1 N s, and Euler steps
 
 
-def test_a_static_weight_reads_its_weight() -> None:
+def test_a_static_weight_reads_its_weight():
     model, data, sensor = world(SHAPES[0], "0 0 .64", **PERFECT)
     run(model, data, sensor, 1500)
     weight = 2.0 * -model.opt.gravity[2]
@@ -87,7 +87,7 @@ def test_a_static_weight_reads_its_weight() -> None:
     assert data.ncon == 0
 
 
-def test_friction_holds_what_is_pushed_less_than_it_and_lets_go_of_more() -> None:
+def test_friction_holds_what_is_pushed_less_than_it_and_lets_go_of_more():
     model, data, sensor = world(SHAPES[0], "0 0 .639")
     run(model, data, sensor, 300)
     for share, moves in ((0.5, False), (2.0, True)):
@@ -98,7 +98,7 @@ def test_friction_holds_what_is_pushed_less_than_it_and_lets_go_of_more() -> Non
 
 
 @pytest.mark.parametrize(("taxels", "radius"), [(1, 0.012), (7, 0.031)])
-def test_a_probe_loads_the_taxels_that_it_covers(taxels: int, radius: float) -> None:
+def test_a_probe_loads_the_taxels_that_it_covers(taxels, radius):
     model, data, sensor = world(f'type="cylinder" size="{radius} .05"', "0 0 .649", thing="")
     run(model, data, sensor, 3)
     assert (sensor.force > 0.0).sum() == taxels
@@ -106,13 +106,13 @@ def test_a_probe_loads_the_taxels_that_it_covers(taxels: int, radius: float) -> 
     assert sensor.force.sum() == pytest.approx(taxels * 691e-6 * 1e7 * 1e-3, rel=1e-6)
 
 
-def test_a_probe_of_a_hundred_taxels() -> None:
+def test_a_probe_of_a_hundred_taxels():
     model, data, sensor = world('type="cylinder" size=".1482 .05"', "0 0 .6499", thing="")
     run(model, data, sensor, 3)
     assert (sensor.force > 0.0).sum() == pytest.approx(100, abs=5)
 
 
-def test_proximity_is_the_distance_along_the_normal_within_range() -> None:
+def test_proximity_is_the_distance_along_the_normal_within_range():
     model, data, sensor = world(SHAPES[0], "0 0 .67", thing="", **PERFECT)
     run(model, data, sensor, 1)
     under = np.isfinite(sensor.distance)
@@ -125,7 +125,7 @@ def test_proximity_is_the_distance_along_the_normal_within_range() -> None:
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_skipping_changes_no_bit(shape: str) -> None:
+def test_skipping_changes_no_bit(shape):
     found = []
     for everything in (False, True):
         model, data, sensor = world(shape, "0.05 0.02 .70", slab="", everything=everything)
@@ -141,7 +141,7 @@ def test_skipping_changes_no_bit(shape: str) -> None:
     assert found[1][1] == 0 < found[0][1]
 
 
-def test_a_link_without_skin_touches_obstacles_by_contacts() -> None:
+def test_a_link_without_skin_touches_obstacles_by_contacts():
     xml = WORLD.format(shape=SHAPES[1], place="0 0 .655", thing="<freejoint/>", slab="")
     model = mujoco.MjModel.from_xml_string(xml)
     data = mujoco.MjData(model)
@@ -151,7 +151,7 @@ def test_a_link_without_skin_touches_obstacles_by_contacts() -> None:
     assert data.body("thing").xpos[2] == pytest.approx(0.66, abs=0.003)
 
 
-def test_readings_have_rate_delay_gain_errors_and_dead_taxels() -> None:
+def test_readings_have_rate_delay_gain_errors_and_dead_taxels():
     _model, data, sensor = world(SHAPES[0], "0 0 .649", dead_taxels=0.1, delay_periods=2, noise=0.0, rate=100.0)
     force = np.full(len(sensor.skin), 10.0)
     told = []
@@ -166,7 +166,7 @@ def test_readings_have_rate_delay_gain_errors_and_dead_taxels() -> None:
     assert SkinElectronicsSettings().bits == 10
 
 
-def test_a_world_without_the_link_is_refused() -> None:
+def test_a_world_without_the_link_is_refused():
     model, _data, sensor = world(SHAPES[0], "0 0 .65")
     other = mujoco.MjModel.from_xml_string("<mujoco/>")
     with pytest.raises(RobotError, match="the world has no link 'arm'"):
@@ -174,7 +174,7 @@ def test_a_world_without_the_link_is_refused() -> None:
     assert model.nbody == 4
 
 
-def test_a_step_with_nothing_near_is_cheap() -> None:
+def test_a_step_with_nothing_near_is_cheap():
     model, data, sensor = world(SHAPES[0], "0 0 3.0")
     data.time = 0.001
     mujoco.mj_step1(model, data)

@@ -1,7 +1,6 @@
 """Taxels on a link's surface: where they are, which way they face, and what a bad patch is told."""
 
 import math
-from typing import Any
 
 import mujoco
 import numpy as np
@@ -27,11 +26,11 @@ FRONT = {"name": "front", "link": "trunk", "position": [0.1, 0, 0], "rotation": 
 
 
 @pytest.fixture(scope="module")
-def model() -> Any:
+def model():
     return mujoco.MjModel.from_xml_string(BODY)
 
 
-def test_a_flat_patch_lies_on_a_box_and_faces_into_it(model: Any) -> None:
+def test_a_flat_patch_lies_on_a_box_and_faces_into_it(model):
     patch = skin_from_tables(model, [FRONT], "m").patches[0]
     assert patch.positions[:, 0] == pytest.approx(0.1)
     assert patch.rotations[:, :, 2] == pytest.approx(np.tile([-1.0, 0.0, 0.0], (len(patch), 1)))
@@ -40,7 +39,7 @@ def test_a_flat_patch_lies_on_a_box_and_faces_into_it(model: Any) -> None:
     assert apart.min() == pytest.approx(math.sqrt(2 * 691e-6 / math.sqrt(3)))
 
 
-def test_a_wrapped_patch_goes_around_a_capsule(model: Any) -> None:
+def test_a_wrapped_patch_goes_around_a_capsule(model):
     table = {
         "name": "a",
         "link": "arm",
@@ -57,7 +56,7 @@ def test_a_wrapped_patch_goes_around_a_capsule(model: Any) -> None:
     assert radial.mean(0) == pytest.approx(0.0, abs=0.004)
 
 
-def test_a_patch_on_a_mesh_keeps_the_taxels_nearest_to_its_middle(model: Any) -> None:
+def test_a_patch_on_a_mesh_keeps_the_taxels_nearest_to_its_middle(model):
     table = {
         "name": "m",
         "link": "shell",
@@ -96,12 +95,12 @@ def test_a_patch_on_a_mesh_keeps_the_taxels_nearest_to_its_middle(model: Any) ->
         ({"threshold": -1.0}, RobotError, "'threshold' is -1.0"),
     ],
 )
-def test_a_bad_patch_is_named_in_one_line(model: Any, change: dict[str, Any], kind: type, words: str) -> None:
+def test_a_bad_patch_is_named_in_one_line(model, change, kind, words):
     with pytest.raises(kind, match=words) as told:
         skin_from_tables(model, [{**FRONT, **change}], "m")
     assert "\n" not in str(told.value)
 
 
-def test_two_patches_of_one_name_are_refused(model: Any) -> None:
+def test_two_patches_of_one_name_are_refused(model):
     with pytest.raises(LayoutError, match="two patches are called 'front'"):
         skin_from_tables(model, [FRONT, FRONT], "m")

@@ -1,7 +1,5 @@
 """Skin around a walking robot's upper body: a closed box in the base frame, as large on any robot as its shape."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 import pytest
@@ -23,7 +21,7 @@ def skin_of(scale: float = 1.0, mass: float = 80.0, shape: str = "") -> BodySkin
     return upper_body_skin(model, 1, leg=0.6 * scale, weight=mass * GRAVITY)
 
 
-def test_taxels_lie_on_the_faces_of_the_box_about_all_that_is_welded_and_look_outwards() -> None:
+def test_taxels_lie_on_the_faces_of_the_box_about_all_that_is_welded_and_look_outwards():
     skin = skin_of()
     assert skin.links == ("trunk",)
     assert set(skin.slices) == set(FACES)
@@ -38,20 +36,20 @@ def test_taxels_lie_on_the_faces_of_the_box_about_all_that_is_welded_and_look_ou
         assert (at <= high + 1e-12).all()
 
 
-def test_taxels_cover_the_faces() -> None:
+def test_taxels_cover_the_faces():
     skin = skin_of()
     for name, area in {"front": 0.4 * 0.45, "left": 0.2 * 0.45}.items():
         assert skin.areas[skin.slices[name]].sum() == pytest.approx(area, rel=0.1)
 
 
-def test_a_robot_of_another_size_has_the_same_taxels() -> None:
+def test_a_robot_of_another_size_has_the_same_taxels():
     whole, half = skin_of(), skin_of(0.5, 10.0)
     np.testing.assert_allclose(half.positions, 0.5 * whole.positions, atol=1e-12)
     np.testing.assert_allclose(half.areas, 0.25 * whole.areas)
     np.testing.assert_allclose(half.thresholds, whole.thresholds / 8.0)
 
 
-def test_a_push_on_all_of_one_face_turns_nothing_about_the_middle_of_it() -> None:
+def test_a_push_on_all_of_one_face_turns_nothing_about_the_middle_of_it():
     skin = skin_of()
     front = skin.slices["front"]
     wrench = skin.unit_wrenches[front].sum(axis=0)
@@ -60,7 +58,7 @@ def test_a_push_on_all_of_one_face_turns_nothing_about_the_middle_of_it() -> Non
     np.testing.assert_allclose(wrench[3:], np.cross(middle, wrench[:3]), atol=1e-9)
 
 
-def test_a_body_without_extent_is_refused() -> None:
+def test_a_body_without_extent_is_refused():
     model = mujoco.MjModel.from_xml_string(
         """<mujoco><worldbody><body name="stick"><freejoint/><geom type="capsule" size=".001 .3" mass="1"/></body>
         </worldbody></mujoco>"""
@@ -69,7 +67,7 @@ def test_a_body_without_extent_is_refused() -> None:
         upper_body_skin(model, 1, leg=0.6, weight=10.0)
 
 
-def test_links_without_shapes_count_with_the_boxes_of_their_inertias() -> None:
+def test_links_without_shapes_count_with_the_boxes_of_their_inertias():
     edges = np.array([0.2, 0.3, 0.4])
     inertia = 8.0 / 12.0 * (edges @ edges - edges**2)
     model = mujoco.MjModel.from_xml_string(

@@ -1,7 +1,5 @@
 """Skin in the observation of an environment that is not ours."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

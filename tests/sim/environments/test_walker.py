@@ -1,7 +1,5 @@
 """The environments: Gymnasium's own checker, the same seed the same episode, skin that adds up, vectors of them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

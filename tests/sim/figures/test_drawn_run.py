@@ -1,10 +1,7 @@
 """What viewers draw of a run is what the rest of its recording says, in messages that Foxglove's package reads."""
 
-from __future__ import annotations
-
 import json
 from collections import defaultdict
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -29,7 +26,7 @@ TYPES = {"foxglove.FrameTransforms": FrameTransforms, "foxglove.SceneUpdate": Sc
 
 
 @pytest.fixture(scope="module")
-def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def path(tmp_path_factory):
     """Two steps, the right one onto an edge that is seen only then."""
     path = tmp_path_factory.mktemp("drawn") / "run.mcap"
     run_scene(load_scene("partial-inner", ["steps=3", "settle=0.1", "begin=1"]), 0, record=path)
@@ -37,12 +34,12 @@ def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def run(path: Path) -> Recording:
+def run(path):
     return read_mcap(path)
 
 
 @pytest.fixture(scope="module")
-def drawn(path: Path) -> dict[str, list[tuple[float, Any]]]:
+def drawn(path):
     """Time and message of each topic of Foxglove's."""
     found = defaultdict(list)
     with path.open("rb") as stream:
@@ -61,24 +58,20 @@ def at(run: Recording, topic: str, field: str, time: int) -> np.ndarray:
     return table.fields[field][row]
 
 
-def test_every_topic_is_there_and_readers_of_numbers_pass_over_them(
-    run: Recording, drawn: dict[str, list[tuple[float, Any]]]
-) -> None:
+def test_every_topic_is_there_and_readers_of_numbers_pass_over_them(run, drawn):
     assert set(drawn) == {"/tf", "/log", *(f"/scene/{name}" for name in ("world", "soles", "balance", "footsteps"))}
     assert not run.warnings
     assert not set(run.topics) & set(drawn)
 
 
-def test_messages_state_the_time_at_which_they_are_logged(drawn: dict[str, list[tuple[float, Any]]]) -> None:
+def test_messages_state_the_time_at_which_they_are_logged(drawn):
     for name, field in (("/tf", "transforms"), ("/scene/soles", "entities"), ("/scene/footsteps", "entities")):
         for time, message in drawn[name]:
             assert {part.timestamp.ToNanoseconds() for part in getattr(message, field)} == {time}
     assert all(message.timestamp.ToNanoseconds() == time for time, message in drawn["/log"])
 
 
-def test_soles_and_center_of_mass_are_where_they_truly_are(
-    run: Recording, drawn: dict[str, list[tuple[float, Any]]]
-) -> None:
+def test_soles_and_center_of_mass_are_where_they_truly_are(run, drawn):
     assert np.diff([time for time, _ in drawn["/tf"]]) == pytest.approx(20e6)
     for time, message in drawn["/tf"][::20]:
         frames = {t.child_frame_id: t for t in message.transforms}
@@ -94,7 +87,7 @@ def test_soles_and_center_of_mass_are_where_they_truly_are(
         assert [com.x, com.y, com.z] == pytest.approx(at(run, "/truth/body", "com", time), abs=1e-12)
 
 
-def test_every_entity_has_a_frame_that_is_known(drawn: dict[str, list[tuple[float, Any]]]) -> None:
+def test_every_entity_has_a_frame_that_is_known(drawn):
     frames = {"world"} | {t.child_frame_id for _, message in drawn["/tf"] for t in message.transforms}
     ((time, shapes),) = drawn["/scene/world"]
     assert time == drawn["/tf"][0][0]
@@ -103,9 +96,7 @@ def test_every_entity_has_a_frame_that_is_known(drawn: dict[str, list[tuple[floa
         assert {entity.frame_id for _, message in drawn[topic] for entity in message.entities} <= frames
 
 
-def test_taxels_are_coloured_by_force_and_the_force_stands_at_its_center(
-    run: Recording, drawn: dict[str, list[tuple[float, Any]]]
-) -> None:
+def test_taxels_are_coloured_by_force_and_the_force_stands_at_its_center(run, drawn):
     for time, message in drawn["/scene/soles"][::10]:
         entities = {entity.id: entity for entity in message.entities}
         for side in SIDES:
@@ -125,7 +116,7 @@ def test_taxels_are_coloured_by_force_and_the_force_stands_at_its_center(
             assert arrow.shaft_length == pytest.approx(0.5 * share * REFERENCE_BODY.leg, rel=0.01)
 
 
-def test_the_margin_is_that_of_the_drawn_polygon(run: Recording, drawn: dict[str, list[tuple[float, Any]]]) -> None:
+def test_the_margin_is_that_of_the_drawn_polygon(run, drawn):
     compared = 0
     for time, message in drawn["/scene/balance"]:
         entities = {entity.id: entity for entity in message.entities}
@@ -140,9 +131,7 @@ def test_the_margin_is_that_of_the_drawn_polygon(run: Recording, drawn: dict[str
     assert compared > 0.9 * len(drawn["/scene/balance"])
 
 
-def test_footsteps_are_drawn_again_with_each_change_which_the_log_explains(
-    run: Recording, drawn: dict[str, list[tuple[float, Any]]]
-) -> None:
+def test_footsteps_are_drawn_again_with_each_change_which_the_log_explains(run, drawn):
     _, first = drawn["/scene/footsteps"][0]
     assert [entity.id for entity in first.entities] == ["footstep 0", "footstep 1", "footstep 2"]
     outline = run.layouts["left"].outline
@@ -157,7 +146,7 @@ def test_footsteps_are_drawn_again_with_each_change_which_the_log_explains(
     assert {time for time, message in drawn["/log"] if message.name == "plan"} <= times
 
 
-def test_chunks_are_smaller_by_more_than_a_quarter(path: Path) -> None:
+def test_chunks_are_smaller_by_more_than_a_quarter(path):
     with path.open("rb") as stream:
         summary = make_reader(stream).get_summary()
     assert summary is not None
@@ -165,9 +154,7 @@ def test_chunks_are_smaller_by_more_than_a_quarter(path: Path) -> None:
     assert packed < 0.75 * sum(chunk.uncompressed_size for chunk in summary.chunk_indexes)
 
 
-def test_the_layout_for_foxglove_names_what_recordings_hold(
-    repository: Path, run: Recording, drawn: dict[str, list[tuple[float, Any]]]
-) -> None:
+def test_the_layout_for_foxglove_names_what_recordings_hold(repository, run, drawn):
     layout = json.loads((repository / "docs" / "foxglove_layout.json").read_text())
     panels = layout["configById"]
 
@@ -185,7 +172,7 @@ def test_the_layout_for_foxglove_names_what_recordings_hold(
             assert field in run.topics[topic].fields
 
 
-def test_a_change_is_logged_with_its_reason_and_what_it_moved() -> None:
+def test_a_change_is_logged_with_its_reason_and_what_it_moved():
     before = Footstep("left", 0.6, 0.1)
     moved = MovedStep(3, 0.62, 0.095, 0.0, "ground refused", before), MovedStep(4, 0.9, -0.1, 0.0, "more", None)
     change = PlanChange("ground refused", 3, vrp=(0.5, 0.1), longer=-0.04)

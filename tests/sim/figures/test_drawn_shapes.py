@@ -1,7 +1,5 @@
 """Shapes of a model as a viewer draws them, against MuJoCo's own."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 import pytest
@@ -37,7 +35,7 @@ MODEL = """
 """
 
 
-def test_every_visible_shape_is_drawn_as_large_and_there_where_it_is() -> None:
+def test_every_visible_shape_is_drawn_as_large_and_there_where_it_is():
     model = mujoco.MjModel.from_xml_string(MODEL)
     assert [frame_name(model, body) for body in drawn_bodies(model)] == ["arm", "body_2"]
     world, arm = (SceneUpdate.FromString(Template(body_entity(model, body)).filled(0.0)).entities[0] for body in (0, 1))
@@ -62,7 +60,7 @@ def test_every_visible_shape_is_drawn_as_large_and_there_where_it_is() -> None:
 
 
 @pytest.mark.parametrize(("most", "radius"), [(4, 1.0), (100, 0.02), (700, 3.0), (3000, 1.0)])
-def test_a_coarse_mesh_has_few_faces_and_lies_near_the_fine_one(most: int, radius: float) -> None:
+def test_a_coarse_mesh_has_few_faces_and_lies_near_the_fine_one(most, radius):
     turns = np.linspace(0.0, 2.0 * np.pi, 41)[:-1]
     heights = np.linspace(-1.0, 1.0, 21)
     ring = np.sqrt(1.0 - heights**2)

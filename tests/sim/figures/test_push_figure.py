@@ -1,7 +1,5 @@
 """Figures of a run in which somebody touches the robot, from a recording whose numbers are known."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +15,7 @@ PERIOD, STEP = 0.02, 1.0
 
 
 @pytest.fixture
-def run() -> Recording:
+def run():
     """Twelve steps in place of 1 s each, half of it on one foot; a push of 100 N for 0.2 s in the eighth."""
     time = np.arange(0.0, 12.0 * STEP, PERIOD)
     count, nothing = len(time), np.zeros((len(time), 3))
@@ -48,7 +46,7 @@ def run() -> Recording:
     return Recording(Path("run.mcap"), layouts=load_robot("h1").layouts, topics=tables)
 
 
-def test_pushes_show_measured_and_true_force_and_feet_only_while_they_stand(run: Recording) -> None:
+def test_pushes_show_measured_and_true_force_and_feet_only_while_they_stand(run):
     figure = draw_pushes(run)
     lines = {line.get_label(): line for line in figure.axes[0].lines}
     assert set(lines) == {"ZMP", "VRP, planned", "DCM", "CoM", "left foot", "right foot"}
@@ -58,14 +56,14 @@ def test_pushes_show_measured_and_true_force_and_feet_only_while_they_stand(run:
     assert np.asarray(figure.axes[2].lines[0].get_ydata()).max() == 100.0
 
 
-def test_the_swing_figure_marks_pushes(run: Recording) -> None:
+def test_the_swing_figure_marks_pushes(run):
     figure = draw_swing(run)
     assert len(figure.axes) == 3
     (span,) = figure.axes[2].patches
     assert (span.get_x(), span.get_x() + span.get_width()) == pytest.approx((7.6, 7.78), abs=1e-9)
 
 
-def test_strides_have_a_panel_for_six_steps_with_arrows_where_it_was_pushed(run: Recording) -> None:
+def test_strides_have_a_panel_for_six_steps_with_arrows_where_it_was_pushed(run):
     figure = draw_strides(run)
     arrows = [len(axis.texts) for axis in figure.axes]
     assert arrows[0] == 0
@@ -73,14 +71,14 @@ def test_strides_have_a_panel_for_six_steps_with_arrows_where_it_was_pushed(run:
     assert figure.axes[0].get_title() == "steps 0 to 5"
 
 
-def test_the_partner_has_its_way_and_supports_their_durations(run: Recording) -> None:
+def test_the_partner_has_its_way_and_supports_their_durations(run):
     figure = draw_partner(run)
     single = next(line for line in figure.axes[2].lines if line.get_label() == "SSP")
     np.testing.assert_allclose(np.asarray(single.get_ydata())[:-1], 0.5 * STEP, atol=PERIOD)
     np.testing.assert_allclose(figure.axes[1].lines[0].get_ydata(), 0.01 * run.topics["/partner"].time)
 
 
-def test_it_shows_where_hand_and_feet_went_and_names_the_joints_that_turned() -> None:
+def test_it_shows_where_hand_and_feet_went_and_names_the_joints_that_turned():
     time = np.arange(0.0, 8.0, 0.02)
     ramp = 0.05 * time[:, None]
     zeros = np.zeros((len(time), 3))

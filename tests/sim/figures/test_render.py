@@ -3,7 +3,6 @@
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -54,7 +53,7 @@ assert np.abs(bare[:130, :200] - unloaded[:130, :200]).mean() > 20
 """
 
 
-def test_pictures_and_videos(tmp_path: Path, repository: Path) -> None:
+def test_pictures_and_videos(tmp_path, repository):
     environment = os.environ | {"MUJOCO_GL": "egl", "PYTHONPATH": str(repository)}
     run = subprocess.run(
         [sys.executable, "-c", SCRIPT, str(tmp_path)], env=environment, capture_output=True, text=True, timeout=300

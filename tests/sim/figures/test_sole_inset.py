@@ -1,11 +1,8 @@
 """What the soles feel in the corner of a video: colours by force, a cross at the CoP, forces in N."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
-from plantar.robots import Robot
 from plantar.sensing.reading import Reading
 from plantar.sim.figures.drawn_run import scale_colours
 from plantar.sim.figures.sole_inset import SoleInset
@@ -14,7 +11,7 @@ WEIGHT = 800.0
 
 
 @pytest.fixture
-def inset(h1: Robot) -> SoleInset:
+def inset(h1):
     return SoleInset(h1.layouts, WEIGHT, 130)
 
 
@@ -24,13 +21,13 @@ def drawn(inset: SoleInset, left: np.ndarray, time: float = 0.0) -> np.ndarray:
     return picture
 
 
-def test_the_rest_of_the_picture_stays_as_it_is(inset: SoleInset) -> None:
+def test_the_rest_of_the_picture_stays_as_it_is(inset):
     picture = drawn(inset, np.full(42, 10.0))
     assert (picture[130:] == 0).all()
     assert (picture[:130, :300] > 0).any()
 
 
-def test_a_taxel_has_the_colour_of_its_force_and_toes_are_up(inset: SoleInset, h1: Robot) -> None:
+def test_a_taxel_has_the_colour_of_its_force_and_toes_are_up(inset, h1):
     x = h1.layouts["left"].positions[:, 0]
     toe = int(np.argmax(x))
     force = np.zeros(42)
@@ -43,7 +40,7 @@ def test_a_taxel_has_the_colour_of_its_force_and_toes_are_up(inset: SoleInset, h
     assert bright[:, 0].max() < np.median(dark[:, 0])
 
 
-def test_the_cross_stands_at_the_center_of_pressure(inset: SoleInset, h1: Robot) -> None:
+def test_the_cross_stands_at_the_center_of_pressure(inset, h1):
     layout = h1.layouts["left"]
     force = np.where(layout.positions[:, 0] > np.median(layout.positions[:, 0]), 20.0, 1.0)
     picture = drawn(inset, force)[:130, :100].astype(int)
@@ -53,7 +50,7 @@ def test_the_cross_stands_at_the_center_of_pressure(inset: SoleInset, h1: Robot)
     assert cross.mean(axis=0) == pytest.approx([row, column], abs=1.5)
 
 
-def test_forces_leave_the_chart_after_some_seconds(inset: SoleInset) -> None:
+def test_forces_leave_the_chart_after_some_seconds(inset):
     for i in range(200):
         drawn(inset, np.full(42, 10.0), 0.04 * i)
     times = [time for time, _ in inset._past]
@@ -61,7 +58,7 @@ def test_forces_leave_the_chart_after_some_seconds(inset: SoleInset) -> None:
     assert inset._past[-1][1] == pytest.approx((420.0, 0.0))
 
 
-def test_the_words_over_the_forces_stay_free_of_their_lines(inset: SoleInset) -> None:
+def test_the_words_over_the_forces_stay_free_of_their_lines(inset):
     """A foot that carries all, with a tenth of noise, and one that carries nothing: the words look the same."""
     noise = 1.0 + 0.1 * np.random.default_rng(0).uniform(-1.0, 1.0, 100)
     for i, share in enumerate(noise):

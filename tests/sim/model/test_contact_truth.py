@@ -1,7 +1,5 @@
 """Contact truth against Newton's laws, statics and hand-made contacts."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import mujoco
@@ -54,7 +52,7 @@ def sole_contacts(model: Any, data: Any) -> Any:
 
 @pytest.mark.parametrize("floor", [PLANE, BLOCK])
 @pytest.mark.parametrize("first", [False, True])
-def test_standing_foot_carries_its_weight_upwards(floor: str, first: bool) -> None:
+def test_standing_foot_carries_its_weight_upwards(floor, first):
     """Third law: whichever geom comes first, the world pushes the foot up by m g."""
     model = foot_model(floor, first=first)
     data = settled(model)
@@ -69,7 +67,7 @@ def test_standing_foot_carries_its_weight_upwards(floor: str, first: bool) -> No
 
 @pytest.mark.parametrize("first", [False, True])
 @pytest.mark.parametrize("condim", [3, 4, 6])
-def test_wrench_balances_an_applied_push(first: bool, condim: int) -> None:
+def test_wrench_balances_an_applied_push(first, condim):
     """Statics: contact wrench + weight + push = 0 about the sole origin, in sole and in world axes."""
     push = (12.0, -20.0, -60.0, 3.0, -6.0, 1.5)
     model = foot_model(BLOCK, first=first, com="0.01 -0.02 0.2", condim=condim)
@@ -88,7 +86,7 @@ def test_wrench_balances_an_applied_push(first: bool, condim: int) -> None:
     assert rotation @ sole[3:] == pytest.approx(world[3:], rel=1e-9, abs=1e-9)
 
 
-def test_wrench_agrees_with_constraint_forces_of_mujoco() -> None:
+def test_wrench_agrees_with_constraint_forces_of_mujoco():
     """The generalised constraint force on the free joint is the same wrench, computed by another path."""
     model = foot_model(BLOCK, condim=6)
     data = settled(model, seconds=0.02, push=(30.0, 10.0, -50.0, 2.0, 5.0, 3.0))
@@ -100,7 +98,7 @@ def test_wrench_agrees_with_constraint_forces_of_mujoco() -> None:
     assert np.abs(world).min() > 1e-3
 
 
-def test_foot_in_the_air_has_no_contact_and_no_zmp() -> None:
+def test_foot_in_the_air_has_no_contact_and_no_zmp():
     model = foot_model(PLANE)
     data = mujoco.MjData(model)
     data.qpos[2] = 1.0
@@ -114,14 +112,14 @@ def test_foot_in_the_air_has_no_contact_and_no_zmp() -> None:
     assert not truth.wrench.any()
 
 
-def test_contacts_between_geoms_of_the_same_foot_are_left_out() -> None:
+def test_contacts_between_geoms_of_the_same_foot_are_left_out():
     model = foot_model(PLANE, first=True)
     data = settled(model, seconds=0.1)
     assert foot_contacts(model, data, range(model.ngeom)).size == 0
     assert foot_contacts(model, data, ()).size == 0
 
 
-def test_truth_of_a_standing_foot() -> None:
+def test_truth_of_a_standing_foot():
     """Polygon is the sole, the ZMP is under the weight, the margin is its distance to the nearest edge."""
     model = foot_model(PLANE, com="0.03 -0.05 0.2")
     data = settled(model)
@@ -132,7 +130,7 @@ def test_truth_of_a_standing_foot() -> None:
     assert truth.wrench[2] == pytest.approx(MASS * GRAVITY, abs=1e-2)
 
 
-def test_zmp_moves_with_the_height_of_its_plane() -> None:
+def test_zmp_moves_with_the_height_of_its_plane():
     """A horizontal force f at height z shifts the ZMP of plane h by f (z - h) / fz: the line of action tilts."""
     model = foot_model(PLANE)
     data = settled(model, push=(40.0, 0.0, 0.0, 0.0, 0.0, 0.0))
@@ -144,7 +142,7 @@ def test_zmp_moves_with_the_height_of_its_plane() -> None:
     assert ground_truth(feet, minimum_force=1e4).zmp is None
 
 
-def test_contact_within_the_gap_carries_nothing_and_does_not_support() -> None:
+def test_contact_within_the_gap_carries_nothing_and_does_not_support():
     model = foot_model("<geom name='floor' type='plane' size='2 2 0.1' gap='0.01'/>")
     data = mujoco.MjData(model)
     data.qpos[2] = 0.015  # 5 mm above the floor: seen, not touched
@@ -157,7 +155,7 @@ def test_contact_within_the_gap_carries_nothing_and_does_not_support() -> None:
     assert len(support_polygon_of_contacts([contacts])) == 0
 
 
-def test_truth_of_two_feet_is_the_sum_of_its_parts() -> None:
+def test_truth_of_two_feet_is_the_sum_of_its_parts():
     """One pass over both feet gives what wrench, ZMP and polygon give on their own."""
     model = foot_model(BLOCK, com="0.02 0.01 0.2")
     left = sole_contacts(model, settled(model, push=(20.0, -10.0, -30.0, 2.0, 3.0, 1.0)))
@@ -173,7 +171,7 @@ def test_truth_of_two_feet_is_the_sum_of_its_parts() -> None:
     assert truth.margin == pytest.approx(signed_margin(truth.polygon, truth.zmp), abs=1e-12)
 
 
-def test_corner_lifted_by_micrometres_still_supports() -> None:
+def test_corner_lifted_by_micrometres_still_supports():
     """Under a load near a corner the opposite corner of a rigid box lifts; with a gap it stays in the polygon."""
     com = "0.09 0.055 0.05"
     bare = foot_model("<geom name='floor' type='plane' size='2 2 0.1'/>", com=com)
@@ -190,7 +188,7 @@ def test_corner_lifted_by_micrometres_still_supports() -> None:
 @pytest.mark.parametrize("cone", ["elliptic", "pyramidal"])
 @pytest.mark.parametrize("condim", [1, 3, 4, 6])
 @pytest.mark.parametrize("first", [False, True])
-def test_contacts_of_two_feet_are_mujocos_of_each(cone: str, condim: int, first: bool) -> None:
+def test_contacts_of_two_feet_are_mujocos_of_each(cone, condim, first):
     model = foot_model(BLOCK, first=first, condim=condim)
     model.opt.cone = getattr(mujoco.mjtCone, f"mjCONE_{cone.upper()}")
     data = settled(model, 0.3, (20.0, 30.0, 0.0, 5.0, 8.0, 2.0))

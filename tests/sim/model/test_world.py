@@ -4,12 +4,11 @@ import mujoco
 import numpy as np
 import pytest
 
-from plantar.robots import Robot
 from plantar.robots.kinematics.robot_model import build_leg_model, robot_spec
-from plantar.sim.model.world import PHYSICS_PERIOD, World
+from plantar.sim.model.world import PHYSICS_PERIOD
 
 
-def test_masses_limits_and_heights_are_the_published_ones(h1: Robot) -> None:
+def test_masses_limits_and_heights_are_the_published_ones(h1):
     model = robot_spec(h1).compile()
     assert mujoco.mj_getTotalmass(model) == pytest.approx(86.0, abs=1e-9)
     assert model.nv == 18
@@ -41,7 +40,7 @@ def test_masses_limits_and_heights_are_the_published_ones(h1: Robot) -> None:
     assert data.body("left_hip_yaw_link").xpos[2] - data.body("left_ankle").xpos[2] == pytest.approx(0.6)
 
 
-def test_left_and_right_mirror_each_other(h1: Robot) -> None:
+def test_left_and_right_mirror_each_other(h1):
     model = robot_spec(h1).compile()
     for body in ("hip_yaw_link", "hip_roll_link", "thigh", "shank", "ankle", "foot"):
         left, right = model.body(f"left_{body}"), model.body(f"right_{body}")
@@ -51,7 +50,7 @@ def test_left_and_right_mirror_each_other(h1: Robot) -> None:
         assert left.inertia == pytest.approx(right.inertia)
 
 
-def test_the_sole_box_is_the_outline_s_rectangle_with_its_face_in_the_sole_plane(world: World) -> None:
+def test_the_sole_box_is_the_outline_s_rectangle_with_its_face_in_the_sole_plane(world):
     model, data = world.model, world.data
     mujoco.mj_kinematics(model, data)
     for side in ("left", "right"):
@@ -64,13 +63,13 @@ def test_the_sole_box_is_the_outline_s_rectangle_with_its_face_in_the_sole_plane
         assert box[2] - geom.size[2] == pytest.approx(site[2])
 
 
-def test_only_soles_meet_the_ground(world: World) -> None:
+def test_only_soles_meet_the_ground(world):
     model = world.model
     names = {model.geom(i).name for i in range(model.ngeom) if model.geom(i).contype[0] & 3}
     assert names == {"ground", "left_sole_box", "right_sole_box"}
 
 
-def test_a_standing_robot_weighs_what_it_weighs(h1: Robot, world: World) -> None:
+def test_a_standing_robot_weighs_what_it_weighs(h1, world):
     from plantar.sim.run.runner import Simulation
     from plantar.sim.run.scene import load_scene
 

@@ -1,7 +1,5 @@
 """A box that floats without weight in place of a robot, in a world with partners that touch it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from types import SimpleNamespace
 from typing import Any, cast

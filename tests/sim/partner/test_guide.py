@@ -1,7 +1,5 @@
 """A hand that leads an arm on a fixed base: its way, its force, and that it lets the arm alone before."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -39,7 +37,7 @@ def led(direction: str, force: float, gain: float) -> tuple[Guide, GuideTruth, l
     return guide, truth, forces
 
 
-def test_it_leads_an_arm_that_gives_way_and_meets_its_springs() -> None:
+def test_it_leads_an_arm_that_gives_way_and_meets_its_springs():
     guide, truth, forces = led("forward", force=40.0, gain=3.0)
     assert guide.sign == 1.0
     assert np.abs(forces[: round(STARTS / 0.005)]).max() == 0.0  # between the fingers the arm has play
@@ -54,14 +52,14 @@ def test_it_leads_an_arm_that_gives_way_and_meets_its_springs() -> None:
     assert truth.summary()["arm_turned_deg"] > 1.0
 
 
-def test_it_is_no_stronger_than_its_force_and_leads_backward_too() -> None:
+def test_it_is_no_stronger_than_its_force_and_leads_backward_too():
     guide, truth, forces = led("backward", force=5.0, gain=0.0)
     assert guide.sign == -1.0
     assert np.median(forces[-40:]) == pytest.approx(5.0, abs=0.5)
     assert [reason["criterion"] for reason in truth.reasons()] == ["yielded", "followed"]
 
 
-def test_the_seed_chooses_where_to_and_when() -> None:
+def test_the_seed_chooses_where_to_and_when():
     grip = Grip("arm/left_lower_arm", np.zeros(3), 0.045)
     guides = [Guide(GuideSettings(way=0.3), grip, REFERENCE_BODY, seed) for seed in range(8)]
     assert {guide.sign for guide in guides} == {-1.0, 1.0}

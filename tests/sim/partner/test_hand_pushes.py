@@ -1,7 +1,5 @@
 """Hands push through the skin: what a body gains in momentum is what they were to give, in every direction and size."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -43,7 +41,7 @@ def run(touch: Touch, seconds: float) -> NDArray[np.float64]:
 
 
 @pytest.mark.parametrize("degrees", [0, 135, -110])
-def test_a_free_body_gains_the_impulse_in_the_direction_that_was_asked_for(degrees: int) -> None:
+def test_a_free_body_gains_the_impulse_in_the_direction_that_was_asked_for(degrees):
     wanted = 30.0 * np.array([math.cos(math.radians(degrees)), math.sin(math.radians(degrees))])
     touch, hands = pushed((wanted[0], wanted[1]))
     momentum = run(touch, 0.6)
@@ -54,13 +52,13 @@ def test_a_free_body_gains_the_impulse_in_the_direction_that_was_asked_for(degre
     assert np.abs(touch._world.data.qvel[3:6]).max() < 0.02  # rad/s: no hand pushes beside the middle
 
 
-def test_a_small_body_is_pushed_alike() -> None:
+def test_a_small_body_is_pushed_alike():
     impulse = 0.3 * SMALL.mass
     touch, _ = pushed((0.0, impulse), body=SMALL)
     np.testing.assert_allclose(run(touch, 0.6), [0.0, impulse, 0.0], atol=0.02 * impulse)
 
 
-def test_a_push_away_from_the_last_one_stops_the_body() -> None:
+def test_a_push_away_from_the_last_one_stops_the_body():
     touch, hands = pushed((20.0, 0.0), (-20.0, 0.0))
     momentum = run(touch, 0.9)
     assert [push.step for push in hands.pushes] == [-1, -1]
@@ -68,7 +66,7 @@ def test_a_push_away_from_the_last_one_stops_the_body() -> None:
     assert faces_of(hands.pushes) == ("front", "back")
 
 
-def test_taxels_measure_the_true_force_and_only_during_a_push() -> None:
+def test_taxels_measure_the_true_force_and_only_during_a_push():
     touch, _ = pushed((20.0, 0.0))
     skin, felt = touch.sensor.skin, []
     data = touch._world.data
@@ -85,14 +83,14 @@ def test_taxels_measure_the_true_force_and_only_during_a_push() -> None:
     assert not told[quiet].any()
 
 
-def test_a_waiting_hand_is_beyond_what_the_skin_sees() -> None:
+def test_a_waiting_hand_is_beyond_what_the_skin_sees():
     touch, _ = pushed((20.0, 0.0))
     run(touch, 0.05)
     touch.sensor.apply(touch._world.data)
     assert np.isinf(touch.sensor.distance).all()
 
 
-def test_a_push_over_the_skin_is_refused() -> None:
+def test_a_push_over_the_skin_is_refused():
     hands = HandPushes([HandPush(np.array([1.0, 0.0]), 0.1, lambda: 0.4)], box_skin(), REFERENCE_BODY, lambda _: 0.5)
     with pytest.raises(SceneError, match=r"at a height of 1.500 m; allowed: where the upper body has skin, 0.7"):
         floating_box([hands])

@@ -1,7 +1,5 @@
 """A mobile robot before a floating box: it is pushed back as a follower, and pushes as a leader."""
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 
@@ -28,7 +26,7 @@ def met(role: str, speed: float, seconds: float, body: BodyScale = REFERENCE_BOD
     return partner, float(data.qvel[0] * body.mass)
 
 
-def test_a_follower_gives_way_and_takes_momentum() -> None:
+def test_a_follower_gives_way_and_takes_momentum():
     partner, momentum = met("follower", 0.15, 1.2)
     told = partner.summary()
     assert told["moved_m"] < -0.02
@@ -37,13 +35,13 @@ def test_a_follower_gives_way_and_takes_momentum() -> None:
     assert 20.0 < told["largest_force_N"] < 500.0
 
 
-def test_a_leader_comes_and_pushes_the_body_away() -> None:
+def test_a_leader_comes_and_pushes_the_body_away():
     partner, momentum = met("leader", 0.0, 2.0)
     assert partner.moved > 0.0
     assert momentum < -1.0
 
 
-def test_a_small_pair_does_likewise() -> None:
+def test_a_small_pair_does_likewise():
     scale = 0.4**0.5  # of speeds and times, by dynamic similarity
     whole, _ = met("follower", 0.15, 0.8)
     small, _ = met("follower", 0.15 * scale, 0.8 * scale, SMALL)
@@ -53,13 +51,13 @@ def test_a_small_pair_does_likewise() -> None:
 FOLLOWER = PartnerSettings(kind="mobile_robot").for_body(REFERENCE_BODY)
 
 
-def test_the_defaults_are_those_of_k_on_h1() -> None:
+def test_the_defaults_are_those_of_k_on_h1():
     law = PartnerSettings()
     given = (law.virtual_mass, law.virtual_damping, law.virtual_stiffness, law.stride, law.built_in_force)
     assert given == pytest.approx((50.0, 60.0, 200.0, 0.1, 15.0), rel=2e-3)
 
 
-def test_it_moves_by_the_closed_form() -> None:
+def test_it_moves_by_the_closed_form():
     law, force, step = Impedance(FOLLOWER), 8.0, 1e-4
     m, d, k = FOLLOWER.virtual_mass, FOLLOWER.virtual_damping, FOLLOWER.virtual_stiffness
     decay, wave = d / (2.0 * m), math.sqrt(k / m - (d / (2.0 * m)) ** 2)
@@ -73,7 +71,7 @@ def test_it_moves_by_the_closed_form() -> None:
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_its_rest_follows_by_strides_either_way(sign: float) -> None:
+def test_its_rest_follows_by_strides_either_way(sign):
     law = Impedance(FOLLOWER)
     rests = []
     for _ in range(8000):
@@ -85,7 +83,7 @@ def test_its_rest_follows_by_strides_either_way(sign: float) -> None:
     assert abs(law.position - law.rest) <= FOLLOWER.stride + abs(law.velocity) * 0.001
 
 
-def test_only_a_leader_goes_by_itself() -> None:
+def test_only_a_leader_goes_by_itself():
     leader, follower = (Impedance(PartnerSettings(role=role)) for role in ("leader", "follower"))
     for _ in range(5000):
         leader.update(0.0, 0.001)

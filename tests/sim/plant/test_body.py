@@ -1,7 +1,5 @@
 """The true body in MuJoCo, measured: masses, centres of mass, stiffness, friction, sinking."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 import pytest
@@ -30,13 +28,13 @@ def upper_body_com(simulation: Simulation) -> np.ndarray:
 
 
 @pytest.mark.parametrize("robot", ROBOTS)
-def test_the_upper_body_s_centre_of_mass_moves_by_what_was_asked(robot: str) -> None:
+def test_the_upper_body_s_centre_of_mass_moves_by_what_was_asked(robot):
     nominal, true = standing(robot=robot), standing("com_offset=[0.01, -0.02, 0.03]", robot=robot)
     assert upper_body_com(true) - upper_body_com(nominal) == pytest.approx([0.01, -0.02, 0.03], abs=1e-12)
     assert true.world.model.body_subtreemass[0] == nominal.world.model.body_subtreemass[0]
 
 
-def test_the_controller_s_own_model_stays_the_nominal_one() -> None:
+def test_the_controller_s_own_model_stays_the_nominal_one():
     nominal = standing()
     true = standing("plant=random", "level=3")
     assert np.array_equal(true.legs.model.body_ipos, nominal.legs.model.body_ipos)
@@ -47,7 +45,7 @@ def test_the_controller_s_own_model_stays_the_nominal_one() -> None:
 
 
 @pytest.mark.parametrize("robot", ROBOTS)
-def test_the_ground_carries_the_true_mass(robot: str) -> None:
+def test_the_ground_carries_the_true_mass(robot):
     nominal, true = standing(robot=robot), standing("mass_ratio=1.1", robot=robot)
     assert true.world.model.body_subtreemass[0] == pytest.approx(1.1 * nominal.world.model.body_subtreemass[0])
     for _ in range(500):
@@ -56,7 +54,7 @@ def test_the_ground_carries_the_true_mass(robot: str) -> None:
     assert felt == pytest.approx(1.1 * nominal.body.weight, rel=2e-3)
 
 
-def test_inertias_go_with_the_mass() -> None:
+def test_inertias_go_with_the_mass():
     nominal, true = standing().world, standing("mass_ratio=0.9").world
     speeds = np.random.default_rng(0).normal(size=nominal.model.nv)
     energies = []
@@ -69,7 +67,7 @@ def test_inertias_go_with_the_mass() -> None:
     assert energies[1] == pytest.approx(0.9 * energies[0], rel=1e-9)
 
 
-def test_a_servo_s_torque_over_its_deflection_is_its_stiffness() -> None:
+def test_a_servo_s_torque_over_its_deflection_is_its_stiffness():
     world = standing("stiffness_ratio=0.6").world
     world.data.qvel[:] = 0.0
     world.data.ctrl[world.servos] = world.data.qpos[world.joint_qpos] + 0.001
@@ -88,7 +86,7 @@ def slid(ratio: float) -> float:
     return abs(float(world.data.site_xpos[site, 0]) - before)
 
 
-def test_feet_slide_down_a_slope_that_is_steeper_than_the_true_friction() -> None:
+def test_feet_slide_down_a_slope_that_is_steeper_than_the_true_friction():
     assert slid(1.0) < 1e-3
     # The robot slides as a body on a slope: half of (0.11 - 0.08) g t^2, less what its servos yield meanwhile.
     assert slid(0.1) == pytest.approx(0.5 * 0.03 * 9.81 * 0.3**2, rel=0.35)
@@ -100,7 +98,7 @@ def sunk(softness: float) -> float:
     return -float(np.mean(foot_contacts(world.model, world.data, frozenset(world.sole_geoms["left"])).distances))
 
 
-def test_soft_ground_is_sunk_into() -> None:
+def test_soft_ground_is_sunk_into():
     hard, soft, softer = sunk(0.0), sunk(0.005), sunk(0.01)
     # At rest a contact of MuJoCo is a spring of stiffness 1 / time constant^2 for each kg, as long as it is shallow;
     # the scene's own has 5 ms.

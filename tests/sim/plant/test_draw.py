@@ -1,7 +1,5 @@
 """What the seed draws: from the stated ranges, in proportion to the level, alone as with all others."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import fields
 
@@ -35,17 +33,17 @@ def same(one: TruePlant, other: TruePlant, name: str) -> bool:
     return np.array_equal(a, b)
 
 
-def test_every_item_has_a_range() -> None:
+def test_every_item_has_a_range():
     assert tuple(RANGES) == Plant.items()
 
 
-def test_level_0_and_nothing_stated_are_the_nominal_plant() -> None:
+def test_level_0_and_nothing_stated_are_the_nominal_plant():
     assert drawn_plant(everything(0.0), 5, REFERENCE_BODY, 12, LAYOUTS) is None
     assert drawn_plant(Plant(), 5, REFERENCE_BODY, 12, LAYOUTS) is None
     assert drawn_plant(Plant(level=3.0), 5, REFERENCE_BODY, 12, LAYOUTS) is None
 
 
-def test_the_seed_decides() -> None:
+def test_the_seed_decides():
     names = [f.name for f in fields(TruePlant) if f.name != "seed"]
     first, again, other = drawn(everything(2.0), 3), drawn(everything(2.0), 3), drawn(everything(2.0), 4)
     assert all(same(first, again, name) for name in names)
@@ -63,7 +61,7 @@ def test_the_seed_decides() -> None:
     assert {name for name in names if same(first, other, name)} == whole
 
 
-def test_at_level_2_draws_fill_the_stated_ranges() -> None:
+def test_at_level_2_draws_fill_the_stated_ranges():
     plants = [drawn(everything(2.0), seed) for seed in SEEDS]
     gyro = np.abs([p.gyro_bias for p in plants])
     assert 0.0049 < gyro.max() <= 0.005
@@ -91,7 +89,7 @@ def test_at_level_2_draws_fill_the_stated_ranges() -> None:
     assert {(p.crosstalk, p.sensor_delay, p.actuation_delay) for p in plants} == {(0.1, 0.01, 0.01)}
 
 
-def test_the_level_scales_what_is_drawn() -> None:
+def test_the_level_scales_what_is_drawn():
     one, three = drawn(everything(1.0), 7), drawn(everything(3.0), 7)
     for name in ("gyro_bias", "com_offset", "encoder_offsets", "softness", "crosstalk", "sensor_delay"):
         assert getattr(three, name) == pytest.approx(3.0 * getattr(one, name)), name
@@ -100,21 +98,21 @@ def test_the_level_scales_what_is_drawn() -> None:
 
 
 @pytest.mark.parametrize("name", Plant.items())
-def test_an_item_that_is_drawn_alone_is_what_it_is_with_all_others(name: str) -> None:
+def test_an_item_that_is_drawn_alone_is_what_it_is_with_all_others(name):
     alone, together = drawn(Plant(**{name: RANDOM}), 11), drawn(everything(2.0), 11)
     lists = {"encoder_offset": "encoder_offsets", "taxel_gain": "taxel_gains", "taxel_drift": "taxel_drifts"}
     assert same(alone, together, lists.get(name, name))
     assert len(alone.summary()) == 1
 
 
-def test_the_centre_of_mass_goes_with_the_leg() -> None:
+def test_the_centre_of_mass_goes_with_the_leg():
     small = BodyScale(mass=3.0, leg=0.2, sole=0.1, sole_width=0.05)
     h1 = drawn(everything(2.0), 1)
     assert drawn(everything(2.0), 1, small).com_offset == pytest.approx(h1.com_offset * 0.2 / 0.6)
     assert drawn(everything(2.0), 1, small).gyro_bias == pytest.approx(h1.gyro_bias)
 
 
-def test_what_is_stated_is_what_is_so() -> None:
+def test_what_is_stated_is_what_is_so():
     plant = drawn(Plant(gyro_bias=(0.001, -0.002, 0.003), com_offset=("1/30 leg", 0.0, 0.0), mass_ratio=1.1), 0)
     assert plant.gyro_bias.tolist() == [0.001, -0.002, 0.003]
     assert plant.com_offset == pytest.approx([0.02, 0.0, 0.0])

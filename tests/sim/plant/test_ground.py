@@ -1,7 +1,5 @@
 """The true ground: friction and softness by piece, foam under the soles, and colours that mislead proximity."""
 
-from __future__ import annotations
-
 import math
 
 import mujoco
@@ -32,7 +30,7 @@ def contact_friction(world: World) -> dict[str, float]:
     return found
 
 
-def test_pieces_of_ground_differ_in_the_stated_range_and_count_under_the_sole() -> None:
+def test_pieces_of_ground_differ_in_the_stated_range_and_count_under_the_sole():
     plain, patchy = world_of("uneven"), world_of("uneven", "patchiness=0.5", "friction_ratio=0.8", "softness=0.02")
     ground = [i for i in range(patchy.model.ngeom) if patchy.model.geom(i).name.startswith("ground")]
     ratio = patchy.model.geom_friction[ground, 0] / plain.model.geom_friction[ground, 0]
@@ -49,7 +47,7 @@ def test_pieces_of_ground_differ_in_the_stated_range_and_count_under_the_sole() 
         assert friction < sole
 
 
-def test_ground_of_one_kind_is_left_to_mujoco_s_own_rule() -> None:
+def test_ground_of_one_kind_is_left_to_mujoco_s_own_rule():
     world = world_of("uneven", "friction_ratio=0.5")
     assert not world.model.geom_priority.any()
     assert set(contact_friction(world).values()) == {0.4}
@@ -61,7 +59,7 @@ def sunk(world: World) -> float:
     return -float(np.mean(foot_contacts(world.model, world.data, frozenset(world.sole_geoms["left"])).distances))
 
 
-def test_foam_is_a_spring_of_its_modulus_over_its_thickness() -> None:
+def test_foam_is_a_spring_of_its_modulus_over_its_thickness():
     # Under a weight a layer is compressed by pressure / modulus of its thickness, and m / k is that over gravity.
     body, thickness = REFERENCE_BODY, 0.01
     pressed = thickness * body.weight / (body.sole * body.sole_width) / FOAM_MODULUS
@@ -77,11 +75,11 @@ def edge_taxels(rubber: float) -> int:
     return int(np.count_nonzero(skin.pressure.spread([(0.1, -0.05), (0.1, 0.05)], 100.0, (0.1, 0.0))))
 
 
-def test_foam_spreads_what_presses_on_an_edge() -> None:
+def test_foam_spreads_what_presses_on_an_edge():
     assert edge_taxels(0.03) > edge_taxels(0.0)
 
 
-def test_dark_ground_seems_farther_away_by_the_inverse_square_law() -> None:
+def test_dark_ground_seems_farther_away_by_the_inverse_square_law():
     settings = ["steps=4", "pfc=true", "proximity_noise=0", "proximity_range=0.3"]
     nominal, true = (Simulation(load_scene("flat", [*settings, f"reflectance={r}"]), 0) for r in (0, 0.5))
     distances = []
@@ -103,7 +101,7 @@ def test_dark_ground_seems_farther_away_by_the_inverse_square_law() -> None:
         assert np.ptp(ratio[(tiles == tile).all(axis=1)]) < 1e-9
 
 
-def test_ground_out_of_range_stays_out_of_range() -> None:
+def test_ground_out_of_range_stays_out_of_range():
     simulation = Simulation(load_scene("flat", ["steps=4", "pfc=true", "reflectance=0.5"]), 0)
     simulation.world.data.qpos[2] += 1.0
     mujoco.mj_forward(simulation.world.model, simulation.world.data)

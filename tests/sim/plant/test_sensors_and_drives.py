@@ -1,17 +1,15 @@
 """Sensors and drives of the true plant: what they add, and that what comes late is what was, unchanged."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import mujoco
 import numpy as np
 import pytest
 
-from plantar.robots import Robot, load_robot
+from plantar.robots import load_robot
 from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.sides import SIDES
-from plantar.sim.model.world import World, build_world
+from plantar.sim.model.world import build_world
 from plantar.sim.plant.delay import Delay
 from plantar.sim.plant.draw import TruePlant, drawn_plant
 from plantar.sim.plant.drives import RIPPLES, TorqueCurve, TrueDrives
@@ -45,7 +43,7 @@ def torques(drives: TrueDrives, setpoint: np.ndarray, joints: np.ndarray, speeds
     return drives.offset(0.0, STIFFNESS * setpoint, joints, speeds) - STIFFNESS * joints - DAMPING * speeds
 
 
-def test_a_joint_moves_freely_by_its_play_and_winds_up_from_there() -> None:
+def test_a_joint_moves_freely_by_its_play_and_winds_up_from_there():
     drives = drives_of(backlash=0.2)
     play = np.radians(0.2)
     errors = np.linspace(-2.0 * play, 2.0 * play, 401)
@@ -59,7 +57,7 @@ def test_a_joint_moves_freely_by_its_play_and_winds_up_from_there() -> None:
     assert back - there == pytest.approx(2.0 * 2.0 / 2000.0 + play, rel=1e-3)
 
 
-def test_the_torque_swings_by_its_ripple_about_what_was_asked() -> None:
+def test_the_torque_swings_by_its_ripple_about_what_was_asked():
     drives = drives_of(torque_ripple=0.05)
     angles = np.linspace(0.0, 2.0 * np.pi / RIPPLES, 400, endpoint=False)
     speeds = np.full(12, 0.5)
@@ -69,7 +67,7 @@ def test_the_torque_swings_by_its_ripple_about_what_was_asked() -> None:
     assert (torque.max() - asked, asked - torque.min()) == pytest.approx((0.05 * asked, 0.05 * asked), rel=1e-3)
 
 
-def test_a_motors_torque_falls_with_its_speed_and_its_brake_keeps_it() -> None:
+def test_a_motors_torque_falls_with_its_speed_and_its_brake_keeps_it():
     ranges = np.array([[-8.0, 8.0]])
     model = SimpleNamespace(actuator_forcerange=ranges, actuator_forcelimited=np.ones(1, dtype=bool))
     curve = TorqueCurve(model, np.array([0]), np.array([10.0]), 0.5)
@@ -79,7 +77,7 @@ def test_a_motors_torque_falls_with_its_speed_and_its_brake_keeps_it() -> None:
         assert ranges[0].tolist() == pytest.approx([low, high])
 
 
-def test_a_joint_with_dry_friction_does_not_move_under_less_torque_than_that(h1: Robot) -> None:
+def test_a_joint_with_dry_friction_does_not_move_under_less_torque_than_that(h1):
     moved = []
     for friction, torque in ((0.0, 2.0), (3.0, 2.0), (3.0, 9.0), (3.0, 12.0)):
         plant = None if friction == 0.0 else plant_of(joint_friction=friction)
@@ -100,7 +98,7 @@ def test_a_joint_with_dry_friction_does_not_move_under_less_torque_than_that(h1:
     assert (hard - pulled) / 3.0 == pytest.approx(free / 2.0, rel=0.05)
 
 
-def test_gyro_and_encoders_read_too_much_by_what_is_stated(world: World) -> None:
+def test_gyro_and_encoders_read_too_much_by_what_is_stated(world):
     plant = plant_of(gyro_bias=(0.01, -0.02, 0.03), encoder_offset=0.3)
     world.data.qvel[3:6] = (0.1, 0.2, 0.3)
     mujoco.mj_forward(world.model, world.data)
@@ -113,7 +111,7 @@ def test_gyro_and_encoders_read_too_much_by_what_is_stated(world: World) -> None
     assert np.array_equal(true.accelerometer, nominal.accelerometer)
 
 
-def test_what_is_read_late_is_what_was_read_then(world: World) -> None:
+def test_what_is_read_late_is_what_was_read_then(world):
     suites = [SensorSuite(world, QUIET, 0, plant=true) for true in (None, plant_of(sensor_delay=0.01))]
     now, late = [], []
     for k in range(60):
@@ -133,21 +131,21 @@ def test_what_is_read_late_is_what_was_read_then(world: World) -> None:
     assert not np.array_equal(now[0].joint_positions, now[-1].joint_positions)
 
 
-def test_drives_follow_the_shifted_set_points() -> None:
+def test_drives_follow_the_shifted_set_points():
     drives = drives_of(actuation_delay=0.007)
     sent = np.random.default_rng(0).normal(size=(40, 12))
     followed = [drives.offset(0.001 * k, row, STILL, STILL) for k, row in enumerate(sent)]
     assert np.array_equal(followed, [sent[max(0, k - 7)] for k in range(40)])
 
 
-def test_a_delay_between_samples_waits_for_the_next_one() -> None:
+def test_a_delay_between_samples_waits_for_the_next_one():
     line: Delay[int] = Delay(0.012)
     assert [line.passed(0.005 * k, k) for k in range(6)] == [0, 0, 0, 0, 1, 2]
     none: Delay[int] = Delay(0.0)
     assert [none.passed(0.1 * k, k) for k in range(3)] == [0, 1, 2]
 
 
-def test_a_joint_stands_off_by_its_encoder_s_error_and_reads_as_if_it_did_not() -> None:
+def test_a_joint_stands_off_by_its_encoder_s_error_and_reads_as_if_it_did_not():
     nominal, true = (
         Simulation(load_scene("flat", ["steps=0", "encoder_noise=0", f"encoder_offset={most}"]), 3) for most in (0, 0.1)
     )

@@ -1,9 +1,6 @@
 """The `[plant]` table: what it takes, what `random` stands for, and what is refused."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -15,7 +12,7 @@ from plantar.sim.run.scene import load_scene
 SMALL = BodyScale(mass=3.0, leg=0.2, sole=0.1, sole_width=0.05)
 
 
-def test_nothing_differs_by_default_and_everything_by_one_word() -> None:
+def test_nothing_differs_by_default_and_everything_by_one_word():
     assert load_scene("flat").plant == Plant()
     drawn = load_scene("flat", ["plant=random", "plant.level=3"]).plant
     assert drawn.level == 3.0
@@ -25,7 +22,7 @@ def test_nothing_differs_by_default_and_everything_by_one_word() -> None:
     assert [name for name in every.items() if getattr(every, name) != RANDOM] == ["backlash"]
 
 
-def test_what_is_stated_is_not_drawn_even_where_it_is_nominal() -> None:
+def test_what_is_stated_is_not_drawn_even_where_it_is_nominal():
     plant = load_scene("flat", ["plant=random", "mass_ratio=1", "com_offset=[]", "softness=0.02"]).plant
     assert (plant.mass_ratio, plant.com_offset, plant.softness) == (1.0, (), 0.02)
     assert replace(plant, level=1.0) == replace(plant.for_body(SMALL), level=1.0)
@@ -33,12 +30,12 @@ def test_what_is_stated_is_not_drawn_even_where_it_is_nominal() -> None:
     assert plant.crosstalk == plant.gyro_bias == RANDOM
 
 
-def test_one_item_may_be_drawn_alone() -> None:
+def test_one_item_may_be_drawn_alone():
     plant = load_scene("flat", ["crosstalk=random", "level=1"]).plant
     assert [name for name in plant.items() if getattr(plant, name) == RANDOM] == ["crosstalk"]
 
 
-def test_a_scene_file_states_it_as_a_word_or_as_a_table(tmp_path: Path) -> None:
+def test_a_scene_file_states_it_as_a_word_or_as_a_table(tmp_path):
     word, table = tmp_path / "word.toml", tmp_path / "table.toml"
     word.write_text('plant = "random"\n[walk]\nsteps = 2\n')
     table.write_text('[walk]\nsteps = 2\n[plant]\ndraw = "random"\nmass_ratio = 1.1\n')
@@ -47,7 +44,7 @@ def test_a_scene_file_states_it_as_a_word_or_as_a_table(tmp_path: Path) -> None:
     assert load_scene(word).setting_name("plant") == "plant.draw"
 
 
-def test_a_list_is_in_metres_or_in_shares_of_the_body() -> None:
+def test_a_list_is_in_metres_or_in_shares_of_the_body():
     plant = Plant(com_offset=(0.01, "1/30 leg", "-0.1 sole"))
     assert plant.vector("com_offset") == pytest.approx((0.01, 0.02, -0.1 * REFERENCE_BODY.sole))
     assert plant.for_body(SMALL).vector("com_offset") == pytest.approx((0.01, 0.2 / 30, -0.01))
@@ -71,7 +68,7 @@ def test_a_list_is_in_metres_or_in_shares_of_the_body() -> None:
         ("softness=1", 'a number 0 to 0.2 or "random"'),
     ],
 )
-def test_a_wrong_value_is_refused_in_one_line_with_what_is_allowed(setting: str, allowed: str) -> None:
+def test_a_wrong_value_is_refused_in_one_line_with_what_is_allowed(setting, allowed):
     with pytest.raises(SceneError) as refused:
         load_scene("flat", [setting])
     message = str(refused.value)
@@ -80,7 +77,7 @@ def test_a_wrong_value_is_refused_in_one_line_with_what_is_allowed(setting: str,
     assert "\n" not in message
 
 
-def test_a_share_that_is_too_large_for_a_body_is_refused_for_it() -> None:
+def test_a_share_that_is_too_large_for_a_body_is_refused_for_it():
     plant = Plant(com_offset=(0.0, "0.6 leg", 0.0))
     assert plant.for_body(SMALL).vector("com_offset")[1] == pytest.approx(0.12)
     with pytest.raises(InputError, match="'com_offset'"):

@@ -1,7 +1,5 @@
 """Taxels of the true plant: what crosstalk, hysteresis, gain, drift and connectors do to known forces."""
 
-from __future__ import annotations
-
 import math
 
 import mujoco
@@ -36,7 +34,7 @@ def errors_of(side: Side = "left", **settings: object) -> TaxelErrors:
     return TaxelErrors(LAYOUTS[side], plant_of(**settings), side)
 
 
-def test_taxels_read_their_gain_times_what_is_on_them() -> None:
+def test_taxels_read_their_gain_times_what_is_on_them():
     plant = plant_of(taxel_gain=0.2)
     force = np.linspace(1.0, 5.0, COUNT)
     felt = TaxelErrors(LEFT, plant, "left").read(force, 0.0)
@@ -54,7 +52,7 @@ def loop_area(hysteresis: float, peak: float) -> float:
     return -float(np.trapezoid(read, force))
 
 
-def test_a_load_that_comes_and_goes_draws_a_loop_of_the_known_area() -> None:
+def test_a_load_that_comes_and_goes_draws_a_loop_of_the_known_area():
     assert loop_area(0.0, 40.0) == pytest.approx(0.0, abs=1e-6)
     for h in (0.1, 0.3):
         turn = (1.0 - h) / (1.0 + h)  # share of the peak at which the reading begins to go down
@@ -62,7 +60,7 @@ def test_a_load_that_comes_and_goes_draws_a_loop_of_the_known_area() -> None:
         assert loop_area(h, 40.0) == pytest.approx(40.0**2 * area, rel=1e-3)
 
 
-def test_hysteresis_does_not_depend_on_the_rate() -> None:
+def test_hysteresis_does_not_depend_on_the_rate():
     force = 30.0 * np.abs(np.sin(np.linspace(0.0, 9.0, 4001)))
     slow, fast = errors_of(hysteresis=0.2), errors_of(hysteresis=0.2)
     read = [slow.read(np.full(COUNT, f), 0.0)[0] for f in force]
@@ -70,7 +68,7 @@ def test_hysteresis_does_not_depend_on_the_rate() -> None:
     assert every_fourth == pytest.approx(read[::4], abs=0.02)
 
 
-def test_zeros_wander_off_as_the_sole_becomes_warm() -> None:
+def test_zeros_wander_off_as_the_sole_becomes_warm():
     plant = plant_of(taxel_drift=1.5)
     errors = TaxelErrors(LEFT, plant, "left")
     nothing = np.zeros(COUNT)
@@ -80,7 +78,7 @@ def test_zeros_wander_off_as_the_sole_becomes_warm() -> None:
     assert np.std(np.concatenate([plant.taxel_drifts[side] for side in SIDES])) == pytest.approx(1.5, rel=0.25)
 
 
-def test_a_connector_silences_its_taxels_for_its_share_of_the_time() -> None:
+def test_a_connector_silences_its_taxels_for_its_share_of_the_time():
     errors, period = errors_of(dropout=0.2), 0.004
     silent = np.empty((60000, COUNT), dtype=bool)
     for k in range(len(silent)):
@@ -99,14 +97,14 @@ def test_a_connector_silences_its_taxels_for_its_share_of_the_time() -> None:
     assert LEFT.positions[heelmost, 0].max() <= LEFT.positions[others, 0].min() + 1e-9
 
 
-def test_no_dropout_draws_nothing_and_silences_nothing() -> None:
+def test_no_dropout_draws_nothing_and_silences_nothing():
     errors, force = errors_of(hysteresis=0.1), np.ones(COUNT)
     for k in range(1000):
         errors.silence(0.004 * k, force)
     assert not np.isnan(force).any()
 
 
-def test_a_sole_s_reading_has_the_errors_of_its_taxels() -> None:
+def test_a_sole_s_reading_has_the_errors_of_its_taxels():
     world = Simulation(load_scene("flat", ["steps=0"]), 0).world
     mujoco.mj_forward(world.model, world.data)
     plant = plant_of(taxel_gain=0.2, crosstalk=0.1)

@@ -1,7 +1,5 @@
 """Runs with a true plant that differs: told in the summary, unknown to the controller, and free where it does not."""
 
-from __future__ import annotations
-
 import ast
 from pathlib import Path
 from typing import Any
@@ -11,7 +9,7 @@ import pytest
 from plantar.sim.plant.settings import Plant
 from plantar.sim.run.run_text import run_text
 from plantar.sim.run.runner import run_scene
-from plantar.sim.run.scene import Scene, load_scene
+from plantar.sim.run.scene import load_scene
 
 SIM = Path(__file__).resolve().parents[3] / "plantar" / "sim"
 TIMING = ("wall_time_s", "real_time_factor", "control_us")
@@ -21,7 +19,7 @@ def motion(summary: dict[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in summary.items() if name not in TIMING}
 
 
-def test_level_0_leaves_the_motion_as_it_is_to_the_last_bit(short_scene: Scene, short_run: tuple[Any, Path]) -> None:
+def test_level_0_leaves_the_motion_as_it_is_to_the_last_bit(short_scene, short_run):
     zero = load_scene("flat", ["steps=4", "settle=1.0", "plant=random", "plant.level=0"])
     summary = run_scene(zero, 0)
     nominal = dict(short_run[0])
@@ -32,7 +30,7 @@ def test_level_0_leaves_the_motion_as_it_is_to_the_last_bit(short_scene: Scene, 
     assert run_text(short_run[0]).find("true plant") < 0
 
 
-def test_a_plant_that_differs_is_reported_and_moves_otherwise(short_run: tuple[Any, Path]) -> None:
+def test_a_plant_that_differs_is_reported_and_moves_otherwise(short_run):
     settings = ["steps=4", "settle=1.0", "mass_ratio=1.05", "com_offset=[0, 0.002, 0]", "encoder_offset=random"]
     summary = run_scene(load_scene("flat", [*settings, "level=1"]), 0)
     assert set(summary["plant"]) == {"mass_ratio", "com_offset_m", "encoder_offsets_deg"}
@@ -44,7 +42,7 @@ def test_a_plant_that_differs_is_reported_and_moves_otherwise(short_run: tuple[A
 
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
-def test_a_plant_that_is_drawn_whole_is_simulated_and_the_seed_repeats_it(robot: str) -> None:
+def test_a_plant_that_is_drawn_whole_is_simulated_and_the_seed_repeats_it(robot):
     scene = load_scene("flat", ["steps=1", "settle=0.1", "plant=everything", "plant.level=3"], robot)
     first, again = run_scene(scene, 4), run_scene(scene, 4)
     assert len(first["plant"]) == len(Plant.items())
@@ -59,7 +57,7 @@ def imports_plant(path: Path) -> bool:
     return any(name.startswith("plantar.sim.plant.") and name != "plantar.sim.plant.settings" for name in names)
 
 
-def test_the_world_its_sensors_and_its_servos_alone_know_the_true_plant() -> None:
+def test_the_world_its_sensors_and_its_servos_alone_know_the_true_plant():
     knowing = {path.relative_to(SIM).as_posix() for path in SIM.rglob("*.py") if imports_plant(path)}
     outside = {name for name in knowing if not name.startswith("plant/")}
     assert outside == {

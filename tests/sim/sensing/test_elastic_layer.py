@@ -1,7 +1,5 @@
 """The layer against what is known of it in closed form: Love, Hertz, a flat punch, a thin layer."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -19,20 +17,20 @@ def squares(half: float, side: float) -> NDArray[np.float64]:
 
 
 @pytest.mark.parametrize("place", [(1.7, 0.4), (2.9, -0.3), (0.0, 2.0)])
-def test_square_on_the_half_space_is_the_integral_of_boussinesqs_point_forces(place: tuple[float, float]) -> None:
+def test_square_on_the_half_space_is_the_integral_of_boussinesqs_point_forces(place):
     x, y = place
     expected, _ = dblquad(lambda v, u: 1.0 / (math.pi * math.hypot(x - u, y - v)), -0.5, 0.5, -0.5, 0.5)
     found = influence([(0.0, 0.0), place], [1.0], math.inf)[1, 0]
     assert found == pytest.approx(expected, rel=1e-6)
 
 
-def test_a_far_square_is_a_point() -> None:
+def test_a_far_square_is_a_point():
     """The near form and the far one agree where one takes over from the other."""
     near, far = influence([(0.0, 0.0), (2.999, 0.0), (3.001, 0.0)], [1.0], math.inf)[1:, 0]
     assert near == pytest.approx(far, rel=0.01)
 
 
-def test_flat_round_punch_has_its_pressure_at_the_edge() -> None:
+def test_flat_round_punch_has_its_pressure_at_the_edge():
     """p = F / (2 pi a sqrt(a^2 - r^2)), approach F / (2 a E*) (Johnson 3.34, 3.36)."""
     radius, side, force = 0.05, 0.0025, 100.0
     points = squares(radius, side)
@@ -50,7 +48,7 @@ def test_flat_round_punch_has_its_pressure_at_the_edge() -> None:
     assert contact.forces[distance > 0.95 * radius].max() > 2.0 * contact.forces[inner].min()
 
 
-def test_a_sphere_meets_the_half_space_as_by_hertz() -> None:
+def test_a_sphere_meets_the_half_space_as_by_hertz():
     radius, modulus, force, side = 0.5, 1e6, 50.0, 0.002
     points = squares(0.034, side)
     compliance = influence(points, np.full(len(points), side), math.inf)
@@ -69,7 +67,7 @@ def test_a_sphere_meets_the_half_space_as_by_hertz() -> None:
 
 
 @pytest.mark.parametrize("poisson", [0.0, 0.3, 0.4])
-def test_a_thin_layer_gives_way_by_its_oedometric_modulus(poisson: float) -> None:
+def test_a_thin_layer_gives_way_by_its_oedometric_modulus(poisson):
     """Far from an edge u = p d / M with M = E (1 - nu) / ((1 + nu) (1 - 2 nu)), and E = 1 - nu^2 here."""
     thickness, side = 0.002, 0.004
     points = squares(0.06, side)
@@ -79,7 +77,7 @@ def test_a_thin_layer_gives_way_by_its_oedometric_modulus(poisson: float) -> Non
     assert (compliance @ np.full(len(points), side**2))[middle] == pytest.approx(thickness / modulus, rel=0.01)
 
 
-def test_a_thick_layer_is_the_half_space() -> None:
+def test_a_thick_layer_is_the_half_space():
     """What a layer holds back falls with its thickness: 3 mm under 10 mm of it are left of a half-space's 20 times."""
     points = squares(0.01, 0.0025)
     sides = np.full(len(points), 0.0025)
@@ -89,7 +87,7 @@ def test_a_thick_layer_is_the_half_space() -> None:
 
 
 @pytest.mark.parametrize("place", [(0.0, 0.0), (0.035, 0.0), (0.044, 0.04), (0.0475, 0.0474)])
-def test_contact_is_complementary_and_has_the_load(place: tuple[float, float]) -> None:
+def test_contact_is_complementary_and_has_the_load(place):
     """No square pulls, none is penetrated, wherever the load is, also in a corner; the same from any start."""
     points = squares(0.05, 0.005)
     body = LayerContact(influence(points, np.full(len(points), 0.005), 0.01), points)

@@ -1,7 +1,5 @@
 """Rays of the taxels against ground of every shape, and the sensor around them."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import mujoco
@@ -32,12 +30,12 @@ def rig(ground: str, *, height: float = 0.03, quat: str = "1 0 0 0", top: float 
 PLANE = "<geom type='plane' size='2 2 .1'/>"
 
 
-def test_level_ground_is_as_far_as_the_sole_is_high_and_the_robot_is_not_seen() -> None:
+def test_level_ground_is_as_far_as_the_sole_is_high_and_the_robot_is_not_seen():
     data, sole = rig(PLANE)
     assert sole.distances(data) == pytest.approx(np.full(len(LAYOUT), 0.03), abs=1e-12)
 
 
-def test_a_sloping_sole_measures_along_its_own_axis() -> None:
+def test_a_sloping_sole_measures_along_its_own_axis():
     angle = 0.15
     data, sole = rig(PLANE, quat=f"{np.cos(angle / 2)} 0 {np.sin(angle / 2)} 0")
     plane = fit_ground_plane(LAYOUT, sole.distances(data))
@@ -54,7 +52,7 @@ def test_a_sloping_sole_measures_along_its_own_axis() -> None:
         ("<geom type='cylinder' size='.03 .012' pos='0 .02 0'/>", (0.0, 0.02), 0.018),
     ],
 )
-def test_what_lies_under_some_taxels_is_seen_by_those(ground: str, point: tuple[float, float], distance: float) -> None:
+def test_what_lies_under_some_taxels_is_seen_by_those(ground, point, distance):
     data, sole = rig(PLANE.replace("/>", " pos='0 0 -1'/>") + ground)
     seen = sole.distances(data)
     near = np.hypot(*(LAYOUT.positions[:, :2] - point).T)
@@ -64,14 +62,14 @@ def test_what_lies_under_some_taxels_is_seen_by_those(ground: str, point: tuple[
     assert np.isinf(seen[near > 0.04]).all()
 
 
-def test_beyond_the_range_nothing_is_seen_and_a_pressed_taxel_is_negative() -> None:
+def test_beyond_the_range_nothing_is_seen_and_a_pressed_taxel_is_negative():
     data, sole = rig(PLANE, height=0.0501)
     assert np.isinf(sole.distances(data)).all()
     data, sole = rig(PLANE, height=-0.002)
     assert sole.distances(data) == pytest.approx(np.full(len(LAYOUT), -0.002), abs=1e-12)
 
 
-def test_no_ray_is_cast_high_above_the_highest_ground() -> None:
+def test_no_ray_is_cast_high_above_the_highest_ground():
     data, sole = rig(PLANE, height=0.2, top=0.14)
     assert not sole.within_range(data)
     before = sole.look(data).lengths.copy()
@@ -84,7 +82,7 @@ def test_no_ray_is_cast_high_above_the_highest_ground() -> None:
     assert sole.within_range(data)
 
 
-def test_noise_bias_and_dead_taxels() -> None:
+def test_noise_bias_and_dead_taxels():
     data, sole = rig(PLANE)
     device = ProximitySensor(sole, 2e-3, 5e-3, np.random.default_rng(1), dead=[3, 7])
     rows = np.array([device.read(data, True) for _ in range(200)])
@@ -95,7 +93,7 @@ def test_noise_bias_and_dead_taxels() -> None:
     assert (device.cast, device.skipped) == (200 * len(LAYOUT), 0)
 
 
-def test_a_sole_that_is_not_asked_for_is_free_and_leaves_the_noise_in_step() -> None:
+def test_a_sole_that_is_not_asked_for_is_free_and_leaves_the_noise_in_step():
     data, sole = rig(PLANE)
     asked, plain = (ProximitySensor(sole, 2e-3, 0.0, np.random.default_rng(1)) for _ in range(2))
     everything = ProximitySensor(sole, 2e-3, 0.0, np.random.default_rng(1))
@@ -112,7 +110,7 @@ def test_a_sole_that_is_not_asked_for_is_free_and_leaves_the_noise_in_step() -> 
 
 
 @pytest.mark.parametrize("shape", ["box", "sphere", "ellipsoid", "cylinder"])
-def test_the_top_of_a_solid_is_where_rays_from_above_begin_to_meet_it(shape: str) -> None:
+def test_the_top_of_a_solid_is_where_rays_from_above_begin_to_meet_it(shape):
     solid = Solid(shape, (0.05, 0.03, 0.02), np.array([0.0, 0.0, 0.1]), rotation_from_angles(0.3, 0.4, -0.2))
     quaternion = np.empty(4)
     mujoco.mju_mat2Quat(quaternion, solid.rotation.ravel())
@@ -134,7 +132,7 @@ def test_the_top_of_a_solid_is_where_rays_from_above_begin_to_meet_it(shape: str
     assert solid.top >= max(hits) - 1e-12
 
 
-def test_unknown_sites_and_bad_ranges_are_refused() -> None:
+def test_unknown_sites_and_bad_ranges_are_refused():
     model = mujoco.MjModel.from_xml_string("<mujoco><worldbody><site name='a'/></worldbody></mujoco>")
     with pytest.raises(RobotError, match="no site named 'left_sole'"):
         SoleProximity(model, LAYOUT, "left_sole")

@@ -4,7 +4,6 @@ import pytest
 
 from plantar.robots.kinematics.ankle_sensors import ankle_sensors
 from plantar.sim.model.contact_truth import contact_wrench_in_frame, foot_contacts
-from plantar.sim.model.world import World
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 from plantar.sim.sensing.sensors import SensorSuite
@@ -13,7 +12,7 @@ from plantar.sim.sensing.settings import Sensing
 QUIET = Sensing(force_noise=0.0, encoder_noise=0.0, gyro_noise=0.0, accelerometer_noise=0.0)
 
 
-def test_noise_free_sensors_tell_the_state(world: World) -> None:
+def test_noise_free_sensors_tell_the_state(world):
     mujoco.mj_forward(world.model, world.data)
     suite = SensorSuite(world, QUIET, 0)
     suite.read_skins()
@@ -23,7 +22,7 @@ def test_noise_free_sensors_tell_the_state(world: World) -> None:
     assert np.array_equal(sensors.accelerometer, world.data.sensor("imu_accelerometer").data)
 
 
-def test_noise_has_the_stated_size_and_follows_the_seed(world: World) -> None:
+def test_noise_has_the_stated_size_and_follows_the_seed(world):
     mujoco.mj_forward(world.model, world.data)
     sensing = Sensing(encoder_noise=1e-3, gyro_noise=2e-2, accelerometer_noise=0.3)
 
@@ -45,7 +44,7 @@ def test_noise_has_the_stated_size_and_follows_the_seed(world: World) -> None:
     assert spread[15:] == pytest.approx(np.full(3, 0.3), rel=0.15)
 
 
-def test_skin_is_sampled_at_its_rate(world: World) -> None:
+def test_skin_is_sampled_at_its_rate(world):
     mujoco.mj_forward(world.model, world.data)
     suite = SensorSuite(world, Sensing(skin_rate=250.0), 0)
     times = []
@@ -58,7 +57,7 @@ def test_skin_is_sampled_at_its_rate(world: World) -> None:
 
 
 @pytest.mark.parametrize("name", ["h1", "hrp2kai"])
-def test_ankle_sensors_tell_the_ground_s_wrench_on_a_standing_robot(name: str) -> None:
+def test_ankle_sensors_tell_the_ground_s_wrench_on_a_standing_robot(name):
     simulation = Simulation(load_scene("flat", ["steps=0", "force_torque=true"], name), 0)
     world = simulation.world
     mujoco.mj_forward(world.model, world.data)
@@ -78,7 +77,7 @@ def test_ankle_sensors_tell_the_ground_s_wrench_on_a_standing_robot(name: str) -
     assert total == pytest.approx(simulation.legs.mass * 9.81, rel=2e-3)
 
 
-def test_ankle_noise_has_the_stated_size_and_leaves_the_other_sensors_alone(world: World) -> None:
+def test_ankle_noise_has_the_stated_size_and_leaves_the_other_sensors_alone(world):
     mujoco.mj_forward(world.model, world.data)
     sensing = Sensing(ankle_force_noise=2.0, ankle_torque_noise=0.1)
     with_ankles, without = SensorSuite(world, sensing, 3, force_torque=True), SensorSuite(world, sensing, 3)

@@ -1,7 +1,5 @@
 """Simulated skin: what the taxels feel of contacts of every kind, and the sensor around it."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 
@@ -45,7 +43,7 @@ def true_wrench(data: Any, skin: SoleSkin) -> NDArray[np.float64]:
     return contact_wrench_in_frame(skin.contacts(data), data.site_xpos[site], data.site_xmat[site])
 
 
-def test_a_pad_that_is_not_relieved_hides_a_part_of_the_load() -> None:
+def test_a_pad_that_is_not_relieved_hides_a_part_of_the_load():
     model, data, skin = rig(PLANE)
     run(model, data, 0.5)
     bad = SoleSkin(model, LAYOUT, "left_sole", ["left_sole_box"], rim_stiffness=2.0)
@@ -59,7 +57,7 @@ def test_a_pad_that_is_not_relieved_hides_a_part_of_the_load() -> None:
 
 @pytest.mark.parametrize("com", ["0 0 0.1", "0.05 0.02 0.1", "-0.08 -0.05 0.1"])
 @pytest.mark.parametrize("yaw", ["1 0 0 0", "0.924 0 0 0.383"])
-def test_standing_foot_has_the_true_force_and_centre_of_pressure(com: str, yaw: str) -> None:
+def test_standing_foot_has_the_true_force_and_centre_of_pressure(com, yaw):
     model, data, skin = rig(PLANE, com=com, quat=yaw)
     run(model, data, 0.5)
     force = skin.taxel_forces(data)
@@ -71,14 +69,14 @@ def test_standing_foot_has_the_true_force_and_centre_of_pressure(com: str, yaw: 
     assert cop == pytest.approx([float(v) for v in com.split()[:2]], abs=1e-3)
 
 
-def test_foot_in_the_air_reads_zeros() -> None:
+def test_foot_in_the_air_reads_zeros():
     model, data, skin = rig(PLANE, height=0.5)
     mujoco.mj_forward(model, data)
     assert skin.taxel_forces(data).tolist() == [0.0] * len(LAYOUT)
 
 
 @pytest.mark.parametrize(("half_width", "offset"), [(0.06, 0.0), (0.03, 0.02), (0.02, -0.015)])
-def test_beam_loads_the_cells_above_it_and_no_other(half_width: float, offset: float) -> None:
+def test_beam_loads_the_cells_above_it_and_no_other(half_width, offset):
     beam = f"<geom name='beam' type='box' size='{half_width} 1 0.05' pos='{offset} 0 -0.05'/>"
     model, data, skin = rig(beam, com=f"{offset} 0 0.02")
     run(model, data, 0.3)
@@ -93,7 +91,7 @@ def test_beam_loads_the_cells_above_it_and_no_other(half_width: float, offset: f
             assert f > 1.0
 
 
-def test_edge_contact_loads_a_strip_along_the_edge() -> None:
+def test_edge_contact_loads_a_strip_along_the_edge():
     """A foot pitched by 10 degrees touches along its toe edge."""
     model, data, skin = rig(PLANE, quat="0.9961947 0 0.0871557 0", height=0.0315)
     mujoco.mj_forward(model, data)
@@ -106,7 +104,7 @@ def test_edge_contact_loads_a_strip_along_the_edge() -> None:
     assert np.ptp(LAYOUT.positions[force > 0, 1]) > 0.1
 
 
-def test_sphere_under_the_sole_loads_the_cells_around_its_point() -> None:
+def test_sphere_under_the_sole_loads_the_cells_around_its_point():
     x, y = 0.041, -0.022
     model, data, skin = rig(
         f"<geom name='pebble' type='sphere' size='0.02' pos='{x} {y} -0.0199'/>", com=f"{x} {y} 0.0"
@@ -120,7 +118,7 @@ def test_sphere_under_the_sole_loads_the_cells_around_its_point() -> None:
     assert near.max() < 0.025
 
 
-def test_two_blocks_carry_separate_patches() -> None:
+def test_two_blocks_carry_separate_patches():
     blocks = "".join(
         f"<geom name='block{i}' type='box' size='0.03 0.2 0.05' pos='{x} 0 -0.05'/>" for i, x in ((0, -0.09), (1, 0.09))
     )
@@ -134,7 +132,7 @@ def test_two_blocks_carry_separate_patches() -> None:
     assert force[x > 0].sum() / force.sum() == pytest.approx(0.725, abs=1e-3)
 
 
-def test_unknown_names_and_bad_values_are_refused() -> None:
+def test_unknown_names_and_bad_values_are_refused():
     model, _, skin = rig(PLANE)
     with pytest.raises(RobotError, match="no site named 'sole'; it has: left_sole"):
         SoleSkin(model, LAYOUT, "sole", ["left_sole_box"])
@@ -181,7 +179,7 @@ def at(time: float) -> Any:
     return SimpleNamespace(time=time)
 
 
-def test_sensor_samples_at_its_rate_and_holds() -> None:
+def test_sensor_samples_at_its_rate_and_holds():
     device, skin = sensor(rate_hz=250.0)
     times = [device.read(at(i * 1e-3)).time for i in range(1000)]
     assert skin.calls == 250
@@ -190,20 +188,20 @@ def test_sensor_samples_at_its_rate_and_holds() -> None:
     assert device.read(at(5.0)).force[0] == pytest.approx(785.0)  # clipped at the layout's range
 
 
-def test_sensor_of_an_odd_rate_keeps_its_mean_rate() -> None:
+def test_sensor_of_an_odd_rate_keeps_its_mean_rate():
     device, skin = sensor(rate_hz=300.0)
     for i in range(3000):
         device.read(at(i * 1e-3))
     assert skin.calls == 900
 
 
-def test_sensor_faster_than_the_physics_samples_every_step() -> None:
+def test_sensor_faster_than_the_physics_samples_every_step():
     device, skin = sensor(rate_hz=4000.0)
     assert [device.read(at(i * 1e-3)).time for i in range(50)] == pytest.approx([i * 1e-3 for i in range(50)])
     assert skin.calls == 50
 
 
-def test_delay_is_whole_periods() -> None:
+def test_delay_is_whole_periods():
     device, _ = sensor(rate_hz=250.0, delay_periods=2)
     age = [i * 1e-3 - device.read(at(i * 1e-3)).time for i in range(100)]
     assert min(age[8:]) == pytest.approx(0.008)
@@ -211,7 +209,7 @@ def test_delay_is_whole_periods() -> None:
     assert device.read(at(0.1)).force[3] == pytest.approx(92.0)
 
 
-def test_noise_is_white_reproducible_and_clipped() -> None:
+def test_noise_is_white_reproducible_and_clipped():
     def record(seed: int) -> NDArray[np.float64]:
         device, _ = sensor(noise_std_N=1.47, rng=np.random.default_rng(seed))
         return np.array([device.read(at(0.3 + i * 0.004)).force for i in range(400)])
@@ -229,7 +227,7 @@ def test_noise_is_white_reproducible_and_clipped() -> None:
     assert 0.2 < np.mean(idle > 0.0) < 0.8
 
 
-def test_dead_taxels_read_nan_and_leave_the_others_alone() -> None:
+def test_dead_taxels_read_nan_and_leave_the_others_alone():
     whole, _ = sensor(noise_std_N=1.0, rng=np.random.default_rng(3))
     broken, _ = sensor(noise_std_N=1.0, rng=np.random.default_rng(3), dead=[2, 5])
     a, b = whole.read(at(0.1)).force, broken.read(at(0.1)).force
@@ -239,7 +237,7 @@ def test_dead_taxels_read_nan_and_leave_the_others_alone() -> None:
 
 
 @pytest.mark.parametrize(("gap", "whole"), [(1e-4, True), (1e-3, False)])
-def test_corner_lifted_by_micrometres_stays_in_the_patch(gap: float, whole: bool) -> None:
+def test_corner_lifted_by_micrometres_stays_in_the_patch(gap, whole):
     """Three corners carry, the fourth hovers: near enough, the patch is the whole sole, else half of it."""
     model, data, skin = rig(PLANE)
     mujoco.mj_forward(model, data)

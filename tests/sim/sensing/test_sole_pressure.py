@@ -1,7 +1,5 @@
 """Loads spread over the taxels: conservation, one-sidedness, patches of every kind."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -22,7 +20,7 @@ LAYOUT = hex_layout(OUTLINE)
 WHOLE = [(float(x), float(y)) for x, y in OUTLINE]
 
 
-def test_line_on_the_bare_rim_keeps_its_place_along_the_rim() -> None:
+def test_line_on_the_bare_rim_keeps_its_place_along_the_rim():
     """Whole cells only leave a bare rim: a line load there goes to the cells along it, in proportion."""
     layout = hex_layout(OUTLINE, clip=False)
     edge = [(0.125, -0.0775), (0.125, 0.0775)]
@@ -37,7 +35,7 @@ def test_line_on_the_bare_rim_keeps_its_place_along_the_rim() -> None:
 
 @pytest.mark.parametrize("y", [0.0, -0.0775])
 @pytest.mark.parametrize("x", [-0.09, -0.04, 0.0, 0.06, 0.1])
-def test_a_line_along_a_row_of_cells_carries_its_load_where_it_acts(x: float, y: float) -> None:
+def test_a_line_along_a_row_of_cells_carries_its_load_where_it_acts(x, y):
     """Cells in a row span no area; a load near the end of the line must not move to its middle."""
     line = [(-0.125, y), (0.125, y)]
     force = SolePressure(LAYOUT).spread(line, 100.0, (x, y))
@@ -47,7 +45,7 @@ def test_a_line_along_a_row_of_cells_carries_its_load_where_it_acts(x: float, y:
     assert len(np.unique(LAYOUT.positions[force > 0, 1].round(3))) == 1
 
 
-def test_pressure_is_zero_where_the_sole_lifts_off() -> None:
+def test_pressure_is_zero_where_the_sole_lifts_off():
     """Beyond a sixth of the length a foundation that cannot pull lifts off at the far end."""
     pressure = SolePressure(LAYOUT)
     force = pressure.spread(WHOLE, 100.0, (0.08, 0.0))
@@ -57,7 +55,7 @@ def test_pressure_is_zero_where_the_sole_lifts_off() -> None:
     assert force[~rear].sum() == pytest.approx(100.0)
 
 
-def test_load_beyond_the_reach_of_the_taxels_goes_to_the_nearest() -> None:
+def test_load_beyond_the_reach_of_the_taxels_goes_to_the_nearest():
     force = SolePressure(LAYOUT).spread(WHOLE, 100.0, (0.2, 0.0))
     assert force.sum() == pytest.approx(100.0)
     hull = convex_hull(LAYOUT.positions[:, :2])
@@ -67,7 +65,7 @@ def test_load_beyond_the_reach_of_the_taxels_goes_to_the_nearest() -> None:
     assert cop[0] > 0.1
 
 
-def test_patch_beside_all_cells_loads_the_nearest_one() -> None:
+def test_patch_beside_all_cells_loads_the_nearest_one():
     force = SolePressure(LAYOUT).spread([(0.3, 0.0)], 10.0, (0.3, 0.0))
     assert force.sum() == pytest.approx(10.0)
     assert np.count_nonzero(force) == 1
@@ -75,7 +73,7 @@ def test_patch_beside_all_cells_loads_the_nearest_one() -> None:
 
 
 @pytest.mark.parametrize("force", [0.0, -5.0, float("nan"), float("inf")])
-def test_no_push_no_taxel_force(force: float) -> None:
+def test_no_push_no_taxel_force(force):
     assert not SolePressure(LAYOUT).spread(WHOLE, force, (0.0, 0.0)).any()
     assert not SolePressure(LAYOUT).spread([], 10.0, (0.0, 0.0)).any()
 
@@ -85,9 +83,7 @@ coordinate = st.tuples(st.floats(-0.14, 0.14), st.floats(-0.09, 0.09))
 
 @settings(max_examples=40, deadline=None)
 @given(st.lists(coordinate, min_size=1, max_size=9), coordinate, st.floats(1e-3, 5e3))
-def test_any_patch_and_load_gives_finite_forces_that_add_up(
-    patch: list[tuple[float, float]], load: tuple[float, float], force: float
-) -> None:
+def test_any_patch_and_load_gives_finite_forces_that_add_up(patch, load, force):
     taxels = SHARED_PRESSURE.spread(patch, force, load)
     assert np.isfinite(taxels).all()
     assert (taxels >= 0.0).all()
@@ -98,7 +94,7 @@ def test_any_patch_and_load_gives_finite_forces_that_add_up(
 SHARED_PRESSURE = SolePressure(LAYOUT)
 
 
-def test_result_does_not_depend_on_the_loads_before() -> None:
+def test_result_does_not_depend_on_the_loads_before():
     """The search starts from the last load's cells; its result must be the same to the last bit all the same."""
     rng = np.random.default_rng(5)
     used = SolePressure(LAYOUT)
@@ -112,7 +108,7 @@ def test_result_does_not_depend_on_the_loads_before() -> None:
 
 @settings(max_examples=30, deadline=None)
 @given(st.floats(-0.7, 0.7), st.floats(-0.7, 0.7), st.floats(10.0, 2e3))
-def test_full_sole_has_the_exact_centre_of_pressure(fx: float, fy: float, force: float) -> None:
+def test_full_sole_has_the_exact_centre_of_pressure(fx, fy, force):
     cop = HALF * [fx, fy]
     taxels = SHARED_PRESSURE.spread(WHOLE, force, (float(cop[0]), float(cop[1])))
     assert center_of_pressure(LAYOUT, taxels, 0.0) == pytest.approx(cop, abs=1e-7)
@@ -120,7 +116,7 @@ def test_full_sole_has_the_exact_centre_of_pressure(fx: float, fy: float, force:
 
 @settings(max_examples=30, deadline=None)
 @given(st.lists(coordinate, min_size=3, max_size=8), st.lists(st.floats(0.05, 1.0), min_size=8, max_size=8))
-def test_loaded_cells_touch_the_patch(patch: list[tuple[float, float]], weights: list[float]) -> None:
+def test_loaded_cells_touch_the_patch(patch, weights):
     """No taxel away from the patch is loaded, and what is inside by a cell keeps its moment to a cell's size."""
     shares = np.array(weights[: len(patch)])
     load = shares @ np.array(patch) / shares.sum()
@@ -138,7 +134,7 @@ def test_loaded_cells_touch_the_patch(patch: list[tuple[float, float]], weights:
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_load_inside_the_reach_of_a_patch_is_met_exactly(seed: int) -> None:
+def test_load_inside_the_reach_of_a_patch_is_met_exactly(seed):
     """Covered areas and centroids, the pistons of the model, carry the load's moment wherever they can."""
     import shapely
 
@@ -168,7 +164,7 @@ def tilted_layout(angle: float) -> SoleLayout:
     )
 
 
-def test_tilted_taxels_add_up_in_the_vertical() -> None:
+def test_tilted_taxels_add_up_in_the_vertical():
     layout = tilted_layout(0.3)
     force = SolePressure(layout).spread(WHOLE, 50.0, (0.0, 0.0))
     assert float(force @ layout.rotations[:, 2, 2]) == pytest.approx(50.0)
@@ -176,12 +172,12 @@ def test_tilted_taxels_add_up_in_the_vertical() -> None:
         SolePressure(tilted_layout(1.6))
 
 
-def test_a_rubber_without_thickness_is_refused() -> None:
+def test_a_rubber_without_thickness_is_refused():
     with pytest.raises(InputError, match="rubber"):
         SolePressure(LAYOUT, rubber=0.0)
 
 
-def test_pseudo_inverse_is_numpy_s() -> None:
+def test_pseudo_inverse_is_numpy_s():
     """Of cells anywhere, in a row and alone, which leave directions without stiffness."""
     rng = np.random.default_rng(5)
     for k in range(300):
@@ -194,7 +190,7 @@ def test_pseudo_inverse_is_numpy_s() -> None:
 
 
 @pytest.mark.parametrize("pitch", [0.02, 0.03, 0.045])
-def test_cells_with_gaps_between_them_keep_the_load_where_it_acts(pitch: float) -> None:
+def test_cells_with_gaps_between_them_keep_the_load_where_it_acts(pitch):
     turn = np.arange(24) * math.pi / 12.0
     circle = 6.4e-3 * np.column_stack([np.cos(turn), np.sin(turn)])
     places = [(x, y) for x in np.arange(-0.09, 0.0901, pitch) for y in np.arange(-0.04, 0.0401, pitch)]
@@ -207,7 +203,7 @@ def test_cells_with_gaps_between_them_keep_the_load_where_it_acts(pitch: float) 
         np.testing.assert_allclose(force @ films.positions[:, :2] / 300.0, cop, atol=1e-6)
 
 
-def test_a_point_presses_like_the_disc_of_a_compliant_sole_on_a_pebble() -> None:
+def test_a_point_presses_like_the_disc_of_a_compliant_sole_on_a_pebble():
     """The square of a point has the second moments of the disc that 400 N make at 1 GPa/m on a radius of 30 mm."""
     disc = (4.0 * 0.03 * 400.0 / (math.pi * 1e9)) ** 0.25
     polygon, _ = patch_polygon(np.array([[0.02, -0.01]]), 3e-3)

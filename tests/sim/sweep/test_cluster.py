@@ -1,7 +1,5 @@
 """Which schedulers are connected to, and what is reported of those that anybody may be."""
 
-from __future__ import annotations
-
 import time
 from pathlib import Path
 
@@ -14,26 +12,16 @@ _VARIABLES = [f"DASK_DISTRIBUTED__COMM__TLS__{name}" for name in ("CA_FILE", "CL
 
 
 @pytest.mark.parametrize(
-    "address",
-    [
-        "ucx://h:1",
-        "file:///etc/passwd",
-        "inproc://h:1",
-        "tcp://h",
-        "tcp://h:0",
-        "tcp://h:99999",
-        "",
-        "h:1;x",
-    ],
+    "address", ["ucx://h:1", "file:///etc/passwd", "inproc://h:1", "tcp://h", "tcp://h:0", "tcp://h:99999", "", "h:1;x"]
 )
-def test_another_address_is_refused_at_once(address: str) -> None:
+def test_another_address_is_refused_at_once(address):
     begun = time.monotonic()
     with pytest.raises(InputError, match=r"allowed: tcp://HOST:PORT, or tls://HOST:PORT"):
         ClusterWorkers(address)
     assert time.monotonic() - begun < 5.0
 
 
-def test_tls_without_certificates_is_refused_by_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_tls_without_certificates_is_refused_by_name(tmp_path, monkeypatch):
     for name in _VARIABLES:
         monkeypatch.delenv(name, raising=False)
     with pytest.raises(InputError, match=r"CA_FILE has to name a PEM file \(it is not set\)"):
@@ -50,7 +38,7 @@ def test_tls_without_certificates_is_refused_by_name(tmp_path: Path, monkeypatch
         ClusterWorkers("tls://127.0.0.1:8786")
 
 
-def test_a_scheduler_that_anybody_may_be_is_reported() -> None:
+def test_a_scheduler_that_anybody_may_be_is_reported():
     assert "neither encrypted nor authenticated" in network_note("tcp://192.0.2.1:8786")
     assert "neither encrypted nor authenticated" in network_note("scheduler:8786")
     assert (

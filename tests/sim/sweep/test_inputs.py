@@ -1,9 +1,6 @@
 """What a sweep's rows depend on: every file that a run reads, by content."""
 
-from __future__ import annotations
-
 import shutil
-from pathlib import Path
 
 import pytest
 
@@ -17,7 +14,7 @@ STANDING = ("steps=0", "settle=0.0", "end=0.2", "start=0.2")
 
 
 @pytest.fixture
-def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def own(tmp_path, monkeypatch):
     """A working folder with a scene of one's own, stood in by a robot of one's own."""
     shutil.copytree(load_robot("h1").path.parent, tmp_path / "robot")
     (tmp_path / "scene.toml").write_text('robot = "robot/robot.toml"\n[walk]\nsteps = 0\nsettle = 0.0\nend = 0.2\n')
@@ -25,7 +22,7 @@ def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_every_file_and_version_is_there() -> None:
+def test_every_file_and_version_is_there():
     found = inputs_of("flat", "h1")
     assert set(found) == {
         "plantar",
@@ -44,7 +41,7 @@ def test_every_file_and_version_is_there() -> None:
         inputs_of("flat", "nobody")
 
 
-def test_what_a_model_names_counts_too(own: Path) -> None:
+def test_what_a_model_names_counts_too(own):
     robot = own / "robot" / "robot.toml"
     parts = {"robot.xml": '<compiler meshdir="meshes"/><include file="legs.xml"/><mesh file="foot.stl"/>'}
     parts |= {"legs.xml": "<mesh file='meshes/knee.obj'/><mesh file='none.stl'/>"}
@@ -62,7 +59,7 @@ def test_what_a_model_names_counts_too(own: Path) -> None:
     assert changes(before, inputs_of("flat", str(robot))) == "model file meshes/knee.obj has changed"
 
 
-def test_a_file_that_changed_stops_a_resumed_sweep_and_a_run(own: Path) -> None:
+def test_a_file_that_changed_stops_a_resumed_sweep_and_a_run(own):
     sweep = Sweep("scene.toml", (), 1, None, STANDING)
     assert run_sweep(sweep, own / "out")["points"][0]["completed"] == 1
     assert run_sweep(Sweep("scene.toml", (), 2, None, STANDING), own / "out")["resumed"] == 1

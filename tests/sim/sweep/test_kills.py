@@ -1,7 +1,5 @@
 """Sweeps that are stopped or killed, or whose workers or scheduler are: no row lost, none twice, one line, then on."""
 
-from __future__ import annotations
-
 import csv
 import json
 import os
@@ -45,7 +43,7 @@ def start(*arguments: str | Path) -> subprocess.Popen[str]:
 
 
 @pytest.fixture(autouse=True)
-def nothing_left_running() -> Iterator[None]:
+def nothing_left_running():
     """End the sweeps that a test which failed has left."""
     yield
     for sweep in STARTED:
@@ -152,7 +150,7 @@ def cluster(folder: Path, workers: int = 1, nanny: bool = True) -> Iterator[tupl
                 child.kill() if child.is_running() else None
 
 
-def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(tmp_path: Path) -> None:
+def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(tmp_path):
     sweep = start(*SWEEP, "--workers=2", "-o", tmp_path)
     until(lambda: len(rows(tmp_path)) >= 2, "no rows")
     workers = workers_of(sweep)
@@ -169,7 +167,7 @@ def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(tmp_path: Path) 
     assert rows(tmp_path)[: len(before)] == before
 
 
-def test_a_killed_worker_costs_its_run_and_a_killed_sweep_takes_its_workers_along(tmp_path: Path) -> None:
+def test_a_killed_worker_costs_its_run_and_a_killed_sweep_takes_its_workers_along(tmp_path):
     sweep = start(*SWEEP, "--workers=1", "-o", tmp_path)
     until(lambda: rows(tmp_path), "no rows")
     (first,) = workers_of(sweep)
@@ -185,7 +183,7 @@ def test_a_killed_worker_costs_its_run_and_a_killed_sweep_takes_its_workers_alon
     content(tmp_path)
 
 
-def test_a_second_sweep_on_a_folder_is_refused_while_the_first_goes_on(tmp_path: Path) -> None:
+def test_a_second_sweep_on_a_folder_is_refused_while_the_first_goes_on(tmp_path):
     first = start(*SWEEP, "--workers=1", "-o", tmp_path)
     until(lambda: (tmp_path / "results.csv").exists(), "no table")
     code, errors, _ = finish(start(*SWEEP, "--workers=1", "-o", tmp_path))
@@ -196,7 +194,7 @@ def test_a_second_sweep_on_a_folder_is_refused_while_the_first_goes_on(tmp_path:
     assert_stopped(*finish(first), signal.SIGTERM, tmp_path)
 
 
-def test_a_scheduler_that_dies_is_one_line_and_its_rows_go_on_elsewhere(tmp_path: Path) -> None:
+def test_a_scheduler_that_dies_is_one_line_and_its_rows_go_on_elsewhere(tmp_path):
     folder = tmp_path / "rows"
     with cluster(tmp_path) as (address, scheduler, _):
         sweep = start(*SWEEP, "--scheduler", address, "-o", folder)
@@ -214,7 +212,7 @@ def test_a_scheduler_that_dies_is_one_line_and_its_rows_go_on_elsewhere(tmp_path
 
 
 @pytest.fixture(scope="module")
-def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[tuple[str, str], dict[str, str]], float]:
+def undisturbed(tmp_path_factory):
     """What the runs come to, and how many seconds they take from when their table is there."""
     folder = tmp_path_factory.mktemp("undisturbed")
     sweep = start(*SWEEP, "--workers=2", "-o", folder)
@@ -269,9 +267,7 @@ LOCAL = (*LOCAL, "-9 of a worker")
 @pytest.mark.long
 @pytest.mark.parametrize("how", LOCAL)
 @pytest.mark.parametrize("attempt", [1, 2])
-def test_local_sweeps_killed_at_random_moments(
-    how: str, attempt: int, undisturbed: tuple[dict[Any, Any], float], tmp_path: Path
-) -> None:
+def test_local_sweeps_killed_at_random_moments(how, attempt, undisturbed, tmp_path):
     wanted, duration = undisturbed
     moments = random.Random(f"{how} {attempt}")
     for _ in range(2):
@@ -283,9 +279,7 @@ def test_local_sweeps_killed_at_random_moments(
 
 @pytest.mark.long
 @pytest.mark.parametrize("how", ["Ctrl-C of the group", "TERM of the parent", "-9 of the parent"])
-def test_cluster_sweeps_killed_at_random_moments(
-    how: str, undisturbed: tuple[dict[Any, Any], float], tmp_path: Path
-) -> None:
+def test_cluster_sweeps_killed_at_random_moments(how, undisturbed, tmp_path):
     wanted, duration = undisturbed
     moments = random.Random(f"cluster {how}")
     folder = tmp_path / "rows"
@@ -300,9 +294,7 @@ def test_cluster_sweeps_killed_at_random_moments(
 
 @pytest.mark.long
 @pytest.mark.parametrize("killed", ["worker with a nanny", "one of two workers", "scheduler", "scheduler again"])
-def test_clusters_of_which_a_part_is_killed_at_a_random_moment(
-    killed: str, undisturbed: tuple[dict[Any, Any], float], tmp_path: Path
-) -> None:
+def test_clusters_of_which_a_part_is_killed_at_a_random_moment(killed, undisturbed, tmp_path):
     """A worker with a nanny comes again; without one the other worker has to do. Without a scheduler rows stay."""
     wanted, duration = undisturbed
     folder, nanny = tmp_path / "rows", "two" not in killed

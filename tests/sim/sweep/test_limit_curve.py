@@ -1,7 +1,5 @@
 """Limits of curves that are known, from runs drawn of them."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -10,7 +8,7 @@ import pytest
 from plantar.sim.sweep.limit_curve import limit_curve
 
 
-def test_the_limit_of_a_step_is_between_the_last_run_that_held_and_the_first_that_did_not() -> None:
+def test_the_limit_of_a_step_is_between_the_last_run_that_held_and_the_first_that_did_not():
     values = np.linspace(0.0, 10.0, 21)
     curve = limit_curve(values, values < 6.2, 0.0, 10.0)
     low, high = curve.interval
@@ -20,7 +18,7 @@ def test_the_limit_of_a_step_is_between_the_last_run_that_held_and_the_first_tha
     assert curve.share(2.0) > 0.9 > 0.1 > curve.share(9.0)
 
 
-def test_a_curve_read_from_the_other_side_has_the_mirrored_limit() -> None:
+def test_a_curve_read_from_the_other_side_has_the_mirrored_limit():
     generator = np.random.default_rng(3)
     values = generator.uniform(2.0, 8.0, 60)
     completed = generator.random(60) < 1.0 / (1.0 + np.exp(-(values - 4.0) / 0.7))
@@ -31,7 +29,7 @@ def test_a_curve_read_from_the_other_side_has_the_mirrored_limit() -> None:
     np.testing.assert_allclose(there.share(7.0), here.share(3.0), atol=1e-9)
 
 
-def test_units_and_the_order_of_runs_do_not_matter() -> None:
+def test_units_and_the_order_of_runs_do_not_matter():
     generator = np.random.default_rng(4)
     values = generator.uniform(0.0, 1.0, 40)
     completed = values + 0.1 * generator.standard_normal(40) > 0.4
@@ -41,7 +39,7 @@ def test_units_and_the_order_of_runs_do_not_matter() -> None:
     assert millimeters.limit == pytest.approx(1e3 * meters.limit, rel=1e-9)
 
 
-def test_without_runs_the_limit_is_open_and_equal_ends_put_it_outside() -> None:
+def test_without_runs_the_limit_is_open_and_equal_ends_put_it_outside():
     nothing = limit_curve([], [], 0.0, 1.0)
     assert nothing.limit == pytest.approx(0.5)
     assert nothing.interval[0] < 0.0
@@ -50,7 +48,7 @@ def test_without_runs_the_limit_is_open_and_equal_ends_put_it_outside() -> None:
     assert always.inside(0.0, 1.0) < 0.05
 
 
-def test_one_run_that_lapses_does_not_move_a_limit_that_many_tell() -> None:
+def test_one_run_that_lapses_does_not_move_a_limit_that_many_tell():
     values = np.linspace(0.0, 1.0, 41)
     completed = values > 0.5
     completed[-2] = False
@@ -60,7 +58,7 @@ def test_one_run_that_lapses_does_not_move_a_limit_that_many_tell() -> None:
 
 
 @pytest.mark.parametrize(("width", "lapse"), [(1e-4, 0.0), (0.03, 0.05), (0.08, 0.0)])
-def test_intervals_of_95_percent_hold_the_limit_that_often(width: float, lapse: float) -> None:
+def test_intervals_of_95_percent_hold_the_limit_that_often(width, lapse):
     """Of 30 draws 28.5 are expected; less than 25 come by chance once in 300."""
     generator = np.random.default_rng(round(1e4 * width))
     held = 0
@@ -73,7 +71,7 @@ def test_intervals_of_95_percent_hold_the_limit_that_often(width: float, lapse: 
     assert held >= 25
 
 
-def test_an_empty_range_is_refused() -> None:
+def test_an_empty_range_is_refused():
     with pytest.raises(ValueError, match="empty"):
         limit_curve([], [], 1.0, 1.0)
 
@@ -85,9 +83,7 @@ def test_an_empty_range_is_refused() -> None:
         *((0.005, 0.0, (0.3, 0.7), 9), (0.03, 0.02, (0.2, 0.8), 6)),
     ],
 )
-def test_runs_of_one_curve_agree_with_it_and_those_of_two_steep_ones_do_not(
-    width: float, lapse: float, limits: tuple[float, ...], least: int
-) -> None:
+def test_runs_of_one_curve_agree_with_it_and_those_of_two_steep_ones_do_not(width, lapse, limits, least):
     """Of 10 draws: of one curve more than one is doubted at 1e-3 once in 20,000 tests; two wide ones look like one."""
     generator, doubted = np.random.default_rng(round(1e4 * width)), 0
     for _ in range(10):
@@ -99,6 +95,6 @@ def test_runs_of_one_curve_agree_with_it_and_those_of_two_steep_ones_do_not(
     assert doubted >= least if least else doubted <= 1
 
 
-def test_a_few_runs_are_not_doubted() -> None:
+def test_a_few_runs_are_not_doubted():
     values, completed = [0.1, 0.9] * 10, [True, True] * 10
     assert limit_curve(values, completed, 0.0, 1.0).agreement(values, completed) == 1.0

@@ -1,7 +1,5 @@
 """The search of a limit: which runs it wants, and that these depend on outcomes alone, which are drawn here."""
 
-from __future__ import annotations
-
 import math
 import random
 from collections.abc import Callable
@@ -51,7 +49,7 @@ def finished(plan: LimitSearch, tell: Callable[[Run], dict[str, str]], workers: 
     return rows
 
 
-def test_the_runs_do_not_depend_on_how_many_workers_there_are_nor_on_which_ends_first() -> None:
+def test_the_runs_do_not_depend_on_how_many_workers_there_are_nor_on_which_ends_first():
     plan = search(grid=("feedback=true,false",))
 
     def tell(run: Run) -> dict[str, str]:
@@ -76,9 +74,7 @@ def test_the_runs_do_not_depend_on_how_many_workers_there_are_nor_on_which_ends_
         pytest.param(0.1, 0.0, 20, marks=pytest.mark.long),
     ],
 )
-def test_95_of_100_searches_hold_the_limit_though_they_end_when_they_are_sure(
-    width: float, lapse: float, searches: int
-) -> None:
+def test_95_of_100_searches_hold_the_limit_though_they_end_when_they_are_sure(width, lapse, searches):
     """Of 200 searches that hold it with 95 %, less than 181 do once in 500; of 20 less than 16 likewise."""
     held, runs = 0, []
     for number in range(searches):
@@ -102,7 +98,7 @@ def test_95_of_100_searches_hold_the_limit_though_they_end_when_they_are_sure(
     assert sorted(runs)[searches // 2] <= (60 if width < 0.05 else 180)
 
 
-def test_a_stopped_search_goes_on_with_the_runs_that_it_would_have_had() -> None:
+def test_a_stopped_search_goes_on_with_the_runs_that_it_would_have_had():
     plan = search()
     whole = finished(plan, lambda run: outcome(run, 30.0, 1.0), 2)
     part = dict(list(whole.items())[:17])
@@ -117,7 +113,7 @@ def test_a_stopped_search_goes_on_with_the_runs_that_it_would_have_had() -> None
     assert len(wanted) == len(whole) - 17
 
 
-def test_a_limit_outside_of_the_range_is_none_after_a_few_runs() -> None:
+def test_a_limit_outside_of_the_range_is_none_after_a_few_runs():
     plan = search()
     rows = finished(plan, lambda run: outcome(run, 1e3, 3.0), 2)
     assert len(rows) < 25
@@ -129,7 +125,7 @@ def test_a_limit_outside_of_the_range_is_none_after_a_few_runs() -> None:
     )
 
 
-def test_runs_that_could_not_be_count_for_nothing() -> None:
+def test_runs_that_could_not_be_count_for_nothing():
     plan = search(seeds=40)
     broken = {"completed": "False", "error": "the worker died", "reasons": ""}
     rows = finished(plan, lambda run: broken if run[1] % 4 == 1 else outcome(run, 30.0, 1.0), 2)
@@ -138,14 +134,14 @@ def test_runs_that_could_not_be_count_for_nothing() -> None:
     assert len(told["errors"]) == sum(seed % 4 == 1 for _, seed in rows)
 
 
-def test_seeds_end_a_search_that_is_not_sure_yet_and_that_is_reported() -> None:
+def test_seeds_end_a_search_that_is_not_sure_yet_and_that_is_reported():
     plan = search(seeds=12)
     rows = finished(plan, lambda run: outcome(run, 30.0, 8.0), 2)
     assert len(rows) == 12
     assert not plan.found(rows)["limits"][0]["reached"]
 
 
-def test_shares_of_a_body_and_whole_numbers_are_searched_as_such() -> None:
+def test_shares_of_a_body_and_whole_numbers_are_searched_as_such():
     shares = plan_from_texts("beam", limit="width=0.2 sole:0.6 sole")
     assert [run[0][0] for run, _ in zip(shares.runs({}), range(2), strict=False) if run] == [
         "width=0.2 sole",
@@ -178,14 +174,14 @@ def test_shares_of_a_body_and_whole_numbers_are_searched_as_such() -> None:
         ({"random": ("friction=0.3:1", "terrain.friction=0.3:1")}, "friction"),
     ],
 )
-def test_bad_searches_are_refused_before_the_first_run(options: dict[str, object], words: str) -> None:
+def test_bad_searches_are_refused_before_the_first_run(options, words):
     with pytest.raises(PlantarError) as caught:
         plan_from_texts("push", **options)  # type: ignore[arg-type]
     assert words in str(caught.value)
     assert "\n" not in str(caught.value)
 
 
-def test_random_points_follow_from_their_seed_and_more_may_be_added() -> None:
+def test_random_points_follow_from_their_seed_and_more_may_be_added():
     ranges = ("impulse=10:60", "friction=0.3:1")
     few = plan_from_texts("push", ["feedback=true,false"], 5, random=ranges)
     many = plan_from_texts("push", ["feedback=true,false"], 50, random=ranges)

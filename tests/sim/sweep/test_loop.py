@@ -1,12 +1,9 @@
 """Sweeps of very short runs: resuming, clusters and refusals. Kills are in test_kills.py."""
 
-from __future__ import annotations
-
 import csv
 import os
 import signal
 import threading
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -30,7 +27,7 @@ def rows(folder: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def test_every_point_and_seed_is_run_once_and_a_stopped_sweep_goes_on(tmp_path: Path) -> None:
+def test_every_point_and_seed_is_run_once_and_a_stopped_sweep_goes_on(tmp_path):
     first = run_sweep(standing(1), tmp_path, workers=2)
     assert (first["runs"], first["resumed"]) == (2, 0)
     text = (tmp_path / "results.csv").read_text()
@@ -43,20 +40,20 @@ def test_every_point_and_seed_is_run_once_and_a_stopped_sweep_goes_on(tmp_path: 
     assert (tmp_path / "completed.png").stat().st_size > 1000
 
 
-def test_another_sweep_in_the_same_folder_is_refused(tmp_path: Path) -> None:
+def test_another_sweep_in_the_same_folder_is_refused(tmp_path):
     run_sweep(standing(1), tmp_path)
     with pytest.raises(InputError, match="another sweep"):
         run_sweep(Sweep("push", (), 1, None, STANDING), tmp_path)
 
 
-def test_runs_that_could_not_be_say_why(tmp_path: Path) -> None:
+def test_runs_that_could_not_be_say_why(tmp_path):
     result = run_sweep(Sweep("push", (), 1, None, ("steps=2", "push.step=7")), tmp_path)
     (point,) = result["points"]
     assert (point["runs"], point["completed"]) == (1, 0)
     assert "2 steps" in point["errors"][0]
 
 
-def test_a_cluster_gives_the_same_rows_to_the_last_bit(tmp_path: Path) -> None:
+def test_a_cluster_gives_the_same_rows_to_the_last_bit(tmp_path):
     """Two runs at a time in one process, as Dask does it, and one at a time in a process of its own."""
     distributed = pytest.importorskip("distributed")
     sweep = Sweep("flat", (("friction", ("0.2", "0.9")),), 2, None, ("steps=1", "settle=0.0", "noise=3"))
@@ -73,20 +70,20 @@ def test_a_cluster_gives_the_same_rows_to_the_last_bit(tmp_path: Path) -> None:
     assert len({(r["zmp_margins_mm"], r["position_error_m"]) for r in here}) == 4
 
 
-def test_more_points_than_there_is_room_for_words_are_drawn(tmp_path: Path) -> None:
+def test_more_points_than_there_is_room_for_words_are_drawn(tmp_path):
     points = [{"settings": {"impulse": str(i)}, "runs": 4, "completed": i % 5} for i in range(500)]
     path = save_figure(bars_of(points, "push"), tmp_path / "completed.png")
     assert int.from_bytes(path.read_bytes()[16:20], "big") < 6000
 
 
-def test_no_scheduler_is_one_line(tmp_path: Path) -> None:
+def test_no_scheduler_is_one_line(tmp_path):
     pytest.importorskip("distributed")
     with pytest.raises(InputError, match="no Dask scheduler"):
         run_sweep(standing(1), tmp_path, scheduler="tcp://127.0.0.1:9")
 
 
 @pytest.fixture(autouse=True)
-def interruptible() -> Iterator[None]:
+def interruptible():
     """Both signals with a handler, also where the tests run in a shell's background."""
     before = {n: signal.signal(n, signal.default_int_handler) for n in (signal.SIGINT, signal.SIGTERM)}
     yield
@@ -95,7 +92,7 @@ def interruptible() -> Iterator[None]:
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_is_raised_at_once_or_after_what_must_not_be_interrupted(number: int) -> None:
+def test_a_signal_is_raised_at_once_or_after_what_must_not_be_interrupted(number):
     with pytest.raises(SweepStopped) as caught, stop_noted():
         os.kill(os.getpid(), number)
     assert caught.value.number == number
@@ -111,7 +108,7 @@ def test_a_signal_is_raised_at_once_or_after_what_must_not_be_interrupted(number
     assert whole == [number]
 
 
-def test_the_first_signal_counts_and_later_ones_do_not_disturb_its_end() -> None:
+def test_the_first_signal_counts_and_later_ones_do_not_disturb_its_end():
     done = False
     with stop_noted() as note:
         try:
@@ -126,14 +123,14 @@ def test_the_first_signal_counts_and_later_ones_do_not_disturb_its_end() -> None
         os.kill(os.getpid(), signal.SIGINT)
 
 
-def test_what_is_ignored_stays_ignored() -> None:
+def test_what_is_ignored_stays_ignored():
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     with stop_noted() as note, note.held():
         os.kill(os.getpid(), signal.SIGINT)
     assert note.number == 0
 
 
-def test_another_thread_handles_no_signals() -> None:
+def test_another_thread_handles_no_signals():
     seen = []
 
     def sweep() -> None:

@@ -1,12 +1,8 @@
 """What a sweep refuses before its first run, and what it takes for the same."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 
-from plantar.errors import InputError, PlantarError, RobotError, SceneError
+from plantar.errors import InputError, RobotError, SceneError
 from plantar.sim.sweep import Sweep
 
 
@@ -32,16 +28,14 @@ from plantar.sim.sweep import Sweep
         (["robot=h1,nobody"], [], RobotError, "unknown robot 'nobody'"),
     ],
 )
-def test_bad_grids_are_refused_before_the_first_run(
-    grid: list[str], settings: list[str], error: type[PlantarError], words: str
-) -> None:
+def test_bad_grids_are_refused_before_the_first_run(grid, settings, error, words):
     with pytest.raises(error) as caught:
         Sweep.from_texts("push", grid, 1, None, settings)
     assert words in str(caught.value)
     assert "\n" not in str(caught.value)
 
 
-def test_numbers_of_seeds_and_robots_that_are_none_are_refused() -> None:
+def test_numbers_of_seeds_and_robots_that_are_none_are_refused():
     with pytest.raises(InputError, match="1 to 1000000"):
         Sweep("push", (), 0)
     with pytest.raises(InputError, match="first seed is -1; allowed: 0 to"):
@@ -52,13 +46,13 @@ def test_numbers_of_seeds_and_robots_that_are_none_are_refused() -> None:
         Sweep("flat", (("robot", ("h1", "hrp2kai")),), 1, "h1")
 
 
-def test_two_names_of_one_robot_are_one_point(repository: Path) -> None:
+def test_two_names_of_one_robot_are_one_point(repository):
     file = str(repository / "plantar" / "robots" / "h1" / "robot.toml")
     with pytest.raises(InputError, match="same run"):
         Sweep("flat", (("robot", ("h1", file)),))
 
 
-def test_values_are_kept_in_one_form_and_lists_stay_whole() -> None:
+def test_values_are_kept_in_one_form_and_lists_stay_whole():
     sweep = Sweep.from_texts("flat", ["friction=0.70, 8e-1", "lean=true,false"], 1)
     assert sweep.grid == (("friction", ("0.7", "0.8")), ("lean", ("true", "false")))
     assert len(sweep.points()) == 4
@@ -68,6 +62,6 @@ def test_values_are_kept_in_one_form_and_lists_stay_whole() -> None:
     assert "size" in sweep.points()[1][0]
 
 
-def test_seeds_begin_at_the_first_seed() -> None:
+def test_seeds_begin_at_the_first_seed():
     sweep = Sweep.from_texts("push", ["impulse=20,30"], 2, first_seed=1000)
     assert list(sweep.runs({})) == [((f"impulse={i}",), seed) for seed in (1000, 1001) for i in (20, 30)]

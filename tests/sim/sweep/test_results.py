@@ -1,7 +1,5 @@
 """A table that only grows: whole rows, each run once, whatever happened to the process that wrote it."""
 
-from __future__ import annotations
-
 import csv
 import os
 import subprocess
@@ -32,7 +30,7 @@ def filled(folder: Path, count: int = 3) -> bytes:
     return (folder / "results.csv").read_bytes()
 
 
-def test_rows_come_back_as_they_were_given(tmp_path: Path) -> None:
+def test_rows_come_back_as_they_were_given(tmp_path):
     filled(tmp_path)
     with open_results(tmp_path, IDENTITY, INPUTS, AXES, COLUMNS) as results:
         assert list(results.rows) == [(("0.7", "left"), seed) for seed in range(3)]
@@ -42,7 +40,7 @@ def test_rows_come_back_as_they_were_given(tmp_path: Path) -> None:
     assert sorted(p.name for p in tmp_path.iterdir()) == ["results.csv", "sweep.json"]
 
 
-def test_a_table_that_is_cut_anywhere_keeps_its_whole_rows(tmp_path: Path) -> None:
+def test_a_table_that_is_cut_anywhere_keeps_its_whole_rows(tmp_path):
     """A killed writer leaves any part of its last row; no part of one counts, also none that looks whole."""
     data = filled(tmp_path)
     head = data.index(b"\n") + 1
@@ -59,7 +57,7 @@ def test_a_table_that_is_cut_anywhere_keeps_its_whole_rows(tmp_path: Path) -> No
             assert lines[: 1 + whole] == data.split(b"\n")[: 1 + whole]
 
 
-def test_a_value_is_found_however_it_is_written(tmp_path: Path) -> None:
+def test_a_value_is_found_however_it_is_written(tmp_path):
     filled(tmp_path)
     path = tmp_path / "results.csv"
     path.write_bytes(path.read_bytes().replace(b"0.7,left,1", b"0.70,'left',1").replace(b"\n", b"\r\n"))
@@ -78,9 +76,7 @@ def test_a_value_is_found_however_it_is_written(tmp_path: Path) -> None:
         ((b"left", b"\xff"), ("cannot be used", "utf-8", "-o")),
     ],
 )
-def test_rows_that_cannot_be_are_not_dropped_in_silence(
-    tmp_path: Path, change: tuple[bytes, bytes], words: tuple[str, ...]
-) -> None:
+def test_rows_that_cannot_be_are_not_dropped_in_silence(tmp_path, change, words):
     data = filled(tmp_path).replace(*change)
     (tmp_path / "results.csv").write_bytes(data)
     with pytest.raises(InputError) as caught, open_results(tmp_path, IDENTITY, INPUTS, AXES, COLUMNS):
@@ -90,7 +86,7 @@ def test_rows_that_cannot_be_are_not_dropped_in_silence(
     assert (tmp_path / "results.csv").read_bytes() == data
 
 
-def test_another_sweep_or_results_without_a_sweep_are_refused(tmp_path: Path) -> None:
+def test_another_sweep_or_results_without_a_sweep_are_refused(tmp_path):
     data = filled(tmp_path)
     with (
         pytest.raises(InputError, match="another sweep"),
@@ -115,7 +111,7 @@ def test_another_sweep_or_results_without_a_sweep_are_refused(tmp_path: Path) ->
         ({"model file knee.stl": "00"}, "model file knee.stl is new"),
     ],
 )
-def test_inputs_that_changed_are_named(tmp_path: Path, now: dict[str, str], words: str) -> None:
+def test_inputs_that_changed_are_named(tmp_path, now, words):
     data = filled(tmp_path)
     inputs = {"h1": INPUTS["h1"] | now, "another": {"plantar": "1.0"}}
     with pytest.raises(InputError) as caught, open_results(tmp_path, IDENTITY, inputs, AXES, COLUMNS):
@@ -125,7 +121,7 @@ def test_inputs_that_changed_are_named(tmp_path: Path, now: dict[str, str], word
     assert (tmp_path / "results.csv").read_bytes() == data
 
 
-def test_another_robot_may_join_and_is_remembered(tmp_path: Path) -> None:
+def test_another_robot_may_join_and_is_remembered(tmp_path):
     filled(tmp_path)
     for robots in ({"nao": {"plantar": "1.0"}}, INPUTS):
         with open_results(tmp_path, IDENTITY, robots, AXES, COLUMNS) as results:
@@ -139,7 +135,7 @@ def test_another_robot_may_join_and_is_remembered(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["", "[]", "3", '{"scene": "flat"}', '{"inputs": 3}', '{"inputs": {"h1": 3}}'])
-def test_a_plan_that_is_none_is_refused(tmp_path: Path, text: str) -> None:
+def test_a_plan_that_is_none_is_refused(tmp_path, text):
     data = filled(tmp_path)
     (tmp_path / "sweep.json").write_text(text)
     with pytest.raises(InputError, match=r"-o|sweep\.json"), open_results(tmp_path, IDENTITY, INPUTS, AXES, COLUMNS):
@@ -147,7 +143,7 @@ def test_a_plan_that_is_none_is_refused(tmp_path: Path, text: str) -> None:
     assert (tmp_path / "results.csv").read_bytes() == data
 
 
-def test_a_full_disk_keeps_the_rows_before(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_full_disk_keeps_the_rows_before(tmp_path, monkeypatch):
     before = filled(tmp_path)
     write = os.write
     with open_results(tmp_path, IDENTITY, INPUTS, AXES, COLUMNS) as results:
@@ -162,7 +158,7 @@ def test_a_full_disk_keeps_the_rows_before(tmp_path: Path, monkeypatch: pytest.M
     assert (tmp_path / "results.csv").read_bytes() == before + b"0.7,left,3,True,\n"
 
 
-def test_a_folder_that_cannot_be_is_one_line(tmp_path: Path) -> None:
+def test_a_folder_that_cannot_be_is_one_line(tmp_path):
     (tmp_path / "file").touch()
     with pytest.raises(InputError, match=r"cannot be used .*-o"), open_results(tmp_path / "file", {}, {}, (), ()):
         pass
@@ -189,7 +185,7 @@ while done < 50:
 """
 
 
-def test_a_second_owner_is_refused_and_the_first_named(tmp_path: Path, repository: Path) -> None:
+def test_a_second_owner_is_refused_and_the_first_named(tmp_path, repository):
     holder = subprocess.Popen(
         [sys.executable, "-c", HOLD, tmp_path], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=repository
     )
@@ -209,7 +205,7 @@ def test_a_second_owner_is_refused_and_the_first_named(tmp_path: Path, repositor
     assert list(tmp_path.iterdir()) == []
 
 
-def test_owners_that_come_and_go_are_never_two(tmp_path: Path, repository: Path) -> None:
+def test_owners_that_come_and_go_are_never_two(tmp_path, repository):
     """The file is deleted by each owner while the others open it: none may lock a deleted one beside a new one."""
     command = [sys.executable, "-c", TAKE_TURNS, tmp_path]
     owners = [subprocess.Popen(command, stderr=subprocess.PIPE, cwd=repository) for _ in range(3)]
@@ -219,7 +215,7 @@ def test_owners_that_come_and_go_are_never_two(tmp_path: Path, repository: Path)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_folder_that_takes_no_lock_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_that_takes_no_lock_is_one_line(tmp_path, monkeypatch):
     def no_locks(*_: object) -> None:
         raise OSError(95, os.strerror(95))
 

@@ -1,7 +1,5 @@
 """A sweep's result in words."""
 
-from __future__ import annotations
-
 from plantar.sim.sweep.sweep_text import sweep_errors, sweep_text
 
 RESULT = {

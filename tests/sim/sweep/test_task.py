@@ -1,7 +1,5 @@
 """A run as a row, also where it could not be."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest
@@ -12,7 +10,7 @@ from plantar.sim.sweep.task import COLUMNS, Task, criteria_of, failed, run_one, 
 STANDING = ("steps=0", "settle=0.0", "end=0.2", "start=0.2")
 
 
-def test_a_row_holds_the_summary_of_the_run() -> None:
+def test_a_row_holds_the_summary_of_the_run():
     row = run_one("flat", None, STANDING, 0)
     assert row["completed"] is True
     assert row["error"] == ""
@@ -21,7 +19,7 @@ def test_a_row_holds_the_summary_of_the_run() -> None:
     assert "2 steps" in bad["error"]
 
 
-def test_a_row_names_every_criterion_that_failed() -> None:
+def test_a_row_names_every_criterion_that_failed():
     assert run_one("flat", None, STANDING, 0)["reasons"] == ""
     row = run_one("push", None, ["impulse=90", "push.step=0", "direction=right", "feedback=false", "steps=2"], 0)
     assert row["completed"] is False
@@ -29,7 +27,7 @@ def test_a_row_names_every_criterion_that_failed() -> None:
     assert {"fall", "steps"} <= set(criteria_of(row))
 
 
-def test_a_defect_is_a_row_and_a_missing_library_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_defect_is_a_row_and_a_missing_library_is_none(monkeypatch):
     def defect(*_: Any) -> None:
         raise KeyError("knee")
 

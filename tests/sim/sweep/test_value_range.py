@@ -1,7 +1,5 @@
 """Values of a grid: cut where they end, and written in one way."""
 
-from __future__ import annotations
-
 import tomllib
 from typing import Any
 
@@ -41,7 +39,7 @@ def meaning(text: str) -> Any:
 
 
 @given(VALUES)
-def test_a_value_keeps_its_meaning_and_has_one_form(value: Any) -> None:
+def test_a_value_keeps_its_meaning_and_has_one_form(value):
     once = canonical(toml(value))
     assert meaning(once) == value
     assert canonical(once) == once
@@ -49,7 +47,7 @@ def test_a_value_keeps_its_meaning_and_has_one_form(value: Any) -> None:
 
 
 @given(st.lists(VALUES, min_size=1, max_size=4))
-def test_a_list_is_cut_where_its_values_end(values: list[Any]) -> None:
+def test_a_list_is_cut_where_its_values_end(values):
     assert split_values(" , ".join(map(toml, values))) == [toml(v) for v in values]
 
 
@@ -63,24 +61,24 @@ def test_a_list_is_cut_where_its_values_end(values: list[Any]) -> None:
         ('{a = "x,y"}, "\\",", \'\\\'', ['{a = "x,y"}', '"\\","', "'\\'"]),
     ],
 )
-def test_brackets_and_quotes_hold_their_commas(text: str, values: list[str]) -> None:
+def test_brackets_and_quotes_hold_their_commas(text, values):
     assert split_values(text) == values
 
 
 @pytest.mark.parametrize("text", ["", ",", "1,", "1,,2", "[1, 2", '"a', "{a = 1", "[[1]"])
-def test_what_has_no_end_or_no_value_is_refused(text: str) -> None:
+def test_what_has_no_end_or_no_value_is_refused(text):
     with pytest.raises(InputError):
         split_values(text)
 
 
 @pytest.mark.parametrize("text", ["[1, x]", '"a" b', "{a}", "a\nb", "1\n2"])
-def test_what_is_no_value_is_refused(text: str) -> None:
+def test_what_is_no_value_is_refused(text):
     with pytest.raises(InputError) as caught:
         canonical(text)
     assert "\n" not in str(caught.value)
 
 
-def test_a_word_keeps_its_text() -> None:
+def test_a_word_keeps_its_text():
     assert [canonical(t, word=True) for t in ("1.0", '"h1"', "my robot.toml", "0x10")] == [
         "1.0",
         "h1",

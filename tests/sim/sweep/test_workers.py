@@ -1,7 +1,5 @@
 """Processes that run tasks and may die of them. A worker runs any function of its task: here small ones."""
 
-from __future__ import annotations
-
 import os
 import signal
 import time
@@ -33,7 +31,7 @@ def answers(pool: LocalWorkers, count: int) -> Iterator[Any]:
             yield answer
 
 
-def test_tasks_run_beside_one_another_and_no_more_than_there_is_room_for() -> None:
+def test_tasks_run_beside_one_another_and_no_more_than_there_is_room_for():
     with closing(LocalWorkers(2, str)) as pool:
         left = list(range(5))
         done = []
@@ -47,7 +45,7 @@ def test_tasks_run_beside_one_another_and_no_more_than_there_is_room_for() -> No
     assert processes() == []
 
 
-def test_a_run_that_kills_its_worker_is_tried_again_and_then_becomes_a_row() -> None:
+def test_a_run_that_kills_its_worker_is_tried_again_and_then_becomes_a_row():
     with closing(LocalWorkers(1, os._exit)) as pool:
         pool.submit(7)
         ((task, row),) = answers(pool, 1)
@@ -57,7 +55,7 @@ def test_a_run_that_kills_its_worker_is_tried_again_and_then_becomes_a_row() -> 
         assert pool.room == 1
 
 
-def test_a_killed_worker_is_replaced_and_its_run_begins_again() -> None:
+def test_a_killed_worker_is_replaced_and_its_run_begins_again():
     with closing(LocalWorkers(1, time.sleep)) as pool:
         pool.submit(1.0)
         deadline = time.monotonic() + WAIT
@@ -73,7 +71,7 @@ def test_a_killed_worker_is_replaced_and_its_run_begins_again() -> None:
         assert list(answers(pool, 1)) == [(0.0, None)]
 
 
-def test_closing_ends_workers_in_the_middle_of_a_run() -> None:
+def test_closing_ends_workers_in_the_middle_of_a_run():
     pool = LocalWorkers(2, time.sleep)
     pool.submit(600.0)
     pool.submit(601.0)
@@ -87,7 +85,7 @@ def test_closing_ends_workers_in_the_middle_of_a_run() -> None:
     assert processes() == []
 
 
-def test_workers_that_cannot_begin_end_the_sweep(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_workers_that_cannot_begin_end_the_sweep(monkeypatch):
     """Their module search path leads nowhere, so that they end while they load."""
     monkeypatch.setattr("multiprocessing.spawn.get_command_line", lambda **_: ["/bin/false"])
     with closing(LocalWorkers(1, str)) as pool:
@@ -96,7 +94,7 @@ def test_workers_that_cannot_begin_end_the_sweep(monkeypatch: pytest.MonkeyPatch
             list(answers(pool, 1))
 
 
-def test_an_error_that_stops_all_runs_is_raised_after_the_rows_that_came() -> None:
+def test_an_error_that_stops_all_runs_is_raised_after_the_rows_that_came():
     with closing(LocalWorkers(1, resolve_name)) as pool:
         pool.submit("json:__name__")
         assert list(answers(pool, 1)) == [("json:__name__", "json")]
@@ -105,7 +103,7 @@ def test_an_error_that_stops_all_runs_is_raised_after_the_rows_that_came() -> No
             list(answers(pool, 1))
 
 
-def test_a_system_that_gives_no_process_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_system_that_gives_no_process_is_one_line(monkeypatch):
     def no_more(*_: Any) -> None:
         raise BlockingIOError(11, "Resource temporarily unavailable")
 

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import numpy as np
 
 from plantar.wholebody.behaviours.contact_phases import ContactPhases, PhaseSettings

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import numpy as np
 
 from plantar.wholebody.behaviours.nociceptive_reflex import NociceptiveReflex, ReflexSettings

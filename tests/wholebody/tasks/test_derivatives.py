@@ -1,7 +1,5 @@
 """Every task's Jacobian and drift against finite differences of what it moves, with a fixed and with a free base."""
 
-from __future__ import annotations
-
 import importlib
 import pkgutil
 import re

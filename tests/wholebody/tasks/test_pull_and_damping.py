@@ -1,7 +1,5 @@
 """Tasks with a target pull towards it, brake what moves otherwise than wanted, and ask for no more at it."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 import pytest
@@ -25,13 +23,13 @@ PLACE, SPEED = np.array([0.3, -0.2, 0.0]), np.array([0.5, -0.7, 0.0])
 
 
 @pytest.fixture
-def robot() -> MujocoDynamics:
+def robot():
     made = MujocoDynamics(mujoco.MjModel.from_xml_string(HAND))
     made.update(PLACE, SPEED, 0.1)
     return made
 
 
-def test_a_centre_of_mass_is_pulled_and_braked(robot: MujocoDynamics) -> None:
+def test_a_centre_of_mass_is_pulled_and_braked(robot):
     task = CenterOfMass(PLACE + np.array([0.1, 0.0, 0.0]), stiffness=40.0, damping=3.0)
     assert task.demand(robot, None).acceleration == pytest.approx([40.0 * 0.1 - 3.0 * 0.5, 3.0 * 0.7, 0.0])
     task.target_velocity = SPEED
@@ -42,7 +40,7 @@ def test_a_centre_of_mass_is_pulled_and_braked(robot: MujocoDynamics) -> None:
 
 
 @pytest.mark.parametrize("torques", [False, True])
-def test_a_posture_is_pulled_and_braked(robot: MujocoDynamics, torques: bool) -> None:
+def test_a_posture_is_pulled_and_braked(robot, torques):
     task = Posture(PLACE + np.array([0.0, 0.1, 0.2]), stiffness=10.0, damping=2.0, torques=torques)
     demand = task.demand(robot, None)
     asked, other = (demand.force, demand.acceleration) if torques else (demand.acceleration, demand.force)
@@ -56,7 +54,7 @@ def test_a_posture_is_pulled_and_braked(robot: MujocoDynamics, torques: bool) ->
     assert part.jacobian == pytest.approx(np.eye(3)[[2, 0]])
 
 
-def test_a_pose_is_pulled_no_faster_than_its_speed_and_braked() -> None:
+def test_a_pose_is_pulled_no_faster_than_its_speed_and_braked():
     robot = MujocoDynamics(mujoco.MjModel.from_xml_string(HAND))
     turning = np.array([0.5, -0.7, 0.4])
     robot.update(np.array([0.3, -0.2, 0.0]), turning, 0.1)

@@ -1,7 +1,5 @@
 """An analysis in words."""
 
-from __future__ import annotations
-
 from plantar.gait.analysis.pages.report import analysis_text
 
 WALK = {

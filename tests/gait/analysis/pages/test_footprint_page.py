@@ -1,9 +1,5 @@
 """The page of a footprint image in a real browser: it can be read at 390 px, and its figure prints whole."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -17,7 +13,7 @@ cv2 = pytest.importorskip("cv2", reason="OpenCV is not installed: pip install 'p
 
 
 @pytest.fixture(scope="module")
-def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def page(tmp_path_factory):
     """The page of two feet of 240 mm at 2 pixels a mm."""
     folder = tmp_path_factory.mktemp("print")
     image = np.full((640, 640, 3), 255, dtype=np.uint8)
@@ -30,7 +26,7 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize("dark", [False, pytest.param(True, marks=pytest.mark.long)])
-def test_the_page_can_be_read_on_a_telephone(page: Path, tmp_path: Path, dark: bool) -> None:
+def test_the_page_can_be_read_on_a_telephone(page, tmp_path, dark):
     seen = visit(page, READABLE, tmp_path, dark=dark, width=390)
     found = seen.found
     assert seen.console == []
@@ -39,7 +35,7 @@ def test_the_page_can_be_read_on_a_telephone(page: Path, tmp_path: Path, dark: b
     assert found["wide"] <= 0
 
 
-def test_the_figure_is_printed_whole(page: Path, tmp_path: Path) -> None:
+def test_the_figure_is_printed_whole(page, tmp_path):
     images = printed_images(page, tmp_path)
     assert len(images) == page.read_text().count("<figure") == 1
     assert whole(images)

@@ -1,7 +1,5 @@
 """The part of a platform that a picture shows."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from plantar.formats.recorded_layouts import grid_cells

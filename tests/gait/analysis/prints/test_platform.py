@@ -1,7 +1,5 @@
 """Footprints on a walkway, told apart and measured where they were set."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -78,7 +76,7 @@ def walkway(
         pytest.param({"across": True}, marks=pytest.mark.long),
     ],
 )
-def test_a_walkway(options: dict[str, object]) -> None:
+def test_a_walkway(options):
     recording, truth = walkway(**options)  # type: ignore[arg-type]
     told, prints = separated_feet(recording)
     assert [(p.side, round(float(told.time[p.begin]), 1)) for p in prints] == [(s, round(t, 1)) for s, t in truth]
@@ -107,7 +105,7 @@ def test_a_walkway(options: dict[str, object]) -> None:
 
 @pytest.mark.parametrize("first", ["left", "right"])
 @pytest.mark.parametrize("reverse", [False, True])
-def test_a_single_footprint_tells_its_side_by_its_shape(first: Side, reverse: bool) -> None:
+def test_a_single_footprint_tells_its_side_by_its_shape(first, reverse):
     recording, _ = walkway(1, first, reverse)
     told, prints = separated_feet(recording)
     assert [p.side for p in prints] == [first]
@@ -117,7 +115,7 @@ def test_a_single_footprint_tells_its_side_by_its_shape(first: Side, reverse: bo
     assert len(data["feet"][0]["cells"]) < 400  # not the whole platform
 
 
-def test_a_platform_that_records_from_the_first_load_has_a_whole_step() -> None:
+def test_a_platform_that_records_from_the_first_load_has_a_whole_step():
     recording, _ = walkway(1, cut=True)
     loaded = np.flatnonzero(recording.feet["left"].force.sum(axis=1) > 1.0)
     part = slice(loaded[0], loaded[-1] + 1)
@@ -130,7 +128,7 @@ def test_a_platform_that_records_from_the_first_load_has_a_whole_step() -> None:
 
 
 @pytest.mark.parametrize("steps", [1, 2])
-def test_a_platform_that_was_exported_is_a_platform_again(tmp_path: Path, steps: int) -> None:
+def test_a_platform_that_was_exported_is_a_platform_again(tmp_path, steps):
     recording, _ = walkway(steps)
     told, prints = separated_feet(recording)
     feet = analyse_feet(told, prints)
@@ -145,7 +143,7 @@ def test_a_platform_that_was_exported_is_a_platform_again(tmp_path: Path, steps:
     assert detect_format(tmp_path / "way.csv").name == "csv"
 
 
-def test_an_empty_platform_and_a_sole() -> None:
+def test_an_empty_platform_and_a_sole():
     recording, _ = walkway(1)
     empty = FootRecording("left", 0 * recording.feet["left"].force, recording.feet["left"].layout)
     nobody = PressureRecording(Path("x"), "x", 100.0, recording.time, {"left": empty}, kind="platform")

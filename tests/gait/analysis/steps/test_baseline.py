@@ -1,7 +1,5 @@
 """Offsets of sensors and cells that a crease keeps loaded: what is taken off, and what is left alone."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -25,10 +23,9 @@ def means(gait: FootGait, key: str) -> float:
 
 
 @pytest.mark.parametrize(
-    ("offset", "drift", "strides"),
-    [(300.0, 0.0, 6), (5000.0, 0.0, 6), (-400.0, 0.0, 6), (150.0, 150.0, 40)],
+    ("offset", "drift", "strides"), [(300.0, 0.0, 6), (5000.0, 0.0, 6), (-400.0, 0.0, 6), (150.0, 150.0, 40)]
 )
-def test_a_walk_on_an_offset_is_the_walk_without_it(offset: float, drift: float, strides: int) -> None:
+def test_a_walk_on_an_offset_is_the_walk_without_it(offset, drift, strides):
     plain, none = measured(made_walk(strides=strides))
     feet, warnings = measured(made_walk(offset=offset, drift=drift, strides=strides))
     assert none == ()
@@ -44,7 +41,7 @@ def test_a_walk_on_an_offset_is_the_walk_without_it(offset: float, drift: float,
 
 @pytest.mark.parametrize("offset", [100.0, 300.0])
 @pytest.mark.parametrize("strides", [1, 2])
-def test_one_or_two_strides_show_an_offset(strides: int, offset: float) -> None:
+def test_one_or_two_strides_show_an_offset(strides, offset):
     plain, _ = measured(made_walk(strides=strides))
     feet, warnings = measured(made_walk(strides=strides, offset=offset))
     assert sum(f"reads {offset:.0f} N in swing" in w for w in warnings) == 2
@@ -54,7 +51,7 @@ def test_one_or_two_strides_show_an_offset(strides: int, offset: float) -> None:
 
 
 @pytest.mark.parametrize("ramp", [0.5, 0.8])
-def test_weight_that_is_shifted_shows_no_offset(ramp: float) -> None:
+def test_weight_that_is_shifted_shows_no_offset(ramp):
     """From both feet to one and back, slowly: the lower level is half a body weight, not the sensor's."""
     time = np.arange(0.0, 6.0, 0.01)
     shift = np.clip(np.minimum(time - 2.0, 4.0 - time) / ramp, 0.0, 1.0)
@@ -62,7 +59,7 @@ def test_weight_that_is_shifted_shows_no_offset(ramp: float) -> None:
 
 
 @pytest.mark.parametrize("offset", [-15.0, -40.0, -75.0])
-def test_no_shoe_pulls(offset: float) -> None:
+def test_no_shoe_pulls(offset):
     """However little it is: cells below zero take the CoP out of the sole."""
     truth = analyse_feet(made_walk(strides=7).recording)["left"].steps[3]
     pulled = made_walk(strides=7).recording
@@ -75,7 +72,7 @@ def test_no_shoe_pulls(offset: float) -> None:
         assert step[key] == pytest.approx(truth[key], rel=0.01), key
 
 
-def test_what_a_shoe_presses_in_swing_stays_in_the_forces() -> None:
+def test_what_a_shoe_presses_in_swing_stays_in_the_forces():
     """Vendors leave it there, too; 5 % of the force is within what shoes do."""
     made = made_walk(offset=35.0)
     notes = without_baselines(made.recording).warnings
@@ -83,7 +80,7 @@ def test_what_a_shoe_presses_in_swing_stays_in_the_forces() -> None:
     assert without_baselines(made.recording).feet["left"].force is made.recording.feet["left"].force
 
 
-def test_a_crease_and_a_stuck_cell_are_found_and_are_no_contact() -> None:
+def test_a_crease_and_a_stuck_cell_are_found_and_are_no_contact():
     plain, _ = measured(made_walk())
     made = made_walk(crease=[97, 3], crease_force=30.0)
     stuck = made.recording.feet["right"].force
@@ -97,7 +94,7 @@ def test_a_crease_and_a_stuck_cell_are_found_and_are_no_contact() -> None:
     assert means(feet["left"], "impulse_Ns") == pytest.approx(means(plain["left"], "impulse_Ns"), rel=0.04)
 
 
-def test_a_cell_that_stays_loaded_in_swing_is_in_contact_only_above_that() -> None:
+def test_a_cell_that_stays_loaded_in_swing_is_in_contact_only_above_that():
     """Its threshold lies above what the shoe presses there."""
     made = made_walk()
     force = made.recording.feet["left"].force
@@ -112,14 +109,14 @@ def test_a_cell_that_stays_loaded_in_swing_is_in_contact_only_above_that() -> No
     assert not (force[swing] > gait.cell_threshold).any()
 
 
-def test_a_contact_of_just_half_of_the_range() -> None:
+def test_a_contact_of_just_half_of_the_range():
     force = np.zeros(400)
     force[200:260], force[360:] = 350.0, 700.0
     assert resting_level(force, 100.0) is not None
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_standing_has_no_level_in_swing(seed: int) -> None:
+def test_standing_has_no_level_in_swing(seed):
     random = np.random.default_rng(seed)
     sway = np.convolve(random.normal(0.0, 1.0, 3000), np.exp(-np.arange(200) / 40.0), mode="same")
     assert resting_level(400.0 + 6.0 * sway, 100.0) is None
@@ -129,7 +126,7 @@ def test_standing_has_no_level_in_swing(seed: int) -> None:
     assert resting_level(on_one_foot, 100.0) is None  # 5 s on the other foot is no swing
 
 
-def test_walking_after_standing_keeps_the_offset_of_the_walk() -> None:
+def test_walking_after_standing_keeps_the_offset_of_the_walk():
     made = made_walk(offset=350.0, strides=20)
     force = made.recording.feet["left"].force.copy()
     force[:1200] = force.mean(axis=0) + 0.4 * force[100:1300].mean(axis=0)

@@ -1,7 +1,5 @@
 """Averaging of the CoP path, and its distance to the sole's edge."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -10,7 +8,7 @@ from plantar.gait.analysis.steps.cop_path import averaged_path, cop_measures, ma
 from plantar.geometry.polygon import signed_margin
 
 
-def test_an_even_motion_is_kept_to_its_ends() -> None:
+def test_an_even_motion_is_kept_to_its_ends():
     points = np.column_stack([np.linspace(0.0, 0.2, 60), np.linspace(0.05, 0.0, 60)])
     points[:5] = points[-7:] = points[30] = np.nan
     out = averaged_path(points, np.ones(60), 12)
@@ -19,7 +17,7 @@ def test_an_even_motion_is_kept_to_its_ends() -> None:
     assert np.isnan(out[~known]).all()
 
 
-def test_noise_is_averaged_and_force_is_the_weight() -> None:
+def test_noise_is_averaged_and_force_is_the_weight():
     random = np.random.default_rng(0)
     points = random.normal(0.0, 0.01, (1000, 2))
     out = averaged_path(points, np.ones(1000), 12)
@@ -28,7 +26,7 @@ def test_noise_is_averaged_and_force_is_the_weight() -> None:
     assert two[1] == pytest.approx([0.5, 0.5])
 
 
-def test_margin_is_that_of_the_nearest_point_to_the_edge() -> None:
+def test_margin_is_that_of_the_nearest_point_to_the_edge():
     layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
     points = np.array([[0.1, 0.05], [0.19, 0.04], [0.1, 0.03]])
     assert margin_to_outline(layout, points) == pytest.approx(0.01)
@@ -38,7 +36,7 @@ def test_margin_is_that_of_the_nearest_point_to_the_edge() -> None:
 
 @pytest.mark.parametrize("rate", [50.0, 100.0, 400.0])
 @pytest.mark.parametrize("noise", [0.0, 0.4e-3])
-def test_speed_depends_on_neither_rate_nor_noise(rate: float, noise: float) -> None:
+def test_speed_depends_on_neither_rate_nor_noise(rate, noise):
     """A path along the sole at 0.3 m/s, whose noise frame by frame would lengthen it by up to 90 %."""
     time = np.arange(0.0, 0.7, 1.0 / rate)
     points = np.column_stack([0.3 * time, 0.01 * np.sin(4.0 * time)])

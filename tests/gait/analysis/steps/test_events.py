@@ -1,7 +1,5 @@
 """Heel strikes and toe offs against contacts that are known."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
@@ -21,7 +19,7 @@ def steps(rate: float = 100.0, n: int = 5, peak: float = 700.0, rest: float = 0.
 
 
 @pytest.mark.parametrize("rate", [31.25, 75.0, 100.0, 250.0])
-def test_half_sine_contacts_are_timed_between_samples(rate: float) -> None:
+def test_half_sine_contacts_are_timed_between_samples(rate):
     time, force = steps(rate)
     contacts = find_contacts(time, force)
     assert len(contacts) == 5
@@ -35,7 +33,7 @@ def test_half_sine_contacts_are_timed_between_samples(rate: float) -> None:
 
 @pytest.mark.parametrize("scale", [0.05, 1.0, 20.0])
 @pytest.mark.parametrize("rest", [0.0, 0.04])
-def test_levels_follow_the_foot(scale: float, rest: float) -> None:
+def test_levels_follow_the_foot(scale, rest):
     time, force = steps(peak=700.0 * scale, rest=700.0 * scale * rest)
     assert [c.complete for c in find_contacts(time, force)] == [True] * 5
 
@@ -61,15 +59,13 @@ def toe_offs(course: Callable[[np.ndarray], np.ndarray], rate: float, stride: fl
     ],
     ids=["walk", "half sine", "trapezium"],
 )
-def test_toe_off_from_an_insole_is_where_push_off_ends(
-    course: Callable[[np.ndarray], np.ndarray], rate: float, stride: float
-) -> None:
+def test_toe_off_from_an_insole_is_where_push_off_ends(course, rate, stride):
     found, true = toe_offs(course, rate, stride)
     assert len(found) >= 9
     assert np.abs(found - true).max() < 0.008
 
 
-def test_what_a_shoe_presses_after_push_off_is_not_the_foot() -> None:
+def test_what_a_shoe_presses_after_push_off_is_not_the_foot():
     def with_tail(share: np.ndarray) -> np.ndarray:
         """Push-off that would end at 0.9 of the contact, and 8 % of the peak until its end."""
         return np.asarray(np.maximum(np.clip(6.0 * np.minimum(share, 0.9 - share), 0.0, 1.0), 0.08 * (share < 1.0)))
@@ -79,7 +75,7 @@ def test_what_a_shoe_presses_after_push_off_is_not_the_foot() -> None:
 
 
 @pytest.mark.parametrize("stands", [2.0, 20.0, 300.0])
-def test_levels_do_not_depend_on_how_long_someone_stands(stands: float) -> None:
+def test_levels_do_not_depend_on_how_long_someone_stands(stands):
     _, force = steps()
     alone = force_levels(force)
     before = np.concatenate([np.full(round(stands * 100.0), 350.0), force])
@@ -90,7 +86,7 @@ def test_levels_do_not_depend_on_how_long_someone_stands(stands: float) -> None:
     assert sum(c.complete for c in find_contacts(np.arange(len(before)) * 0.01, before)) == 5
 
 
-def test_a_single_leap_does_not_raise_the_levels_of_a_walk() -> None:
+def test_a_single_leap_does_not_raise_the_levels_of_a_walk():
     _, force = steps(n=12)
     leap = force.copy()
     leap[500:600] *= 4.0
@@ -100,7 +96,7 @@ def test_a_single_leap_does_not_raise_the_levels_of_a_walk() -> None:
     assert after.release == pytest.approx(before.release, rel=0.01)
 
 
-def test_contacts_cut_by_the_ends_are_incomplete() -> None:
+def test_contacts_cut_by_the_ends_are_incomplete():
     time, force = steps()
     keep = (time >= 0.5) & (time < 4.5)
     contacts = find_contacts(time[keep], force[keep])
@@ -111,7 +107,7 @@ def test_contacts_cut_by_the_ends_are_incomplete() -> None:
     assert contacts[-1].toe_off is None
 
 
-def test_standing_and_silence_have_no_complete_contact() -> None:
+def test_standing_and_silence_have_no_complete_contact():
     time = np.arange(0.0, 10.0, 0.01)
     random = np.random.default_rng(0)
     assert find_contacts(time, np.zeros_like(time)) == []
@@ -125,14 +121,14 @@ def test_standing_and_silence_have_no_complete_contact() -> None:
     assert find_contacts(time, np.full_like(time, np.nan)) == []
 
 
-def test_a_short_loss_does_not_split_a_contact_and_a_brush_is_none() -> None:
+def test_a_short_loss_does_not_split_a_contact_and_a_brush_is_none():
     time, force = steps()
     force[(time > 2.48) & (time < 2.52)] = 0.0  # 40 ms within the third contact
     force[(time > 3.93) & (time < 3.97)] = 300.0  # 40 ms in swing
     assert len(find_contacts(time, force)) == 5
 
 
-def test_a_light_landing_that_chatters_is_one_contact() -> None:
+def test_a_light_landing_that_chatters_is_one_contact():
     """A touch, 90 ms of air, then 0.2 s of chatter that often stays below the contact level."""
     time = np.arange(0.0, 6.0, 0.004)
     random = np.random.default_rng(4)
@@ -148,7 +144,7 @@ def test_a_light_landing_that_chatters_is_one_contact() -> None:
     assert contacts[1].heel_strike == pytest.approx(2.0, abs=0.004)
 
 
-def test_a_spike_of_noise_in_swing_does_not_join_two_contacts() -> None:
+def test_a_spike_of_noise_in_swing_does_not_join_two_contacts():
     time, force = steps()
     force[(time > 2.98) & (time < 3.0)] = 50.0  # above the event level of 35 N, below the contact level of 70 N
     contacts = find_contacts(time, force)
@@ -156,7 +152,7 @@ def test_a_spike_of_noise_in_swing_does_not_join_two_contacts() -> None:
     assert contacts[3].heel_strike == pytest.approx(3.21, abs=0.01)
 
 
-def test_dropouts_are_bridged_when_short_and_cut_when_long() -> None:
+def test_dropouts_are_bridged_when_short_and_cut_when_long():
     time, force = steps()
     short, long = force.copy(), force.copy()
     short[(time > 2.46) & (time < 2.54)] = np.nan
@@ -169,14 +165,14 @@ def test_dropouts_are_bridged_when_short_and_cut_when_long() -> None:
     assert contacts[3].heel_strike is None
 
 
-def test_a_stretch_between_gaps_may_hold_no_contact() -> None:
+def test_a_stretch_between_gaps_may_hold_no_contact():
     time, force = steps()
     force[(time > 2.0) & (time < 2.17)] = np.nan
     force[(time > 2.19) & (time < 2.9)] = np.nan  # leaves two frames of swing between the gaps
     assert [c.complete for c in find_contacts(time, force)] == [True] * 4
 
 
-def test_one_damaged_frame_is_not_a_peak() -> None:
+def test_one_damaged_frame_is_not_a_peak():
     time, force = steps()
     force[55] = 1e6
     assert [c.complete for c in find_contacts(time, force)] == [True] * 5
@@ -184,7 +180,7 @@ def test_one_damaged_frame_is_not_a_peak() -> None:
 
 @pytest.mark.parametrize("clip", [False, True])
 @pytest.mark.parametrize("seed", range(5))
-def test_noisy_robot_soles_land_within_10_ms(walk: Callable[..., object], clip: bool, seed: int) -> None:
+def test_noisy_robot_soles_land_within_10_ms(walk, clip, seed):
     made = walk(steps=20, noise=1.4715, clip=clip, seed=seed)
     for side, foot in made.recording.feet.items():  # type: ignore[attr-defined]
         contacts = find_contacts(made.recording.time, foot.vertical_force)  # type: ignore[attr-defined]

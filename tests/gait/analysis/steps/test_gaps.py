@@ -1,7 +1,5 @@
 """Values that cells did not measure: they lower no force, and they are told."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -16,7 +14,7 @@ from ..walks import made_walk
 
 
 @pytest.mark.parametrize("share", [0.02, 0.08])
-def test_scattered_gaps_change_no_measure(share: float) -> None:
+def test_scattered_gaps_change_no_measure(share):
     """As the sum of the cells that were measured, the force would be lower by the same share."""
     plain = made_walk(strides=4)
     truth = analyse_feet(plain.recording)["left"].steps
@@ -34,7 +32,7 @@ def test_scattered_gaps_change_no_measure(share: float) -> None:
     assert held == pytest.approx(100.0 * share, rel=0.1)
 
 
-def test_cells_that_never_measure_are_told_and_long_gaps_stay() -> None:
+def test_cells_that_never_measure_are_told_and_long_gaps_stay():
     recording = made_walk(strides=3).recording
     force = recording.feet["right"].force
     force[:, :20] = np.nan
@@ -45,7 +43,7 @@ def test_cells_that_never_measure_are_told_and_long_gaps_stay() -> None:
     assert mended.feet["left"].force is recording.feet["left"].force
 
 
-def test_blocks_fill_as_the_whole_does(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_blocks_fill_as_the_whole_does(monkeypatch):
     recording = made_walk(strides=3).recording
     random = np.random.default_rng(1)
     force = recording.feet["left"].force

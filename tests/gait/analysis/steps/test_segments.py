@@ -1,7 +1,5 @@
 """Recordings of several activities: each step is of one, stops are no steps, and means are of one activity."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -37,7 +35,7 @@ def analysed(*parts: list[np.ndarray], **more: object) -> Analysis:
     return analyse({"left": left, "right": right, "unit": "N"}, rate_hz=RATE, **more)  # type: ignore[arg-type,return-value]
 
 
-def test_a_stop_between_walks_is_no_step() -> None:
+def test_a_stop_between_walks_is_no_step():
     found = analysed(walk(), stand(), walk(phase=0.3))
     assert [s["activity"] for s in found.metrics["segments"]] == ["walking", "standing", "walking"]
     for foot in found.metrics["feet"].values():
@@ -47,7 +45,7 @@ def test_a_stop_between_walks_is_no_step() -> None:
 
 
 @pytest.mark.parametrize(("choice", "cadence"), [("walking", 120.0 / 1.1), ("running", 120.0 / 0.7)])
-def test_means_are_of_one_activity(choice: str, cadence: float) -> None:
+def test_means_are_of_one_activity(choice, cadence):
     found = analysed(walk(), run(), choices=AnalysisOptions(segment=choice))
     assert found.metrics["activity"]["name"] == choice
     assert found.metrics["gait"]["cadence_steps_per_min"] == pytest.approx(cadence, rel=0.003)
@@ -56,20 +54,20 @@ def test_means_are_of_one_activity(choice: str, cadence: float) -> None:
     assert {step.activity for step in used} == {choice}
 
 
-def test_hops_of_both_feet_are_no_walk() -> None:
+def test_hops_of_both_feet_are_no_walk():
     both = [steps(10.0, 0.6, 0.5, phase, 1500.0) for phase in (0.0, 0.005)]
     found = analysed(both)
     assert found.metrics["activity"]["name"] == "hopping"
     assert found.metrics["gait"]["double_support_percent"] is None
 
 
-def test_two_people_in_one_file_are_pointed_out() -> None:
+def test_two_people_in_one_file_are_pointed_out():
     found = analysed([steps(20.0, 1.0, 0.62, 0.0), steps(20.0, 1.22, 0.62, 0.5)])
     assert any("strides are 20 % shorter" in w for w in found.warnings)
     assert found.metrics["gait"]["double_support_percent"] is None
 
 
-def test_both_feet_share_one_window() -> None:
+def test_both_feet_share_one_window():
     left, right = walk(20.0)
     right[: round(8.0 * RATE)] *= 0.5  # eight seconds in which the right foot carries half
     found = analysed([left, right])
@@ -77,7 +75,7 @@ def test_both_feet_share_one_window() -> None:
     assert abs(begins[0] - begins[1]) <= 1.11
 
 
-def test_a_gap_in_standing_is_no_lift() -> None:
+def test_a_gap_in_standing_is_no_lift():
     time = np.arange(0.0, 20.0, 1.0 / RATE)
     circle = 0.01 * np.column_stack([np.cos(2.0 * np.pi * time), np.sin(2.0 * np.pi * time)])
     from plantar.gait.analysis.activity import sway_measures

@@ -1,7 +1,5 @@
 """Events that a file states: read, shown beside ours, and used."""
 
-from __future__ import annotations
-
 import contextlib
 import time
 import zipfile
@@ -21,7 +19,7 @@ from plantar.recordings.pressure_recording import StatedEvents
 from ..walks import made_walk
 
 
-def test_stated_events_are_used_and_shown(tmp_path: Path) -> None:
+def test_stated_events_are_used_and_shown(tmp_path):
     made = made_walk()
     path = tmp_path / "events.csv"
     rows = [
@@ -44,18 +42,18 @@ def test_stated_events_are_used_and_shown(tmp_path: Path) -> None:
         analyse_feet(made.recording, options=AnalysisOptions(events="vendor"))
 
 
-def test_contacts_that_the_recording_cuts() -> None:
+def test_contacts_that_the_recording_cuts():
     time = np.arange(500) * 0.01
     contacts = stated_contacts(time, StatedEvents(np.array([1.0, 2.1, 4.5]), np.array([0.4, 1.7, 2.8])))
     assert [(c.heel_strike, c.toe_off) for c in contacts] == [(None, 0.4), (1.0, 1.7), (2.1, 2.8), (4.5, None)]
     assert contacts[-1].end == 500
 
 
-def test_toe_offs_without_heel_strikes_make_no_contact() -> None:
+def test_toe_offs_without_heel_strikes_make_no_contact():
     assert stated_contacts(np.arange(500) * 0.01, StatedEvents(np.zeros(0), np.array([0.4]))) == []
 
 
-def test_what_holds_no_events_is_refused(tmp_path: Path) -> None:
+def test_what_holds_no_events_is_refused(tmp_path):
     path = tmp_path / "events.csv"
     for content in (b"", b"PK\x03\x04nothing", b"a,b\n1,2\n", b"side,heel_strike_s,toe_off_s\nnone,1,2\n"):
         path.write_bytes(content or b"\n")
@@ -81,7 +79,7 @@ def report(path: Path, sheets: list[str], rows: int = 3, more: str = "") -> Path
     return path
 
 
-def test_a_report_and_a_table_of_any_encoding_are_read(tmp_path: Path) -> None:
+def test_a_report_and_a_table_of_any_encoding_are_read(tmp_path):
     found = read_events(report(tmp_path / "a.xlsx", ["Left Steps", "Right Steps", "Summary"]))
     assert found["left"].heel_strikes.tolist() == [1.0, 2.0, 3.0]
     assert found["right"].toe_offs.tolist() == [1.6, 2.6, 3.6]
@@ -94,13 +92,13 @@ def test_a_report_and_a_table_of_any_encoding_are_read(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["up,1,2\n", "left,one,2\n", "left,1,x\n", 'left,"1\n', "left,1,2\0\n"])
-def test_a_row_that_cannot_be_meant_is_refused(text: str, tmp_path: Path) -> None:
+def test_a_row_that_cannot_be_meant_is_refused(text, tmp_path):
     (tmp_path / "a.csv").write_text("side,heel_strike_s,toe_off_s\nleft,1,1.6\n" + text)
     with pytest.raises(FormatError, match=r"a\.csv"):
         read_events(tmp_path / "a.csv")
 
 
-def test_reports_that_grow_are_refused_at_once(tmp_path: Path) -> None:
+def test_reports_that_grow_are_refused_at_once(tmp_path):
     files = [
         report(tmp_path / "sheets.xlsx", ["Left Steps"] * 3000, rows=0),
         report(tmp_path / "rows.xlsx", ["Left Steps"], rows=150_000),
@@ -115,7 +113,7 @@ def test_reports_that_grow_are_refused_at_once(tmp_path: Path) -> None:
     assert time.process_time() - begun < 5.0
 
 
-def test_no_damage_of_a_report_or_table_traces_back(tmp_path: Path) -> None:
+def test_no_damage_of_a_report_or_table_traces_back(tmp_path):
     good = report(tmp_path / "a.xlsx", ["Left Steps", "Right Steps"]).read_bytes()
     table = b"side,heel_strike_s,toe_off_s\n" + b"left,1,1.6\nright,1.5,2.1\n" * 5
     rng = np.random.default_rng(7)
@@ -129,7 +127,7 @@ def test_no_damage_of_a_report_or_table_traces_back(tmp_path: Path) -> None:
             read_events(path)
 
 
-def test_our_events_are_within_20_and_35_ms_of_a_vendors(real_data: Path) -> None:
+def test_our_events_are_within_20_and_35_ms_of_a_vendors(real_data):
     from plantar.formats import read_recording
 
     folder = real_data / "recordings"

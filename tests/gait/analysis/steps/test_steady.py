@@ -1,7 +1,5 @@
 """Which steps are in the means, and what is said of the others."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -13,7 +11,7 @@ from plantar.gait.analysis.summary import summary_of_foot
 from ..walks import made_walk
 
 
-def test_steps_that_start_and_stop_a_walk_are_not_in_its_means() -> None:
+def test_steps_that_start_and_stop_a_walk_are_not_in_its_means():
     """Of 9 steps the first and the last are twice as long."""
     recording = made_walk(slow_ends=1.6, rate=50.0).recording
     steady = analyse_feet(recording)["left"]
@@ -30,7 +28,7 @@ def test_steps_that_start_and_stop_a_walk_are_not_in_its_means() -> None:
     assert any("steady walking of the left foot is steps 2-8: 1, 9 start or stop" in w for w in steady.warnings)
 
 
-def test_an_odd_step_within_the_walk_is_said_and_stays() -> None:
+def test_an_odd_step_within_the_walk_is_said_and_stays():
     gains = np.ones(14)
     gains[6] = 1.5
     gait = analyse_feet(made_walk(strides=14, rate=50.0, gains=gains.tolist()).recording)["right"]
@@ -42,13 +40,13 @@ def test_an_odd_step_within_the_walk_is_said_and_stays() -> None:
 
 
 @pytest.mark.parametrize("seed", range(2))
-def test_an_even_walk_keeps_every_step(seed: int) -> None:
+def test_an_even_walk_keeps_every_step(seed):
     gains = np.random.default_rng(seed).normal(1.0, 0.05, 20)
     feet = analyse_feet(made_walk(strides=20, rate=50.0, gains=gains.tolist(), noise=1.0, seed=seed).recording)
     assert [len(g.used) for g in feet.values()] == [20, 20]
 
 
-def test_steps_by_number_and_by_time() -> None:
+def test_steps_by_number_and_by_time():
     recording = made_walk(strides=16, rate=50.0).recording
     some = analyse_feet(recording, options=AnalysisOptions(steps=(3, 14)))["left"]
     assert [s.number for s in some.used] == list(range(3, 15))
@@ -62,12 +60,12 @@ def test_steps_by_number_and_by_time() -> None:
 
 
 @pytest.mark.parametrize("text", ["0-3", "5-2", "a", "3-", "-1"])
-def test_what_names_no_steps_is_refused(text: str) -> None:
+def test_what_names_no_steps_is_refused(text):
     with pytest.raises(InputError, match="allowed: a number or a range such as 3-14"):
         steps_of_text(text)
 
 
-def test_options_that_contradict_are_refused() -> None:
+def test_options_that_contradict_are_refused():
     with pytest.raises(InputError, match="--from 5 is not before --to 2"):
         AnalysisOptions(begin=5.0, end=2.0)
     with pytest.raises(InputError, match="--baseline is 'none'; allowed: auto, keep"):

@@ -1,10 +1,6 @@
 """Regions of a footprint by the kind of what measured it."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import pytest
 
@@ -13,9 +9,7 @@ from plantar.gait.analysis.prints.regions import REGIONS
 
 
 @pytest.mark.parametrize(("kind", "has_toes"), [("insole", True), ("robot", False)])
-def test_only_an_insole_without_a_valley_has_toes_by_its_length(
-    walk: Callable[..., Any], kind: Any, has_toes: bool
-) -> None:
+def test_only_an_insole_without_a_valley_has_toes_by_its_length(walk, kind, has_toes):
     gait = analyse_foot(replace(walk(steps=6).recording, kind=kind), "left")
     assert gait.region is not None
     assert gait.footprint is not None

@@ -1,7 +1,5 @@
 """Times that take both feet, and pauses: what was not measured is not known, and is no time in the air."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -25,7 +23,7 @@ def without_times(recording: PressureRecording, begin: float, end: float) -> Pre
     return replace(recording, feet={**recording.feet, "right": replace(right, force=force)})
 
 
-def test_a_foot_that_was_not_measured_is_not_in_the_air() -> None:
+def test_a_foot_that_was_not_measured_is_not_in_the_air():
     recording = made_walk(strides=9).recording
     truth = analyse_feet(recording)["left"].steps
     cut = analyse_feet(without_times(recording, 4.0, 7.0))["left"].steps
@@ -40,7 +38,7 @@ def test_a_foot_that_was_not_measured_is_not_in_the_air() -> None:
     assert known >= 4
 
 
-def test_a_foot_that_was_never_measured_is_told_so() -> None:
+def test_a_foot_that_was_never_measured_is_told_so():
     recording = without_times(made_walk(strides=9).recording, -1.0, 100.0)
     feet = analyse_feet(recording)
     metrics = metrics_of(recording, feet)
@@ -48,7 +46,7 @@ def test_a_foot_that_was_never_measured_is_told_so() -> None:
     assert all(math.isnan(step[key]) for step in feet["left"].steps for key in BOTH)
 
 
-def test_no_step_time_holds_a_pause() -> None:
+def test_no_step_time_holds_a_pause():
     """The same walk twice, with 20 s between: two feet whose contacts alternate would else have a step of 20 s."""
     recording = made_walk(strides=8).recording
     later = recording.time + recording.time[-1] + 20.0
@@ -68,7 +66,7 @@ def test_no_step_time_holds_a_pause() -> None:
             assert np.nanmax(times) < 0.6
 
 
-def test_what_both_feet_carry_and_one_alone_make_up_the_stance() -> None:
+def test_what_both_feet_carry_and_one_alone_make_up_the_stance():
     seen = 0
     for side in ("left", "right"):
         for step in analyse_feet(made_walk(strides=9).recording)[side].steps:

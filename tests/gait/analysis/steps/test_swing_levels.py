@@ -1,7 +1,5 @@
 """Offsets that change from stride to stride: the steps are found all the same, or a warning says what happens."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -53,25 +51,25 @@ def check(walk: MadeWalk, recording: PressureRecording, strike: float = 0.020, l
 @pytest.mark.parametrize("force", [80.0, 300.0, -150.0])
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("name", ["walk", "run"])
-def test_steps_on_an_offset_that_changes_quickly(name: str, shape: str, force: float) -> None:
+def test_steps_on_an_offset_that_changes_quickly(name, shape, force):
     walk = WALKS[name]
     check(walk, on_offset(walk, force * SHAPES[shape](walk.recording.time)))
 
 
 @pytest.mark.parametrize("shape", ["rises", "cools"])
-def test_slow_steps_on_an_offset_that_changes_quickly(shape: str) -> None:
+def test_slow_steps_on_an_offset_that_changes_quickly(shape):
     check(WALKS["slow"], on_offset(WALKS["slow"], 150.0 * SHAPES[shape](WALKS["slow"].recording.time)))
 
 
 @pytest.mark.parametrize("at", [0.3, 0.42, 0.55])
 @pytest.mark.parametrize("force", [100.0, 250.0, -100.0])
-def test_an_offset_that_jumps(force: float, at: float) -> None:
+def test_an_offset_that_jumps(force, at):
     """In swing or in the middle of a step; one that falls just where a foot lands or lifts moves that event."""
     walk = WALKS["walk"]
     check(walk, on_offset(walk, force * (walk.recording.time > at * walk.recording.time[-1])), 0.03, 0.045)
 
 
-def test_each_cell_has_an_offset_of_its_own_that_warms() -> None:
+def test_each_cell_has_an_offset_of_its_own_that_warms():
     walk = WALKS["walk"]
     constants = np.random.default_rng(1).uniform(1.0, 8.0, 99)
     more = 2.0 * (1.0 - np.exp(-walk.recording.time[:, None] / constants))
@@ -82,13 +80,13 @@ def test_each_cell_has_an_offset_of_its_own_that_warms() -> None:
     assert np.abs(quiet).max() < 1.5
 
 
-def test_a_walk_without_offset_stays_as_it_is() -> None:
+def test_a_walk_without_offset_stays_as_it_is():
     for walk in WALKS.values():
         assert without_baselines(walk.recording).feet["left"].force is walk.recording.feet["left"].force
 
 
 @pytest.mark.parametrize("name", WALKS)
-def test_a_contact_that_the_recording_cuts_is_no_swing(name: str) -> None:
+def test_a_contact_that_the_recording_cuts_is_no_swing(name):
     """Wherever a recording begins and ends: the falling half of a step at its start is no offset that drifts."""
     recording = WALKS[name].recording
     stride = {"walk": 1.1, "run": 0.7, "slow": 1.8}[name]
@@ -100,7 +98,7 @@ def test_a_contact_that_the_recording_cuts_is_no_swing(name: str) -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_standing_has_no_swings(seed: int) -> None:
+def test_standing_has_no_swings(seed):
     random, time = np.random.default_rng(seed), np.arange(3000) * 0.01
     sway = np.convolve(random.normal(0.0, 1.0, 3000), np.exp(-np.arange(200) / 40.0), mode="same")
     assert swing_levels(400.0 + 6.0 * sway, 100.0) is None
@@ -108,7 +106,7 @@ def test_standing_has_no_swings(seed: int) -> None:
     assert swing_levels(random.normal(5.0, 1.0, 3000), 100.0) is None
 
 
-def test_a_pause_between_steps_is_no_swing() -> None:
+def test_a_pause_between_steps_is_no_swing():
     """Standing on both feet for a moment is half a body weight above the swings beside it."""
     walk = WALKS["walk"]
     force = walk.recording.feet["left"].vertical_force
@@ -119,7 +117,7 @@ def test_a_pause_between_steps_is_no_swing() -> None:
     assert np.abs(found.level).max() < 5.0
 
 
-def test_steps_that_an_offset_joins_are_told_where_it_is_kept() -> None:
+def test_steps_that_an_offset_joins_are_told_where_it_is_kept():
     walk = WALKS["walk"]
     recording = on_offset(walk, 300.0 * SHAPES["rises"](walk.recording.time))
     for gait in analyse_feet(recording).values():
@@ -130,7 +128,7 @@ def test_steps_that_an_offset_joins_are_told_where_it_is_kept() -> None:
 
 @pytest.mark.parametrize("width", [3, 4, 17, 160])
 @pytest.mark.parametrize("count", [1, 2, 16, 17, 18, 500])
-def test_the_level_under_contacts_is_scipys_opening(count: int, width: int) -> None:
+def test_the_level_under_contacts_is_scipys_opening(count, width):
     rng = np.random.default_rng(count * width)
     for course in (rng.normal(size=count).cumsum(), rng.integers(0, 4, count).astype(float)):
         padded = np.pad(course, width, mode="edge")

@@ -1,7 +1,5 @@
 """Studies of made recordings with effects that are known, and of none."""
 
-from __future__ import annotations
-
 import csv
 import json
 from dataclasses import replace
@@ -40,7 +38,7 @@ def write_walk(path: Path, **options: object) -> None:
 
 
 @pytest.fixture(scope="module")
-def study(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Study]:
+def study(tmp_path_factory):
     """Eight people in two shoes; the second loads 18 % less. A damaged file, a file that is not there, a text."""
     folder = tmp_path_factory.mktemp("study") / "recordings"
     folder.mkdir()
@@ -62,7 +60,7 @@ def study(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Study]:
     return folder, out, run_study(folder, out, table)
 
 
-def test_the_effect_is_found_with_its_sign_and_size(study: tuple[Path, Path, Study]) -> None:
+def test_the_effect_is_found_with_its_sign_and_size(study):
     (comparison,) = study[2].comparisons
     assert (comparison.a, comparison.b, comparison.paired) == ("flat", "rocker", True)
     force = comparison.effects["peak_force_N"]
@@ -78,7 +76,7 @@ def test_the_effect_is_found_with_its_sign_and_size(study: tuple[Path, Path, Stu
     assert (comparison.map_test.t[comparison.map_test.significant] < 0.0).all()
 
 
-def test_the_tables_are_tidy(study: tuple[Path, Path, Study]) -> None:
+def test_the_tables_are_tidy(study):
     _, out, result = study
     with (out / "steps.csv").open() as stream:
         steps = list(csv.DictReader(stream))
@@ -104,7 +102,7 @@ def test_the_tables_are_tidy(study: tuple[Path, Path, Study]) -> None:
     assert "<script>alert" not in (out / "study.html").read_text()
 
 
-def test_a_study_goes_on_where_it_was(study: tuple[Path, Path, Study], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_study_goes_on_where_it_was(study, monkeypatch):
     folder, out, before = study
     calls: list[str] = []
     monkeypatch.setattr(module, "study_figures", lambda comparisons: [])
@@ -124,7 +122,7 @@ def test_a_study_goes_on_where_it_was(study: tuple[Path, Path, Study], monkeypat
     assert len({key_of(folder, who, "0", AnalysisOptions(steps=steps)) for steps in ("all", "steady", (1, 3))}) == 3
 
 
-def test_a_layout_that_was_changed_under_its_name_makes_other_keys(tmp_path: Path) -> None:
+def test_a_layout_that_was_changed_under_its_name_makes_other_keys(tmp_path):
     square = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.05, 0.05))
     wide = grid_layout([[0, 0], [0.2, 0], [0.2, 0.2], [0, 0.2]], pitch=(0.05, 0.1))
     assert square.name == wide.name
@@ -136,7 +134,7 @@ def test_a_layout_that_was_changed_under_its_name_makes_other_keys(tmp_path: Pat
     assert len(keys) == 4
 
 
-def test_a_file_of_events_is_of_one_recording(study: tuple[Path, Path, Study], tmp_path: Path) -> None:
+def test_a_file_of_events_is_of_one_recording(study, tmp_path):
     folder, *_ = study
     choices = AnalysisOptions(events="events.csv")
     with pytest.raises(InputError, match=r"--events events\.csv: a file of events is of one recording, and a study"):
@@ -152,7 +150,7 @@ def result_of(who: str, condition: str, value: float, curve: np.ndarray) -> Reco
     return RecordingResult(person, "", "", "x", "", False, (), feet, {"left": curve}, {}, (), {})  # type: ignore[arg-type]
 
 
-def test_no_effect_stays_none_in_95_of_100_studies() -> None:
+def test_no_effect_stays_none_in_95_of_100_studies():
     random = np.random.default_rng(6)
     found = 0
     for _ in range(40):
@@ -167,7 +165,7 @@ def test_no_effect_stays_none_in_95_of_100_studies() -> None:
     assert found <= 8  # of 40 draws with two families at 0.05 each: more is one in 60
 
 
-def test_too_few_participants_are_not_compared() -> None:
+def test_too_few_participants_are_not_compared():
     curve = np.zeros(101)
     results = [result_of(f"{who}{c}", c, 1.0, curve) for who in range(2) for c in ("a", "b")]
     (comparison,) = compare_conditions(results)
@@ -175,7 +173,7 @@ def test_too_few_participants_are_not_compared() -> None:
     assert "a has 2 and b 2 participants, 0 of them in both" in comparison.note
 
 
-def test_maps_are_in_one_frame() -> None:
+def test_maps_are_in_one_frame():
     """A hot cell under the hallux of either foot of any size is at the same place, medial and in front."""
     places = []
     for size, side in (("u", "left"), ("y", "right"), ("v", "left")):
@@ -199,13 +197,13 @@ def test_maps_are_in_one_frame() -> None:
         ("file,participant,condition\na,b,c\na,d,e\n", "a is named twice"),
     ],
 )
-def test_a_table_that_is_no_table(tmp_path: Path, text: str, message: str) -> None:
+def test_a_table_that_is_no_table(tmp_path, text, message):
     (tmp_path / "t.csv").write_text(text)
     with pytest.raises(FormatError, match=message):
         read_participants(tmp_path / "t.csv")
 
 
-def test_values_of_a_table_are_checked(tmp_path: Path) -> None:
+def test_values_of_a_table_are_checked(tmp_path):
     path = tmp_path / "t.csv"
     path.write_text("file;subject;group;mass_kg;side\na.asc;1;x;72,5;Left\n")
     (one,) = read_participants(path)
@@ -217,7 +215,7 @@ def test_values_of_a_table_are_checked(tmp_path: Path) -> None:
     assert normalised({"peak_force_N": 100.0}, Participation("a", "a")) == {}
 
 
-def test_the_command_takes_a_folder(study: tuple[Path, Path, Study], tmp_path: Path) -> None:
+def test_the_command_takes_a_folder(study, tmp_path):
     folder, _, _ = study
     few = tmp_path / "few"
     few.mkdir()
@@ -239,7 +237,7 @@ def page_with_figures(study: tuple[Path, Path, Study], folder: Path) -> Path:
     return page
 
 
-def test_the_page_opens_on_a_telephone(study: tuple[Path, Path, Study], tmp_path: Path) -> None:
+def test_the_page_opens_on_a_telephone(study, tmp_path):
     """At 390 px: no error, nothing to be pulled aside, every text is legible, figures are there."""
     page = page_with_figures(study, tmp_path)
     seen = visit(page, READABLE, tmp_path, width=390)
@@ -251,7 +249,7 @@ def test_the_page_opens_on_a_telephone(study: tuple[Path, Path, Study], tmp_path
 
 
 @pytest.mark.long
-def test_no_figure_of_the_page_is_cut_in_print(study: tuple[Path, Path, Study], tmp_path: Path) -> None:
+def test_no_figure_of_the_page_is_cut_in_print(study, tmp_path):
     """Each figure lies whole on one sheet."""
     page = page_with_figures(study, tmp_path)
     images = printed_images(page, tmp_path)

@@ -1,7 +1,5 @@
 """Effect sizes and permutation tests against formulas, scipy, spm1d where it is installed, and their own promise."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy import stats
@@ -13,13 +11,13 @@ CHAIN = [[j for j in (i - 1, i + 1) if 0 <= j < 101] for i in range(101)]
 
 @pytest.mark.parametrize("freedom", [1, 2, 3, 7, 30, 400, 1e6])
 @pytest.mark.parametrize("probability", [0.5, 0.8, 0.95, 0.975, 0.999])
-def test_quantiles_of_student(freedom: float, probability: float) -> None:
+def test_quantiles_of_student(freedom, probability):
     assert student_quantile(probability, freedom) == pytest.approx(
         stats.t.ppf(probability, freedom), rel=1e-5, abs=1e-9
     )
 
 
-def test_intervals_of_a_difference_are_students_and_welchs() -> None:
+def test_intervals_of_a_difference_are_students_and_welchs():
     random = np.random.default_rng(3)
     a, b = random.normal(10.0, 1.0, 9), random.normal(11.0, 2.0, 14)
     effect = effect_of(a, b, False, 1.0, 1.0)
@@ -31,7 +29,7 @@ def test_intervals_of_a_difference_are_students_and_welchs() -> None:
 
 
 @pytest.mark.parametrize("paired", [True, False])
-def test_participants_that_are_all_alike_have_no_effect_size(paired: bool) -> None:
+def test_participants_that_are_all_alike_have_no_effect_size(paired):
     """Rounding is no spread: a size of ten million standard deviations says nothing."""
     alike = 154.0 + np.array([0.0, 1e-8, -1e-8, 2e-8])
     effect = effect_of(alike, alike - 0.4, paired, 0.03, 0.03)
@@ -39,7 +37,7 @@ def test_participants_that_are_all_alike_have_no_effect_size(paired: bool) -> No
     assert effect.difference == pytest.approx(-0.4)
 
 
-def test_the_interval_of_an_effect_size_holds_it_in_95_of_100() -> None:
+def test_the_interval_of_an_effect_size_holds_it_in_95_of_100():
     random = np.random.default_rng(5)
     draws = [effect_of(random.normal(0, 1, 15), random.normal(0.8, 1, 15), False, 1.0, 1.0) for _ in range(200)]
     assert np.mean([d.effect_size for d in draws]) == pytest.approx(0.8, abs=0.06)
@@ -48,7 +46,7 @@ def test_the_interval_of_an_effect_size_holds_it_in_95_of_100() -> None:
 
 @pytest.mark.parametrize("spread", [1.0, 1.3])
 @pytest.mark.parametrize("alike", [0.5, 0.9, 0.99])
-def test_the_interval_of_pairs_holds_it_whatever_they_share(alike: float, spread: float) -> None:
+def test_the_interval_of_pairs_holds_it_whatever_they_share(alike, spread):
     """Of conditions that spread differently, too: with the correlation alone it held it in 87 of 100."""
     random, size, held = np.random.default_rng(0), 0.5, 0
     for _ in range(300):
@@ -60,7 +58,7 @@ def test_the_interval_of_pairs_holds_it_whatever_they_share(alike: float, spread
 
 
 @pytest.mark.parametrize("paired", [True, False])
-def test_a_permutation_test_agrees_with_scipys(paired: bool) -> None:
+def test_a_permutation_test_agrees_with_scipys(paired):
     random = np.random.default_rng(1)
     a, b = random.normal(0.0, 1.0, (7, 3)), random.normal(0.6, 1.0, (7, 3))
     ours = permutation_test(a, b, paired, permutations=4000)
@@ -87,7 +85,7 @@ def smooth(random: np.random.Generator, n: int) -> np.ndarray:
 
 
 @pytest.mark.parametrize("paired", [True, False])
-def test_the_null_stays_null_in_95_of_100(paired: bool) -> None:
+def test_the_null_stays_null_in_95_of_100(paired):
     """Curves without a difference: a cluster, or a largest |t|, is called significant in 1 of 20 draws or about."""
     random = np.random.default_rng(11)
     found = []
@@ -97,7 +95,7 @@ def test_the_null_stays_null_in_95_of_100(paired: bool) -> None:
     assert np.mean(found, axis=0).max() <= 0.15  # 40 draws of 0.05: more than 6 is one in 100
 
 
-def test_a_difference_is_found_where_it_is() -> None:
+def test_a_difference_is_found_where_it_is():
     random = np.random.default_rng(2)
     a, b = smooth(random, 10), smooth(random, 10)
     b[:, 40:60] += 3.0
@@ -108,7 +106,7 @@ def test_a_difference_is_found_where_it_is() -> None:
     assert (test.t[45:55] > 0.0).all()
 
 
-def test_where_nothing_varies() -> None:
+def test_where_nothing_varies():
     same = np.ones((4, 3))
     test = permutation_test(same, same, True, [[], [], []])
     assert test.t.tolist() == [0.0, 0.0, 0.0]
@@ -117,7 +115,7 @@ def test_where_nothing_varies() -> None:
 
 
 @pytest.mark.parametrize("paired", [True, False])
-def test_thresholds_and_clusters_are_those_of_spm1d(paired: bool) -> None:
+def test_thresholds_and_clusters_are_those_of_spm1d(paired):
     """spm1d is GPL and no dependency; where somebody has it, both have to say the same."""
     spm1d = pytest.importorskip("spm1d", reason="spm1d is not installed")
     random = np.random.default_rng(4)

@@ -25,7 +25,7 @@ TWO_TREES = """
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_kernels_write_what_error_and_jacobian_say(seed: int) -> None:
+def test_kernels_write_what_error_and_jacobian_say(seed):
     model = mujoco.MjModel.from_xml_string(TWO_TREES)
     data, rng = mujoco.MjData(model), np.random.default_rng(seed)
     ids = [model.joint(name).id for name in ("hinge", "slide")]
@@ -59,7 +59,7 @@ def test_kernels_write_what_error_and_jacobian_say(seed: int) -> None:
             np.testing.assert_allclose(jacobian, moves, rtol=0.0, atol=1e-14)
 
 
-def test_a_target_is_an_array_of_the_tasks_own() -> None:
+def test_a_target_is_an_array_of_the_tasks_own():
     model = mujoco.MjModel.from_xml_string(TWO_TREES)
     data = mujoco.MjData(model)
     task, point = ComTask(model, data, 1), np.array([1.0, 2.0, 3.0])
@@ -72,13 +72,7 @@ def test_a_target_is_an_array_of_the_tasks_own() -> None:
         task.target = np.zeros(4)
 
 
-def test_a_chain_leads_from_a_body_to_its_root() -> None:
+def test_a_chain_leads_from_a_body_to_its_root():
     model = mujoco.MjModel.from_xml_string(TWO_TREES)
     chains = {name: chain(model, model.body(name).id).tolist() for name in ("fixed", "a", "other", "still", "world")}
-    assert chains == {
-        "fixed": [4, 3, 2, 1, 0],
-        "a": [2, 1, 0],
-        "other": [10, 9, 8, 7, 6, 5],
-        "still": [],
-        "world": [],
-    }
+    assert chains == {"fixed": [4, 3, 2, 1, 0], "a": [2, 1, 0], "other": [10, 9, 8, 7, 6, 5], "still": [], "world": []}

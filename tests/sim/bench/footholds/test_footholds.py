@@ -1,7 +1,5 @@
 """The benchmark of footholds: policies are loaded, run, judged and resumed; what is wrong with one is named."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import NamedTuple
 

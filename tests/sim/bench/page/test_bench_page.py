@@ -1,7 +1,5 @@
 """The page of `plantar bench all`, from made-up results, as text and in a browser."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import Any
@@ -77,7 +75,7 @@ RESULT: dict[str, Any] = {
 }  # fmt: skip
 
 
-def test_the_page_is_whole_and_needs_no_network() -> None:
+def test_the_page_is_whole_and_needs_no_network():
     text = bench_page(RESULT)
     addresses = addresses_of(text)
     assert {a for a in addresses if not a.startswith("#")} == {"data:,"}
@@ -85,7 +83,7 @@ def test_the_page_is_whole_and_needs_no_network() -> None:
     assert "@import" not in text
 
 
-def test_what_is_not_good_is_reported() -> None:
+def test_what_is_not_good_is_reported():
     text = bench_page(RESULT)
     for words in (
         "tick &lt;: 50.0 us, wanted at most 40",
@@ -101,28 +99,28 @@ def test_what_is_not_good_is_reported() -> None:
     assert "<b>guess" not in text
 
 
-def test_an_approximation_is_no_rival_and_the_fastest_of_others_is() -> None:
+def test_an_approximation_is_no_rival_and_the_fastest_of_others_is():
     row = re.search(r'<th scope="row">hull \+ area, 20</th>(.*?)</tr>', bench_page(RESULT))
     assert row is not None
     assert "shapely, ready" in row[1]
     assert "40 ×" in row[1]
 
 
-def test_parts_that_were_not_measured_are_left_out() -> None:
+def test_parts_that_were_not_measured_are_left_out():
     text = bench_page({"made": RESULT["made"]})
     assert "<section" not in text
     for part in ("kernels", "contact", "skip", "scenes", "papers"):
         assert bench_page({part: RESULT[part]}).count("<section") == 1
 
 
-def test_figures_are_embedded_where_a_part_has_one() -> None:
+def test_figures_are_embedded_where_a_part_has_one():
     figure = (Path(__file__).resolve().parents[4] / "benchmarks" / "kernels.png").read_bytes()
     text = bench_page(RESULT, {"kernels": figure})
     assert text.count("<figure") == 1
     assert text.index('id="kernels"') < text.index("<figure") < text.index('id="papers"')
 
 
-def test_every_experiment_is_a_scene_of_its_paper() -> None:
+def test_every_experiment_is_a_scene_of_its_paper():
     for one in EXPERIMENTS:
         scene = load_scene(one.scene, one.settings, one.robot)
         assert scene.robot == one.robot
@@ -132,7 +130,7 @@ def test_every_experiment_is_a_scene_of_its_paper() -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize(("dark", "width"), [(False, 390), (True, 390), (False, 1100), (True, 1100)])
-def test_the_page_can_be_read_and_reached(dark: bool, width: int, tmp_path: Path) -> None:
+def test_the_page_can_be_read_and_reached(dark, width, tmp_path):
     page = tmp_path / "bench.html"
     page.write_text(bench_page(RESULT), encoding="utf-8")
     seen = visit(page, READABLE, tmp_path, dark=dark, width=width)

@@ -1,7 +1,5 @@
 """`plantar bench all` from parts that take no time: what is measured, how often, and what is written."""
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path
@@ -20,7 +18,7 @@ from .test_bench_page import RESULT
 
 
 @pytest.fixture
-def asked(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
+def asked(monkeypatch):
     """What each part was asked for; the parts give made-up results and write a file each."""
     seen: dict[str, Any] = {}
 
@@ -53,13 +51,7 @@ def bench(monkeypatch: pytest.MonkeyPatch, *words: str) -> int:
 
 
 @pytest.mark.parametrize("quick", [False, True])
-def test_all_ends_in_a_page(
-    quick: bool,
-    asked: dict[str, Any],
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_all_ends_in_a_page(quick, asked, tmp_path, monkeypatch, capsys):
     out = tmp_path / "out"
     out.mkdir()
     (out / TABLE).write_text(",".join(COLUMNS) + "\n")
@@ -89,9 +81,7 @@ def test_all_ends_in_a_page(
         ("stress", "--layout", "sole.json"),
     ],
 )
-def test_options_of_other_parts_are_refused(
-    words: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_options_of_other_parts_are_refused(words, tmp_path, monkeypatch, capsys):
     assert bench(monkeypatch, *words, "-o", str(tmp_path / "out")) == 2
     assert f"not '{words[0]}'" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()

@@ -1,17 +1,14 @@
 """Scenes as settings have them, on walks of one step."""
 
-from __future__ import annotations
-
 import hashlib
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from plantar.sim.bench.scenes.changed_run import PARTED, SAMPLE, ChangedRun, Trace, TracedRun, trace_error
 from plantar.sim.bench.scenes.scene_runs import SceneCase, SceneRuns
-from plantar.sim.bench.scenes.scene_setting import OWN, REFERENCE, SETTINGS, SceneSetting, setting_named
+from plantar.sim.bench.scenes.scene_setting import OWN, REFERENCE, SETTINGS, setting_named
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 
@@ -19,7 +16,7 @@ SHORT = ("steps=1", "walk.begin=1.0", "walk.start=0.2", "walk.end=0.2", "walk.se
 STANDING = ("steps=0", "walk.settle=0")
 
 
-def test_every_setting_has_a_reference_and_a_name_of_its_own() -> None:
+def test_every_setting_has_a_reference_and_a_name_of_its_own():
     names = [s.name for s in SETTINGS]
     assert len(set(names)) == len(names)
     for setting in SETTINGS:
@@ -32,10 +29,9 @@ SOON = {"scene's own", "contact points: 1 a taxel", "taxel area: four times", "p
 
 
 @pytest.mark.parametrize(
-    "setting",
-    [pytest.param(s, id=s.name, marks=[] if s.name in SOON else [pytest.mark.long]) for s in SETTINGS],
+    "setting", [pytest.param(s, id=s.name, marks=[] if s.name in SOON else [pytest.mark.long]) for s in SETTINGS]
 )
-def test_every_setting_gives_a_world_with_its_contacts(setting: SceneSetting) -> None:
+def test_every_setting_gives_a_world_with_its_contacts(setting):
     run = ChangedRun("flat", "h1", setting, 1, STANDING)
     model = run.world.model
     for side in ("left", "right"):
@@ -57,7 +53,7 @@ def test_every_setting_gives_a_world_with_its_contacts(setting: SceneSetting) ->
     assert round(SAMPLE / run.world.period) * run.world.period == pytest.approx(SAMPLE)
 
 
-def test_keeping_a_motion_does_not_change_it() -> None:
+def test_keeping_a_motion_does_not_change_it():
     motions = []
     for kind in (Simulation, TracedRun):
         if kind is Simulation:
@@ -69,7 +65,7 @@ def test_keeping_a_motion_does_not_change_it() -> None:
     assert motions[0] == motions[1]
 
 
-def test_a_standing_robot_is_carried_below_its_centre_of_mass() -> None:
+def test_a_standing_robot_is_carried_below_its_centre_of_mass():
     for name in ("scene's own", "contact points: 1 a taxel"):
         run = TracedRun("flat", "h1", setting_named(name), 1, STANDING, noisy=False)
         run.run()
@@ -80,7 +76,7 @@ def test_a_standing_robot_is_carried_below_its_centre_of_mass() -> None:
 
 
 @pytest.mark.long
-def test_runs_are_appended_once(tmp_path: Path) -> None:
+def test_runs_are_appended_once(tmp_path):
     settings = [OWN, REFERENCE, setting_named("solver iterations: 5")]
     case = SceneCase("flat", "h1", STANDING)
     told: list[str] = []
@@ -105,14 +101,14 @@ STILL = Trace(
 )
 
 
-def test_a_run_is_its_own_reference() -> None:
+def test_a_run_is_its_own_reference():
     error = trace_error(STILL, STILL)
     assert error[:4] == (0.0, 0.0, 0.0, 0.0)
     assert error.together_s == error.whole_s == pytest.approx(2.0)
 
 
 @pytest.mark.parametrize("size", [1e-9, 1e-4, 0.9 * PARTED * 0.6])
-def test_a_constant_offset_is_the_error(size: float) -> None:
+def test_a_constant_offset_is_the_error(size):
     shifted = replace(
         STILL,
         com=STILL.com + np.array([size, 0.0, 0.0]),
@@ -129,7 +125,7 @@ def test_a_constant_offset_is_the_error(size: float) -> None:
 
 
 @pytest.mark.parametrize("at", [1, 60, 199])
-def test_what_comes_after_runs_part_does_not_count(at: int) -> None:
+def test_what_comes_after_runs_part_does_not_count(at):
     com, force = STILL.com.copy(), STILL.force.copy()
     com[at:, 1] += 1.01 * PARTED * 0.6
     force[at:] += 1e6
@@ -139,14 +135,14 @@ def test_what_comes_after_runs_part_does_not_count(at: int) -> None:
     assert np.isnan(error.impact) == (at < 50)
 
 
-def test_landings_of_another_foot_or_time_are_not_compared() -> None:
+def test_landings_of_another_foot_or_time_are_not_compared():
     other = replace(STILL, landings=(("left", 0.5, 300.0), ("left", 1.5, 0.0)))
     assert trace_error(other, STILL).impact == pytest.approx(0.5)
     late = replace(STILL, landings=(("left", 0.6, 300.0),))
     assert np.isnan(trace_error(late, STILL).impact)
 
 
-def test_a_shorter_run_is_compared_as_far_as_it_goes_and_nothing_carried_is_no_error() -> None:
+def test_a_shorter_run_is_compared_as_far_as_it_goes_and_nothing_carried_is_no_error():
     zmp = STILL.zmp[:50].copy()
     zmp[10:20] = np.nan
     cut = replace(STILL, com=STILL.com[:50], zmp=zmp, force=STILL.force[:50])

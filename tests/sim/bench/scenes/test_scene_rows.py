@@ -1,9 +1,6 @@
 """Rows, verdicts, page and figure from made-up runs."""
 
-from __future__ import annotations
-
 import csv
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -38,7 +35,7 @@ def runs(coarse_error: float, coarse_cpu: float = 1.0, own_error: float = 0.5) -
     ]
 
 
-def test_costs_are_ratios_of_the_same_seed_and_kind() -> None:
+def test_costs_are_ratios_of_the_same_seed_and_kind():
     rows = {r.setting: r for r in scene_rows(runs(0.7))}
     assert list(rows) == [OWN, FINE, COARSE, NOISE]
     assert (rows[COARSE].ratio, rows[COARSE].cpu) == (0.5, 0.1)
@@ -57,14 +54,14 @@ def test_costs_are_ratios_of_the_same_seed_and_kind() -> None:
         (1.2, 3.0, 1.5, True, "so does all else"),
     ],
 )
-def test_verdicts_go_by_noise_and_time(coarse: float, cpu: float, own: float, stays: bool, words: str) -> None:
+def test_verdicts_go_by_noise_and_time(coarse, cpu, own, stays, words):
     (verdict,) = knob_verdicts(scene_rows(runs(coarse, cpu, own)))
     assert (verdict.knob, verdict.stays) == ("physics step", stays)
     assert words in verdict.reason
 
 
 @pytest.mark.parametrize(("error", "words"), [(0.5, "no more than noise"), (1.5, "more than noise")])
-def test_what_the_machine_has_is_kept_and_what_finer_would_do_is_reported(error: float, words: str) -> None:
+def test_what_the_machine_has_is_kept_and_what_finer_would_do_is_reported(error, words):
     fine, slow = "skin rate: 1000 Hz", "skin rate: 50 Hz"
     more = [run(OWN, "traced", 2.0, error, against=fine), run(slow, "traced", 1.0, 0.1, against=fine)]
     verdict = next(v for v in knob_verdicts(scene_rows([*runs(1.2), *more])) if v.knob == "skin rate")
@@ -72,7 +69,7 @@ def test_what_the_machine_has_is_kept_and_what_finer_would_do_is_reported(error:
     assert f": {words}" in verdict.reason
 
 
-def test_a_cheaper_setting_that_falls_or_parts_will_not_do() -> None:
+def test_a_cheaper_setting_that_falls_or_parts_will_not_do():
     for change in ({"completed": "no: fall"}, {"together_s": "3.0"}):
         rows = [{**r, **change} if r["setting"] == COARSE and r["kind"] == "traced" else r for r in runs(0.7)]
         (verdict,) = knob_verdicts(scene_rows(rows))
@@ -81,7 +78,7 @@ def test_a_cheaper_setting_that_falls_or_parts_will_not_do() -> None:
     assert knob_verdicts(scene_rows(rows))[0].stays
 
 
-def test_files_tell_what_was_run(tmp_path: Path) -> None:
+def test_files_tell_what_was_run(tmp_path):
     told = write_scenes(tmp_path, runs(0.7))
     assert {"scenes.md", "scenes.csv", "scenes.png"} == {p.name for p in tmp_path.iterdir()}
     page = (tmp_path / "scenes.md").read_text()
@@ -92,7 +89,7 @@ def test_files_tell_what_was_run(tmp_path: Path) -> None:
     assert "A BETTER VALUE EXISTS" in scenes_text(told)
 
 
-def test_a_stopped_table_goes_on_and_a_foreign_one_is_refused(tmp_path: Path) -> None:
+def test_a_stopped_table_goes_on_and_a_foreign_one_is_refused(tmp_path):
     table = tmp_path / "scene_runs.csv"
     table.write_text(",".join(COLUMNS) + "\n" + ",".join(run(OWN, "seeded", 2.0).values()) + "\nflat,h1,st")
     assert len(SceneRuns(tmp_path).rows) == 1
@@ -103,7 +100,7 @@ def test_a_stopped_table_goes_on_and_a_foreign_one_is_refused(tmp_path: Path) ->
 
 
 @pytest.mark.parametrize(("scene", "robot"), [("beem", "h1"), ("flat", "h2")])
-def test_an_unknown_walk_is_refused_before_anything_is_written(tmp_path: Path, scene: str, robot: str) -> None:
+def test_an_unknown_walk_is_refused_before_anything_is_written(tmp_path, scene, robot):
     with pytest.raises(InputError, match="allowed: "):
         measure_scenes(tmp_path / "out", lambda *_: None, [scene], [robot])
     assert not (tmp_path / "out").exists()

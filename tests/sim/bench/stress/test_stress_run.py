@@ -1,7 +1,5 @@
 """Stress runs: what was found by them stays mended, and what is wrong is seen."""
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path
@@ -30,7 +28,7 @@ CASES = json.loads((Path(__file__).parent / "cases.json").read_text())
         for case in CASES
     ],
 )
-def test_what_was_found_stays_mended(case: dict[str, Any]):
+def test_what_was_found_stays_mended(case):
     """Where robots fall by chance, in which the last digits of a processor's sums count, either outcome is right.
 
     A run that stopped has the name of its safe state as its outcome.
@@ -59,13 +57,13 @@ def test_every_scene_takes_what_makes_it_short():
         (lambda command: command.changed(rotation_torso=2.0 * command.rotation_torso), "out of bounds"),
     ],
 )
-def test_a_command_that_may_not_be_is_seen(spoil: Any, kind: str, monkeypatch: pytest.MonkeyPatch):
+def test_a_command_that_may_not_be_is_seen(spoil, kind, monkeypatch):
     step = WalkingController.step
     monkeypatch.setattr(WalkingController, "step", lambda self, sensors: spoil(step(self, sensors)))
     assert run_scenario(Scenario(0, "flat", "h1"), 0.05).kind == kind
 
 
-def test_what_a_tick_raises_is_reported_with_its_place(monkeypatch: pytest.MonkeyPatch):
+def test_what_a_tick_raises_is_reported_with_its_place(monkeypatch):
     def fail(*_: Any) -> None:
         raise ZeroDivisionError("by nothing")
 
@@ -101,7 +99,7 @@ def test_faults_do_what_they_say():
     assert passed(jitter=1e-3).readings["left"].time != 0.004
 
 
-def test_a_table_goes_on_where_it_was_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def test_a_table_goes_on_where_it_was_left(tmp_path, monkeypatch):
     ran: list[int] = []
 
     def run(scenario: Scenario) -> Outcome:
