@@ -24,6 +24,7 @@ LIBRARIES: dict[str, dict[str, str]] = {
         "mcap": "mcap",
         "matplotlib": "matplotlib",
         "msgspec": "msgspec",
+        "protobuf": "google.protobuf",
     },
     "shoes": {
         "cadquery": "cadquery",

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from plantar.errors import FormatError
 from plantar.gravity import GRAVITY
 from plantar.layouts.layout import SoleLayout
-from plantar.recordings.foxglove import LEVELS, read_fields
+from plantar.recordings.foxglove import LEVELS, message_of
 from plantar.recordings.mcap_content import McapContent, Sink, message_values
 from plantar.recordings.recording import take_mcap
 from plantar.sides import SIDES, Side
@@ -208,14 +208,9 @@ class _Drawn:
         if len(self.events) >= _MOST_EVENTS:
             self._dropped += 1
             return
-        found: dict[int, Any] = dict(read_fields(message))
-        text = found.get(3, b"")
-        if not isinstance(text, bytes):
-            raise ValueError("the text of a log line is none")
+        line = message_of("foxglove.Log", message)
         names = {number: name for name, number in LEVELS.items()}
-        self.events.append(
-            Event(time, text[:_LONGEST_LINE].decode(errors="replace"), names.get(found.get(2, 2), "info"))
-        )
+        self.events.append(Event(time, line.message[:_LONGEST_LINE], names.get(line.level, "info")))
 
     def _counted(self, found: list[Entity]) -> list[Entity]:
         """Entities, as far as the page has room."""

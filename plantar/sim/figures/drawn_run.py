@@ -15,8 +15,7 @@ from plantar.gait.plan.plan_change import AppliedChange
 from plantar.gait.plan.walk_plan import PlanView
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.foxglove import (
-    Part,
-    Slot,
+    Message,
     Template,
     arrow,
     cylinder,
@@ -26,6 +25,7 @@ from plantar.recordings.foxglove import (
     line_loop,
     log_message,
     pose,
+    slot,
     sphere,
     words,
 )
@@ -74,7 +74,7 @@ class DrawnRun:
         self._step: int | None = None
         self._change: AppliedChange | None = None
         self._layouts = world.robot.layouts
-        self._drawn_steps: dict[tuple[int, Footstep], Part] = {}
+        self._drawn_steps: dict[tuple[int, Footstep], Message] = {}
         self._full, self._metres = FULL_COLOUR * world.body.weight, _ARROW * world.body.leg / world.body.weight
         self._colours = scale_colours(1.0)
         self._unit = 0.02 * world.body.leg  # diameter of the ball at a point
@@ -125,7 +125,7 @@ class DrawnRun:
         names += [*(f"sole_{side}" for side in SIDES), "center_of_mass"]
         parts = []
         for i, name in enumerate(names):
-            slots = [Slot(7 * i + j) for j in range(7)]
+            slots = [slot(7 * i + j) for j in range(7)]
             parts.append(frame_transform(name, slots[:3], slots[3:]))
         return Template(*parts)
 
@@ -144,7 +144,7 @@ class DrawnRun:
             out[i, 3:] = quaternion[[1, 2, 3, 0]]
         return out.ravel()
 
-    def _sole(self, side: Side, number: int) -> list[Part]:
+    def _sole(self, side: Side, number: int) -> list[Message]:
         """Entities of a sole in its own frame: taxels, CoP and force.
 
         Slots: three a taxel, left sole first, then four a sole's force.
@@ -152,7 +152,7 @@ class DrawnRun:
         layout = self._layouts[side]
         first = 3 * len(self._layouts["left"]) * number
         last = 3 * sum(len(self._layouts[s]) for s in SIDES) + 4 * number
-        x, y, length, shown = (Slot(last + j) for j in range(4))
+        x, y, length, shown = (slot(last + j) for j in range(4))
         upwards = (0.0, -math.sqrt(0.5), 0.0, math.sqrt(0.5))  # turns the arrow's x axis to the sole's z axis
         ball = (1.5 * self._unit,) * 3
         force = arrow(pose((x, y, 0.0), upwards), length, 0.6 * self._unit, (*_FORCE[:3], shown))
@@ -177,10 +177,10 @@ class DrawnRun:
 
     def _balance_template(self) -> Template:
         """Slots: 0 to 2 CoM, 3 to 6 ZMP and opacity, then corners and opacities."""
-        com = sphere(pose([Slot(i) for i in range(3)]), (2.0 * self._unit,) * 3, _COM)
-        zmp = sphere(pose([Slot(i) for i in range(3, 6)]), (1.2 * self._unit,) * 3, (*_ZMP, Slot(6)))
-        corners = [[Slot(7 + 3 * i + j) for j in range(3)] for i in range(_CORNERS)]
-        ring = line_loop(corners, 0.3 * self._unit, (*_POLYGON[:3], Slot(7 + 3 * _CORNERS)))
+        com = sphere(pose([slot(i) for i in range(3)]), (2.0 * self._unit,) * 3, _COM)
+        zmp = sphere(pose([slot(i) for i in range(3, 6)]), (1.2 * self._unit,) * 3, (*_ZMP, slot(6)))
+        corners = [[slot(7 + 3 * i + j) for j in range(3)] for i in range(_CORNERS)]
+        ring = line_loop(corners, 0.3 * self._unit, (*_POLYGON[:3], slot(7 + 3 * _CORNERS)))
         return Template(
             entity("CoM", "world", com, locked=False),
             entity("ZMP", "world", zmp, locked=False),
@@ -209,7 +209,7 @@ class DrawnRun:
         self._drawn_steps = {step: drawn.get(step) or self._footstep(*step) for step in wanted}
         return Template(delete_all(), *self._drawn_steps.values())
 
-    def _footstep(self, number: int, foot: Footstep) -> Part:
+    def _footstep(self, number: int, foot: Footstep) -> Message:
         outline = self._layouts[foot.side].outline
         flat = np.column_stack([outline, np.full(len(outline), 0.1 * self._unit)])
         corners = flat @ foot.rotation_sole_to_world.T + foot.position
@@ -219,7 +219,7 @@ class DrawnRun:
         return entity(f"footstep {number}", "world", ring, label, locked=False)
 
 
-def _taxels(layout: SoleLayout, first: int) -> list[Part]:
+def _taxels(layout: SoleLayout, first: int) -> list[Message]:
     """A flat cylinder a taxel, with three slots each from `first`."""
     parts = []
     for i, corners in enumerate(layout.corners):
@@ -227,7 +227,7 @@ def _taxels(layout: SoleLayout, first: int) -> list[Part]:
         low, high = cell.min(axis=0), cell.max(axis=0)
         x, y = (0.5 * (low + high)).tolist()
         a, b = (_CELL * (high - low)).tolist()
-        colour = (*(Slot(first + 3 * i + j) for j in range(3)), 1.0)
+        colour = (*(slot(first + 3 * i + j) for j in range(3)), 1.0)
         parts.append(cylinder(pose((x, y, float(layout.positions[i, 2]))), (a, b, _THICK), colour))
     return parts
 

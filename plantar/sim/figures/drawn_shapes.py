@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.recordings.foxglove import Part, cube, cylinder, entity, pose, sphere, triangles
+from plantar.recordings.foxglove import Message, cube, cylinder, entity, pose, sphere, triangles
 
 __all__ = ["body_entity", "coarse_mesh", "drawn_bodies", "frame_name"]
 
@@ -30,7 +30,7 @@ def drawn_bodies(model: Any) -> list[int]:
     return sorted({int(model.geom_bodyid[i]) for i in range(model.ngeom) if _is_shown(model, i)} - {0})
 
 
-def body_entity(model: Any, body: int) -> Part:
+def body_entity(model: Any, body: int) -> Message:
     """Returns a `body` of a `model`, its visible geoms, as `plantar.recordings.foxglove.entity` in its frame."""
     name = frame_name(model, body)
     geoms = [i for i in range(model.ngeom) if model.geom_bodyid[i] == body and _is_shown(model, i)]
@@ -55,7 +55,7 @@ def _colour(model: Any, geom: int) -> tuple[float, ...]:
     return tuple(rgba.round(4).tolist())
 
 
-def _primitives(model: Any, geom: int) -> list[Part]:
+def _primitives(model: Any, geom: int) -> list[Message]:
     kind, colour = int(model.geom_type[geom]), _colour(model, geom)
     a, b, c = map(float, model.geom_size[geom])
     position = tuple(map(float, model.geom_pos[geom]))
@@ -95,7 +95,7 @@ def _rotation(quaternion: NDArray[np.float64]) -> NDArray[np.float64]:
     return matrix.reshape(3, 3)
 
 
-def _mesh(model: Any, geom: int, colour: tuple[float, ...]) -> Part:
+def _mesh(model: Any, geom: int, colour: tuple[float, ...]) -> Message:
     mesh = int(model.geom_dataid[geom])
     first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
     start, number = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])

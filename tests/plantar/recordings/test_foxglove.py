@@ -5,7 +5,7 @@ import sys
 import pytest
 
 from plantar.recordings import foxglove
-from plantar.recordings.foxglove import Slot, Template
+from plantar.recordings.foxglove import Template, slot
 
 FrameTransforms = pytest.importorskip("foxglove_schemas_protobuf.FrameTransforms_pb2").FrameTransforms
 LinePrimitive = pytest.importorskip("foxglove_schemas_protobuf.LinePrimitive_pb2").LinePrimitive
@@ -26,7 +26,7 @@ def test_a_recording_carries_the_descriptors_that_the_package_has(schema, reposi
 
 
 def test_a_frame_transform():
-    slots = [Slot(i) for i in range(7)]
+    slots = [slot(i) for i in range(7)]
     message = Template(foxglove.frame_transform("pelvis", slots[:3], slots[3:])).filled(2.25, [1, 2, 3, 0, 0, 0.6, 0.8])
     (found,) = FrameTransforms.FromString(message).transforms
     assert (found.parent_frame_id, found.child_frame_id) == ("world", "pelvis")

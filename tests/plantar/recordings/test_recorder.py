@@ -13,7 +13,7 @@ from mcap.reader import make_reader
 
 from plantar import RecordingError, hex_layout
 from plantar.recordings import foxglove
-from plantar.recordings.foxglove import Slot, Template
+from plantar.recordings.foxglove import Template, slot
 from plantar.recordings.mcap_content import McapContent, message_values
 from plantar.recordings.recorder import Recorder
 from plantar.recordings.recording import read_mcap, take_mcap
@@ -67,7 +67,7 @@ def test_messages_for_viewers_are_kept_beside_the_numbers_and_read_where_they_ar
     path = tmp_path / "run.mcap"
     said = [foxglove.log_message(0.1 * i, f"line {i}") for i in range(20)]
     ball = Template(
-        foxglove.entity("ball", "world", foxglove.sphere(foxglove.pose([Slot(0)] * 3), (1.0,) * 3, (1.0,) * 4))
+        foxglove.entity("ball", "world", foxglove.sphere(foxglove.pose([slot(0)] * 3), (1.0,) * 3, (1.0,) * 4))
     )
     with Recorder(path) as recorder:
         log = recorder.message_channel("/log", "foxglove.Log")
