@@ -19,11 +19,9 @@ from plantar.percepts.percept_options import PerceptOptions
 from plantar.percepts.sole_pose import SolePose
 from plantar.sensing import activation, force, health
 
-from .results import differing, not_finite
-from .soles import Block, unit_wrenches
-from .tally import Tally
+from .soles import Block, check, differing, not_finite, unit_wrenches
 
-__all__ = ["FORCE_CHECKS", "LAST_CHECKS"]
+__all__ = ["FORCE_CHECKS"]
 
 Array = NDArray[np.float64]
 _SUM = 1e-14
@@ -40,27 +38,27 @@ def _points(rows: Array) -> list[Array | None]:
     return [None if none else row for row, none in zip(rows, missing, strict=True)]
 
 
-def _percept_loads(block: Block, tally: Tally) -> None:
+def _percept_loads(block: Block) -> None:
     """Active taxels, wrench, area and CoP of each percept against sums in extended precision and `math.fsum`."""
     percepts = block.percepts
     active = np.array([p.active for p in percepts])
-    tally.add("Percept.active", block, (active != block.active).any(axis=1))
+    check("Percept.active", block, (active != block.active).any(axis=1))
     wanted, scale = block.wrenches
     got = np.array([p.wrench_in_sole for p in percepts])
-    tally.add("Percept.wrench_in_sole", block, _error(got, wanted, scale), _SUM)
+    check("Percept.wrench_in_sole", block, _error(got, wanted, scale), _SUM)
     rows, columns = range(0, len(block), 100), unit_wrenches(block.layout)
     right = np.array([exact.wrench_exact(columns, np.where(active[i], block.force[i], 0.0)) for i in rows])
-    tally.add("Percept.wrench_in_sole: math.fsum", block, _error(got[::100], right, scale[::100]), _SUM, len(right))
+    check("Percept.wrench_in_sole: math.fsum", block, _error(got[::100], right, scale[::100]), _SUM)
     vertical = np.array([p.vertical_force for p in percepts])
-    tally.add("Percept.vertical_force", block, _error(vertical[:, None], wanted[:, 2:3], scale[:, 2:3]), _SUM)
+    check("Percept.vertical_force", block, _error(vertical[:, None], wanted[:, 2:3], scale[:, 2:3]), _SUM)
     areas = np.array([math.fsum(block.layout.areas[row]) for row in active])
     got_area = np.array([p.contact_area for p in percepts])
-    tally.add("Percept.contact_area", block, _error(got_area[:, None], areas[:, None], areas[:, None]), _SUM)
+    check("Percept.contact_area", block, _error(got_area[:, None], areas[:, None], areas[:, None]), _SUM)
     kept = np.array([p.active_force for p in percepts])
-    tally.add("Percept.active_force", block, (kept != np.where(block.active, block.force, 0.0)).any(axis=1))
+    check("Percept.active_force", block, (kept != np.where(block.active, block.force, 0.0)).any(axis=1))
     cops = [p.position_cop_in_sole for p in percepts]
     loaded = wanted[:, 2] > 0.0
-    tally.add(
+    check(
         "Percept.position_cop_in_sole: None without load",
         block,
         [(c is None) == bool(k) for c, k in zip(cops, loaded, strict=True)],
@@ -71,54 +69,53 @@ def _percept_loads(block: Block, tally: Tally) -> None:
     truth = np.asarray((weights @ block.layout.positions[:, :2]) / total[:, None], dtype=float)
     reach = float(np.abs(block.layout.positions[:, :2]).max()) + 1e-9
     error = np.where(loaded, np.abs(place - truth).max(axis=1) / reach, 0.0)
-    tally.add("Percept.position_cop_in_sole", block, error, 1e-13)
+    check("Percept.position_cop_in_sole", block, error, 1e-13)
     direct = [force.center_of_pressure(block.layout, k, 0.0) for k in kept]
     near = np.array([np.zeros(2) if c is None else c for c in direct])
-    tally.add("center_of_pressure", block, np.where(loaded, np.abs(near - truth).max(axis=1) / reach, 0.0), 1e-13)
+    check("center_of_pressure", block, np.where(loaded, np.abs(near - truth).max(axis=1) / reach, 0.0), 1e-13)
     whole = force.ground_reaction_wrench(block.layout, kept, 0.0)
-    tally.add("ground_reaction_wrench", block, _error(whole, wanted, scale), _SUM)
+    check("ground_reaction_wrench", block, _error(whole, wanted, scale), _SUM)
     one = [force.ground_reaction_wrench(block.layout, k, 0.0) for k in kept[::16]]
-    tally.add(
+    check(
         "ground_reaction_wrench: batch as scalar",
         block,
         _error(whole[::16], np.array(one), scale[::16]),
         _SUM,
-        len(one),
     )
 
 
-def _percept_faults(block: Block, tally: Tally) -> None:
+def _percept_faults(block: Block) -> None:
     """Faults, filling, and activation with and without memory."""
     percepts, layout, given = block.percepts, block.layout, block.force
     faulty = np.array([p.health.faulty for p in percepts])
     wanted = ~np.isfinite(given) | (np.nan_to_num(given, nan=-1.0, posinf=-1.0) >= layout.force_limit)
-    tally.add("Percept.health", block, (faulty != wanted).any(axis=1))
+    check("Percept.health", block, (faulty != wanted).any(axis=1))
     sound = np.array([p.sound_force for p in percepts])
-    tally.add("Percept.sound_force", block, (np.isnan(sound) != wanted).any(axis=1))
+    check("Percept.sound_force", block, (np.isnan(sound) != wanted).any(axis=1))
     mask = activation.active_taxels(given, layout.force_threshold, layout.force_limit)
-    tally.add("active_taxels", block, (mask != block.active).any(axis=1))
+    check("active_taxels", block, (mask != block.active).any(axis=1))
     high, limit = layout.force_threshold, layout.force_limit
     flags = activation.hysteresis(given, high, 0.5 * high, saturation=limit)
     memory = activation.TaxelActivation(high, 0.5 * high, limit)
     states = np.array([memory.update(f) for f in given])
-    tally.add("hysteresis as TaxelActivation", block, (flags != states).any(axis=1))
+    check("hysteresis as TaxelActivation", block, (flags != states).any(axis=1))
     state = np.zeros(len(layout), dtype=bool)
     slow = []
     for row in np.where(np.isfinite(given), given, -math.inf):
         state = (row < limit) & ((row > high) | (state & (row > 0.5 * high)))
         slow.append(state)
-    tally.add("TaxelActivation", block, (states != np.array(slow)).any(axis=1))
+    check("TaxelActivation", block, (states != np.array(slow)).any(axis=1))
     times = 0.3 * np.arange(len(block))
     stuck = health.stuck_taxels(times, given, hold=0.5)
     monitor = health.StuckMonitor(hold=0.5)
     live = np.array([monitor.update(float(t), f) for t, f in zip(times, given, strict=True)])
-    tally.add("stuck_taxels as StuckMonitor", block, (stuck != live).any(axis=1))
+    check("stuck_taxels as StuckMonitor", block, (stuck != live).any(axis=1))
     filled = health.fill_from_neighbours(layout, given, wanted, per_area=True)
     bad = np.isnan(filled) & ~wanted
     with np.errstate(over="ignore"):  # 1e300 N on a tiny cell
         finite = np.where(np.isfinite(given) & ~wanted, given / layout.areas, -math.inf).max(axis=1)
     high_fill = np.where(wanted & np.isfinite(filled), filled / layout.areas, -math.inf).max(axis=1)
-    tally.add(
+    check(
         "fill_from_neighbours",
         block,
         bad.any(axis=1) | (high_fill > np.where(finite < 0.0, finite * (1.0 - 1e-12), finite * (1.0 + 1e-12))),
@@ -128,31 +125,31 @@ def _percept_faults(block: Block, tally: Tally) -> None:
         for pair in zip(given[::25], wanted[::25], strict=True)
     ]
     wrong = differing(one, list(filled[::25]), equal_nan=True)
-    tally.add("fill_from_neighbours: batch as scalar", block, wrong, 0.0, len(wrong))
+    check("fill_from_neighbours: batch as scalar", block, wrong)
     options = PerceptOptions(fill=True)
     sums = np.array([Percept(layout, reading, options=options).wrench_in_sole for reading in block.readings])
-    tally.add("Percept(fill=True).wrench_in_sole", block, np.where(np.isfinite(sums), 0.0, np.nan).max(axis=1))
+    check("Percept(fill=True).wrench_in_sole", block, np.where(np.isfinite(sums), 0.0, np.nan).max(axis=1))
 
 
-def _batch_functions(block: Block, tally: Tally) -> None:
+def _batch_functions(block: Block) -> None:
     """The batch functions against the percepts, reading by reading."""
     layout, percepts = block.layout, block.percepts
     wanted, scale = block.wrenches
-    tally.add("batch.wrenches", block, _error(batch.wrenches(layout, block.force), wanted, scale), _SUM)
+    check("batch.wrenches", block, _error(batch.wrenches(layout, block.force), wanted, scale), _SUM)
     strided = np.repeat(block.force, 2, axis=0)[::2][::-1]
-    tally.add("batch.wrenches: strided", block, _error(batch.wrenches(layout, strided)[::-1], wanted, scale), _SUM)
+    check("batch.wrenches: strided", block, _error(batch.wrenches(layout, strided)[::-1], wanted, scale), _SUM)
     sums = batch.loads(layout, block.force)
-    tally.add("batch.loads: wrench", block, _error(sums.wrench, wanted, scale), _SUM)
+    check("batch.loads: wrench", block, _error(sums.wrench, wanted, scale), _SUM)
     area = np.array([p.contact_area for p in percepts])
-    tally.add("batch.loads: area", block, sums.contact_area != area)
-    tally.add(
+    check("batch.loads: area", block, sums.contact_area != area)
+    check(
         "batch.loads: CoP",
         block,
         differing(_points(sums.center_of_pressure), [p.position_cop_in_sole for p in percepts], equal_nan=True),
     )
     hulls = batch.support_polygons(layout, block.force, vertices=True)
-    tally.add("batch.support_polygons: area", block, hulls.area != np.array([p.support_area for p in percepts]))
-    tally.add(
+    check("batch.support_polygons: area", block, hulls.area != np.array([p.support_area for p in percepts]))
+    check(
         "batch.support_polygons: centroid",
         block,
         differing(_points(hulls.centroid), [p.centroid_in_sole for p in percepts], equal_nan=True),
@@ -161,7 +158,7 @@ def _batch_functions(block: Block, tally: Tally) -> None:
     ends = np.cumsum(hulls.size)
     parts = np.split(hulls.vertices, ends[:-1])
     wrong = differing(parts, [p.support_polygon_in_sole for p in percepts])
-    tally.add("batch.support_polygons: vertices", block, wrong)
+    check("batch.support_polygons: vertices", block, wrong)
     ground = batch.ground_planes(layout, block.proximity)
     fitted = zip(ground.directions.tolist(), ground.height.tolist(), ground.slope.tolist(), strict=True)
     wrong = [
@@ -170,12 +167,12 @@ def _batch_functions(block: Block, tally: Tally) -> None:
             zip((p.ground_plane_in_sole for p in percepts), fitted, strict=True)
         )
     ]
-    tally.add("batch.ground_planes", block, wrong)
+    check("batch.ground_planes", block, wrong)
     bare = batch.support_polygons(layout, block.force)
-    tally.add("batch.support_polygons: without vertices", block, bare.area != hulls.area)
+    check("batch.support_polygons: without vertices", block, bare.area != hulls.area)
 
 
-def _walking_tick(block: Block, tally: Tally) -> None:
+def _walking_tick(block: Block) -> None:
     """What a tick makes of a reading in one call, against the percept's members, to the last bit."""
     layout = block.layout
     offsets = block.rng.choice([0.0, 1e-6, 0.005, 0.02, 1.0], len(block)).tolist()
@@ -193,15 +190,15 @@ def _walking_tick(block: Block, tally: Tally) -> None:
     wrong |= differing([t.active for t in ticks], [p.active for p in percepts])
     wrong |= differing([t.position_cop for t in ticks], [p.position_cop_in_sole for p in percepts], equal_nan=True)
     wrong |= differing([t.centroid for t in ticks], [p.centroid_in_sole for p in percepts], equal_nan=True)
-    tally.add("walking_tick", block, wrong)
+    check("walking_tick", block, wrong)
     lost = np.array(
         [(t.clamped is None) != (len(p.support_polygon_in_sole) == 0) for t, p in zip(ticks, percepts, strict=True)]
     )
     lost |= not_finite([(t.safe_polygon, t.clamped) for t in ticks])
-    tally.add("walking_tick: no NaN", block, lost)
+    check("walking_tick: no NaN", block, lost)
 
 
-def _balance_points(block: Block, tally: Tally) -> None:
+def _balance_points(block: Block) -> None:
     """Zero moment, pivots and the wrench of two feet, also with the soles 1e6 m away."""
     percepts = block.percepts
     wrenches = np.array([p.wrench_in_sole for p in percepts])
@@ -209,41 +206,39 @@ def _balance_points(block: Block, tally: Tally) -> None:
     turn = block.pose.rotation_sole_to_world
     zero = [p.zero_moment_wrench_in_sole for p in percepts]
     loaded = np.array([z is not None for z in zero])
-    tally.add("Percept.zero_moment_wrench_in_sole: None without load", block, loaded != (wrenches[:, 2] > 0.0))
+    check("Percept.zero_moment_wrench_in_sole: None without load", block, loaded != (wrenches[:, 2] > 0.0))
     place = np.array([np.zeros(3) if z is None else z[0] for z in zero])
     about = np.array([np.zeros(6) if z is None else z[1] for z in zero])
     back = about + np.hstack([np.zeros((len(block), 3)), np.cross(place, about[:, :3])])
     size = np.abs(wrenches).max(axis=1, keepdims=True) + 1e-300
     moments = np.where(loaded[:, None], np.abs(back - wrenches) / size, 0.0).max(axis=1)
-    tally.add("Percept.zero_moment_wrench_in_sole", block, moments, 1e-12)
+    check("Percept.zero_moment_wrench_in_sole", block, moments, 1e-12)
     there = wrench_at(wrench_at(wrenches, at), -at)
     far = size * (1.0 + float(np.abs(at).max()))
-    tally.add("wrench_at: there and back", block, _error(there, wrenches, far), 1e-14)
+    check("wrench_at: there and back", block, _error(there, wrenches, far), 1e-14)
     points = [zmp.zmp_in_plane(w, float(at[2])) for w in wrenches]
-    tally.add("zmp_in_plane", block, not_finite(points))
+    check("zmp_in_plane", block, not_finite(points))
     flat_points = [zmp.zmp_of_wrench(w) for w in wrenches]
-    tally.add("zmp_of_wrench", block, not_finite(flat_points))
+    check("zmp_of_wrench", block, not_finite(flat_points))
     pressed = np.array([p.pressure_driven_wrench_in_sole for p in percepts])
     area = np.array([p.contact_area for p in percepts])[:, None]
     right = np.where(area > 0.0, wrenches * block.layout.cell_area / np.where(area > 0.0, area, 1.0), 0.0)
-    tally.add(
+    check(
         "Percept.pressure_driven_wrench_in_sole",
         block,
         _error(pressed, right, np.abs(right).max(axis=1, keepdims=True)),
         1e-12,
     )
     frames = force.pressure_driven_wrench(block.layout, block.force, block.layout.cell_area)
-    tally.add(
-        "pressure_driven_wrench", block, _error(frames, right, np.abs(right).max(axis=1, keepdims=True) * 1e2), _SUM
-    )
+    check("pressure_driven_wrench", block, _error(frames, right, np.abs(right).max(axis=1, keepdims=True) * 1e2), _SUM)
     world = block.pose.wrench_to_world(wrenches)
     moved = np.cross(at, wrenches[:, :3] @ turn.T)
     scale = np.abs(wrenches).max(axis=1, keepdims=True) * (1.0 + float(np.abs(at).max())) + 1e-300
     truth = np.hstack([wrenches[:, :3] @ turn.T, wrenches[:, 3:] @ turn.T + moved])
-    tally.add("SolePose.wrench_to_world", block, _error(world, truth, scale), 1e-14)
+    check("SolePose.wrench_to_world", block, _error(world, truth, scale), 1e-14)
     other = SolePose.flat(at[0] + 0.02, at[1] + 0.2, at[2])
     total = sole_pose.wrench_of_feet([wrenches, wrenches], [block.pose, other])
-    tally.add("wrench_of_feet", block, _error(total, world + other.wrench_to_world(wrenches), scale), 1e-14)
+    check("wrench_of_feet", block, _error(total, world + other.wrench_to_world(wrenches), scale), 1e-14)
     pairs = range(0, len(block) - 1, 2)  # a reading each foot
     both = [sole_pose.zmp_of_soles(list(wrenches[i : i + 2]), [block.pose, other], float(at[2]), 0.0) for i in pairs]
     cops = [p.position_cop_in_sole for p in percepts]
@@ -258,24 +253,24 @@ def _balance_points(block: Block, tally: Tally) -> None:
     flat = np.abs(block.layout.positions[:, 2]).max() == 0.0
     gap = np.abs(found - middle).max(axis=1) if flat else np.zeros(len(found))
     error = np.where(missing, np.inf, gap / (1.0 + float(np.abs(at).max())))
-    tally.add("zmp_of_soles", block, error, 1e-9, 2 * len(found))
+    check("zmp_of_soles", block, error, 1e-9)
     com = at + np.array([0.0, 0.0, 0.8])
     pivot = [zmp.centroidal_moment_pivot(w, com, float(at[2])) for w in world]
-    tally.add("centroidal_moment_pivot", block, not_finite(pivot))
+    check("centroidal_moment_pivot", block, not_finite(pivot))
     dcm = divergent_component(np.broadcast_to(com, (len(block), 3)), world[:, :3] * 0.0 + 0.5, 3.5)
-    tally.add("divergent_component", block, np.abs(dcm - com - 0.5 / 3.5).max(axis=1) / float(np.abs(com).max()), 1e-15)
+    check("divergent_component", block, np.abs(dcm - com - 0.5 / 3.5).max(axis=1) / float(np.abs(com).max()), 1e-15)
     composite = [zmp.zmp_of_feet([c, c], [0.0, 0.0] if c is None else [1.0, 2.0]) for c in cops]
     there_is = np.array([a is not None and b is not None for a, b in zip(composite, cops, strict=True)])
     found = np.array([np.zeros(2) if c is None else c for c in composite])
     off = np.where(there_is, np.abs(found - place[:, :2]).max(axis=1), 0.0)
-    tally.add("zmp_of_feet", block, off / (1.0 + np.abs(block.layout.positions).max()), 1e-14)
+    check("zmp_of_feet", block, off / (1.0 + np.abs(block.layout.positions).max()), 1e-14)
     turns = block.rng.normal(size=(6, 5))
     torque = force.joint_torque(turns, turn, wrenches)
     loads = np.hstack([wrenches[:, :3] @ turn.T, wrenches[:, 3:] @ turn.T])
-    tally.add("joint_torque", block, _error(torque, loads @ turns, np.abs(loads) @ np.abs(turns) + 1e-300), 1e-14)
+    check("joint_torque", block, _error(torque, loads @ turns, np.abs(loads) @ np.abs(turns) + 1e-300), 1e-14)
 
 
-def _two_feet(block: Block, tally: Tally) -> None:
+def _two_feet(block: Block) -> None:
     """Every member of what two feet feel together."""
     at = block.pose.position_in_world
     poses = [block.pose, SolePose.flat(at[0], at[1] + 0.3, at[2])]
@@ -283,27 +278,25 @@ def _two_feet(block: Block, tally: Tally) -> None:
     rows = range(0, len(block), 2)  # a reading each foot
     feet = [FeetPercept([block.percepts[i], block.percepts[i - 1]], poses, float(at[2])) for i in rows]
     wrong = [not_finite([getattr(f, m) for f in feet]) for m in members]
-    tally.add("FeetPercept: every member", block, np.any(wrong, axis=0), 0.0, len(block))
+    check("FeetPercept: every member", block, np.any(wrong, axis=0))
 
 
-def _every_member(block: Block, tally: Tally) -> None:
+def _every_member(block: Block) -> None:
     """No member of a percept is NaN, but where the acceleration or the sound force says that a taxel is dead."""
     spared = {"acceleration_in_sole", "sound_force", "outline_rectangle_any_angle_in_sole", "health", "active", "near"}
     for member in Percept.members():
         if member not in spared:
             wrong = not_finite([getattr(p, member) for p in block.percepts])
-            tally.add(f"Percept.{member}: no NaN", block, wrong)
+            check(f"Percept.{member}: no NaN", block, wrong)
 
 
-FORCE_CHECKS: tuple[Callable[[Block, Tally], None], ...] = (
+FORCE_CHECKS: tuple[Callable[[Block], None], ...] = (
     _percept_loads,
     _percept_faults,
     _batch_functions,
     _walking_tick,
     _balance_points,
     _two_feet,
+    _every_member,
 )
-"""The checks of this module, each a function of a block and a tally."""
-
-LAST_CHECKS: tuple[Callable[[Block, Tally], None], ...] = (_every_member,)
-"""Checks that run after all others, when the percepts' members are known."""
+"""The checks of this module, each a function of a block."""

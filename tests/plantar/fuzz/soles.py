@@ -1,11 +1,13 @@
 """Soles and readings that try to break the perception: lattices, clipped and mixed cells, faults, odd forces."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from plantar.bench.soles import foot_outline, sole_of
 from plantar.layouts.cell_layout import joined_layout, layout_of_cells
@@ -17,9 +19,7 @@ from plantar.percepts.percept import Percept
 from plantar.percepts.sole_pose import SolePose
 from plantar.sensing.reading import Reading
 
-from .rings import Rings
-
-__all__ = ["Block", "block_of", "stress_soles", "unit_wrenches"]
+__all__ = ["Block", "block_of", "check", "differing", "not_finite", "numbers", "stress_soles", "unit_wrenches"]
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -88,10 +88,35 @@ class Block:
         """A percept a reading."""
         return [Percept(self.layout, reading) for reading in self.readings]
 
-    @cached_property
-    def hulls(self) -> Rings:
-        """The percepts' support polygons."""
-        return Rings([p.support_polygon_in_sole for p in self.percepts])
+
+def check(name: str, block: Block, errors: ArrayLike, bound: float = 0.0) -> None:
+    """Assert that errors of one function on one block are within a bound; NaN is beyond every bound."""
+    values = np.asarray(errors, dtype=float).reshape(-1)
+    bad = np.flatnonzero(~(values <= bound))
+    found = f"value {bad[:1]} of {len(values)}: error {values[bad[:1]]}"
+    assert not bad.size, f"{name}: sole '{block.layout.name}', {found}, allowed {bound:.3g}"
+
+
+def numbers(value: Any) -> Array:
+    """The floating point numbers in an array, a float, what has `points`, or a list of such, flat."""
+    if isinstance(value, tuple | list):
+        return np.concatenate([np.empty(0), *map(numbers, value)])
+    values = np.asarray(getattr(value, "points", value))
+    return values.ravel() if values.dtype.kind == "f" else np.empty(0)
+
+
+def not_finite(values: Sequence[Any]) -> list[bool]:
+    """Of which results a number is not finite."""
+    return [not np.isfinite(numbers(value)).all() for value in values]
+
+
+def differing(one: Sequence[Any], other: Sequence[Any], equal_nan: bool = False) -> list[bool]:
+    """Which of two lists' arrays differ to the last bit; None differs from an array."""
+    pairs = [(a, b) for a, b in zip(one, other, strict=True)]
+    return [
+        (a is None) != (b is None) or (a is not None and not np.array_equal(a, b, equal_nan=equal_nan))
+        for a, b in pairs
+    ]
 
 
 @cache
