@@ -3,7 +3,8 @@
 import inspect
 import pkgutil
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import partial
 from importlib import import_module
 from typing import Any
 
@@ -127,17 +128,15 @@ class Call:
         name: Module and name of the function.
         function: Takes the arrays by name.
         arrays: The arrays.
-        others: What else it takes.
     """
 
     name: str
     function: Callable[..., Any]
     arrays: dict[str, Argument]
-    others: dict[str, Any] = field(default_factory=dict)
 
     def __call__(self, **changed: Any) -> Any:
         """What the function gives, some arrays changed."""
-        return self.function(**{k: a.value for k, a in self.arrays.items()} | self.others | changed)
+        return self.function(**{k: a.value for k, a in self.arrays.items()} | changed)
 
     def taken(self, name: str, shape: tuple[int, ...]) -> bool:
         """Whether a shape of one array goes with the others.
@@ -233,6 +232,15 @@ def _polygon(called: str = "polygon", nan: bool = False) -> Argument:
     return Argument(_RING, ("k", 2), called, nan=nan)
 
 
+def _name(function: Any) -> str:
+    return f"{function.__module__.rpartition('.')[2]}.{function.__qualname__}"
+
+
+def _call(function: Any, **arrays: Argument) -> Call:
+    """A function, or a partial one, with right arrays."""
+    return Call(_name(getattr(function, "func", function)), function, arrays)
+
+
 def _of_polygons(sole: SoleLayout) -> list[Call]:
     point = Argument(np.array([0.5, 0.25]), (2,), "point", nan=True)
     active = Argument(_force(len(sole)) > 4.0, (len(sole),), "mask", truth=True)
@@ -241,12 +249,12 @@ def _of_polygons(sole: SoleLayout) -> list[Call]:
         *(inscribed.inscribed_circle, inscribed.inscribed_parallelogram, inscribed.inscribed_rectangle),
         *(inscribed.inscribed_rectangle_any_angle, inscribed.inscribed_triangle),
     ]
-    found = [Call(_name(f), f, {"polygon": _polygon()}) for f in shapes]
-    found += [Call(_name(f), f, {"polygon": _polygon()}) for f in (polygon.area, polygon.centroid, polygon.convex_ring)]
-    found += [Call(_name(f), f, {"points": _polygon("points polygon", nan=True)}) for f in (polygon.convex_hull,)]
-    found += [Call(_name(f), f, {"points": _polygon("points polygon")}) for f in (enclosing.bounding_box,)]
+    found = [_call(f, polygon=_polygon()) for f in shapes]
+    found += [_call(f, polygon=_polygon()) for f in (polygon.area, polygon.centroid, polygon.convex_ring)]
+    found += [_call(f, points=_polygon("points polygon", nan=True)) for f in (polygon.convex_hull,)]
+    found += [_call(f, points=_polygon("points polygon")) for f in (enclosing.bounding_box,)]
     pairs = [polygon.closest_point, polygon.signed_margin]
-    found += [Call(_name(f), f, {"polygon": _polygon(), "point": point}) for f in pairs]
+    found += [_call(f, polygon=_polygon(), point=point) for f in pairs]
     frame = {
         "polygon_in_sole": _polygon(),
         "rotation_sole_to_world": Argument(_TURN, (3, 3), "rotation"),
@@ -254,25 +262,21 @@ def _of_polygons(sole: SoleLayout) -> list[Call]:
     }
     return [
         *found,
-        Call(_name(polygon.inner_offset), polygon.inner_offset, {"polygon": _polygon()}, {"distance": 0.03125}),
-        Call(_name(inscribed.safe_rectangle), inscribed.safe_rectangle, {"polygon": _polygon()}, {"offset": 0.03125}),
-        Call(_name(outline.concave_outline), lambda active: outline.concave_outline(sole, active), {"active": active}),
-        Call(_name(sole_pose.polygon_in_world), sole_pose.polygon_in_world, frame),
+        _call(partial(polygon.inner_offset, distance=0.03125), polygon=_polygon()),
+        _call(partial(inscribed.safe_rectangle, offset=0.03125), polygon=_polygon()),
+        _call(partial(outline.concave_outline, sole), active=active),
+        _call(sole_pose.polygon_in_world, **frame),
         Call(
             _name(sole_pose.feet_support_polygon),
             lambda polygon: sole_pose.feet_support_polygon([polygon, _RING]),
             {"polygon": _polygon()},
         ),
-        Call("cell_cutting.half_planes", half_planes, {"lines": Argument(_LINES, ("k", 3), "lines")}),
-        Call("cell_cutting.CellCutter.cut", CellCutter(sole).cut, {"lines": Argument(_LINES, ("k", 3), "lines")}),
+        _call(half_planes, lines=Argument(_LINES, ("k", 3), "lines")),
+        _call(CellCutter(sole).cut, lines=Argument(_LINES, ("k", 3), "lines")),
     ]
 
 
 _LINES = np.array([[1.0, 0.0, 0.03125], [0.0, 1.0, 0.015625]])
-
-
-def _name(function: Any) -> str:
-    return f"{function.__module__.rpartition('.')[2]}.{function.__qualname__}"
 
 
 def _of_layouts(sole: SoleLayout) -> list[Call]:
@@ -285,59 +289,36 @@ def _of_layouts(sole: SoleLayout) -> list[Call]:
     cell = Argument(cells[1], ("k", 2), "cell ring polygon", least=3)
     vertices = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     return [
-        Call("tiling.hex_layout", lambda outline: tiling.hex_layout(outline, cell_area=900e-6), {"outline": rim}),
-        Call(
-            "tiling.grid_layout",
-            lambda outline: tiling.grid_layout(outline, pitch=(0.03125, 0.03125)),
-            {"outline": rim},
-        ),
-        Call(
-            "hex_lattice.HexLattice.cells_near",
-            lattice.cells_near,
-            {"lower": corner, "upper": Argument(-corner.value, (2,), corner.called)},
-        ),
-        *(
-            Call(f"hex_lattice.HexLattice.{name}", getattr(lattice, name), {"axial": axial})
-            for name in ("centre_keys", "centres", "corner_keys", "corners")
-        ),
-        Call("hex_lattice.HexLattice.position_of_keys", lattice.position_of_keys, {"keys": keys}),
+        _call(partial(tiling.hex_layout, cell_area=900e-6), outline=rim),
+        _call(partial(tiling.grid_layout, pitch=(0.03125, 0.03125)), outline=rim),
+        _call(lattice.cells_near, lower=corner, upper=Argument(-corner.value, (2,), corner.called)),
+        *(_call(f, axial=axial) for f in (lattice.centre_keys, lattice.centres, lattice.corner_keys, lattice.corners)),
+        _call(lattice.position_of_keys, keys=keys),
         Call(
             "cell_layout.layout_of_cells",
             lambda cell: cell_layout.layout_of_cells([cells[0], cell, cells[2]]),
             {"cell": cell},
         ),
-        Call(
-            "cell_layout.joined_layout",
-            lambda outline: cell_layout.joined_layout([sole], outline=outline),
-            {"outline": Argument(_OUTLINE, ("k", 2), "outline polygon", optional=True, least=3)},
+        _call(
+            partial(cell_layout.joined_layout, [sole]),
+            outline=Argument(_OUTLINE, ("k", 2), "outline polygon", optional=True, least=3),
         ),
         Call(
             "cell_layout.shared_vertices",
             lambda ring: cell_layout.shared_vertices([cells[0], ring], 1e-9),
             {"ring": _polygon("ring")},
         ),
-        Call(
-            "cell_edges.edge_table",
-            lambda vertices: cell_edges.edge_table(vertices, [(0, 1, 2, 3)]),
-            {"vertices": Argument(vertices, ("k", 2), "vertices")},
+        _call(
+            partial(cell_edges.edge_table, corners=[(0, 1, 2, 3)]), vertices=Argument(vertices, ("k", 2), "vertices")
         ),
-        Call(
-            "curved_sole.rotations_to_normals",
+        _call(
             curved_sole.rotations_to_normals,
-            {"normals": Argument(np.array([[0.0, 0.0, 1.0], [0.0, 0.6, 0.8]]), ("k", 3), "normals directions taxel")},
+            normals=Argument(np.array([[0.0, 0.0, 1.0], [0.0, 0.6, 0.8]]), ("k", 3), "normals directions taxel"),
         ),
         Call("layout.SoleLayout", lambda **arrays: _layout_with(sole, arrays), _arrays_of(sole)),
-        Call(
-            "taxel_values.taxel_frames",
-            lambda values: taxel_values.taxel_frames(sole, values),
-            {"values": _reading(sole, frames=True)},
-        ),
-        Call(
-            "taxel_values.taxel_values",
-            lambda values: taxel_values.taxel_values(sole, values),
-            {"values": _reading(sole)},
-        ),
-        Call("taxel_values.taxel_mask", lambda values: taxel_values.taxel_mask(sole, values), {"values": _mask(sole)}),
+        _call(partial(taxel_values.taxel_frames, sole), values=_reading(sole, frames=True)),
+        _call(partial(taxel_values.taxel_values, sole), values=_reading(sole)),
+        _call(partial(taxel_values.taxel_mask, sole), values=_mask(sole)),
     ]
 
 
@@ -379,40 +360,27 @@ def _of_mechanics() -> list[Call]:
     one = Argument(_WRENCH, (6,), "wrench", nan=True)
     com = Argument(np.array([0.5, 0.25, 1.0]), (..., 3), "com velocity")
     return [
-        Call(
-            "wrench.wrench_at",
-            wrench.wrench_at,
-            {"wrench": whole, "point": Argument(np.array([0.5, 0.25, 1.0]), (3,), "point")},
-        ),
+        _call(wrench.wrench_at, wrench=whole, point=Argument(np.array([0.5, 0.25, 1.0]), (3,), "point")),
         *(
-            Call(f"external_wrench.{f.__name__}", f, {"wrench": whole}, {"mass": 50.0, "omega": 3.5})
+            _call(partial(f, mass=50.0, omega=3.5), wrench=whole)
             for f in (external_wrench.vrp_offset, external_wrench.external_acceleration)
         ),
-        Call(
-            "external_wrench.push_of_dcm",
-            external_wrench.push_of_dcm,
-            {"impulse": Argument(np.array([[10.0, -5.0]]), (..., 2), "impulse", nan=True)},
-            {"mass": 50.0, "omega": 3.5},
+        _call(
+            partial(external_wrench.push_of_dcm, mass=50.0, omega=3.5),
+            impulse=Argument(np.array([[10.0, -5.0]]), (..., 2), "impulse", nan=True),
         ),
-        Call(
-            "lip.divergent_component",
-            lip.divergent_component,
-            {
-                "com": Argument(com.value, (...,), "com", nan=True),
-                "com_velocity": Argument(com.value, (...,), "velocity com", nan=True),
-            },
-            {"omega": 4.0},
+        _call(
+            partial(lip.divergent_component, omega=4.0),
+            com=Argument(com.value, (...,), "com", nan=True),
+            com_velocity=Argument(com.value, (...,), "velocity com", nan=True),
         ),
-        Call("zmp.zmp_of_wrench", zmp.zmp_of_wrench, {"wrench": one}),
-        Call("zmp.zmp_in_plane", zmp.zmp_in_plane, {"wrench": one}),
-        Call("zmp.zero_moment_wrench", zmp.zero_moment_wrench, {"wrench": one}),
-        Call(
-            "zmp.centroidal_moment_pivot",
+        _call(zmp.zmp_of_wrench, wrench=one),
+        _call(zmp.zmp_in_plane, wrench=one),
+        _call(zmp.zero_moment_wrench, wrench=one),
+        _call(
             zmp.centroidal_moment_pivot,
-            {
-                "force": Argument(_WRENCH[:3], (3,), "force", nan=True),
-                "com": Argument(com.value, (3,), "com", nan=True),
-            },
+            force=Argument(_WRENCH[:3], (3,), "force", nan=True),
+            com=Argument(com.value, (3,), "com", nan=True),
         ),
         Call(
             "zmp.zmp_of_feet",
@@ -430,35 +398,27 @@ def _of_readings(sole: SoleLayout) -> list[Call]:
     times = Argument(np.arange(2.0), ("f",), "times")
     pressed = np.outer(8.0 + 8.0 * np.sin(np.arange(32.0)), np.ones(n))
     return [
-        Call("force.center_of_pressure", lambda force_: force.center_of_pressure(sole, force_, 0.0), {"force_": one}),
-        Call(
-            "force.ground_reaction_wrench",
-            lambda force_: force.ground_reaction_wrench(sole, force_, 0.0),
-            {"force_": frames},
-        ),
-        Call("activation.active_taxels", activation.active_taxels, {"force": free}, {"threshold": 4.0}),
-        Call("activation.hysteresis", activation.hysteresis, {"values": free}, {"high": 8.0, "low": 4.0}),
+        _call(partial(force.center_of_pressure, sole, threshold=0.0), force=one),
+        _call(partial(force.ground_reaction_wrench, sole, threshold=0.0), force=frames),
+        _call(partial(activation.active_taxels, threshold=4.0), force=free),
+        _call(partial(activation.hysteresis, high=8.0, low=4.0), values=free),
         Call(
             "activation.TaxelActivation.update",
             lambda force_: activation.TaxelActivation(4.0).update(force_),
             {"force_": Argument(one.value, ("n",), "force", nan=True)},
         ),
-        Call("health.dead_taxels", health.dead_taxels, {"values": anything}),
-        Call("health.saturated_taxels", health.saturated_taxels, {"values": anything}, {"highest": 8.0}),
-        Call(
-            "health.stuck_taxels",
-            health.stuck_taxels,
-            {"times": times, "values": Argument(frames.value, ("f", "n"), "values readings", nan=True)},
-        ),
+        _call(health.dead_taxels, values=anything),
+        _call(partial(health.saturated_taxels, highest=8.0), values=anything),
+        _call(health.stuck_taxels, times=times, values=Argument(frames.value, ("f", "n"), "values readings", nan=True)),
         Call(
             "health.StuckMonitor.update",
             lambda values: health.StuckMonitor().update(0.0, values),
             {"values": Argument(one.value, ("n",), "values readings", nan=True)},
         ),
-        Call(
-            "health.fill_from_neighbours",
-            lambda values, faulty: health.fill_from_neighbours(sole, values, faulty),
-            {"values": Argument(frames.value, (..., n), "readings", nan=True), "faulty": _mask(sole)},
+        _call(
+            partial(health.fill_from_neighbours, sole),
+            values=Argument(frames.value, (..., n), "readings", nan=True),
+            faulty=_mask(sole),
         ),
         Call(
             "taxel_faults.WornFaults.read",
@@ -474,30 +434,19 @@ def _of_readings(sole: SoleLayout) -> list[Call]:
                 "read": Argument(1.25 * pressed, ("t", n), "readings frames dead", nan=True, least=20),
             },
         ),
-        Call("clipping.clipped_mean", clipping.clipped_mean, {"force": anything}, {"noise": 1.0}),
-        Call("clipping.unclipped_mean", clipping.unclipped_mean, {"mean": anything}, {"noise": 1.0}),
-        Call(
-            "force.joint_torque",
+        _call(partial(clipping.clipped_mean, noise=1.0), force=anything),
+        _call(partial(clipping.unclipped_mean, noise=1.0), mean=anything),
+        _call(
             force.joint_torque,
-            {
-                "jacobian": Argument(np.arange(12.0).reshape(6, 2), (6, "j"), "jacobian"),
-                "rotation_to_base": Argument(_TURN, (3, 3), "rotation"),
-                "wrench": Argument(_WRENCH, (..., 6), "wrench", nan=True),
-            },
+            jacobian=Argument(np.arange(12.0).reshape(6, 2), (6, "j"), "jacobian"),
+            rotation_to_base=Argument(_TURN, (3, 3), "rotation"),
+            wrench=Argument(_WRENCH, (..., 6), "wrench", nan=True),
         ),
-        Call(
-            "force.pressure_driven_wrench",
-            lambda force_: force.pressure_driven_wrench(sole, force_, 0.015625),
-            {"force_": frames},
-        ),
-        Call(
-            "force.scaled_by_area",
-            force.scaled_by_area,
-            {
-                "wrench": Argument(np.stack([_WRENCH, _WRENCH]), (..., 6), "wrench", nan=True),
-                "contact_area": Argument(np.array([0.5, 0.25]), ("f",), "area"),
-            },
-            {"reference_area": 0.25},
+        _call(partial(force.pressure_driven_wrench, sole, reference_area=0.015625), force=frames),
+        _call(
+            partial(force.scaled_by_area, reference_area=0.25),
+            wrench=Argument(np.stack([_WRENCH, _WRENCH]), (..., 6), "wrench", nan=True),
+            contact_area=Argument(np.array([0.5, 0.25]), ("f",), "area"),
         ),
         Call(
             "reading.Reading",
@@ -519,50 +468,24 @@ def _of_fields(sole: SoleLayout) -> list[Call]:
         Argument(_reading(sole, frames=True).value, (...,), "temperature", nan=True),
     )
     return [
-        Call("proximity.near_taxels", proximity.near_taxels, {"distance": free}, {"threshold": 0.02}),
-        Call("proximity.proximity_measure", proximity.proximity_measure, {"distance": free}, {"sensing_range": 0.125}),
-        Call(
-            "proximity.preemptive_polygon",
-            lambda distance: proximity.preemptive_polygon(sole, distance, 0.02),
-            {"distance": far},
-        ),
-        Call(
-            "proximity.height_contours",
-            lambda distance: proximity.height_contours(sole, distance, [0.02, 0.03]),
-            {"distance": far},
-        ),
-        Call("proximity.cells_polygon", lambda taxels: proximity.cells_polygon(sole, taxels), {"taxels": _mask(sole)}),
-        Call(
-            "ground_plane.fit_ground_plane",
-            lambda distance: ground_plane.fit_ground_plane(sole, distance),
-            {"distance": far},
-        ),
-        Call(
-            "ground_plane.ground_points",
-            lambda distance: ground_plane.ground_points(sole, distance),
-            {"distance": _far(sole, frames=True)},
-        ),
+        _call(partial(proximity.near_taxels, threshold=0.02), distance=free),
+        _call(partial(proximity.proximity_measure, sensing_range=0.125), distance=free),
+        _call(partial(proximity.preemptive_polygon, sole, threshold=0.02), distance=far),
+        _call(partial(proximity.height_contours, sole, heights=[0.02, 0.03]), distance=far),
+        _call(partial(proximity.cells_polygon, sole), taxels=_mask(sole)),
+        _call(partial(ground_plane.fit_ground_plane, sole), distance=far),
+        _call(partial(ground_plane.ground_points, sole), distance=_far(sole, frames=True)),
         Call(
             "ground_plane.GroundPlane.height_at",
             lambda points: _plane(sole).height_at(points),
             {"points": Argument(_RING, (..., 2), "points", nan=True)},
         ),
-        Call("temperature.warm_taxels", temperature.warm_taxels, {"temperature": warm}, {"threshold": 4.0}),
-        Call(
-            "temperature.temperature_measure",
-            temperature.temperature_measure,
-            {"temperature": warm},
-            {"threshold": 4.0},
-        ),
-        Call(
-            "temperature.temperature_footprint",
-            lambda temperature_: temperature.temperature_footprint(sole, temperature_, 4.0),
-            {"temperature_": one},
-        ),
-        Call(
-            "temperature.temperature_wrench",
-            lambda temperature_: temperature.temperature_wrench(sole, temperature_, 4.0),
-            {"temperature_": _reading(sole, "temperature", frames=True)},
+        _call(partial(temperature.warm_taxels, threshold=4.0), temperature=warm),
+        _call(partial(temperature.temperature_measure, threshold=4.0), temperature=warm),
+        _call(partial(temperature.temperature_footprint, sole, threshold=4.0), temperature=one),
+        _call(
+            partial(temperature.temperature_wrench, sole, threshold=4.0),
+            temperature=_reading(sole, "temperature", frames=True),
         ),
     ]
 
@@ -579,39 +502,27 @@ def _of_wrenches(sole: SoleLayout) -> list[Call]:
     }
     single = {k: Argument(_WRENCH, (6,), "wrench", nan=True) for k in pair}
     return [
-        Call(
-            "virtual_wrench.virtual_ground_reaction_wrench",
-            lambda distance: virtual_wrench.virtual_ground_reaction_wrench(sole, distance, 50.0),
-            {"distance": _far(sole, frames=True)},
+        _call(
+            partial(virtual_wrench.virtual_ground_reaction_wrench, sole, gain=50.0), distance=_far(sole, frames=True)
         ),
-        Call(
-            "virtual_wrench.early_stop",
-            virtual_wrench.early_stop,
-            {"virtual_wrench": Argument(np.stack([_WRENCH] * 2), (..., 6), "wrench", nan=True)},
-            {"threshold": 8.0},
+        _call(
+            partial(virtual_wrench.early_stop, threshold=8.0),
+            virtual_wrench=Argument(np.stack([_WRENCH] * 2), (..., 6), "wrench", nan=True),
         ),
-        Call("virtual_wrench.sole_wrenches", virtual_wrench.sole_wrenches, pair, {"threshold": 32.0}),
+        _call(partial(virtual_wrench.sole_wrenches, threshold=32.0), **pair),
         Call(
             "virtual_wrench.SoleWrenchSwitch.update",
             lambda contact, virtual: virtual_wrench.SoleWrenchSwitch(32.0).update(contact, virtual),
             single,
         ),
-        Call(
-            "body_skin.active_cells",
-            body_skin.active_cells,
-            touch,
-            {"force_threshold": 4.0, "proximity_threshold": 0.02},
-        ),
-        Call("body_skin.patch_signal", body_skin.patch_signal, touch, {"weight": 0.5}),
-        Call("body_skin.pseudo_force", body_skin.pseudo_force, touch, {"force_weight": 1.0, "proximity_weight": 2.0}),
-        Call(
-            "body_skin.skin_wrench",
+        _call(partial(body_skin.active_cells, force_threshold=4.0, proximity_threshold=0.02), **touch),
+        _call(partial(body_skin.patch_signal, weight=0.5), **touch),
+        _call(partial(body_skin.pseudo_force, force_weight=1.0, proximity_weight=2.0), **touch),
+        _call(
             body_skin.skin_wrench,
-            {
-                "positions": Argument(sole.positions, ("n", 3), "positions"),
-                "rotations": Argument(sole.rotations, ("n", 3, 3), "rotations"),
-                "signal": Argument(_force(n), (..., "n"), "signal", nan=True),
-            },
+            positions=Argument(sole.positions, ("n", 3), "positions"),
+            rotations=Argument(sole.rotations, ("n", 3, 3), "rotations"),
+            signal=Argument(_force(n), (..., "n"), "signal", nan=True),
         ),
         _of_net_wrench(),
     ]
@@ -619,16 +530,15 @@ def _of_wrenches(sole: SoleLayout) -> list[Call]:
 
 def _of_net_wrench() -> Call:
     patch = link_skin.SkinPatch("chest", "torso", np.zeros((1, 3)), np.eye(3)[None], np.full(1, 1e-3))
-    return Call(
-        "net_wrench.net_wrench",
-        net_wrench.net_wrench,
-        {"point": Argument(np.array([0.5, 0.25, 1.0]), (3,), "point")},
-        {
-            "skin": link_skin.BodySkin([patch]),
-            "reading": link_skin.SkinReading(0.0, np.full(1, 4.0), np.full(1, np.inf)),
-            "poses": {"torso": (np.zeros(3), np.eye(3))},
-            "rules": net_wrench.NetWrenchRules(),
-        },
+    return _call(
+        partial(
+            net_wrench.net_wrench,
+            skin=link_skin.BodySkin([patch]),
+            reading=link_skin.SkinReading(0.0, np.full(1, 4.0), np.full(1, np.inf)),
+            poses={"torso": (np.zeros(3), np.eye(3))},
+            rules=net_wrench.NetWrenchRules(),
+        ),
+        point=Argument(np.array([0.5, 0.25, 1.0]), (3,), "point"),
     )
 
 
@@ -643,18 +553,14 @@ def _of_batches(sole: SoleLayout) -> list[Call]:
     frames = Argument(_reading(sole, frames=True).value, (..., n), "force", nan=True)
     far = Argument(_far(sole, frames=True).value, (..., n), "distance", nan=True)
     return [
-        Call("batch.loads", lambda force_: batch.loads(sole, force_), {"force_": frames}),
-        Call("batch.wrenches", lambda force_: batch.wrenches(sole, force_), {"force_": frames}),
-        Call(
-            "batch.support_polygons",
-            lambda force_: batch.support_polygons(sole, force_, vertices=True),
-            {"force_": frames},
-        ),
-        Call("batch.ground_planes", lambda distance: batch.ground_planes(sole, distance), {"distance": far}),
-        Call(
-            "foot_tick.walking_tick",
-            lambda force_, aim: foot_tick.walking_tick(sole, force_, aim, 0.0078125),
-            {"force_": _reading(sole), "aim": Argument(np.array([0.015625, 0.0]), (2,), "aim point", nan=True)},
+        _call(partial(batch.loads, sole), force=frames),
+        _call(partial(batch.wrenches, sole), force=frames),
+        _call(partial(batch.support_polygons, sole, vertices=True), force=frames),
+        _call(partial(batch.ground_planes, sole), distance=far),
+        _call(
+            partial(foot_tick.walking_tick, sole, offset=0.0078125),
+            force=_reading(sole),
+            aim=Argument(np.array([0.015625, 0.0]), (2,), "aim point", nan=True),
         ),
     ]
 
@@ -677,45 +583,29 @@ def _of_objects(sole: SoleLayout) -> list[Call]:
             lambda active, stuck: _seen(Percept(sole, given, active=active, stuck=stuck)),
             {"active": active, "stuck": active},
         ),
-        Call("sole_pose.SolePose", lambda turn, place: sole_pose.SolePose(turn, place), {"turn": turn, "place": place}),
-        Call("sole_pose.SolePose.polygon_to_world", pose.polygon_to_world, {"polygon": plane_or_space}),
-        Call(
-            "sole_pose.SolePose.to_world",
-            pose.to_world,
-            {"points": Argument(np.arange(6.0).reshape(2, 3), (..., 3), "points", nan=True)},
-        ),
-        Call(
-            "sole_pose.SolePose.wrench_to_world",
-            pose.wrench_to_world,
-            {"wrench": Argument(_WRENCH, (..., 6), "wrench", nan=True)},
-        ),
+        _call(sole_pose.SolePose, rotation_sole_to_world=turn, position_in_world=place),
+        _call(pose.polygon_to_world, polygon=plane_or_space),
+        _call(pose.to_world, points=Argument(np.arange(6.0).reshape(2, 3), (..., 3), "points", nan=True)),
+        _call(pose.wrench_to_world, wrench=Argument(_WRENCH, (..., 6), "wrench", nan=True)),
         Call(
             "sole_pose.wrench_of_feet", lambda wrench: sole_pose.wrench_of_feet([wrench, _WRENCH], [pose, pose]), feet
         ),
         Call("sole_pose.zmp_of_soles", lambda wrench: sole_pose.zmp_of_soles([wrench, _WRENCH], [pose, pose]), feet),
-        Call(
-            "outline.Outline",
-            lambda points: outline.Outline(points, [0, 5], shape.ring_areas),
-            {"points": Argument(_RING, (5, 2), "points outline")},
+        _call(
+            partial(outline.Outline, starts=[0, 5], ring_areas=shape.ring_areas),
+            points=Argument(_RING, (5, 2), "points outline"),
         ),
         Call(
             "outline.Outline.of_rings", lambda ring: outline.Outline.of_rings([_RING, ring]), {"ring": _polygon("ring")}
         ),
-        Call(
-            "outline.Outline.moved",
+        _call(
             shape.moved,
-            {
-                "rotation": Argument(_TURN[:2, :2], (2, 2), "rotation"),
-                "translation": Argument(np.array([1.0, 2.0]), ("2 or 3",), "translation"),
-            },
+            rotation=Argument(_TURN[:2, :2], (2, 2), "rotation"),
+            translation=Argument(np.array([1.0, 2.0]), ("2 or 3",), "translation"),
         ),
-        Call(
-            "partial_contact.PartialContact.between",
-            fit.between,
-            {"supported": _mask(sole), "idle": Argument(~_mask(sole).value, (n,), "mask taxels", truth=True)},
-        ),
-        Call("partial_contact.PartialContact.cover", fit.cover, {"lines": lines}),
-        Call("partial_contact.PartialContact.polygon", fit.polygon, {"lines": lines}),
+        _call(fit.between, supported=_mask(sole), idle=Argument(~_mask(sole).value, (n,), "mask taxels", truth=True)),
+        _call(fit.cover, lines=lines),
+        _call(fit.polygon, lines=lines),
         Call(
             "partial_contact.PartialContact.expected",
             lambda point, lines: fit.expected(64.0, point, lines),
