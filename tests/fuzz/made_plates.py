@@ -41,7 +41,7 @@ class Laboratory:
         return sorted((c for own in self.plates for c in own), key=lambda c: c.begin)
 
 
-def _contact(
+def made_contact(
     random: np.random.Generator, time: np.ndarray, side: str, begin: float, last: float, place: np.ndarray, top: float
 ) -> Contact:
     share = np.clip((time - begin) / last, 0.0, 1.0)
@@ -82,7 +82,7 @@ def made_laboratory(seed: int, hard: bool = False) -> tuple[Laboratory, np.rando
         for k, side in enumerate(sides):
             place = np.array([0.0, width if side == "left" else -width])
             begins = np.arange(0.3 + 0.5 * k * period, 11.5 - last, period)
-            contacts = [_contact(random, time, side, b, last, place, top) for b in begins]
+            contacts = [made_contact(random, time, side, b, last, place, top) for b in begins]
             for c in contacts:
                 c.cop[:, 0] *= -1.0  # the belt carries the foot backwards
             plates.append(contacts)
@@ -95,7 +95,7 @@ def made_laboratory(seed: int, hard: bool = False) -> tuple[Laboratory, np.rando
     for k in range(count):
         side = sides[k % 2]
         place = np.array([0.3 + 0.65 * k, width if side == "left" else -width])
-        plates.append([_contact(random, time, side, 0.5 + 0.55 * last * 1.6 * k, last, place, top)])
+        plates.append([made_contact(random, time, side, 0.5 + 0.55 * last * 1.6 * k, last, place, top)])
     if trouble == "both feet on one plate" and count > 1:
         plates = [[*plates[0], *plates[1]], *plates[2:]]
         for contact in plates[0]:
@@ -119,8 +119,8 @@ def _channels(kind: int, force: np.ndarray, away: np.ndarray, moment: np.ndarray
     return np.column_stack([force, moment - np.cross(force, offset)]).T, offset
 
 
-def write_c3d(path: Path, lab: Laboratory, random: np.random.Generator) -> None:
-    """Write the file, with axes, corners, offsets, units and signs drawn."""
+def write_c3d(path: Path, lab: Laboratory, random: np.random.Generator, shown: str | None = None) -> None:
+    """Write the file, with axes, corners, offsets, units, signs and, where it is None, what it shows besides drawn."""
     import ezc3d
 
     number = 2 if lab.kind == "split belt" else int(lab.kind[-1])
@@ -132,7 +132,8 @@ def write_c3d(path: Path, lab: Laboratory, random: np.random.Generator) -> None:
     factor, force_unit, turn_factor, moment_unit = UNITS[int(random.integers(len(UNITS)))]
     scale, length_unit = POINTS[int(random.integers(len(POINTS)))]
     down, on_plate = bool(random.random() < 0.7), bool(random.random() < 0.7)
-    shown = str(random.choice(["markers", "events", "nothing"]))
+    drawn = str(random.choice(["markers", "events", "nothing"]))
+    shown = drawn if shown is None else shown
     n = len(lab.time)
     every, corners, origins, matrices = [], [], [], []
     spin = int(random.integers(4))
