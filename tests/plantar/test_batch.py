@@ -3,11 +3,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar import InputError, Percept, Reading, ReadingError, batch, fit_ground_plane, hex_layout, kernels
+from plantar import InputError, ReadingError, batch, fit_ground_plane, hex_layout, kernels
 from plantar.batch import blocks, loads, support_polygons, wrenches
 from plantar.layouts.curved_sole import rotations_to_normals
 
@@ -22,49 +21,6 @@ def recording(seed, layout=SOLE, frames=25):
     shape = (frames, len(layout))
     force = np.where(rng.random(shape) < rng.random((frames, 1)), rng.uniform(0.0, 60.0, shape), 0.0)
     return np.where(rng.random(shape) < 0.03, rng.choice([np.nan, np.inf, -np.inf, -5.0, 785.0, 1e9], shape), force)
-
-
-@given(seeds)
-@settings(max_examples=50)
-def test_a_batch_is_the_percepts_of_its_frames(seed):
-    force = recording(seed)
-    sums = loads(SOLE, force)
-    polygons = support_polygons(SOLE, force, vertices=True)
-    wrench = wrenches(SOLE, force)
-    for i, row in enumerate(force):
-        percept = Percept(SOLE, Reading(0.0, row))
-        assert sums.wrench[i].tolist() == percept.wrench_in_sole.tolist()
-        assert wrench[i] == pytest.approx(percept.wrench_in_sole, rel=1e-13, abs=1e-11)
-        assert sums.vertical_force[i] == percept.vertical_force
-        assert sums.contact_area[i] == percept.contact_area
-        assert polygons.polygon(i).tolist() == percept.support_polygon_in_sole.tolist()
-        assert polygons.area[i] == percept.support_area
-        if percept.position_cop_in_sole is None:
-            assert np.isnan(sums.center_of_pressure[i]).all()
-        else:
-            assert sums.center_of_pressure[i].tolist() == percept.position_cop_in_sole.tolist()
-        if percept.centroid_in_sole is None:
-            assert np.isnan(polygons.centroid[i]).all()
-        else:
-            assert polygons.centroid[i].tolist() == percept.centroid_in_sole.tolist()
-
-
-@given(seeds, st.integers(0, 9))
-def test_wrenches_are_the_product_with_the_wrench_map(seed, frames):
-    force = np.nan_to_num(recording(seed, frames=frames), nan=0.0, posinf=0.0, neginf=0.0)
-    force[force >= SOLE.force_limit] = 0.0
-    expected = np.where(force > 1.0, force, 0.0) @ SOLE.wrench_map.T
-    assert wrenches(SOLE, force, 1.0) == pytest.approx(expected, rel=1e-12, abs=1e-10)
-    assert loads(SOLE, force, 1.0).wrench == pytest.approx(expected, rel=1e-12, abs=1e-10)
-
-
-def test_wrenches_of_a_sole_that_is_not_flat():
-    slope = 5.0 * SOLE.positions[:, 0]
-    normals = np.column_stack([-np.sin(slope), np.zeros(len(SOLE)), np.cos(slope)])
-    sole = replace(SOLE, rotations=rotations_to_normals(normals))
-    force = np.abs(np.nan_to_num(recording(3, sole), nan=0.0, posinf=0.0, neginf=0.0)) % 100.0
-    expected = force @ sole.wrench_map.T
-    assert wrenches(sole, force, -1.0) == pytest.approx(expected, rel=1e-12, abs=1e-10)
 
 
 def test_loads_are_those_of_each_frame_to_the_last_bit():
@@ -103,16 +59,6 @@ def test_polygons_are_found_without_walking_from_the_start():
     assert Sizes.read <= 2 * 400
     with pytest.raises(IndexError):
         found.polygon(400)
-
-
-def test_areas_are_shapelys_away_from_its_errors():
-    """The median: GEOS gives a hull that is not convex for a few patterns in a thousand."""
-    force = np.nan_to_num(recording(1, frames=300), nan=0.0, posinf=0.0, neginf=0.0)
-    got = support_polygons(SOLE, force).area
-    for i, row in enumerate(force):
-        cells = [SOLE.cell_polygon(j) for j in np.flatnonzero((row > SOLE.force_threshold) & (row < SOLE.force_limit))]
-        hull = shapely.MultiPoint(np.round(np.concatenate([*cells, np.empty((0, 2))]), 9)).convex_hull
-        assert got[i] == pytest.approx(hull.area, abs=1e-9)
 
 
 @pytest.mark.parametrize("kind", ["float32", "int64", "transposed", "every other", "big-endian", "read-only", "list"])

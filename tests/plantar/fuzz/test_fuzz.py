@@ -17,13 +17,12 @@ from plantar.bench.soles import random_outline
 from plantar.geometry import polygon
 from plantar.geometry.inscribed import rectangle_in_outline, rectangle_in_outline_any_angle
 
-from .fields import FIELD_CHECKS
-from .force import FORCE_CHECKS
+from .members import MEMBER_CHECKS
 from .shapes import SHAPE_CHECKS
 from .soles import block_of, stress_soles
 
 SOLES = stress_soles()
-CHECKS = (*FORCE_CHECKS, *SHAPE_CHECKS, *FIELD_CHECKS)
+CHECKS = (*MEMBER_CHECKS, *SHAPE_CHECKS)
 
 blocks = st.builds(
     block_of, st.sampled_from(SOLES), st.integers(16, 60), st.integers(0, 2**32 - 1), st.integers(0, 2**12)
