@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from plantar.bench.references import exact_hull, turn
 from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.enclosing import bounding_box, enclosing_parallelogram, oriented_box
 from plantar.geometry.inscribed import (
@@ -41,26 +42,6 @@ def near_equal(draw, least=4):
     return coarse, coarse + hair * np.array(offs, dtype=float), 3.0 * hair
 
 
-def exact_hull(points):
-    """Corners of the hull in fractions, counter-clockwise, without those on straight edges."""
-    cloud = sorted({(Fraction(float(x)), Fraction(float(y))) for x, y in points})
-    if len(cloud) < 3:
-        return cloud
-    ring = []
-    for way in (cloud, cloud[::-1]):
-        part = []
-        for p in way:
-            while len(part) > 1 and turn(part[-2], part[-1], p) <= 0:
-                part.pop()
-            part.append(p)
-        ring += part[:-1]
-    return ring
-
-
-def turn(a, b, c):
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-
-
 def exact_area(ring):
     return sum(turn(ring[0], a, b) for a, b in pairwise(ring)) / 2 if ring else 0
 
@@ -85,7 +66,7 @@ def test_a_corner_three_nanometres_beyond_another_one_costs_no_corner():
 @given(near_equal(least=1))
 def test_hulls_are_those_in_exact_fractions(drawn):
     _, points, _ = drawn
-    wanted = exact_hull(points)
+    wanted = exact_hull((Fraction(x), Fraction(y)) for x, y in points.tolist())
     largest = float(np.abs(points).max())
     for ring in (convex_hull(points), np.array(few_hull(points).corners_of()).reshape(-1, 2)):
         corners = [(Fraction(x), Fraction(y)) for x, y in ring.tolist()]
@@ -105,7 +86,7 @@ def test_hulls_are_those_in_exact_fractions(drawn):
 @given(near_equal(), st.tuples(st.floats(-0.2, 0.2), st.floats(-0.2, 0.2)))
 def test_margins_and_areas_of_few_points_are_those_of_exact_hulls(drawn, off):
     _, points, _ = drawn
-    hull, wanted = few_hull(points), exact_hull(points)
+    hull, wanted = few_hull(points), exact_hull((Fraction(x), Fraction(y)) for x, y in points.tolist())
     assert hull.area() == pytest.approx(float(exact_area(wanted)), abs=1e-14)
     if len(wanted) < 3 or float(exact_area(wanted)) < 1e-4:
         return
