@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from plantar.gait.balance.balance_laws import balance_law
-from plantar.gait.balance.open_loop import OpenLoop
+from plantar.gait.balance.load_transfer import OpenLoop
 from plantar.gait.command import Command, FootTarget, Motors, Sensors
 from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.controller_settings import ControllerSettings

@@ -6,11 +6,11 @@ import math
 
 from plantar.errors import InputError, SceneError
 from plantar.gait.controller import Start
-from plantar.gait.plan.footsteps import Footstep, other_side, straight_plan
+from plantar.gait.plan.footsteps import Footstep, straight_plan
 from plantar.gait.propose.velocity_command import Legs, VelocityCommand, VelocityTable
 from plantar.robots.robot import Robot
 from plantar.robots.walk import Walk
-from plantar.sides import Side
+from plantar.sides import Side, other_side
 
 __all__ = ["STEPS_A_ROUND", "box_plan", "start_of_walk"]
 
@@ -43,7 +43,13 @@ def start_of_walk(
             raise SceneError(f"[walk] {error}") from None
     else:
         feet, plan = straight_plan(
-            steps, length=walk.length, sideways=walk.sideways, width=width, first=first, height=height
+            steps,
+            length=walk.length,
+            sideways=walk.sideways,
+            width=width,
+            first=first,
+            height=height,
+            closing=walk.pattern == "closing",
         )
     if velocities is None:
         return Start(feet, plan, walk.begin)

@@ -35,14 +35,14 @@ __all__ = [
     "within_support",
 ]
 
+# Time in s in which the DCM shall reach its target at least.
 SHORTEST_TIME = 1e-6
-"""Time in s in which the DCM shall reach its target at least."""
 
+# Largest exponent w t: a nanometre that has grown by e^100 is 1e34 m, so nothing is told apart beyond it, and no
+# product of a few such numbers overflows.
 MOST_GROWTH = 100.0
-"""Largest exponent w t: a nanometre that has grown by e^100 is 1e34 m, so nothing is told apart beyond it, and no
-product of a few such numbers overflows."""
 
-_NODES, _WEIGHTS = (x.tolist() for x in np.polynomial.legendre.leggauss(10))
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)
 
 
 class AnkleRules(Part, table="ankle_strategy", needs={"control.step_adjustment": (True,)}):
@@ -131,21 +131,15 @@ def target_dcms(
         >>> targets.double_end.round(4).tolist(), targets.single_end.round(4).tolist()
         ([0.2348, -0.0652], [0.2012, -0.0522])
     """
-    ex, ey = _pair(place, "footstep")
-    ix, iy = _pair(stance, "place of the stance foot")
-    nx, ny = _pair(next_stride, "stride of the next step")
-    wx, wy = _pair(offset, "VRP offset")
-    last = math.exp(-omega * max(next_duration, 0.0))
-    bx, by = nx * last - wx, ny * last - wy  # b_e
+    places = (place, "footstep"), (stance, "place of the stance foot"), (next_stride, "stride of the next step")
+    end, start, stride = (_pair(*place) for place in places)
+    push = _pair(offset, "VRP offset")
+    ahead = stride * math.exp(-omega * max(next_duration, 0.0)) - push  # b_e
     if double_support <= 0.0:
-        end = np.array((ex + bx, ey + by))
-        return TargetDcms(end, end.copy(), 1.0)
+        return TargetDcms(end + ahead, end + ahead, 1.0)
     kept, swayed = math.exp(-omega * double_support), sway_share(omega, double_support)
-    gone = 1.0 - kept
-    single = np.array(
-        (ex + bx * kept - wx * gone + (ex - ix) * swayed, ey + by * kept - wy * gone + (ey - iy) * swayed)
-    )
-    return TargetDcms(np.array((ex + bx, ey + by)), single, 1.0 + swayed)
+    single = end + ahead * kept - push * (1.0 - kept) + (end - start) * swayed
+    return TargetDcms(end + ahead, single, 1.0 + swayed)
 
 
 def sway_share(omega: float, double_support: float) -> float:
@@ -164,8 +158,9 @@ def sway_share(omega: float, double_support: float) -> float:
     """
     if double_support <= 0.0:
         return 0.0
-    end = _sway(omega, double_support, double_support)
-    return math.exp(-omega * double_support) * end - _sway(omega, double_support, 0.0)
+    rate = 0.5 * math.pi / double_support
+    c = omega / (omega * omega + rate * rate)
+    return math.exp(-omega * double_support) * (1.0 - c * omega) - (1.0 - c * rate)
 
 
 def single_support_vrp(dcm: ArrayLike, target: ArrayLike, left: float, offset: ArrayLike, omega: float) -> AnkleVrp:
@@ -189,15 +184,12 @@ def single_support_vrp(dcm: ArrayLike, target: ArrayLike, left: float, offset: A
         >>> found.vrp.round(4).tolist(), found.saturated.value
         ([0.0002, 0.0], 'none')
     """
-    x, y = _pair(dcm, "DCM")
-    tx, ty = _pair(target, "target of the DCM")
-    wx, wy = _pair(offset, "VRP offset")
-    cut = left < SHORTEST_TIME
+    now, goal, push = _pair(dcm, "DCM"), _pair(target, "target of the DCM"), _pair(offset, "VRP offset")
     exponent = -omega * max(left, SHORTEST_TIME)
     kept, gain = math.exp(exponent), -1.0 / math.expm1(exponent)
     # xi_c + u_w + (xi_c - xi_s) e^(-w T) / (1 - e^(-w T)): K 25 less what cancels.
-    vrp = np.array((x + wx + (x - tx) * kept * gain, y + wy + (y - ty) * kept * gain))
-    return AnkleVrp(vrp, gain, Saturation.TIME if cut else Saturation.NONE)
+    vrp = now + push + (now - goal) * kept * gain
+    return AnkleVrp(vrp, gain, Saturation.TIME if left < SHORTEST_TIME else Saturation.NONE)
 
 
 def double_support_vrp(
@@ -230,14 +222,11 @@ def double_support_vrp(
         >>> double_support_vrp([0.05, 0.0], [-0.016, 0.0], [0.2, 0], 0.2, 0.0, [0, 0], 3.5).vrp.round(3).tolist()
         [0.0, 0.0]
     """
-    x, y = _pair(dcm, "DCM")
-    tx, ty = _pair(target, "target of the DCM")
-    ex, ey = _pair(end, "end of the VRP")
-    wx, wy = _pair(offset, "VRP offset")
+    now, goal = _pair(dcm, "DCM"), _pair(target, "target of the DCM")
+    rest = _pair(end, "end of the VRP") - _pair(offset, "VRP offset")
     left = max(duration - begun, SHORTEST_TIME)
     kept, gain = math.exp(-omega * left), 1.0 / double_support_pull(omega, max(duration, left), left)
-    ex0, ey0 = ex - wx, ey - wy
-    vrp = np.array((ex - (kept * (tx - ex0) - (x - ex0)) * gain, ey - (kept * (ty - ey0) - (y - ey0)) * gain))
+    vrp = _pair(end, "end of the VRP") - (kept * (goal - rest) - (now - rest)) * gain
     return AnkleVrp(vrp, gain, Saturation.TIME if duration - begun < SHORTEST_TIME else Saturation.NONE)
 
 
@@ -262,10 +251,8 @@ def double_support_pull(omega: float, duration: float, left: float) -> float:
     half = math.sin(0.5 * rate * left) ** 2
     if omega * left < 3.0:
         # The closed form below cancels its digits here, and ten nodes integrate the smooth integrand to the last.
-        total = 0.0
-        for node, weight in zip(_NODES, _WEIGHTS, strict=True):
-            rest = 0.5 * left * (1.0 - node)
-            total += weight * math.exp(-omega * (left - rest)) * math.sin(0.5 * rate * rest) ** 2
+        rest = 0.5 * left * (1.0 - _NODES)
+        total = float(_WEIGHTS @ (np.exp(-omega * (left - rest)) * np.sin(0.5 * rate * rest) ** 2))
         return 0.5 * left * omega * total / half
     c = omega / (omega * omega + rate * rate)
     turned = c * (omega * math.cos(rate * left) + rate * math.sin(rate * left))
@@ -294,7 +281,7 @@ def shrunk_support(
         >>> shrunk_support(square, AnkleRules(), [0.0, 0.0]).tolist()[2]
         [0.05, 0.08000000000000002]
     """
-    about = np.array(_pair(middle, "middle"))
+    about = _pair(middle, "middle")
     c, s = math.cos(yaw), math.sin(yaw)
     f, across = rules.forward, rules.sideways
     turn = (f - across) * c * s
@@ -327,13 +314,5 @@ def within_support(wanted: AnkleVrp, support: ArrayLike) -> AnkleVrp:
     return AnkleVrp(nearest, wanted.gain, Saturation.SUPPORT)
 
 
-def _sway(omega: float, duration: float, time: float) -> float:
-    """1 - C_d SC(t) of K 20."""
-    rate = 0.5 * math.pi / duration
-    c = omega / (omega * omega + rate * rate)
-    return 1.0 - c * (omega * math.sin(rate * time) + rate * math.cos(rate * time))
-
-
-def _pair(value: ArrayLike, name: str) -> list[float]:
-    found: list[float] = array(value, name, (2,), finite=True).tolist()
-    return found
+def _pair(value: ArrayLike, name: str) -> NDArray[np.float64]:
+    return array(value, name, (2,), finite=True)

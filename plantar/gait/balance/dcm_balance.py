@@ -4,24 +4,24 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.gait.balance.com_admittance import LARGEST_OFFSET, ComAdmittance
 from plantar.gait.balance.foot_admittance import AdmittanceGains, FootAdmittance
 from plantar.gait.balance.law import BalanceState, Feet, FootAction, FootState
 from plantar.gait.balance.load_transfer import transferred
 from plantar.gait.plan.vrp_plan import LipReference
-from plantar.kernels.gait.dcm_feedback import DcmFeedback
+from plantar.kernels.gait.dcm_feedback import ComAdmittance, DcmFeedback
 from plantar.settings.part import Part
 from plantar.settings.schema import fixed, share
 from plantar.sides import Side
 
 __all__ = ["BalanceGains", "DcmBalance"]
 
+_LARGEST_OFFSET = 0.5  # leg that the CoM's reference may be off its plan: no foot reaches both from there
 _ZMP_SHARE = 0.3  # of the ZMP's error, which feet that stand give way to; all of it lets a push tip the robot over
-_NO_INTEGRAL = (0.0, 0.0, 0.0)
 
 
 class BalanceGains(Part, table="balance"):
@@ -50,39 +50,31 @@ class DcmBalance:
         omega: Pendulum's in rad/s.
         mass: Robot's in kg.
         period: Of control in s.
+        integral: Of the DCM error: gain in 1/s, decay in 1/s, limit in m.
+        admittance: Gains of the feet's.
     """
 
     wants_contacts = False
+    _offset_first = True  # the CoM's acceleration counts its offset of the same tick
 
-    def __init__(self, gains: BalanceGains, omega: float, mass: float, period: float) -> None:
-        self.gains = gains
-        self.omega = omega
+    def __init__(
+        self,
+        gains: Any,
+        omega: float,
+        mass: float,
+        period: float,
+        integral: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        admittance: AdmittanceGains | None = None,
+    ) -> None:
         self.mass = mass
-        self.period = period
         self.states: Counter[str] = Counter()
         self._zmp: NDArray[np.float64] | None = None
-        self.feet = FootAdmittance(AdmittanceGains().for_body(gains.body), period)
-        largest = LARGEST_OFFSET * gains.body.leg
-        admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period, largest)
+        self.feet = FootAdmittance(admittance or AdmittanceGains().for_body(gains.body), period)
+        largest = _LARGEST_OFFSET * gains.body.leg
+        com = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period, largest)
         # At xi = xi_r the desired ZMP is the planned VRP; a DCM that is off has its error driven to zero at the rate
-        # k_xi (T 4.28).
-        self._feedback = DcmFeedback(omega, gains.dcm_gain, _NO_INTEGRAL, period, admittance, True, True)
-
-    def desired_zmp(
-        self, reference: LipReference, dcm: NDArray[np.float64], region: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
-        """Desired ZMP (2,) in m, p_d = p_r - (1 + k_xi / w) (xi_r - xi) (T 4.28), kept in a region (T Algorithm 1).
-
-        Args:
-            reference: Plan now.
-            dcm: Measured (2,) in m.
-            region: Convex (k, 2), world, in m, counter-clockwise; empty for no limit.
-
-        Returns:
-            p_d.
-        """
-        zmp: NDArray[np.float64] = self._feedback.desired(reference.vrp, reference.dcm, dcm, region)
-        return zmp
+        # k_xi (T 4.18, 4.28). An integral forgets, and rests while the region holds the desired ZMP back.
+        self._feedback = DcmFeedback(omega, gains.dcm_gain, integral, period, com, True, self._offset_first)
 
     def update(
         self,
@@ -91,30 +83,14 @@ class DcmBalance:
         zmp: NDArray[np.float64] | None,
         region: NDArray[np.float64],
     ) -> BalanceState:
-        """Desired ZMP and the CoM reference that tracks it (T 4.29).
-
-        Args:
-            reference: Plan now.
-            dcm: Measured (2,) in m.
-            zmp: Measured (2,) in m; None if no foot is loaded.
-            region: As in `desired_zmp`.
-
-        Returns:
-            The decision.
+        """Desired ZMP, p_d = p_r - (1 + k_xi / w) (xi_r - xi), kept in the region (T 4.28, Algorithm 1), and the CoM
+        reference that tracks it (T 4.29; `BalanceLaw.update`).
         """
         plan, self._zmp = reference, zmp
         return BalanceState(*self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region))
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
-        """Load transfer by the plan; at rest, feet yield to mutual pressure and part of the ZMP error.
-
-        Args:
-            balanced: From `update`.
-            feet: Both.
-
-        Returns:
-            For each foot.
-        """
+        """Load transfer by the plan; at rest, feet yield to mutual pressure and part of the ZMP error."""
         actions = transferred(balanced, self.mass, feet)
         wanted, measured = {}, {}
         if feet.rests and self._zmp is not None:

@@ -42,10 +42,9 @@ class FootState(Record, frozen=True):
         level: Sole's commanded rotation (3, 3) before foot damping.
         rotation: The same after foot damping.
         center: Point (2,) of the sole in m to load.
-        contact: Sole frame in the world, loadable part, desired center of pressure; None in the air or without
+        contact: Frame in the world, loadable part, desired center of pressure; None in the air or without
             `wants_contacts`.
-        wrench: Measured (6,), sole frame, about its origin, by the world; None in the air, and for such a law while
-            walking.
+        wrench: Measured (6,), sole frame, about its origin, by the world; None in the air, or while walking without it.
     """
 
     position: NDArray[np.float64]

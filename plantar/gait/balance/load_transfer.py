@@ -1,13 +1,20 @@
-"""Load transfer: the desired ZMP shares the pendulum's force between the feet."""
+"""Load transfer: the desired ZMP shares the pendulum's force between the feet; without feedback, the plan's."""
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
 from plantar.gait.balance.law import BalanceState, Feet, FootAction
+from plantar.gait.plan.vrp_plan import LipReference
 from plantar.kernels.gait.dcm_feedback import shared_load
 from plantar.mechanics.lip import GRAVITY
 from plantar.sides import Side
 
-__all__ = ["transferred"]
+__all__ = ["OpenLoop", "transferred"]
 
 
 def transferred(balanced: BalanceState, mass: float, feet: Feet) -> dict[Side, FootAction]:
@@ -30,3 +37,31 @@ def transferred(balanced: BalanceState, mass: float, feet: Feet) -> dict[Side, F
         zmp, balanced.com_acceleration, mass, GRAVITY, left, right, stance
     )
     return {"left": FootAction(force, place), "right": FootAction(other_force, other_place)}
+
+
+class OpenLoop:
+    """Follows the plan (`plantar.gait.balance.law.BalanceLaw`).
+
+    Args:
+        mass: Robot's in kg.
+    """
+
+    wants_contacts = False
+
+    def __init__(self, mass: float) -> None:
+        self.mass = mass
+        self.states: Counter[str] = Counter()
+
+    def update(
+        self,
+        reference: LipReference,
+        dcm: NDArray[np.float64],
+        zmp: NDArray[np.float64] | None,
+        region: NDArray[np.float64],
+    ) -> BalanceState:
+        """The plan, with its VRP as the desired ZMP (`BalanceLaw.update`)."""
+        return BalanceState(reference.vrp, reference.com, reference.com_velocity, reference.com_acceleration)
+
+    def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
+        """Load transfer by the plan (`BalanceLaw.act`)."""
+        return transferred(balanced, self.mass, feet)

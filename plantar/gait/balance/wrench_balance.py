@@ -1,12 +1,11 @@
 """Balance by wrench distribution over the feet (Caron et al. 2019, T 4.4.4).
 
-The DCM error, proportional and integral, gives a net wrench; a quadratic program shares it within wrench cones; ankles
-and legs yield until soles measure their shares.
+The DCM error gives a net wrench; a quadratic program shares it within wrench cones; ankles and legs yield until soles
+measure their shares.
 """
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping
 from dataclasses import field, replace
 from typing import Any, Self
@@ -15,12 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError, PlantarError
-from plantar.gait.balance.com_admittance import LARGEST_OFFSET, ComAdmittance
-from plantar.gait.balance.foot_admittance import AdmittanceGains, FootAdmittance
-from plantar.gait.balance.law import BalanceState, Feet, FootAction, FootState
-from plantar.gait.plan.vrp_plan import LipReference
-from plantar.kernels.gait.dcm_feedback import DcmFeedback
-from plantar.kernels.gait.sole_admittance import SoleAdmittance, pressed
+from plantar.gait.balance.dcm_balance import DcmBalance
+from plantar.gait.balance.foot_admittance import AdmittanceGains
+from plantar.gait.balance.law import BalanceState, Feet, FootAction
+from plantar.kernels.gait.sole_admittance import pressed
 from plantar.layouts.layout import Side
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.lip import GRAVITY
@@ -92,21 +89,19 @@ class WrenchBalanceGains(Part, table="balance"):
         return (*super().described(body), *AdmittanceGains.described(body))
 
 
-class WrenchBalance:
+class WrenchBalance(DcmBalance):
     """DCM feedback, wrench distribution and foot admittance.
-
-    Attributes:
-        states: Counts of the distribution's end states.
 
     Args:
         gains: The law's.
         omega: Pendulum's in rad/s.
         mass: Robot's in kg.
         period: Of control in s.
-        weights: For the distribution.
+        weights: For the distribution, whose end states `states` counts.
     """
 
     wants_contacts = True
+    _offset_first = False
 
     def __init__(
         self,
@@ -116,58 +111,20 @@ class WrenchBalance:
         period: float,
         weights: DistributionWeights | None = None,
     ) -> None:
-        self.gains = gains
-        self.omega = omega
-        self.mass = mass
-        self.period = period
-        self.distribution = WrenchDistribution(mass * GRAVITY, weights, gains.minimum_force, _LENGTH * gains.body.leg)
-        self.feet = FootAdmittance(gains.feet, period)
-        self.states: Counter[str] = Counter()
-        largest = LARGEST_OFFSET * gains.body.leg
-        admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period, largest)
-        # T 4.18 with an integral that forgets; it stands still while the region holds the desired ZMP back.
         integral = (gains.dcm_integral, gains.dcm_forgetting, gains.largest_integral)
-        yields = gains.zmp_gain > 0.0
-        self._feedback = DcmFeedback(omega, gains.dcm_gain, integral, period, admittance, yields, False)
-
-    def update(
-        self,
-        reference: LipReference,
-        dcm: NDArray[np.float64],
-        zmp: NDArray[np.float64] | None,
-        region: NDArray[np.float64],
-    ) -> BalanceState:
-        """Desired ZMP and CoM reference.
-
-        Args:
-            reference: Plan now.
-            dcm: Measured (2,) in m.
-            zmp: Measured (2,) in m; None if no foot is loaded.
-            region: For the desired ZMP: convex (k, 2), world, in m; empty for no limit.
-
-        Returns:
-            The decision.
-        """
-        plan = reference
-        return BalanceState(*self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region))
+        super().__init__(gains, omega, mass, period, integral, gains.feet)
+        self.distribution = WrenchDistribution(mass * GRAVITY, weights, gains.minimum_force, _LENGTH * gains.body.leg)
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
-        """Share the pendulum's wrench between standing feet, which yield.
-
-        Args:
-            balanced: From `update`.
-            feet: Both.
-
-        Returns:
-            For each foot.
-        """
+        """Share the pendulum's wrench between standing feet, which yield (`BalanceLaw.act`)."""
         states, wanted = feet.states, self.distributed(balanced, feet)
         measured = {side: foot.wrench for side, foot in states.items() if foot.wrench is not None}
-        corrections = self.feet.update(wanted, measured, feet.rests)
-        return {
-            side: _action(wanted.get(side, _NO_WRENCH), states[side], correction)
-            for side, correction in corrections.items()
-        }
+        actions = {}
+        for side, yields in self.feet.update(wanted, measured, feet.rests).items():
+            foot = states[side]
+            force, place = pressed(wanted.get(side, _NO_WRENCH), foot.level, foot.position, foot.center)
+            actions[side] = FootAction(force, place, yields.roll, yields.pitch, yields.shift)
+        return actions
 
     def distributed(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, NDArray[np.float64]]:
         """World's wrench (6,) on each standing foot about its sole frame's origin; their sum is the pendulum's.
@@ -183,27 +140,16 @@ class WrenchBalance:
             side: foot.contact for side, foot in feet.states.items() if foot.contact is not None
         }
         (ax, ay), (x, y) = balanced.com_acceleration.tolist(), balanced.zmp_desired.tolist()
-        shares: dict[str, float] | None = None
-        ground = 0.0
-        if len(contacts) == 2:
-            (one, first), (other, second) = contacts.items()
-            here, there = first.center_in_world, second.center_in_world
-            ground = (here[2] + there[2]) / 2
-            share = _share(x, y, here, there)
-            shares = {one: share, other: 1.0 - share}
-        else:
-            for contact in contacts.values():
-                ground = contact.center_in_world[2]
+        places, shares = [contact.center_in_world for contact in contacts.values()], None
+        ground = sum(place[2] for place in places) / max(1, len(places))
+        if len(places) == 2:
+            share = _share(x, y, *places)
+            shares = dict(zip(contacts, (share, 1.0 - share), strict=True))
         # Along the line from the ZMP to the CoM: no moment about the ZMP.
         wrench = (self.mass * ax, self.mass * ay, self.mass * GRAVITY, 0.0, 0.0, 0.0)
         found = self.distribution.solve(contacts, wrench, (x, y, ground), shares)
         self.states[str(found.state)] += 1
         return found.wrenches  # type: ignore[return-value]  # of the same names as the contacts
-
-
-def _action(wrench: NDArray[np.float64], foot: FootState, correction: SoleAdmittance) -> FootAction:
-    force, place = pressed(wrench, foot.level, foot.position, foot.center)
-    return FootAction(force, place, correction.roll, correction.pitch, correction.shift)
 
 
 def _share(x: float, y: float, first: tuple[float, ...], second: tuple[float, ...]) -> float:

@@ -1,4 +1,4 @@
-"""Bridges a DCM jump of the plan by a temporary VRP shift in the support polygon (T 4.4.2)."""
+"""Bridges a DCM jump by a VRP shift in the support polygon (T 4.4.2)."""
 
 from __future__ import annotations
 

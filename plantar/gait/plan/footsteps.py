@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError
-from plantar.layouts.layout import Side
 from plantar.mechanics.rotation import level_rotation
+from plantar.sides import Side, other_side
 
-__all__ = ["Footstep", "other_side", "straight_plan"]
+__all__ = ["Footstep", "straight_plan"]
 
 
 @dataclass(frozen=True)
@@ -44,11 +44,6 @@ class Footstep:
         return level_rotation(self.yaw)
 
 
-def other_side(side: Side) -> Side:
-    """The other foot."""
-    return "right" if side == "left" else "left"
-
-
 def straight_plan(
     steps: int,
     *,
@@ -58,6 +53,7 @@ def straight_plan(
     first: Side = "left",
     start: tuple[float, float, float] = (0.0, 0.0, 0.0),
     height: float = 0.0,
+    closing: bool = False,
 ) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
     """Straight walk in any direction or in place; the last step closes the feet.
 
@@ -69,6 +65,7 @@ def straight_plan(
         first: First foot; sideways, the one on that side.
         start: Initial midpoint (x, y, yaw) of the feet in m, m, rad.
         height: Of the ground in m.
+        closing: Whether each second step closes the feet.
 
     Returns:
         Initial feet, and steps in order.
@@ -100,9 +97,9 @@ def straight_plan(
     forward = 0.0
     shift = {"left": 0.0, "right": 0.0}
     for k in range(steps):
-        if k < steps - 1:
-            forward += length
         leads = side == first
+        if k < steps - 1 and (leads or not closing):
+            forward += length
         # Sideways: the leading foot opens by one step, the other one closes up to it.
         shift[side] = shift[other_side(side)] + (sideways if leads and k < steps - 1 else 0.0)
         plan.append(place(side, forward, shift[side]))

@@ -192,11 +192,6 @@ class VrpPlan:
         new._start_com(self.at(float(head[0])).com)
         return new
 
-    @property
-    def duration(self) -> float:
-        """From the first to the last knot in s."""
-        return self.times[-1] - self.times[0]
-
     def at(self, time: float) -> LipReference:
         """VRP, DCM and CoM with rates at a `time` in s; first knot before, last VRP after."""
         omega = self.omega

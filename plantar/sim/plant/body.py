@@ -34,8 +34,10 @@ def make_true(
         touching: Geom names of soles and ground.
         body: Size by its file.
     """
+    load = plant.load * float(model.body_mass[model.body_rootid == model.body_rootid[torso]].sum())
     _scale_mass(model, plant.mass_ratio, torso)
     _move_com(model, plant.com_offset, torso)
+    _carry(model, load, plant.load_place, torso)
     model.actuator_gainprm[servos, 0] *= plant.stiffness_ratio
     model.actuator_biasprm[servos, 1] *= plant.stiffness_ratio
     joints = model.jnt_dofadr[model.actuator_trnid[servos, 0]]
@@ -58,3 +60,22 @@ def _move_com(model: Any, offset: NDArray[np.float64], torso: int) -> None:
     moved = data.xmat[torso].reshape(3, 3) @ offset
     for body in np.flatnonzero(model.body_weldid == model.body_weldid[torso]):
         model.body_ipos[body] += data.xmat[body].reshape(3, 3).T @ moved
+
+
+def _carry(model: Any, load: float, place: NDArray[np.float64], torso: int) -> None:
+    """Add a point mass `load` in kg to the torso, at `place` (3,) in m from its CoM."""
+    if not load:
+        return
+    mass, turn = float(model.body_mass[torso]), np.empty(9)
+    mujoco.mju_quat2Mat(turn, model.body_iquat[torso])
+    axes = turn.reshape(3, 3)
+    reduced = mass * load / (mass + load)
+    inertia = (axes * model.body_inertia[torso]) @ axes.T + reduced * (
+        place @ place * np.eye(3) - np.outer(place, place)
+    )
+    moments, axes = np.linalg.eigh(inertia)
+    axes[:, 0] *= np.linalg.det(axes)
+    mujoco.mju_mat2Quat(model.body_iquat[torso], axes.ravel())
+    model.body_inertia[torso] = moments
+    model.body_ipos[torso] += load / (mass + load) * place
+    model.body_mass[torso] = mass + load

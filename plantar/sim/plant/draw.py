@@ -96,6 +96,7 @@ class TruePlant:
     Attributes:
         gyro_bias: (3,) in rad/s, in the IMU's frame.
         com_offset: (3,) in m, in the torso's frame.
+        load_place: (3,) in m from the torso's CoM, in its frame.
         encoder_offsets: (k,) in rad.
         softness: Time constant in s.
         taxel_gains: (n,) of each sole.
@@ -130,6 +131,8 @@ class TruePlant:
     reflectance: float
     joint_damping: float
     corner_speed: float
+    load: float
+    load_place: NDArray[np.float64]
     seed: int
 
     def summary(self) -> dict[str, Any]:
@@ -160,6 +163,7 @@ class TruePlant:
             "reflectance": (self.reflectance, 0.0),
             "joint_damping_Nms": (self.joint_damping, 0.0),
             "corner_speed": (self.corner_speed, 1.0),
+            "load": (self.load, 0.0),
         }
         return {
             name: np.round(value, 6).tolist()

@@ -19,11 +19,11 @@ EVERYTHING = "everything"
 _LAST_OF_CARE = "actuation_delay"
 """The last of the items that a robot has that was built and calibrated with care; wear and poor ground follow."""
 
-STATED = ("joint_damping", "corner_speed")
+STATED = ("joint_damping", "corner_speed", "load", "load_place")
 """Items that no seed draws."""
 
 _WORDS = (RANDOM,)
-_LARGEST = {"gyro_bias": ("rad/s", 1.0), "com_offset": ("m", 0.5)}
+_LARGEST = {"gyro_bias": ("rad/s", 1.0), "com_offset": ("m", 0.5), "load_place": ("m", 1.0)}
 """Unit and largest size of a component of each list of three."""
 
 
@@ -61,6 +61,8 @@ class Plant(Settings):
         joint_damping: Added viscous friction of each leg gear; stated only.
         corner_speed: Share of a speed limit up to which torque is full, falling to zero at the limit; 1: always full.
             Stated only, for robots with both limits.
+        load: Share of the robot's mass that the torso carries besides; stated only.
+        load_place: Its [forward, left, up] in m from the torso's CoM.
     """
 
     draw: str = choice("nominal", RANDOM, EVERYTHING)
@@ -88,6 +90,8 @@ class Plant(Settings):
 
     joint_damping: float = number(0.0, "N m s/rad", 0, 100)
     corner_speed: float = number(1.0, "1", 0, 1)
+    load: float = number(0.0, "1", 0, 0.5)
+    load_place: tuple[float | str, ...] = tables("a list [forward, left, up] of -1 to 1 m")
 
     def __post_init__(self) -> None:
         super().__post_init__()

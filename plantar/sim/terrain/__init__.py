@@ -7,6 +7,7 @@ from plantar.sim.terrain.ground import GROUND_GROUP, Flat, Footprint, Ground, Mo
 from plantar.sim.terrain.kinds import terrain_kinds
 from plantar.sim.terrain.mixed import Mixed
 from plantar.sim.terrain.stones import Partial, Pebbles, Stones, Uneven
+from plantar.sim.terrain.way import Relief, Slopes, Stairs
 
 __all__ = [
     "GROUND_GROUP",
@@ -21,7 +22,10 @@ __all__ = [
     "Partial",
     "Pebbles",
     "PlannedFeet",
+    "Relief",
+    "Slopes",
     "Solid",
+    "Stairs",
     "Stones",
     "Terrain",
     "Uneven",

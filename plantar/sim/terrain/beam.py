@@ -6,14 +6,11 @@ import math
 
 import numpy as np
 
-from plantar.mechanics.rotation import level_rotation
 from plantar.settings.schema import number, share
-from plantar.sim.terrain.ground import Ground, PlannedFeet, Solid, Terrain
+from plantar.sim.terrain.ground import Ground, PlannedFeet, Terrain
+from plantar.sim.terrain.way import Way, way_of
 
 __all__ = ["Beam"]
-
-_THICK = 0.1  # m, half height of beam and platforms
-_CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 
 
 class Beam(Terrain):
@@ -38,40 +35,19 @@ class Beam(Terrain):
     depth: float = share(0.5, "leg", 0.02, 10)
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        begin, end = feet.middle(), feet.middle(last=True)
-        way = end - begin
-        distance = float(np.hypot(*way))
-        heading = math.atan2(way[1], way[0]) if distance > 1e-6 else feet.standing["left"].yaw
-        along = np.array([math.cos(heading), math.sin(heading)])
-        across = np.array([-along[1], along[0]])
+        way = way_of(feet)
         offset = self.offset + float(rng.uniform(-1.0, 1.0)) * self.offset_range
-        turned = heading + math.radians(self.yaw)
-        line = np.array([math.cos(turned), math.sin(turned)])
-        start = max(self.start, _foremost(feet, begin, along))
-        near = begin + start * along + offset * across
-        z = self.height - _THICK
-        reach = self.length / math.cos(turned - heading)  # the platforms' edges run across the walk
-
-        def platform(first: float, last: float) -> Solid:
-            middle = begin + 0.5 * (first + last) * along
-            return Solid("box", (0.5 * (last - first), 0.8, _THICK), np.array([*middle, z]), level_rotation(heading))
-
-        # The beam's ends run 50 mm into the platforms, so that no gap opens where it is turned.
-        beam_middle = near + 0.5 * reach * line
-        half = 0.5 * reach + 0.05
+        start = max(self.start, way.reach(tuple(feet.standing.values()))[1])
+        near = way.begin + start * way.along + offset * np.array([-way.along[1], way.along[0]])
+        # The platforms' edges run across the walk; the beam's ends run 50 mm into them, so that no gap opens where it
+        # is turned.
+        turned, length = way.heading + math.radians(self.yaw), self.length / math.cos(math.radians(self.yaw))
+        beam = Way(near, turned, length).piece((-0.05, self.height), (length + 0.05, self.height), 0.5 * self.width)
+        end = start + self.length
+        platforms = ((start - 1.2, start), (end, max(end, way.length) + 1.0))
         return Ground(
-            (
-                platform(start - 1.2, start),
-                platform(start + self.length, max(start + self.length, distance) + 1.0),
-                Solid("box", (half, 0.5 * self.width, _THICK), np.array([*beam_middle, z]), level_rotation(turned)),
-            ),
+            (*(way.piece((a, self.height), (b, self.height)) for a, b in platforms), beam),
             self.height - self.depth,
             self.friction,
             {"beam_offset_m": round(offset, 5)},
         )
-
-
-def _foremost(feet: PlannedFeet, begin: np.ndarray, along: np.ndarray) -> float:
-    """Largest distance in m of standing soles from a point (2,) along a direction (2,)."""
-    corners = [foot.place(a * foot.half[0], b * foot.half[1]) for foot in feet.standing.values() for a, b in _CORNERS]
-    return float(max((corner - begin) @ along for corner in corners))

@@ -91,13 +91,10 @@ class Block(Terrain):
         return self._sliding(Solid("box", (0.5 * length, 0.5 * self.width, half), position, rotation), foot)
 
     def _spheres(self, foot: Footprint, top: float) -> tuple[Solid, ...]:
-        middle = self._middle(foot)
-        c, s = math.cos(foot.yaw), math.sin(foot.yaw)
         radius = max(0.01, 0.5 * top)
         solids = []
         for along, across in ((0.5, 0.0), (-0.5, 0.5), (-0.5, -0.5)):
-            a, b = along * self.length, across * self.width
-            place = middle + np.array([c * a - s * b, s * a + c * b])
+            place = self._middle(foot) - foot.center + foot.place(along * self.length, across * self.width)
             center = np.array([*place, self.height + top - radius])
             solids.append(self._sliding(Solid("sphere", (radius, 0.0, 0.0), center), foot))
         return tuple(solids)

@@ -20,8 +20,10 @@ from plantar.settings.schema import Settings, number, text
 __all__ = ["GROUND_GROUP", "Flat", "Footprint", "Ground", "Motion", "PlannedFeet", "Solid", "Terrain"]
 
 
+# Geom group of all ground, and only of ground: what proximity sensors see.
 GROUND_GROUP = 2
-"""Geom group of all ground, and only of ground: what proximity sensors see."""
+
+_FIELD_BASE = 0.05  # m of a field's body below its lowest level
 
 
 @dataclass(frozen=True)
@@ -88,11 +90,12 @@ class Solid:
     """A piece of ground.
 
     Attributes:
-        shape: "box", "sphere", "ellipsoid" or "cylinder" (along z).
-        size: Half sizes (3,) in m; radius; radius and half height.
-        position: Centre (3,) in the world in m.
+        shape: "box", "sphere", "ellipsoid", "cylinder" (along z) or "field" of heights.
+        size: Half sizes (3,) in m; radius; radius and half height; a field's half sizes and largest height.
+        position: Centre (3,) in the world in m; of a field's lowest level.
         rotation: (3, 3) to the world.
         motions: In order of time.
+        heights: Of a field (rows along y, columns along x) in m, 0 or more.
     """
 
     shape: str
@@ -100,6 +103,7 @@ class Solid:
     position: NDArray[np.float64]
     rotation: NDArray[np.float64] = field(default_factory=lambda: np.eye(3))
     motions: tuple[Motion, ...] = ()
+    heights: NDArray[np.float64] | None = None
 
     def at(self, time: float) -> NDArray[np.float64]:
         """Centre (3,) in the world in m at a time."""
@@ -122,6 +126,8 @@ class Solid:
             reach = float(math.hypot(up[0], up[1]) * size[0] + up[2] * size[1])
         elif self.shape == "ellipsoid":
             reach = float(np.linalg.norm(up * size))
+        elif self.shape == "field":
+            reach = float(size[2])
         else:
             reach = float(size[0])
         return reach + max([float(self.position[2]), *(float(m.position[2]) for m in self.motions)])
@@ -148,7 +154,7 @@ class Ground:
         rings = []
         turns = np.linspace(0.0, 2.0 * math.pi, 17)[:-1]
         for solid in self.solids:
-            if solid.shape == "box":
+            if solid.shape in ("box", "field"):
                 a, b, c = solid.size
                 corners = np.array([[a, b, c], [-a, b, c], [-a, -b, c], [a, -b, c]]) @ solid.rotation.T
             else:
@@ -179,6 +185,7 @@ class Ground:
             "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
             "ellipsoid": mujoco.mjtGeom.mjGEOM_ELLIPSOID,
             "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER,
+            "field": mujoco.mjtGeom.mjGEOM_HFIELD,
         }
         common = {
             "group": GROUND_GROUP,
@@ -202,10 +209,20 @@ class Ground:
             if solid.motions:
                 body = spec.worldbody.add_body(name=f"ground_{i}", mocap=True, **place)
                 place = {}
+            if solid.heights is not None:
+                rows, columns = solid.heights.shape
+                field = spec.add_hfield(
+                    name=f"ground_{i}",
+                    nrow=rows,
+                    ncol=columns,
+                    size=[*solid.size[:2], max(solid.size[2], 1e-6), _FIELD_BASE],
+                    userdata=solid.heights.ravel().tolist(),
+                )
+                place["hfieldname"] = field.name
             body.add_geom(
                 name=f"ground_{i}",
                 type=kinds[solid.shape],
-                size=list(solid.size),
+                size=[0.0, 0.0, 0.0] if solid.heights is not None else list(solid.size),
                 rgba=[0.72, 0.66, 0.55, 1.0] if i % 2 else [0.62, 0.68, 0.60, 1.0],
                 **place,
                 **common,

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.settings.schema import number
 from plantar.settings.schema import share as share_of_body
-from plantar.sides import SIDES
-from plantar.sim.terrain.ground import Footprint, Ground, PlannedFeet, Solid, Terrain
-from plantar.sim.terrain.stones import drawn_slope, overlapping, same_place, stone_under
+from plantar.sim.terrain.ground import Footprint, PlannedFeet, Solid
+from plantar.sim.terrain.stones import Laid, drawn_slope, overlapping, stone_under
 
 __all__ = ["Mixed"]
 
@@ -17,7 +19,7 @@ _PIECES = ("level", "part", "height", "slope", "slab", "beam")
 _PARTS = ("rear", "front", "inner", "outer")
 
 
-class Mixed(Terrain):
+class Mixed(Laid):
     """Level stones, partial, higher and lower ones, slopes, slabs and pieces of a beam across the walk.
 
     Level are standing feet, the last two steps, and stones that would overlap these or the same foot's last.
@@ -29,7 +31,6 @@ class Mixed(Terrain):
         slab: Height in m.
         beam_width: Width in m along the foot.
         beam_offset: Largest in m from the sole's middle, either way.
-        depth: Floor below in m.
     """
 
     share_min: float = number(0.5, "1", 0.02, 1)
@@ -38,25 +39,16 @@ class Mixed(Terrain):
     slab: float = share_of_body(0.05, "leg", 0, 0.1)
     beam_width: float = share_of_body(0.52, "sole", 0.02, 1)
     beam_offset: float = share_of_body(0.15, "sole", 0, 0.3)
-    depth: float = share_of_body(0.25, "leg", 0.02, 10)
 
-    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        solids = [stone_under(feet.standing[side], feet, self.height, self.depth) for side in SIDES]
-        ends, last, pieces = feet.steps[-2:], dict(feet.standing), []
-        for k, foot in enumerate(feet.steps):
-            # Drawn in any case: what chance gives to one step does not depend on the steps before it.
-            piece, own = _PIECES[int(rng.integers(len(_PIECES)))], np.random.default_rng(int(rng.integers(2**32)))
-            before, last[foot.side] = last[foot.side], foot
-            if any(same_place(foot, other) for other in [*feet.standing.values(), *feet.steps[:k]]):
-                continue
-            near = [other for other in (*ends, *feet.standing.values(), before) if other.side == foot.side]
-            last_two = k >= len(feet.steps) - len(ends)
-            if last_two or any(overlapping(foot, other) for other in near if other is not foot):
-                piece = "level"
-            solids.append(self._piece(piece, foot, feet, own))
-            pieces.append(piece)
-        facts = {f"{piece}_pieces": float(pieces.count(piece)) for piece in _PIECES}
-        return Ground(tuple(solids), self.height - self.depth, self.friction, facts)
+    def _drawn(self, rng: np.random.Generator, foot: Footprint) -> Any:
+        return _PIECES[int(rng.integers(len(_PIECES)))], np.random.default_rng(int(rng.integers(2**32)))
+
+    def _under(self, foot: Footprint, k: int, feet: PlannedFeet, drawn: Any) -> Sequence[Solid]:
+        before = [other for other in feet.steps[: max(k, 0)] if other.side == foot.side][-1:]
+        near = [other for other in (*feet.steps[-2:], *feet.standing.values(), *before) if other.side == foot.side]
+        if k < 0 or k >= len(feet.steps) - 2 or any(overlapping(foot, other) for other in near):
+            return [stone_under(foot, feet, self.height, self.depth)]
+        return [self._piece(drawn[0], foot, feet, drawn[1])]
 
     def _piece(self, piece: str, foot: Footprint, feet: PlannedFeet, rng: np.random.Generator) -> Solid:
         if piece == "part":

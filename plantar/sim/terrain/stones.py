@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,14 +17,42 @@ from plantar.settings.schema import share as share_of_body
 from plantar.sides import SIDES
 from plantar.sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
 
-__all__ = ["Partial", "Pebbles", "Stones", "Uneven", "drawn_slope", "overlapping", "same_place", "stone_under"]
+__all__ = ["Laid", "Partial", "Pebbles", "Stones", "Uneven", "drawn_slope", "overlapping", "same_place", "stone_under"]
 
 _MARGIN = 0.433  # of the half length of the sole that a whole stone is larger than it, on each end: 50 mm of 231
 _GAP = 0.002  # m between the stones of two lanes
 _PARTS = ("rear", "front", "inner", "outer")
 
 
-class Partial(Terrain):
+class Laid(Terrain):
+    """Solids under footholds, over a floor.
+
+    Attributes:
+        depth: Floor below in m.
+    """
+
+    depth: float = share_of_body(0.25, "leg", 0.01, 10)
+
+    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+        solids: list[Solid] = []
+        before: list[Footprint] = []
+        for k, foot in enumerate([*(feet.standing[side] for side in SIDES), *feet.steps], -len(SIDES)):
+            # Drawn in any case: what chance gives to one step does not depend on the steps before it.
+            drawn = self._drawn(rng, foot) if k >= 0 else None
+            if not any(same_place(foot, other) for other in before):
+                solids += self._under(foot, k, feet, drawn)
+            before.append(foot)
+        return Ground(tuple(solids), self.height - self.depth, self.friction)
+
+    def _drawn(self, rng: np.random.Generator, foot: Footprint) -> Any:
+        """A step's random choices."""
+
+    def _under(self, foot: Footprint, k: int, feet: PlannedFeet, drawn: Any) -> Sequence[Solid]:
+        """Solids under step `k`, below 0 of standing feet."""
+        raise NotImplementedError
+
+
+class Partial(Laid):
     """Stones, one of which carries only part of the sole.
 
     Attributes:
@@ -31,52 +60,41 @@ class Partial(Terrain):
         share: Carried share of the sole's rectangle.
         part: Carried part of the sole.
         rise: Its height in m above the others.
-        depth: Floor below in m.
     """
 
     step: int = whole(2, "step", 0, 100000)
     share: float = number(0.5, "1", 0.02, 1)
     part: str = choice(*_PARTS)
     rise: float = number(0.0, "m", -0.1, 0.1)
-    depth: float = share_of_body(0.25, "leg", 0.01, 10)
 
-    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+    def _under(self, foot: Footprint, k: int, feet: PlannedFeet, drawn: Any) -> Sequence[Solid]:
         if self.step >= len(feet.steps):
             raise SceneError(f"terrain.step is {self.step}; allowed: 0 to {len(feet.steps) - 1}, the steps of the walk")
-        prints = _distinct(feet)
-        partial = feet.steps[self.step]
-        solids = [stone_under(foot, feet, self.height, self.depth) for foot in prints if not same_place(foot, partial)]
+        if not same_place(foot, feet.steps[self.step]):
+            return [stone_under(foot, feet, self.height, self.depth)]
         height, depth = self.height + self.rise, self.depth + self.rise
-        solids.append(stone_under(partial, feet, height, depth, self.share, self.part))
-        return Ground(tuple(solids), self.height - self.depth, self.friction)
+        return [stone_under(feet.steps[self.step], feet, height, depth, self.share, self.part)]
 
 
-class Stones(Terrain):
+class Stones(Laid):
     """Stones that carry random parts of soles; all at the first and last two.
 
     Attributes:
         share_min: Smallest carried share of the sole's rectangle.
         share_max: Largest share.
-        depth: Floor below in m.
     """
 
     share_min: float = number(0.3, "1", 0.02, 1)
     share_max: float = number(1.0, "1", 0.02, 1)
-    depth: float = share_of_body(0.25, "leg", 0.01, 10)
 
-    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+    def _drawn(self, rng: np.random.Generator, foot: Footprint) -> Any:
         if self.share_min > self.share_max:
             raise SceneError(f"terrain.share_min is {self.share_min:g}; allowed: up to share_max, {self.share_max:g}")
-        solids = [stone_under(feet.standing[side], feet, self.height, self.depth) for side in SIDES]
-        for k, foot in enumerate(feet.steps):
-            share = float(rng.uniform(self.share_min, self.share_max))
-            part = _PARTS[int(rng.integers(len(_PARTS)))]
-            if k >= len(feet.steps) - 2:
-                share = 1.0
-            if any(same_place(foot, other) for other in [*feet.standing.values(), *feet.steps[:k]]):
-                continue
-            solids.append(stone_under(foot, feet, self.height, self.depth, share, part))
-        return Ground(tuple(solids), self.height - self.depth, self.friction)
+        return float(rng.uniform(self.share_min, self.share_max)), _PARTS[int(rng.integers(len(_PARTS)))]
+
+    def _under(self, foot: Footprint, k: int, feet: PlannedFeet, drawn: Any) -> Sequence[Solid]:
+        whole = k < 0 or k >= len(feet.steps) - 2
+        return [stone_under(foot, feet, self.height, self.depth, *(() if whole else drawn))]
 
 
 class Uneven(Terrain):
@@ -108,8 +126,7 @@ class Uneven(Terrain):
             height[foot.side] = rise
             if same_place(foot, place[foot.side]):
                 stone = solids[foot.side][-1]
-                now = stone.position.copy()
-                now[2] = self.height + rise - stone.size[2]
+                now = np.array([*stone.position[:2], self.height + rise - stone.size[2]])
                 middle = foot.lift_off + 0.45 * (foot.touchdown - foot.lift_off)
                 solids[foot.side][-1] = replace(stone, motions=(*stone.motions, Motion(middle, 0.0, now)))
             else:
@@ -120,7 +137,7 @@ class Uneven(Terrain):
         return Ground((*solids["left"], *solids["right"]), self.height - self.depth, self.friction)
 
 
-class Pebbles(Terrain):
+class Pebbles(Laid):
     """Sloping stones with bumps; level under standing feet, the last two steps, and overlapping ones.
 
     Attributes:
@@ -129,7 +146,6 @@ class Pebbles(Terrain):
         bump_radius: Sphere radius in m of its cap.
         bumps: Number on a stone.
         slope_range: Largest in degrees, any direction.
-        depth: Floor below in m.
     """
 
     bump_min: float = share_of_body(1 / 120, "leg", 0, 0.05)
@@ -137,26 +153,20 @@ class Pebbles(Terrain):
     bump_radius: float = share_of_body(0.05, "leg", 0.005, 0.2)
     bumps: int = whole(8, "bumps", 0, 200)
     slope_range: float = number(8.0, "deg", 0, 20)
-    depth: float = share_of_body(0.25, "leg", 0.02, 10)
 
-    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+    def _drawn(self, rng: np.random.Generator, foot: Footprint) -> Any:
         if self.bump_min > self.bump_max:
             raise SceneError(f"terrain.bump_min is {self.bump_min:g} m; allowed: up to bump_max, {self.bump_max:g} m")
-        solids = [stone_under(feet.standing[side], feet, self.height, self.depth) for side in SIDES]
+        slope, places = drawn_slope(rng, self.slope_range), rng.uniform(-1.0, 1.0, (self.bumps, 2)) * foot.half
+        return slope, places, rng.uniform(self.bump_min, self.bump_max, self.bumps)
+
+    def _under(self, foot: Footprint, k: int, feet: PlannedFeet, drawn: Any) -> Sequence[Solid]:
         level = [*feet.standing.values(), *feet.steps[-2:]]
-        for k, foot in enumerate(feet.steps):
-            # Drawn in any case: what chance gives to one step does not depend on the steps before it.
-            pitch, roll = drawn_slope(rng, self.slope_range)
-            places = rng.uniform(-1.0, 1.0, (self.bumps, 2)) * foot.half
-            heights = rng.uniform(self.bump_min, self.bump_max, self.bumps)
-            if any(same_place(foot, other) for other in [*feet.standing.values(), *feet.steps[:k]]):
-                continue
-            if any(foot.side == other.side and overlapping(foot, other) for other in level):
-                solids.append(stone_under(foot, feet, self.height, self.depth))
-                continue
-            stone = stone_under(foot, feet, self.height, self.depth, pitch=pitch, roll=roll)
-            solids += [stone, *self._bumps(stone, foot, places, heights)]
-        return Ground(tuple(solids), self.height - self.depth, self.friction)
+        if any(foot.side == other.side and overlapping(foot, other) for other in level):
+            return [stone_under(foot, feet, self.height, self.depth)]
+        (pitch, roll), places, heights = drawn
+        stone = stone_under(foot, feet, self.height, self.depth, pitch=pitch, roll=roll)
+        return [stone, *self._bumps(stone, foot, places, heights)]
 
     def _bumps(
         self, stone: Solid, foot: Footprint, places: NDArray[np.float64], heights: NDArray[np.float64]
@@ -184,31 +194,21 @@ def same_place(foot: Footprint, other: Footprint) -> bool:
 
 def overlapping(foot: Footprint, other: Footprint) -> bool:
     """Returns whether stones of `foot` and `other`, of one foot, overlap along the feet."""
-    dx, dy = (other.center - foot.center).tolist()
-    along = math.cos(foot.yaw) * dx + math.sin(foot.yaw) * dy
-    return bool(abs(along) < (1.0 + _MARGIN) * (foot.half[0] + other.half[0]))
+    return bool(abs(_way(foot, other)[0]) < (1.0 + _MARGIN) * (foot.half[0] + other.half[0]))
 
 
-def _distinct(feet: PlannedFeet) -> list[Footprint]:
-    found: list[Footprint] = []
-    for foot in [*feet.standing.values(), *feet.steps]:
-        if not any(same_place(foot, other) for other in found):
-            found.append(foot)
-    return found
+def _way(foot: Footprint, other: Footprint) -> tuple[float, float]:
+    """Forward and left in m from a footprint's centre to another's, along the first."""
+    (dx, dy), c, s = (other.center - foot.center).tolist(), math.cos(foot.yaw), math.sin(foot.yaw)
+    return c * dx + s * dy, c * dy - s * dx
 
 
 def _lane(foot: Footprint, feet: PlannedFeet, gap: float) -> float:
     """Distance in m from a footprint's centre half way to the other foot's."""
     inward = -1.0 if foot.side == "left" else 1.0
-    gaps = []
-    others: Sequence[Footprint] = [*feet.standing.values(), *feet.steps]
-    c, s = math.cos(foot.yaw), math.sin(foot.yaw)
-    for other in others:
-        if other.side != foot.side:
-            dx, dy = (other.center - foot.center).tolist()
-            if abs(c * dx + s * dy) < (1.0 + _MARGIN) * (foot.half[0] + other.half[0]):
-                gaps.append(inward * (-s * dx + c * dy))
-    return 0.5 * min(gaps) - 0.5 * gap if gaps else foot.half[1] + _MARGIN * foot.half[0]
+    near = (o for o in (*feet.standing.values(), *feet.steps) if o.side != foot.side and overlapping(foot, o))
+    nearest = min((inward * _way(foot, other)[1] for other in near), default=None)
+    return foot.half[1] + _MARGIN * foot.half[0] if nearest is None else 0.5 * nearest - 0.5 * gap
 
 
 def stone_under(
@@ -245,14 +245,9 @@ def stone_under(
     rear, front = -half_length - margin, half_length + margin
     inner, outer = -min(_lane(foot, feet, gap), half_width + margin), half_width + margin
     if share < 1.0:
-        if part == "rear":
-            front = -half_length + 2.0 * half_length * share
-        elif part == "front":
-            rear = half_length - 2.0 * half_length * share
-        elif part == "inner":
-            outer = -half_width + 2.0 * half_width * share
-        else:
-            inner = half_width - 2.0 * half_width * share
+        along, across = half_length * (2.0 * share - 1.0), half_width * (2.0 * share - 1.0)
+        rear, front = -along if part == "front" else rear, along if part == "rear" else front
+        inner, outer = -across if part == "outer" else inner, across if part == "inner" else outer
     center = foot.place(0.5 * (rear + front), outward * 0.5 * (inner + outer))
     rotation = rotation_from_angles(foot.yaw, pitch, roll)
     half = 0.5 * max(depth, 0.02)

@@ -21,9 +21,9 @@ STILL = VrpPlan([0.0, 1.0], [[0.0, 0.0], [0.0, 0.0]], OMEGA).at(0.5)
 def test_desired_zmp_is_equation_4_28_inside_and_its_nearest_point_outside() -> None:
     balance = DcmBalance(BalanceGains(dcm_gain=3.0), OMEGA, MASS, PERIOD)
     xi = np.array([0.01, -0.02])
-    assert np.allclose(balance.desired_zmp(STILL, xi, BOX), (1 + 3.0 / OMEGA) * xi)
-    assert np.allclose(balance.desired_zmp(STILL, np.array([1.0, 0.0]), BOX), [0.1, 0.0])
-    free = balance.desired_zmp(STILL, np.array([1.0, 0.0]), np.empty((0, 2)))
+    assert np.allclose(balance.update(STILL, xi, None, BOX).zmp_desired, (1 + 3.0 / OMEGA) * xi)
+    assert np.allclose(balance.update(STILL, np.array([1.0, 0.0]), None, BOX).zmp_desired, [0.1, 0.0])
+    free = balance.update(STILL, np.array([1.0, 0.0]), None, np.empty((0, 2))).zmp_desired
     assert np.allclose(free, [1 + 3.0 / OMEGA, 0.0])
 
 
@@ -32,7 +32,7 @@ def test_a_pendulum_under_the_desired_zmp_recovers_as_equation_4_17_says() -> No
     balance = DcmBalance(BalanceGains(dcm_gain=gain), OMEGA, MASS, PERIOD)
     xi, dt = np.array([0.03, 0.0]), 1e-4
     for _ in range(5000):
-        xi = xi + dt * OMEGA * (xi - balance.desired_zmp(STILL, xi, np.empty((0, 2))))
+        xi = xi + dt * OMEGA * (xi - balance.update(STILL, xi, None, np.empty((0, 2))).zmp_desired)
     assert xi[0] == pytest.approx(0.03 * math.exp(-gain * 0.5), rel=1e-3)
 
 

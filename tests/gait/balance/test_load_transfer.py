@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from plantar.gait.balance.law import BalanceState, Feet, FootState
-from plantar.gait.balance.load_transfer import transferred
-from plantar.gait.balance.open_loop import OpenLoop
+from plantar.gait.balance.load_transfer import OpenLoop, transferred
 from plantar.gait.estimate.command_frame import CommandFrame
 from plantar.gait.plan.vrp_plan import VrpPlan
 from plantar.mechanics.lip import GRAVITY

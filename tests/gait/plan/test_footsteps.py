@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar.errors import InputError
-from plantar.gait.plan.footsteps import Footstep, other_side, straight_plan
+from plantar.gait.plan.footsteps import Footstep, straight_plan
+from plantar.sides import other_side
 
 
 def test_forward_walk_leads_by_one_length_and_closes() -> None:
@@ -17,6 +18,12 @@ def test_forward_walk_leads_by_one_length_and_closes() -> None:
     assert plan[-1].x == pytest.approx(plan[-2].x)
     assert {s.y for s in plan} == {0.085, -0.085}
     assert feet["left"].y - feet["right"].y == pytest.approx(0.17)
+
+
+def test_each_second_step_of_a_closing_walk_closes_the_feet() -> None:
+    for steps, places in ((6, [1, 1, 2, 2, 3, 3]), (5, [1, 1, 2, 2, 2])):
+        _, plan = straight_plan(steps, length=0.3, closing=True)
+        assert [s.x for s in plan] == pytest.approx([0.3 * k for k in places])
 
 
 def test_sideways_walk_opens_and_closes() -> None:

@@ -104,3 +104,24 @@ def test_soft_ground_is_sunk_into():
     # the scene's own has 5 ms.
     assert soft / hard == pytest.approx((0.005**2 + 0.005**2) / 0.005**2, rel=0.05)
     assert softer / hard == pytest.approx((0.01**2 + 0.005**2) / 0.005**2, rel=0.05)
+
+
+def test_a_load_adds_its_mass_at_its_place_and_its_inertia() -> None:
+    nominal = standing().world.model
+    true = standing("load=0.05", "load_place=[0.2, 0.05, -0.1]").world.model
+    torso, place = standing().world.torso, np.array([0.2, 0.05, -0.1])
+    mass, load = nominal.body_mass[torso], 0.05 * nominal.body_subtreemass[0]
+    assert true.body_subtreemass[0] == pytest.approx(1.05 * nominal.body_subtreemass[0])
+
+    def moments(model: mujoco.MjModel, about: np.ndarray) -> np.ndarray:
+        """Inertia (3, 3) of the torso about a point of its frame."""
+        turn = np.empty(9)
+        mujoco.mju_quat2Mat(turn, model.body_iquat[torso])
+        axes, away = turn.reshape(3, 3), model.body_ipos[torso] - about
+        own = axes @ np.diag(model.body_inertia[torso]) @ axes.T
+        return np.asarray(own + model.body_mass[torso] * (away @ away * np.eye(3) - np.outer(away, away)))
+
+    origin = nominal.body_ipos[torso]
+    assert true.body_ipos[torso] - origin == pytest.approx(load / (mass + load) * place, abs=1e-12)
+    gained = moments(true, origin) - moments(nominal, origin)
+    assert gained == pytest.approx(load * (place @ place * np.eye(3) - np.outer(place, place)), abs=1e-9)

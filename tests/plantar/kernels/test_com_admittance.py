@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from plantar.gait.balance.com_admittance import ComAdmittance
+from plantar.kernels.gait.dcm_feedback import ComAdmittance
 
 
 @pytest.mark.parametrize("gain", [1.0, 50.0])
