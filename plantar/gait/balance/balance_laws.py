@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 __all__ = ["LAWS", "balance_gains", "balance_law"]
 
-# Names of the balance laws.
 LAWS = ("com_admittance", "wrench_distribution")
+"""Names of the balance laws."""
 
 
 def balance_gains(table: Mapping[str, Any]) -> LawGains:

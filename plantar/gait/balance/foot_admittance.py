@@ -50,13 +50,10 @@ class FootAdmittance:
     """
 
     def __init__(self, gains: AdmittanceGains, period: float) -> None:
-        g = gains
-        self.gains = gains
-        self.period = period
-        share = period / (g.foot_filter + period)
-        rates = (g.foot_turn_gain, g.foot_return, g.foot_release)
+        g = self.gains = gains
+        rates = (period / (g.foot_filter + period), g.foot_turn_gain, g.foot_return, g.foot_release)
         self.corrections: Mapping[Side, SoleAdmittance] = {
-            side: SoleAdmittance(period, share, *rates, g.largest_turn, g.largest_lift) for side in SIDES
+            side: SoleAdmittance(period, *rates, g.largest_turn, g.largest_lift) for side in SIDES
         }
 
     def update(

@@ -83,8 +83,7 @@ def _with_bridge(
 
 def _response(times: list[float], omega: float) -> float:
     """DCM at the first knot by 1 m of VRP at the two before the last."""
-    dcm = 0.0
-    vrp = [0.0] * (len(times) - 3) + [1.0, 1.0, 0.0]
+    dcm, vrp = 0.0, [0.0] * (len(times) - 3) + [1.0, 1.0, 0.0]
     for i in range(len(times) - 2, -1, -1):
         length = times[i + 1] - times[i]
         rate = (vrp[i + 1] - vrp[i]) / length

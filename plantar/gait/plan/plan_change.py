@@ -8,8 +8,8 @@ from plantar.gait.plan.footsteps import Footstep
 
 __all__ = ["AppliedChange", "MovedStep", "PlanChange", "Point"]
 
-# A place (x, y) in the world in m.
 Point = tuple[float, float]
+"""A place (x, y) in the world in m."""
 
 
 @dataclass(frozen=True)

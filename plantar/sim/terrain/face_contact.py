@@ -17,8 +17,8 @@ from plantar.kernels.contacts.face_contacts import FaceContacts
 
 __all__ = ["MARK", "install_face_contacts"]
 
-# Bit of `contype` of a geom whose flat faces carry soles; no geom's `conaffinity` answers to it.
 MARK = 1 << 29
+"""Bit of `contype` of a geom whose flat faces carry soles; no geom's `conaffinity` answers to it."""
 
 _BOX, _CYLINDER = int(mujoco.mjtGeom.mjGEOM_BOX), int(mujoco.mjtGeom.mjGEOM_CYLINDER)
 _KINDS = 9  # geom types, as of mjNGEOMTYPES

@@ -20,8 +20,8 @@ from plantar.settings.schema import Settings, number, text
 __all__ = ["GROUND_GROUP", "Flat", "Footprint", "Ground", "Motion", "PlannedFeet", "Solid", "Terrain"]
 
 
-# Geom group of all ground, and only of ground: what proximity sensors see.
 GROUND_GROUP = 2
+"""Geom group of all ground, and only of ground: what proximity sensors see."""
 
 _FIELD_BASE = 0.05  # m of a field's body below its lowest level
 

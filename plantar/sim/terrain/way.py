@@ -23,7 +23,6 @@ _BEYOND = 1.2  # m of ground behind the start and ahead of the end
 _CELL = 0.25  # of the length of a bump, so that the field is smooth
 _WAVES = 40
 _Place = tuple[float, float]  # distance along a way and height in m
-_CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 
 
 @dataclass(frozen=True)
@@ -41,7 +40,7 @@ class Way:
 
     def reach(self, feet: tuple[Footprint, ...]) -> tuple[float, float]:
         """Least and largest distance in m of soles along the way."""
-        corners = [foot.place(a * foot.half[0], b * foot.half[1]) for foot in feet for a, b in _CORNERS]
+        corners = [foot.place(a * foot.half[0], b * foot.half[1]) for foot in feet for a in (-1, 1) for b in (-1, 1)]
         distances = [float((corner - self.begin) @ self.along) for corner in corners]
         return min(distances), max(distances)
 
@@ -153,9 +152,8 @@ class Relief(Terrain):
         level = level**2 * (3.0 - 2.0 * level)
         heights *= level[None, :]
         lowest = float(heights.min())
-        middle = way.begin + begin * way.along
         size = (0.5 * float(np.ptp(x)), 0.5 * float(np.ptp(y)), float(heights.max()) - lowest)
-        place = np.array([*middle, self.height + lowest])
+        place = np.array([*(way.begin + begin * way.along), self.height + lowest])
         field = Solid("field", size, place, level_rotation(way.heading), heights=heights - lowest)
         return Ground((field,), self.height + lowest - 0.1, self.friction, {"unevenness_m": round(size[2], 5)})
 
