@@ -83,14 +83,14 @@ class DcmBalance:
         zmp: NDArray[np.float64] | None,
         region: NDArray[np.float64],
     ) -> BalanceState:
-        """Desired ZMP, p_d = p_r - (1 + k_xi / w) (xi_r - xi), kept in the region (T 4.28, Algorithm 1), and the CoM
-        reference that tracks it (T 4.29; `BalanceLaw.update`).
+        """Returns the desired ZMP by `reference` and measured `dcm`, kept in `region` (T 4.28), and the CoM
+        that tracks it by `zmp` (T 4.29).
         """
         plan, self._zmp = reference, zmp
         return BalanceState(*self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region))
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
-        """Load transfer by the plan; at rest, feet yield to mutual pressure and part of the ZMP error."""
+        """Returns each foot's load by `balanced`; `feet` at rest yield to mutual pressure and part of the ZMP error."""
         actions = transferred(balanced, self.mass, feet)
         wanted, measured = {}, {}
         if feet.rests and self._zmp is not None:

@@ -59,9 +59,9 @@ class OpenLoop:
         zmp: NDArray[np.float64] | None,
         region: NDArray[np.float64],
     ) -> BalanceState:
-        """The plan, with its VRP as the desired ZMP (`BalanceLaw.update`)."""
+        """Returns the plan at `reference`; `dcm`, `zmp` and `region` are unused."""
         return BalanceState(reference.vrp, reference.com, reference.com_velocity, reference.com_acceleration)
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
-        """Load transfer by the plan (`BalanceLaw.act`)."""
+        """Returns loads of `feet` by `balanced`."""
         return transferred(balanced, self.mass, feet)

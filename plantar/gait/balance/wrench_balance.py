@@ -116,7 +116,7 @@ class WrenchBalance(DcmBalance):
         self.distribution = WrenchDistribution(mass * GRAVITY, weights, gains.minimum_force, _LENGTH * gains.body.leg)
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
-        """Share the pendulum's wrench between standing feet, which yield (`BalanceLaw.act`)."""
+        """Returns standing `feet` that share the pendulum's wrench by `balanced`, and yield."""
         states, wanted = feet.states, self.distributed(balanced, feet)
         measured = {side: foot.wrench for side, foot in states.items() if foot.wrench is not None}
         actions = {}

@@ -45,7 +45,7 @@ class Way:
         return min(distances), max(distances)
 
     def piece(self, first: _Place, last: _Place, half_width: float = _HALF_WIDTH) -> Solid:
-        """A box whose upper face goes from one (distance, height) in m to the next."""
+        """Returns a box, its upper face from `first` to `last`, `half_width` in m."""
         (x, z), (length, rise) = first, (last[0] - first[0], last[1] - first[1])
         rotation = rotation_from_angles(self.heading, -math.atan2(rise, length))
         face = np.array([*(self.begin + (x + 0.5 * length) * self.along), z + 0.5 * rise])
