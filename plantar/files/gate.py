@@ -29,7 +29,7 @@ SIZES: Mapping[str, float] = {
 """Largest file in bytes of each kind that is read whole in Plantar's own process."""
 
 
-_MESHES = "plantar.shoes.foot.library_files"
+_MESHES, _TRIMESH = "plantar.shoes.foot.library_files", "plantar.files.mesh_library"
 
 
 class Helper(NamedTuple):
@@ -60,9 +60,9 @@ HELPERS: Mapping[str, Helper] = {
     "c3d": Helper("plantar.formats.c3d_content:content_of_file", "a C3D file", (250e6, 64.0), (10.0, 3e-6), "ezc3d"),
     "bag": Helper("plantar.formats.ros_bag:series_of_bag", "a ROS bag", (300e6, 30.0), (10.0, 2e-6), "rosbags"),
     "dxf": Helper(f"{_MESHES}:lines_of_dxf", "a DXF drawing", (300e6, 20.0), (3.0, 0.25e-6), "ezdxf"),
-    "ply": Helper(f"{_MESHES}:triangles_of_trimesh", "a PLY mesh", (330e6, 20.0), (2.5, 2.5e-7), "trimesh"),
-    "off": Helper(f"{_MESHES}:triangles_of_trimesh", "a OFF mesh", (330e6, 20.0), (2.5, 2.5e-7), "trimesh"),
-    "dae": Helper(f"{_MESHES}:triangles_of_trimesh", "a DAE mesh", (330e6, 20.0), (30.0, 2e-6), "pycollada"),
+    "ply": Helper(f"{_TRIMESH}:triangles_of_trimesh", "a PLY mesh", (330e6, 20.0), (2.5, 2.5e-7), "trimesh"),
+    "off": Helper(f"{_TRIMESH}:triangles_of_trimesh", "a OFF mesh", (330e6, 20.0), (2.5, 2.5e-7), "trimesh"),
+    "dae": Helper(f"{_TRIMESH}:triangles_of_trimesh", "a DAE mesh", (330e6, 20.0), (30.0, 2e-6), "pycollada"),
     "iges": Helper(f"{_MESHES}:triangles_of_step", "a IGES mesh", (330e6, 30.0), (3.0, 1e-6), "OpenCascade"),
     "step": Helper(f"{_MESHES}:triangles_of_step", "a STEP mesh", (330e6, 30.0), (3.0, 1e-6), "OpenCascade"),
 }

@@ -1,4 +1,4 @@
-"""Foot files read by libraries in a separate process (`plantar.files.confined`): meshes, solids, DXF."""
+"""Foot files read by libraries in a separate process (`plantar.files.confined`): solids, DXF."""
 
 from __future__ import annotations
 
@@ -11,26 +11,7 @@ from numpy.typing import NDArray
 
 from plantar.optional_library import optional_library
 
-__all__ = ["lines_of_dxf", "triangles_of_step", "triangles_of_trimesh"]
-
-
-def triangles_of_trimesh(path: Path) -> dict[str, NDArray[Any]]:
-    """Triangles (n, 3, 3) of a mesh file, as "triangles": in file units; of COLLADA in m, its up axis ignored as in
-    robot viewers.
-
-    Raises:
-        DependencyError: If trimesh is missing.
-    """
-    with optional_library("trimesh", "shoes"):
-        import trimesh
-    with np.errstate(all="ignore"):  # coordinates that are not finite are refused later
-        mesh = trimesh.load(path, process=False, force="mesh", skip_materials=True)
-    if not isinstance(mesh, trimesh.Trimesh):
-        return {"triangles": np.empty((0, 3, 3))}
-    triangles = np.asarray(mesh.vertices, dtype=float)[np.asarray(mesh.faces, dtype=np.int64)]
-    if path.suffix.lower() == ".dae":
-        triangles *= float(str(mesh.units).partition("*")[0]) if "*" in str(mesh.units) else 1.0  # "0.001 * meters"
-    return {"triangles": triangles}
+__all__ = ["lines_of_dxf", "triangles_of_step"]
 
 
 _CHORD, _ANGLE = 0.05, 0.2  # share of an edge, and rad: how far triangles may lie off a curved face

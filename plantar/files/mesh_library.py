@@ -1,0 +1,32 @@
+"""Meshes that trimesh reads, in Plantar's process or apart (`plantar.files.gate`)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.optional_library import optional_library
+
+__all__ = ["triangles_of_trimesh"]
+
+
+def triangles_of_trimesh(path: Path) -> dict[str, NDArray[Any]]:
+    """Triangles (n, 3, 3) of the mesh file at a path, as "triangles": in file units; of COLLADA in m, its up axis
+    ignored as in RViz and Gazebo (github.com/ros-visualization/rviz/issues/1045).
+
+    Raises:
+        DependencyError: If trimesh is missing.
+    """
+    with optional_library("trimesh", "shoes"):
+        import trimesh
+    with np.errstate(all="ignore"):  # coordinates that are not finite are refused later
+        mesh = trimesh.load(path, process=False, force="mesh", skip_materials=True)
+    if not isinstance(mesh, trimesh.Trimesh):
+        return {"triangles": np.empty((0, 3, 3))}
+    triangles = np.asarray(mesh.vertices, dtype=float)[np.asarray(mesh.faces, dtype=np.int64)]
+    if path.suffix.lower() == ".dae":
+        triangles *= float(str(mesh.units).partition("*")[0]) if "*" in str(mesh.units) else 1.0  # "0.001 * meters"
+    return {"triangles": triangles}
