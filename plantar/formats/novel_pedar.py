@@ -7,10 +7,11 @@ numbers; where they restart, the next foot begins. Pliance exports may end with 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, islice
 from pathlib import Path
+from typing import TextIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,7 @@ from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.nominal_insole import CELL_AREAS, DEFAULT_SIZE, nominal_insole
 from plantar.formats.recorded_layouts import corner_table, layout_of_corners, subset
-from plantar.formats.text import blocks_of_lines, head_text, number_rows, open_text
+from plantar.formats.text import head_text, number_rows, open_text
 from plantar.formats.units import Unit, find_unit, plain
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.frame_table import FrameTable
@@ -37,7 +38,7 @@ _CORNER = re.compile(r"\s*[xy]\[[0-3]\]\s")
 _MOST_CORNERS = 64
 _LARGEST_HEADER, _LONGEST_FACT = 400, 10_000
 _WRITTEN = ("kpa", "n/cm2", "psi", "mmhg", "kg/cm2", "mpa")  # Units that the exporting programs write
-_BLOCK, _BLOCK_VALUES = 2048, 4_000_000
+_BLOCK, _BLOCK_VALUES, _CHARACTERS = 2048, 4_000_000, 250_000
 _LATEST = 1e9  # Time in s from which a line is damaged
 
 
@@ -50,11 +51,10 @@ def _recognises(head: bytes) -> bool:
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
     notes: list[str] = []
     with open_text(path) as stream:
-        lines = iter(stream)
-        header, columns, delimiter = _take_header(path, lines)
+        header, columns, delimiter = _take_header(path, stream)
         text = "\n".join(header)
         sides = _sides(text, columns, options, notes)
-        rows, tail = _take_rows(path, lines, delimiter, len(columns), [span for _, span in sides])
+        rows, tail = _take_rows(path, stream, delimiter, len(columns), [span for _, span in sides])
     warnings = [*rows.warnings, *notes]
     layout = options.layout
     unit = _unit(path, text, options, warnings)
@@ -86,7 +86,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     )
 
 
-def _take_header(path: Path, lines: Iterator[str]) -> tuple[list[str], list[int], str | None]:
+def _take_header(path: Path, lines: Iterable[str]) -> tuple[list[str], list[int], str | None]:
     """Lines before the column names, their cells, and the delimiter; None for blanks."""
     header: list[str] = []
     for line in lines:
@@ -111,27 +111,22 @@ class _Rows:
 
 
 def _take_rows(
-    path: Path, lines: Iterator[str], delimiter: str | None, cells: int, spans: Sequence[range]
+    path: Path, stream: TextIO, delimiter: str | None, cells: int, spans: Sequence[range]
 ) -> tuple[_Rows, list[str]]:
     """Frames up to the next section, and following lines that may give cell corners."""
-    tail: list[str] = []
-
-    def frames() -> Iterator[str]:
-        for line in lines:
-            if line[:24].lstrip()[:1].isdigit():  # labels begin with a letter: quicker than the pattern
-                yield line
-            elif _COLUMNS.match(line):
-                continue  # the names again, on another page or of another part
-            elif _LABELS.match(line):
-                tail.extend(islice((x for x in chain([line], lines) if _CORNER.match(x)), _MOST_CORNERS))
-                return
-            elif line.strip():
-                yield line
-
     times, values = FrameTable(1, 0), [FrameTable(len(span), 0) for span in spans]
-    bad, lost = 0, []
-    for block in blocks_of_lines(frames(), max(1, min(_BLOCK, _BLOCK_VALUES // (cells + 1)))):
-        rows = _frames(block, delimiter, cells)
+    bad, lost, tail = 0, [], list[str]()
+    blocks = _blocks(stream, max(1, min(_BLOCK, _BLOCK_VALUES // (cells + 1))))
+    for block in blocks:
+        rows = _plain_frames(block, delimiter, cells)
+        if rows is None:
+            frames, end = _frame_lines(block)
+            rows = _plain_frames(frames, delimiter, cells)
+            if rows is None:
+                rows = _damaged_frames(frames, delimiter, cells)
+            if end < len(block):
+                after = chain(block[end:], chain.from_iterable(blocks))
+                tail = list(islice(filter(_CORNER.match, after), _MOST_CORNERS))
         if not len(times):
             usual = sum(map(len, block)) // len(block)  # lines may be shorter; what is not written takes no memory
             expected = len(block) + path.stat().st_size // max(usual * 3 // 5, 2 * cells)
@@ -161,11 +156,38 @@ def _take_rows(
     return _Rows(times.rows[:, 0], [table.rows for table in values], tuple(warnings)), tail
 
 
-def _frames(block: list[str], delimiter: str | None, cells: int) -> NDArray[np.float64]:
-    """Numbers (lines, 1 + cells); NaN in lines without as many finite numbers."""
+def _blocks(stream: TextIO, most: int) -> Iterator[list[str]]:
+    """Up to most lines of a stream at a time, without a step of Python for each."""
+    while lines := stream.readlines(_CHARACTERS):
+        for begin in range(0, len(lines), most):
+            yield lines[begin : begin + most]
+
+
+def _frame_lines(block: Sequence[str]) -> tuple[list[str], int]:
+    """Lines of frames, and the index of the line that begins the next section; len(block) for none."""
+    frames: list[str] = []
+    for i, line in enumerate(block):
+        if line[:24].lstrip()[:1].isdigit():  # labels begin with a letter: quicker than the pattern
+            frames.append(line)
+        elif _COLUMNS.match(line):
+            continue  # the names again, on another page or of another part
+        elif _LABELS.match(line):
+            return frames, i
+        elif line.strip():
+            frames.append(line)
+    return frames, len(block)
+
+
+def _plain_frames(block: list[str], delimiter: str | None, cells: int) -> NDArray[np.float64] | None:
+    """Numbers (lines, 1 + cells); None unless all are finite and as many."""
     rows = number_rows(block, delimiter, 1 + cells)
-    if rows is not None and np.isfinite(rows).all() and (np.abs(rows[:, 0]) < _LATEST).all():
-        return rows
+    if rows is None or not np.isfinite(rows).all() or (np.abs(rows[:, 0]) >= _LATEST).any():
+        return None
+    return rows
+
+
+def _damaged_frames(block: list[str], delimiter: str | None, cells: int) -> NDArray[np.float64]:
+    """Numbers (lines, 1 + cells); NaN in lines without as many finite numbers."""
     out = np.full((len(block), 1 + cells), np.nan)
     for i, line in enumerate(block):
         row = _numbers(line.rstrip(f"{delimiter or ' '}\n").split(delimiter), cells)

@@ -169,8 +169,8 @@ class PressureRecording:
 
 
 def _product(values: NDArray[np.float64], matrix: NDArray[np.float64]) -> NDArray[np.float64]:
-    """values @ matrix by blocks: BLAS would copy a wider table's columns whole."""
-    blocks = [values[rows] @ matrix for rows in blocks_of_frames(values)]
+    """values @ matrix by blocks: BLAS would copy a wider table's columns whole, and start threads."""
+    blocks = [np.einsum("ij,j...->i...", values[rows], matrix) for rows in blocks_of_frames(values)]
     return np.concatenate(blocks) if blocks else np.zeros((0, *matrix.shape[1:]))
 
 

@@ -213,3 +213,18 @@ def test_a_later_hump_of_slow_gait_is_not_the_first_peak(later, noise):
     at = [0.2 * 0.24, 0.8 * 0.24]
     low, high = np.interp(at, 1.2 * np.array(places), heights)
     assert measures["loading_rate_N_s"] == pytest.approx((high - low) / (at[1] - at[0]), rel=0.05)
+
+
+@pytest.mark.parametrize("shoulder", [0.78, 0.85, 0.92])
+def test_a_shoulder_of_the_loading_is_not_the_first_peak(shoulder: float) -> None:
+    """A slow step whose force pauses at a share of its first peak, 800 N; mirrored, of its second."""
+    time = np.linspace(0.0, 1.2, 121)
+    places = [0.0, 0.1, 0.14, 0.28, 0.5, 0.78, 1.0]
+    heights = [0.0, 800.0 * shoulder, 775.0 * shoulder, 800.0, 650.0, 820.0, 0.0]
+    force = np.interp(time / 1.2, places, heights)
+    measures = force_measures(time, force, 0.0, 1.2)
+    assert measures["first_peak_percent"] == pytest.approx(28.0, abs=1.5)
+    assert measures["first_peak_N"] == pytest.approx(800.0, rel=0.005)
+    assert measures["second_peak_N"] == pytest.approx(820.0, rel=0.005)
+    back = force_measures(time, force[::-1].copy(), 0.0, 1.2)
+    assert back["second_peak_N"] == pytest.approx(800.0, rel=0.005)

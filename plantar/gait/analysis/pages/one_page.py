@@ -21,7 +21,8 @@ from plantar.sides import Side
 
 __all__ = ["figure_summary", "one_page"]
 
-# 95 % ranges of women and men of 18 to 49 years who walk freely (Whittle 2007, Gait Analysis, 4th ed., table 2.1).
+# 95 % ranges of women and men of 18 to 49 years who walk freely, after Whittle 2007, Gait Analysis, 4th ed.; not yet
+# compared with the printed table.
 NORMS: Mapping[str, tuple[float, float]] = {
     "stride_time_s": (0.87, 1.32),
     "cadence_steps_per_min": (91.0, 138.0),
@@ -83,8 +84,9 @@ def _table(metrics: Mapping[str, Any]) -> str:
     if not rows:
         return "<p>The recording holds no complete step.</p>"
     caption = (
-        "Means ± standard error of one step. Bands: 95 % of women and men of 18 to 49 years who walk freely (Whittle "
-        "2007, <i>Gait Analysis</i>); left blue, right red. Symmetry: 0 is symmetric."
+        "Means ± standard error of one step. Bands: 95 % of women and men of 18 to 49 years who walk freely (after "
+        "Whittle 2007, <i>Gait Analysis</i>; not yet compared with the book); left blue, right red. Symmetry: 0 is "
+        "symmetric."
     )
     head = ("Measure", *(f"{side} foot" for side in feet), "Symmetry (%)", "Norm")
     return table("Main measures", caption, head, rows)

@@ -102,6 +102,12 @@ class Footprint:
         across = _crossing(self._hull, u)
         return 0.0 if across is None else across[1] - across[0]
 
+    @cached_property
+    def front_third(self) -> tuple[float, float]:
+        """Where the front third begins on the axis, in m, and the width in m there."""
+        at = 2.0 / 3.0 * self.length
+        return at, self.width_at(at)
+
     def in_foot(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Points (m, 2) of the cells' frame as (u, v)."""
         across = np.array([-self.axis[1], self.axis[0]]) * (1.0 if self.side == "right" else -1.0)

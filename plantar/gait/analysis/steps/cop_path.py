@@ -79,8 +79,8 @@ def chords(time: NDArray[np.float64], points: NDArray[np.float64]) -> tuple[NDAr
         points: Positions (m, 2).
     """
     every = max(1, round(CHORD * (len(time) - 1) / float(time[-1] - time[0])))
-    ends = [*points.argmin(axis=0), *points.argmax(axis=0), len(time) - 1]  # no path is shorter than its range
-    at = np.unique([*range(0, len(time), every), *ends])
+    extremes = [*points.argmin(axis=0).tolist(), *points.argmax(axis=0).tolist()]  # no path is shorter than its range
+    at = np.array(sorted({*range(0, len(time), every), *extremes, len(time) - 1}))
     return np.hypot(*np.diff(points[at], axis=0).T), np.diff(time[at])
 
 
@@ -95,7 +95,7 @@ def excursion_index(print_: Footprint, points: NDArray[np.float64]) -> float:
         points: Positions (m, 2) in the print's source frame, NaN for none.
     """
     path = print_.in_foot(points[np.isfinite(points[:, 0])])
-    at = 2.0 / 3.0 * print_.length
+    at, width = print_.front_third
     if len(path) < 3 or not path[0, 0] < at < path[-1, 0]:
         return float("nan")
     crossing = int(np.flatnonzero((path[:-1, 0] <= at) & (path[1:, 0] > at))[0])
@@ -103,7 +103,6 @@ def excursion_index(print_: Footprint, points: NDArray[np.float64]) -> float:
     own = one[1] + (at - one[0]) / (two[0] - one[0]) * (two[1] - one[1])
     first, last = path[0], path[-1]
     line = first[1] + (at - first[0]) / (last[0] - first[0]) * (last[1] - first[1])
-    width = print_.width_at(at)
     return float(100.0 * (line - own) / width) if width > 0.0 else float("nan")  # v runs to the medial side
 
 

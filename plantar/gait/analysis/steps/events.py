@@ -381,9 +381,10 @@ def _crossing(
     time: NDArray[np.float64], force: NDArray[np.float64], frame: int, level: float, jump: float = np.inf
 ) -> float:
     """Time the force crosses the level between a frame and the last: midway in jumps."""
-    f0, f1 = force[frame - 1], force[frame]
-    share = 0.5 if f0 == f1 or abs(f1 - f0) > jump else float(np.clip((level - f0) / (f1 - f0), 0.0, 1.0))
-    return float(time[frame - 1] + share * (time[frame] - time[frame - 1]))
+    f0, f1 = force[frame - 1 : frame + 1].tolist()
+    before, after = time[frame - 1 : frame + 1].tolist()
+    share = 0.5 if f0 == f1 or abs(f1 - f0) > jump else min(max((level - f0) / (f1 - f0), 0.0), 1.0)
+    return float(before + share * (after - before))
 
 
 def run_together(force: NDArray[np.float64], rate: float, levels: Levels, contact: Contact) -> int:

@@ -27,13 +27,13 @@ def pressure_measures(load: StepLoad, layout: SoleLayout | None) -> list[dict[st
         "pressure_time_integral_cell_Pas": load.integral(load.pressure).max(axis=1),
     }
     if load.areas is not None and layout is not None:
-        area = load.loaded @ load.areas
-        force = np.where(load.loaded, load.force, 0.0)
+        area = np.einsum("mk,k->m", load.loaded, load.areas)  # BLAS would start threads for it
+        force = load.force * load.loaded
         pressure = np.divide(force.sum(axis=1), area, out=np.zeros(len(area)), where=area > 0.0)
         frames = np.add.reduceat((area > 0.0).astype(float), load.starts)
         every = -(-load.lengths // _MOST_FRAMES)
         chosen = (np.arange(len(area)) - np.repeat(load.starts, load.lengths)) % np.repeat(every, load.lengths) == 0
-        polygons = support_polygons(layout, force[chosen], 0.0).area
+        polygons = support_polygons(layout, force if chosen.all() else force[chosen], 0.0).area
         counts = -(-load.lengths // every)
         starts = np.cumsum(counts) - counts
         out |= {
@@ -64,9 +64,9 @@ def region_measures(
     if len(order) == 0:
         return [{} for _ in durations]
     present, starts = np.unique(region[order], return_index=True)
-    force = np.add.reduceat(load.force[:, order], starts, axis=1)
-    pressure = np.maximum.reduceat(load.pressure[:, order], starts, axis=1)
-    loaded = load.loaded[:, order]
+    force = np.add.reduceat(np.take(load.force, order, axis=1), starts, axis=1)
+    pressure = np.maximum.reduceat(np.take(load.pressure, order, axis=1), starts, axis=1)
+    loaded = np.take(load.loaded, order, axis=1)
     on = np.logical_or.reduceat(loaded, starts, axis=1).astype(float)
     whole, time = load.integral(load.force.sum(axis=1)), np.array(durations)
     with np.errstate(invalid="ignore", divide="ignore"):

@@ -53,8 +53,10 @@ class StepLoad:
 
     def integral(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Integral (c,) or (c, j) over each contact of values (m,) or (m, j)."""
-        weights = self.weights if values.ndim == 1 else self.weights[:, None]
-        return np.asarray(np.add.reduceat(weights * values, self.starts, axis=0))
+        if values.ndim == 1:
+            return np.asarray(np.add.reduceat(self.weights * values, self.starts))
+        ends = self.starts + self.lengths
+        return np.stack([self.weights[a:b] @ values[a:b] for a, b in zip(self.starts, ends, strict=True)])
 
     def most(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Largest (c,) or (c, j) in each contact of values (m,) or (m, j)."""

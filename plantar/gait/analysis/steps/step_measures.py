@@ -91,6 +91,7 @@ IMPACT_WINDOW = 0.05  # Time in s after touchdown in which the landing impact is
 _DEPTH = 0.02  # How deep a valley has to be, as a share of the lower peak, to separate two peaks
 # Share of the largest force of its half of the stance that a peak has; the transient of a heel strike has less.
 _HUMP = 0.75
+_ALIKE = 0.95  # A hump lower than this share of another one of its half is a shoulder of the loading
 _UNKNOWN = dict.fromkeys(
     (
         "first_peak_N",
@@ -141,8 +142,8 @@ def force_measures(
     early, late = np.flatnonzero(share <= 0.5), np.flatnonzero(share > 0.5)
     rise = top
     if len(early) >= 3 and len(late) >= 3:
-        first = _first_hump(force, _HUMP * float(force[early].max()))
-        second = len(force) - 1 - _first_hump(force[::-1], _HUMP * float(force[late].max()))
+        first = _first_hump(force, len(early), _HUMP * float(force[early].max()))
+        second = len(force) - 1 - _first_hump(force[::-1], len(late), _HUMP * float(force[late].max()))
         low = first + int(np.argmin(force[first : second + 1])) if first < second else first
         if share[first] <= 0.5 < share[second] and first < low < second:
             rise = first
@@ -153,24 +154,27 @@ def force_measures(
     return out
 
 
-def _first_hump(force: NDArray[np.float64], least: float) -> int:
-    """Index of the first hump of at least `least` from which force falls by a share."""
+def _first_hump(force: NDArray[np.float64], half: int, least: float) -> int:
+    """Index of the first hump of at least `least` that is not much lower than another before frame `half`."""
     width = max(1, 2 * (len(force) // 60) + 1)  # 3 % of the stance: noise makes no hump
-    half = width // 2
-    padded = np.concatenate([np.full(half, force[0]), force, np.full(half, force[-1])])
-    even = np.convolve(padded, np.full(width, 1.0 / width), mode="valid") if half else force
-    start = 0
-    while start < len(even):
-        most = np.maximum.accumulate(even[start:])  # below zero where a sensor's offset is
-        falls = np.flatnonzero(even[start:] < most * np.where(most > 0.0, 1.0 - _DEPTH, 1.0 + _DEPTH))
-        if len(falls) == 0:
-            break
-        top = start + int(np.argmax(even[start : start + falls[0]]))
-        if even[top] >= least:
-            begin = max(0, top - width)
-            return begin + int(np.argmax(force[begin : top + width + 1]))
-        start += int(falls[0])
-    return int(np.argmax(force))
+    margin = width // 2
+    padded = np.concatenate([np.full(margin, force[0]), force, np.full(margin, force[-1])])
+    even = (np.convolve(padded, np.full(width, 1.0 / width), mode="valid") if margin else force).tolist()
+    humps: list[int] = []
+    top = 0
+    for i, value in enumerate(even):
+        if value > even[top]:
+            top = i
+        elif value < even[top] * (1.0 - _DEPTH if even[top] > 0.0 else 1.0 + _DEPTH):  # below zero: an offset
+            if even[top] >= least:
+                humps.append(top)
+            top = i
+    if not humps:
+        return int(np.argmax(force))
+    highest = max(even[k] for k in humps if k < half or k == humps[0])
+    chosen = next(k for k in humps if even[k] >= _ALIKE * highest)
+    begin = max(0, chosen - width)
+    return begin + int(np.argmax(force[begin : chosen + width + 1]))
 
 
 def _loading(time: NDArray[np.float64], force: NDArray[np.float64], strike: float) -> dict[str, float]:
