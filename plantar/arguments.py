@@ -36,7 +36,7 @@ def number(
         Float.
 
     Raises:
-        PlantarError: If invalid.
+        PlantarError: Not a number.
 
     Example:
         >>> number(np.float32(0.5), "threshold"), number(np.array(2), "threshold")
@@ -66,7 +66,7 @@ def integer(value: object, name: str, low: int, high: int | None = None, error: 
         Int.
 
     Raises:
-        PlantarError: If invalid.
+        PlantarError: No whole number in range.
 
     Example:
         >>> integer(np.int64(3), "frame", 0, 9)
@@ -95,7 +95,7 @@ def instance(value: _Kind, kind: type, name: str, error: type[PlantarError] = In
         Object.
 
     Raises:
-        PlantarError: If invalid.
+        PlantarError: Another type.
 
     Example:
         >>> instance(3, str, "name")
@@ -119,7 +119,7 @@ def items(value: Iterable[_Value], name: str, error: type[PlantarError] = InputE
         Tuple.
 
     Raises:
-        PlantarError: If invalid.
+        PlantarError: Not a list.
 
     Example:
         >>> items(range(2), "poses")

@@ -102,8 +102,8 @@ class SupportPolygons:
             Vertices (k, 2) in m, counter-clockwise; empty without contact.
 
         Raises:
-            ReadingError: If invalid.
-            IndexError: If invalid.
+            ReadingError: No vertices.
+            IndexError: Not one index a dimension.
         """
         if self.vertices is None:
             raise ReadingError("support polygons hold no vertices; ask for them with vertices=True")
@@ -164,8 +164,7 @@ def wrenches(
         Wrench (..., 6) about sole origin in N and N m.
 
     Raises:
-        ReadingError: If invalid.
-        InputError: If invalid.
+        ReadingError, InputError: Forces not (..., taxels).
 
     Example:
         >>> from plantar import hex_layout
@@ -203,8 +202,7 @@ def loads(layout: SoleLayout, force: ArrayLike, threshold: float | None = None, 
         Sums of each frame.
 
     Raises:
-        ReadingError: If invalid.
-        InputError: If invalid.
+        ReadingError, InputError: Forces not (..., taxels).
 
     Example:
         >>> from plantar import hex_layout
@@ -245,8 +243,7 @@ def support_polygons(
         Measures of each polygon, and polygons if kept.
 
     Raises:
-        ReadingError: If invalid.
-        InputError: If invalid.
+        ReadingError, InputError: Forces not (..., taxels).
 
     Example:
         >>> from plantar import hex_layout
@@ -298,8 +295,7 @@ def ground_planes(
         Planes.
 
     Raises:
-        ReadingError: If invalid.
-        InputError: If invalid.
+        ReadingError, InputError: Distances not (..., taxels).
 
     Example:
         >>> from plantar import hex_layout
@@ -336,7 +332,7 @@ def blocks(force: NDArray[np.float64], frames: int = BLOCK) -> Iterator[tuple[sl
         Slice of frames, and a view of them, read when used.
 
     Raises:
-        InputError: If invalid.
+        InputError: `frames` below 1.
 
     Example:
         >>> [(rows.start, rows.stop, part.shape) for rows, part in blocks(np.zeros((5, 3)), frames=2)]

@@ -25,7 +25,7 @@ def extensions(group: str, kind: type[T]) -> dict[str, T]:
         Parts by names of their entry points.
 
     Raises:
-        InputError: If invalid.
+        InputError: An entry point fails.
 
     Example:
         >>> extensions("plantar.no_such_group", object)

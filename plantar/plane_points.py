@@ -27,7 +27,7 @@ def plane_points(value: object, name: str = "polygon", *, finite: bool = True) -
         Points (k, 2), not copied if float64.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not (k, 2).
 
     Example:
         >>> plane_points([]).shape
@@ -56,7 +56,7 @@ def plane_point(value: object, name: str = "point") -> tuple[float, float]:
         Its x and y.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not two numbers.
 
     Example:
         >>> plane_point([1, 2])

@@ -26,7 +26,7 @@ def half_planes(lines: ArrayLike, name: str = "lines") -> NDArray[np.float64]:
         Half-planes (m, 3), not copied if float64.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not (m, 3), not finite.
     """
     if isinstance(lines, list | tuple) and not len(lines):
         return np.empty((0, 3))
@@ -73,7 +73,7 @@ class CellCutter:
             length and middle (x, y) in m.
 
         Raises:
-            InputError: If invalid.
+            InputError: Not (m, 3), not finite.
         """
         lines = np.ascontiguousarray(half_planes(lines))
         n = len(self._start) - 1

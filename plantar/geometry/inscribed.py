@@ -159,7 +159,7 @@ def rectangle_in_outline_any_angle(outline: Outline, looks: int = _LOOKS) -> Bou
         Corners (4, 2) in m and gap: no rectangle is larger by more than that share. If empty (0, 2) and 0.
 
     Raises:
-        InputError: If invalid.
+        InputError: `looks` below 1.
 
     Example:
         >>> tilted = Outline.of_rings([[[0, 0], [1, 1], [0, 2], [-1, 1]]])
@@ -253,7 +253,7 @@ def safe_rectangle(
         (0, 2) if empty.
 
     Raises:
-        InputError: If invalid.
+        InputError: Polygon not convex, offset negative.
 
     Example:
         >>> safe_rectangle([[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]], 0.01).round(9).tolist()

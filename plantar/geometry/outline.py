@@ -36,7 +36,7 @@ class Outline(Rings):
         area: Area in m^2, holes left out; exact to 1e-12.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not finite, other areas.
 
     Example:
         >>> square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]])
@@ -137,7 +137,7 @@ class Outline(Rings):
             Outline.
 
         Raises:
-            InputError: If invalid.
+            InputError: Not a finite rotation and translation.
         """
         whole = array(rotation, "rotation", ("2 or 3", "2 or 3"), finite=True)
         if whole.shape not in ((2, 2), (3, 3)) or np.abs(whole).max() > 1.0 + 1e-6:
@@ -165,7 +165,7 @@ def concave_outline(layout: SoleLayout, active: ArrayLike) -> Outline:
         separate.
 
     Raises:
-        ReadingError: If invalid.
+        ReadingError: Mask does not fit.
 
     Example:
         >>> from plantar import hex_layout
@@ -204,7 +204,7 @@ def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:
         All rings together; where the boxes of two feet overlap, shapely's union.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not outlines.
     """
     parts = [o for o in (instance(o, Outline, "outline") for o in items(outlines_in_world, "outlines")) if len(o)]
     boxes = [bounding_box(o.points).tolist() for o in parts]

@@ -47,7 +47,7 @@ def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
         Hull (k, 2), counter-clockwise from lowest x; vertices are input points.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not (n, 2).
 
     Example:
         >>> convex_hull([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0.5]]).tolist()
@@ -69,7 +69,7 @@ def convex_ring(polygon: ArrayLike) -> NDArray[np.float64]:
         Vertices (k, 2) in m, not copied if float64.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not finite (k, 2).
     """
     ring = plane_points(polygon)
     if len(ring) > 3 and turning(ring, 0.0, 0.0, 0.0) == 0:
@@ -94,7 +94,7 @@ def area(polygon: ArrayLike) -> float:
         Area; 0 below 3 vertices.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not finite (k, 2).
     """
     return float(_kernel.area_of(plane_points(polygon)))
 
@@ -109,7 +109,7 @@ def centroid(polygon: ArrayLike) -> NDArray[np.float64] | None:
         Position (2,) in m; mean of vertices where area is 0; None if empty.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not finite (k, 2).
 
     Example:
         >>> centroid(np.array([[0.0, 0], [2, 0], [2, 1], [0, 1]])).tolist()
@@ -135,7 +135,7 @@ def closest_point(polygon: ArrayLike, point: ArrayLike) -> NDArray[np.float64] |
         Point itself inside, else closest point (2,) on boundary; None if empty, NaN for no finite point.
 
     Raises:
-        InputError: If invalid.
+        InputError: Polygon not convex.
 
     Example:
         >>> closest_point(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), [2.0, 0.5]).tolist()
@@ -160,7 +160,7 @@ def signed_margin(polygon: ArrayLike, point: ArrayLike) -> float:
         Distance; -inf if empty, NaN for no finite point.
 
     Raises:
-        InputError: If invalid.
+        InputError: Polygon not convex.
 
     Example:
         >>> signed_margin(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), [0.5, 0.25])
@@ -184,7 +184,7 @@ def inner_offset(polygon: ArrayLike, distance: float) -> NDArray[np.float64]:
         Smaller polygon (m, 2), counter-clockwise; if none, or NaN, deepest point (1, 2); empty for empty, a copy for 0.
 
     Raises:
-        InputError: If invalid.
+        InputError: Polygon not convex, distance negative.
 
     Example:
         >>> inner_offset(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), 0.25).tolist()

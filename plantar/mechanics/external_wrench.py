@@ -36,7 +36,7 @@ def vrp_offset(wrench: ArrayLike, mass: float, omega: float, virtual_mass: float
         ZMP at which wrench would not accelerate CoM.
 
     Raises:
-        InputError: If invalid.
+        InputError: Wrench not (..., 6).
 
     Example:
         >>> hip = vrp_offset([50.0, 0.0, 0.0, 0.0, 0.0, 0.0], 86.0, 3.44)
@@ -88,7 +88,7 @@ def push_of_dcm(impulse: ArrayLike, mass: float, omega: float, height: float = 0
         Displacement (..., 2) in m.
 
     Raises:
-        InputError: If invalid.
+        InputError: Impulse not (..., 2).
     """
     given = array(impulse, "impulse", (..., 2))
     rate, carried = _positive(omega, "pendulum frequency", "rad/s"), _positive(mass, "mass", "kg")

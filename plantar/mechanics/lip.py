@@ -25,7 +25,7 @@ def pendulum_frequency(com_height: float) -> float:
         Frequency in rad/s.
 
     Raises:
-        InputError: If invalid.
+        InputError: Height not finite.
     """
     height = number(com_height, "CoM height", nan=True)
     if not 0.0 < height < math.inf:
@@ -45,7 +45,7 @@ def divergent_component(com: ArrayLike, com_velocity: ArrayLike, omega: float) -
         DCM (..., d) in m.
 
     Raises:
-        InputError: If invalid.
+        InputError: Frequency not above 0.
 
     Example:
         >>> divergent_component([0.0, 0.1], [0.5, 0.0], 4.0).tolist()

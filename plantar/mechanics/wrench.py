@@ -49,7 +49,7 @@ def wrench_at(wrench: ArrayLike, point: ArrayLike) -> NDArray[np.float64]:
         Wrench.
 
     Raises:
-        InputError: If invalid.
+        InputError: Wrench not (..., 6).
 
     Example:
         >>> wrench_at(np.array([0.0, 0.0, 10.0, 0.0, -2.0, 0.0]), np.array([0.2, 0.0, 0.0])).tolist()

@@ -43,7 +43,7 @@ def wrench_cone(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
         Matrix (16, 6); w is in cone where C w <= 0 in every row. Rows: fx, fy, tx, ty (two each), tz (eight).
 
     Raises:
-        InputError: If invalid.
+        InputError: Rectangle inverted.
 
     Example:
         >>> cone = wrench_cone(Rectangle(-0.1, 0.1, -0.05, 0.05), 0.6)

@@ -6,9 +6,11 @@ axes and e = sum J_i w_i - w_d, it minimises
     net |e|^2 + ankle sum |m_i|^2 + pressure sum_(i<j) (s_j fz_i - s_i fz_j)^2 + friction sum (fx_i^2 + fy_i^2 + tz_i^2)
 
 with m_i the moment (x, y) about the preferred center of pressure of contact i, s_i its wanted share of the normal
-force, forces in body weights and moments in body weights times 0.1 m. By Lagrange's identity the sum over pairs is
-|s|^2 |fz|^2 - (s . fz)^2. Each w_i stays in its wrench cone, its normal force at or above a minimum.
+force, forces in body weights and moments in body weights times 0.1 m. Each w_i stays in its
+wrench cone, its normal force at or above a minimum.
 """
+
+# By Lagrange's identity the sum over pairs is |s|^2 |fz|^2 - (s . fz)^2.
 
 from __future__ import annotations
 
@@ -151,7 +153,7 @@ class WrenchDistribution:
         length: Unit of moments over forces inside program in m: about half a sole.
 
     Raises:
-        InputError: If invalid.
+        InputError: Weight not above 0.
 
     Example:
         >>> flat, sole = np.eye(3), Rectangle(-0.1, 0.1, -0.06, 0.06)
@@ -200,7 +202,7 @@ class WrenchDistribution:
             Share.
 
         Raises:
-            InputError: If invalid.
+            InputError: Shares of other contacts.
         """
         if not contacts:
             return WrenchShare(DistributionState.AIRBORNE, {}, -np.asarray(wrench, dtype=float), 0.0)
@@ -246,7 +248,7 @@ class WrenchDistribution:
             Its matrices.
 
         Raises:
-            InputError: If invalid.
+            InputError: No contacts, numbers not finite.
         """
         if not contacts:
             raise InputError("a wrench distribution without contacts has no program; allowed: one contact or more")

@@ -31,7 +31,7 @@ def zmp_in_plane(wrench: ArrayLike, height: float = 0.0, minimum_force: float = 
         Position (2,) in m, or None where vertical force is below `minimum_force`, not above 0, or NaN.
 
     Raises:
-        InputError: If invalid.
+        InputError: Wrench not (6,).
 
     Example:
         >>> zmp_in_plane([10.0, 0.0, 100.0, 5.0, -2.0, 0.0], height=0.1).tolist()
@@ -98,7 +98,7 @@ def centroidal_moment_pivot(
         Position (2,) in m, or None without load.
 
     Raises:
-        InputError: If invalid.
+        InputError: Force or CoM of another shape.
     """
     given = array(force, "force", ("3 or 6",))
     if len(given) not in (3, 6):
@@ -123,7 +123,7 @@ def zmp_of_wrench(wrench: ArrayLike, minimum_force: float = 0.0) -> NDArray[np.f
         Position (2,) in m, or None.
 
     Raises:
-        InputError: If invalid.
+        InputError: Wrench not (6,).
     """
     _, _, fz, tx, ty, _ = array(wrench, "wrench", (6,)).tolist()
     if not (fz >= number(minimum_force, "minimum force") and 0.0 < fz < math.inf):
@@ -143,7 +143,7 @@ def zmp_of_feet(points: Sequence[ArrayLike | None], vertical_forces: Sequence[fl
         Position (2,) in common frame in m, or None without load; feet with force NaN, 0 or less are left out.
 
     Raises:
-        InputError: If invalid.
+        InputError: Lists differ in length.
 
     Example:
         >>> zmp_of_feet([np.array([0.0, 0.1]), np.array([0.0, -0.1])], [300.0, 100.0]).tolist()

@@ -44,7 +44,7 @@ def active(layout: SoleLayout, force: Any, threshold: float | None = None) -> An
         Mask (..., n) of the same library.
 
     Raises:
-        ReadingError: If invalid.
+        ReadingError: Another array type.
     """
     instance(layout, SoleLayout, "layout")
     _namespace(layout, force)

@@ -29,7 +29,7 @@ class FeetPercept:
         ground_height: Height in m of ZMP's horizontal plane.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not one pose a percept.
 
     Example:
         >>> from plantar import Reading, hex_layout, mirrored

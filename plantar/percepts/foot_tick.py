@@ -69,7 +69,7 @@ def walking_tick(
         Foot's percept.
 
     Raises:
-        ReadingError, InputError: If invalid.
+        ReadingError, InputError: Forces do not fit.
 
     Example:
         >>> from plantar import hex_layout

@@ -45,7 +45,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
         options: Other options; defaults if None.
 
     Raises:
-        ReadingError, InputError: If invalid.
+        ReadingError, InputError: Reading or mask does not fit.
 
     Example:
         >>> from plantar import Percept, Reading, hex_layout

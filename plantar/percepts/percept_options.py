@@ -28,7 +28,7 @@ class PerceptOptions:
         reference_area: Area xi in m^2 of pressure-driven wrench (T 3.27); one cell's if None.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not finite.
     """
 
     fill: bool = False

@@ -92,6 +92,6 @@ class ShapeMembers:
             offset: How far in m, 0 or more.
 
         Raises:
-            InputError: If invalid.
+            InputError: Offset negative.
         """
         return safe_rectangle(self.support_polygon_in_sole, offset)

@@ -33,7 +33,7 @@ class SolePose:
         position_in_world: Position (3,) of sole origin in m.
 
     Raises:
-        InputError: If invalid.
+        InputError: No finite rotation and position.
 
     Example:
         >>> pose = SolePose.flat(0.1, 0.2, yaw=np.pi / 2)
@@ -134,7 +134,7 @@ def wrench_of_feet(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePo
         Wrench (6,) or (frames, 6) in world frame in N and N m, by world on robot.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not one pose a wrench.
     """
     return np.asarray(sum(_turned(wrenches_in_sole, poses)))
 
@@ -165,7 +165,7 @@ def zmp_of_soles(
         ZMP, or None without load.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not one pose a wrench (6,).
     """
     turned = _turned(wrenches_in_sole, poses)
     if turned[0].shape != (6,):
@@ -189,7 +189,7 @@ def polygon_in_world(
         Polygon (k, 2) in m in the world's x-y plane.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not finite, another shape.
     """
     seen: NDArray[np.float64] = _kernel.seen_from_above(
         plane_points(polygon_in_sole),
@@ -209,7 +209,7 @@ def feet_support_polygon(polygons_in_world: Sequence[ArrayLike]) -> NDArray[np.f
         Convex polygon (m, 2), counter-clockwise, empty without contact.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not finite (k, 2).
 
     Example:
         >>> left = np.array([[0.0, 0.1], [0.2, 0.1], [0.2, 0.2], [0.0, 0.2]])

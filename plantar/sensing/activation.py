@@ -28,7 +28,7 @@ def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.i
         Mask.
 
     Raises:
-        ReadingError, InputError: If invalid.
+        ReadingError, InputError: Forces not numeric.
     """
     given = numbers(force, "forces", ReadingError)
     low, high = number(threshold, "activation threshold"), number(saturation, "saturation")
@@ -51,7 +51,7 @@ def hysteresis(
         State (frames, ...) after each frame.
 
     Raises:
-        InputError: If invalid.
+        InputError: `low` above `high`.
 
     Example:
         >>> hysteresis([0.0, 2.0, 1.2, 0.9, 1.2], high=1.5, low=1.0).tolist()
@@ -82,7 +82,7 @@ class TaxelActivation:
         saturation: Force in N from which it is not active.
 
     Raises:
-        InputError: If invalid.
+        InputError: `release` above `threshold`.
     """
 
     def __init__(self, threshold: float, release: float | None = None, saturation: float = math.inf) -> None:

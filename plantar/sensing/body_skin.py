@@ -31,7 +31,7 @@ def active_cells(
         Mask; NaN, inf or beyond `LARGEST` does not count.
 
     Raises:
-        ReadingError, InputError: If invalid.
+        ReadingError, InputError: Shapes differ.
     """
     f, p = _signals(force, proximity)
     least_force = number(force_threshold, "threshold of force")
@@ -59,7 +59,7 @@ def pseudo_force(
         Pseudo-forces (..., n) in N, 0 for inactive cells; NaN, inf or beyond `LARGEST` counts as 0.
 
     Raises:
-        ReadingError, InputError: If invalid.
+        ReadingError, InputError: Shapes differ.
     """
     f, p = _signals(force, proximity)
     by_force = number(force_weight, "weight of force", finite=True)
@@ -80,7 +80,7 @@ def patch_signal(force: ArrayLike, proximity: ArrayLike, weight: float) -> NDArr
         Signals (..., n); NaN, inf or beyond `LARGEST` counts as 0.
 
     Raises:
-        ReadingError, InputError: If invalid.
+        ReadingError, InputError: Shapes differ.
     """
     f, p = _signals(force, proximity)
     share = number(weight, "weight of force against proximity", nan=True)
@@ -101,7 +101,7 @@ def skin_wrench(positions: ArrayLike, rotations: ArrayLike, signal: ArrayLike) -
         Wrench (6,) or (frames, 6) about wanted frame's origin in N and N m, by world on robot.
 
     Raises:
-        ReadingError: If invalid.
+        ReadingError: Shapes do not agree.
     """
     r = numbers(positions, "positions of cells", ReadingError)
     turn = numbers(rotations, "rotations of cells", ReadingError)

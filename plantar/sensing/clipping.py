@@ -39,7 +39,7 @@ def clipped_mean(force: ArrayLike, noise: float) -> NDArray[np.float64]:
         Means (...) in N.
 
     Raises:
-        InputError: If invalid.
+        InputError: Noise negative.
     """
     given, sigma = numbers(force, "forces"), _sigma(noise)
     if sigma < _NEGLIGIBLE:
@@ -61,7 +61,7 @@ def unclipped_mean(mean: ArrayLike, noise: float) -> NDArray[np.float64]:
         Forces (...) in N.
 
     Raises:
-        InputError: If invalid.
+        InputError: Noise negative.
 
     Example:
         >>> unclipped_mean(clipped_mean([0.0, 1.0, 10.0], 1.5), 1.5).round(3).tolist()

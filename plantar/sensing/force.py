@@ -29,7 +29,7 @@ def center_of_pressure(
         Point; for many frames see `plantar.batch.loads`.
 
     Raises:
-        ReadingError, InputError: If invalid.
+        ReadingError, InputError: Forces not (taxels,).
     """
     vertical = _active(layout, taxel_values(layout, force), threshold) * layout.rotations[:, 2, 2]
     total = float(vertical.sum())
@@ -50,7 +50,7 @@ def ground_reaction_wrench(layout: SoleLayout, force: ArrayLike, threshold: floa
         Wrench (6,) or (frames, 6) in sole frame in N and N m, by world on sole.
 
     Raises:
-        ReadingError, InputError: If invalid.
+        ReadingError, InputError: Forces not (..., taxels).
     """
     return np.asarray(_active(layout, taxel_frames(layout, force), threshold) @ layout.wrench_map.T)
 
@@ -76,7 +76,7 @@ def pressure_driven_wrench(
         Wrench (6,) or (frames, 6) about sole origin in N and N m; zero without contact.
 
     Raises:
-        ReadingError, InputError: If invalid.
+        ReadingError, InputError: Forces not (..., taxels).
     """
     readings = taxel_frames(layout, force)
     active = active_taxels(readings, layout.force_threshold if threshold is None else threshold, layout.force_limit)
@@ -97,7 +97,7 @@ def scaled_by_area(wrench: ArrayLike, contact_area: ArrayLike, reference_area: f
         Wrench in shape of `wrench`; zero where contact area is 0.
 
     Raises:
-        InputError: If invalid.
+        InputError: Shapes differ, area not above 0.
     """
     reference = number(reference_area, "reference area", nan=True)
     if not 0.0 < reference < np.inf:
@@ -126,7 +126,7 @@ def joint_torque(jacobian: ArrayLike, rotation_to_base: ArrayLike, wrench: Array
         Torques (joints,) or (frames, joints) in N m.
 
     Raises:
-        InputError: If invalid.
+        InputError: Another shape, not finite.
     """
     columns = array(jacobian, "jacobian", (6, "joints"), finite=True)
     rotation = array(rotation_to_base, "rotation", (3, 3), finite=True)

@@ -57,7 +57,7 @@ def ground_points(layout: SoleLayout, distance: ArrayLike) -> NDArray[np.float64
         Points (n, 3) or (frames, n, 3) in sole frame in m; NaN without ground.
 
     Raises:
-        ReadingError: If invalid.
+        ReadingError: Distances not (..., taxels).
     """
     reach = taxel_frames(layout, distance, "distances")
     reach = np.where(np.isfinite(reach), reach, np.nan)
@@ -82,7 +82,7 @@ def fit_ground_plane(
         Plane; None where no taxel measures ground.
 
     Raises:
-        ReadingError, InputError: If invalid.
+        ReadingError, InputError: Distances not (taxels,).
 
     Example:
         >>> from plantar import hex_layout

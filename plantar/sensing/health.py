@@ -29,7 +29,7 @@ class TaxelHealth:
         stuck: Taxels (n,) that have not changed for too long.
 
     Raises:
-        ReadingError: If invalid.
+        ReadingError: Masks of different shapes.
     """
 
     dead: NDArray[np.bool_]
@@ -79,7 +79,7 @@ def saturated_taxels(values: ArrayLike, highest: float) -> NDArray[np.bool_]:
         Mask.
 
     Raises:
-        ReadingError, InputError: If invalid.
+        ReadingError, InputError: Values not numeric.
     """
     readings = numbers(values, "readings", ReadingError)
     return np.asarray(np.isfinite(readings) & (readings >= number(highest, "upper end of the range")))
@@ -104,7 +104,7 @@ def stuck_taxels(
         Mask.
 
     Raises:
-        InputError: If invalid.
+        InputError: Times not increasing.
 
     Example:
         >>> stuck_taxels([0.0, 0.5, 1.0], [[0, 5, 5], [0, 5, 6], [0, 5, 5]], hold=1.0).tolist()[-1]
@@ -131,7 +131,7 @@ class StuckMonitor:
         rest: As in `stuck_taxels`.
 
     Raises:
-        InputError: If invalid.
+        InputError: Hold not above 0.
     """
 
     def __init__(self, hold: float = 1.0, tolerance: float = 0.0, rest: float = 0.0) -> None:
@@ -155,7 +155,7 @@ class StuckMonitor:
             Mask (n,).
 
         Raises:
-            InputError, ReadingError: If invalid.
+            InputError, ReadingError: Time not later.
         """
         now = numbers(values, "readings", ReadingError).copy()
         if now.ndim != 1:
@@ -188,7 +188,7 @@ def fill_from_neighbours(
         Readings in shape of `values`.
 
     Raises:
-        ReadingError: If invalid.
+        ReadingError: Values or mask do not fit.
     """
     out = taxel_frames(layout, values, "readings").copy()
     bad = mask(faulty, "mask of faulty taxels", (...,), ReadingError)

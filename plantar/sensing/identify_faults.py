@@ -57,7 +57,7 @@ def identify_faults(layout: SoleLayout, time: ArrayLike, force: ArrayLike, read:
         Faults.
 
     Raises:
-        ReadingError: If invalid.
+        ReadingError: Under 20 frames.
     """
     times = array(time, "times", ("t",), ReadingError, finite=True)
     if len(times) < 20 or not (np.diff(times) > 0.0).all():

@@ -30,7 +30,7 @@ class SkinPatch:
         proximity_range: d_range of T 3.30 in m; 0 for none.
 
     Raises:
-        LayoutError: If invalid.
+        LayoutError: No taxels, shapes differ.
     """
 
     name: str

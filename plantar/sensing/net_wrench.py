@@ -61,7 +61,7 @@ def net_wrench(
         Wrench; zeros without a push.
 
     Raises:
-        ReadingError: If invalid.
+        ReadingError: Point not finite.
 
     Example:
         >>> from plantar.sensing.link_skin import SkinPatch

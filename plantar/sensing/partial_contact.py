@@ -107,7 +107,7 @@ class PartialContact:
             Forces, none negative.
 
         Raises:
-            InputError: If invalid.
+            InputError: Not finite.
         """
         place = array(center_of_pressure, "center of pressure", (2,), finite=True)
         measure = self.cover(lines)
@@ -156,7 +156,7 @@ class PartialContact:
             Edges; with no active taxel an empty polygon.
 
         Raises:
-            ReadingError, InputError: If invalid.
+            ReadingError, InputError: Loads or mask do not fit.
         """
         force = taxel_values(self.layout, load, "loads")
         mask = taxel_mask(self.layout, active, "mask of active taxels")
@@ -199,7 +199,7 @@ class PartialContact:
             Half-planes (m, 3), side with most idle cells first; m up to 4.
 
         Raises:
-            ReadingError: If invalid.
+            ReadingError: A mask does not fit.
         """
         over = taxel_mask(self.layout, supported, "mask of supported taxels")
         inner, outer = self._centers[over], self._centers[taxel_mask(self.layout, idle, "mask of idle taxels")]

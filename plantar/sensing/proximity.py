@@ -83,7 +83,7 @@ def cells_polygon(layout: SoleLayout, taxels: ArrayLike) -> NDArray[np.float64]:
         Polygon (k, 2) in sole frame in m, counter-clockwise; empty without cells.
 
     Raises:
-        ReadingError: If invalid.
+        ReadingError: Mask does not fit.
     """
     polygon: NDArray[np.float64] = layout.kernel.hull(taxel_mask(layout, taxels))[0]
     return polygon
@@ -101,7 +101,7 @@ def preemptive_polygon(layout: SoleLayout, distance: ArrayLike, threshold: float
         Polygon, counter-clockwise; empty if none is near.
 
     Raises:
-        ReadingError, InputError: If invalid.
+        ReadingError, InputError: Distances do not fit.
     """
     return cells_polygon(layout, near_taxels(taxel_values(layout, distance, "distances"), threshold))
 
@@ -130,7 +130,7 @@ def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[f
         One per height, lowest first, each including lower ones; read-only.
 
     Raises:
-        ReadingError, InputError: If invalid.
+        ReadingError, InputError: Distances do not fit.
 
     Example:
         >>> from plantar import hex_layout

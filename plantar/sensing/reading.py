@@ -34,7 +34,7 @@ class Reading(ReadingFields):
         acceleration: Acceleration (n, 3) of each taxel in its own frame in m/s^2, or None.
 
     Raises:
-        ReadingError: If invalid.
+        ReadingError: Shapes differ.
 
     Example:
         >>> Reading(time=0.0, force=np.array([1.0, 2.0])).force.sum()

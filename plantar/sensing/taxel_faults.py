@@ -45,7 +45,7 @@ class TaxelFaults:
         delay: Time in s from a force to its reading.
 
     Raises:
-        InputError: If invalid.
+        InputError: Negative, a share above 0.9.
 
     Example:
         >>> from plantar import hex_layout
@@ -138,7 +138,7 @@ class WornFaults:
             Readings (..., n) in N; NaN for dead taxels.
 
         Raises:
-            ReadingError: If invalid.
+            ReadingError: Forces do not fit.
         """
         faults = self.faults
         pressed = array(force, "forces", self.gains.shape, ReadingError, finite=True)

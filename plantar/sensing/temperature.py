@@ -28,7 +28,7 @@ def temperature_measure(temperature: ArrayLike, threshold: float, highest: float
         Excess.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not numeric.
     """
     readings = numbers(temperature, "temperatures")
     level = number(threshold, "threshold of temperature", finite=True)
@@ -55,7 +55,7 @@ def temperature_wrench(
         Wrench (6,) or (frames, 6) about sole origin in N and N m.
 
     Raises:
-        ReadingError, InputError: If invalid.
+        ReadingError: Temperatures do not fit.
     """
     readings = taxel_frames(layout, temperature, "temperatures")
     level = layout.temperature_threshold if threshold is None else threshold
@@ -76,7 +76,7 @@ def warm_taxels(temperature: ArrayLike, threshold: float) -> NDArray[np.bool_]:
         Mask (..., n).
 
     Raises:
-        InputError: If invalid.
+        InputError: Not numeric.
     """
     readings = numbers(temperature, "temperatures")
     return np.asarray(np.isfinite(readings) & (readings >= number(threshold, "threshold of temperature")))
@@ -96,7 +96,7 @@ def temperature_footprint(
         Polygon (k, 2) in sole frame in m, counter-clockwise; empty if none is warm.
 
     Raises:
-        ReadingError, InputError: If invalid.
+        ReadingError: Temperatures do not fit.
     """
     readings = taxel_values(layout, temperature, "temperatures")
     level = layout.temperature_threshold if threshold is None else threshold

@@ -38,7 +38,7 @@ def virtual_ground_reaction_wrench(
         Wrench (6,) or (frames, 6) in sole frame in N and N m.
 
     Raises:
-        ReadingError, InputError: If invalid.
+        ReadingError, InputError: Distances do not fit.
     """
     readings = taxel_frames(layout, distance, "distances")
     reach = layout.proximity_range if sensing_range is None else sensing_range
@@ -64,7 +64,7 @@ def early_stop(virtual_wrench: ArrayLike, threshold: float) -> NDArray[np.bool_]
         Bool for one wrench, a mask (...) for several.
 
     Raises:
-        InputError: If invalid.
+        InputError: Wrench not (..., 6).
     """
     stop = np.asarray(_size(array(virtual_wrench, "wrench", (..., 6))) > number(threshold, "threshold of the stop"))
     return bool(stop) if stop.ndim == 0 else stop
@@ -87,7 +87,7 @@ def sole_wrenches(
         Wrenches (frames, 6) in N and N m. A part with NaN or inf counts as zero.
 
     Raises:
-        InputError: If invalid.
+        InputError: Not (frames, 6) each.
 
     Example:
         >>> contact = np.outer([0.0, 0.5, 9.0, 4.0], [0, 0, 1, 0, 0, 0])

@@ -1,27 +1,24 @@
 """Inverse kinematics of tasks: Newton steps, stable near singularities, at limits and out of reach.
 
-A step solves J^T J dq = J^T e, with 1e-8 on the diagonal. It is taken as it is where the equations are well
-conditioned, no joint leaves its limits and no entry is too large. Otherwise:
+A step solves J^T J dq = J^T e, with 1e-8 on the diagonal. It is taken where the equations are well conditioned, no
+joint leaves its limits and no entry is too large. Otherwise:
 
-- **Levels.** A level is solved in the null space of the levels before (Siciliano and Slotine 1991): an unloaded foot
-  misses its target first.
-- **Damping.** With the singular values s of a level and near = max(0, 1 - (s / EPSILON)^2), each direction moves by s r
-  / (s^2 + d) for the residual r along it, with
+- **Levels.** Each is solved in the null space of those before (Siciliano and Slotine 1991): an unloaded foot misses
+  first.
+- **Damping.** With a level's singular values s and near = max(0, 1 - (s / EPSILON)^2), a direction with residual r
+  moves by s r / (s^2 + d), with
 
       d = near EPSILON^2 + S R.
 
-The first term damps near singularities alone (Maciejewski and Klein 1988, Chiaverini 1997). R is the length of the
-residual that no step removes, in the share `near` along directions near a singularity and whole at joint limits: out of
-reach, Newton's step would oscillate (Sugihara 2011). A limb bent by x near straight loses reach c x^2 / 2, s = c x, and
-x goes to 0 where d >= c R / 2. S is the level's largest singular value: c is 2 S or less for a limb of up to 8 equal
-links with parallel axes.
-- The residual of a level counts with a length of 1 (m and rad) at most.
-- The largest step L must not carry a limb across the damped zone: c L / 2 <= EPSILON; c is 0.13 m for a leg of 0.8 m.
-- **Posture.** The share `near` of a direction, and what no task uses, is drawn to the reference posture: a straight
-  knee bends again.
-- **Scale.** One factor scales a level's step until no entry of the sum is too large.
-- **Unit of length.** 1 rad counts as 1 m for a leg of 0.6 m, in proportion to the leg: robots of one shape take the
-  same steps.
+The first term damps near singularities (Maciejewski and Klein 1988, Chiaverini 1997). R is the length of the
+residual that no step removes, in the share `near` near a singularity and whole at joint limits: out of reach, Newton's
+step would oscillate (Sugihara 2011). A limb bent by x near straight loses reach c x^2 / 2, s = c x, and
+x goes to 0 where d >= c R / 2. S is the level's largest singular value: c is at most 2 S for up to 8 equal parallel
+links.
+- **Posture.** The share `near` of a direction, and what no task uses, is drawn to the reference posture: straight
+  knees bend again.
+- **Scale.** One factor scales a step until no entry is too large.
+- **Unit of length.** 1 rad counts as 1 m for a leg of 0.6 m, in proportion: robots of one shape take the same steps.
 - **Limits.** Joints that would leave their limits stop there, the farthest first, and the step is solved again.
 """
 
@@ -41,6 +38,8 @@ from plantar.robots.kinematics.tasks.task import Task
 __all__ = ["InverseKinematics"]
 
 _ROUNDING = 1e-8  # on the diagonal of the normal equations
+# The largest step L must not carry a limb across the damped zone: c L / 2 <= _EPSILON; c is 0.13 m for a leg of 0.8 m.
+# A level's residual counts with at most 1 (m and rad).
 _EPSILON = 0.01  # singular value in m/rad below which damping sets in; walks stay above 0.019
 _SUSPECT = 0.04
 """Pivot of the Cholesky factor from which on singular values are looked at. The least pivot is above the least singular

@@ -12,13 +12,11 @@ natural rubber", table 3), and for H degrees Shore A
 
 Foam has no shape factor; its gas cells give a pressure s at a compression per thickness of e
 
-    s = E e / (1 - e)     with the secant modulus     s / e = E + s
-
-(4 % off the data sheet of Plastazote LD33), E three times the pressure at 25 %.
-
-Gent: "On the relation between indentation hardness and Young's modulus", Trans. IRI 34, 1958. Gent, Lindley: "The
-compression of bonded rubber blocks", Proc. IMechE 173, 1959.
+    s = E e / (1 - e)     with the secant modulus     s / e = E + s, E three times the pressure at 25 %.
 """
+
+# Gent: "On the relation between indentation hardness and Young's modulus", Trans. IRI 34, 1958. Gent, Lindley: "The
+# compression of bonded rubber blocks", Proc. IMechE 173, 1959. Foam: 4 % off the data sheet of Plastazote LD33.
 
 from __future__ import annotations
 
