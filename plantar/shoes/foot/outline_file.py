@@ -335,30 +335,16 @@ def _svg_transform(text: str | None) -> NDArray[np.float64]:
 
 
 def _flattened(commands: list[tuple[str, tuple[Any, ...]]], matrix: NDArray[np.float64]) -> Lines:
+    """Lines of a pen's commands, with 24 points on each Bezier curve."""
     lines: list[list[Any]] = []
     for name, arguments in commands:
         at = [np.array(a, dtype=float) for a in arguments if a is not None]
         if name == "moveTo":
             lines.append([at[0]])
-        elif not lines:
-            continue
-        elif name == "lineTo":
-            lines[-1].append(at[0])
-        elif name == "closePath":
+        elif lines and name == "closePath":
             lines[-1].append(lines[-1][0])
-        else:
-            lines[-1] += _curve(name, lines[-1][-1], at)
+        elif lines and at:
+            n, share = len(at), np.linspace(0.0, 1.0, 25 if len(at) > 1 else 2)[1:, None]
+            corners = enumerate([lines[-1][-1], *at])
+            lines[-1] += list(sum(math.comb(n, k) * (1 - share) ** (n - k) * share**k * p for k, p in corners))
     return [np.array(points) @ matrix[:2, :2].T + matrix[:2, 2] for points in lines]
-
-
-def _curve(name: str, a: NDArray[np.float64], at: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
-    share = np.linspace(0.0, 1.0, 25)[1:, None]
-    if name == "curveTo" and len(at) == 3:
-        b, c, d = at
-        return list(
-            (1 - share) ** 3 * a + 3 * (1 - share) ** 2 * share * b + 3 * (1 - share) * share**2 * c + share**3 * d
-        )
-    if name == "qCurveTo" and len(at) == 2:
-        b, c = at
-        return list((1 - share) ** 2 * a + 2 * (1 - share) * share * b + share**2 * c)
-    return []
