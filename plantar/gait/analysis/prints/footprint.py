@@ -13,7 +13,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.geometry.polygon import area, convex_hull
+from plantar.geometry.cell_cutting import CellCutter
+from plantar.geometry.polygon import convex_hull
 from plantar.layouts.layout import Side, SoleLayout
 
 __all__ = ["Footprint", "footprint_of_cells", "footprint_of_pixels"]
@@ -74,17 +75,14 @@ class Footprint:
 
     def area_between(self, low: float, high: float) -> float:
         """Returns toeless print area in m^2 between lines across the axis at u = low and high in m."""
-        keep = ~self.is_toe
-        rings, areas = self.rings[keep], self.areas[keep]
+        rings, areas = self.rings[~self.is_toe], self.areas[~self.is_toe]
         first, last = rings[:, :, 0].min(axis=1), rings[:, :, 0].max(axis=1)
-        total = float(areas[(first >= low) & (last <= high)].sum())
-        for ring, cell in zip(
-            rings[~((first >= low) & (last <= high)) & (last > low) & (first < high)],
-            areas[~((first >= low) & (last <= high)) & (last > low) & (first < high)],
-            strict=True,
-        ):
-            whole = abs(area(ring))
-            total += float(cell) * (abs(area(_cut(_cut(ring, low, 1.0), high, -1.0))) / whole if whole > 0.0 else 0.0)
+        within, met = (first >= low) & (last <= high), (last > low) & (first < high)
+        total = float(areas[within].sum())
+        if (met & ~within).any():
+            cells = CellCutter.of_polygons(list(rings[met & ~within]))
+            whole, cut = (cells.cut(lines)[0][:, 0] for lines in ([], [[-1.0, 0.0, -low], [1.0, 0.0, high]]))
+            total += float(areas[met & ~within] @ np.divide(cut, whole, out=np.zeros_like(cut), where=whole != 0.0))
         return total
 
     def arch_index(self) -> float:
@@ -99,8 +97,11 @@ class Footprint:
 
     def width_at(self, u: float) -> float:
         """Width in m of the convex hull at a line across the axis, or 0."""
-        across = _crossing(self._hull, u)
-        return 0.0 if across is None else across[1] - across[0]
+        a, b = self._hull, np.roll(self._hull, -1, axis=0)
+        rise, fall = a[:, 0] - u, b[:, 0] - u
+        met, level = rise * fall <= 0.0, rise == fall
+        at = a[:, 1] + np.where(level, 0.0, rise / np.where(level, 1.0, rise - fall)) * (b[:, 1] - a[:, 1])
+        return float(np.ptp(at[met])) if met.any() else 0.0
 
     @cached_property
     def front_third(self) -> tuple[float, float]:
@@ -203,33 +204,3 @@ def _middle_of_band(
         return None
     middle = 0.5 * float(across[inside].min() + across[inside].max())
     return np.asarray(0.5 * (low + high) * axis + middle * np.array([-axis[1], axis[0]]))
-
-
-def _cut(ring: NDArray[np.float64], at: float, sign: float) -> NDArray[np.float64]:
-    """Convex ring's part with sign * (u - at) >= 0."""
-    if len(ring) == 0:
-        return ring
-    height = sign * (ring[:, 0] - at)
-    out: list[NDArray[np.float64]] = []
-    for i in range(len(ring)):
-        j = (i + 1) % len(ring)
-        if height[i] >= 0.0:
-            out.append(ring[i])
-        if (height[i] >= 0.0) != (height[j] >= 0.0):
-            share = height[i] / (height[i] - height[j])
-            out.append(ring[i] + share * (ring[j] - ring[i]))
-    return np.array(out).reshape(-1, 2)
-
-
-def _crossing(ring: NDArray[np.float64], u: float) -> tuple[float, float] | None:
-    """Lowest and highest v where a line across the axis crosses a ring."""
-    height = ring[:, 0] - u
-    if height.min() > 0.0 or height.max() < 0.0:
-        return None
-    found: list[float] = [float(v) for h, v in zip(height, ring[:, 1], strict=True) if h == 0.0]
-    for i in range(len(ring)):
-        j = (i + 1) % len(ring)
-        if height[i] * height[j] < 0.0:
-            share = height[i] / (height[i] - height[j])
-            found.append(float(ring[i, 1] + share * (ring[j, 1] - ring[i, 1])))
-    return (min(found), max(found)) if found else None
