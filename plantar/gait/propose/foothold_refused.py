@@ -69,7 +69,10 @@ class StepGuard:
         self.rules = rules
         self._probes = rules.at == "probe"
         self._force = rules.probe_force if self._probes else rules.impact_force
-        self._time = rules.probe_time if self._probes else 0.0
+        # A pressing foot settles first; a touch is read from its beginning.
+        self._settling, self._reading = (
+            (0.5 * rules.probe_time, rules.probe_time) if self._probes else (0.0, rules.impact_time)
+        )
         self.checked: list[CheckedStep] = []
         self.stopped = False
         self.press: float | None = None
@@ -123,7 +126,7 @@ class StepGuard:
         if self._state is not _State.PROBING or self._probe is None:
             return None
         self._read(side, tick)
-        if tick.time < self._since + 1.5 * self._time:
+        if tick.time < self._since + self._settling + self._reading:
             return None
         self.press = None
         return self._judge(phase, side, tick)
@@ -147,7 +150,7 @@ class StepGuard:
         if tick.feet.distance is not None:
             self._probe.update_view(tick.feet.distance)
         # The DCM has to be back over the stance foot, and to stay there, until the rule has decided.
-        missing = tick.time + rules.probe_limit + 1.5 * self._time + rules.reserve - phase.end
+        missing = tick.time + rules.probe_limit + self._settling + self._reading + rules.reserve - phase.end
         return _waiting(phase, missing) if self._probes and missing > 0.0 else None
 
     def _read(self, side: Side, tick: Tick) -> None:
@@ -156,8 +159,7 @@ class StepGuard:
         # The rule reads a foot that has its load; where that does not come, what there is after the time for it.
         if self._since == math.inf and (load > 0.7 * self._force or time > self._began + rules.probe_limit):
             self._since = time
-        due = time > self._since + 0.5 * self._time if self._probes else time >= self._since
-        if due and reading.time > self._reading_time:
+        if time >= self._since + self._settling and reading.time > self._reading_time:
             self._reading_time = reading.time
             pressing = load > 0.5 * self._force
             self._probe.update_load(reading.force, tick.moments.get(side) if pressing else None)
@@ -179,7 +181,7 @@ class StepGuard:
         x, y = (step.rotation_sole_to_world[:2, :2] @ shift).tolist()
         self._state = _State.WALKING
         later, wait = (
-            self._shift_of_later(step, shift, found, side, tick),
+            self._shift_of_later(step, shift, found, tick),
             self._wait(self.rules.swing_time, phase, tick),
         )
         return PlanChange(
@@ -200,15 +202,19 @@ class StepGuard:
         )
 
     def _shift_of_later(
-        self, step: Footstep, shift: NDArray[np.float64], found: Foothold, side: Side, tick: Tick
+        self, step: Footstep, shift: NDArray[np.float64], found: Foothold, tick: Tick
     ) -> Point:
-        """Later steps' move in m."""
-        longer, following = float(shift[0]), tick.phase.step + 2
-        if following < tick.plan.count:
-            ahead = tick.plan.foothold(following).position - step.position
-            place = step.rotation_sole_to_world[:, :2].T @ ahead + [longer, 0.0]
-            longer += room_ahead(found.polygon_in_sole, self._layouts[side].outline, place, self.rules)
-        x, y = (step.rotation_sole_to_world[:2, 0] * longer).tolist()
+        """Later steps' move in m: a sidestep is carried over, so that the next foot keeps its distance.
+
+        Both next feet then clear the obstacle, which the one that did not meet it may be shifted to.
+        """
+        into_sole, plan, room = step.rotation_sole_to_world[:, :2].T, tick.plan, 0.0
+        for later in range(tick.phase.step + 1, min(tick.phase.step + 3, plan.count)):
+            foothold = plan.foothold(later)
+            place = into_sole @ (foothold.position - step.position) + shift
+            outline = self._layouts[foothold.side].outline
+            room = max(room, room_ahead(found.polygon_in_sole, outline, place, self.rules))
+        x, y = (step.rotation_sole_to_world[:2, :2] @ (shift + [room, 0.0])).tolist()
         return x, y
 
     @staticmethod
