@@ -46,7 +46,7 @@ EXPERIMENTS = (
     Experiment("balance", "T 4.3.1", "balance", "ZMPs differ by 10 mm", "zmp", ()),
     *(
         Experiment(f"feasibility-{n}", "T 4.3.2, Table 3", f"feasibility-{n}", paper, "steps", FALLS)
-        for n, paper in ((3, "skin walks around, ankles fall"), (4, "skin walks around, ankles fall"))
+        for n, paper in enumerate(("both step on", "both walk around", *2 * ("skin walks around, ankles fall",)), 1)
     ),
     Experiment(
         "level ground, HRP-2Kai", "T 4.4.1.2", "flat", "58 N, without 340", "impact", ("pfc=false",), "hrp2kai", LEVEL

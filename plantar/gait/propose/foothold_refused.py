@@ -201,9 +201,7 @@ class StepGuard:
             "no way around, back", phase.step, foothold=self._refuge, following=(), longer=longer, wait=wait
         )
 
-    def _shift_of_later(
-        self, step: Footstep, shift: NDArray[np.float64], found: Foothold, tick: Tick
-    ) -> Point:
+    def _shift_of_later(self, step: Footstep, shift: NDArray[np.float64], found: Foothold, tick: Tick) -> Point:
         """Later steps' move in m: a sidestep is carried over, so that the next foot keeps its distance.
 
         Both next feet then clear the obstacle, which the one that did not meet it may be shifted to.
@@ -214,7 +212,7 @@ class StepGuard:
             place = into_sole @ (foothold.position - step.position) + shift
             outline = self._layouts[foothold.side].outline
             room = max(room, room_ahead(found.polygon_in_sole, outline, place, self.rules))
-        x, y = (step.rotation_sole_to_world[:2, :2] @ (shift + [room, 0.0])).tolist()
+        x, y = (step.rotation_sole_to_world[:2, :2] @ (shift + np.array([room, 0.0]))).tolist()
         return x, y
 
     @staticmethod

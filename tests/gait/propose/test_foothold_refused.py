@@ -139,8 +139,33 @@ def test_at_the_impact_a_foothold_is_judged_by_the_touch_alone(
     changes = walked(guard, plan, FRONT, tick_at)
     assert changes[-1].reason == "foothold refused"
     # Touched at 0.8 s: no probe, and the cheapest way around is a sidestep (T Fig. 45).
-    assert plan.record[-1].time <= start + 0.8 + 4 * PERIOD
+    assert plan.record[-1].time <= start + 0.8 + RULES.impact_time + 4 * PERIOD
     shift = guard.checked[0].shift
     assert shift is not None
     assert shift[0] == 0.0
     assert abs(shift[1]) > 0.05
+    # Later steps go along: the next foot keeps its distance, and no step lands on what was met.
+    moved = {m.step: (m.x - m.before.x, m.y - m.before.y) for m in plan.record[-1].moved if m.before is not None}
+    assert all(move[1] == pytest.approx(shift[1]) for move in moved.values())
+    met = guard.checked[0].foothold.polygon_in_sole[:, 0] + plan.view.foothold(2).x
+    for step in moved:
+        heel, toe = (plan.view.foothold(step).x + e for e in (LAYOUT.outline[:, 0].min(), LAYOUT.outline[:, 0].max()))
+        assert step == 2 or heel > met.max() or toe < met.min()
+
+
+def test_noise_of_a_single_reading_is_not_support(
+    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
+) -> None:
+    rules = replace(RULES, at="impact", active_force=1.5)
+    guard, plan, rng = guarding(rules), plan_of(), np.random.default_rng(0)
+    for tick in ticks(plan, 2, 0.8, FRONT, guard, tick_at):
+        noisy = {
+            s: Reading(time=r.time, force=r.force + 1.5 * rng.standard_normal(len(LAYOUT)))
+            for s, r in tick.readings.items()
+        }
+        change = guard.propose(tick.changed(readings=noisy))
+        if change is not None:
+            plan.apply(change, tick.time, np.empty((0, 2)))
+        if guard.checked:
+            break
+    assert guard.checked[0].foothold.polygon_in_sole[:, 0].min() > 0.03
