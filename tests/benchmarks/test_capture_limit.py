@@ -149,43 +149,6 @@ def test_its_steps_capture_the_push_when_simulated(phase, side, angle):
     assert signed_margin(hull, dcm) > -1e-4
 
 
-def brute_force(limits: CaptureLimits, instant: Instant, toward: np.ndarray, impulses: np.ndarray) -> float:
-    """The largest of some pushes that one step or none captures, by trying steps, times and ZMPs on grids."""
-    lines = (np.linspace(limits.region[:, k].min(), limits.region[:, k].max(), n) for k, n in ((0, 13), (1, 11)))
-    places = mirrored([p for p in itertools.product(*lines) if signed_margin(limits.region, p) >= -1e-12])
-    zmps = np.array(list(itertools.product(*(np.linspace(*np.sort(limits.sole[:, k])[[0, -1]], 3) for k in (0, 1)))))
-    best = 0.0
-    soles = limits.sole, mirrored(limits.sole)
-    for impulse in impulses:
-        dcm = instant.dcm + impulse * toward / (MASS * OMEGA)
-        caught = signed_margin(limits.sole, dcm) >= 0.0
-        for total in np.linspace(max(limits.shortest, instant.elapsed), limits.longest, 9):
-            if caught:
-                break
-            left = total - instant.elapsed
-            near = places[np.linalg.norm(places - instant.swing, axis=1) <= limits.swing_speed * left]
-            ends = zmps + math.exp(OMEGA * left) * (dcm - zmps)
-            caught = any(
-                signed_margin(convex_hull(np.vstack([soles[0], place + soles[1]])), end) >= 0.0
-                for end in ends
-                for place in near
-                if np.abs(end).max() < 0.8
-            )
-        if not caught:
-            break
-        best = impulse
-    return best
-
-
-@pytest.mark.parametrize("angle", [0.0, 1.2, 2.5, 4.0, 5.2])
-def test_trying_everything_captures_a_little_less(angle):
-    limits, instant = robot(steps=1, times=9, shares=9, swing_acceleration=math.inf), WALK.instant(0.5)
-    toward = np.array([math.cos(angle), math.sin(angle)])
-    most = capture_limit(limits, instant, toward).impulse
-    tried = brute_force(limits, instant, toward, most * np.array([0.3, 0.6, 0.9, 1.001, 1.02]))
-    assert 0.899 * most <= tried < most
-
-
 def test_random_plans_never_capture_more():
     limits, instant, rng = robot(swing_acceleration=math.inf), WALK.instant(0.6), np.random.default_rng(0)
     toward = np.array([0.6, -0.8])

@@ -1,15 +1,12 @@
-"""A mutation loop over a reader, and coverage-guided fuzzing where atheris is installed.
+"""A mutation loop over a reader.
 
-python -m tests.fuzz.mutants view --seconds 60            # mutants of small files, kept where they fail
-python -m tests.fuzz.mutants view --seconds 60 --atheris  # the same, guided by what is covered
+python -m tests.fuzz.mutants view --seconds 60  # mutants of small files, kept where they fail
 
 A failing mutant is kept as tests/fuzz/cases/READER-HASH; the tests read it from then on.
 """
 
 import argparse
-import contextlib
 import hashlib
-import importlib
 import sys
 import tempfile
 import time
@@ -105,13 +102,10 @@ def main() -> None:
     parser.add_argument("reader", choices=[*TARGETS, "all"])
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--seed", type=int, default=int(time.time()))
-    parser.add_argument("--atheris", action="store_true")
     given = parser.parse_args()
     names = list(TARGETS) if given.reader == "all" else [given.reader]
     with tempfile.TemporaryDirectory() as made:
         folder = Path(made)
-        if given.atheris:
-            _guided(TARGETS[given.reader], folder, given.seconds)
         failed = 0
         for name in names:
             for content, why in read_all(name, given.seconds / len(names), 10**9, folder, given.seed):
@@ -123,23 +117,6 @@ def main() -> None:
                 else:
                     print(f"{name}: {why} mutants")
     sys.exit(failed > 0)
-
-
-def _guided(target: Target, folder: Path, seconds: float) -> None:
-    """Coverage-guided; atheris ends the process itself."""
-    atheris = importlib.import_module("atheris")
-    corpus = folder / "corpus"
-    corpus.mkdir()
-    for i, content in enumerate(target.seeds(folder)):
-        (corpus / str(i)).write_bytes(content)
-
-    def one(content: bytes) -> None:
-        with contextlib.suppress(PlantarError):
-            tried(target, folder / f"mutant{target.suffix}", content)
-
-    atheris.instrument_all()
-    atheris.Setup([sys.argv[0], str(corpus), f"-max_total_time={seconds:.0f}", "-rss_limit_mb=1000"], one)
-    atheris.Fuzz()
 
 
 if __name__ == "__main__":

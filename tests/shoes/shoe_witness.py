@@ -5,14 +5,15 @@ come from `check.json`'s parameters and the layout file, as a buyer of the shoe 
 """
 
 import json
-from collections import deque
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import shapely
 import trimesh
 from numpy.typing import NDArray
+from scipy.ndimage import label
 
 __all__ = ["Witness"]
 
@@ -40,24 +41,6 @@ def _even(segments: Array, x: float, ys: Array) -> NDArray[np.bool_]:
     across = (ax > x) != (bx > x)
     at = ay[across] + (x - ax[across]) / (bx[across] - ax[across]) * (by[across] - ay[across])
     return np.asarray((at[None] > ys[:, None]).sum(axis=1) % 2 == 0)
-
-
-def _inside(x: Array, y: Array, polygon: Array) -> NDArray[np.bool_]:
-    """Whether points lie in a polygon (k, 2), by the edges that a ray to the right crosses."""
-    out = np.zeros(len(x), dtype=bool)
-    for (ax, ay), (bx, by) in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
-        if ay != by:
-            out ^= ((ay > y) != (by > y)) & (x < ax + (y - ay) / (by - ay) * (bx - ax))
-    return out
-
-
-def _area(polygon: Array) -> float:
-    x, y = polygon.T
-    return float(0.5 * abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)))
-
-
-def _length(polygon: Array) -> float:
-    return float(np.hypot(*(np.roll(polygon, -1, axis=0) - polygon).T).sum())
 
 
 def _modulus(hardness: float, area: float, around: float, thick: float) -> float:
@@ -142,12 +125,12 @@ class Witness:
         corners = 1e3 * np.array(self.layout["vertices"])[:, :2]
         cells = [corners[t["corners"]] for t in self.layout["taxels"]]
         outline = np.array(self.layout["outline"])[:, :2] * 1e3
-        taxel = np.any([_inside(px, py, c) for c in cells], axis=0)
-        face = _inside(px, py, outline)
-        area, around = np.median([(_area(c), _length(c)) for c in cells], axis=0)
+        taxel = np.any([shapely.contains_xy(shapely.Polygon(c), px, py) for c in cells], axis=0)
+        face = shapely.contains_xy(shapely.Polygon(outline), px, py)
+        area, around = np.median([(c.area, c.length) for c in map(shapely.Polygon, cells)], axis=0)
         soft = self.p["taxel_protrusion"] + self.p["pocket_depth"] - self.cell.get("thickness", 0.0)
         if self.cell["kind"] == "sheet":  # pressed by one land, which is free at its own edge alone
-            recess = np.array([_area(c) for c in cells]).sum()
+            recess = float(shapely.area(list(map(shapely.Polygon, cells))).sum())
             area, around = recess, 2.0 * np.sqrt(np.pi * recess)
         hardness = self.p["taxel_hardness" if self.cell["kind"] == "tile" else "pad_hardness"]
         bed = soft / _modulus(hardness, area, around, soft)
@@ -155,7 +138,9 @@ class Witness:
         beside = face & ~taxel
         rim = self.p["pad_thickness"] + self.p["taxel_protrusion"] - self.p["pad_relief"]
         # as stiff as a rim can be: bonded over all of the face's area
-        hard = _modulus(self.p["pad_hardness"], _area(outline), _length(outline), rim) / rim
+        hard = (
+            _modulus(self.p["pad_hardness"], shapely.Polygon(outline).area, shapely.Polygon(outline).length, rim) / rim
+        )
         k = np.where(taxel, 1.0 / bed, np.where(beside, hard, 0.0)) * step**2
         gap = np.where(taxel, 0.0, self.p["pad_relief"])
         force = self.told["load"]["force"]
@@ -225,38 +210,19 @@ class Witness:
         low, high = self.mesh.bounds[0, :2] - 4.0, self.mesh.bounds[1, :2] + 4.0
         xs, ys = np.arange(low[0], high[0], step), np.arange(low[1], high[1], step)
         free = np.stack([_even(cut, x, ys) for x in xs + 1.7e-4])
-        seen = np.zeros_like(free)
-        queue = deque([(0, 0)])
-        seen[0, 0] = True
-        while queue:
-            i, j = queue.popleft()
-            for di, dj in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-                a, b = i + di, j + dj
-                if 0 <= a < len(xs) and 0 <= b < len(ys) and free[a, b] and not seen[a, b]:
-                    seen[a, b] = True
-                    queue.append((a, b))
+        parts, _ = label(free)
         # the channel ends in the board's hole, which is open above and below
-        hole = self._seen_from_hole(seen, free, xs, ys)
+        outside = {parts[0, 0], *self._open_parts(parts, xs, ys)}
         at = ((self.centres - low) / step).round().astype(int)
-        shut = [int(k) for k, (i, j) in enumerate(at) if not (seen[i, j] or hole[i, j])]
+        shut = [int(k) for k, (i, j) in enumerate(at) if parts[i, j] not in outside]
         return f"no way out of the pockets {shut[:5]}" if shut else ""
 
-    def _seen_from_hole(self, seen: Any, free: Any, xs: Array, ys: Array) -> Any:
+    def _open_parts(self, parts: Array, xs: Array, ys: Array) -> set[int]:
         """What is connected with a place that is open upwards, past the wall, as the board's hole is."""
-        up, out = np.array([0.0, 0.0, 1.0]), np.zeros_like(free)
-        z = 0.5 * (self.bottom + self.p["scribe"] + self.ceiling)
-        queue: deque[tuple[int, int]] = deque()
-        for i, j in np.argwhere(free & ~seen)[::7]:
-            if not len(hits(self.triangles, np.array([xs[i] + 1e-3, ys[j] + 1e-3, z]), up)):
-                out[i, j] = True
-                queue.append((i, j))
-        while queue:
-            i, j = queue.popleft()
-            for a, b in ((i + 1, j), (i - 1, j), (i, j + 1), (i, j - 1)):
-                if 0 <= a < len(xs) and 0 <= b < len(ys) and free[a, b] and not out[a, b]:
-                    out[a, b] = True
-                    queue.append((a, b))
-        return out
+        up, z = np.array([0.0, 0.0, 1.0]), 0.5 * (self.bottom + self.p["scribe"] + self.ceiling)
+        places = np.argwhere((parts > 0) & (parts != parts[0, 0]))[::7]
+        open_up = [not len(hits(self.triangles, np.array([xs[i] + 1e-3, ys[j] + 1e-3, z]), up)) for i, j in places]
+        return set(parts[tuple(places[open_up].T)].tolist())
 
     def _wall(self) -> str:
         """Rays into the print, against the faces' normals, leave it again no sooner than the thinnest wall."""
@@ -278,7 +244,7 @@ class Witness:
         for taxel in self.layout["taxels"]:
             ring = corners[taxel["corners"]]
             middle = ring.mean(axis=0)
-            near |= _inside(points[:, 0], points[:, 1], middle + (1.0 + 1e-3) * (ring - middle))
+            near |= shapely.contains_xy(shapely.Polygon(middle + (1.0 + 1e-3) * (ring - middle)), points[:, :2])
         return near
 
     def _pad(self) -> str:
