@@ -66,7 +66,7 @@ def share(height, foot: Footprint, level: float = 0.0, tolerance: float = 1e-3) 
 
 @pytest.mark.parametrize("part", ["rear", "front", "inner", "outer"])
 @pytest.mark.parametrize("wanted", [0.5, 0.3])
-def test_a_partial_foothold_carries_its_share_and_the_others_all(part: str, wanted: float) -> None:
+def test_a_partial_foothold_carries_its_share_and_the_others_all(part, wanted):
     planned = feet()
     height = height_of(Partial(step=2, share=wanted, part=part), planned)
     for k, foot in enumerate(planned.steps):
@@ -76,7 +76,7 @@ def test_a_partial_foothold_carries_its_share_and_the_others_all(part: str, want
     assert height(foot.place(*spot)) == pytest.approx(0.0, abs=1e-9)
 
 
-def test_a_beam_lies_between_platforms_at_its_offset_and_angle() -> None:
+def test_a_beam_lies_between_platforms_at_its_offset_and_angle():
     planned = feet(40, length=0.0, sideways=0.08)
     height = height_of(Beam(width=0.12, length=1.3, start=0.3, offset=-0.05, yaw=5.0), planned)
     middle = planned.middle()
@@ -90,7 +90,7 @@ def test_a_beam_lies_between_platforms_at_its_offset_and_angle() -> None:
     assert height(middle + np.array([0.3, 1.0])) == pytest.approx(-0.3, abs=1e-3)
 
 
-def test_no_foot_stands_on_a_beam_from_the_start_on() -> None:
+def test_no_foot_stands_on_a_beam_from_the_start_on():
     planned = feet(40, length=0.0, sideways=0.08)
     outer = float(max(foot.place(0.0, HALF[1])[1] for foot in planned.standing.values()))
     height = height_of(Beam(width=0.12, length=1.3, start=0.1), planned)
@@ -99,7 +99,7 @@ def test_no_foot_stands_on_a_beam_from_the_start_on() -> None:
     assert height(np.array([middle[0] + 0.2, outer + 0.005])) < -0.1
 
 
-def test_the_seed_chooses_the_beams_offset_within_its_range() -> None:
+def test_the_seed_chooses_the_beams_offset_within_its_range():
     planned = feet(40, length=0.0, sideways=0.08)
     offsets = [
         Beam(offset_range=0.08).ground(planned, np.random.default_rng(s)).facts["beam_offset_m"] for s in range(40)
@@ -110,7 +110,7 @@ def test_the_seed_chooses_the_beams_offset_within_its_range() -> None:
 
 
 @pytest.mark.parametrize(("pitch", "roll"), [(10.0, 0.0), (0.0, -7.0), (4.0, 5.0)])
-def test_a_wedge_has_its_slope_and_height_under_the_foot(pitch: float, roll: float) -> None:
+def test_a_wedge_has_its_slope_and_height_under_the_foot(pitch, roll):
     planned = feet()
     height = height_of(Block(step=2, top=0.04, length=0.3, width=0.18, pitch=pitch, roll=roll), planned)
     foot = planned.steps[2]
@@ -119,14 +119,14 @@ def test_a_wedge_has_its_slope_and_height_under_the_foot(pitch: float, roll: flo
     assert height(foot.place(0.0, 0.04)) - 0.04 == pytest.approx(0.04 * math.tan(math.radians(roll)), abs=5e-4)
 
 
-def test_a_foot_that_has_drifted_inwards_stands_on_one_stone() -> None:
+def test_a_foot_that_has_drifted_inwards_stands_on_one_stone():
     plan = feet(length=0.2)
     for solid in Uneven(gap=0.05).ground(plan, np.random.default_rng(3)).solids:
         inner = abs(solid.position[1]) - solid.size[1]
         assert inner == pytest.approx(0.025, abs=1e-9)
 
 
-def test_uneven_stones_differ_within_their_range_and_move_under_steps_in_place() -> None:
+def test_uneven_stones_differ_within_their_range_and_move_under_steps_in_place():
     forward = feet()
     height = height_of(Uneven(height_range=0.015), forward, seed=3)
     heights = [height(foot.center) for foot in forward.steps]
@@ -141,7 +141,7 @@ def test_uneven_stones_differ_within_their_range_and_move_under_steps_in_place()
     assert not np.allclose(before, after)
 
 
-def test_random_stones_keep_their_shares_and_the_last_two_are_whole() -> None:
+def test_random_stones_keep_their_shares_and_the_last_two_are_whole():
     planned = feet(8)
     height = height_of(Stones(share_min=0.3, share_max=0.6), planned, seed=1)
     shares = [share(height, foot) for foot in planned.steps]
@@ -149,7 +149,7 @@ def test_random_stones_keep_their_shares_and_the_last_two_are_whole() -> None:
     assert shares[-2:] == pytest.approx([1.0, 1.0])
 
 
-def test_bumps_rise_above_sloping_stones() -> None:
+def test_bumps_rise_above_sloping_stones():
     planned = feet(8)
     level, bumpy = Pebbles(bumps=0, slope_range=0.0), Pebbles(slope_range=0.0)
     flat, rough = height_of(level, planned), height_of(bumpy, planned)
@@ -160,7 +160,7 @@ def test_bumps_rise_above_sloping_stones() -> None:
     assert 0.005 < max(rises) < 0.0151
 
 
-def test_no_slope_and_no_bump_reaches_under_a_level_footprint() -> None:
+def test_no_slope_and_no_bump_reaches_under_a_level_footprint():
     planned = feet(8)
     height = height_of(Pebbles(), planned)
     for foot in (*planned.standing.values(), *planned.steps[-2:]):
@@ -169,7 +169,7 @@ def test_no_slope_and_no_bump_reaches_under_a_level_footprint() -> None:
 
 
 @pytest.mark.parametrize(("length", "step"), [(0.35, 0.2), (0.35, 0.15), (0.35, 0.0)])
-def test_a_block_keeps_clear_of_where_the_same_foot_stands_before_and_after(length: float, step: float) -> None:
+def test_a_block_keeps_clear_of_where_the_same_foot_stands_before_and_after(length, step):
     planned = feet(length=step)
     block = Block(step=2, length=length, width=0.1, top=0.03, clear=0.01)
     (solid,) = block.ground(planned, np.random.default_rng(0)).solids
@@ -179,7 +179,7 @@ def test_a_block_keeps_clear_of_where_the_same_foot_stands_before_and_after(leng
     assert 2.0 * whole.size[0] == pytest.approx(length)
 
 
-def test_a_sliding_block_comes_during_the_swing() -> None:
+def test_a_sliding_block_comes_during_the_swing():
     planned = feet()
     ground = Block(step=2, slide=0.4).ground(planned, np.random.default_rng(0))
     ((_, solid),) = ground.moving
@@ -188,7 +188,7 @@ def test_a_sliding_block_comes_during_the_swing() -> None:
     assert solid.at(foot.touchdown - 0.1) == pytest.approx(solid.at(foot.touchdown))
 
 
-def test_a_slope_of_the_seeds_rises_one_way_each() -> None:
+def test_a_slope_of_the_seeds_rises_one_way_each():
     planned, ways = feet(), set()
     for seed in range(30):
         ground = Block(step=2, slope=5.0).ground(planned, np.random.default_rng(seed))
@@ -198,7 +198,7 @@ def test_a_slope_of_the_seeds_rises_one_way_each() -> None:
     assert len(ways) == 4
 
 
-def test_a_course_is_spelled_out() -> None:
+def test_a_course_is_spelled_out():
     solid = {"shape": "box", "size": [0.1, 0.2, 0.05], "position": [1.0, 0.0, 0.0], "angles": [0, 0, 90]}
     height = height_of(Course(solid=(solid,)), feet())
     assert height(np.array([1.15, 0.0])) == pytest.approx(0.05, abs=1e-9)
@@ -217,18 +217,18 @@ def test_a_course_is_spelled_out() -> None:
         ({"shape": "sphere", "size": [1], "position": [0, 0, 0], "color": "red"}, "color"),
     ],
 )
-def test_bad_solids_are_named(solid: dict[str, object], words: str) -> None:
+def test_bad_solids_are_named(solid, words):
     with pytest.raises(SceneError, match=words):
         Course(solid=(solid,))
 
 
-def test_a_step_that_is_not_planned_is_refused() -> None:
+def test_a_step_that_is_not_planned_is_refused():
     for terrain in (Partial(step=9), Block(step=9)):
         with pytest.raises(SceneError, match="0 to 5"):
             terrain.ground(feet(), np.random.default_rng(0))
 
 
-def test_settings_choose_the_kind_first_and_then_its_keys() -> None:
+def test_settings_choose_the_kind_first_and_then_its_keys():
     terrain = load_scene("flat", ["share=0.4", "terrain.kind=partial", "part=outer"]).terrain
     assert isinstance(terrain, Partial)
     assert (terrain.share, terrain.part) == (0.4, "outer")

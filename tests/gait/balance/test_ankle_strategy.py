@@ -1,7 +1,5 @@
 """The closed forms of the ankle strategy against integration of the equation, finite differences and the paper."""
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 
@@ -46,7 +44,7 @@ def double_support_reference(time, duration, start, end):
 
 @few
 @given(place, place, push, rate, duration)
-def test_the_single_support_vrp_reaches_its_target(dcm, target, offset, omega, time) -> None:
+def test_the_single_support_vrp_reaches_its_target(dcm, target, offset, omega, time):
     found = single_support_vrp(dcm, target, time, offset, omega)
     wanted = integrated(dcm, lambda _: found.vrp, offset, omega, 0.0, time)
     assert target == pytest.approx(wanted, abs=1e-10 * math.exp(omega * time))
@@ -57,7 +55,7 @@ def test_the_single_support_vrp_reaches_its_target(dcm, target, offset, omega, t
 
 @few
 @given(place, place, place, push, rate, duration, share)
-def test_the_double_support_vrp_reaches_its_target(dcm, target, end, offset, omega, time, part) -> None:
+def test_the_double_support_vrp_reaches_its_target(dcm, target, end, offset, omega, time, part):
     begun = part * time
     found = double_support_vrp(dcm, target, end, time, begun, offset, omega)
     # K 26 backwards: the u_i with which the rest of K 17 passes through the VRP of now.
@@ -68,7 +66,7 @@ def test_the_double_support_vrp_reaches_its_target(dcm, target, end, offset, ome
     assert target == pytest.approx(wanted, abs=1e-10 * scale * math.exp(omega * time))
 
 
-def test_the_double_support_vrp_is_that_of_the_paper() -> None:
+def test_the_double_support_vrp_is_that_of_the_paper():
     dcm, target, end, offset = (np.array(v) for v in ([0.05, 0.02], [0.12, 0.05], [0.2, 0.1], [0.01, -0.02]))
     omega, time, begun = 3.44, 0.8, 0.3
     wd = 0.5 * math.pi / time
@@ -83,7 +81,7 @@ def test_the_double_support_vrp_is_that_of_the_paper() -> None:
 
 @given(rate, st.floats(0.01, 100.0), st.floats(1e-4, 1.0))
 @settings(max_examples=40)
-def test_the_pull_of_a_vrp_is_its_integral(omega, time, part) -> None:
+def test_the_pull_of_a_vrp_is_its_integral(omega, time, part):
     left = part * time
     wd = 0.5 * math.pi / time
     cuts = np.linspace(0.0, min(left, 60.0 / omega), 40)  # beyond, e^(-w s) is below 1e-26
@@ -98,7 +96,7 @@ def test_the_pull_of_a_vrp_is_its_integral(omega, time, part) -> None:
 
 @few
 @given(place, place, place, push, rate, duration, duration)
-def test_both_phases_after_each_other_end_over_the_next_foot(stance, to, stride, offset, omega, last, both) -> None:
+def test_both_phases_after_each_other_end_over_the_next_foot(stance, to, stride, offset, omega, last, both):
     targets = target_dcms(to, stance, stride, last, both, offset, omega)
     swayed = integrated(
         targets.single_end, lambda t: double_support_reference(t, both, stance, to), offset, omega, 0.0, both
@@ -111,7 +109,7 @@ def test_both_phases_after_each_other_end_over_the_next_foot(stance, to, stride,
         assert end != pytest.approx(to + stride, abs=1e-4)
 
 
-def test_without_double_support_the_weight_goes_over_at_once() -> None:
+def test_without_double_support_the_weight_goes_over_at_once():
     given_step = ([0.2, -0.1], [0.0, 0.1], [0.2, 0.2], 0.5)
     at_once = target_dcms(*given_step, 0.0, [0.01, 0.02], 3.5)
     assert at_once.single_end == pytest.approx(at_once.double_end)
@@ -122,7 +120,7 @@ def test_without_double_support_the_weight_goes_over_at_once() -> None:
 
 @given(place, place, place, push, rate, duration, st.floats(0.05, 0.95))
 @settings(max_examples=40)
-def test_derivatives_are_those_of_finite_differences(dcm, target, end, offset, omega, time, part) -> None:
+def test_derivatives_are_those_of_finite_differences(dcm, target, end, offset, omega, time, part):
     h = np.array([1e-4, 0.0])
     single = single_support_vrp(dcm, target, time, offset, omega)
     moved = single_support_vrp(dcm + h, target, time, offset, omega).vrp - single.vrp
@@ -138,23 +136,19 @@ def test_derivatives_are_those_of_finite_differences(dcm, target, end, offset, o
 @pytest.mark.parametrize("omega", [2.5, 10.0])
 @pytest.mark.parametrize("time", [0.0, 1e-12, 1e-3, 1.0, 100.0])
 @pytest.mark.parametrize("force", [0.0, 1e4])
-def test_nothing_overflows(omega: float, time: float, force: float) -> None:
+def test_nothing_overflows(omega, time, force):
     offset = np.array([force / (3.0 * omega**2), -force])  # on a robot of 3 kg, and of 1 / w^2 kg
     dcm, target = np.array([0.3, -0.2]), np.array([1e3, 5.0])
     single = single_support_vrp(dcm, target, time, offset, omega)
     double = double_support_vrp(dcm, target, [0.2, 0.1], time, 0.0, offset, omega)
-    told = [
-        single.vrp,
-        double.vrp,
-        *target_dcms(dcm, target, target, time, time, offset, omega)[:2],
-    ]
+    told = [single.vrp, double.vrp, *target_dcms(dcm, target, target, time, time, offset, omega)[:2]]
     assert np.isfinite(np.array(told)).all()
     assert math.isfinite(single.gain * double.gain)
     named = Saturation.TIME if time < 1e-6 else Saturation.NONE
     assert (single.saturated, double.saturated) == (named, named)
 
 
-def test_a_vrp_outside_the_support_is_cut_and_says_so() -> None:
+def test_a_vrp_outside_the_support_is_cut_and_says_so():
     sole = np.array([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
     inside = single_support_vrp([0.02, 0.0], [0.05, 0.0], 0.5, [0.0, 0.0], 3.5)
     assert within_support(inside, sole) is inside
@@ -164,7 +158,7 @@ def test_a_vrp_outside_the_support_is_cut_and_says_so() -> None:
     assert within_support(outside, np.empty((0, 2))) is outside
 
 
-def test_the_support_shrinks_along_the_sole_and_across_it() -> None:
+def test_the_support_shrinks_along_the_sole_and_across_it():
     sole = np.array([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
     c, s = math.cos(0.3), math.sin(0.3)
     turn, at = np.array([[c, s], [-s, c]]), np.array([0.4, 0.2])
@@ -172,6 +166,6 @@ def test_the_support_shrinks_along_the_sole_and_across_it() -> None:
     assert found == pytest.approx(at + (sole * [0.5, 0.8]) @ turn)  # beta_x, beta_y of K Table 1
 
 
-def test_wrong_arguments_are_named() -> None:
+def test_wrong_arguments_are_named():
     with pytest.raises(InputError, match="target of the DCM"):
         single_support_vrp([0.0, 0.0], [math.nan, 0.0], 0.5, [0.0, 0.0], 3.5)

@@ -18,7 +18,7 @@ BOX = np.array([[-0.1, -0.06], [0.1, -0.06], [0.1, 0.06], [-0.1, 0.06]])
 STILL = VrpPlan([0.0, 1.0], [[0.0, 0.0], [0.0, 0.0]], OMEGA).at(0.5)
 
 
-def test_desired_zmp_is_equation_4_28_inside_and_its_nearest_point_outside() -> None:
+def test_desired_zmp_is_equation_4_28_inside_and_its_nearest_point_outside():
     balance = DcmBalance(BalanceGains(dcm_gain=3.0), OMEGA, MASS, PERIOD)
     xi = np.array([0.01, -0.02])
     assert np.allclose(balance.update(STILL, xi, None, BOX).zmp_desired, (1 + 3.0 / OMEGA) * xi)
@@ -27,7 +27,7 @@ def test_desired_zmp_is_equation_4_28_inside_and_its_nearest_point_outside() -> 
     assert np.allclose(free, [1 + 3.0 / OMEGA, 0.0])
 
 
-def test_a_pendulum_under_the_desired_zmp_recovers_as_equation_4_17_says() -> None:
+def test_a_pendulum_under_the_desired_zmp_recovers_as_equation_4_17_says():
     gain = 3.0
     balance = DcmBalance(BalanceGains(dcm_gain=gain), OMEGA, MASS, PERIOD)
     xi, dt = np.array([0.03, 0.0]), 1e-4
@@ -36,7 +36,7 @@ def test_a_pendulum_under_the_desired_zmp_recovers_as_equation_4_17_says() -> No
     assert xi[0] == pytest.approx(0.03 * math.exp(-gain * 0.5), rel=1e-3)
 
 
-def test_the_com_yields_to_a_push_and_returns() -> None:
+def test_the_com_yields_to_a_push_and_returns():
     balance = DcmBalance(BalanceGains(), OMEGA, MASS, PERIOD)
     pushed = balance.update(STILL, np.zeros(2), np.array([0.05, 0.0]), BOX)
     for _ in range(40):
@@ -48,13 +48,13 @@ def test_the_com_yields_to_a_push_and_returns() -> None:
     assert abs(back.com[0]) < 1e-4
 
 
-def test_no_zmp_is_no_error() -> None:
+def test_no_zmp_is_no_error():
     state = DcmBalance(BalanceGains(), OMEGA, MASS, PERIOD).update(STILL, np.zeros(2), None, BOX)
     assert np.array_equal(state.com, STILL.com)
 
 
 @pytest.mark.parametrize("off", [0.0, 0.02])
-def test_feet_at_rest_give_way_to_what_they_press_against_each_other_alone(off: float) -> None:
+def test_feet_at_rest_give_way_to_what_they_press_against_each_other_alone(off):
     """Away from the origin, and turned: each foot carries what the load transfer asks for, but for an opposite roll."""
     turn = level_rotation(0.4)
     balance, states = DcmBalance(BalanceGains(), OMEGA, MASS, PERIOD), {}
@@ -79,7 +79,7 @@ def test_feet_at_rest_give_way_to_what_they_press_against_each_other_alone(off: 
         assert [actions[side].pitch for side in ("left", "right")] == pytest.approx([0.0, 0.0], abs=1e-9)
 
 
-def test_gains_are_checked() -> None:
+def test_gains_are_checked():
     assert BalanceGains.from_table({"dcm_gain": 2.0}, "[balance]").dcm_gain == 2.0
     for value in (-1.0, math.nan, "3"):
         with pytest.raises(InputError, match=r"\[balance\] 'dcm_gain' is"):

@@ -1,7 +1,5 @@
 """DCM regulation: the VRP that it applies brings a pendulum to the goal, which is one that a walk can rest from."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -22,7 +20,7 @@ def phase_of(kind: PhaseKind, step: int):  # type: ignore[no-untyped-def]
     return next(p for p in PLAN.schedule.phases if p.kind == kind and p.step == step)
 
 
-def test_after_the_goal_of_a_double_support_the_walk_comes_to_rest_over_its_next_step() -> None:
+def test_after_the_goal_of_a_double_support_the_walk_comes_to_rest_over_its_next_step():
     phase = phase_of(PhaseKind.DOUBLE_SUPPORT, 2)
     goal = phase_goal(PLAN, phase, PUSH, OMEGA)
     assert goal is not None
@@ -33,7 +31,7 @@ def test_after_the_goal_of_a_double_support_the_walk_comes_to_rest_over_its_next
 
 
 @pytest.mark.parametrize(("kind", "step"), [(PhaseKind.SINGLE_SUPPORT, 1), (PhaseKind.DOUBLE_SUPPORT, 2)])
-def test_a_pendulum_that_follows_the_vrp_reaches_the_goal(kind: PhaseKind, step: int) -> None:
+def test_a_pendulum_that_follows_the_vrp_reaches_the_goal(kind, step):
     phase, tick = phase_of(kind, step), 1e-4
     goal = phase_goal(PLAN, phase, PUSH, OMEGA)
     assert goal is not None
@@ -46,7 +44,7 @@ def test_a_pendulum_that_follows_the_vrp_reaches_the_goal(kind: PhaseKind, step:
     assert dcm == pytest.approx(goal, abs=1e-4)
 
 
-def test_the_ends_of_a_walk_keep_the_plan() -> None:
+def test_the_ends_of_a_walk_keep_the_plan():
     for phase in (PLAN.schedule.phases[0], PLAN.schedule.phases[1], PLAN.schedule.phases[-1]):
         assert phase_goal(PLAN, phase, PUSH, OMEGA) is None
         assert regulated_vrp(PLAN, phase, phase.start, PUSH, PUSH, PUSH, OMEGA) is None

@@ -11,7 +11,7 @@ def wrench(fz: float, tx: float = 0.0, ty: float = 0.0) -> np.ndarray:
     return np.array([0.0, 0.0, fz, tx, ty, 0.0])
 
 
-def test_a_foot_settles_where_its_elastic_ankle_gives_the_wanted_moment() -> None:
+def test_a_foot_settles_where_its_elastic_ankle_gives_the_wanted_moment():
     """An ankle of 2 kN m/rad on flat ground: a sole turned by (roll, pitch) against it feels less moment about both."""
     stiffness, offset = 2000.0, np.array([12.0, -7.0])
     feet = FootAdmittance(AdmittanceGains(foot_turn_gain=5e-3, foot_return=0.0), PERIOD)
@@ -24,7 +24,7 @@ def test_a_foot_settles_where_its_elastic_ankle_gives_the_wanted_moment() -> Non
     assert offset - stiffness * np.array([foot.roll, foot.pitch]) == pytest.approx([5.0, 9.0], abs=0.01)
 
 
-def test_the_foot_that_carries_too_much_goes_up_and_the_other_down() -> None:
+def test_the_foot_that_carries_too_much_goes_up_and_the_other_down():
     feet = FootAdmittance(AdmittanceGains(), PERIOD)
     for _ in range(50):
         feet.update({"left": wrench(300.0), "right": wrench(300.0)}, {"left": wrench(400.0), "right": wrench(200.0)})
@@ -37,7 +37,7 @@ def test_the_foot_that_carries_too_much_goes_up_and_the_other_down() -> None:
     assert abs(feet.corrections["left"].shift - before) < 2e-5
 
 
-def test_a_foot_in_the_air_returns_to_its_place() -> None:
+def test_a_foot_in_the_air_returns_to_its_place():
     feet = FootAdmittance(AdmittanceGains(), PERIOD)
     for _ in range(100):
         feet.update({"left": wrench(300.0)}, {"left": wrench(300.0, 20.0, -15.0)})
@@ -48,7 +48,7 @@ def test_a_foot_in_the_air_returns_to_its_place() -> None:
     assert (foot.roll, foot.pitch, foot.shift) == (0.0, 0.0, 0.0)
 
 
-def test_corrections_are_limited() -> None:
+def test_corrections_are_limited():
     gains = AdmittanceGains(largest_turn=0.01, largest_lift=0.002)
     feet = FootAdmittance(gains, PERIOD)
     for _ in range(5000):
@@ -60,7 +60,7 @@ def test_corrections_are_limited() -> None:
     assert (foot.roll, foot.pitch, foot.shift) == (0.01, -0.01, 0.002)
 
 
-def test_gains_come_from_a_table_and_are_checked() -> None:
+def test_gains_come_from_a_table_and_are_checked():
     assert AdmittanceGains.from_table({"foot_return": 2.0}, "[balance]").foot_return == 2.0
     with pytest.raises(InputError, match="foot_filter"):
         AdmittanceGains(foot_filter=-1.0)

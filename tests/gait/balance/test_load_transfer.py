@@ -1,7 +1,5 @@
 """Load transfer by the plan: what the feet carry together is the pendulum's force at the desired ZMP."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -29,7 +27,7 @@ def feet(rng: np.random.Generator, stance: Side | None = None) -> Feet:
 
 
 @pytest.mark.parametrize("stance", [None, "left", "right"])
-def test_the_feet_together_carry_the_pendulum_at_the_desired_zmp(stance: Side | None) -> None:
+def test_the_feet_together_carry_the_pendulum_at_the_desired_zmp(stance):
     rng = np.random.default_rng(1)
     for _ in range(100):
         stand, wanted = feet(rng, stance), rng.normal(0.0, 0.2, 2)
@@ -46,7 +44,7 @@ def test_the_feet_together_carry_the_pendulum_at_the_desired_zmp(stance: Side | 
             assert (action.roll, action.pitch, action.shift) == (0.0, 0.0, 0.0)
 
 
-def test_open_loop_is_the_plan_whatever_is_measured() -> None:
+def test_open_loop_is_the_plan_whatever_is_measured():
     plan = VrpPlan([0.0, 1.0], [[0.0, 0.0], [0.1, 0.0]], 3.5).at(0.4)
     law, stand = OpenLoop(MASS), feet(np.random.default_rng(2))
     state = law.update(plan, np.array([9.0, 9.0]), None, np.empty((0, 2)))

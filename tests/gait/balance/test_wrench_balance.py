@@ -55,7 +55,7 @@ def zmp_of(actions: Mapping[Side, FootAction]) -> np.ndarray:
     return sum(action.force[2] * action.center_of_pressure for action in actions.values()) / total
 
 
-def test_the_feet_shall_carry_the_desired_zmp_of_t_4_18() -> None:
+def test_the_feet_shall_carry_the_desired_zmp_of_t_4_18():
     feet = standing("left", "right")
     dcm = MIDDLE + np.array([0.01, -0.02])
     state, actions = tick(law(dcm_gain=3.0), dcm, MIDDLE, BOX, feet)
@@ -67,7 +67,7 @@ def test_the_feet_shall_carry_the_desired_zmp_of_t_4_18() -> None:
     assert sum(a.force[0] for a in actions.values()) == pytest.approx(MASS * OMEGA**2 * (MIDDLE - wanted)[0], rel=0.02)
 
 
-def test_wanted_wrenches_stay_in_the_cones_whatever_the_dcm() -> None:
+def test_wanted_wrenches_stay_in_the_cones_whatever_the_dcm():
     balance = law()
     rng = np.random.default_rng(0)
     for _ in range(200):
@@ -81,7 +81,7 @@ def test_wanted_wrenches_stay_in_the_cones_whatever_the_dcm() -> None:
         assert set(actions) == {"left", "right"}
 
 
-def test_a_foot_in_the_air_shall_carry_nothing_and_no_foot_is_no_error() -> None:
+def test_a_foot_in_the_air_shall_carry_nothing_and_no_foot_is_no_error():
     balance = law()
     _, actions = tick(balance, MIDDLE, None, BOX, standing("left"))
     assert not actions["right"].force.any()
@@ -91,7 +91,7 @@ def test_a_foot_in_the_air_shall_carry_nothing_and_no_foot_is_no_error() -> None
     assert np.isfinite(state.com).all()
 
 
-def test_numbers_that_are_not_finite_end_in_a_named_state() -> None:
+def test_numbers_that_are_not_finite_end_in_a_named_state():
     balance = law()
     feet = standing("left", "right")
     _, actions = tick(balance, np.array([math.nan, 0.0]), MIDDLE, np.empty((0, 2)), feet)
@@ -100,7 +100,7 @@ def test_numbers_that_are_not_finite_end_in_a_named_state() -> None:
         assert np.isfinite(np.hstack(astuple(action))).all()
 
 
-def test_soles_that_feel_too_much_pressure_in_front_turn_their_toes_up() -> None:
+def test_soles_that_feel_too_much_pressure_in_front_turn_their_toes_up():
     balance = law()
     feet = standing("left", "right", fz=319.0, moment=-0.06 * 319.0)
     for _ in range(20):
@@ -111,7 +111,7 @@ def test_soles_that_feel_too_much_pressure_in_front_turn_their_toes_up() -> None
     assert abs(actions["left"].roll) < 1e-4
 
 
-def test_the_integral_grows_to_its_limit_and_forgets() -> None:
+def test_the_integral_grows_to_its_limit_and_forgets():
     balance = law(dcm_integral=1.0, largest_integral=0.01, dcm_forgetting=0.5)
     dcm = MIDDLE + np.array([0.01, 0.0])
     first = balance.update(STILL, dcm, MIDDLE, BOX).zmp_desired
@@ -123,7 +123,7 @@ def test_the_integral_grows_to_its_limit_and_forgets() -> None:
     assert back == pytest.approx(MIDDLE, abs=2e-4)
 
 
-def test_the_robot_file_names_the_law() -> None:
+def test_the_robot_file_names_the_law():
     assert isinstance(balance_gains({}), BalanceGains)
     gains = balance_gains({"law": "wrench_distribution", "dcm_gain": 2.0, "foot_return": 0.5})
     assert isinstance(gains, WrenchBalanceGains)
@@ -137,7 +137,7 @@ def test_the_robot_file_names_the_law() -> None:
 
 
 @pytest.mark.parametrize("aside", [-0.06, 0.0, 0.09])
-def test_the_foot_that_is_nearer_to_the_zmp_carries_more(aside: float) -> None:
+def test_the_foot_that_is_nearer_to_the_zmp_carries_more(aside):
     """Its share is that of a lever on two supports, at 0.105 m to either side."""
     balance, feet = law(dcm_gain=0.0), standing("left", "right")
     state = tick(balance, MIDDLE, MIDDLE, BOX, feet)[0].changed(zmp_desired=MIDDLE + np.array([0.0, aside]))

@@ -14,31 +14,31 @@ def reach(*strips: list[float], margin: float = 0.015) -> AnkleLimits:
     return AnkleLimits(np.array(strips).reshape(-1, 4), margin)
 
 
-def test_a_strong_ankle_leaves_all_as_it_is() -> None:
+def test_a_strong_ankle_leaves_all_as_it_is():
     for strong in (reach(), reach([-1.0, 0.0, 0.0, 1.0])):
         assert strong.within(TOES).tolist() == TOES.tolist()
         assert strong.center(TOES, np.array([0.105, 0.0])).tolist() == [0.105, 0.0]
 
 
-def test_a_foot_is_used_as_far_as_its_ankle_limitses() -> None:
+def test_a_foot_is_used_as_far_as_its_ankle_limitses():
     region = inner_offset(reach(PITCH, ROLL).within(SOLE), 0.015)
     low, high = region.min(axis=0), region.max(axis=0)
     # 95 % of what it reaches, or 15 mm inside the sole's own edges.
     assert [*low, *high] == pytest.approx([-0.085, 0.02 - 0.0475, 0.095, 0.055])
 
 
-def test_a_foothold_under_the_toes_is_loaded_where_the_ankle_limitses_and_the_edge_is_far() -> None:
+def test_a_foothold_under_the_toes_is_loaded_where_the_ankle_limitses_and_the_edge_is_far():
     found = reach(PITCH).center(TOES, centroid(TOES))
     assert found == pytest.approx([0.5 * (0.085 + 0.095), 0.0])
 
 
-def test_one_too_narrow_for_the_margin_is_loaded_in_what_is_reached() -> None:
+def test_one_too_narrow_for_the_margin_is_loaded_in_what_is_reached():
     narrow = TOES * [1.0, 0.2]
     assert area(inner_offset(narrow, 0.015)) == 0.0
     assert reach(PITCH).center(narrow, centroid(narrow)) == pytest.approx([0.5 * (0.07 + 0.095), 0.0])
 
 
-def test_what_the_ankle_does_not_reach_at_all_is_left_to_the_law() -> None:
+def test_what_the_ankle_does_not_reach_at_all_is_left_to_the_law():
     beyond = TOES + np.array([0.1, 0.0])
     assert reach(PITCH, margin=0.0).within(beyond).tolist() == beyond.tolist()
     assert reach(PITCH).center(beyond, np.array([0.2, 0.0])).tolist() == [0.2, 0.0]

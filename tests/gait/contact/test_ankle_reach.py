@@ -1,7 +1,5 @@
 """What of a foothold an ankle bears the robot on, and where it is loaded."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -26,14 +24,12 @@ def ground(rear: float, front: float) -> np.ndarray:
         (-0.2, 0.02, (-0.08, 0.02), -0.04),
     ],
 )
-def test_a_weak_ankle_bears_the_robot_on_a_part(
-    rear: float, front: float, part: tuple[float, float], middle: float
-) -> None:
+def test_a_weak_ankle_bears_the_robot_on_a_part(rear, front, part, middle):
     borne = borne_part(ground(rear, front), 0.08)
     assert (borne[:, 0].min(), borne[:, 0].max()) == pytest.approx(part)
     assert loaded_middle(ground(rear, front), 0.08) == pytest.approx([middle, 0.0])
 
 
-def test_a_strong_ankle_bears_it_everywhere() -> None:
+def test_a_strong_ankle_bears_it_everywhere():
     assert borne_part(SOLE, 0.2) is SOLE
     assert loaded_middle(SOLE, float("inf")) == pytest.approx([0.055, 0.0])

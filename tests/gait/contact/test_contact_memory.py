@@ -1,7 +1,5 @@
 """Contacts of a sole on bumps: remembered while the load wanders, forgotten once the sole has turned away."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -16,7 +14,7 @@ BUMPS = ((-0.07, 0.04), (0.08, 0.05), (0.02, -0.06))
 
 
 @pytest.fixture(scope="module")
-def sole() -> SoleLayout:
+def sole():
     return hex_layout([[-0.11, -0.08], [0.11, -0.08], [0.11, 0.08], [-0.11, 0.08]])
 
 
@@ -31,7 +29,7 @@ def stand(memory: ContactMemory, sole: SoleLayout, loads: tuple[float, ...], sta
         memory.update(Reading(start + 0.004 * k, force), rotation, cop)
 
 
-def test_a_bump_without_load_is_still_there(sole: SoleLayout) -> None:
+def test_a_bump_without_load_is_still_there(sole):
     memory = ContactMemory(sole, least_force=8.0, gap=0.002)
     stand(memory, sole, (250.0, 250.0, 250.0), 0.0)
     before = memory.polygon
@@ -40,7 +38,7 @@ def test_a_bump_without_load_is_still_there(sole: SoleLayout) -> None:
     assert memory.polygon == pytest.approx(before)
 
 
-def test_a_bump_that_the_sole_turned_away_from_is_forgotten(sole: SoleLayout) -> None:
+def test_a_bump_that_the_sole_turned_away_from_is_forgotten(sole):
     memory = ContactMemory(sole, least_force=8.0, gap=0.002)
     stand(memory, sole, (250.0, 250.0, 250.0), 0.0)
     stand(memory, sole, (0.0, 0.0, 800.0), 0.1)
@@ -50,7 +48,7 @@ def test_a_bump_that_the_sole_turned_away_from_is_forgotten(sole: SoleLayout) ->
     assert not memory.encloses(np.zeros(2))
 
 
-def test_what_lies_between_the_contacts_is_enclosed(sole: SoleLayout) -> None:
+def test_what_lies_between_the_contacts_is_enclosed(sole):
     memory = ContactMemory(sole, least_force=8.0, gap=0.002)
     assert not memory.encloses(np.zeros(2))
     stand(memory, sole, (250.0, 250.0, 250.0), 0.0)
@@ -58,7 +56,7 @@ def test_what_lies_between_the_contacts_is_enclosed(sole: SoleLayout) -> None:
     assert not memory.encloses(np.array([-0.1, -0.07]))
 
 
-def test_a_line_of_bumps_is_no_place_to_stand(sole: SoleLayout) -> None:
+def test_a_line_of_bumps_is_no_place_to_stand(sole):
     memory = ContactMemory(sole, least_force=8.0, gap=0.002)
     stand(memory, sole, (250.0, 250.0, 0.0), 0.0)
     assert not memory.encloses(np.array([0.0, 0.02]))

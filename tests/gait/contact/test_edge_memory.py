@@ -31,14 +31,14 @@ def walked(memory: EdgeMemory, steps: int, rng: np.random.Generator, turn: float
         memory.update(step, lines_under(place, 0.0, turn * rng.normal()), np.zeros(2), place, LEVEL)
 
 
-def test_an_edge_goes_on_under_the_next_sole_however_that_is_turned() -> None:
+def test_an_edge_goes_on_under_the_next_sole_however_that_is_turned():
     memory = EdgeMemory()
     walked(memory, 1, np.random.default_rng(0), 0.0)
     place, yaw = np.array([0.2, 0.03, 0.01]), 0.4
     assert memory.expected(1, place, level_rotation(yaw)) == pytest.approx(lines_under(place, yaw), abs=1e-9)
 
 
-def test_points_of_several_footholds_tell_the_direction() -> None:
+def test_points_of_several_footholds_tell_the_direction():
     errors: dict[int, list[float]] = {1: [], 5: []}
     for seed in range(40):
         for steps, found in errors.items():
@@ -52,7 +52,7 @@ def test_points_of_several_footholds_tell_the_direction() -> None:
     assert five < 0.003
 
 
-def test_an_edge_across_another_one_is_not_the_same() -> None:
+def test_an_edge_across_another_one_is_not_the_same():
     memory = EdgeMemory()
     memory.update(0, np.array([[1.0, 0.0, 0.02]]), np.zeros(2), np.zeros(3), LEVEL)
     along = np.array([[0.0, 1.0, 0.02]])
@@ -61,14 +61,14 @@ def test_an_edge_across_another_one_is_not_the_same() -> None:
 
 
 @pytest.mark.parametrize("expected_step", [0, 2, 3])
-def test_only_the_foothold_before_tells(expected_step: int) -> None:
+def test_only_the_foothold_before_tells(expected_step):
     memory = EdgeMemory()
     assert memory.expected(0, np.zeros(3), LEVEL).shape == (0, 3)
     memory.update(0, np.array([[1.0, 0.0, 0.02]]), np.zeros(2), np.zeros(3), LEVEL)
     assert memory.expected(expected_step, np.zeros(3), LEVEL).shape == (0, 3)
 
 
-def test_whole_ground_is_no_edge_and_a_foothold_found_again_replaces_itself() -> None:
+def test_whole_ground_is_no_edge_and_a_foothold_found_again_replaces_itself():
     memory = EdgeMemory()
     for lines in (np.array([[1.0, 0.0, 0.02]]), np.array([[1.0, 0.0, 0.03]])):
         memory.update(0, lines, np.zeros(2), np.zeros(3), LEVEL)

@@ -1,7 +1,5 @@
 """What both feet stand on."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -19,7 +17,7 @@ SOLE = hex_layout([[-0.125, -0.075], [0.125, -0.075], [0.125, 0.075], [-0.125, 0
 
 
 @pytest.mark.parametrize("edge", [0.0, math.inf])
-def test_a_foot_that_lands_stands_on_the_part_of_its_sole_that_saw_ground(edge: float) -> None:
+def test_a_foot_that_lands_stands_on_the_part_of_its_sole_that_saw_ground(edge):
     contacts = FootContacts(ContactSettings(), {"left": SOLE, "right": SOLE})
     contacts.lift_off("left", 0)
     phase, ahead = Phase(PhaseKind.SINGLE_SUPPORT, 0, 1.0, 2.0, "left"), np.array([0.1, 0.0])  # too far to plan with

@@ -1,7 +1,5 @@
 """What a swinging sole sees of made-up ground."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
@@ -34,7 +32,7 @@ def looked(
 
 
 @pytest.mark.parametrize("orientation", ["plane", "moment"])
-def test_sloping_ground_gives_its_slope_and_the_first_contact(orientation: str) -> None:
+def test_sloping_ground_gives_its_slope_and_the_first_contact(orientation):
     view = looked(0.03 - 0.08 * X + 0.05 * Y, GroundMapSettings(orientation=orientation))
     assert view is not None
     assert view.slope == pytest.approx((0.08, -0.05), abs=2e-3)
@@ -42,7 +40,7 @@ def test_sloping_ground_gives_its_slope_and_the_first_contact(orientation: str) 
     assert view.distance == pytest.approx(0.03 - 0.08 * 0.1 - 0.05 * 0.07, abs=1e-3)
 
 
-def test_noise_averages_out() -> None:
+def test_noise_averages_out():
     view = looked(np.full(len(LAYOUT), 0.02), noise=2e-3)
     assert view is not None
     assert view.distance == pytest.approx(0.02, abs=1e-3)
@@ -50,7 +48,7 @@ def test_noise_averages_out() -> None:
     assert np.hypot(*view.slope) < 0.01
 
 
-def test_a_small_block_is_what_is_met_first_and_is_not_followed() -> None:
+def test_a_small_block_is_what_is_met_first_and_is_not_followed():
     view = looked(np.where(np.hypot(X - 0.05, Y) < 0.035, 0.012, 0.04))
     assert view is not None
     assert view.slope is None
@@ -58,20 +56,20 @@ def test_a_small_block_is_what_is_met_first_and_is_not_followed() -> None:
 
 
 @pytest.mark.parametrize("rim", [0.02, 0.03, 0.04, 0.06, 0.07])
-def test_a_block_under_the_front_rim_is_what_is_met_first(rim: float) -> None:
+def test_a_block_under_the_front_rim_is_what_is_met_first(rim):
     view = looked(np.where((0.1 - rim < X) & (np.abs(Y) < 0.05), 0.012, 0.04), noise=2e-3)
     assert view is not None
     assert view.distance < 0.015
     assert view.slope is None or np.hypot(*view.slope) < 0.02  # a sole that followed it would swing its heel down
 
 
-def test_a_slab_under_half_the_sole_is_what_is_met_first() -> None:
+def test_a_slab_under_half_the_sole_is_what_is_met_first():
     view = looked(np.where(X > 0.0, 0.012, 0.04))
     assert view is not None
     assert view.distance == pytest.approx(0.012, abs=1e-3)
 
 
-def test_a_taxel_over_the_edge_does_not_tilt_the_ground() -> None:
+def test_a_taxel_over_the_edge_does_not_tilt_the_ground():
     distance = np.full(len(LAYOUT), 0.01)
     distance[np.argmax(X + Y)] = 0.018  # 8 mm lower than the rest, at a corner of the sole
     view = looked(distance)
@@ -81,7 +79,7 @@ def test_a_taxel_over_the_edge_does_not_tilt_the_ground() -> None:
     assert view.even
 
 
-def test_ground_that_half_the_sole_is_above_is_measured_by_all_of_that_half() -> None:
+def test_ground_that_half_the_sole_is_above_is_measured_by_all_of_that_half():
     errors = []
     for seed in range(20):
         rng = np.random.default_rng(seed)
@@ -99,7 +97,7 @@ def test_ground_that_half_the_sole_is_above_is_measured_by_all_of_that_half() ->
     assert np.abs(np.array(errors)[:, 1:]).max() < 0.015
 
 
-def test_one_noisy_reading_of_a_taxel_is_not_yet_high_ground() -> None:
+def test_one_noisy_reading_of_a_taxel_is_not_yet_high_ground():
     ground = GroundMap(LAYOUT, GroundMapSettings())
     ground.begin()
     distance = np.full(len(LAYOUT), 0.01)
@@ -112,7 +110,7 @@ def test_one_noisy_reading_of_a_taxel_is_not_yet_high_ground() -> None:
     assert view.slope == pytest.approx((0.0, 0.0), abs=5e-3)
 
 
-def test_dead_taxels_and_no_ground_are_no_obstacle() -> None:
+def test_dead_taxels_and_no_ground_are_no_obstacle():
     distance = np.full(len(LAYOUT), 0.02)
     distance[:5] = np.nan
     view = looked(distance)
@@ -122,7 +120,7 @@ def test_dead_taxels_and_no_ground_are_no_obstacle() -> None:
     assert looked(np.full(len(LAYOUT), np.nan)) is None
 
 
-def test_the_map_moves_with_the_sole_between_readings() -> None:
+def test_the_map_moves_with_the_sole_between_readings():
     ground = GroundMap(LAYOUT, GroundMapSettings())
     ground.begin()
     ground.update(percept(np.full(len(LAYOUT), 0.03)), np.array([0.0, 0.0, 0.03]), np.eye(3), 0.0)
@@ -153,7 +151,7 @@ def swung(
     return view
 
 
-def test_a_bias_is_learned_from_the_touch() -> None:
+def test_a_bias_is_learned_from_the_touch():
     ground = GroundMap(LAYOUT, GroundMapSettings())
     for _ in range(8):
         ground.begin()
@@ -163,7 +161,7 @@ def test_a_bias_is_learned_from_the_touch() -> None:
     assert ground.bias == pytest.approx(0.005, abs=1e-4)
 
 
-def test_one_touch_does_not_take_moved_ground_for_a_bias() -> None:
+def test_one_touch_does_not_take_moved_ground_for_a_bias():
     ground = GroundMap(LAYOUT, GroundMapSettings())
     ground.begin()
     ground.update(percept(np.full(len(LAYOUT), 0.012)), np.zeros(3), np.eye(3), 0.0)
@@ -172,35 +170,35 @@ def test_one_touch_does_not_take_moved_ground_for_a_bias() -> None:
 
 
 @pytest.mark.parametrize("bias", [-0.01, -0.005, 0.005, 0.01])
-def test_a_bias_is_learned_where_the_sole_leaves_the_ground(bias: float) -> None:
+def test_a_bias_is_learned_where_the_sole_leaves_the_ground(bias):
     rng = np.random.default_rng(2)
     ground = GroundMap(LAYOUT, GroundMapSettings())
     swung(ground, lambda z: z + bias + rng.normal(0.0, 2e-3, len(LAYOUT)), 0.0)
     assert ground.bias == pytest.approx(bias, abs=8e-4)
 
 
-def test_a_sole_that_left_the_ground_before_its_swing_learns_no_bias_of_that() -> None:
+def test_a_sole_that_left_the_ground_before_its_swing_learns_no_bias_of_that():
     ground = GroundMap(LAYOUT, GroundMapSettings())
     ground.stand(np.array([0.0, 0.0, -0.004]), np.eye(3))  # where it last carried load
     swung(ground, lambda z: np.full(len(LAYOUT), z + 0.004), 0.0)
     assert ground.bias == 0.0
 
 
-def test_ground_that_was_no_plane_teaches_no_bias() -> None:
+def test_ground_that_was_no_plane_teaches_no_bias():
     ground = GroundMap(LAYOUT, GroundMapSettings())
     block = np.where(np.hypot(X - 0.05, Y) < 0.04, 0.0, 0.03)
     swung(ground, lambda z: z + block, 0.0)
     assert ground.bias == 0.0
 
 
-def test_a_reading_counts_for_when_it_was_taken() -> None:
+def test_a_reading_counts_for_when_it_was_taken():
     ground = GroundMap(LAYOUT, GroundMapSettings())
     view = swung(ground, lambda z: np.full(len(LAYOUT), z), 0.0, age=2 * PERIOD)
     assert view is not None
     assert view.distance == pytest.approx(0.02 * np.sin(0.75 * np.pi), abs=1e-4)
 
 
-def test_ground_that_moves_is_seen_at_once_and_noise_is_no_move() -> None:
+def test_ground_that_moves_is_seen_at_once_and_noise_is_no_move():
     rng = np.random.default_rng(3)
     ground = GroundMap(LAYOUT, GroundMapSettings())
     ground.begin()

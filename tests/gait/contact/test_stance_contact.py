@@ -43,7 +43,7 @@ class Foot:
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_whole_ground_is_the_whole_sole(seed: int) -> None:
+def test_whole_ground_is_the_whole_sole(seed):
     for sees in (True, False):
         foot = Foot(WHOLE, seed)
         if sees:
@@ -55,7 +55,7 @@ def test_whole_ground_is_the_whole_sole(seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_an_edge_under_the_sole_is_seen_before_it_is_felt(seed: int) -> None:
+def test_an_edge_under_the_sole_is_seen_before_it_is_felt(seed):
     foot = Foot(REAR, seed)
     foot.descend()
     assert not foot.contact.settled
@@ -66,20 +66,20 @@ def test_an_edge_under_the_sole_is_seen_before_it_is_felt(seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_forces_alone_find_the_edge_too(seed: int) -> None:
+def test_forces_alone_find_the_edge_too(seed):
     foot = Foot(REAR, seed)
     foot.load(readings=60, force=600.0, at=(-0.03, 0.0))
     assert foot.contact.area_ratio == pytest.approx(0.5, abs=0.12)
     assert foot.contact.center_in_sole == pytest.approx([-0.0565, 0.0], abs=0.015)
 
 
-def test_a_load_on_the_heel_is_no_missing_ground() -> None:
+def test_a_load_on_the_heel_is_no_missing_ground():
     foot = Foot(WHOLE)
     foot.load(at=(-0.1, 0.0))
     assert foot.contact.whole
 
 
-def test_the_foothold_does_not_shrink_when_the_load_moves_away() -> None:
+def test_the_foothold_does_not_shrink_when_the_load_moves_away():
     foot = Foot(WHOLE)
     foot.load()
     foot.load(at=(-0.08, 0.0), force=800.0)
@@ -87,7 +87,7 @@ def test_the_foothold_does_not_shrink_when_the_load_moves_away() -> None:
     assert foot.contact.whole
 
 
-def test_lifting_off_forgets() -> None:
+def test_lifting_off_forgets():
     foot = Foot(REAR)
     foot.descend()
     foot.load()
@@ -100,7 +100,7 @@ def test_lifting_off_forgets() -> None:
     assert foot.contact.whole
 
 
-def test_without_load_nothing_settles_and_a_reading_counts_once() -> None:
+def test_without_load_nothing_settles_and_a_reading_counts_once():
     foot = Foot(REAR)
     foot.load(force=20.0)
     assert not foot.contact.settled
@@ -108,7 +108,7 @@ def test_without_load_nothing_settles_and_a_reading_counts_once() -> None:
     assert [foot.contact.update(reading, 800.0) for _ in range(5)] == [False] * 5
 
 
-def test_dead_taxels_neither_see_nor_feel() -> None:
+def test_dead_taxels_neither_see_nor_feel():
     foot = Foot(REAR)
     over = SOLE.positions[:, 0] < 0.0
     distance = np.where(over, 0.01, math.inf)
@@ -122,7 +122,7 @@ def test_dead_taxels_neither_see_nor_feel() -> None:
     assert foot.contact.area_ratio == pytest.approx(0.5, abs=0.08)
 
 
-def test_the_polygon_of_cell_corners_is_the_larger_one() -> None:
+def test_the_polygon_of_cell_corners_is_the_larger_one():
     ratios = []
     for subcell in (True, False):
         foot = Foot(REAR, subcell=subcell)
@@ -132,12 +132,12 @@ def test_the_polygon_of_cell_corners_is_the_larger_one() -> None:
     assert ratios[1] > ratios[0]
 
 
-def test_bad_settings_are_refused() -> None:
+def test_bad_settings_are_refused():
     with pytest.raises(InputError, match="minimum_load"):
         ContactSettings(minimum_load=-1.0)
 
 
-def test_a_foothold_is_foreseen_where_the_sole_will_land() -> None:
+def test_a_foothold_is_foreseen_where_the_sole_will_land():
     foot = Foot(REAR)
     assert foot.contact.foresee(np.zeros(2)) is None
     foot.descend()
@@ -164,7 +164,7 @@ def on_its_edge(foot: Foot, rise: float, readings: int = 40) -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_sole_on_its_edge_has_its_ground_where_it_rises(seed: int) -> None:
+def test_a_sole_on_its_edge_has_its_ground_where_it_rises(seed):
     turned, level = Foot(REAR, seed), Foot(REAR, seed)
     on_its_edge(turned, 0.0025)
     on_its_edge(level, 0.0)
@@ -186,7 +186,7 @@ def on_its_rear_edge(foot: Foot, readings: int = 20) -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_one_edge_of_a_strip_that_is_remembered_is_enough(seed: int) -> None:
+def test_one_edge_of_a_strip_that_is_remembered_is_enough(seed):
     told, untold = Foot(STRIP, seed), Foot(STRIP, seed)
     told.contact.expect(STRIP)
     for foot in (told, untold):
@@ -196,14 +196,14 @@ def test_one_edge_of_a_strip_that_is_remembered_is_enough(seed: int) -> None:
     assert abs(untold.contact.center_in_sole[0]) > 0.025  # a row, or all that lies ahead of it
 
 
-def test_loads_beyond_a_line_deny_it() -> None:
+def test_loads_beyond_a_line_deny_it():
     foot = Foot(WHOLE)
     foot.contact.expect(STRIP)
     foot.load(at=(0.0, 0.0))
     assert foot.contact.whole
 
 
-def test_silence_between_lines_denies_them() -> None:
+def test_silence_between_lines_denies_them():
     foot = Foot(REAR)
     foot.contact.expect(np.array([[1.0, 0.0, 0.07]]))
     foot.load(readings=90, force=600.0, at=(-0.03, 0.0))
@@ -211,7 +211,7 @@ def test_silence_between_lines_denies_them() -> None:
 
 
 @pytest.mark.parametrize("line", [[1.0, 0.0, 0.13], [1.0, 0.0, -0.12]])
-def test_a_line_that_cuts_nothing_off_or_leaves_nothing_is_not_expected(line: list[float]) -> None:
+def test_a_line_that_cuts_nothing_off_or_leaves_nothing_is_not_expected(line):
     foot = Foot(WHOLE)
     foot.contact.expect(np.array([line]))
     foot.load(readings=3, at=(0.0, 0.0))
@@ -219,7 +219,7 @@ def test_a_line_that_cuts_nothing_off_or_leaves_nothing_is_not_expected(line: li
     assert foot.contact.lines.shape == (0, 3)
 
 
-def test_what_a_cover_carries_along_is_no_ground() -> None:
+def test_what_a_cover_carries_along_is_no_ground():
     """A crosstalk of a tenth gives the row beside an edge more than the least force of a taxel that carries."""
     cells = len(SOLE)
     spread = 0.9 * np.eye(cells)

@@ -5,7 +5,7 @@ from scipy.spatial.transform import Rotation
 from plantar.gait.estimate.ankle_sensor import AnkleSensor, SoleWrench
 
 
-def test_the_foots_weight_is_taken_off_at_any_posture() -> None:
+def test_the_foots_weight_is_taken_off_at_any_posture():
     rng = np.random.default_rng(0)
     for _ in range(20):
         mount, sole = Rotation.random(rng=rng).as_matrix(), Rotation.random(rng=rng).as_matrix()
@@ -20,7 +20,7 @@ def test_the_foots_weight_is_taken_off_at_any_posture() -> None:
         assert sensor.sole_wrench(measured, sole).wrench_in_sole == pytest.approx(ground, abs=1e-9)
 
 
-def test_it_answers_like_a_percept() -> None:
+def test_it_answers_like_a_percept():
     loaded = SoleWrench(np.array([1.0, 2.0, 200.0, 4.0, -6.0, 0.0]))
     assert loaded.vertical_force == 200.0
     assert loaded.position_cop_in_sole == pytest.approx([0.03, 0.02])

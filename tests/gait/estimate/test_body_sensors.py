@@ -1,7 +1,5 @@
 """Encoders and IMU that say nothing, or what is no number."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -15,7 +13,7 @@ SOUND = (np.full(12, -0.3), np.array([0.1, -0.2, 0.0]), np.array([0.0, 0.0, 9.81
 
 @pytest.mark.parametrize("where", range(3))
 @pytest.mark.parametrize("values", [(math.nan,), (math.inf,), (-math.inf,), (math.inf, -math.inf)])
-def test_one_value_that_is_no_number_silences_all_three(where: int, values: tuple[float, ...]) -> None:
+def test_one_value_that_is_no_number_silences_all_three(where, values):
     body, silent = BodySensors(0.005, 0.01), [x.copy() for x in SOUND]
     silent[where][-len(values) :] = values
     joints, gyro, accelerometer = silent

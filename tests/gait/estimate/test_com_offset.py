@@ -1,7 +1,5 @@
 """The CoM's offset against drawn ones, of a body on two soles that carry it as statics says."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -39,7 +37,7 @@ def standing(rotation: NDArray[np.float64]) -> Posture:
 
 
 @pytest.mark.parametrize("seed", range(10))
-def test_recovers_an_offset(seed: int) -> None:
+def test_recovers_an_offset(seed):
     rng = np.random.default_rng(seed)
     true = np.array([*rng.uniform(-0.02, 0.02, 2).tolist(), 0.0])
     rotation = np.asarray(Rotation.from_rotvec([*rng.uniform(-0.02, 0.02, 2).tolist(), 0.0]).as_matrix())
@@ -49,7 +47,7 @@ def test_recovers_an_offset(seed: int) -> None:
     np.testing.assert_allclose(found, true, atol=5e-4)  # but for the height, which does not show
 
 
-def test_is_none_at_nominal_and_without_load() -> None:
+def test_is_none_at_nominal_and_without_load():
     level = np.eye(3)
     com = np.array([0.0, 0.0, HEIGHT]) + COM
     np.testing.assert_allclose(com_offset(standing(level), level, FEET, carried(com)), 0.0, atol=1e-12)

@@ -1,7 +1,5 @@
 """The filter of a pushed pendulum against scipy's Riccati solver and against the pendulum's truth."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -37,7 +35,7 @@ def walk(rules, felt, seconds=3.6, seed=0, velocity=False):
 
 
 @pytest.mark.parametrize("unfelt", [0.0, 0.8])
-def test_the_gain_is_that_of_the_riccati_equation(unfelt: float) -> None:
+def test_the_gain_is_that_of_the_riccati_equation(unfelt):
     rules = DcmFilterRules(unfelt_rate=unfelt)
     made = DcmFilter(rules, OMEGA, PERIOD)
     count = 3 if unfelt else 2
@@ -57,7 +55,7 @@ def test_the_gain_is_that_of_the_riccati_equation(unfelt: float) -> None:
         assert gain == pytest.approx(wanted, rel=1e-6)
 
 
-def test_a_push_that_is_felt_hardly_shows_in_the_error() -> None:
+def test_a_push_that_is_felt_hardly_shows_in_the_error():
     trusting, wary = DcmFilterRules(unfelt_rate=0.0), DcmFilterRules()
     during = slice(int(3.0 / PERIOD), int(3.4 / PERIOD))
     told, blind, guessed = (
@@ -68,14 +66,14 @@ def test_a_push_that_is_felt_hardly_shows_in_the_error() -> None:
     assert guessed < 0.8 * blind
 
 
-def test_a_measured_velocity_helps() -> None:
+def test_a_measured_velocity_helps():
     rules = DcmFilterRules()
     late = slice(100, 600)
     alone, helped = (np.std(walk(rules, True, 3.0, 1, velocity)[late]) for velocity in (False, True))
     assert helped < alone
 
 
-def test_what_no_skin_feels_is_found() -> None:
+def test_what_no_skin_feels_is_found():
     filtered = DcmFilter(DcmFilterRules(), OMEGA, PERIOD)
     for _ in range(2000):  # leans against a push of 0.03 m, and stands
         state = filtered.update([0.1, 0.0], None, [0.13, 0.0], [0.0, 0.0])
@@ -83,7 +81,7 @@ def test_what_no_skin_feels_is_found() -> None:
     assert state.dcm == pytest.approx([0.1, 0.0], abs=1e-4)
 
 
-def test_without_ground_only_the_push_accelerates() -> None:
+def test_without_ground_only_the_push_accelerates():
     filtered = DcmFilter(DcmFilterRules(unfelt_rate=0.0), OMEGA, PERIOD)
     filtered.update([0.0, 0.0], [1.0, 0.0], None, [0.0, 0.0])
     state = filtered.update([PERIOD, 0.0], None, None, [0.0, 0.0])
@@ -92,7 +90,7 @@ def test_without_ground_only_the_push_accelerates() -> None:
     assert filtered.update([0.5, 0.2], None, None, [0.0, 0.0]).dcm.tolist() == [0.5, 0.2]
 
 
-def test_wrong_arguments_are_named() -> None:
+def test_wrong_arguments_are_named():
     filtered = DcmFilter(DcmFilterRules(), OMEGA, PERIOD)
     with pytest.raises(InputError, match="CoM"):
         filtered.update([math.nan, 0.0], None, [0.0, 0.0], [0.0, 0.0])

@@ -1,7 +1,5 @@
 """Encoder offsets against drawn ones, on legs of six joints whose kinematics are written out here."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -52,7 +50,7 @@ def errors(joints: NDArray[np.float64], wrong: NDArray[np.float64]) -> tuple[flo
 
 
 @pytest.mark.parametrize("seed", range(10))
-def test_feet_are_where_they_are_again(seed: int) -> None:
+def test_feet_are_where_they_are_again(seed):
     rng = np.random.default_rng(seed)
     true = np.radians(0.3) * rng.uniform(-1.0, 1.0, 12)
     up, feet = stance(np.array([*(5e-4 * rng.standard_normal(2)).tolist(), 0.0]))  # noise of the accelerometer's mean
@@ -66,19 +64,19 @@ def test_feet_are_where_they_are_again(seed: int) -> None:
     assert np.abs(true - found).max() < np.radians(0.3)
 
 
-def test_finds_none_where_there_are_none() -> None:
+def test_finds_none_where_there_are_none():
     up, feet = stance(np.zeros(3))
     np.testing.assert_allclose(encoder_offsets(legs, STANCE, up, feet, TOLERANCES), 0.0, atol=1e-9)
 
 
-def test_noise_is_not_taken_for_offsets() -> None:
+def test_noise_is_not_taken_for_offsets():
     rng = np.random.default_rng(0)
     up, feet = stance(np.array([5e-4, -5e-4, 0.0]))
     found = encoder_offsets(legs, STANCE + 5e-6 * rng.standard_normal(12), up, feet, TOLERANCES)
     assert np.abs(found).max() < 6e-4  # what the accelerometer is off, and no more
 
 
-def test_soles_that_lean_alike_are_seen_against_gravity() -> None:
+def test_soles_that_lean_alike_are_seen_against_gravity():
     true = np.zeros(12)
     true[[4, 10]] = 4e-3  # both ankles' pitch: one sole against the other shows nothing of it
     up, feet = stance(np.zeros(3))
@@ -89,7 +87,7 @@ def test_soles_that_lean_alike_are_seen_against_gravity() -> None:
     assert np.abs(legs(STANCE + true).rotations["left"][2, :2]).max() > 3e-3
 
 
-def test_the_base_stands_over_turned_feet() -> None:
+def test_the_base_stands_over_turned_feet():
     posture = legs(STANCE)
     for yaw in (0.3, 3.1, -3.1):
         turn = Rotation.from_euler("z", yaw)

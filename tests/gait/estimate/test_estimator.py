@@ -1,7 +1,5 @@
 """The estimator against a robot whose motion is known in closed form: a base that sways over fixed feet."""
 
-from __future__ import annotations
-
 import math
 from functools import cache
 
@@ -110,14 +108,14 @@ def follow(
     return tuple(worst.tolist())
 
 
-def test_follows_a_swaying_base() -> None:
+def test_follows_a_swaying_base():
     turn, com, velocity = follow(Swaying(tilt=0.04, sway=0.01), 8.0)
     assert turn < 2e-3
     assert com < 3e-3
     assert velocity < 5e-3
 
 
-def test_a_filter_learns_of_a_push_that_nothing_feels() -> None:
+def test_a_filter_learns_of_a_push_that_nothing_feels():
     leans = Swaying(tilt=0.0, sway=0.01, leans=0.02)
     plain = follow(leans, 1.6)[2]
     turn, com, velocity = follow(leans, 1.6, known=DcmFilter(DcmFilterRules(), OMEGA, PERIOD))
@@ -126,13 +124,13 @@ def test_a_filter_learns_of_a_push_that_nothing_feels() -> None:
     assert velocity < 0.3 * plain
 
 
-def test_noise_and_gyro_bias_stay_bounded() -> None:
+def test_noise_and_gyro_bias_stay_bounded():
     turn, com, _ = follow(Swaying(tilt=0.0, sway=0.005), 20.0, noise=2e-3, bias=1e-3)
     assert turn < 0.012  # bias / gravity gain = 5e-3 rad, plus noise
     assert com < 0.02
 
 
-def test_a_bias_that_is_identified_does_no_harm() -> None:
+def test_a_bias_that_is_identified_does_no_harm():
     plain, _, _ = follow(Swaying(tilt=0.02, sway=0.005), 10.0, noise=2e-3, bias=5e-3)
     turn, com, _ = follow(
         Swaying(tilt=0.02, sway=0.005), 10.0, noise=2e-3, bias=5e-3, identified=GyroBias(PERIOD, 20.0, 0.05, 0.25, 6e-4)
@@ -142,7 +140,7 @@ def test_a_bias_that_is_identified_does_no_harm() -> None:
     assert com < 4e-3
 
 
-def test_a_foot_in_the_air_finds_its_zero() -> None:
+def test_a_foot_in_the_air_finds_its_zero():
     robot = Swaying(0.0, 0.0)
     estimator = FloatingBaseEstimator(robot, OMEGA, PERIOD, START)
     rng = np.random.default_rng(0)
@@ -161,7 +159,7 @@ def test_a_foot_in_the_air_finds_its_zero() -> None:
     assert state.loads["left"] == pytest.approx(800.0)
 
 
-def test_an_airborne_robot_keeps_finite_answers() -> None:
+def test_an_airborne_robot_keeps_finite_answers():
     robot = Swaying(0.0, 0.0)
     estimator = FloatingBaseEstimator(robot, OMEGA, PERIOD, START)
     empty: dict[Side, Percept] = {s: Percept(SOLE, Reading(0.0, np.zeros(len(SOLE)))) for s in FEET}
@@ -173,7 +171,7 @@ def test_an_airborne_robot_keeps_finite_answers() -> None:
     assert np.isfinite(state.com_velocity).all()
 
 
-def test_an_observer_that_runs_away_with_the_pendulum_is_refused() -> None:
+def test_an_observer_that_runs_away_with_the_pendulum_is_refused():
     robot = Swaying(0.0, 0.0)
     for bandwidth in (0.1, 1.0, OMEGA):
         with pytest.raises(InputError, match=r"estimator\.observer.*more than 3\.5 rad/s"):

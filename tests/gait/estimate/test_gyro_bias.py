@@ -1,7 +1,5 @@
 """The gyro's bias against drawn ones, on legs that move over feet that stand, with the noise of gyro and encoders."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -59,37 +57,37 @@ def found(
 
 
 @pytest.mark.parametrize("seed", range(10))
-def test_recovers_a_bias_while_the_body_sways(seed: int) -> None:
+def test_recovers_a_bias_while_the_body_sways(seed):
     bias = np.random.default_rng([seed, 1]).uniform(-0.01, 0.01, 3)
     # The gyro's noise over 600 ticks has a standard deviation of 2e-3 / sqrt(600) = 8e-5 rad/s, the encoders' of 5e-5.
     np.testing.assert_allclose(found(bias, seed=seed), bias, atol=4e-4)
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_is_none_without_a_bias(seed: int) -> None:
+def test_is_none_without_a_bias(seed):
     assert np.abs(found(np.zeros(3), seed=seed)).max() < 4e-4
 
 
-def test_a_foot_that_does_not_carry_may_turn() -> None:
+def test_a_foot_that_does_not_carry_may_turn():
     bias = np.array([0.004, -0.005, 0.003])
     swinging = np.array([0.0, 0.5, 0.2])
     np.testing.assert_allclose(found(bias, weights={"left": 700.0, "right": 0.0}, turning=swinging), bias, atol=4e-4)
     assert np.abs(found(bias, turning=swinging) - bias).max() > 0.01  # the test can tell
 
 
-def test_holds_on_in_the_air_and_is_bounded() -> None:
+def test_holds_on_in_the_air_and_is_bounded():
     assert not found(np.ones(3), weights={"left": 0.0, "right": 0.0}).any()
     assert np.abs(found(np.array([1.0, -1.0, 1.0]))).max() == pytest.approx(LARGEST)
 
 
-def test_follows_a_bias_that_drifts() -> None:
+def test_follows_a_bias_that_drifts():
     identified = GyroBias(PERIOD, 2.0, LARGEST, 0.25, 6e-4)
     for k in range(4000):
         identified.update(np.array([0.0, 0.0, 0.002 if k < 2000 else 0.004]), np.zeros(3), BOTH)
     assert identified.value[2] == pytest.approx(0.004, abs=2e-5)  # five time constants later
 
 
-def test_a_slip_is_no_bias_and_no_turn_of_the_base() -> None:
+def test_a_slip_is_no_bias_and_no_turn_of_the_base():
     """A sole turns by 5 mrad within 0.1 s while the base does not."""
     identified, slipping = GyroBias(PERIOD, 20.0, LARGEST, 0.25, 6e-4), range(1010, 1030)
     before, missed = np.eye(3), np.zeros(3)

@@ -1,7 +1,5 @@
 """What a robot is found to be in the opening stand: bounded, commanded gradually, and only what is asked for."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -50,7 +48,7 @@ def stood(rules: IdentificationRules, joints: NDArray[np.float64], carried: dict
     return body
 
 
-def test_finds_offsets_mass_and_com_of_one_robot() -> None:
+def test_finds_offsets_mass_and_com_of_one_robot():
     wrong = np.array([0.004, 0.003, -0.004, -0.003])
     body = stood(RULES, wrong, soles(1.08 * WEIGHT, x=0.012, y=-0.015))
     np.testing.assert_allclose(body.encoder_offsets, wrong, atol=1e-3)  # the prior keeps a little of each
@@ -67,14 +65,14 @@ def test_finds_offsets_mass_and_com_of_one_robot() -> None:
             assert np.array_equal(live.rotations[side], posture.rotations[side])
 
 
-def test_is_the_model_where_robot_and_model_agree() -> None:
+def test_is_the_model_where_robot_and_model_agree():
     body = stood(RULES, np.zeros(4), soles())
     assert not body.encoder_offsets.any()
     np.testing.assert_allclose(body.com_offset, 0.0, atol=1e-12)
     assert body.lean == 0.0
 
 
-def test_noise_changes_nothing() -> None:
+def test_noise_changes_nothing():
     body = stood(RULES, np.array([5e-4, 0.0, -5e-4, 0.0]), soles(1.01 * WEIGHT, x=0.001, y=-0.001))
     for _ in range(100):
         body.advance()
@@ -83,7 +81,7 @@ def test_noise_changes_nothing() -> None:
     assert body.lean == 0.0
 
 
-def test_what_is_not_asked_for_stays_nominal() -> None:
+def test_what_is_not_asked_for_stays_nominal():
     rules = replace(RULES, encoders=False, com=False, lean=0.0)
     body = stood(rules, np.array([0.004, 0.0, 0.0, 0.0]), soles(1.2 * WEIGHT, x=0.02))
     body.advance()
@@ -92,14 +90,14 @@ def test_what_is_not_asked_for_stays_nominal() -> None:
     assert body.lean == 0.0
 
 
-def test_is_bounded_whatever_is_measured() -> None:
+def test_is_bounded_whatever_is_measured():
     body = stood(RULES, np.array([1.0, 1.0, -1.0, -1.0]), soles(10.0 * WEIGHT, x=5.0))
     assert np.abs(body.encoder_offsets).max() <= RULES.encoder_largest + 1e-12
     assert np.linalg.norm(body.com_offset) <= RULES.com_largest + 1e-12
     assert body.mass_ratio == pytest.approx(1.4)
 
 
-def test_is_nominal_without_a_stand_and_without_load() -> None:
+def test_is_nominal_without_a_stand_and_without_load():
     body = IdentifiedBody(Sliding(), WEIGHT, FEET, RULES, PERIOD)
     body.conclude()
     assert body.posture(np.zeros(4)).positions["left"].tolist() == [0.0, 0.1, -0.8]
@@ -108,7 +106,7 @@ def test_is_nominal_without_a_stand_and_without_load() -> None:
     assert not unloaded.com_offset.any()
 
 
-def test_commands_follow_without_a_jump() -> None:
+def test_commands_follow_without_a_jump():
     body = stood(RULES, np.array([0.004, 0.003, -0.004, -0.003]), soles(1.05 * WEIGHT, y=0.015))
     before, leans = np.zeros(4), []
     for _ in range(round(RULES.fade / PERIOD) + 1):
@@ -124,7 +122,7 @@ def test_commands_follow_without_a_jump() -> None:
     assert leans[-1] == pytest.approx(2.0 * RULES.lean)  # 15 mm of 100 mm, times 1.05: more than two tenths
 
 
-def test_an_estimator_stands_where_it_stood() -> None:
+def test_an_estimator_stands_where_it_stood():
     wrong = np.array([0.004, 0.003, -0.004, -0.003])
     body = IdentifiedBody(Sliding(), WEIGHT, FEET, RULES, PERIOD)
     estimator = FloatingBaseEstimator(body, 3.5, PERIOD, FEET)

@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 
 from plantar.gait.estimate.skin_load import SkinLoad, at_its_limit, percept_to_its_limit
-from plantar.layouts.layout import SoleLayout
 from plantar.layouts.tiling import hex_layout
 from plantar.percepts.percept import Percept
 from plantar.sensing.force import center_of_pressure
@@ -12,11 +11,11 @@ NOISE = 1.4715
 
 
 @pytest.fixture(scope="module")
-def sole() -> SoleLayout:
+def sole():
     return hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
 
 
-def test_a_steady_load_without_noise_is_its_wrench(sole: SoleLayout) -> None:
+def test_a_steady_load_without_noise_is_its_wrench(sole):
     force = np.linspace(1.0, 12.0, len(sole))
     load = SkinLoad(sole, 0.0, 0.2)
     for k in range(3):
@@ -26,7 +25,7 @@ def test_a_steady_load_without_noise_is_its_wrench(sole: SoleLayout) -> None:
     assert estimated.position_cop_in_sole == pytest.approx(center_of_pressure(sole, force, threshold=0.0))
 
 
-def test_it_follows_a_change_with_its_time_constant(sole: SoleLayout) -> None:
+def test_it_follows_a_change_with_its_time_constant(sole):
     load = SkinLoad(sole, 0.0, 0.2)
     load.update(Reading(0.0, np.zeros(len(sole))))
     for k in range(1, 6):
@@ -34,7 +33,7 @@ def test_it_follows_a_change_with_its_time_constant(sole: SoleLayout) -> None:
         assert estimated.vertical_force == pytest.approx(10.0 * len(sole) * (1.0 - 0.8**k))
 
 
-def test_a_light_foot_is_felt_where_a_threshold_would_drop_it(sole: SoleLayout) -> None:
+def test_a_light_foot_is_felt_where_a_threshold_would_drop_it(sole):
     """1 N on each taxel is below the threshold of 0.15 kg."""
     rng = np.random.default_rng(0)
     load = SkinLoad(sole, NOISE, 0.2)
@@ -47,14 +46,14 @@ def test_a_light_foot_is_felt_where_a_threshold_would_drop_it(sole: SoleLayout) 
     assert np.mean(clipped[50:]) > 1.2 * len(sole)
 
 
-def test_dead_taxels_carry_nothing(sole: SoleLayout) -> None:
+def test_dead_taxels_carry_nothing(sole):
     force = np.full(len(sole), 10.0)
     force[:3] = np.nan
     estimated = SkinLoad(sole, NOISE, 0.2).update(Reading(0.0, force))
     assert estimated.vertical_force == pytest.approx(10.0 * (len(sole) - 3))
 
 
-def test_a_foot_that_stands_on_one_taxel_carries_what_that_can_measure(sole: SoleLayout) -> None:
+def test_a_foot_that_stands_on_one_taxel_carries_what_that_can_measure(sole):
     force = np.zeros(len(sole))
     force[7] = sole.force_limit
     held = at_its_limit(Reading(0.0, force), sole)
@@ -65,7 +64,7 @@ def test_a_foot_that_stands_on_one_taxel_carries_what_that_can_measure(sole: Sol
 
 
 @pytest.mark.parametrize("largest", [0.0, 2.0, 50.0, 1e4])
-def test_a_percept_with_its_loads_summed_is_that_of_the_limited_reading(sole: SoleLayout, largest: float) -> None:
+def test_a_percept_with_its_loads_summed_is_that_of_the_limited_reading(sole, largest):
     force = largest * np.random.default_rng(0).random(len(sole))
     force[3] = np.nan
     reading = Reading(0.0, force)

@@ -1,7 +1,5 @@
 """A sole against the other one: signs, the zero of the opening stand, and that a turn by it comes to rest level."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -23,13 +21,13 @@ def slope_of(side: Side, rotations: dict[str, np.ndarray]) -> np.ndarray:
     return slope.slope(side)
 
 
-def test_a_sole_that_is_turned_nose_down_falls_along_x() -> None:
+def test_a_sole_that_is_turned_nose_down_falls_along_x():
     for side in ("left", "right"):
         soles = {"left": np.eye(3), "right": np.eye(3)} | {side: turned(0.0, 0.003)}
         assert slope_of(side, soles) == pytest.approx([-0.003, 0.0], abs=1e-5)
 
 
-def test_attitude_of_the_whole_robot_does_not_matter() -> None:
+def test_attitude_of_the_whole_robot_does_not_matter():
     """An error of the estimated attitude turns both soles."""
     lean = turned(0.02, -0.01, 0.4)
     level = {"left": turned(0.001, 0.003), "right": turned(-0.002, 0.001)}
@@ -38,7 +36,7 @@ def test_attitude_of_the_whole_robot_does_not_matter() -> None:
 
 
 @pytest.mark.parametrize("side", ["left", "right"])
-def test_what_the_opening_stand_shows_is_level(side: Side) -> None:
+def test_what_the_opening_stand_shows_is_level(side):
     standing = {"left": turned(0.002, -0.001, 0.2), "right": turned(0.05, 0.0, -0.2)}
     slope = SoleSlope(50.0)
     for _ in range(5):
@@ -48,7 +46,7 @@ def test_what_the_opening_stand_shows_is_level(side: Side) -> None:
     assert slope.slope(side) == pytest.approx([-0.003, 0.0], abs=1e-5)
 
 
-def test_a_foot_in_the_air_says_nothing_of_the_ground() -> None:
+def test_a_foot_in_the_air_says_nothing_of_the_ground():
     """Then the attitude tells how the other one has turned since."""
     slope = SoleSlope(50.0)
     slope.update({"left": turned(0.0, 0.001), "right": np.eye(3)}, BOTH)
@@ -56,7 +54,7 @@ def test_a_foot_in_the_air_says_nothing_of_the_ground() -> None:
     assert slope.slope("left") == pytest.approx([-0.002, 0.0], abs=1e-5)
 
 
-def test_a_foot_comes_to_rest_parallel_to_the_other() -> None:
+def test_a_foot_comes_to_rest_parallel_to_the_other():
     foot, slope = LandingCompliance(0.005), SoleSlope(50.0)
     off = turned(0.002, -0.0025)
     for _ in range(100):
@@ -66,7 +64,7 @@ def test_a_foot_comes_to_rest_parallel_to_the_other() -> None:
     assert np.hypot(*foot.turn) == pytest.approx(np.hypot(0.002, 0.0025), rel=0.01)
 
 
-def test_a_foot_that_carries_the_body_is_not_turned() -> None:
+def test_a_foot_that_carries_the_body_is_not_turned():
     foot = LandingCompliance(0.005)
     foot.level(1.01 * DampingGains().largest_force, np.array([0.0, 0.01]), 40.0)
     assert not foot.turn.any()

@@ -1,7 +1,5 @@
 """The expected push against the paper's low pass and against integration of the pendulum under it."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -20,7 +18,7 @@ def filled(offset, lasts) -> WrenchFilter:
     return made
 
 
-def test_it_is_the_papers_low_pass() -> None:
+def test_it_is_the_papers_low_pass():
     made = WrenchFilter(WrenchFilterRules(time_constant=1.0), OMEGA, PERIOD)
     mean, rng = np.zeros(2), np.random.default_rng(0)
     for offset in rng.normal(size=(400, 2)):
@@ -36,7 +34,7 @@ def test_it_is_the_papers_low_pass() -> None:
 
 @pytest.mark.parametrize("lasts", [1e6, 0.05, 0.5, 100.0])
 @pytest.mark.parametrize("horizon", [1e-4, 0.3, 2.0])
-def test_the_mean_moves_the_dcm_as_far_as_the_decaying_push(lasts: float, horizon: float) -> None:
+def test_the_mean_moves_the_dcm_as_far_as_the_decaying_push(lasts, horizon):
     offset = np.array([0.03, -0.02])
     found = filled(offset, lasts).mean(horizon) * math.expm1(OMEGA * horizon)
     s, weight = np.polynomial.legendre.leggauss(60)
@@ -46,7 +44,7 @@ def test_the_mean_moves_the_dcm_as_far_as_the_decaying_push(lasts: float, horizo
     assert found == pytest.approx(wanted, rel=1e-10)
 
 
-def test_forces_and_times_out_of_all_measure_stay_finite() -> None:
+def test_forces_and_times_out_of_all_measure_stay_finite():
     made = filled([1e4, -1e300], 0.5)
     assert np.linalg.norm(made.expected) == pytest.approx(MOST_OFFSET)
     assert np.isfinite(made.mean(100.0)).all()
@@ -55,7 +53,7 @@ def test_forces_and_times_out_of_all_measure_stay_finite() -> None:
     assert made.mean(0.0).tolist() == [0.0, 0.0]
 
 
-def test_a_push_is_over_some_time_after_it_ends() -> None:
+def test_a_push_is_over_some_time_after_it_ends():
     made = WrenchFilter(WrenchFilterRules(time_constant=0.1), OMEGA, PERIOD)
     assert not made.acts
     made.update([0.05, 0.0])
@@ -65,7 +63,7 @@ def test_a_push_is_over_some_time_after_it_ends() -> None:
     assert not made.acts
 
 
-def test_wrong_arguments_are_named() -> None:
+def test_wrong_arguments_are_named():
     with pytest.raises(InputError, match="VRP offset"):
         filled([0.0, 0.0, 0.0], 0.5)
     with pytest.raises(InputError, match="horizon is -1"):

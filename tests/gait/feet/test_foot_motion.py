@@ -1,7 +1,5 @@
 """Footholds, swing and landing against made-up loads."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -47,14 +45,14 @@ def walked(
     return motion, track
 
 
-def test_on_the_expected_ground_the_foot_lands_where_and_when_it_is_planned() -> None:
+def test_on_the_expected_ground_the_foot_lands_where_and_when_it_is_planned():
     motion, track = walked(0.0, 2.3)
     assert motion.footholds["left"][0][:2] == pytest.approx([0.2, 0.085])
     assert max(z for _, z in track) == pytest.approx(0.05, abs=1e-3)
     assert motion.landed
 
 
-def test_a_fitted_swing_gets_there_too_rising_once_and_falling_once() -> None:
+def test_a_fitted_swing_gets_there_too_rising_once_and_falling_once():
     motion, track = walked(0.0, 2.3, SwingFitRules())
     # It has landed a tick before the end, when the sole met the ground.
     assert motion.footholds["left"][0][:2] == pytest.approx([0.2, 0.085], abs=1e-4)
@@ -66,7 +64,7 @@ def test_a_fitted_swing_gets_there_too_rising_once_and_falling_once() -> None:
     assert motion.landed
 
 
-def test_a_fitted_swing_follows_a_plan_that_changes_without_a_jump() -> None:
+def test_a_fitted_swing_follows_a_plan_that_changes_without_a_jump():
     feet, steps = straight_plan(2)
     schedule = WalkSchedule.of([step.side for step in steps], Timing())
     motion = FootMotion(feet, PERIOD, 0.05, LANDING, swing=SwingFitRules())
@@ -83,14 +81,14 @@ def test_a_fitted_swing_follows_a_plan_that_changes_without_a_jump() -> None:
     assert fastest < 2.5 * 0.2 / (phase.end - phase.start)  # a minimum-jerk motion over the step's length has 1.9
 
 
-def test_an_early_contact_stops_the_swing() -> None:
+def test_an_early_contact_stops_the_swing():
     motion, track = walked(0.02, 2.1)
     landed = [(t, z) for t, z in track if t > 1.2 + 0.6]
     assert motion.landed
     assert min(z for _, z in landed) > 0.02 - 0.002  # not pushed into the obstacle
 
 
-def test_a_late_contact_is_reached_slowly() -> None:
+def test_a_late_contact_is_reached_slowly():
     _, track = walked(-0.008, 2.395)
     heights = np.array([z for t, z in track if t >= 2.1])
     assert heights[-1] < -0.006
@@ -98,7 +96,7 @@ def test_a_late_contact_is_reached_slowly() -> None:
 
 
 @pytest.mark.parametrize(("relax_time", "stays"), [(0.0, True), (0.2, False)])
-def test_what_a_foot_was_pressed_too_far_is_given_back_when_the_robot_stands(relax_time: float, stays: bool) -> None:
+def test_what_a_foot_was_pressed_too_far_is_given_back_when_the_robot_stands(relax_time, stays):
     feet, steps = straight_plan(1)
     timing = Timing()
     schedule = WalkSchedule.of([step.side for step in steps], timing)
@@ -120,7 +118,7 @@ def test_what_a_foot_was_pressed_too_far_is_given_back_when_the_robot_stands(rel
     assert motion.footholds["left"][0][2] == pytest.approx(pressed if stays else 0.001, abs=1e-3)
 
 
-def test_the_next_ground_is_expected_where_the_last_was_as_far_as_it_is_trusted() -> None:
+def test_the_next_ground_is_expected_where_the_last_was_as_far_as_it_is_trusted():
     for trust in (0.0, 0.3, 1.0):
         feet, steps = straight_plan(2)
         schedule = WalkSchedule.of([step.side for step in steps], Timing())
@@ -137,12 +135,12 @@ def test_the_next_ground_is_expected_where_the_last_was_as_far_as_it_is_trusted(
         assert lowest == pytest.approx(trust * motion.footholds["left"][0][2], abs=2e-3)
 
 
-def test_no_ground_is_not_followed_for_ever() -> None:
+def test_no_ground_is_not_followed_for_ever():
     _, track = walked(-1.0, 3.2)
     assert min(z for _, z in track) > -LANDING.reach - 2e-3
 
 
-def test_a_standing_foot_stays_where_it_is() -> None:
+def test_a_standing_foot_stays_where_it_is():
     motion, _ = walked(0.0, 2.3)
     position, yaw = motion.footholds["right"]
     assert position.tolist() == [0.0, -0.085, 0.0]
@@ -154,7 +152,7 @@ def test_a_standing_foot_stays_where_it_is() -> None:
     [(0.004, 35.0, False), (0.004, 90.0, True), (0.001, 35.0, True), (0.02, 60.0, False)],
     ids=["noise above the ground", "met something", "a touch", "noise high up"],
 )
-def test_a_small_load_is_a_touch_only_where_the_ground_is_seen(height: float, spike: float, landed: bool) -> None:
+def test_a_small_load_is_a_touch_only_where_the_ground_is_seen(height, spike, landed):
     """The taxels of a sole that comes down add up to a few newtons of noise, and now and then to a touch's load."""
     layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
     feet, steps = straight_plan(2)
@@ -185,7 +183,7 @@ def test_a_small_load_is_a_touch_only_where_the_ground_is_seen(height: float, sp
     assert motion.landed == landed
 
 
-def test_a_foot_that_met_something_rises_first_in_its_next_step() -> None:
+def test_a_foot_that_met_something_rises_first_in_its_next_step():
     """What a foot refused stands beside it when it goes on; a swing that moved at once would hit it."""
     feet, steps = straight_plan(3)
     schedule = WalkSchedule.of([step.side for step in steps], Timing())
@@ -208,7 +206,7 @@ def test_a_foot_that_met_something_rises_first_in_its_next_step() -> None:
 
 
 @pytest.mark.parametrize(("place", "later"), [((0.3, 0.12), 0.0), ((0.1, 0.05), -0.2), ((0.2, 0.085), 0.5)])
-def test_a_swing_is_aimed_anew_in_flight_without_a_jump(place: tuple[float, float], later: float) -> None:
+def test_a_swing_is_aimed_anew_in_flight_without_a_jump(place, later):
     feet, steps = straight_plan(2)
     schedule = WalkSchedule.of([step.side for step in steps], Timing())
     motion = FootMotion(feet, PERIOD, 0.05, LANDING)
@@ -234,7 +232,7 @@ def test_a_swing_is_aimed_anew_in_flight_without_a_jump(place: tuple[float, floa
     assert np.abs(np.diff(lifted, 2, axis=0))[:, [0, 1, 3]].max() < 40.0 * PERIOD**2  # m/s^2
 
 
-def test_a_foot_that_has_landed_waits_where_it_is_when_its_phase_is_made_longer() -> None:
+def test_a_foot_that_has_landed_waits_where_it_is_when_its_phase_is_made_longer():
     motion, _ = walked(0.0, 2.05)
     feet, steps = straight_plan(2)
     frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
@@ -246,7 +244,7 @@ def test_a_foot_that_has_landed_waits_where_it_is_when_its_phase_is_made_longer(
     assert motion.footholds["left"][0].tolist() == before.tolist()
 
 
-def test_a_foot_that_sees_the_ground_presses_as_it_is_told() -> None:
+def test_a_foot_that_sees_the_ground_presses_as_it_is_told():
     """The force is an argument of each tick: nobody can leave one behind for another to meet."""
     layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
     feet, steps = straight_plan(2)

@@ -1,7 +1,5 @@
 """A foot that takes the ground's shape, on ground made of springs."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -23,7 +21,7 @@ PERIOD = 0.005
 GAINS = ConformityGains()
 
 
-def test_an_incoming_sole_on_its_toes_turns_its_heel_down_the_faster_the_more_it_carries() -> None:
+def test_an_incoming_sole_on_its_toes_turns_its_heel_down_the_faster_the_more_it_carries():
     slow, fast = (FootTurn(GAINS, PERIOD).incoming(load, np.array([0.1, 0.0]), np.zeros(2)) for load in (100.0, 400.0))
     assert fast == pytest.approx(4.0 * slow)
     assert slow[0] == 0.0
@@ -31,7 +29,7 @@ def test_an_incoming_sole_on_its_toes_turns_its_heel_down_the_faster_the_more_it
     assert FootTurn(GAINS, PERIOD).incoming(300.0, np.array([0.005, 0.005]), np.zeros(2)) == pytest.approx([0.0, 0.0])
 
 
-def test_a_foot_rolls_from_a_bump_onto_the_next_ones() -> None:
+def test_a_foot_rolls_from_a_bump_onto_the_next_ones():
     """One bump 70 mm in front of the target carries until the sole has turned by 50 mrad; then its load can move."""
     foot, tilt, stiff = FootTurn(GAINS, PERIOD), 0.05, 9.5  # rad; m of the load's place for each rad beyond contact
     for _ in range(160):
@@ -41,7 +39,7 @@ def test_a_foot_rolls_from_a_bump_onto_the_next_ones() -> None:
     assert abs(x) <= GAINS.nearly + 0.002
 
 
-def test_a_stance_foot_brings_its_load_where_it_is_wanted() -> None:
+def test_a_stance_foot_brings_its_load_where_it_is_wanted():
     foot, tilt = FootTurn(GAINS, PERIOD), 0.0
     track = []
     for _ in range(100):
@@ -52,14 +50,14 @@ def test_a_stance_foot_brings_its_load_where_it_is_wanted() -> None:
     assert min(track) > -0.012  # does not swing over
 
 
-def test_a_foot_that_rolls_over_an_edge_turns_faster() -> None:
+def test_a_foot_that_rolls_over_an_edge_turns_faster():
     foot, stuck = FootTurn(GAINS, PERIOD), np.array([0.05, 0.02])
     turns = [float(np.hypot(*foot.stance(200.0, stuck, np.array([0.02, 0.0])))) for _ in range(60)]
     assert turns[-1] == pytest.approx(GAINS.rolling / (GAINS.firm * 200.0) * turns[0])
     assert max(turns) <= GAINS.largest_rate * PERIOD + 1e-12
 
 
-def test_a_foot_whose_load_follows_its_turns_late_does_not_turn_faster() -> None:
+def test_a_foot_whose_load_follows_its_turns_late_does_not_turn_faster():
     foot, tilts = FootTurn(GAINS, PERIOD), [0.0] * 12  # 55 ms from a turn until the load that it moved is read
     rates = []
     for _ in range(60):
@@ -70,7 +68,7 @@ def test_a_foot_whose_load_follows_its_turns_late_does_not_turn_faster() -> None
     assert max(rates) <= 1.0 + 1e-9
 
 
-def test_a_standing_sole_turns_about_what_carries_it() -> None:
+def test_a_standing_sole_turns_about_what_carries_it():
     feet, _ = straight_plan(2)
     layout = hex_layout([[-0.1, -0.07], [0.12, -0.07], [0.12, 0.07], [-0.1, 0.07]])
     compliance = {
@@ -85,7 +83,7 @@ def test_a_standing_sole_turns_about_what_carries_it() -> None:
     assert (motion.footholds["left"][0][:2] == before[:2]).all()
 
 
-def test_a_gain_below_zero_is_refused() -> None:
+def test_a_gain_below_zero_is_refused():
     with pytest.raises(InputError, match="setting 'firm'"):
         ConformityGains(firm=-1.0)
 
@@ -114,13 +112,13 @@ def _turned(
 @pytest.mark.parametrize(
     ("landed", "part", "turns"), [(False, False, True), (True, False, False), (False, True, False)]
 )
-def test_a_stance_foot_is_turned_where_there_may_be_more_ground(landed: bool, part: bool, turns: bool) -> None:
+def test_a_stance_foot_is_turned_where_there_may_be_more_ground(landed, part, turns):
     """A desired ZMP between both feet lies beyond the sole that carries, and beyond a seen edge there is no ground."""
     parts: dict[Side, np.ndarray] = {"right": np.zeros(2)} if part else {}
     assert ("right" in _turned("left", (0.0, 0.0), (0.0, 0.12), landed, parts)) == turns
 
 
-def test_a_foot_that_takes_the_weight_over_turns_to_the_middle_of_the_part_that_carries() -> None:
+def test_a_foot_that_takes_the_weight_over_turns_to_the_middle_of_the_part_that_carries():
     """The whole sole's middle would turn a foot that only its heel carries over the edge."""
     over = _turned(None, (-0.06, 0.0), (0.0, 0.0), True, {})
     assert over["right"].turn[1] > 0.0  # the toes go down

@@ -4,7 +4,7 @@ import pytest
 from plantar.gait.feet.landing_compliance import LandingCompliance
 
 
-def test_a_sole_on_its_toes_turns_its_heel_down() -> None:
+def test_a_sole_on_its_toes_turns_its_heel_down():
     foot = LandingCompliance(0.005)
     foot.update(200.0, np.array([0.1, 0.0]), np.zeros(2))
     assert foot.turn[1] < 0.0  # about +y the toes go down
@@ -15,7 +15,7 @@ def test_a_sole_on_its_toes_turns_its_heel_down() -> None:
     assert foot.turn[1] == 0.0
 
 
-def test_it_settles_on_an_elastic_ground_where_the_load_acts_in_the_middle() -> None:
+def test_it_settles_on_an_elastic_ground_where_the_load_acts_in_the_middle():
     foot, stiffness, tilt = LandingCompliance(0.005), 4e3, 0.0015  # N m/rad of a sole that rolls on its edge
     for _ in range(200):
         moment = stiffness * (tilt + foot.turn[1])  # nose down: the load acts forward
@@ -23,7 +23,7 @@ def test_it_settles_on_an_elastic_ground_where_the_load_acts_in_the_middle() -> 
     assert tilt + foot.turn[1] == pytest.approx(0.0, abs=1e-5)
 
 
-def test_turn_and_rate_are_limited_and_a_foot_that_carries_the_body_does_not_yield() -> None:
+def test_turn_and_rate_are_limited_and_a_foot_that_carries_the_body_does_not_yield():
     foot = LandingCompliance(0.005)
     foot.update(300.0, np.array([0.3, 0.0]), np.zeros(2))
     assert abs(foot.turn[1]) <= foot.gains.largest_rate * foot.period + 1e-12

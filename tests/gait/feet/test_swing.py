@@ -16,7 +16,7 @@ SWING = SwingTrajectory(
 )
 
 
-def test_ends_and_apex() -> None:
+def test_ends_and_apex():
     assert np.allclose(SWING.at(0.0)[0], SWING.start)
     assert np.allclose(SWING.at(0.9)[0], SWING.end)
     assert np.allclose(SWING.at(5.0)[0], SWING.end)
@@ -24,7 +24,7 @@ def test_ends_and_apex() -> None:
     assert max(heights) == pytest.approx(0.02 + 0.05, abs=1e-6)
 
 
-def test_lifts_and_lands_without_speed_and_vertically() -> None:
+def test_lifts_and_lands_without_speed_and_vertically():
     for time in (0.0, 0.9):
         inner = abs(time - 0.01)
         a, b = SWING.at(time)[0], SWING.at(inner)[0]
@@ -32,7 +32,7 @@ def test_lifts_and_lands_without_speed_and_vertically() -> None:
         assert np.abs((b - a)[:2]).max() < 1e-9  # nothing but up or down
 
 
-def test_turns_the_short_way() -> None:
+def test_turns_the_short_way():
     yaw = SWING.at(0.9)[1]
     assert math.remainder(yaw + 3.0, 2 * math.pi) == pytest.approx(0.0, abs=1e-12)
     assert abs(yaw - 3.0) < 0.3
@@ -53,13 +53,13 @@ def slow(**options: Any) -> tuple[np.ndarray, np.ndarray]:
         {"approach_height": 0.015, "rises_first": True},
     ],
 )
-def test_speed_does_not_jump(options: dict[str, float]) -> None:
+def test_speed_does_not_jump(options):
     time, track = slow(**options)
     speed = np.diff(track, axis=0) / (time[1] - time[0])
     assert np.abs(np.diff(speed, axis=0)).max() < 0.03
 
 
-def test_a_slow_approach_is_even_and_goes_below_the_expected_ground() -> None:
+def test_a_slow_approach_is_even_and_goes_below_the_expected_ground():
     time, track = slow(approach_height=0.015, approach_speed=0.06)
     late = (track[:, 2] < 0.0149) & (time > 0.4)
     assert np.diff(track[late, 2]) / (time[1] - time[0]) == pytest.approx(np.full(late.sum() - 1, -0.06), abs=1e-6)
@@ -68,19 +68,19 @@ def test_a_slow_approach_is_even_and_goes_below_the_expected_ground() -> None:
     assert time[arrived] < 0.6
 
 
-def test_too_slow_an_approach_is_made_fast_enough_to_reach_the_ground() -> None:
+def test_too_slow_an_approach_is_made_fast_enough_to_reach_the_ground():
     _, track = slow(approach_height=0.03, approach_speed=0.005)
     assert track[-1, 2] == pytest.approx(0.0, abs=1e-9)
 
 
-def test_a_toe_is_above_the_next_stone_when_it_comes_to_it() -> None:
+def test_a_toe_is_above_the_next_stone_when_it_comes_to_it():
     track = slow(approach_height=0.015)[1]  # 0.4 m from heel to heel
     ahead = 0.109  # m from the toe of a sole of 0.241 m to a stone 0.4 m further on, 50 mm larger at each end
     height = track[np.searchsorted(track[:, 0], ahead), 2]
     assert height > 0.035  # the stones of `uneven` differ by up to 30 mm
 
 
-def test_a_foot_that_rises_first_is_half_up_before_it_moves_and_arrives_with_the_others() -> None:
+def test_a_foot_that_rises_first_is_half_up_before_it_moves_and_arrives_with_the_others():
     time, track = slow(approach_height=0.015)
     _, first = slow(approach_height=0.015, rises_first=True)
     assert (first[:, 2] == track[:, 2]).all()

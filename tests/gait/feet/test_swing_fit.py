@@ -1,7 +1,5 @@
 """The fitted swing against a ridge regression that is written out, with its ends as equations of a KKT system."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -63,7 +61,7 @@ class Written:
 
 
 @pytest.mark.parametrize("rules", [SwingFitRules(), SwingFitRules(damping=0.01, order=7, observation=0.3)])
-def test_each_tick_is_the_best_polynomial_through_both_ends(rules: SwingFitRules) -> None:
+def test_each_tick_is_the_best_polynomial_through_both_ends(rules):
     rng, start = np.random.default_rng(0), np.array([0.1, -0.2, 0.05])
     fit, before, seen_before = SwingFit(rules, start, PERIOD, HEIGHT), (start, np.zeros(3), np.zeros(3)), None
     for k in range(1, 40):
@@ -107,7 +105,7 @@ def path(goal_at, duration_at, rules=None) -> np.ndarray:
     return np.array(found)
 
 
-def test_an_undisturbed_swing_is_smooth_and_rests_at_its_ends() -> None:
+def test_an_undisturbed_swing_is_smooth_and_rests_at_its_ends():
     found = path(lambda _: [0.2, -0.05, 0.0], lambda _: 0.8)
     speed = np.diff(found, axis=0) / PERIOD
     assert found[-1] == pytest.approx([0.2, -0.05, 0.0])
@@ -116,7 +114,7 @@ def test_an_undisturbed_swing_is_smooth_and_rests_at_its_ends() -> None:
     assert 0.05 <= found[:, 2].max() < 0.07
 
 
-def test_a_goal_that_moves_is_reached_without_a_jump() -> None:
+def test_a_goal_that_moves_is_reached_without_a_jump():
     found = path(lambda t: [0.2, 0.1 if t > 0.3 else 0.0, 0.0], lambda t: 0.8 if t < 0.35 else 0.9)
     assert found[-1] == pytest.approx([0.2, 0.1, 0.0])
     assert np.abs(np.diff(found, axis=0)).max() < 0.005  # 5 mm a tick for 100 mm
@@ -124,7 +122,7 @@ def test_a_goal_that_moves_is_reached_without_a_jump() -> None:
     assert np.abs(np.diff(papers, axis=0)).max() > 0.005  # which is why the damping is another one
 
 
-def test_height_rises_and_then_falls_and_nothing_turns_round() -> None:
+def test_height_rises_and_then_falls_and_nothing_turns_round():
     found = path(lambda t: [0.2 + 0.02 * math.sin(30.0 * t), 0.1, 0.01], lambda t: 0.7 + 0.1 * math.sin(9.0 * t))
     rising = np.diff(found[:, 2])
     turn = int(np.argmax(found[:, 2]))
@@ -135,7 +133,7 @@ def test_height_rises_and_then_falls_and_nothing_turns_round() -> None:
 
 
 @pytest.mark.parametrize("lasts", [0.02, 0.5, 100.0])
-def test_any_duration_is_well_conditioned(lasts: float) -> None:
+def test_any_duration_is_well_conditioned(lasts):
     fit = SwingFit(SwingFitRules(), [0.0, 0.0, 0.0], PERIOD, HEIGHT)
     for share in (PERIOD / lasts, 0.5, 1.0 - 1e-9):
         found = fit.aim([0.3, 0.1, 0.0], share * lasts, lasts, [0.0, 0.0, 0.0])
@@ -145,7 +143,7 @@ def test_any_duration_is_well_conditioned(lasts: float) -> None:
     assert fit.aim([0.3, 0.1, 0.0], lasts, 0.0).velocity.tolist() == [0.0, 0.0, 0.0]
 
 
-def test_wrong_arguments_are_named() -> None:
+def test_wrong_arguments_are_named():
     fit = SwingFit(SwingFitRules(), [0.0, 0.0, 0.0], PERIOD, HEIGHT)
     with pytest.raises(InputError, match="goal of the swing"):
         fit.aim([0.0, math.nan, 0.0], 0.1, 0.5)

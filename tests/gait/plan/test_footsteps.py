@@ -11,7 +11,7 @@ from plantar.gait.plan.footsteps import Footstep, straight_plan
 from plantar.sides import other_side
 
 
-def test_forward_walk_leads_by_one_length_and_closes() -> None:
+def test_forward_walk_leads_by_one_length_and_closes():
     feet, plan = straight_plan(20, length=0.2, width=0.17)
     assert [s.side for s in plan[:4]] == ["left", "right", "left", "right"]
     assert np.allclose([s.x for s in plan[:-1]], 0.2 * np.arange(1, 20))
@@ -20,13 +20,13 @@ def test_forward_walk_leads_by_one_length_and_closes() -> None:
     assert feet["left"].y - feet["right"].y == pytest.approx(0.17)
 
 
-def test_each_second_step_of_a_closing_walk_closes_the_feet() -> None:
+def test_each_second_step_of_a_closing_walk_closes_the_feet():
     for steps, places in ((6, [1, 1, 2, 2, 3, 3]), (5, [1, 1, 2, 2, 2])):
         _, plan = straight_plan(steps, length=0.3, closing=True)
         assert [s.x for s in plan] == pytest.approx([0.3 * k for k in places])
 
 
-def test_sideways_walk_opens_and_closes() -> None:
+def test_sideways_walk_opens_and_closes():
     _, plan = straight_plan(6, length=0.0, sideways=0.08, width=0.17)
     left = [s.y for s in plan if s.side == "left"]
     right = [s.y for s in plan if s.side == "right"]
@@ -42,9 +42,7 @@ def test_sideways_walk_opens_and_closes() -> None:
     st.floats(-5, 5),
     st.floats(-math.pi, math.pi),
 )
-def test_plans_move_with_their_start(
-    steps: int, length: float, sideways: float, x: float, y: float, yaw: float
-) -> None:
+def test_plans_move_with_their_start(steps, length, sideways, x, y, yaw):
     _, here = straight_plan(steps, length=length, sideways=sideways)
     _, there = straight_plan(steps, length=length, sideways=sideways, start=(x, y, yaw))
     assert len(there) == steps
@@ -58,12 +56,12 @@ def test_plans_move_with_their_start(
 
 
 @pytest.mark.parametrize("arguments", [{"steps": -1}, {"steps": 2, "length": math.nan}, {"steps": 2, "width": 0.0}])
-def test_bad_plans_are_refused(arguments: dict[str, float]) -> None:
+def test_bad_plans_are_refused(arguments):
     with pytest.raises(InputError):
         straight_plan(**arguments)  # type: ignore[arg-type]
 
 
-def test_rotation_is_a_level_heading() -> None:
+def test_rotation_is_a_level_heading():
     rotation = Footstep("left", 0.0, 0.0, 0.3).rotation_sole_to_world
     assert np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-15)
     assert math.atan2(rotation[1, 0], rotation[0, 0]) == pytest.approx(0.3)

@@ -20,7 +20,7 @@ def random_plan(seed: int, knots: int = 8) -> VrpPlan:
     return VrpPlan(times.tolist(), rng.uniform(-1.0, 1.0, (knots, 2)), OMEGA, com=rng.uniform(-0.1, 0.1, 2))
 
 
-def test_waypoints_of_a_constant_vrp_are_the_corrected_equation_4_14() -> None:
+def test_waypoints_of_a_constant_vrp_are_the_corrected_equation_4_14():
     r1, r2, length = np.array([0.0, 0.1]), np.array([0.2, -0.1]), 0.9
     plan = VrpPlan([0.0, length, length + 1e-9, 2 * length], [r1, r1, r2, r2], OMEGA)
     end = plan.dcm_waypoints[2]  # at the start of the second step
@@ -33,7 +33,7 @@ def test_waypoints_of_a_constant_vrp_are_the_corrected_equation_4_14() -> None:
 
 @settings(max_examples=30, deadline=None)
 @given(st.integers(0, 10**6))
-def test_dcm_and_com_satisfy_their_equations(seed: int) -> None:
+def test_dcm_and_com_satisfy_their_equations(seed):
     plan = random_plan(seed)
     step = 1e-5
     for time in np.linspace(plan.times[0] + 1e-3, plan.times[-1] + 0.5, 57):
@@ -47,7 +47,7 @@ def test_dcm_and_com_satisfy_their_equations(seed: int) -> None:
         assert np.allclose((after.com - before.com) / (2 * step), now.com_velocity, atol=1e-6)
 
 
-def test_com_agrees_with_a_numerical_integration() -> None:
+def test_com_agrees_with_a_numerical_integration():
     plan = random_plan(3)
     start = plan.at(plan.times[0])
 
@@ -66,7 +66,7 @@ def test_com_agrees_with_a_numerical_integration() -> None:
     assert np.allclose(solution.y[:2, -1], plan.at(end).com, atol=1e-7)
 
 
-def test_the_plan_ends_at_rest_and_is_continuous() -> None:
+def test_the_plan_ends_at_rest_and_is_continuous():
     plan = random_plan(5)
     assert np.allclose(plan.at(plan.times[-1]).dcm, plan.vrps[-1], atol=1e-15)
     far = plan.at(plan.times[-1] + 20.0)
@@ -77,7 +77,7 @@ def test_the_plan_ends_at_rest_and_is_continuous() -> None:
         assert np.allclose(a.com, b.com, atol=1e-6)
 
 
-def test_a_thousand_steps_stay_finite_and_consistent() -> None:
+def test_a_thousand_steps_stay_finite_and_consistent():
     rng = np.random.default_rng(0)
     times: list[float] = [0.0]
     points: list[np.ndarray] = [np.zeros(2)]
@@ -104,12 +104,12 @@ def test_a_thousand_steps_stay_finite_and_consistent() -> None:
         ([0.0, 1.0], [[0, math.nan], [1, 0]]),
     ],
 )
-def test_bad_knots_are_refused(times: list[float], points: list[list[float]]) -> None:
+def test_bad_knots_are_refused(times, points):
     with pytest.raises(InputError):
         VrpPlan(times, points, OMEGA)
 
 
-def test_both_forms_of_the_kernel_agree_to_the_last_bit() -> None:
+def test_both_forms_of_the_kernel_agree_to_the_last_bit():
     rng = np.random.default_rng(0)
     source = kernels.python_form("pendulum")
     for _ in range(20):

@@ -17,7 +17,7 @@ OMEGA = 3.5
 CENTER = {"left": np.array([0.025, 0.01]), "right": np.array([0.025, -0.01])}
 
 
-def test_vrp_stands_over_the_stance_foot_and_the_plan_ends_between_the_feet() -> None:
+def test_vrp_stands_over_the_stance_foot_and_the_plan_ends_between_the_feet():
     feet, steps = straight_plan(6, length=0.2)
     plan = WalkPlan(feet, steps, Timing(), CENTER, OMEGA, 1.0)
     schedule = plan.schedule
@@ -33,7 +33,7 @@ def test_vrp_stands_over_the_stance_foot_and_the_plan_ends_between_the_feet() ->
     assert np.allclose(plan.at(0.0).com, [0.025, 0.0], atol=1e-2)
 
 
-def test_the_planned_com_stays_near_the_feet_for_any_number_of_steps() -> None:
+def test_the_planned_com_stays_near_the_feet_for_any_number_of_steps():
     for count in (0, 1, 2, 300):
         feet, steps = straight_plan(count, length=0.2)
         plan = WalkPlan(feet, steps, Timing(), CENTER, OMEGA).vrps
@@ -42,7 +42,7 @@ def test_the_planned_com_stays_near_the_feet_for_any_number_of_steps() -> None:
         assert np.abs(lateral).max() < 0.1
 
 
-def test_turned_footsteps_turn_their_vrps() -> None:
+def test_turned_footsteps_turn_their_vrps():
     feet, _ = straight_plan(0, start=(1.0, 2.0, np.pi / 2))
     assert vrp_of_step(feet["left"], CENTER["left"]) == pytest.approx([1.0 - 0.085 - 0.01, 2.0 + 0.025])
 
@@ -76,7 +76,7 @@ def moved(
 WIDE = np.array([[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]])
 
 
-def test_a_moved_foothold_leaves_dcm_and_com_where_they_are() -> None:
+def test_a_moved_foothold_leaves_dcm_and_com_where_they_are():
     plan, time, before, replan = turned_by_a_foothold()
     after = plan.at(time)
     assert replan.moved == ()  # the foot stands where it was planned; its VRP has moved
@@ -87,7 +87,7 @@ def test_a_moved_foothold_leaves_dcm_and_com_where_they_are() -> None:
     assert np.abs(after.vrp - before.vrp).max() < 1e-12
 
 
-def test_the_moved_plan_stands_on_the_foothold_and_satisfies_its_equations() -> None:
+def test_the_moved_plan_stands_on_the_foothold_and_satisfies_its_equations():
     plan, time, _, _ = turned_by_a_foothold()
     swing = next(p for p in plan.schedule.phases if p.kind == PhaseKind.SINGLE_SUPPORT and p.step == 4)
     for at in np.linspace(swing.start, swing.end, 5):
@@ -103,7 +103,7 @@ def test_the_moved_plan_stands_on_the_foothold_and_satisfies_its_equations() -> 
     assert np.abs(plan.at(plan.vrps.times[-1]).dcm - plan.end).max() < 1e-12
 
 
-def test_without_room_the_double_support_grows_or_the_rest_is_left_to_the_feedback() -> None:
+def test_without_room_the_double_support_grows_or_the_rest_is_left_to_the_feedback():
     _, time, before, free = turned_by_a_foothold()
     assert free.delay == 0.0
     feet, steps = straight_plan(12, length=0.0, sideways=0.08)
@@ -119,7 +119,7 @@ def test_without_room_the_double_support_grows_or_the_rest_is_left_to_the_feedba
     assert all(0.015 - 1e-9 <= p[0] <= 0.05 + 1e-9 for p in bridge)
 
 
-def test_later_footholds_move_along() -> None:
+def test_later_footholds_move_along():
     feet, steps = straight_plan(12, length=0.0, sideways=0.08)
     plan = WalkPlan(feet, steps, Timing(), CENTER, OMEGA, 1.0)
     phase = next(p for p in plan.schedule.phases if p.kind == PhaseKind.DOUBLE_SUPPORT and p.step == 4)
@@ -133,7 +133,7 @@ def test_later_footholds_move_along() -> None:
         assert plan.at(0.5 * (swing.start + swing.end)).vrp == pytest.approx(plan.view.vrp(swing.step - 1), abs=1e-9)
 
 
-def test_a_thousand_steps_on_random_partial_footholds_stay_consistent() -> None:
+def test_a_thousand_steps_on_random_partial_footholds_stay_consistent():
     rng = np.random.default_rng(5)
     feet, steps = straight_plan(1000, length=0.2)
     plan = WalkPlan(feet, steps, Timing(), CENTER, OMEGA, 1.0)
@@ -152,7 +152,7 @@ def test_a_thousand_steps_on_random_partial_footholds_stay_consistent() -> None:
     assert np.abs(last.com - [999 * 0.2 + 0.025, 0.0]).max() < 0.12
 
 
-def test_a_replan_costs_the_same_in_a_long_plan() -> None:
+def test_a_replan_costs_the_same_in_a_long_plan():
     # What a replan builds anew is a few stances, however many there are to come.
     feet, steps = straight_plan(1000, length=0.2)
     plan = WalkPlan(feet, steps, Timing(), CENTER, OMEGA, 1.0)
@@ -163,7 +163,7 @@ def test_a_replan_costs_the_same_in_a_long_plan() -> None:
 
 
 @pytest.mark.parametrize("moves", [False, True])
-def test_a_stance_that_is_held_longer_keeps_the_com_over_it(moves: bool) -> None:
+def test_a_stance_that_is_held_longer_keeps_the_com_over_it(moves):
     """In mid swing the DCM stays over the stance foot, and leaves for the next foothold in time."""
     feet, steps = straight_plan(8, length=0.2)
     plan = WalkPlan(feet, steps, Timing(), CENTER, OMEGA, 1.0)
@@ -190,7 +190,7 @@ def test_a_stance_that_is_held_longer_keeps_the_com_over_it(moves: bool) -> None
         assert np.allclose(plan.at(swing.end + 0.8 + 0.3 + 0.1).vrp, [x, y], atol=1e-9)
 
 
-def test_a_foothold_that_is_seen_coming_is_bridged_on_the_stance_foot() -> None:
+def test_a_foothold_that_is_seen_coming_is_bridged_on_the_stance_foot():
     feet, steps = straight_plan(6, length=0.2)
     plan = WalkPlan(feet, steps, Timing(), CENTER, OMEGA, 1.0)
     swing = next(p for p in plan.schedule.phases if p.kind == PhaseKind.SINGLE_SUPPORT and p.step == 2)
@@ -213,7 +213,7 @@ def walking(count: int = 6) -> WalkPlan:
     return WalkPlan(feet, steps, Timing(), CENTER, OMEGA, 1.0)
 
 
-def test_a_footstep_moves_with_its_vrp_and_the_record_says_from_where_to_where_and_why() -> None:
+def test_a_footstep_moves_with_its_vrp_and_the_record_says_from_where_to_where_and_why():
     plan = walking()
     before = plan.view
     place = replace(before.foothold(3), x=0.75, yaw=0.1)
@@ -230,7 +230,7 @@ def test_a_footstep_moves_with_its_vrp_and_the_record_says_from_where_to_where_a
     assert before.foothold(3) == straight_plan(6, length=0.2)[1][3]  # what was handed out stays as it was
 
 
-def test_steps_come_one_by_one_for_an_hour_in_bounded_memory() -> None:
+def test_steps_come_one_by_one_for_an_hour_in_bounded_memory():
     """A walk without an end: at each double support the next steps are planned anew, a little further each time."""
     plan = walking(3)
     largest = 0.0
@@ -257,7 +257,7 @@ def test_steps_come_one_by_one_for_an_hour_in_bounded_memory() -> None:
     assert len(plan.record) == 1000
 
 
-def test_a_phase_that_is_shortened_brings_the_touchdown_and_all_later_phases_forward() -> None:
+def test_a_phase_that_is_shortened_brings_the_touchdown_and_all_later_phases_forward():
     plan = walking()
     swing = next(p for p in plan.schedule.phases if p.step == 2 and p.swing is not None)
     time = swing.start + 0.2
@@ -270,12 +270,12 @@ def test_a_phase_that_is_shortened_brings_the_touchdown_and_all_later_phases_for
     assert plan.at(0.5 * (landed.start + landed.end)).vrp == pytest.approx(plan.view.vrp(2), abs=1e-9)
 
 
-def test_a_change_of_a_step_that_is_not_there_is_refused() -> None:
+def test_a_change_of_a_step_that_is_not_there_is_refused():
     with pytest.raises(InputError, match=r"step 9 is not in the plan; allowed: 0 to 5"):
         walking().apply(PlanChange("a test", 9, vrp=(0.0, 0.0)), 1.0, WIDE)
 
 
-def test_what_the_plan_hands_out_cannot_be_changed() -> None:
+def test_what_the_plan_hands_out_cannot_be_changed():
     plan = walking()
     plan.apply(PlanChange("a test", 2, vrp=(0.5, 0.0)), 2.5, WIDE)
     values = (

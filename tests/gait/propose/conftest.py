@@ -1,8 +1,5 @@
 """Ticks to propose at, without a walk."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -39,12 +36,12 @@ def _tick_at(plan: WalkPlan, time: float, **known: Any) -> Tick:
 
 
 @pytest.fixture
-def plan_of() -> Callable[..., WalkPlan]:
+def plan_of():
     """Makes the plan of a straight walk of some steps."""
     return _plan_of
 
 
 @pytest.fixture
-def tick_at() -> Callable[..., Tick]:
+def tick_at():
     """Makes the tick at a time of a plan, with what else is known."""
     return _tick_at

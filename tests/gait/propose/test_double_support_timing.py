@@ -1,4 +1,3 @@
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -18,7 +17,7 @@ NOW = 4.3 + 0.05  # s: a sixth into the double support after the second step
 
 
 @pytest.fixture
-def pushed(plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]) -> Callable[..., tuple[WalkPlan, Tick]]:
+def pushed(plan_of, tick_at):
     """Makes a plan, and a tick at which the DCM is elsewhere and the ZMP has some room about the reference VRP."""
 
     def made(by: Any, time: float = NOW, room: float = 0.02) -> tuple[WalkPlan, Tick]:
@@ -34,7 +33,7 @@ def proposed(tick: Tick) -> PlanChange | None:
     return DoubleSupportTiming(RULES, WEIGHTS, 1.0, PERIOD).propose(tick)
 
 
-def test_a_dcm_that_lags_gets_a_longer_double_support_and_one_that_leads_a_shorter_one(pushed: Any) -> None:
+def test_a_dcm_that_lags_gets_a_longer_double_support_and_one_that_leads_a_shorter_one(pushed):
     plan, tick = pushed((0.0, 0.0))
     way = tick.pendulum.goal - tick.pendulum.reference.dcm
     way = way / np.hypot(*way)
@@ -50,19 +49,19 @@ def test_a_dcm_that_lags_gets_a_longer_double_support_and_one_that_leads_a_short
     assert plan.view.count == tick.plan.count
 
 
-def test_what_the_vrp_can_do_is_left_to_it(pushed: Any) -> None:
+def test_what_the_vrp_can_do_is_left_to_it(pushed):
     assert proposed(pushed((0.0, 0.0))[1]) is None
     assert proposed(pushed((0.05, 0.0), room=1.0)[1]) is None
 
 
-def test_single_supports_and_the_last_moment_are_not_its_business(pushed: Any) -> None:
+def test_single_supports_and_the_last_moment_are_not_its_business(pushed):
     plan, tick = pushed((0.05, 0.0))
     assert proposed(tick.changed(phase=plan.schedule.at(4.0))) is None
     assert proposed(tick.changed(time=tick.phase.end - 0.5 * RULES.least_left)) is None
     assert proposed(tick.changed(pendulum=None)) is None
 
 
-def test_it_rests_between_two_changes(pushed: Any) -> None:
+def test_it_rests_between_two_changes(pushed):
     _, tick = pushed((0.06, 0.0))
     timing = DoubleSupportTiming(RULES, WEIGHTS, 1.0, PERIOD)
     assert timing.propose(tick) is not None

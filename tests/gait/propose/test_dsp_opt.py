@@ -1,7 +1,5 @@
 """DSP-Opt against the paper's cost as it is printed, on a fine grid, and against L-BFGS-B."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -58,7 +56,7 @@ def bounds_of(p: DspProblem) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("seed", range(60))
-def test_nothing_in_the_interval_costs_less(seed: int) -> None:
+def test_nothing_in_the_interval_costs_less(seed):
     p = drawn(np.random.default_rng(seed))
     found = solve_dsp(p, WEIGHTS)
     assert found.residual < 1e-8
@@ -75,7 +73,7 @@ def _value(p: DspProblem, time: float) -> float:
 
 
 @pytest.mark.parametrize("seed", range(10))
-def test_the_papers_solver_finds_no_less(seed: int) -> None:
+def test_the_papers_solver_finds_no_less(seed):
     p = drawn(np.random.default_rng(seed))
     found, (low, high) = solve_dsp(p, WEIGHTS), bounds_of(p)
     low = min(low + 1e-3, high)
@@ -85,7 +83,7 @@ def test_the_papers_solver_finds_no_less(seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_what_it_says_it_misses_is_missed(seed: int) -> None:
+def test_what_it_says_it_misses_is_missed(seed):
     p = drawn(np.random.default_rng(seed))
     found = solve_dsp(p, WEIGHTS)
     if found.time - p.elapsed < 1e-2:
@@ -105,7 +103,7 @@ def test_what_it_says_it_misses_is_missed(seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", range(30))
-def test_the_derivative_is_that_of_finite_differences(seed: int) -> None:
+def test_the_derivative_is_that_of_finite_differences(seed):
     rng = np.random.default_rng(seed)
     omega, time = rng.uniform(2.8, 7.0), rng.uniform(0.05, 2.0)
     elapsed = time * rng.choice([0.0, rng.uniform(), 0.99, 0.9999])
@@ -121,7 +119,7 @@ def test_the_derivative_is_that_of_finite_differences(seed: int) -> None:
     assert slope == pytest.approx(difference, abs=1e-4 * size)
 
 
-def test_a_late_dcm_makes_it_longer_and_bounds_are_told() -> None:
+def test_a_late_dcm_makes_it_longer_and_bounds_are_told():
     usual = DspProblem(3.44, [0.16, 0.0], [0.23, 0.0], [0.06, 0.0], [0.2, 0.0], [0.0, 0.0], 0.1, 0.2, 0.2)
     assert solve_dsp(usual, WEIGHTS).time > 0.2
     ahead = usual._replace(dcm=[0.25, 0.0])
@@ -136,7 +134,7 @@ def test_a_late_dcm_makes_it_longer_and_bounds_are_told() -> None:
 
 @pytest.mark.parametrize("nominal", [1e-3, 0.2, 20.0, 100.0])
 @pytest.mark.parametrize("offset", [[0.0, 0.0], [80.0, -80.0]])
-def test_nothing_overflows(nominal: float, offset: list[float]) -> None:
+def test_nothing_overflows(nominal, offset):
     for elapsed in (0.0, 0.7 * nominal, 4.999 * nominal):
         p = DspProblem(10.0, [0.1, 0.0], [0.2, 0.1], [0.0, 0.0], [0.2, 0.1], offset, elapsed, nominal, nominal, 0.5)
         found = solve_dsp(p, WEIGHTS)
@@ -144,7 +142,7 @@ def test_nothing_overflows(nominal: float, offset: list[float]) -> None:
         assert found.residual < 1e-8
 
 
-def test_wrong_arguments_are_named() -> None:
+def test_wrong_arguments_are_named():
     usual = DspProblem(3.44, [0.16, 0.0], [0.23, 0.0], [0.06, 0.0], [0.2, 0.0], [0.0, 0.0], 0.1, 0.2, 0.2)
     with pytest.raises(InputError, match="goal of the DCM"):
         solve_dsp(usual._replace(goal=[math.inf, 0.0]), WEIGHTS)

@@ -1,18 +1,12 @@
 """Steps that move off an edge which a landing sole saw beside it, and no others."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.plan_change import PlanChange
-from plantar.gait.plan.walk_plan import WalkPlan
 from plantar.gait.propose.edge_beside import EdgeBeside
-from plantar.gait.propose.proposer import Tick
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.tiling import hex_layout
 from plantar.sides import SIDES, Side
@@ -22,12 +16,12 @@ DROP, LARGEST, FIRST = 0.04, 0.02, 2.2 + 0.85  # s, when the first foot touches 
 
 
 @pytest.fixture(scope="module")
-def sole() -> SoleLayout:
+def sole():
     return hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
 
 
 @pytest.fixture
-def proposer(sole: SoleLayout) -> EdgeBeside:
+def proposer(sole):
     return EdgeBeside(dict.fromkeys(SIDES, sole), DROP, LARGEST)
 
 
@@ -41,9 +35,7 @@ def ground(sole: SoleLayout, edge: float) -> NDArray[np.float64]:
     return np.where(sole.positions[:, 1] < edge, np.inf, 0.001)
 
 
-def test_steps_move_away_from_the_edge_by_half_of_what_it_cuts_off(
-    proposer: EdgeBeside, sole: SoleLayout, plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_steps_move_away_from_the_edge_by_half_of_what_it_cuts_off(proposer, sole, plan_of, tick_at):
     plan = plan_of()
     change = proposer.propose(tick_at(plan, FIRST, feet=down("left", ground(sole, -0.045))))
     assert change is not None
@@ -55,18 +47,14 @@ def test_steps_move_away_from_the_edge_by_half_of_what_it_cuts_off(
     assert moved == pytest.approx([0.0] + 5 * [change.shift[1]])
 
 
-def test_one_landing_moves_them_only_so_far(
-    proposer: EdgeBeside, sole: SoleLayout, plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_one_landing_moves_them_only_so_far(proposer, sole, plan_of, tick_at):
     change = proposer.propose(tick_at(plan_of(), FIRST, feet=down("left", ground(sole, -0.01))))
     assert change is not None
     assert change.shift == pytest.approx((0.0, LARGEST))
 
 
 @pytest.mark.parametrize("what", ["whole", "dead taxels", "two taxels", "toes", "all but nothing"])
-def test_what_is_no_edge_beside_moves_nothing(
-    what: str, proposer: EdgeBeside, sole: SoleLayout, plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_what_is_no_edge_beside_moves_nothing(what, proposer, sole, plan_of, tick_at):
     x, y = sole.positions[:, 0], sole.positions[:, 1]
     seen = {
         "whole": np.full(len(sole), 0.001),
@@ -78,9 +66,7 @@ def test_what_is_no_edge_beside_moves_nothing(
     assert proposer.propose(tick_at(plan_of(), FIRST, feet=down("left", seen))) is None
 
 
-def test_between_two_edges_there_is_no_way(
-    proposer: EdgeBeside, sole: SoleLayout, plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_between_two_edges_there_is_no_way(proposer, sole, plan_of, tick_at):
     plan = plan_of()
     first = proposer.propose(tick_at(plan, FIRST, feet=down("left", ground(sole, -0.045))))
     assert first is not None
@@ -93,9 +79,7 @@ def test_between_two_edges_there_is_no_way(
     )
 
 
-def test_it_asks_again_until_its_change_is_applied(
-    proposer: EdgeBeside, sole: SoleLayout, plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_it_asks_again_until_its_change_is_applied(proposer, sole, plan_of, tick_at):
     plan = plan_of()
     first = proposer.propose(tick_at(plan, FIRST, feet=down("left", ground(sole, -0.045))))
     plan.apply(PlanChange("somebody else's", 3, vrp=(0.8, 0.0)), FIRST, NOWHERE)

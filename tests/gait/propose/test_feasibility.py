@@ -1,7 +1,5 @@
 """Rules of step feasibility on made-up contacts, and the way around."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -23,7 +21,7 @@ def probe(mask: np.ndarray, rules: FeasibilityRules = RULES, moment: float = 0.0
     return made
 
 
-def test_a_slab_is_stepped_on_and_a_small_block_is_not() -> None:
+def test_a_slab_is_stepped_on_and_a_small_block_is_not():
     whole = probe(np.ones(len(LAYOUT), dtype=bool)).verdict()
     assert whole.feasible
     assert whole.area_ratio > 0.9
@@ -33,11 +31,11 @@ def test_a_slab_is_stepped_on_and_a_small_block_is_not() -> None:
     assert 0.05 < block.area_ratio < 0.5
 
 
-def test_noise_alone_supports_nothing() -> None:
+def test_noise_alone_supports_nothing():
     assert probe(np.zeros(len(LAYOUT), dtype=bool)).verdict().area_ratio == 0.0
 
 
-def test_dead_taxels_do_not_spoil_the_area() -> None:
+def test_dead_taxels_do_not_spoil_the_area():
     made = FootholdProbe(LAYOUT, RULES)
     force = np.full(len(LAYOUT), 4.0)
     force[[3, 9]] = np.nan
@@ -46,7 +44,7 @@ def test_dead_taxels_do_not_spoil_the_area() -> None:
     assert made.verdict().feasible
 
 
-def test_what_is_seen_right_below_counts_as_supported() -> None:
+def test_what_is_seen_right_below_counts_as_supported():
     made = probe(np.zeros(len(LAYOUT), dtype=bool))
     distance = np.full(len(LAYOUT), np.inf)
     made.update_view(distance)
@@ -56,7 +54,7 @@ def test_what_is_seen_right_below_counts_as_supported() -> None:
 
 
 @pytest.mark.parametrize(("moment", "feasible"), [(3.0, True), (-3.0, True), (8.5, False), (-8.5, False)])
-def test_the_force_torque_rule_goes_by_the_moment_alone(moment: float, feasible: bool) -> None:
+def test_the_force_torque_rule_goes_by_the_moment_alone(moment, feasible):
     rules = FeasibilityRules(rule="force_torque")
     small = np.hypot(*LAYOUT.positions[:, :2].T) < 0.035
     found = probe(small, rules, moment).verdict()
@@ -67,7 +65,7 @@ def test_the_force_torque_rule_goes_by_the_moment_alone(moment: float, feasible:
 
 @pytest.mark.parametrize("side", ["left", "right"])
 @pytest.mark.parametrize("seed", range(10))
-def test_the_way_around_clears_the_obstacle_by_the_clearance(side: str, seed: int) -> None:
+def test_the_way_around_clears_the_obstacle_by_the_clearance(side, seed):
     rng = np.random.default_rng(seed)
     middle, half = rng.uniform(-0.06, 0.06, 2), rng.uniform(0.01, 0.04, 2)
     obstacle = np.array([middle - half, middle + half])
@@ -85,7 +83,7 @@ def test_the_way_around_clears_the_obstacle_by_the_clearance(side: str, seed: in
     assert max(gaps) == pytest.approx(RULES.clearance)
 
 
-def test_a_foot_does_not_go_where_the_other_one_stands_and_gives_up_where_nothing_is_allowed() -> None:
+def test_a_foot_does_not_go_where_the_other_one_stands_and_gives_up_where_nothing_is_allowed():
     obstacle = np.array([[-0.09, 0.0], [0.09, 0.065]])
     rules = FeasibilityRules(sideways_cost=1.0, outward=0.2, inward=0.02, forward=0.02, backward=0.02)
     left = way_around(obstacle, OUTLINE, "left", rules)
@@ -97,7 +95,7 @@ def test_a_foot_does_not_go_where_the_other_one_stands_and_gives_up_where_nothin
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_the_next_step_of_a_foot_clears_what_it_did_not_step_on(seed: int) -> None:
+def test_the_next_step_of_a_foot_clears_what_it_did_not_step_on(seed):
     rng = np.random.default_rng(seed)
     middle, half = rng.uniform(-0.06, 0.06, 2), rng.uniform(0.01, 0.04, 2)
     obstacle = np.array([middle - half, middle + half])
@@ -108,7 +106,7 @@ def test_the_next_step_of_a_foot_clears_what_it_did_not_step_on(seed: int) -> No
     assert more == pytest.approx(missing if 0.0 < missing <= RULES.forward else 0.0)
 
 
-def test_a_foot_beside_an_obstacle_or_behind_it_goes_no_further_than_planned() -> None:
+def test_a_foot_beside_an_obstacle_or_behind_it_goes_no_further_than_planned():
     obstacle = np.array([[-0.03, -0.03], [0.03, 0.03]])
     assert room_ahead(obstacle, OUTLINE, [0.1, 0.0], RULES) > 0.0
     assert room_ahead(obstacle, OUTLINE, [0.1, 0.2], RULES) == 0.0
@@ -116,6 +114,6 @@ def test_a_foot_beside_an_obstacle_or_behind_it_goes_no_further_than_planned() -
     assert room_ahead(obstacle, OUTLINE, [-0.3, 0.0], RULES) == 0.0
 
 
-def test_an_unknown_rule_is_refused() -> None:
+def test_an_unknown_rule_is_refused():
     with pytest.raises(InputError, match="skin, force_torque"):
         FeasibilityRules(rule="eyes")

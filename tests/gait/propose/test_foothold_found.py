@@ -1,8 +1,5 @@
 """What a foot is found to stand on moves the plan; a strip moves the footsteps, and only along with the plan."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -15,7 +12,6 @@ from plantar.gait.plan.walk_plan import WalkPlan
 from plantar.gait.propose.foothold_found import FootholdCarries
 from plantar.gait.propose.foothold_rules import FootholdRules
 from plantar.gait.propose.foothold_seen import FootholdSeenAhead
-from plantar.gait.propose.proposer import Tick
 from plantar.sides import SIDES, Side
 
 RULES = FootholdRules()
@@ -41,9 +37,7 @@ def double_support(plan: WalkPlan, after: int) -> float:
     return next(p.start for p in plan.schedule.phases if p.step == after + 1 and p.swing is None) + 0.05
 
 
-def test_a_partial_foothold_gets_the_vrp_over_it(
-    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_a_partial_foothold_gets_the_vrp_over_it(plan_of, tick_at):
     plan = plan_of()
     here = found(plan, 2, (0.0, 0.03))
     change = proposer().propose(tick_at(plan, double_support(plan, 2), found=(here,)))
@@ -54,17 +48,13 @@ def test_a_partial_foothold_gets_the_vrp_over_it(
 
 
 @pytest.mark.parametrize(("off", "whole"), [((0.002, 0.0), False), ((0.0, 0.0), True)], ids=["hardly off", "whole"])
-def test_a_foothold_as_planned_changes_nothing(
-    off: tuple[float, float], whole: bool, plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_a_foothold_as_planned_changes_nothing(off, whole, plan_of, tick_at):
     plan = plan_of()
     here = found(plan, 2, off, whole)
     assert proposer().propose(tick_at(plan, double_support(plan, 2), found=(here,))) is None
 
 
-def test_one_foothold_moves_the_plan_only_every_now_and_then(
-    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_one_foothold_moves_the_plan_only_every_now_and_then(plan_of, tick_at):
     plan, asked = plan_of(), proposer()
     time = double_support(plan, 2)
     change = asked.propose(tick_at(plan, time, found=(found(plan, 2, (0.0, 0.03)),)))
@@ -75,9 +65,7 @@ def test_one_foothold_moves_the_plan_only_every_now_and_then(
     assert asked.propose(tick_at(plan, later, found=(found(plan, 2, (0.0, 0.02)),))) is not None
 
 
-def test_a_foothold_whose_change_was_not_chosen_is_proposed_again(
-    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_a_foothold_whose_change_was_not_chosen_is_proposed_again(plan_of, tick_at):
     plan, asked = plan_of(), proposer()
     time = double_support(plan, 2)
     first = asked.propose(tick_at(plan, time, found=(found(plan, 2, (0.0, 0.03)),)))
@@ -90,9 +78,7 @@ def test_a_foothold_whose_change_was_not_chosen_is_proposed_again(
     assert asked.propose(tick_at(plan, time + 0.01)) is None
 
 
-def test_two_partial_footholds_on_one_side_are_a_strip_that_the_steps_come_onto(
-    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_two_partial_footholds_on_one_side_are_a_strip_that_the_steps_come_onto(plan_of, tick_at):
     plan, asked = plan_of(), proposer()
     for step in (1, 2):
         time = double_support(plan, step)
@@ -112,9 +98,7 @@ def test_two_partial_footholds_on_one_side_are_a_strip_that_the_steps_come_onto(
     assert {m.reason for m in moved} == {"onto the strip that carries"}
 
 
-def test_ground_that_ends_along_the_walk_is_no_strip(
-    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_ground_that_ends_along_the_walk_is_no_strip(plan_of, tick_at):
     plan, asked = plan_of(), proposer()
     for step in (1, 2):
         time = double_support(plan, step)
@@ -126,9 +110,7 @@ def test_ground_that_ends_along_the_walk_is_no_strip(
         plan.apply(change, time, NOWHERE)
 
 
-def test_ground_that_loads_alone_show_may_be_a_strip_however_wide_it_is_known_to_be(
-    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_ground_that_loads_alone_show_may_be_a_strip_however_wide_it_is_known_to_be(plan_of, tick_at):
     plan, asked, shifts = plan_of(), proposer(), []
     for step in (1, 2):
         time = double_support(plan, step)
@@ -143,9 +125,7 @@ def test_ground_that_loads_alone_show_may_be_a_strip_however_wide_it_is_known_to
 
 
 @pytest.mark.parametrize("ahead", [0.03, 0.055, 0.07])
-def test_footsteps_move_once_a_foothold_until_the_ankle_is_over_what_carries(
-    ahead: float, plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_footsteps_move_once_a_foothold_until_the_ankle_is_over_what_carries(ahead, plan_of, tick_at):
     plan, time = plan_of(), 0.0
     asked = FootholdCarries(RULES, MIDDLES, OUTLINES, SupportStrip(np.zeros(2), np.array([0.0, 1.0])), 0.1)
     time = double_support(plan, 2)
@@ -163,9 +143,7 @@ def test_footsteps_move_once_a_foothold_until_the_ankle_is_over_what_carries(
     assert change.shift == (0.0, 0.0)
 
 
-def test_where_nothing_is_to_be_done_no_footstep_creeps(
-    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_where_nothing_is_to_be_done_no_footstep_creeps(plan_of, tick_at):
     """Refining a foothold on the strip again and again used to shift the steps to come by up to 2 cm each time."""
     plan, asked = plan_of(length=0.0, sideways=0.0), proposer()
     off = {"left": -0.085 + 0.002, "right": 0.085 + 0.002}  # every foothold lies 2 mm off the walk's line
@@ -183,9 +161,7 @@ def test_where_nothing_is_to_be_done_no_footstep_creeps(
         assert ([p.foothold for p in plan.view.steps] != steps) <= (len(plan.record) > changes)
 
 
-def test_a_foothold_that_is_seen_moves_the_vrp_of_the_step_in_the_air(
-    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_a_foothold_that_is_seen_moves_the_vrp_of_the_step_in_the_air(plan_of, tick_at):
     plan, time = plan_of(), 2.2 + 0.7
     seen = FootholdSeen(0, "left", plan.view.vrp(0) + np.array([0.03, 0.0]))
     change = FootholdSeenAhead(RULES).propose(tick_at(plan, time, seen=seen))

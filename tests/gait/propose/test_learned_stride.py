@@ -1,6 +1,5 @@
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -48,7 +47,7 @@ def strides(plan: WalkPlan) -> list[float]:
 
 
 @pytest.mark.parametrize("early", [0.01, 0.0, -0.01])
-def test_strides_that_are_pushed_become_the_robots_own(plan_of: Any, tick_at: Any, early: float) -> None:
+def test_strides_that_are_pushed_become_the_robots_own(plan_of, tick_at, early):
     plan, learns = plan_of(12), LearnedStride(RULES)
     usual = strides(plan)[3]
     changes = dict(walk(plan, tick_at, learns, lambda step: 0.1 if 2 <= step < 6 else 0.0, early))
@@ -62,14 +61,14 @@ def test_strides_that_are_pushed_become_the_robots_own(plan_of: Any, tick_at: An
     assert plan.view.count == 12
 
 
-def test_what_nobody_pushes_stays_as_it_is_planned(plan_of: Any, tick_at: Any) -> None:
+def test_what_nobody_pushes_stays_as_it_is_planned(plan_of, tick_at):
     plan, learns = plan_of(8), LearnedStride(RULES)
     before = [plan.view.foothold(k) for k in range(8)]
     assert all(change is None for _, change in walk(plan, tick_at, learns, lambda step: 0.0))
     assert [plan.view.foothold(k) for k in range(8)] == before
 
 
-def test_strides_never_become_shorter_than_planned_nor_too_long(plan_of: Any, tick_at: Any) -> None:
+def test_strides_never_become_shorter_than_planned_nor_too_long(plan_of, tick_at):
     back, far = LearnedStride(RULES), LearnedStride(replace(RULES, rate=1.0, largest=1.2))
     for _ in walk(plan_of(8), tick_at, back, lambda step: -0.1):
         pass

@@ -1,7 +1,5 @@
 """SSP-Opt against the paper's cost as it is printed, a general solver of quadratic programs, and L-BFGS-B."""
 
-from __future__ import annotations
-
 import math
 
 import daqp
@@ -124,7 +122,7 @@ def by_daqp(p: SspProblem) -> tuple[np.ndarray, float]:
 
 
 @pytest.mark.parametrize("seed", range(60))
-def test_it_is_the_optimum_of_the_printed_cost(seed: int) -> None:
+def test_it_is_the_optimum_of_the_printed_cost(seed):
     p = drawn(np.random.default_rng(seed))
     found = solve_ssp(p, WEIGHTS)
     assert found is not None
@@ -138,7 +136,7 @@ def test_it_is_the_optimum_of_the_printed_cost(seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", range(10))
-def test_the_papers_solver_finds_no_less(seed: int) -> None:
+def test_the_papers_solver_finds_no_less(seed):
     p = drawn(np.random.default_rng(seed), polygon=False)
     found = solve_ssp(p, WEIGHTS)
     assert found is not None
@@ -151,7 +149,7 @@ def test_the_papers_solver_finds_no_less(seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_what_it_says_it_misses_is_missed(seed: int) -> None:
+def test_what_it_says_it_misses_is_missed(seed):
     p = drawn(np.random.default_rng(seed))
     found = solve_ssp(p, WEIGHTS)
     assert found is not None
@@ -160,7 +158,7 @@ def test_what_it_says_it_misses_is_missed(seed: int) -> None:
     assert found.missed == pytest.approx(reached - wanted.single_end, abs=1e-9)
 
 
-def test_a_push_outward_moves_the_step_outward_and_ends_it_sooner() -> None:
+def test_a_push_outward_moves_the_step_outward_and_ends_it_sooner():
     calm, pushed = (solve_ssp(problem(dcm=[0.0, y]), WEIGHTS) for y in (0.05, 0.08))
     assert calm is not None
     assert pushed is not None
@@ -168,7 +166,7 @@ def test_a_push_outward_moves_the_step_outward_and_ends_it_sooner() -> None:
     assert pushed.time < calm.time
 
 
-def test_confidence_keeps_the_nominal_footstep() -> None:
+def test_confidence_keeps_the_nominal_footstep():
     away = {"dcm": [0.0, 0.075], "target": (0.1, 0.25, 0.6)}
     sure, unsure = (solve_ssp(problem(confidence=c, **away), WEIGHTS) for c in (1.0, 0.0))
     assert sure is not None
@@ -177,7 +175,7 @@ def test_confidence_keeps_the_nominal_footstep() -> None:
     assert unsure.place[0] > 0.01
 
 
-def test_bounds_are_told() -> None:
+def test_bounds_are_told():
     late = solve_ssp(problem(dcm=[0.0, 0.4]), WEIGHTS)
     early = solve_ssp(problem(dcm=[0.0, 0.0305], longest=0.5), WEIGHTS)
     assert late is not None
@@ -187,7 +185,7 @@ def test_bounds_are_told() -> None:
 
 
 @pytest.mark.parametrize("region", [[[0.1, 0.2]], [[0.0, 0.2], [0.1, 0.3]], [[0.0, 0.2], [0.0, 0.2]]])
-def test_a_region_may_be_a_line_or_a_point(region: list[list[float]]) -> None:
+def test_a_region_may_be_a_line_or_a_point(region):
     found = solve_ssp(problem(region=region), WEIGHTS)
     assert found is not None
     assert found.residual < 1e-12
@@ -197,14 +195,14 @@ def test_a_region_may_be_a_line_or_a_point(region: list[list[float]]) -> None:
     assert -1e-12 <= along @ off <= along @ along + 1e-12
 
 
-def test_an_empty_region_has_no_footstep() -> None:
+def test_an_empty_region_has_no_footstep():
     assert solve_ssp(problem(region=np.empty((0, 2))), WEIGHTS) is None
 
 
 @pytest.mark.parametrize("longest", [0.4, 20.0, 100.0])
 @pytest.mark.parametrize("dcm", [[0.0, 0.03], [1e-12, 0.03], [50.0, -80.0]])
 @pytest.mark.parametrize("omega", [2.5, 10.0])
-def test_nothing_overflows(longest: float, dcm: list[float], omega: float) -> None:
+def test_nothing_overflows(longest, dcm, omega):
     """80 m is where a second of 10 kN has the DCM of a body of 40 kg."""
     for elapsed in (0.0, longest):
         p = problem(omega=omega, dcm=dcm, longest=longest, offset=[80.0, -80.0], elapsed=elapsed, next_duration=100.0)
@@ -214,7 +212,7 @@ def test_nothing_overflows(longest: float, dcm: list[float], omega: float) -> No
         assert found.residual < 1e-8
 
 
-def test_the_region_lies_beside_the_stance_foot() -> None:
+def test_the_region_lies_beside_the_stance_foot():
     rules = StepRegionRules(forward=0.2, backward=0.1, clearance=0.01, outside=0.27)
     left = footstep_region(rules, "left", (1.0, 2.0, 0.0), 0.14)
     right = footstep_region(rules, "right", (1.0, 2.0, math.pi), 0.14)
@@ -226,7 +224,7 @@ def test_the_region_lies_beside_the_stance_foot() -> None:
     assert cut.max(axis=0) == pytest.approx([1.05, 2.27])
 
 
-def test_wrong_arguments_are_named() -> None:
+def test_wrong_arguments_are_named():
     with pytest.raises(InputError, match="DCM"):
         solve_ssp(problem(dcm=[math.nan, 0.0]), WEIGHTS)
     with pytest.raises(InputError, match="region"):

@@ -1,5 +1,4 @@
 import math
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -27,7 +26,7 @@ METHODS = ["search", "ssp_opt"]
 
 
 @pytest.fixture
-def pushed(plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]) -> Callable[..., tuple[WalkPlan, Tick]]:
+def pushed(plan_of, tick_at):
     """Makes a plan, and the tick at a time of it at which the DCM is pushed aside."""
 
     def made(by: Any, time: float = NOW, room: np.ndarray = ROOM, **known: Any) -> tuple[WalkPlan, Tick]:
@@ -66,7 +65,7 @@ def ends(tick: Tick, left: float) -> shapely.Polygon:
 
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("by", [(0.1, 0.0), (-0.1, 0.0), (0.0, -0.08), (0.05, -0.05)])
-def test_a_push_moves_the_step_its_way(method: str, by: Any, pushed: Any) -> None:
+def test_a_push_moves_the_step_its_way(method, by, pushed):
     plan, tick = pushed(by)
     sign = 1.0 if tick.phase.swing == "left" else -1.0
     by = (by[0], -sign * by[1])  # out to the side of the foot that swings
@@ -85,14 +84,14 @@ def test_a_push_moves_the_step_its_way(method: str, by: Any, pushed: Any) -> Non
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_what_the_zmp_can_do_is_left_to_it(method: str, pushed: Any) -> None:
+def test_what_the_zmp_can_do_is_left_to_it(method, pushed):
     for by in ((0.0, 0.0), (0.01, 0.0), (0.0, 0.015)):
         assert proposed(pushed(by)[1], method=method) is None
     assert proposed(pushed((0.0, 0.1), room=0.5 * SQUARE)[1], method=method) is None
 
 
 @pytest.mark.parametrize("seed", range(60))
-def test_the_footstep_stays_in_its_region_and_where_the_foot_gets_to(pushed: Any, seed: int) -> None:
+def test_the_footstep_stays_in_its_region_and_where_the_foot_gets_to(pushed, seed):
     rng = np.random.default_rng(seed)
     time = NOW + float(rng.uniform(-0.4, 0.35))
     method = METHODS[seed % 2]
@@ -116,7 +115,7 @@ def test_the_footstep_stays_in_its_region_and_where_the_foot_gets_to(pushed: Any
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_the_search_is_as_good_as_trying_everything(pushed: Any, seed: int) -> None:
+def test_the_search_is_as_good_as_trying_everything(pushed, seed):
     """Over all times in periods, with distances of GEOS."""
     rng = np.random.default_rng(seed)
     _, tick = pushed(rng.normal(0.0, 0.06, 2))
@@ -145,21 +144,21 @@ def test_the_search_is_as_good_as_trying_everything(pushed: Any, seed: int) -> N
     assert found < cost(left, np.zeros(2))
 
 
-def test_a_push_that_goes_on_is_reckoned_with(pushed: Any) -> None:
+def test_a_push_that_goes_on_is_reckoned_with(pushed):
     assert proposed(pushed((0.0, 0.0))[1]) is None
     change = proposed(pushed((0.0, 0.0), offset=np.array([0.08, 0.0]))[1])
     assert change is not None
     assert change.shift[0] > 0.0
 
 
-def test_a_confident_robot_moves_its_steps_less(pushed: Any) -> None:
+def test_a_confident_robot_moves_its_steps_less(pushed):
     tick = pushed((0.045, 0.0))[1]
     moves = [proposed(tick, confidence=c, price_place=2.0) for c in (0.0, 1.0)]
     sizes = [0.0 if change is None else math.hypot(*change.shift) for change in moves]
     assert sizes[1] < sizes[0]
 
 
-def test_a_foot_in_flight_gets_farther_its_way(pushed: Any) -> None:
+def test_a_foot_in_flight_gets_farther_its_way(pushed):
     _, tick = pushed((0.15, 0.0))
     still, moving = adjustment(), adjustment()
     swing = tick.phase.swing
@@ -174,7 +173,7 @@ def test_a_foot_in_flight_gets_farther_its_way(pushed: Any) -> None:
     assert second.foothold.x > first.foothold.x + 0.01
 
 
-def test_a_foot_that_lands_early_ends_the_single_support(pushed: Any) -> None:
+def test_a_foot_that_lands_early_ends_the_single_support(pushed):
     plan, tick = pushed((0.1, 0.0))
     steps = adjustment()
     change = steps.propose(tick)
@@ -194,14 +193,14 @@ def test_a_foot_that_lands_early_ends_the_single_support(pushed: Any) -> None:
     assert steps.propose(down) is None  # told once
 
 
-def test_a_step_that_nobody_adjusted_keeps_its_time(pushed: Any) -> None:
+def test_a_step_that_nobody_adjusted_keeps_its_time(pushed):
     _, tick = pushed((0.0, 0.0), NOW + 0.3)
     place = tick.plan.foothold(tick.phase.step)
     standing = dict(tick.feet.footholds) | {tick.phase.swing: (np.array([place.x, place.y, 0.0]), place.yaw)}
     assert proposed(tick.changed(feet=tick.feet.changed(footholds=standing, landed=True))) is None
 
 
-def test_it_rests_between_two_changes_and_needs_feedback(pushed: Any) -> None:
+def test_it_rests_between_two_changes_and_needs_feedback(pushed):
     _, tick = pushed((0.1, 0.0))
     steps = adjustment()
     assert steps.propose(tick.changed(pendulum=None)) is None
@@ -210,7 +209,7 @@ def test_it_rests_between_two_changes_and_needs_feedback(pushed: Any) -> None:
     assert steps.propose(tick.changed(time=NOW + 1.01 * RULES.pause)) is not None
 
 
-def test_steps_are_planned_with_a_part_of_the_support_and_with_confidence_all_of_it(pushed: Any) -> None:
+def test_steps_are_planned_with_a_part_of_the_support_and_with_confidence_all_of_it(pushed):
     _, tick = pushed((0.045, 0.0))
 
     def moved(forward: float, confidence: float) -> float:
@@ -225,7 +224,7 @@ def test_steps_are_planned_with_a_part_of_the_support_and_with_confidence_all_of
     assert moved(0.5, 1.0) == pytest.approx(moved(1.0, 0.0), abs=1e-9)
 
 
-def test_a_step_goes_along_with_a_push_as_far_as_it_is_not_confident(pushed: Any) -> None:
+def test_a_step_goes_along_with_a_push_as_far_as_it_is_not_confident(pushed):
     pushing = np.array([0.05, 0.0])
 
     def moved(confidence: float, by: np.ndarray = pushing) -> np.ndarray:
@@ -238,7 +237,7 @@ def test_a_step_goes_along_with_a_push_as_far_as_it_is_not_confident(pushed: Any
     assert not moved(0.0, 0.1 * pushing).any()  # too little to change a step for
 
 
-def test_it_goes_along_once_and_farther_only_with_a_push_that_grows(pushed: Any) -> None:
+def test_it_goes_along_once_and_farther_only_with_a_push_that_grows(pushed):
     steps = adjustment(confidence=0.5, yielding=1.0)
     plan, tick = pushed((0.0, 0.0), pushed=np.array([0.06, 0.0]))
     change = steps.propose(tick)

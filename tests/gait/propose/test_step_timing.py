@@ -19,7 +19,7 @@ NOW = 3.4 + 0.45  # s: half-way through the second single support of the plan
 
 
 @pytest.fixture
-def timed(plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]) -> Callable[..., tuple[WalkPlan, Tick]]:
+def timed(plan_of, tick_at):
     """Makes a plan, and the tick at a time of it at which the DCM and the room of the ZMP are given."""
 
     def made(time: float, dcm: Any, room: np.ndarray = NARROW, **known: Any) -> tuple[WalkPlan, Tick]:
@@ -49,7 +49,7 @@ def missed(tick: Tick, left: float) -> float:
 
 
 @pytest.mark.parametrize("late", [0.04, 0.08, 0.12])
-def test_a_dcm_that_is_behind_gets_the_time_that_it_needs(late: float, timed: Any) -> None:
+def test_a_dcm_that_is_behind_gets_the_time_that_it_needs(late, timed):
     plan, tick = timed(NOW, late_by(late))
     change = proposed(tick, price=0.0)
     assert change is not None
@@ -63,7 +63,7 @@ def test_a_dcm_that_is_behind_gets_the_time_that_it_needs(late: float, timed: An
     assert [s.foothold for s in plan.view.steps] == [s.foothold for s in tick.plan.steps]
 
 
-def test_one_that_is_ahead_is_followed_as_far_as_the_foot_can_be_hurried(timed: Any) -> None:
+def test_one_that_is_ahead_is_followed_as_far_as_the_foot_can_be_hurried(timed):
     _, tick = timed(NOW, late_by(-0.06))
     change = proposed(tick, price=0.0)
     assert change is not None
@@ -76,14 +76,14 @@ def test_one_that_is_ahead_is_followed_as_far_as_the_foot_can_be_hurried(timed: 
     assert proposed(far, shortest=0.0) is None or proposed(far, shortest=0.0).longer > 0.0
 
 
-def test_what_the_zmp_can_do_is_left_to_it(timed: Any) -> None:
+def test_what_the_zmp_can_do_is_left_to_it(timed):
     for late in (0.0, 0.04, -0.04):
         assert proposed(timed(NOW, late_by(late), WIDE)[1]) is None
     assert proposed(timed(NOW, late_by(0.0))[1]) is None
     assert proposed(timed(NOW, late_by(0.003))[1]) is None  # 15 ms of walking: less than the least error
 
 
-def test_only_single_supports_have_a_time_of_their_own(timed: Any) -> None:
+def test_only_single_supports_have_a_time_of_their_own(timed):
     behind = late_by(0.1)
     assert proposed(timed(3.2, lambda plan: plan.at(3.1).dcm)[1]) is None  # double support
     _, tick = timed(NOW, behind)
@@ -92,7 +92,7 @@ def test_only_single_supports_have_a_time_of_their_own(timed: Any) -> None:
     assert proposed(tick.changed(phase=waits)) is None  # somebody else has the time in hand
 
 
-def test_it_rests_between_two_changes(timed: Any) -> None:
+def test_it_rests_between_two_changes(timed):
     _, tick = timed(NOW, late_by(0.08))
     timing = StepTiming(RULES, PERIOD)
     assert timing.propose(tick) is not None
@@ -101,7 +101,7 @@ def test_it_rests_between_two_changes(timed: Any) -> None:
 
 
 @pytest.mark.parametrize("seed", range(100))
-def test_a_change_is_the_best_that_there_is_and_worth_its_price(timed: Any, seed: int) -> None:
+def test_a_change_is_the_best_that_there_is_and_worth_its_price(timed, seed):
     rng = np.random.default_rng(seed)
     time = NOW + float(rng.uniform(-0.4, 0.4))
     off = rng.normal(0.0, 0.02, 2)

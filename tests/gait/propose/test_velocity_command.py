@@ -1,7 +1,5 @@
 """Footsteps from velocities, one touchdown after another, without a walk."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from itertools import pairwise
@@ -54,7 +52,7 @@ def command(*rows: list[float | str]) -> VelocityCommand:
     return VelocityCommand(table_of(rows, 0.0), LEGS)
 
 
-def test_a_forward_velocity_makes_steps_of_its_length(tick_at: Callable[..., Tick]) -> None:
+def test_a_forward_velocity_makes_steps_of_its_length(tick_at):
     _, steps = walked(command([1.0, 0.1, 0.0, 0.0]), tick_at, 30.0)
     assert [s.side for s in steps[:4]] == ["left", "right", "left", "right"]
     assert np.diff([s.x for s in steps[:20]]) == pytest.approx(0.1 * T)
@@ -62,9 +60,7 @@ def test_a_forward_velocity_makes_steps_of_its_length(tick_at: Callable[..., Tic
 
 
 @pytest.mark.parametrize("left", [0.05, -0.05])
-def test_sideways_the_foot_on_that_side_opens_and_the_other_one_closes(
-    tick_at: Callable[..., Tick], left: float
-) -> None:
+def test_sideways_the_foot_on_that_side_opens_and_the_other_one_closes(tick_at, left):
     _, steps = walked(command([1.0, 0.0, left, 0.0]), tick_at, 30.0)
     assert steps[0].side == ("left" if left > 0.0 else "right")
     apart = [abs(a.y - b.y) for a, b in pairwise(steps)]
@@ -74,7 +70,7 @@ def test_sideways_the_foot_on_that_side_opens_and_the_other_one_closes(
 
 
 @pytest.mark.parametrize("turn", [0.15, -0.15])
-def test_turning_on_the_spot_goes_round_the_middle_between_the_feet(tick_at: Callable[..., Tick], turn: float) -> None:
+def test_turning_on_the_spot_goes_round_the_middle_between_the_feet(tick_at, turn):
     _, steps = walked(command([1.0, 0.0, 0.0, turn]), tick_at, 60.0)
     assert steps[20].yaw - steps[0].yaw == pytest.approx(20 * turn * T)
     turns = [math.copysign(1.0, turn) * math.remainder(b.yaw - a.yaw, 2.0 * math.pi) for a, b in pairwise(steps[:20])]
@@ -84,13 +80,13 @@ def test_turning_on_the_spot_goes_round_the_middle_between_the_feet(tick_at: Cal
     assert np.hypot(*middles.T).max() <= sum(rooms) + 0.5 * LEGS.width * (1.0 - math.cos(turn * T)) + 1e-9
 
 
-def test_a_fast_turn_is_left_to_the_foot_that_turns_out(tick_at: Callable[..., Tick]) -> None:
+def test_a_fast_turn_is_left_to_the_foot_that_turns_out(tick_at):
     _, steps = walked(command([1.0, 0.0, 0.0, 0.25]), tick_at, 30.0)
     turns = {a.side: math.remainder(a.yaw - b.yaw, 2.0 * math.pi) for b, a in pairwise(steps[:12])}
     assert turns == pytest.approx({"right": Stride().turn_in, "left": 2.0 * 0.25 * T - Stride().turn_in})
 
 
-def test_a_turn_begins_with_the_next_step_whichever_foot_it_is(tick_at: Callable[..., Tick]) -> None:
+def test_a_turn_begins_with_the_next_step_whichever_foot_it_is(tick_at):
     """Heading, as the mean of the feet's: half a step behind the command, by either foot."""
     for begin in (4.0, 4.0 + T):
         _, steps = walked(command([1.0, 0.0, 0.0, 0.0], [begin, 0.0, 0.0, 0.1]), tick_at, 20.0)
@@ -99,7 +95,7 @@ def test_a_turn_begins_with_the_next_step_whichever_foot_it_is(tick_at: Callable
         assert np.diff(heading[k - 2 : k + 3]) == pytest.approx([0.05 * T, *[0.1 * T] * 3])
 
 
-def test_feet_never_come_nearer_than_at_rest_whatever_is_commanded(tick_at: Callable[..., Tick]) -> None:
+def test_feet_never_come_nearer_than_at_rest_whatever_is_commanded(tick_at):
     """Soles as rectangles, from one step to the next: their distance, heels and toes."""
     rng = np.random.default_rng(3)
     rows = [[1.0 + 3.0 * k, *rng.uniform([-0.3, -0.2, -0.6], [0.3, 0.2, 0.6]).tolist()] for k in range(40)]
@@ -116,7 +112,7 @@ def test_feet_never_come_nearer_than_at_rest_whatever_is_commanded(tick_at: Call
         assert -Stride().turn_in - 1e-9 <= apart <= Stride().turn + 1e-9
 
 
-def test_a_command_that_asks_for_too_much_is_walked_slower() -> None:
+def test_a_command_that_asks_for_too_much_is_walked_slower():
     left, right = Footstep("left", 0.0, 0.085), Footstep("right", 0.0, -0.085)
     step = next_step(right, left, Velocity(5.0, 5.0, 5.0), LEGS, Stride(), 1.0)
     assert step.yaw == pytest.approx(Stride().turn)
@@ -124,9 +120,7 @@ def test_a_command_that_asks_for_too_much_is_walked_slower() -> None:
 
 
 @pytest.mark.parametrize("stop", [5.3, 5.6, 6.1, 6.4, 6.9])
-def test_a_stop_comes_to_rest_within_two_steps_with_the_feet_parallel(
-    tick_at: Callable[..., Tick], stop: float
-) -> None:
+def test_a_stop_comes_to_rest_within_two_steps_with_the_feet_parallel(tick_at, stop):
     plan, _ = walked(command([1.0, 0.1, 0.05, 0.1], [stop, "stop"]), tick_at, 20.0)
     landings = [p.touchdown for p in plan.schedule.phases if p.swing is not None and p.touchdown > stop]
     assert 1 <= len(landings) <= 2
@@ -137,7 +131,7 @@ def test_a_stop_comes_to_rest_within_two_steps_with_the_feet_parallel(
     assert plan.schedule.at(20.0).kind == PhaseKind.STANDING
 
 
-def test_a_stop_counts_until_the_foot_lifts_off(tick_at: Callable[..., Tick]) -> None:
+def test_a_stop_counts_until_the_foot_lifts_off(tick_at):
     """Of a step cycle, the double support that the stop is heard in belongs to the step that it still changes."""
     rows: list[list[float | str]] = [[1.0, 0.1, 0.0, 0.0]]
     plan, _ = walked(command(*rows), tick_at, 6.0)
@@ -150,7 +144,7 @@ def test_a_stop_counts_until_the_foot_lifts_off(tick_at: Callable[..., Tick]) ->
         assert len(landings) == most
 
 
-def test_from_rest_it_walks_again_and_zero_takes_steps_in_place(tick_at: Callable[..., Tick]) -> None:
+def test_from_rest_it_walks_again_and_zero_takes_steps_in_place(tick_at):
     rows: list[list[float | str]] = [[1.0, 0.1, 0.0, 0.0], [6.0, "stop"], [14.0, 0.0, 0.0, 0.0]]
     plan, steps = walked(command(*rows), tick_at, 30.0)
     assert len(steps) > 12
@@ -159,7 +153,7 @@ def test_from_rest_it_walks_again_and_zero_takes_steps_in_place(tick_at: Callabl
     assert all(b > a for a, b in pairwise(swings))
 
 
-def test_the_plan_always_ends_at_rest(plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]) -> None:
+def test_the_plan_always_ends_at_rest(plan_of, tick_at):
     """If no command came any more, the steps that are planned would close the feet."""
     change = command([0.0, 0.15, 0.0, 0.0]).propose(tick_at(plan_of(0), 1.5))
     assert change is not None
@@ -168,9 +162,7 @@ def test_the_plan_always_ends_at_rest(plan_of: Callable[..., WalkPlan], tick_at:
     assert last.x == pytest.approx(before.x)
 
 
-def test_it_asks_again_where_somebody_else_had_his_way(
-    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_it_asks_again_where_somebody_else_had_his_way(plan_of, tick_at):
     plan, asked = plan_of(6), command([0.0, 0.1, 0.0, 0.0])
     time = next(p.start for p in plan.schedule.phases if p.step == 3 and p.swing is None) + 0.01
     assert asked.propose(tick_at(plan, time)) is not None
@@ -181,7 +173,7 @@ def test_it_asks_again_where_somebody_else_had_his_way(
     assert asked.propose(tick_at(plan, time + 0.01)) is None
 
 
-def test_nothing_is_changed_while_a_foot_swings(plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]) -> None:
+def test_nothing_is_changed_while_a_foot_swings(plan_of, tick_at):
     plan = plan_of(6)
     swing = next(p for p in plan.schedule.phases if p.swing is not None)
     assert command([0.0, 0.1, 0.0, 0.0]).propose(tick_at(plan, swing.start + 0.1)) is None
@@ -190,12 +182,12 @@ def test_nothing_is_changed_while_a_foot_swings(plan_of: Callable[..., WalkPlan]
 @pytest.mark.parametrize(
     "row", [[1.0], [1.0, "go"], [1.0, 0.1, 0.1], ["stop", 1.0], [1.0, 0.1, 0.1, True], "stop", 3.0]
 )
-def test_a_row_that_is_no_command_is_named(row: object) -> None:
+def test_a_row_that_is_no_command_is_named(row):
     with pytest.raises(InputError, match=r"a velocity command is .*; allowed: \[time, forward, left, turn\] or"):
         table_of([row], 0.0)  # type: ignore[list-item]
 
 
-def test_bad_tables_are_refused() -> None:
+def test_bad_tables_are_refused():
     with pytest.raises(InputError, match="increase"):
         VelocityTable((2.0, 1.0), (STOP, STOP))
     with pytest.raises(InputError, match="1 times for 0 commands"):

@@ -1,7 +1,5 @@
 """A robot that cannot go on sits down on both feet, or goes limp, without a jump."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np
@@ -14,7 +12,7 @@ from plantar.sim.run.scene import load_scene
 
 
 @pytest.fixture(scope="module")
-def swinging() -> tuple[Simulation, Command]:
+def swinging():
     """A command in a single support, with the left foot 3 cm up."""
     run = Simulation(load_scene("flat", ["steps=2"]))
     run.sensors.read_skins()
@@ -34,7 +32,7 @@ def after(run: Simulation, command: Command, state: str, seconds: float) -> list
 
 
 @pytest.mark.parametrize("state", ["blind", "lost"])
-def test_a_blind_robot_puts_its_foot_down_and_then_sits(swinging: tuple[Simulation, Command], state: str) -> None:
+def test_a_blind_robot_puts_its_foot_down_and_then_sits(swinging, state):
     run, command = swinging
     found = after(run, command, state, 4.0)
     left, right = (found[-1].feet[side].position for side in ("left", "right"))
@@ -49,7 +47,7 @@ def test_a_blind_robot_puts_its_foot_down_and_then_sits(swinging: tuple[Simulati
     assert max(ticks) < 0.5e-3
 
 
-def test_a_fallen_robot_goes_limp_in_half_a_second(swinging: tuple[Simulation, Command]) -> None:
+def test_a_fallen_robot_goes_limp_in_half_a_second(swinging):
     run, command = swinging
     found = after(run, command, "fallen", 0.6)
     assert found[50].stiffness == pytest.approx(0.5)
@@ -59,7 +57,7 @@ def test_a_fallen_robot_goes_limp_in_half_a_second(swinging: tuple[Simulation, C
     assert found[-1].feet["right"].position == pytest.approx(command.feet["right"].position)
 
 
-def test_servos_of_a_limp_robot_hold_no_joint() -> None:
+def test_servos_of_a_limp_robot_hold_no_joint():
     run = Simulation(load_scene("flat", ["steps=2"]))
     run.sensors.read_skins()
     command = run.controller.step(run.sensors.read_body())
@@ -70,7 +68,7 @@ def test_servos_of_a_limp_robot_hold_no_joint() -> None:
 
 
 @pytest.mark.parametrize("state", ["late", "no way on"])
-def test_other_states_hold(swinging: tuple[Simulation, Command], state: str) -> None:
+def test_other_states_hold(swinging, state):
     run, command = swinging
     held = after(run, command, state, 0.1)[-1]
     assert (held.com == command.com).all()

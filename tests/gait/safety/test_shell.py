@@ -1,7 +1,5 @@
 """A command at every tick that moves no target far, whatever comes in; and the very same commands where all is well."""
 
-from __future__ import annotations
-
 import time
 
 import mujoco
@@ -25,7 +23,7 @@ SLOW = ("a knee's encoder drifts by 0.2 rad/s", "an ankle's encoder drifts by -0
 )
 @pytest.mark.parametrize("robot", ["h1", pytest.param("hrp2kai", marks=pytest.mark.long)])
 @pytest.mark.parametrize("walking", [True, pytest.param(False, marks=pytest.mark.long)])
-def test_a_fault_moves_no_target_far_and_is_named_or_walked_through(name: str, robot: str, walking: bool) -> None:
+def test_a_fault_moves_no_target_far_and_is_named_or_walked_through(name, robot, walking):
     seen = run_with_fault(robot, walking, name)
     assert seen.jump <= 3.0
     if seen.state is None:
@@ -41,7 +39,7 @@ def test_a_fault_moves_no_target_far_and_is_named_or_walked_through(name: str, r
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", ["time +5 s", "time inf", "left sole missing", "one encoder too few"])
-def test_without_the_shell_a_fault_falls_jumps_or_raises(name: str) -> None:
+def test_without_the_shell_a_fault_falls_jumps_or_raises(name):
     try:
         seen = run_with_fault("h1", True, name, shell=False)
     except (KeyError, IndexError, ValueError, InputError):
@@ -49,7 +47,7 @@ def test_without_the_shell_a_fault_falls_jumps_or_raises(name: str) -> None:
     assert seen.jump > 20.0 or not seen.upright
 
 
-def test_an_undisturbed_walk_is_the_same_to_the_last_bit_and_the_shell_takes_5_us() -> None:
+def test_an_undisturbed_walk_is_the_same_to_the_last_bit_and_the_shell_takes_5_us():
     parts = Simulation(load_scene("flat", ["steps=2"]))
     world, sensors, controller = parts.world, parts.sensors, parts.controller
     other = Simulation(load_scene("flat", ["steps=2"])).controller
@@ -82,7 +80,7 @@ def test_an_undisturbed_walk_is_the_same_to_the_last_bit_and_the_shell_takes_5_u
     assert np.median(np.reshape(times, (10, -1)), axis=1).min() < 5e-6
 
 
-def test_what_comes_first_may_be_anything() -> None:
+def test_what_comes_first_may_be_anything():
     parts = Simulation(load_scene("flat", ["steps=2"]))
     nothing = Sensors(time=np.nan, joint_positions=None, gyro=None, accelerometer=None, readings=None)  # type: ignore[arg-type]
     command = parts.controller.step(nothing)
@@ -98,7 +96,7 @@ def test_what_comes_first_may_be_anything() -> None:
         ([(156, 654), (155, 645), (282, 630), (476, 542), (720, 313), (199, 690), (133, 616)], False),
     ],
 )
-def test_exchanged_soles_differ_from_a_shock(loads: list[tuple[int, int]], swapped: bool) -> None:
+def test_exchanged_soles_differ_from_a_shock(loads, swapped):
     check = SoleCheck(86.0 * 9.81)
     for left, right in loads:
         check.update(np.array([left], dtype=float), 1, np.array([right], dtype=float), 1)

@@ -1,7 +1,5 @@
 """The time of ticks grows by about a period, whatever a clock reports."""
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 
@@ -12,7 +10,7 @@ from plantar.gait.safety.tick_clock import TickClock
 
 
 @given(st.lists(st.floats(), min_size=1))
-def test_time_is_monotone_and_no_tick_is_long(reported: list[float]) -> None:
+def test_time_is_monotone_and_no_tick_is_long(reported):
     clock = TickClock(0.005)
     times = [clock.time_of(value) for value in reported]
     for before, now in pairwise(times):
@@ -20,12 +18,12 @@ def test_time_is_monotone_and_no_tick_is_long(reported: list[float]) -> None:
             assert 0.4 * 0.005 < now - before < 1.6 * 0.005
 
 
-def test_a_sound_clock_is_taken_to_the_last_bit() -> None:
+def test_a_sound_clock_is_taken_to_the_last_bit():
     clock = TickClock(0.005)
     assert all(clock.time_of(3.0 + 0.005 * i) == 3.0 + 0.005 * i for i in range(10_000))
 
 
-def test_a_clock_with_jitter_is_followed_and_one_that_stops_is_noted() -> None:
+def test_a_clock_with_jitter_is_followed_and_one_that_stops_is_noted():
     clock = TickClock(0.005)
     for i in range(4000):
         time = clock.time_of(0.00505 * i + (0.008 if i % 2 else -0.008))  # and 1 % fast

@@ -1,7 +1,5 @@
 """Ticks that stop are noticed once."""
 
-from __future__ import annotations
-
 import time
 
 import pytest
@@ -10,7 +8,7 @@ from plantar.errors import InputError
 from plantar.gait.safety.watchdog import Watchdog
 
 
-def test_ticks_that_stop_are_noticed_once_until_they_come_again() -> None:
+def test_ticks_that_stop_are_noticed_once_until_they_come_again():
     called: list[float] = []
     with Watchdog(0.1, lambda: called.append(time.monotonic())) as watchdog:
         time.sleep(0.3)
@@ -26,6 +24,6 @@ def test_ticks_that_stop_are_noticed_once_until_they_come_again() -> None:
 
 
 @pytest.mark.parametrize("limit", [0.0, -1.0, float("nan"), float("inf")])
-def test_a_limit_that_is_none_is_refused(limit: float) -> None:
+def test_a_limit_that_is_none_is_refused(limit):
     with pytest.raises(InputError, match="limit of the watchdog"):
         Watchdog(limit, lambda: None)

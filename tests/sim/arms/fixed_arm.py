@@ -1,7 +1,5 @@
 """A worn arm on a base that does not move, in a world with whoever touches it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from types import SimpleNamespace
 from typing import Any, cast

@@ -1,7 +1,5 @@
 """An arm that is pressed: how far it gives way by springs, gain and skin, against the statics of its springs."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 import pytest
@@ -17,7 +15,7 @@ FORCE = 3.0  # N along the normal of one taxel: some degrees of the arm's spring
 
 
 @pytest.fixture(scope="module")
-def worn() -> WornArm:
+def worn():
     return left_arm()
 
 
@@ -49,7 +47,7 @@ def pressed(worn: WornArm, skin: bool = True, **settings: float) -> tuple[np.nda
     return settled(world, arm, reading, np.concatenate([force, moment]), link), torque
 
 
-def test_it_holds_its_posture_and_returns_its_links(worn: WornArm) -> None:
+def test_it_holds_its_posture_and_returns_its_links(worn):
     world = fixed_world(worn)
     arm = compliant(worn, world)
     turned = settled(world, arm, None, np.zeros(6), worn.links[0])
@@ -64,7 +62,7 @@ def test_it_holds_its_posture_and_returns_its_links(worn: WornArm) -> None:
 
 
 @pytest.mark.parametrize("gain", [0.0, 1.0, 2.0])
-def test_it_gives_way_by_gain_times_the_force_over_its_springs(worn: WornArm, gain: float) -> None:
+def test_it_gives_way_by_gain_times_the_force_over_its_springs(worn, gain):
     spring = 1.0
     turned, torque = pressed(worn, gain=gain, spring=spring, filter=PERIOD)
     expected = gain * torque / (spring * worn.efforts)
@@ -72,14 +70,14 @@ def test_it_gives_way_by_gain_times_the_force_over_its_springs(worn: WornArm, ga
     assert turned == pytest.approx(expected, abs=0.1 * gain * np.abs(torque / worn.efforts).max() + 1e-3)
 
 
-def test_without_skin_it_gives_way_by_its_springs_alone(worn: WornArm) -> None:
+def test_without_skin_it_gives_way_by_its_springs_alone(worn):
     felt, torque = pressed(worn, gain=1.0, spring=1.0)
     mute, _ = pressed(worn, skin=False, gain=5.0, spring=1.0)
     assert mute == pytest.approx(torque / worn.efforts, abs=0.1 * np.abs(torque / worn.efforts).max())
     assert mute == pytest.approx(felt, abs=2e-3)
 
 
-def test_no_motor_gives_more_than_it_can(worn: WornArm) -> None:
+def test_no_motor_gives_more_than_it_can(worn):
     world = fixed_world(worn)
     arm = compliant(worn, world, spring=1000.0)
     world.data.qpos[arm._places] = arm.posture + 0.3

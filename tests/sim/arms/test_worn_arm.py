@@ -1,22 +1,20 @@
 """The arm that h1 wears: the robot weighs what it did, in the same place, and its legs keep their coordinates."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from plantar.errors import RobotError, SceneError
-from plantar.robots import Robot, load_robot
+from plantar.robots import load_robot
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.robot import Arms
-from plantar.sides import SIDES, Side
+from plantar.sides import SIDES
 from plantar.sim.arms.worn_arm import WornArm
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_mass_and_centre_stay_and_the_legs_keep_their_places(h1: Robot, side: Side) -> None:
+def test_mass_and_centre_stay_and_the_legs_keep_their_places(h1, side):
     worn = WornArm(h1, side)
     armed, welded = build_leg_model(h1, [worn]), build_leg_model(h1)
     armed.hold_others(worn.posture)
@@ -29,7 +27,7 @@ def test_mass_and_centre_stay_and_the_legs_keep_their_places(h1: Robot, side: Si
     assert armed.model.nv == welded.model.nv + 7
 
 
-def test_the_centre_of_mass_goes_with_the_arm(h1: Robot) -> None:
+def test_the_centre_of_mass_goes_with_the_arm(h1):
     worn = WornArm(h1, "left")
     legs = build_leg_model(h1, [worn])
     standing = np.array([*h1.posture["left"], *h1.posture["right"]])
@@ -41,7 +39,7 @@ def test_the_centre_of_mass_goes_with_the_arm(h1: Robot) -> None:
     assert 0.1 * arm < (places[1] - places[0])[0] < 0.3 * arm
 
 
-def test_its_skin_is_that_of_the_machines_arm(h1: Robot) -> None:
+def test_its_skin_is_that_of_the_machines_arm(h1):
     worn = WornArm(h1, "right")
     counts = {patch.name: len(patch) for patch in worn.skin.patches}
     assert counts == {"right_upper_arm": 100, "right_lower_arm": 80, "right_hand_palm": 14, "right_hand_back": 7}
@@ -52,7 +50,7 @@ def test_its_skin_is_that_of_the_machines_arm(h1: Robot) -> None:
     assert middle == pytest.approx([0.0, 0.0, -0.12], abs=0.02)
 
 
-def test_robots_without_such_an_arm_are_refused(h1: Robot) -> None:
+def test_robots_without_such_an_arm_are_refused(h1):
     with pytest.raises(SceneError, match=r"robot 'hrp2kai' has no arm to move; allowed: robots with a table \[arms\]"):
         WornArm(load_robot("hrp2kai"), "left")
     with pytest.raises(SceneError, match=r"posture has 2 angles; allowed: 7, of left_shoulder_pitch, "):

@@ -28,7 +28,7 @@ MOTORS = '<actuator><motor joint="c"/><motor joint="a"/></actuator>'
 
 
 @pytest.fixture(params=["fixed", "floating"])
-def robot(request: pytest.FixtureRequest) -> MujocoDynamics:
+def robot(request):
     base = "<freejoint/>" if request.param == "floating" else ""
     model = mujoco.MjModel.from_xml_string(CHAIN.format(base=base, actuators=""))
     rng = np.random.default_rng(4)
@@ -49,7 +49,7 @@ def moved(robot: MujocoDynamics, step: float, way: np.ndarray | None = None) -> 
 
 
 @pytest.mark.parametrize("link", ["base", "lower", "side"])
-def test_jacobian_and_drift_against_finite_differences(robot: MujocoDynamics, link: str) -> None:
+def test_jacobian_and_drift_against_finite_differences(robot, link):
     point, h = np.array([0.1, -0.2, 0.05]), 1e-6
     jacobian = robot.jacobian(link, point)
     for i in range(robot.model.nv):
@@ -62,7 +62,7 @@ def test_jacobian_and_drift_against_finite_differences(robot: MujocoDynamics, li
     assert robot.drift(link, point) == pytest.approx((speeds[0] - speeds[1]) / (2 * h), abs=1e-7)
 
 
-def test_centre_of_mass_against_finite_differences(robot: MujocoDynamics) -> None:
+def test_centre_of_mass_against_finite_differences(robot):
     _position, jacobian, drift = robot.com()
     h, n = 1e-6, robot.model.nv
     for i in range(n):
@@ -72,7 +72,7 @@ def test_centre_of_mass_against_finite_differences(robot: MujocoDynamics) -> Non
     assert drift == pytest.approx((a - b) / (2 * h), abs=1e-7)
 
 
-def test_equations_of_motion_are_those_of_mujoco(robot: MujocoDynamics) -> None:
+def test_equations_of_motion_are_those_of_mujoco(robot):
     data = mujoco.MjData(robot.model)
     data.qpos, data.qvel = robot.data.qpos, robot.velocity
     mujoco.mj_inverse(robot.model, data)
@@ -87,7 +87,7 @@ def test_equations_of_motion_are_those_of_mujoco(robot: MujocoDynamics) -> None:
     assert np.array_equal(robot.mass_matrix, full)
 
 
-def test_nothing_is_computed_before_it_is_asked_for_and_a_jacobian_once(robot: MujocoDynamics) -> None:
+def test_nothing_is_computed_before_it_is_asked_for_and_a_jacobian_once(robot):
     assert robot.jacobians == 0
     first = robot.jacobian("lower")
     assert robot.jacobian("lower") is first
@@ -100,7 +100,7 @@ def test_nothing_is_computed_before_it_is_asked_for_and_a_jacobian_once(robot: M
     assert robot.time == 0.4
 
 
-def test_joints_are_those_with_actuators_in_the_order_of_the_model() -> None:
+def test_joints_are_those_with_actuators_in_the_order_of_the_model():
     model = mujoco.MjModel.from_xml_string(CHAIN.format(base="<freejoint/>", actuators=MOTORS))
     robot = MujocoDynamics(model)
     assert robot.joints.tolist() == [6, 8]
@@ -110,14 +110,14 @@ def test_joints_are_those_with_actuators_in_the_order_of_the_model() -> None:
     assert robot.joint_positions.tolist() == [0.1, 0.3]
 
 
-def test_an_unknown_link_is_named_with_those_near_to_it(robot: MujocoDynamics) -> None:
+def test_an_unknown_link_is_named_with_those_near_to_it(robot):
     with pytest.raises(InputError, match=r"no link 'loewr'; nearest: lower"):
         robot.jacobian("loewr")
     with pytest.raises(InputError, match=r"no link 'x'; there are base, upper"):
         robot.pose("x")
 
 
-def test_a_model_without_joints_is_refused() -> None:
+def test_a_model_without_joints_is_refused():
     model = mujoco.MjModel.from_xml_string("<mujoco><worldbody><body><geom size='.1'/></body></worldbody></mujoco>")
     with pytest.raises(InputError, match="no hinge or slide joint"):
         MujocoDynamics(model)

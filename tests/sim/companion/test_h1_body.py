@@ -11,7 +11,7 @@ from plantar.sim.body_skin.surface import skin_from_tables
 from plantar.sim.companion.machine import load_machine
 
 
-def test_mass_joints_and_height_of_the_centre_of_mass_are_the_published_ones() -> None:
+def test_mass_joints_and_height_of_the_centre_of_mass_are_the_published_ones():
     machine = load_machine("h1-body")
     model = machine.spec().compile()
     assert mujoco.mj_getTotalmass(model) == pytest.approx(86.0, abs=1e-3)
@@ -25,7 +25,7 @@ def test_mass_joints_and_height_of_the_centre_of_mass_are_the_published_ones() -
     assert data.body("head").xpos[2] + 0.2 - middle[2] == pytest.approx(1.65, abs=0.02)
 
 
-def test_legs_are_those_of_the_walking_robot() -> None:
+def test_legs_are_those_of_the_walking_robot():
     machine, robot = load_machine("h1-body"), load_robot("h1")
     model = machine.spec().compile()
     efforts = dict(zip(machine.joints, machine.efforts, strict=True))
@@ -36,7 +36,7 @@ def test_legs_are_those_of_the_walking_robot() -> None:
         assert sum(float(model.body(model.joint(n).bodyid[0]).mass[0]) for n in joints) == pytest.approx(11.26 + 0.252)
 
 
-def test_the_skin_has_1260_taxels_and_mirrors() -> None:
+def test_the_skin_has_1260_taxels_and_mirrors():
     machine = load_machine("h1-body")
     skin = skin_from_tables(machine.spec().compile(), machine.patches, "h1-body")
     assert len(skin) == 1260

@@ -14,11 +14,11 @@ KEPT = ["step_adjustment=false"]  # steps keep their places and do not move for 
 
 
 @pytest.fixture(scope="module")
-def inner() -> dict:  # type: ignore[type-arg]
+def inner():  # type: ignore[type-arg]
     return run_scene(load_scene("partial-inner", ["settle=0.5"]), 1)
 
 
-def test_half_a_foothold_is_found_and_walked_over(inner: dict) -> None:  # type: ignore[type-arg]
+def test_half_a_foothold_is_found_and_walked_over(inner):  # type: ignore[type-arg]
     assert inner["completed"]
     assert inner["replans"] >= 1
     found, true = inner["footholds"]["area_ratio_found"], inner["footholds"]["area_ratio_true"]
@@ -28,7 +28,7 @@ def test_half_a_foothold_is_found_and_walked_over(inner: dict) -> None:  # type:
     assert inner["footholds"]["centroid_error_m"]["p95"] < 0.01
 
 
-def test_without_looking_at_footholds_nothing_is_replanned() -> None:
+def test_without_looking_at_footholds_nothing_is_replanned():
     """Nor by preemptive compliance, which looks too, or for balance."""
     off = ["footholds=off", "pfc=false", "control.step_timing=false", *KEPT]
     blind = run_scene(load_scene("partial-third", off), 1)
@@ -40,7 +40,7 @@ def test_without_looking_at_footholds_nothing_is_replanned() -> None:
 SHORT_BEAM = ["steps=14", "terrain.length=0.2", "terrain.width=0.08"]
 
 
-def test_a_short_beam_is_crossed() -> None:
+def test_a_short_beam_is_crossed():
     """From platform to platform over a third of the sole, which the seed puts 41 mm off its middle."""
     run = run_scene(load_scene("beam", SHORT_BEAM), 0)
     assert run["reasons"] == []
@@ -49,7 +49,7 @@ def test_a_short_beam_is_crossed() -> None:
     assert min(run["contact_area_ratio"]) < 0.4
 
 
-def test_the_same_beam_throws_a_robot_that_does_not_feel_it() -> None:
+def test_the_same_beam_throws_a_robot_that_does_not_feel_it():
     """Steps that move for balance keep the blind robot upright, though off its way: here neither robot's do."""
     sensing, blind = (run_scene(load_scene("beam", [*SHORT_BEAM, *KEPT, f"footholds={f}"]), 0) for f in ("skin", "off"))
     assert sensing["completed"]
@@ -60,7 +60,7 @@ def test_the_same_beam_throws_a_robot_that_does_not_feel_it() -> None:
 @pytest.mark.long
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 @pytest.mark.parametrize("seed", [0, 3])
-def test_the_beam_is_crossed(robot: str, seed: int) -> None:
+def test_the_beam_is_crossed(robot, seed):
     run = run_scene(load_scene("beam", [], robot), seed)
     assert run["completed"]
     assert run["steps_taken"] == 50
@@ -69,11 +69,11 @@ def test_the_beam_is_crossed(robot: str, seed: int) -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize("settings", [["yaw=5"], ["yaw=-5"], ["offset_range=0.0", "terrain.width=0.06"]])
-def test_turned_and_narrow_beams_are_crossed(settings: list[str]) -> None:
+def test_turned_and_narrow_beams_are_crossed(settings):
     assert run_scene(load_scene("beam-yaw", settings), 0)["completed"]
 
 
-def test_a_leaning_trunk_takes_load_off_the_hips() -> None:
+def test_a_leaning_trunk_takes_load_off_the_hips():
     """Where steps may move for balance, a trunk leans whether asked or not."""
     loads = []
     for lean in ("false", "true"):
@@ -92,7 +92,7 @@ def test_a_leaning_trunk_takes_load_off_the_hips() -> None:
     assert loads[1] < loads[0] - 4.0
 
 
-def test_triangles_are_compared_and_lines_are_not(h1) -> None:
+def test_triangles_are_compared_and_lines_are_not(h1):
     """A sole that a corner of the ground carries stands on three corners."""
     truth = object.__new__(FootholdTruth)
     triangle = np.array([[0.0, 0.0], [0.06, 0.0], [0.0, 0.06]])

@@ -1,7 +1,5 @@
 """What came of a robot that a hand leads, from made-up motions of its arm and feet."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 
@@ -46,7 +44,7 @@ def criteria(led: Led) -> set[str]:
     return {reason["criterion"] for reason in led.truth.reasons()}
 
 
-def test_before_the_hand_goes_nothing_was_measured() -> None:
+def test_before_the_hand_goes_nothing_was_measured():
     led = Led()
     led.at(0.5, arm=0.2, feet=0.3)
     assert set(led.truth.summary().values()) == {None}
@@ -54,7 +52,7 @@ def test_before_the_hand_goes_nothing_was_measured() -> None:
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("yaw", [0.0, 0.5])
-def test_arm_and_feet_are_followed_along_the_hand_s_way(sign: float, yaw: float) -> None:
+def test_arm_and_feet_are_followed_along_the_hand_s_way(sign, yaw):
     led = Led(sign * 0.3, yaw)
     led.at(0.99, arm=0.05, feet=0.02, aside=0.01)  # from here on
     led.at(1.0, arm=0.05 + sign * 0.12, feet=0.02, aside=0.01)
@@ -79,7 +77,7 @@ def test_arm_and_feet_are_followed_along_the_hand_s_way(sign: float, yaw: float)
         (0.0, 0.0, 0.0, {"yielded", "followed"}),
     ],
 )
-def test_each_criterion_has_its_share_of_the_way(arm: float, feet: float, aside: float, failed: set[str]) -> None:
+def test_each_criterion_has_its_share_of_the_way(arm, feet, aside, failed):
     way, hair = 0.3, 1e-9
     led = Led(way)
     led.at(0.0)

@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from plantar.robots import Robot
 from plantar.sim.judging.joint_limits import JointLimits
-from plantar.sim.model.world import PHYSICS_PERIOD, World, build_world
+from plantar.sim.model.world import PHYSICS_PERIOD, build_world
 from plantar.sim.terrain import Ground
 
 STEPS = 400
@@ -29,13 +28,13 @@ def longest_run(over: np.ndarray) -> int:
 
 
 @pytest.fixture
-def world(h1: Robot) -> World:
+def world(h1):
     return build_world(h1, Ground((), 0.0, 0.8))
 
 
 @pytest.mark.parametrize("order", ["as in the model", "another"])
 @pytest.mark.parametrize("seed", range(5))
-def test_speeds_beyond_the_limits_are_counted_joint_by_joint(world: World, order: str, seed: int) -> None:
+def test_speeds_beyond_the_limits_are_counted_joint_by_joint(world, order, seed):
     rng = np.random.default_rng(seed)
     k = len(world.joint_qvel)
     if order == "another":
@@ -52,7 +51,7 @@ def test_speeds_beyond_the_limits_are_counted_joint_by_joint(world: World, order
     assert judge.fastest == pytest.approx(shares.max(axis=0), rel=1e-12)
 
 
-def test_steps_at_a_torque_limit_are_counted(world: World) -> None:
+def test_steps_at_a_torque_limit_are_counted(world):
     rng = np.random.default_rng(0)
     judge, servos = JointLimits(world), world.servos
     limits = world.model.actuator_forcerange[servos, 1]
@@ -67,7 +66,7 @@ def test_steps_at_a_torque_limit_are_counted(world: World) -> None:
     assert found["joints"] == pytest.approx(wanted, abs=1e-4)
 
 
-def test_a_robot_without_limits_is_never_too_fast(world: World, h1: Robot) -> None:
+def test_a_robot_without_limits_is_never_too_fast(world, h1):
     judge = JointLimits(replace(world, robot=replace(h1, velocity_limits=())))
     world.data.qvel[:] = 1e3
     judge.extremes.step()
@@ -75,7 +74,7 @@ def test_a_robot_without_limits_is_never_too_fast(world: World, h1: Robot) -> No
     assert judge.summary()["joint_speed"] is None
 
 
-def test_a_joint_that_moves_alone_is_seen_at_its_own_limit(world: World) -> None:
+def test_a_joint_that_moves_alone_is_seen_at_its_own_limit(world):
     limits = np.array([*world.robot.velocity_limits] * 2)
     for i, limit in enumerate(limits):
         for share in (0.99, -0.99, 1.01, -1.01):
@@ -86,7 +85,7 @@ def test_a_joint_that_moves_alone_is_seen_at_its_own_limit(world: World) -> None
             assert (judge.longest > 0.0).tolist() == [j == i and abs(share) > 1.0 for j in range(len(limits))]
 
 
-def test_the_joint_that_stays_at_its_torque_limit_first_is_named(world: World) -> None:
+def test_the_joint_that_stays_at_its_torque_limit_first_is_named(world):
     judge = JointLimits(world)
     limits = world.model.actuator_forcerange[world.servos, 1]
     force = world.data.actuator_force

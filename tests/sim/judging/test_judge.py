@@ -1,9 +1,6 @@
 """What justifies a move of a footstep, and which geoms are ground."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -31,7 +28,7 @@ def justified(made: Judge, before: tuple[float, float, float] = (1.0, 0.085, 0.0
     return made._justified(Stand("right", time, (0.0, 0.0, 0.0)), WAY, before)
 
 
-def test_nothing_justifies_a_move_on_plain_ground() -> None:
+def test_nothing_justifies_a_move_on_plain_ground():
     assert not justified(judge())
     made = judge()
     made.ground = None
@@ -41,7 +38,7 @@ def test_nothing_justifies_a_move_on_plain_ground() -> None:
 @pytest.mark.parametrize(
     ("time", "counts"), [(9.9, True), (10.0, True), (6.3, True), (6.2, False), (10.01, False), (0.0, False)]
 )
-def test_a_push_justifies_it_within_three_steps_and_not_afterwards(time: float, counts: bool) -> None:
+def test_a_push_justifies_it_within_three_steps_and_not_afterwards(time, counts):
     assert justified(judge((time,))) == counts
     assert justified(judge((0.0, time, 20.0))) == counts
 
@@ -55,19 +52,17 @@ def block(x: float, y: float) -> Solid:
     [(1.2, -0.085, True), (1.45, -0.085, True), (1.55, -0.085, False), (1.0, 0.085, True), (0.6, 0.085, False)],
     ids=["under it", "before its toe", "further ahead", "under the foot before", "behind that one"],
 )
-def test_ground_justifies_it_where_it_was_planned_or_where_the_foot_before_stands(
-    x: float, y: float, counts: bool
-) -> None:
+def test_ground_justifies_it_where_it_was_planned_or_where_the_foot_before_stands(x, y, counts):
     assert justified(judge((), block(x, y))) == counts
 
 
-def test_the_planned_place_is_seen_from_the_foot_before_as_it_truly_stands() -> None:
+def test_the_planned_place_is_seen_from_the_foot_before_as_it_truly_stands():
     turned = (1.0, 0.085, np.pi / 2.0)  # the way leads to (1.17, 0.285) then
     assert justified(judge((), block(1.17, 0.285)), turned)
     assert not justified(judge((), block(1.2, -0.3)), turned)
 
 
-def test_the_floor_and_what_moves_of_the_ground_are_ground_and_the_robot_is_not(h1: Any) -> None:
+def test_the_floor_and_what_moves_of_the_ground_are_ground_and_the_robot_is_not(h1):
     moving = Solid("box", (0.1, 0.1, 0.02), np.array([3.0, 0.0, 0.02]), motions=(Motion(1.0, 1.0, np.ones(3)),))
     world = build_world(h1, Ground((block(2.0, 0.0), moving), 0.0, 0.8))
     model, mask = world.model, is_ground(world)
@@ -87,11 +82,11 @@ def plain(*solids: Solid) -> PlainGround:
     return PlainGround(Ground(solids, 0.0, 0.8), {"left": FOOT, "right": FOOT}, 0.1)
 
 
-def test_the_bare_floor_is_plain() -> None:
+def test_the_bare_floor_is_plain():
     assert plain().under("left", 3.0, -2.0, 1.0)
 
 
-def test_what_lies_within_reach_is_not() -> None:
+def test_what_lies_within_reach_is_not():
     ground = plain(Solid("box", (0.05, 0.05, 0.02), np.array([1.0, 0.0, 0.02])))
     assert not ground.under("left", 1.0, 0.0, 0.0)
     assert not ground.under("left", 0.72, 0.0, 0.0)  # its toe ends 0.08 m before it
@@ -112,5 +107,5 @@ def test_what_lies_within_reach_is_not() -> None:
     ],
     ids=["a large level box", "a turned one", "a beam", "a slope", "a sphere", "ground that moves"],
 )
-def test_only_a_level_face_that_stays_is_plain(solid: Solid, is_plain: bool) -> None:
+def test_only_a_level_face_that_stays_is_plain(solid, is_plain):
     assert plain(solid).under("right", 0.0, 0.0, 0.0) == is_plain

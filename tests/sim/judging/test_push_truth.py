@@ -1,7 +1,5 @@
 """The judge of pushes: steps compared by the way from foot to foot, and accelerations against a simulated pendulum."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -24,12 +22,12 @@ def stands(*offsets: tuple[float, float]) -> list[Stand]:
     ]
 
 
-def test_only_the_step_that_left_the_plan_is_changed() -> None:
+def test_only_the_step_that_left_the_plan_is_changed():
     moved = stands((0, 0), (0, 0), (0.08, 0.0), (0.08, 0.0), (0.08, 0.0))
     assert step_changes(moved, FEET, STEPS) == pytest.approx([0.0, 0.0, 0.08, 0.0, 0.0])
 
 
-def test_changes_end_where_the_feet_come_out_of_turn() -> None:
+def test_changes_end_where_the_feet_come_out_of_turn():
     wrong = stands((0, 0), (0, 0), (0, 0))
     wrong[2] = replace(wrong[2], side=wrong[1].side)
     assert len(step_changes(wrong, FEET, STEPS)) == 2
@@ -52,14 +50,14 @@ def pushes() -> list[Pushed]:
         ([], ["stepped"]),
     ],
 )
-def test_small_pushes_keep_the_steps_and_large_ones_change_one(changes: list[float], criteria: list[str]) -> None:
+def test_small_pushes_keep_the_steps_and_large_ones_change_one(changes, criteria):
     found = PushTruth(86.0, LEG).steps_reasons(pushes(), changes)
     assert [reason["criterion"] for reason in found] == criteria
     assert all(reason["limit"] == pytest.approx(CHANGED * LEG) for reason in found)
 
 
 @pytest.mark.parametrize("above", [-0.2, 0.0, 0.4])
-def test_a_pendulum_with_a_wrench_accelerates_by_the_corrected_sign(above: float) -> None:
+def test_a_pendulum_with_a_wrench_accelerates_by_the_corrected_sign(above):
     """Moments about the ZMP of an upright body, integrated here by themselves."""
     mass, height, zmp = 86.0, 0.83, np.array([0.02, -0.01])
     truth, step = PushTruth(mass, LEG), 0.005
@@ -85,7 +83,7 @@ def test_a_pendulum_with_a_wrench_accelerates_by_the_corrected_sign(above: float
 
 
 @pytest.mark.parametrize("stride", [0.8, 0.0])
-def test_what_the_walk_itself_does_to_the_pendulum_is_taken_off(stride: float) -> None:
+def test_what_the_walk_itself_does_to_the_pendulum_is_taken_off(stride):
     """A moment about the CoM that comes again with every stride, as that of legs that swing; it is no push."""
     mass, height, step, fine = 86.0, 0.83, 0.005, 20
     truth, at, speed = PushTruth(mass, LEG, stride), 0.0, 0.02
@@ -103,7 +101,7 @@ def test_what_the_walk_itself_does_to_the_pendulum_is_taken_off(stride: float) -
     assert told["ratio"] == pytest.approx(1.0 if stride else 1.0 + of_the_walk / impulse, abs=0.01)
 
 
-def test_an_unexplained_acceleration_is_reported() -> None:
+def test_an_unexplained_acceleration_is_reported():
     truth = PushTruth(86.0, LEG)
     for k in range(100):
         time = 0.005 * k
@@ -113,13 +111,13 @@ def test_an_unexplained_acceleration_is_reported() -> None:
     assert reason["criterion"] == "com_acceleration"
 
 
-def test_a_stride_is_the_way_of_the_foot_itself() -> None:
+def test_a_stride_is_the_way_of_the_foot_itself():
     found = strides(stands((0.05, 0.0), (0.0, 0.0), (0.15, 0.01)), FEET, STEPS)
     assert [s.true for s in found] == [pytest.approx(way) for way in ((0.05, 0.0), (0.0, 0.0), (0.1, 0.01))]
     assert all(s.planned == (0.0, 0.0) for s in found)
 
 
-def test_a_step_reacts_that_grows_along_its_push() -> None:
+def test_a_step_reacts_that_grows_along_its_push():
     ways = [Stride((0.0, 0.06), (0.0, 0.0)), Stride((0.0, 0.0), (0.0, 0.0))]
     pushes = [Pushed(k, 1.0 + k, 1.2 + k, np.array([0.0, 12.0]), small=False) for k in range(2)]
     truth = PushTruth(86.0, LEG)

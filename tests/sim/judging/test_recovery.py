@@ -20,7 +20,7 @@ def run(zmp_at, com_at, end: float = 9.0) -> dict:
     return recovery.summary([s.impulse for s in SHOVES])
 
 
-def test_a_push_is_over_when_zmp_and_com_stay_near_the_plan() -> None:
+def test_a_push_is_over_when_zmp_and_com_stay_near_the_plan():
     def zmp(time: float) -> np.ndarray:
         return np.array([0.08, 0.0]) if 1.2 < time < 2.5 else ORIGIN
 
@@ -34,7 +34,7 @@ def test_a_push_is_over_when_zmp_and_com_stay_near_the_plan() -> None:
     assert summary["recovered"] == 2
 
 
-def test_a_robot_that_stays_off_sways_on_or_falls_has_not_recovered() -> None:
+def test_a_robot_that_stays_off_sways_on_or_falls_has_not_recovered():
     away = run(lambda time: np.array([0.05, 0.0]) if time > 5.2 else ORIGIN, lambda time: ORIGIN)
     assert [p["recovered_s"] is None for p in away["pushes"]] == [False, True]
     sway = run(lambda time: np.array([0.03 * math.sin(9.0 * time), 0.0]), lambda time: ORIGIN)

@@ -1,7 +1,5 @@
 """How steady the ground carries: the figure of a known force, and the limit that a flickering contact breaks."""
 
-from __future__ import annotations
-
 import math
 from types import SimpleNamespace
 from typing import Any
@@ -34,7 +32,7 @@ def followed(force: np.ndarray, right: np.ndarray, margin: float = 0.03, since: 
     return watch
 
 
-def test_a_force_that_changes_slowly_is_followed_and_one_that_flickers_is_not() -> None:
+def test_a_force_that_changes_slowly_is_followed_and_one_that_flickers_is_not():
     time = PERIOD * np.arange(2000)
     weight = MASS * GRAVITY
     slow = weight * (1.0 + 0.2 * np.sin(2.0 * math.pi * 1.5 * time))
@@ -44,7 +42,7 @@ def test_a_force_that_changes_slowly_is_followed_and_one_that_flickers_is_not() 
     assert followed(flicker, np.zeros(2000)).rms() == pytest.approx(0.5 * weight / math.sqrt(50.0), rel=0.15)
 
 
-def test_only_single_support_some_time_after_a_landing_counts() -> None:
+def test_only_single_support_some_time_after_a_landing_counts():
     steady = np.full(300, MASS * GRAVITY)
     assert followed(steady, np.full(300, 30.0)).single == 0
     watch = followed(steady, np.zeros(300), since=0)
@@ -52,13 +50,13 @@ def test_only_single_support_some_time_after_a_landing_counts() -> None:
     assert math.isnan(followed(steady[:10], np.zeros(10)).rms())
 
 
-def test_a_zmp_near_the_edge_is_counted() -> None:
+def test_a_zmp_near_the_edge_is_counted():
     steady = np.full(50, MASS * GRAVITY)
     assert followed(steady, np.zeros(50), margin=1.9e-3).at_edge == 50
     assert followed(steady, np.zeros(50), margin=2.1e-3).at_edge == 0
 
 
-def test_contacts_that_flicker_break_the_limit_of_a_walk() -> None:
+def test_contacts_that_flicker_break_the_limit_of_a_walk():
     """The beam with MuJoCo's own contacts of two boxes, and with those that are continuous.
 
     Feet that conform would turn by what flickers until the robot falls, which counts as a fall alone.

@@ -1,7 +1,5 @@
 """Steps are counted by side, order and place: walks that are made up, honest ones and others."""
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import replace
@@ -43,7 +41,7 @@ class Walk:
         return self.count.count().taken
 
 
-def test_a_walk_as_planned_counts_every_step() -> None:
+def test_a_walk_as_planned_counts_every_step():
     walk = Walk()
     for k, step in enumerate(STEPS):
         assert walk.taken == k
@@ -54,7 +52,7 @@ def test_a_walk_as_planned_counts_every_step() -> None:
 
 
 @pytest.mark.parametrize(("off", "turn", "counts"), [(0.049, 0.0, 6), (0.051, 0.0, 2), (0.0, 4.9, 6), (0.0, 5.1, 2)])
-def test_a_place_is_5_cm_and_5_degrees_wide(off: float, turn: float, counts: int) -> None:
+def test_a_place_is_5_cm_and_5_degrees_wide(off, turn, counts):
     walk = Walk()
     for k, step in enumerate(STEPS):
         walk.land(step, dx=off if k == 2 else 0.0, dyaw=math.radians(turn) if k == 2 else 0.0)
@@ -63,14 +61,14 @@ def test_a_place_is_5_cm_and_5_degrees_wide(off: float, turn: float, counts: int
     assert (f"{1e3 * off:.0f} mm and {turn:.1f} deg" in counted.missed) == (counts < 6)
 
 
-def test_tapping_one_foot_is_one_step_at_most() -> None:
+def test_tapping_one_foot_is_one_step_at_most():
     walk = Walk(*straight_plan(6, length=0.0)[::-1])
     for _ in range(6):
         walk.land(walk.goal.steps[0])
     assert walk.taken == 1
 
 
-def test_bounces_and_taps_that_carry_nothing_are_no_steps() -> None:
+def test_bounces_and_taps_that_carry_nothing_are_no_steps():
     steps = straight_plan(6, length=0.0)[1]
     walk = Walk(steps)
     for step in steps:
@@ -80,7 +78,7 @@ def test_bounces_and_taps_that_carry_nothing_are_no_steps() -> None:
     assert "left foot did not land" in missed
 
 
-def test_a_foot_that_is_lifted_again_is_where_it_stands_in_the_end() -> None:
+def test_a_foot_that_is_lifted_again_is_where_it_stands_in_the_end():
     walk = Walk()
     walk.land(STEPS[0], dx=0.2)  # a probe that carries
     walk.land(STEPS[0])
@@ -95,7 +93,7 @@ def test_a_foot_that_is_lifted_again_is_where_it_stands_in_the_end() -> None:
     assert walk.taken == 0
 
 
-def test_a_foot_that_slides_away_while_it_stands_has_not_stayed() -> None:
+def test_a_foot_that_slides_away_while_it_stands_has_not_stayed():
     walk = Walk()
     for step in STEPS:
         walk.land(step)
@@ -105,7 +103,7 @@ def test_a_foot_that_slides_away_while_it_stands_has_not_stayed() -> None:
     assert walk.count.slip == pytest.approx(0.08)
 
 
-def test_the_wrong_order_does_not_count() -> None:
+def test_the_wrong_order_does_not_count():
     walk = Walk()
     for k in (1, 0, 3, 2, 5, 4):
         walk.land(STEPS[k])
@@ -116,7 +114,7 @@ def test_the_wrong_order_does_not_count() -> None:
     assert walk.taken == 0
 
 
-def test_both_feet_have_to_be_there_in_the_end() -> None:
+def test_both_feet_have_to_be_there_in_the_end():
     walk = Walk()
     for step in STEPS:
         walk.land(step)
@@ -124,7 +122,7 @@ def test_both_feet_have_to_be_there_in_the_end() -> None:
     assert walk.taken == 4
 
 
-def test_a_step_that_is_left_out_is_missed() -> None:
+def test_a_step_that_is_left_out_is_missed():
     walk = Walk()
     for k in (0, 1, 4, 5):
         walk.land(STEPS[k])
@@ -135,7 +133,7 @@ def moved_from(steps: tuple[Footstep, ...], first: int, dx: float, dy: float, re
     return [MovedStep(k, s.x + dx, s.y + dy, s.yaw, reason) for k, s in enumerate(steps) if k >= first]
 
 
-def test_a_walk_around_an_obstacle_counts_where_it_was_reported_before() -> None:
+def test_a_walk_around_an_obstacle_counts_where_it_was_reported_before():
     walk = Walk()
     walk.land(STEPS[0])
     walk.land(STEPS[1])
@@ -149,7 +147,7 @@ def test_a_walk_around_an_obstacle_counts_where_it_was_reported_before() -> None
     assert [row["reason"] for row in walk.goal.summary()] == ["foothold refused"] * 4
 
 
-def test_what_is_reported_after_the_foot_landed_does_not_count() -> None:
+def test_what_is_reported_after_the_foot_landed_does_not_count():
     walk = Walk()
     for k, step in enumerate(STEPS):
         walk.land(step, dx=0.1 if k >= 2 else 0.0)
@@ -170,7 +168,7 @@ def test_what_is_reported_after_the_foot_landed_does_not_count() -> None:
         (0.1, 0.7, "turned round"),
     ],
 )
-def test_places_that_no_detour_explains_do_not_count(dx: float, yaw: float, reason: str) -> None:
+def test_places_that_no_detour_explains_do_not_count(dx, yaw, reason):
     walk = Walk()
     walk.report(*(MovedStep(k, s.x + dx, s.y, s.yaw + yaw, reason) for k, s in enumerate(STEPS)))
     assert walk.goal.refused == 6
@@ -180,7 +178,7 @@ def test_places_that_no_detour_explains_do_not_count(dx: float, yaw: float, reas
     assert walk.taken == 0
 
 
-def test_a_walk_that_is_cut_short_by_moving_its_steps_is_not_taken_over() -> None:
+def test_a_walk_that_is_cut_short_by_moving_its_steps_is_not_taken_over():
     """20 steps of 0.2 m, each said to have been moved back to where the robot stands."""
     feet, steps = straight_plan(20, length=0.2)
     walk = Walk(steps, feet)
@@ -191,7 +189,7 @@ def test_a_walk_that_is_cut_short_by_moving_its_steps_is_not_taken_over() -> Non
     assert walk.goal.end({"left": [0.0, 0.0], "right": [0.0, 0.0]})[0][0] > 3.0  # type: ignore[dict-item]
 
 
-def test_a_strip_that_turns_away_is_followed_to_its_end() -> None:
+def test_a_strip_that_turns_away_is_followed_to_its_end():
     """50 side steps of 8 cm along a beam that is turned by 10 degrees: each step shifts those to come."""
     feet, steps = straight_plan(50, length=0.0, sideways=0.08)
     walk, shift = Walk(steps, feet), 0.0
@@ -207,7 +205,7 @@ def test_a_strip_that_turns_away_is_followed_to_its_end() -> None:
 
 
 @pytest.mark.parametrize(("led", "refused"), [(0.0, 3), (0.5, 0)])
-def test_who_leads_the_robot_explains_steps_that_go_along(led: float, refused: int) -> None:
+def test_who_leads_the_robot_explains_steps_that_go_along(led, refused):
     """Six steps in place, each moved 0.12 m farther than the one before: beyond 0.3 m a detour explains none."""
     feet, steps = straight_plan(6, length=0.0)
     goal = WalkGoal(feet, steps, led=led)
@@ -216,7 +214,7 @@ def test_who_leads_the_robot_explains_steps_that_go_along(led: float, refused: i
     assert goal.refused == refused
 
 
-def test_steps_that_do_not_exist_are_not_taken_over() -> None:
+def test_steps_that_do_not_exist_are_not_taken_over():
     walk = Walk()
     walk.report(MovedStep(-1, 0.0, 0.0, 0.0, "a"), MovedStep(6, 0.0, 0.0, 0.0, "a"))
     assert walk.goal.refused == 2
@@ -238,7 +236,7 @@ def walked_differently(
     return walk
 
 
-def test_a_long_walk_is_judged_from_foothold_to_foothold() -> None:
+def test_a_long_walk_is_judged_from_foothold_to_foothold():
     """300 steps that drift by 1 % and turn by a quarter of a turn in all, as dead reckoning would let them."""
     feet, steps = straight_plan(300, length=0.2)
     walk = walked_differently(steps, feet, math.radians(0.09), 0.99)
@@ -260,16 +258,14 @@ def test_a_long_walk_is_judged_from_foothold_to_foothold() -> None:
     ],
     ids=["shorter", "longer", "aside", "turned", "turned as far as a step may"],
 )
-def test_a_little_of_each_step_does_not_add_up_to_another_walk(
-    turn: float, stretch: float, slip: float, words: str
-) -> None:
+def test_a_little_of_each_step_does_not_add_up_to_another_walk(turn, stretch, slip, words):
     feet, steps = straight_plan(100, length=0.2)
     counted = walked_differently(steps, feet, math.radians(turn), stretch, slip).count.count()
     assert counted.taken < 80
     assert re.search(words, counted.missed)
 
 
-def test_a_move_that_nothing_justifies_does_not_count() -> None:
+def test_a_move_that_nothing_justifies_does_not_count():
     """20 steps of 0.15 m for 20 of 0.2 m, each reported as moved: 1 m short."""
     feet, steps = straight_plan(20, length=0.2)
     short = straight_plan(20, length=0.15)[1]
@@ -284,7 +280,7 @@ def test_a_move_that_nothing_justifies_does_not_count() -> None:
     assert counted.taken < 3
 
 
-def test_the_foothold_before_is_not_moved_after_it_was_stood_on() -> None:
+def test_the_foothold_before_is_not_moved_after_it_was_stood_on():
     """A step of 0.2 m becomes one of 0.1 m where the one before it is reported to have been meant 0.1 m further on."""
     walk = Walk()
     walk.land(STEPS[0])
@@ -295,7 +291,7 @@ def test_the_foothold_before_is_not_moved_after_it_was_stood_on() -> None:
     assert walk.taken == 1
 
 
-def test_a_move_that_is_justified_is_judged_where_it_leads() -> None:
+def test_a_move_that_is_justified_is_judged_where_it_leads():
     walk = Walk()
     walk.report(*moved_from(STEPS, 2, 0.12, 0.0, "foothold refused"))
     for k, step in enumerate(STEPS):

@@ -3,8 +3,6 @@
 Nothing of the judge is used: forces are MuJoCo's by `mj_contactForce`, hulls are scipy's, distances shapely's.
 """
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 from typing import Any
@@ -250,7 +248,7 @@ def run_and_check(scene: str, settings: list[str], seed: int) -> dict[str, Any]:
     return summary
 
 
-def test_figures_of_a_flat_walk_are_the_simulators() -> None:
+def test_figures_of_a_flat_walk_are_the_simulators():
     summary = run_and_check("flat", ["steps=2", *WALK[1:]], 0)
     assert summary["completed"]
 
@@ -269,5 +267,5 @@ def test_figures_of_a_flat_walk_are_the_simulators() -> None:
         ("beam-yaw", WALK),
     ],
 )
-def test_figures_of_a_scene_are_the_simulators(scene: str, settings: list[str]) -> None:
+def test_figures_of_a_scene_are_the_simulators(scene, settings):
     run_and_check(scene, settings, 1)

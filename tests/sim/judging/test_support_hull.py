@@ -1,7 +1,5 @@
 """The judge's support polygon is the hull of its contact points, to a picometre, in every walking scene."""
 
-from __future__ import annotations
-
 import math
 
 import pytest
@@ -45,7 +43,7 @@ class Compared(Simulation):
         self.compared += 1
 
 
-def test_a_hull_is_distinguished_from_other_rings() -> None:
+def test_a_hull_is_distinguished_from_other_rings():
     square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
     assert is_hull(square, [*square, (0.5, 0.5), (0.5, 0.0)])
     assert not is_hull(square, [*square, (0.5, -1e-11)])
@@ -56,7 +54,7 @@ def test_a_hull_is_distinguished_from_other_rings() -> None:
 
 
 @pytest.mark.parametrize("scene", ["flat", *(pytest.param(name, marks=pytest.mark.long) for name in SCENES)])
-def test_the_support_is_the_hull_of_the_contacts(scene: str) -> None:
+def test_the_support_is_the_hull_of_the_contacts(scene):
     short = ["steps=1", "settle=0.2", "end=0.2"] if scene == "flat" else []
     run = Compared(load_scene(scene, short), 1)
     run.run()

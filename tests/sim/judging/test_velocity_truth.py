@@ -1,7 +1,5 @@
 """The mean speed of a walk, from made-up motions of a torso."""
 
-from __future__ import annotations
-
 import math
 from types import SimpleNamespace
 from typing import Any
@@ -36,7 +34,7 @@ def moved(table: VelocityTable, velocity: tuple[float, float, float], until: flo
 
 
 @pytest.mark.parametrize("share", [1.0, 0.95, 0.8, 1.2])
-def test_the_share_of_the_commanded_speeds_is_what_was_walked(share: float) -> None:
+def test_the_share_of_the_commanded_speeds_is_what_was_walked(share):
     command = (0.1, -0.05, 0.2)
     truth = moved(table_of([[1.0, *command], [30.0, "stop"]], 0.0), tuple(share * v for v in command))
     told = truth.summary([])
@@ -47,18 +45,18 @@ def test_the_share_of_the_commanded_speeds_is_what_was_walked(share: float) -> N
     )
 
 
-def test_a_way_across_the_command_does_not_count() -> None:
+def test_a_way_across_the_command_does_not_count():
     truth = moved(table_of([[1.0, 0.1, 0.0, 0.0], [30.0, "stop"]], 0.0), (0.0, 0.1, 0.0))
     assert truth.summary([])["speed_ratio"] == pytest.approx(0.0, abs=1e-6)
 
 
-def test_more_than_two_steps_after_the_last_stop_are_too_many() -> None:
+def test_more_than_two_steps_after_the_last_stop_are_too_many():
     truth = moved(table_of([[1.0, 0.1, 0.0, 0.0], [30.0, "stop"]], 0.0), (0.1, 0.0, 0.0))
     assert truth.reasons([28.0, 29.9, 30.5, 31.7]) == []
     (reason,) = truth.reasons([28.0, 30.5, 31.7, 32.9])
     assert (reason["criterion"], reason["value"]) == ("stop", 3)
 
 
-def test_a_robot_that_goes_on_is_not_at_rest() -> None:
+def test_a_robot_that_goes_on_is_not_at_rest():
     table = table_of([[1.0, 0.1, 0.0, 0.0], [38.0, "stop"]], 0.0)
     assert {r["criterion"] for r in moved(table, (0.1, 0.0, 0.0), until=39.0).reasons([])} == {"rest"}

@@ -1,7 +1,5 @@
 """Every criterion of the verdict, alone, on either side of its limit."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 
@@ -24,7 +22,7 @@ def failed(legs: Any = APART, joints: Any = STILL, **changes: Any) -> list[tuple
     return [(r["criterion"], r["value"], r["limit"]) for r in reasons(ending(**changes), legs, joints)]
 
 
-def test_a_good_end_has_no_reasons() -> None:
+def test_a_good_end_has_no_reasons():
     assert failed() == []
     assert failed(position=None, heading=None, steps=(0, 0)) == []
 
@@ -44,7 +42,7 @@ def test_a_good_end_has_no_reasons() -> None:
         ({"tilt": 5.0}, ("tilt", 5.0, 5.0)),
     ],
 )
-def test_each_criterion_fails_alone(changes: dict[str, Any], found: tuple[str, float, float] | None) -> None:
+def test_each_criterion_fails_alone(changes, found):
     got = failed(**changes)
     assert len(got) == 1
     assert found is None or got == [found]
@@ -53,11 +51,11 @@ def test_each_criterion_fails_alone(changes: dict[str, Any], found: tuple[str, f
 @pytest.mark.parametrize(
     "changes", [{"position": 0.0999}, {"heading": 4.9}, {"tilt": 4.9}, {"pushes": (6, 6)}, {"steps": (9, 8)}]
 )
-def test_what_is_within_its_limit_is_no_reason(changes: dict[str, Any]) -> None:
+def test_what_is_within_its_limit_is_no_reason(changes):
     assert failed(**changes) == []
 
 
-def test_a_smaller_robot_has_to_come_nearer() -> None:
+def test_a_smaller_robot_has_to_come_nearer():
     half = BodyScale(**{**vars_of(REFERENCE_BODY), "leg": 0.5 * REFERENCE_BODY.leg})
     assert failed(position=0.06, body=half) == [("position", 0.06, 0.05)]
     assert failed(position=0.04, body=half) == []
@@ -67,7 +65,7 @@ def vars_of(body: BodyScale) -> dict[str, float]:
     return {name: getattr(body, name) for name in body.__dataclass_fields__}
 
 
-def test_legs_that_touch_and_joints_that_are_too_fast_are_named() -> None:
+def test_legs_that_touch_and_joints_that_are_too_fast_are_named():
     touched = SimpleNamespace(first=(1.5, "left_foot", "right_foot"), duration=0.0123)
     (reason,) = reasons(ending(), touched, STILL)
     assert (reason["criterion"], reason["value"], reason["limit"]) == ("collision", 0.0123, 0.0)
@@ -83,12 +81,12 @@ def test_legs_that_touch_and_joints_that_are_too_fast_are_named() -> None:
     assert "knee was faster than its limit for 0.021 s, by 1.20 times" in found[0]["text"]
 
 
-def test_all_that_failed_is_listed() -> None:
+def test_all_that_failed_is_listed():
     got = failed(fall=(50.0, 40.0, "fell"), stopped="x", steps=(1, 8), missed="y", position=1.0, tilt=60.0)
     assert [name for name, _, _ in got] == ["fall", "emergency_stop", "steps", "position", "tilt"]
 
 
-def test_a_leader_moves_its_partner() -> None:
+def test_a_leader_moves_its_partner():
     assert partner_reasons("follower", 0.8, -0.41) == []
     (reason,) = partner_reasons("follower", 0.8, -0.39)
     assert (reason["criterion"], reason["value"], reason["limit"]) == ("led", 0.39, 0.4)

@@ -1,7 +1,5 @@
 """What a paper describes is really called in its scene, and is not called without it."""
 
-from __future__ import annotations
-
 from collections import Counter
 from typing import Any
 
@@ -42,11 +40,11 @@ def counted(monkeypatch: pytest.MonkeyPatch, *settings: str) -> Counter[str]:
     return calls
 
 
-def test_k_as_written_calls_all_of_k(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_k_as_written_calls_all_of_k(monkeypatch):
     calls = counted(monkeypatch, "paper=K")
     assert set(calls) == set(CALLED), calls
 
 
 @pytest.mark.long
-def test_the_default_walk_calls_none_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_default_walk_calls_none_of_it(monkeypatch):
     assert not counted(monkeypatch)

@@ -1,7 +1,5 @@
 """Presets by source: each is complete, cited, refused where it states nothing, and set before a user's own settings."""
 
-from __future__ import annotations
-
 import re
 
 import pytest
@@ -19,7 +17,7 @@ ALL = sorted({(p, s) for p in paper_files() for f in paper_settings(p) for s in 
 
 
 @pytest.mark.parametrize(("paper", "scene"), ALL)
-def test_every_setting_of_a_paper_is_known_and_used(paper: str, scene: str) -> None:
+def test_every_setting_of_a_paper_is_known_and_used(paper, scene):
     for robot in ("h1", "hrp2kai"):
         opened = open_scene(scene, [f"paper={paper}"], robot if paper == "T" and "contact" not in scene else None)
         assert opened.name == f"{scene} as {paper}"
@@ -29,7 +27,7 @@ def test_every_setting_of_a_paper_is_known_and_used(paper: str, scene: str) -> N
             controller_settings(opened.for_body(body), file, body, {})  # refuses what would do nothing
 
 
-def test_every_setting_cites_its_paper() -> None:
+def test_every_setting_cites_its_paper():
     for paper in paper_files():
         for found in paper_settings(paper):
             assert re.match(rf"{paper} \d|{paper} Table \d", found.source), found.source
@@ -37,14 +35,14 @@ def test_every_setting_cites_its_paper() -> None:
             assert found.scenes
 
 
-def test_own_settings_count_after_the_paper() -> None:
+def test_own_settings_count_after_the_paper():
     paper, settings = with_paper(["walk.confidence=1", "paper=K"], "push-step", "h1")
     assert paper == "K"
     assert settings.index("walk.confidence=0") < settings.index("walk.confidence=1")
     assert open_scene("push-step", ["walk.confidence=1", "paper=K"]).walk.confidence == 1.0  # type: ignore[union-attr]
 
 
-def test_each_robot_has_its_own_times() -> None:
+def test_each_robot_has_its_own_times():
     for robot, single in (("h1", 0.9), ("hrp2kai", 1.4)):
         assert open_scene("flat", ["paper=T"], robot).walk.single_support == single  # type: ignore[union-attr]
         assert open_scene("flat", ["paper=T", f"robot={robot}"]).walk.single_support == single  # type: ignore[union-attr]
@@ -59,6 +57,6 @@ def test_each_robot_has_its_own_times() -> None:
         ("flat", ["paper=T", "paper=K"], "papers K and T are given; allowed: one of them"),
     ],
 )
-def test_a_paper_that_states_nothing_is_refused(scene: str, settings: list[str], words: str) -> None:
+def test_a_paper_that_states_nothing_is_refused(scene, settings, words):
     with pytest.raises(SceneError, match=re.escape(words)):
         open_scene(scene, settings)

@@ -1,7 +1,5 @@
 """H1 made smaller or larger, lighter or heavier: a robot that walks as H1 does, up to scale."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Mapping

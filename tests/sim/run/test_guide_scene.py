@@ -1,9 +1,5 @@
 """A robot that is led by its arm: what the scene adds to a simulation, what it refuses, and a whole run."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -15,7 +11,7 @@ from plantar.sim.run.runner import Simulation, run_scene
 from plantar.sim.run.scene import load_scene
 
 
-def test_the_controller_knows_where_the_arm_is_that_feels() -> None:
+def test_the_controller_knows_where_the_arm_is_that_feels():
     simulation = Simulation(load_scene("guide"), seed=2)
     skin, arm = simulation.settings.skin, simulation.arm
     assert skin is not None
@@ -33,7 +29,7 @@ def test_the_controller_knows_where_the_arm_is_that_feels() -> None:
     assert not (reading.skin.force > skin.thresholds).any()
 
 
-def test_a_force_on_the_arm_counts_where_the_arm_is() -> None:
+def test_a_force_on_the_arm_counts_where_the_arm_is():
     """The controller's acceleration by a press on the forearm, against K 9-12 at the place and in the direction of the
     taxel as MuJoCo has them."""
     simulation = Simulation(load_scene("guide"), seed=2)
@@ -55,7 +51,7 @@ def test_a_force_on_the_arm_counts_where_the_arm_is() -> None:
     assert felt == pytest.approx(expected, abs=0.01 * float(np.abs(expected).max()))
 
 
-def test_an_arm_that_moves_has_its_skin_beside_that_of_the_trunk() -> None:
+def test_an_arm_that_moves_has_its_skin_beside_that_of_the_trunk():
     simulation = Simulation(load_scene("push-step", ["arm.side=left"]), seed=2)
     skin = simulation.settings.skin
     assert skin is not None
@@ -65,12 +61,12 @@ def test_an_arm_that_moves_has_its_skin_beside_that_of_the_trunk() -> None:
     assert simulation.touched.guide is None
 
 
-def test_a_robot_whose_arms_do_not_move_is_not_guided() -> None:
+def test_a_robot_whose_arms_do_not_move_is_not_guided():
     with pytest.raises(SceneError, match=r"way is above 0 and arm.side 'none'; allowed: with an arm that moves"):
         Simulation(load_scene("guide", ["arm.side=none"]))
 
 
-def test_an_arm_that_moves_may_be_left_alone() -> None:
+def test_an_arm_that_moves_may_be_left_alone():
     simulation = Simulation(load_scene("flat", ["arm.side=right"]))
     assert simulation.arm is not None
     assert simulation.touch is None
@@ -78,7 +74,7 @@ def test_an_arm_that_moves_may_be_left_alone() -> None:
 
 
 @pytest.mark.long
-def test_the_arm_gives_way_and_the_feet_follow(tmp_path: Path) -> None:
+def test_the_arm_gives_way_and_the_feet_follow(tmp_path):
     recording = tmp_path / "run.mcap"
     summary = run_scene(load_scene("guide", ["guide.toward=forward"]), seed=1, record=recording)
     assert summary["completed"], summary["reasons"]

@@ -1,7 +1,5 @@
 """Which pushes by hands a scene asks for: when, where, how strong."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 import pytest
@@ -34,7 +32,7 @@ def support(step: int, schedule: WalkSchedule = SCHEDULE) -> tuple[float, float]
     return phase.start, phase.end
 
 
-def test_a_small_push_comes_steps_before_the_large_one_and_at_the_same_phase() -> None:
+def test_a_small_push_comes_steps_before_the_large_one_and_at_the_same_phase():
     pushes = hands(step=6, small=0.4, small_before=4, direction="left", phase=0.25).pushes
     assert [p.step for p in pushes] == [2, 6]
     np.testing.assert_allclose([p.impulse for p in pushes], [[0.0, 8.0], [0.0, 20.0]])
@@ -43,7 +41,7 @@ def test_a_small_push_comes_steps_before_the_large_one_and_at_the_same_phase() -
         assert push.when() == pytest.approx(start + 0.25 * (end - start))
 
 
-def test_a_push_may_come_anywhere_in_a_stride_and_in_any_direction() -> None:
+def test_a_push_may_come_anywhere_in_a_stride_and_in_any_direction():
     (push,) = hands(step=2, cycle=0.5, direction="angle", angle=-120.0).pushes
     assert push.when() == pytest.approx(0.5 * (support(2)[0] + support(4)[0]))
     np.testing.assert_allclose(push.impulse, 20.0 * np.array([-0.5, -np.sqrt(0.75)]))
@@ -52,7 +50,7 @@ def test_a_push_may_come_anywhere_in_a_stride_and_in_any_direction() -> None:
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 @pytest.mark.parametrize("place", ["com", "hip", "shoulder"])
-def test_a_named_place_is_one_on_the_skin_however_high_the_robot_stands(robot: str, place: str) -> None:
+def test_a_named_place_is_one_on_the_skin_however_high_the_robot_stands(robot, place):
     simulation = Simulation(load_scene("push-height", [f"push.place={place}", "push.direction=left"], robot), 0)
     world, touched = simulation.world, simulation.touch
     assert touched is not None
@@ -63,7 +61,7 @@ def test_a_named_place_is_one_on_the_skin_however_high_the_robot_stands(robot: s
 
 
 @pytest.mark.parametrize(("direction", "side"), [("left", "left"), ("right", "right")])
-def test_pushes_to_a_side_wait_for_the_foot_that_swings_there(direction: str, side: str) -> None:
+def test_pushes_to_a_side_wait_for_the_foot_that_swings_there(direction, side):
     for step in (4, 5):
         (push,) = hands(step=step, direction=direction, with_swing=True).pushes
         assert push.step in (step, step + 1)
@@ -72,13 +70,13 @@ def test_pushes_to_a_side_wait_for_the_foot_that_swings_there(direction: str, si
         assert ahead.step == step
 
 
-def test_pushes_along_the_steps_follow_the_feet() -> None:
+def test_pushes_along_the_steps_follow_the_feet():
     pushes = hands(step=1, repeat=3, direction="step").pushes
     assert [p.step for p in pushes] == [1, 2, 3]
     np.testing.assert_allclose([p.impulse for p in pushes], [[20.0, 0.0]] * 3, atol=1e-9)
 
 
-def test_a_push_moves_with_a_plan_that_changes() -> None:
+def test_a_push_moves_with_a_plan_that_changes():
     later = WalkSchedule.of([s.side for s in STEPS], Timing(), begin=1.5)
     plans = [SCHEDULE]
     push = Push(by="hands", impulse=20.0, step=3, direction="left")
@@ -88,7 +86,7 @@ def test_a_push_moves_with_a_plan_that_changes() -> None:
     assert made.when() == pytest.approx(before + 0.5)
 
 
-def test_seeds_choose_direction_and_step_among_those_that_leave_room() -> None:
+def test_seeds_choose_direction_and_step_among_those_that_leave_room():
     found = [hands(seed, small=0.5, small_before=4, cycle=0.1) for seed in range(12)]
     assert [tuple(np.sign(h.pushes[-1].impulse)) for h in found[:4]] == [(1, 0), (-1, 0), (0, 1), (0, -1)]
     assert {h.pushes[-1].step for h in found} <= {4, 5}
@@ -106,7 +104,7 @@ def test_seeds_choose_direction_and_step_among_those_that_leave_room() -> None:
         ({"count": 3}, "count is for pushes by a force"),
     ],
 )
-def test_what_the_walk_has_no_room_for_is_refused(given: dict[str, object], words: str) -> None:
+def test_what_the_walk_has_no_room_for_is_refused(given, words):
     with pytest.raises(SceneError, match=words):
         hands(**given)
 
@@ -115,7 +113,7 @@ def test_what_the_walk_has_no_room_for_is_refused(given: dict[str, object], word
     "given",
     [{"direction": "step"}, {"cycle": 0.1}, {"repeat": 2}, {"small": 0.5}, {"place": "com"}, {"verdict": "steps"}],
 )
-def test_a_force_refuses_what_only_hands_do(given: dict[str, object]) -> None:
+def test_a_force_refuses_what_only_hands_do(given):
     push: Settings = Push(impulse=10.0, **given)  # type: ignore[arg-type]
     assert isinstance(push, Push)
     with pytest.raises(SceneError, match=f"{next(iter(given))} is for pushes by hands"):

@@ -1,7 +1,5 @@
 """What walks tell that they identified of a true plant, against that plant as MuJoCo has it."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 import pytest
@@ -22,7 +20,7 @@ def com(simulation: Simulation, model: mujoco.MjModel) -> np.ndarray:
 
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
-def test_gyro_com_and_mass_are_found(robot: str) -> None:
+def test_gyro_com_and_mass_are_found(robot):
     simulation = Simulation(load_scene("flat", ["walk.steps=2", *TRUE], robot), 0)
     moved = com(simulation, simulation.world.model) - com(simulation, simulation.legs.model)
     assert np.linalg.norm(moved) > 0.01  # the upper body has most of the mass
@@ -35,7 +33,7 @@ def test_gyro_com_and_mass_are_found(robot: str) -> None:
     assert np.abs(found["encoder_offsets_deg"]).max() < 0.1  # by what the accelerometer's noise leaves, 0.03 (1 sigma)
 
 
-def test_encoder_offsets_put_the_feet_where_they_are() -> None:
+def test_encoder_offsets_put_the_feet_where_they_are():
     simulation = Simulation(load_scene("flat", ["walk.steps=2", "plant.encoder_offset=0.3"], "h1"), 2)
     assert simulation.plant is not None
     true = simulation.plant.encoder_offsets
@@ -54,7 +52,7 @@ def test_encoder_offsets_put_the_feet_where_they_are() -> None:
     assert apart(true - found) < 1.5e-3
 
 
-def test_nothing_is_identified_where_that_is_switched_off() -> None:
+def test_nothing_is_identified_where_that_is_switched_off():
     simulation = Simulation(load_scene("flat", ["walk.steps=0", "control.identify=false"], "h1"), 0)
     assert simulation.controller.estimation.body is None
     assert "identified" not in simulation.run()

@@ -6,7 +6,7 @@ from plantar.sim.run.runner import Simulation, run_scene
 from plantar.sim.run.scene import load_scene
 
 
-def test_motors_exert_the_torques_of_their_gain_loop() -> None:
+def test_motors_exert_the_torques_of_their_gain_loop():
     run = Simulation(load_scene("flat", ["steps=0", "drives=own", "joint_stiffness=200"]))
     world, data = run.world, run.world.data
     run.sense(0)
@@ -28,5 +28,5 @@ def test_motors_exert_the_torques_of_their_gain_loop() -> None:
 
 
 @pytest.mark.long
-def test_a_robot_walks_on_soft_motors_that_follow_the_plan() -> None:
+def test_a_robot_walks_on_soft_motors_that_follow_the_plan():
     assert run_scene(load_scene("flat", ["steps=6", "drives=own", "joint_stiffness=1000"]))["completed"]

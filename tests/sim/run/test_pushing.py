@@ -5,14 +5,13 @@ from plantar.errors import SceneError
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.gait.plan.phases import Timing, WalkSchedule
 from plantar.settings.body_scale import BodyScale
-from plantar.sim.model.world import World
 from plantar.sim.run.pushing import Pusher
 from plantar.sim.run.scene import Push
 
 SCHEDULE = WalkSchedule.of([s.side for s in straight_plan(6)[1]], Timing(), begin=1.0)
 
 
-def test_the_push_has_its_impulse_time_and_direction(world: World) -> None:
+def test_the_push_has_its_impulse_time_and_direction(world):
     pusher = Pusher(Push(impulse=20.0, duration=0.1, direction="left", step=2), SCHEDULE, seed=0)
     swing = next(p for p in SCHEDULE.phases if p.swing and p.step == 2)
     assert pusher.shoves[0].start == pytest.approx(0.5 * (swing.start + swing.end))
@@ -24,7 +23,7 @@ def test_the_push_has_its_impulse_time_and_direction(world: World) -> None:
     assert impulse == pytest.approx([0.0, 20.0, 0.0], rel=0.02)
 
 
-def test_seeds_choose_all_directions_and_repeat() -> None:
+def test_seeds_choose_all_directions_and_repeat():
     push = Push(impulse=20.0)
     chosen = [Pusher(push, SCHEDULE, seed) for seed in range(20)]
     assert [p.direction for p in chosen[:4]] == ["forward", "backward", "left", "right"]
@@ -33,14 +32,14 @@ def test_seeds_choose_all_directions_and_repeat() -> None:
     assert [(p.direction, p.step) for p in chosen] == [(p.direction, p.step) for p in again]
 
 
-def test_a_push_by_a_velocity_goes_with_the_mass(world: World) -> None:
+def test_a_push_by_a_velocity_goes_with_the_mass(world):
     body = BodyScale(mass=30.0, leg=0.4, sole=0.2, sole_width=0.1)
     for push, impulse in ((Push(dv=0.2), 6.0), (Push(dv=0.2, impulse=20.0), 20.0)):
         (shove,) = Pusher(push.for_body(body), SCHEDULE, 0).shoves
         assert float(np.linalg.norm(shove.impulse)) == pytest.approx(impulse)
 
 
-def test_no_impulse_makes_no_push(world: World) -> None:
+def test_no_impulse_makes_no_push(world):
     pusher = Pusher(Push(), SCHEDULE, 0)
     world.data.time = 3.0
     pusher.apply(world)
@@ -48,7 +47,7 @@ def test_no_impulse_makes_no_push(world: World) -> None:
     assert not world.data.xfrc_applied.any()
 
 
-def test_a_step_that_is_not_walked_is_an_error() -> None:
+def test_a_step_that_is_not_walked_is_an_error():
     with pytest.raises(SceneError, match="6 steps"):
         Pusher(Push(impulse=1.0, step=6), SCHEDULE, 0)
 
@@ -56,7 +55,7 @@ def test_a_step_that_is_not_walked_is_an_error() -> None:
 STANDING = WalkSchedule.of((), Timing(settle=24.0), begin=1.0)
 
 
-def test_a_standing_robot_is_pushed_smoothly_all_around() -> None:
+def test_a_standing_robot_is_pushed_smoothly_all_around():
     push = Push(impulse=30.0, duration=1.0, count=6, interval=3.5, sideways=0.5)
     angles = []
     for seed in range(20):
@@ -73,7 +72,7 @@ def test_a_standing_robot_is_pushed_smoothly_all_around() -> None:
     assert np.histogram(angles, 4, (-np.pi, np.pi))[0].min() > 10
 
 
-def test_a_push_at_the_neck_tips_as_well(world: World) -> None:
+def test_a_push_at_the_neck_tips_as_well(world):
     pusher = Pusher(Push(impulse=20.0, duration=1.0, count=1, height=0.6, direction="forward"), STANDING, 0)
     world.data.time = 1.9995  # a step about the middle of the push
     pusher.apply(world)
@@ -86,7 +85,7 @@ def test_a_push_at_the_neck_tips_as_well(world: World) -> None:
 
 
 @pytest.mark.parametrize("duration", [1.5e-3, 0.1, 0.1004])
-def test_what_is_applied_is_what_was_asked_for_whatever_the_duration(world: World, duration: float) -> None:
+def test_what_is_applied_is_what_was_asked_for_whatever_the_duration(world, duration):
     pusher = Pusher(Push(impulse=20.0, duration=duration, step=2, phase=0.31), SCHEDULE, 0)
     applied = np.zeros(3)
     while world.data.time < pusher.shoves[0].end + 0.01:
@@ -106,6 +105,6 @@ def test_what_is_applied_is_what_was_asked_for_whatever_the_duration(world: Worl
         (Push(impulse=1.0, count=2, duration=5.0, interval=1.0), STANDING, "duration below"),
     ],
 )
-def test_pushes_that_do_not_fit_are_refused(push: Push, schedule: WalkSchedule, word: str) -> None:
+def test_pushes_that_do_not_fit_are_refused(push, schedule, word):
     with pytest.raises(SceneError, match=word):
         Pusher(push, schedule, 0)

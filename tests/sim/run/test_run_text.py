@@ -1,9 +1,5 @@
 """A run's summary in words: what went wrong is told, and what the scene has not is left out."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import pytest
 
 from plantar.sim.run.run_text import run_text
@@ -12,18 +8,18 @@ from plantar.sim.run.scene import load_scene
 
 
 @pytest.fixture(scope="module")
-def summary() -> dict[str, Any]:
+def summary():
     return run_scene(load_scene("flat", ["steps=2", "settle=0.2"]))
 
 
-def test_a_completed_run_tells_no_fault(summary: dict[str, Any]) -> None:
+def test_a_completed_run_tells_no_fault(summary):
     lines = run_text(summary).splitlines()
     assert lines[0].startswith("flat with h1, seed 0: completed, 2 of 2 steps in ")
     assert not [line for line in lines if "not completed" in line or "did not reach" in line]
     assert lines[-1].endswith("us (99 %)")
 
 
-def test_what_went_wrong_is_reported(summary: dict[str, Any]) -> None:
+def test_what_went_wrong_is_reported(summary):
     bad = summary | {
         "completed": False,
         "fell": True,
@@ -52,7 +48,7 @@ def test_what_went_wrong_is_reported(summary: dict[str, Any]) -> None:
     assert text.endswith("\n  plots/feet.png")
 
 
-def test_pushes_and_the_ankles_are_listed_where_there_are_any(summary: dict[str, Any]) -> None:
+def test_pushes_and_the_ankles_are_listed_where_there_are_any(summary):
     assert "pushes" not in run_text(summary | {"balance": {}})
     balance = {
         "pushes": [{}, {}],

@@ -1,22 +1,17 @@
 """Short walks, judged by MuJoCo's truth."""
 
-from __future__ import annotations
-
-from pathlib import Path
-from typing import Any
-
 import numpy as np
 import pytest
 
 from plantar.errors import SceneError
 from plantar.recordings.recording import read_mcap
 from plantar.sim.run.runner import Simulation, run_scene
-from plantar.sim.run.scene import Scene, load_scene
+from plantar.sim.run.scene import load_scene
 
 MOTION = ("landings_s", "impacts_N", "tilt_max_deg", "zmp_margin_min_m", "final", "estimate", "contact_area_ratio")
 
 
-def test_four_steps_are_walked_upright_and_on_plan(short_run: tuple[dict[str, Any], Path]) -> None:
+def test_four_steps_are_walked_upright_and_on_plan(short_run):
     summary, _ = short_run
     assert summary["completed"]
     assert not summary["fell"]
@@ -31,7 +26,7 @@ def test_four_steps_are_walked_upright_and_on_plan(short_run: tuple[dict[str, An
     assert max(summary["impacts_N"]) < 86 * 9.81
 
 
-def test_the_summary_holds_what_the_contract_names(short_run: tuple[dict[str, Any], Path]) -> None:
+def test_the_summary_holds_what_the_contract_names(short_run):
     names = {
         "scene",
         "robot",
@@ -58,7 +53,7 @@ def test_the_summary_holds_what_the_contract_names(short_run: tuple[dict[str, An
     assert set(short_run[0]["control_us"]) == {"p50", "p99"}
 
 
-def test_recording_and_computing_everything_leave_the_motion_the_same_to_the_last_bit(tmp_path: Path) -> None:
+def test_recording_and_computing_everything_leave_the_motion_the_same_to_the_last_bit(tmp_path):
     short = ["steps=1", "settle=0.3", "end=0.2"]
     plain, recorded = (Simulation(load_scene("flat", short), 0) for _ in range(2))
     everything = Simulation(load_scene("flat", [*short, "skip=none"]), 0)
@@ -71,11 +66,11 @@ def test_recording_and_computing_everything_leave_the_motion_the_same_to_the_las
     assert with_all["skipped"]["percept_members"] == 0 < without["skipped"]["percept_members"]
 
 
-def test_another_seed_is_another_walk(short_run: tuple[dict[str, Any], Path], short_scene: Scene) -> None:
+def test_another_seed_is_another_walk(short_run, short_scene):
     assert run_scene(short_scene, 1)["impacts_N"] != short_run[0]["impacts_N"]
 
 
-def test_the_recording_tells_the_walk(short_run: tuple[dict[str, Any], Path]) -> None:
+def test_the_recording_tells_the_walk(short_run):
     summary, path = short_run
     run = read_mcap(path)
     assert not run.warnings
@@ -97,7 +92,7 @@ def test_the_recording_tells_the_walk(short_run: tuple[dict[str, Any], Path]) ->
     assert np.median(np.abs(force - truth)) < 3 * 1.4715 * np.sqrt(42)
 
 
-def test_a_fall_is_seen_and_ends_the_run() -> None:
+def test_a_fall_is_seen_and_ends_the_run():
     summary = run_scene(
         load_scene("push", ["steps=4", "impulse=90", "push.step=1", "direction=right", "feedback=false"]), 0
     )
@@ -107,7 +102,7 @@ def test_a_fall_is_seen_and_ends_the_run() -> None:
 
 
 @pytest.mark.parametrize("step", [1, 2])
-def test_feedback_survives_a_push_that_an_open_loop_does_not(step: int) -> None:
+def test_feedback_survives_a_push_that_an_open_loop_does_not(step):
     """30 N s from the front; 25 N s were within what stiff servos, a lean and the next step survive by themselves."""
     settings = ["steps=4", "settle=1.0", "impulse=30", "direction=backward", f"push.step={step}"]
     with_feedback = run_scene(load_scene("push", settings), 0)
@@ -117,7 +112,7 @@ def test_feedback_survives_a_push_that_an_open_loop_does_not(step: int) -> None:
     assert {r["criterion"] for r in without["reasons"]} & {"fall", "collision"}
 
 
-def test_standing_is_a_walk_of_no_steps() -> None:
+def test_standing_is_a_walk_of_no_steps():
     summary = run_scene(load_scene("flat", ["steps=0", "settle=0.5"]), 0)
     assert summary["completed"]
     assert summary["steps_planned"] == 0
@@ -133,7 +128,7 @@ def test_standing_is_a_walk_of_no_steps() -> None:
         (["terrain.height=-0.7"], 0.05),
     ],
 )
-def test_other_gaits_walk_too(settings: list[str], position: float) -> None:
+def test_other_gaits_walk_too(settings, position):
     scene = load_scene("flat", ["steps=4", "settle=1.0", *settings])
     summary = run_scene(scene, 0)
     assert summary["completed"], summary
@@ -143,7 +138,7 @@ def test_other_gaits_walk_too(settings: list[str], position: float) -> None:
 @pytest.mark.long
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 @pytest.mark.parametrize("seed", range(10))
-def test_twenty_steps(seed: int, robot: str) -> None:
+def test_twenty_steps(seed, robot):
     summary = run_scene(load_scene("flat", robot=robot), seed)
     assert summary["completed"]
     assert summary["steps_taken"] == 20
@@ -153,11 +148,11 @@ def test_twenty_steps(seed: int, robot: str) -> None:
 @pytest.mark.long
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 @pytest.mark.parametrize("seed", range(20))
-def test_pushes_are_survived(seed: int, robot: str) -> None:
+def test_pushes_are_survived(seed, robot):
     assert run_scene(load_scene("push", robot=robot), seed)["completed"]
 
 
-def test_hrp2kai_walks_by_its_own_law_and_at_its_own_pace() -> None:
+def test_hrp2kai_walks_by_its_own_law_and_at_its_own_pace():
     summary = run_scene(load_scene("flat", ["steps=2", "settle=0.5"], "hrp2kai"), 0)
     assert summary["completed"]
     assert summary["zmp_margin_min_m"] > 0.03
@@ -169,7 +164,7 @@ def test_hrp2kai_walks_by_its_own_law_and_at_its_own_pace() -> None:
     assert quicker["landings_s"][1] - quicker["landings_s"][0] == pytest.approx(1.4, abs=0.15)
 
 
-def test_steps_beyond_the_legs_reach_are_pointed_out(short_run: tuple[dict[str, Any], Path]) -> None:
+def test_steps_beyond_the_legs_reach_are_pointed_out(short_run):
     assert short_run[0]["out_of_reach_since_s"] is None
     wide = ["steps=2", "length=0.3", "sideways=0.1", "settle=0.5", "crouch=0"]
     late = run_scene(load_scene("flat", wide))["out_of_reach_since_s"]
@@ -178,13 +173,13 @@ def test_steps_beyond_the_legs_reach_are_pointed_out(short_run: tuple[dict[str, 
 
 
 @pytest.mark.parametrize(("floor", "words"), [(-2.0, "lower"), (0.5, "higher")])
-def test_ground_that_is_not_under_the_feet_is_an_error(floor: float, words: str) -> None:
+def test_ground_that_is_not_under_the_feet_is_an_error(floor, words):
     with pytest.raises(SceneError, match=rf"does not keep standing.* {words} .*height of 0 m") as caught:
         run_scene(load_scene("flat", ["kind=course", f"floor={floor}", "steps=0"]))
     assert "\n" not in str(caught.value)
 
 
-def test_the_controllers_settings_do_not_depend_on_the_ground() -> None:
+def test_the_controllers_settings_do_not_depend_on_the_ground():
     ground = {
         "flat": ["kind=flat"],
         "uneven": ["kind=uneven"],

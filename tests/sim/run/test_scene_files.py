@@ -36,19 +36,19 @@ def controllers_settings(text: str) -> list[str]:
 
 
 @pytest.mark.parametrize("name", builtin_scenes())
-def test_no_built_in_scene_holds_a_setting_of_the_controller(name: str) -> None:
+def test_no_built_in_scene_holds_a_setting_of_the_controller(name):
     path = scene_file(name)
     assert read_toml(path, ValueError, name)  # type: ignore[arg-type]
     assert controllers_settings(path.read_text()) == []
 
 
 @pytest.mark.parametrize("page", sorted((ROOT / "docs").rglob("*.md")), ids=lambda p: p.stem)
-def test_no_documented_scene_holds_a_setting_of_the_controller(page: Path) -> None:
+def test_no_documented_scene_holds_a_setting_of_the_controller(page):
     for block in re.findall(r"```toml\n(.*?)```", page.read_text(), re.DOTALL):
         if "[terrain]" in block or "[walk]" in block:
             assert controllers_settings(block) == []
 
 
-def test_a_setting_of_the_controller_would_be_found() -> None:
+def test_a_setting_of_the_controller_would_be_found():
     text = '[terrain]\nkind = "flat"\n[walk]\nsteps = 4\ncrouch = 0.02\n[control]\npfc = true\n[landing]\nspeed = 1\n'
     assert controllers_settings(text) == ["walk.crouch", "control.pfc", "landing"]

@@ -1,5 +1,4 @@
 import shutil
-from pathlib import Path
 
 import mujoco
 import numpy as np
@@ -13,11 +12,11 @@ from plantar.sim.run.servos import LegServos
 
 
 @pytest.fixture
-def standing() -> Simulation:
+def standing():
     return Simulation(load_scene("flat", ["steps=0"]))
 
 
-def test_a_held_posture_carries_its_feed_forward_torque(standing: Simulation) -> None:
+def test_a_held_posture_carries_its_feed_forward_torque(standing):
     world = standing.world
     data = world.data
     mujoco.mj_step(world.model, data, 300)
@@ -30,7 +29,7 @@ def test_a_held_posture_carries_its_feed_forward_torque(standing: Simulation) ->
     assert data.actuator_force[world.servos] == pytest.approx(expected, abs=2.0)
 
 
-def test_setpoints_move_on_between_ticks_without_a_step_at_the_next(standing: Simulation) -> None:
+def test_setpoints_move_on_between_ticks_without_a_step_at_the_next(standing):
     """A reference that moves at constant speed gives set-points on a straight line, not stairs."""
 
     world, servos = standing.world, standing.servos
@@ -46,7 +45,7 @@ def test_setpoints_move_on_between_ticks_without_a_step_at_the_next(standing: Si
     assert steps.std() < 0.02 * abs(steps.mean())
 
 
-def test_setpoints_lead_by_the_friction_of_a_joint_that_moves(standing: Simulation) -> None:
+def test_setpoints_lead_by_the_friction_of_a_joint_that_moves(standing):
     """Both knees bend at a constant speed; those that rub are asked for their friction more, the way they go."""
 
     world = standing.world
@@ -67,7 +66,7 @@ def test_setpoints_lead_by_the_friction_of_a_joint_that_moves(standing: Simulati
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_no_tick_moves_a_joint_by_more_than_a_tenth_of_a_radian(standing: Simulation, seed: int) -> None:
+def test_no_tick_moves_a_joint_by_more_than_a_tenth_of_a_radian(standing, seed):
     """Whatever is asked of legs that have no speed limits: places far away, feet turned over, a CoM that jumps."""
     from dataclasses import replace
 
@@ -93,7 +92,7 @@ def _sensors(simulation: Simulation):  # type: ignore[no-untyped-def]
     return simulation.sensors.read_body()
 
 
-def test_setpoints_keep_the_joints_speed_limits_and_the_pose_between_them(standing: Simulation) -> None:
+def test_setpoints_keep_the_joints_speed_limits_and_the_pose_between_them(standing):
     """A target that jumps: all joints go the same way as fast as the one that is at its limit allows, and arrive."""
 
     servos, robot = standing.servos, standing.robot
@@ -124,7 +123,7 @@ def test_setpoints_keep_the_joints_speed_limits_and_the_pose_between_them(standi
     assert joints == pytest.approx(end, abs=1e-4)
 
 
-def test_a_robot_without_speed_limits_is_not_held_back(standing: Simulation) -> None:
+def test_a_robot_without_speed_limits_is_not_held_back(standing):
     from dataclasses import replace
 
     from plantar.sim.run.servos import LegServos
@@ -137,7 +136,7 @@ def test_a_robot_without_speed_limits_is_not_held_back(standing: Simulation) -> 
     assert np.abs((jumped - start) / 0.005).max() > 6.0
 
 
-def test_speed_limits_of_a_model_file_come_from_its_servo_table(tmp_path: Path) -> None:
+def test_speed_limits_of_a_model_file_come_from_its_servo_table(tmp_path):
     from plantar.robots import load_robot
 
     h1 = load_robot("h1")

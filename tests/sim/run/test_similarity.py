@@ -1,7 +1,5 @@
 """Robots of one shape walk alike whatever their size: every length, force and time is a share of the body."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any
@@ -45,7 +43,7 @@ def walked(robot: Path, folder: Path, scene: str, settings: list[str]) -> tuple[
 
 
 @pytest.mark.parametrize("s", [0.35, pytest.param(1.2, marks=pytest.mark.long)])
-def test_a_scaled_robot_takes_the_same_steps(tmp_path: Path, s: float) -> None:
+def test_a_scaled_robot_takes_the_same_steps(tmp_path, s):
     # What is left is how the feet settle on the ground in the beginning, which rounding decides.
     # A foot that sees the ground lands a reading sooner or later, which the noise decides.
     settings = ["steps=3", "pfc=false", *CLOCK]
@@ -63,9 +61,7 @@ def test_a_scaled_robot_takes_the_same_steps(tmp_path: Path, s: float) -> None:
 @pytest.mark.long
 @pytest.mark.parametrize(("s", "mass"), [(0.35, 0.0), (0.6, 33.0), (1.2, 95.0)])
 @pytest.mark.parametrize(("scene", "steps"), [("flat", 6), ("push", 6), ("beam", 24), ("uneven", 12), ("stones", 12)])
-def test_a_scaled_robot_holds_what_its_model_holds(
-    tmp_path: Path, s: float, mass: float, scene: str, steps: int
-) -> None:
+def test_a_scaled_robot_holds_what_its_model_holds(tmp_path, s, mass, scene, steps):
     # The clocks of physics, control and skin, IMU and encoders stay what they are.
     robot = scaled_h1(tmp_path / "robot", s, mass)
     summary = run_scene(load_scene(scene, [f"steps={steps}"], str(robot)), 0)

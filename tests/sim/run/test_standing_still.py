@@ -33,7 +33,7 @@ def loads(run: Simulation) -> tuple[dict[str, float], dict[str, np.ndarray]]:
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 @pytest.mark.parametrize("plant", ["nominal", "random"])
-def test_two_seconds_after_a_walk_each_foot_carries_half_near_its_middle(robot: str, plant: str) -> None:
+def test_two_seconds_after_a_walk_each_foot_carries_half_near_its_middle(robot, plant):
     run = Simulation(load_scene("flat", ["steps=4", f"plant={plant}"], robot), seed=1)
     assert run.scene.walk.settle == 2.0
     assert run.run()["completed"]

@@ -1,7 +1,5 @@
 """Steps that move for balance, in scenes: whether they catch what ankles do not, and leave alone what they do."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 
@@ -25,7 +23,7 @@ def moved(simulation: Simulation) -> float:
     return sum(math.hypot(*a.change.shift) for a in simulation.controller.plan.record)
 
 
-def test_a_step_catches_the_push_that_ankles_do_not() -> None:
+def test_a_step_catches_the_push_that_ankles_do_not():
     hard = "push.dv=0.192 leg/beat"  # 40 N s
     stepped, out = run("push", 1, *SHORT, *STEPS, hard)
     assert out["tilt_max_deg"] < 12.0
@@ -36,7 +34,7 @@ def test_a_step_catches_the_push_that_ankles_do_not() -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(4))
-def test_small_pushes_move_no_step_and_large_ones_do(seed: int) -> None:
+def test_small_pushes_move_no_step_and_large_ones_do(seed):
     _, out = run("push-step", seed)
     assert out["completed"], out["reasons"]
     _, ankles = run("push-step", seed, "control.step_adjustment=false", "control.push_estimate=off")
@@ -45,7 +43,7 @@ def test_small_pushes_move_no_step_and_large_ones_do(seed: int) -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize("seed", [2, 6])
-def test_a_trunk_that_leans_leaves_the_hip_what_a_push_needs(seed: int) -> None:
+def test_a_trunk_that_leans_leaves_the_hip_what_a_push_needs(seed):
     # Pushed over the foot that stands, after which the other one lands close beside it.
     share = []
     for lean in ("true", "false"):
@@ -57,7 +55,7 @@ def test_a_trunk_that_leans_leaves_the_hip_what_a_push_needs(seed: int) -> None:
 
 
 @pytest.mark.long
-def test_a_foot_that_the_sinking_pelvis_puts_down_early_comes_to_carry() -> None:
+def test_a_foot_that_the_sinking_pelvis_puts_down_early_comes_to_carry():
     # 42.5 N s to the left as the left foot lifts off: its hip's torque holds the pelvis no longer.
     push = ["push.small=0", "push.impulse=42.5", "push.duration=0.1", "direction=angle", "push.angle=90"]
     when = ["push.step=3", "push.cycle=0.5", "push.with_swing=false", "push.verdict=walk", "walk.steps=6"]
@@ -68,7 +66,7 @@ def test_a_foot_that_the_sinking_pelvis_puts_down_early_comes_to_carry() -> None
 
 
 @pytest.mark.long
-def test_who_is_not_confident_follows_and_who_is_leads() -> None:
+def test_who_is_not_confident_follows_and_who_is_leads():
     ways = []
     for confidence in (0.0, 1.0):
         led = ["partner.role=leader", "walk.length=0", f"step_adjustment.confidence={confidence}"]
@@ -79,7 +77,7 @@ def test_who_is_not_confident_follows_and_who_is_leads() -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize("learns", [False, True])
-def test_pushed_steps_of_the_box_become_longer_and_stay_so_where_strides_learn(learns: bool) -> None:
+def test_pushed_steps_of_the_box_become_longer_and_stay_so_where_strides_learn(learns):
     alone = ["push.repeat=6", "push.verdict=walk", f"control.learn_strides={str(learns).lower()}"]
     _, out = run("box-step", 0, *alone)
     assert out["completed"], out["reasons"]

@@ -45,12 +45,12 @@ def torque_steps(scene: str, robot: str, settings: tuple[str, ...] = (), seed: i
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 @pytest.mark.parametrize("scene", ["flat", "uneven"])
-def test_no_torque_jumps_in_a_short_walk(scene: str, robot: str) -> None:
+def test_no_torque_jumps_in_a_short_walk(scene, robot):
     assert torque_steps(scene, robot, ("steps=4",)).max() <= LIMIT
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 @pytest.mark.parametrize("scene", WALKS)
-def test_no_torque_jumps_in_any_scene(scene: str, robot: str) -> None:
+def test_no_torque_jumps_in_any_scene(scene, robot):
     assert torque_steps(scene, robot).max() <= LIMIT

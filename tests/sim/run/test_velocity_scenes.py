@@ -1,7 +1,5 @@
 """Walks at commanded velocities, in simulation."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -11,7 +9,7 @@ from plantar.sim.run.scene import load_scene
 
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
-def test_a_robot_walks_turns_and_stops_as_commanded(robot: str) -> None:
+def test_a_robot_walks_turns_and_stops_as_commanded(robot):
     commands = 'commands=[[0.0, 0.1, 0.05, 0.15], [7.2, "stop"]]'
     summary = run_scene(load_scene("stop", [commands, "settle=1.5"], robot))
     assert {r["criterion"] for r in summary["reasons"]} <= {"speed_ratio", "turn_ratio"}  # of so few steps
@@ -23,7 +21,7 @@ def test_a_robot_walks_turns_and_stops_as_commanded(robot: str) -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize("scene", ["turn", "s-curve", "stop"])
-def test_the_velocity_scenes_are_completed(scene: str) -> None:
+def test_the_velocity_scenes_are_completed(scene):
     summary = run_scene(load_scene(scene))
     assert summary["reasons"] == []
 
@@ -38,17 +36,17 @@ def test_the_velocity_scenes_are_completed(scene: str) -> None:
         ("commands=[[0.0, 0.1, 0.0, 0.0], [20.0, 0.0, 0.0, 0.0]]", "until is 10 s; allowed: after .* at 20 s"),
     ],
 )
-def test_what_is_no_velocity_is_refused(setting: str, words: str) -> None:
+def test_what_is_no_velocity_is_refused(setting, words):
     with pytest.raises(SceneError, match=words):
         load_scene("flat", [setting])
 
 
-def test_a_velocity_and_a_table_of_them_exclude_each_other() -> None:
+def test_a_velocity_and_a_table_of_them_exclude_each_other():
     with pytest.raises(SceneError, match="velocity and commands are given"):
         load_scene("turn", ['commands=[[0.0, "stop"]]'])
 
 
-def test_the_seed_draws_where_a_walk_wanders_to() -> None:
+def test_the_seed_draws_where_a_walk_wanders_to():
     walk = load_scene("wander").walk
     one, again, other = (walk.velocities(seed) for seed in (1, 1, 2))
     assert one is not None
@@ -63,7 +61,7 @@ def test_the_seed_draws_where_a_walk_wanders_to() -> None:
         load_scene("wander", ["wander=[0.1, 0.1]"])
 
 
-def test_settings_of_pushes_keep_their_short_names() -> None:
+def test_settings_of_pushes_keep_their_short_names():
     """A key of the walk with the name of a push's would make both ambiguous."""
     assert load_scene("push", ["duration=0.2"]).push.duration == 0.2
     assert load_scene("balance", ["interval=3.0"]).push.interval == 3.0

@@ -1,7 +1,5 @@
 """Bipeds that are drawn by lot, with what there is to be found in them: no robot that anybody has seen."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -60,7 +58,7 @@ class _Link:
     def __init__(self, body: mujoco.MjsBody, position: Array, rotation: Array) -> None:
         self.body, self.position, self.rotation = body, position, rotation
 
-    def child(self, name: str, position: Array, rotation: Array) -> _Link:
+    def child(self, name: str, position: Array, rotation: Array) -> "_Link":
         body = self.body.add_body(
             name=name, pos=self.rotation.T @ (position - self.position), quat=_quaternion(self.rotation.T @ rotation)
         )

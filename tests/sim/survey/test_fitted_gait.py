@@ -1,7 +1,5 @@
 """Numbers of a walk that fit a robot: how quickly its motors let it step."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -30,7 +28,7 @@ SLOW = BodyScale(mass=3.5, leg=0.22, sole=0.13, sole_width=0.09, pace_beats=1.6)
 
 
 @pytest.mark.parametrize("name", ["turn", "stop", "s-curve", "wander"])
-def test_scenes_at_a_velocity_ask_for_the_quick_steps_that_motors_are_measured_by(name: str) -> None:
+def test_scenes_at_a_velocity_ask_for_the_quick_steps_that_motors_are_measured_by(name):
     scene, robot = load_scene(name), load_robot("h1")
     timing = controller_settings(scene.for_body(SLOW), replace(robot, single_support=0.9), SLOW, {}).timing
     step = (QUICK_SINGLE + QUICK_DOUBLE) * SLOW.pace
@@ -48,7 +46,7 @@ def speed(fitted: FittedGait) -> float:
     return STEP_SHARE * fitted.body.leg / (robot.single_support + robot.double_support)
 
 
-def test_weak_motors_make_a_walk_slower() -> None:
+def test_weak_motors_make_a_walk_slower():
     h1 = load_robot("h1")
     strong = fit_gait(replace(h1, effort_limits=(1000.0,) * 6))
     assert strong.robot.pace == 1.0
@@ -58,7 +56,7 @@ def test_weak_motors_make_a_walk_slower() -> None:
     assert max(weak.reach.carrying / weak.robot.effort_limits) < 1.0
 
 
-def test_a_walk_is_looked_at_for_as_long_as_it_bears() -> None:
+def test_a_walk_is_looked_at_for_as_long_as_it_bears():
     robot = load_robot("h1")
     legs = build_leg_model(robot)
     walk = straight_walk(robot, body_of(robot, legs.model), robot.com_height, steps=2)
@@ -71,7 +69,7 @@ def test_a_walk_is_looked_at_for_as_long_as_it_bears() -> None:
     assert (whole.torque < math.inf).all()
 
 
-def test_a_swing_that_comes_down_slowly_gets_the_time_that_its_motors_need() -> None:
+def test_a_swing_that_comes_down_slowly_gets_the_time_that_its_motors_need():
     uneven = load_scene("uneven").for_body(SLOW)
     assert uneven.walk.approach_height == pytest.approx(APPROACH_HEIGHT * SLOW.leg)
     assert uneven.walk.approach_speed == pytest.approx(APPROACH_SPEED * SLOW.leg / SLOW.beat)

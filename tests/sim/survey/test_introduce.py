@@ -1,7 +1,5 @@
 """From a model to a robot that stands, its file says how, and the check names what somebody spoils in it."""
 
-from __future__ import annotations
-
 import json
 import os
 import re
@@ -22,10 +20,10 @@ from plantar.shoes.found_foot import shoe_for_surface, taxel_area
 from plantar.sim.run.runner import run_scene
 from plantar.sim.run.scene import load_scene
 from plantar.sim.survey.check import check_robot
-from plantar.sim.survey.introduce import Introduced, introduce
+from plantar.sim.survey.introduce import introduce
 from plantar.sim.survey.survey import survey_model
 
-from .random_biped import Truth, random_biped
+from .random_biped import random_biped
 
 SEED = 10
 """A biped of six joints a leg whose left foot is turned in its body."""
@@ -36,7 +34,7 @@ NO_ANKLE_ROLL = 8
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Truth, Introduced, Path]:
+def made(tmp_path_factory):
     """A drawn biped, introduced."""
     folder = tmp_path_factory.mktemp("introduced")
     (folder / "out").mkdir()
@@ -45,7 +43,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Truth, Introduced, P
     return truth, introduce(truth.file, folder / "out", shoe_for_surface), folder / "out"
 
 
-def test_the_robot_file_is_read_and_its_copy_stands_by_itself(made: tuple[Truth, Introduced, Path]) -> None:
+def test_the_robot_file_is_read_and_its_copy_stands_by_itself(made):
     truth, found, folder = made
     robot = load_robot(folder / "robot.toml")
     assert {s: list(robot.legs[s].joints) for s in ("left", "right")} == truth.joints
@@ -62,7 +60,7 @@ def test_the_robot_file_is_read_and_its_copy_stands_by_itself(made: tuple[Truth,
     assert "against the sole" in text
 
 
-def test_nothing_is_found_that_would_go_wrong(made: tuple[Truth, Introduced, Path]) -> None:
+def test_nothing_is_found_that_would_go_wrong(made):
     checked = check_robot(made[2] / "robot.toml", "flat")
     assert checked.holds, checked.text()
 
@@ -79,9 +77,7 @@ def test_nothing_is_found_that_would_go_wrong(made: tuple[Truth, Introduced, Pat
         ("thickness", 0.0, 0.03, "under the left foot", "origin with z = "),
     ],
 )
-def test_the_check_names_what_is_spoilt(
-    made: tuple[Truth, Introduced, Path], field: str, factor: float, shift: float | list[float], name: str, words: str
-) -> None:
+def test_the_check_names_what_is_spoilt(made, field, factor, shift, name, words):
     folder = made[2]
     text = (folder / "robot.toml").read_text()
     match = re.search(rf"^{field} = ([^#\n]*)", text, re.MULTILINE)
@@ -94,15 +90,13 @@ def test_the_check_names_what_is_spoilt(
     assert words in wrong[name]
 
 
-def test_it_walks(made: tuple[Truth, Introduced, Path]) -> None:
+def test_it_walks(made):
     summary = run_scene(load_scene("flat", ["steps=4"], robot=str(made[2] / "robot.toml")))
     assert summary["completed"], summary["reasons"]
     assert summary["final"]["tilt_deg"] < 0.5
 
 
-def test_its_soles_rattle_and_slip_no_more_than_with_critical_damping(
-    made: tuple[Truth, Introduced, Path], tmp_path: Path
-) -> None:
+def test_its_soles_rattle_and_slip_no_more_than_with_critical_damping(made, tmp_path):
     """On a beam's edges, by what the force on both soles does above 20 Hz, and by how far a standing sole slips.
 
     With continuous contacts what is left are landings, and both are nearly alike; with MuJoCo's box contacts, which
@@ -125,7 +119,7 @@ def test_its_soles_rattle_and_slip_no_more_than_with_critical_damping(
     assert slip["robot"] <= slip["critical"]
 
 
-def test_a_soles_taxels_are_as_many_as_the_papers() -> None:
+def test_a_soles_taxels_are_as_many_as_the_papers():
     assert [round(area / taxel_area(area)) for area in (5e3, 1e4, 2.9e4, 5e4)] == [42, 42, 42, 72]
 
 
@@ -136,7 +130,7 @@ def test_a_soles_taxels_are_as_many_as_the_papers() -> None:
         ("<body><joint type='hinge'/><geom size='.1' mass='1'/></body>", "no chain of 4 hinges"),
     ],
 )
-def test_what_is_no_biped_is_refused_in_one_line(tmp_path: Path, body: str, words: str) -> None:
+def test_what_is_no_biped_is_refused_in_one_line(tmp_path, body, words):
     file = tmp_path / "odd.xml"
     file.write_text(f"<mujoco><worldbody>{body}</worldbody></mujoco>")
     with pytest.raises(RobotError) as caught:
@@ -145,7 +139,7 @@ def test_what_is_no_biped_is_refused_in_one_line(tmp_path: Path, body: str, word
     assert "\n" not in str(caught.value)
 
 
-def test_legs_that_are_closed_chains_are_found_by_their_tree(tmp_path: Path) -> None:
+def test_legs_that_are_closed_chains_are_found_by_their_tree(tmp_path):
     truth = random_biped(SEED, tmp_path)
     spec = mujoco.MjSpec.from_file(str(truth.file))
     foot, trunk = truth.feet["left"], "trunk"
@@ -159,7 +153,7 @@ def test_legs_that_are_closed_chains_are_found_by_their_tree(tmp_path: Path) -> 
     assert any("closed chain" in note and f"'{foot}'" in note for note in found.notes)
 
 
-def test_legs_without_ankle_roll_rock_and_walk_in_their_own_time(tmp_path: Path) -> None:
+def test_legs_without_ankle_roll_rock_and_walk_in_their_own_time(tmp_path):
     (tmp_path / "out").mkdir()
     truth = random_biped(NO_ANKLE_ROLL, tmp_path)
     assert len(truth.joints["left"]) == 5
@@ -177,7 +171,7 @@ def test_legs_without_ankle_roll_rock_and_walk_in_their_own_time(tmp_path: Path)
     assert slow["fell"]
 
 
-def test_the_example_introduces_a_robot_draws_it_and_lets_it_walk(tmp_path: Path) -> None:
+def test_the_example_introduces_a_robot_draws_it_and_lets_it_walk(tmp_path):
     truth = random_biped(SEED, tmp_path)
     done = subprocess.run(
         [sys.executable, "examples/introduce_robot.py", str(truth.file), str(tmp_path / "out")],
@@ -192,7 +186,7 @@ def test_the_example_introduces_a_robot_draws_it_and_lets_it_walk(tmp_path: Path
     assert (tmp_path / "out" / "robot.png").stat().st_size > 10_000
 
 
-def test_another_robots_folder_is_refused(made: tuple[Truth, Introduced, Path], tmp_path: Path) -> None:
+def test_another_robots_folder_is_refused(made, tmp_path):
     _, found, folder = made
     _refuse_other(folder, found.robot.description)
     with pytest.raises(InputError, match="holds another robot"):
@@ -200,7 +194,7 @@ def test_another_robots_folder_is_refused(made: tuple[Truth, Introduced, Path], 
     _refuse_other(tmp_path, "the first")
 
 
-def test_the_command_chooses_opengl_without_a_display(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_the_command_chooses_opengl_without_a_display(monkeypatch, tmp_path):
     """As the example does, which draws with it."""
     monkeypatch.delenv("MUJOCO_GL", raising=False)
     with pytest.raises(PlantarError):

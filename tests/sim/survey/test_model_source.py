@@ -1,9 +1,5 @@
 """What a model's file holds beside the robot, and joints of a URDF that cannot turn."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import mujoco
 import pytest
 
@@ -22,7 +18,7 @@ THINGS = """
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_what_else_is_in_a_scene_is_no_part_of_the_robot(seed: int, tmp_path: Path) -> None:
+def test_what_else_is_in_a_scene_is_no_part_of_the_robot(seed, tmp_path):
     truth = random_biped(seed, tmp_path)
     alone = survey_model(truth.file, tmp_path)
     text = truth.file.read_text().replace("</worldbody>", f"{THINGS}</worldbody>")
@@ -43,7 +39,7 @@ def urdf(limit: str, kind: str = "revolute") -> str:
 
 
 @pytest.mark.parametrize("limit", ['<limit effort="5" velocity="1"/>', '<limit lower="0" upper="0" effort="5"/>'])
-def test_a_joint_whose_limits_leave_no_range_is_held_and_reported(tmp_path: Path, limit: str) -> None:
+def test_a_joint_whose_limits_leave_no_range_is_held_and_reported(tmp_path, limit):
     file = tmp_path / "robot.urdf"
     file.write_text(urdf(limit))
     source = read_model(file, tmp_path)
@@ -54,7 +50,7 @@ def test_a_joint_whose_limits_leave_no_range_is_held_and_reported(tmp_path: Path
 
 
 @pytest.mark.parametrize("limit", ['<limit lower="-1" upper="1" effort="5"/>', ""])
-def test_a_joint_with_a_range_or_without_limits_turns(tmp_path: Path, limit: str) -> None:
+def test_a_joint_with_a_range_or_without_limits_turns(tmp_path, limit):
     file = tmp_path / "robot.urdf"
     file.write_text(urdf(limit, "revolute" if limit else "continuous"))
     source = read_model(file, tmp_path)
@@ -63,7 +59,7 @@ def test_a_joint_with_a_range_or_without_limits_turns(tmp_path: Path, limit: str
 
 
 @pytest.mark.parametrize("limit", ['<limit lower="1" upper="-1"/>', '<limit lower="0.3" upper="0.3"/>'])
-def test_limits_that_contradict_each_other_are_refused(tmp_path: Path, limit: str) -> None:
+def test_limits_that_contradict_each_other_are_refused(tmp_path, limit):
     file = tmp_path / "robot.urdf"
     file.write_text(urdf(limit))
     with pytest.raises(RobotError, match=r"joint 'elbow' has limits from .*; allowed: lower below upper, or"):
@@ -78,7 +74,7 @@ MARKED = """
 """
 
 
-def test_markers_shapes_without_a_size_and_the_authors_inertia_are_no_obstacles(tmp_path: Path) -> None:
+def test_markers_shapes_without_a_size_and_the_authors_inertia_are_no_obstacles(tmp_path):
     file = tmp_path / "marked.xml"
     open_box = 'name="open" inertia="shell" vertex="0 0 0 .1 0 0 0 .1 0 0 0 .1" face="0 1 2 0 1 3"'
     file.write_text(f"<mujoco><asset><mesh {open_box}/></asset><worldbody>{MARKED}</worldbody></mujoco>")
@@ -90,7 +86,7 @@ def test_markers_shapes_without_a_size_and_the_authors_inertia_are_no_obstacles(
     assert not colliding
 
 
-def test_gains_of_position_servos_are_read(tmp_path: Path) -> None:
+def test_gains_of_position_servos_are_read(tmp_path):
     file = tmp_path / "servo.xml"
     body = "<body><joint name='a'/><geom size='.1'/></body>"
     motor = "<position joint='a' kp='30' kv='2' gear='2'/>"

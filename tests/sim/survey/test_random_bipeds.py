@@ -1,9 +1,5 @@
 """Bipeds that are drawn by lot are found right: legs, sides, feet, soles and how they lie, IMU."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -15,7 +11,7 @@ SEEDS = range(60)
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_an_unseen_biped_is_found(seed: int, tmp_path: Path) -> None:
+def test_an_unseen_biped_is_found(seed, tmp_path):
     truth = random_biped(seed, tmp_path)
     found = survey_model(truth.file, tmp_path)
     model = found.source.model
@@ -38,7 +34,7 @@ def test_an_unseen_biped_is_found(seed: int, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_legs_of_four_joints_are_found(seed: int, tmp_path: Path) -> None:
+def test_legs_of_four_joints_are_found(seed, tmp_path):
     truth = random_biped(seed, tmp_path, (X, Y, Y, Y))
     found = survey_model(truth.file, tmp_path)
     assert {s: found.joint_names(s) for s in ("left", "right")} == truth.joints

@@ -1,9 +1,5 @@
 """Servo gains, and the rotor inertia that is assumed where a joint would be too light for any."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -13,7 +9,7 @@ from plantar.sim.survey.servo_gains import SAMPLED, JointInertia, rotor_inertia,
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_with_the_rotors_that_are_assumed_no_joint_swings_too_far_in_a_control_period(seed: int) -> None:
+def test_with_the_rotors_that_are_assumed_no_joint_swings_too_far_in_a_control_period(seed):
     random = np.random.default_rng(seed)
     mass, height, beat = 10.0 ** random.uniform(0.3, 2.2), random.uniform(0.15, 1.2), random.uniform(0.1, 0.3)
     swing, stated = 10.0 ** random.uniform(-5.0, 0.0, 6), np.where(random.random(6) < 0.3, 1e-3, 0.0)
@@ -28,7 +24,7 @@ def test_with_the_rotors_that_are_assumed_no_joint_swings_too_far_in_a_control_p
     assert not rotors[heavy < 0.92 * SAMPLED].any()
 
 
-def test_rotors_are_written_where_their_joints_are(tmp_path: Path) -> None:
+def test_rotors_are_written_where_their_joints_are(tmp_path):
     file = tmp_path / "model.xml"
     file.write_text(
         '<mujoco><worldbody><body><joint name="a" range="-1 1" /><joint name="b" /></body></worldbody></mujoco>'

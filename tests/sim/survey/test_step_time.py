@@ -1,7 +1,5 @@
 """Legs without ankle roll: how quickly they step, and where weak ankles let a sole be loaded."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -12,7 +10,6 @@ import pytest
 from plantar.gravity import GRAVITY
 from plantar.robots import builtin_robots, load_robot
 from plantar.robots.kinematics.body import body_of, stood
-from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.sides import SIDES
 from plantar.sim.survey.step_time import (
@@ -26,7 +23,7 @@ from plantar.sim.survey.step_time import (
 
 
 @pytest.mark.parametrize(("height", "width"), [(0.97, 0.41), (0.97, 0.55), (0.6, 0.15)])
-def test_a_pendulum_that_is_carried_by_turns_stays_as_near_the_middle_as_it_shall(height: float, width: float) -> None:
+def test_a_pendulum_that_is_carried_by_turns_stays_as_near_the_middle_as_it_shall(height, width):
     robot = rocking(replace(load_robot("h1"), stance_width=width), height)
     assert robot.rocks
     step = robot.single_support + robot.double_support
@@ -46,7 +43,7 @@ def test_a_pendulum_that_is_carried_by_turns_stays_as_near_the_middle_as_it_shal
 
 
 @pytest.mark.parametrize("name", builtin_robots())
-def test_the_built_in_robots_have_ankles_that_roll(name: str) -> None:
+def test_the_built_in_robots_have_ankles_that_roll(name):
     robot = load_robot(name)
     legs = build_leg_model(robot)
     assert has_ankle_roll(robot, legs)
@@ -55,7 +52,7 @@ def test_the_built_in_robots_have_ankles_that_roll(name: str) -> None:
     assert not has_ankle_roll(replace(robot, legs=names, posture=posture), legs)
 
 
-def test_weak_ankles_bear_the_robot_as_far_as_their_torque_goes() -> None:
+def test_weak_ankles_bear_the_robot_as_far_as_their_torque_goes():
     robot = load_robot("h1")
     weight = 800.0
     limits = np.full(6, 1000.0)
@@ -85,18 +82,18 @@ def carried_along(name: str) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("name", ["h1", "hrp2kai"])
-def test_the_swinging_mass_is_what_a_foot_takes_along(name: str) -> None:
+def test_the_swinging_mass_is_what_a_foot_takes_along(name):
     found, true = carried_along(name)
     assert found == pytest.approx(true, rel=0.25)
 
 
-def test_the_robots_that_do_not_slip_may_keep_their_pace(legs_of_h1: LegModel) -> None:
+def test_the_robots_that_do_not_slip_may_keep_their_pace(legs_of_h1):
     robot = load_robot("h1")
     body = body_of(robot, legs_of_h1.model)
     assert least_single_support(robot, legs_of_h1, body, body.leg / 3.0) < robot.single_support
 
 
-def test_the_time_grows_with_the_reach_and_falls_with_the_sole(legs_of_h1: LegModel) -> None:
+def test_the_time_grows_with_the_reach_and_falls_with_the_sole(legs_of_h1):
     """As the square root of what the leg takes and friction holds."""
     robot = load_robot("h1")
     body = body_of(robot, legs_of_h1.model)
@@ -107,5 +104,5 @@ def test_the_time_grows_with_the_reach_and_falls_with_the_sole(legs_of_h1: LegMo
 
 
 @pytest.fixture(scope="module")
-def legs_of_h1() -> LegModel:
+def legs_of_h1():
     return build_leg_model(load_robot("h1"))

@@ -1,7 +1,5 @@
 """Contacts of a sole on each kind of solid: continuous in its pose, exact where they can be derived."""
 
-from __future__ import annotations
-
 import math
 
 import mujoco
@@ -126,19 +124,19 @@ def breaks(name: str, count: int, seed: int) -> tuple[int, int]:
 
 
 @pytest.mark.parametrize("name", SOLIDS)
-def test_force_and_center_of_pressure_are_continuous(name: str) -> None:
+def test_force_and_center_of_pressure_are_continuous(name):
     broken, _ = breaks(name, 400, 0)
     assert broken == 0
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", SOLIDS)
-def test_at_most_one_pair_of_poses_in_ten_thousand_breaks_continuity(name: str) -> None:
+def test_at_most_one_pair_of_poses_in_ten_thousand_breaks_continuity(name):
     broken, _ = breaks(name, 10_000, 11)
     assert broken <= 1
 
 
-def test_contacts_of_boxes_that_are_not_marked_stay_as_they_were() -> None:
+def test_contacts_of_boxes_that_are_not_marked_stay_as_they_were():
     """MuJoCo's own contacts flicker in these very poses, which shows that the property can fail."""
     original = Ground.add_to
 

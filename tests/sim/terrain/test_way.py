@@ -1,7 +1,5 @@
 """Stairs and slopes have their edges between the places of steps; a height field is as uneven as stated."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -10,7 +8,7 @@ import pytest
 from plantar.errors import SceneError
 from plantar.sim.run.runner import Simulation, run_scene
 from plantar.sim.run.scene import load_scene
-from plantar.sim.terrain import Relief, Slopes, Stairs, Terrain
+from plantar.sim.terrain import Relief, Slopes, Stairs
 
 from ..test_terrain import feet, height_of
 
@@ -26,7 +24,7 @@ def placed(steps: int, length: float, heading: float = 0.0):  # type: ignore[no-
 
 
 @pytest.mark.parametrize(("rise", "heading"), [(0.1, 0.0), (-0.06, 0.0), (0.08, 0.7)])
-def test_each_sole_is_on_one_tread_up_to_the_middle_and_down(rise: float, heading: float) -> None:
+def test_each_sole_is_on_one_tread_up_to_the_middle_and_down(rise, heading):
     planned = placed(6, 0.3, heading)
     height = height_of(Stairs(rise=rise, height=0.5), planned)
     for foot, tread in zip(planned.steps, (1, 2, 3, 2, 1, 0), strict=True):
@@ -37,7 +35,7 @@ def test_each_sole_is_on_one_tread_up_to_the_middle_and_down(rise: float, headin
         assert height(foot.center) == pytest.approx(0.5, abs=1e-9)
 
 
-def test_a_spread_changes_each_rise_by_its_seed() -> None:
+def test_a_spread_changes_each_rise_by_its_seed():
     planned = placed(6, 0.3)
     tops = []
     for seed in (1, 2):
@@ -48,7 +46,7 @@ def test_a_spread_changes_each_rise_by_its_seed() -> None:
     assert np.abs(tops[0] - tops[1]).max() > 1e-3
 
 
-def test_slopes_go_up_and_down_again_without_a_gap() -> None:
+def test_slopes_go_up_and_down_again_without_a_gap():
     planned = placed(16, 0.2)
     height = height_of(Slopes(slope=10.0), planned)
     x = np.linspace(-0.5, 4.0, 2000)
@@ -68,12 +66,12 @@ def test_slopes_go_up_and_down_again_without_a_gap() -> None:
         (Slopes(), (4, 0.3), r"slopes have 4 places of steps; allowed: 6 or more"),
     ],
 )
-def test_a_walk_that_does_not_fit_is_refused(terrain: Terrain, steps: tuple[int, float], words: str) -> None:
+def test_a_walk_that_does_not_fit_is_refused(terrain, steps, words):
     with pytest.raises(SceneError, match=words):
         terrain.ground(feet(*steps), np.random.default_rng(0))
 
 
-def test_stairs_are_walked_with_both_feet_on_each_tread() -> None:
+def test_stairs_are_walked_with_both_feet_on_each_tread():
     simulation = Simulation(load_scene("stairs", ["steps=4", "rise=0.02", "settle=0.5"]), 1)
     places = [round(step.x, 6) for step in simulation.steps]
     assert places[0] == places[1] < places[2] == places[3]
@@ -82,12 +80,12 @@ def test_stairs_are_walked_with_both_feet_on_each_tread() -> None:
     assert simulation.ground.facts["climb_m"] == pytest.approx(0.02, abs=0.004)
 
 
-def test_slopes_are_walked() -> None:
+def test_slopes_are_walked():
     summary = run_scene(load_scene("slopes", ["steps=8", "slope=3", "settle=0.5"]), 1)
     assert summary["completed"], summary["reasons"]
 
 
-def test_heights_have_their_range_and_slopes_their_length() -> None:
+def test_heights_have_their_range_and_slopes_their_length():
     planned = feet(10)
     height = height_of(Relief(unevenness=0.04, bump=0.5, height=0.3), planned, 3)
     ground = Relief(unevenness=0.04, bump=0.5, height=0.3).ground(planned, np.random.default_rng(3))
@@ -103,7 +101,7 @@ def test_heights_have_their_range_and_slopes_their_length() -> None:
     assert steepest < 2.0 * np.pi / 0.5 * 0.04  # of a single wave of that length and twice its height
 
 
-def test_each_seed_has_its_own_field() -> None:
+def test_each_seed_has_its_own_field():
     one, again, other = (
         Relief(unevenness=0.04, bump=0.5).ground(feet(), np.random.default_rng(seed)).solids[0].heights
         for seed in (1, 1, 2)
@@ -113,11 +111,11 @@ def test_each_seed_has_its_own_field() -> None:
     assert np.abs(one - other).max() > 0.005
 
 
-def test_the_field_is_walked_and_is_no_plain_ground() -> None:
+def test_the_field_is_walked_and_is_no_plain_ground():
     summary = run_scene(load_scene("height-field", ["steps=3", "unevenness=0.01", "settle=0.5"]), 1)
     assert summary["completed"], summary["reasons"]
 
 
-def test_no_unevenness_is_level() -> None:
+def test_no_unevenness_is_level():
     height = height_of(Relief(unevenness=0.0, bump=0.5), feet())
     assert height(np.array([0.7, 0.1])) == pytest.approx(0.0, abs=1e-5)

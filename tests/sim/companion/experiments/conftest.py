@@ -1,6 +1,5 @@
 """Scenes of the companion, run for the tests."""
 
-from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -10,7 +9,7 @@ from plantar.sim.run.scene_kind import open_scene
 
 
 @pytest.fixture(scope="session")
-def run_scene() -> Callable[..., tuple[dict[str, Any], Companion]]:
+def run_scene():
     def run(name: str, *settings: str, seed: int = 0, seconds: float | None = None) -> tuple[dict[str, Any], Companion]:
         companion = Companion(open_scene(name, settings), seed)
         if seconds is not None:

@@ -1,16 +1,12 @@
 """A hand that is repelled by what is near, by heat and by pressure, and what it does without."""
 
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
-
 import pytest
 
 pytestmark = pytest.mark.long
 
 
 @pytest.mark.parametrize("name", ["feather", "stove", "nociception"])
-def test_it_draws_back(name: str, run_scene: Callable[..., Any], tmp_path: Path) -> None:
+def test_it_draws_back(name, run_scene, tmp_path):
     summary, companion = run_scene(name)
     assert summary["completed"], summary["reasons"]
     assert [file.exists() for file in companion.experiment.plot(tmp_path)] == [True]
@@ -25,6 +21,6 @@ def test_it_draws_back(name: str, run_scene: Callable[..., Any], tmp_path: Path)
         ("nociception", "control.smooth=false", "torque_jump"),
     ],
 )
-def test_without_its_sense_it_does_not(name: str, setting: str, criterion: str, run_scene: Callable[..., Any]) -> None:
+def test_without_its_sense_it_does_not(name, setting, criterion, run_scene):
     summary, _ = run_scene(name, setting)
     assert criterion in [reason["criterion"] for reason in summary["reasons"]]

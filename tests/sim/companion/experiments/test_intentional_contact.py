@@ -1,7 +1,5 @@
 """Reaching among obstacles: what is in the way is pushed, with no more than the tolerable force."""
 
-from __future__ import annotations
-
 import pytest
 
 from plantar.sim.companion.runner import Companion

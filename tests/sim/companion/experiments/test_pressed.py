@@ -1,13 +1,9 @@
 """A robot that is pressed on stands, yields, and works only for links that are touched."""
 
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
-
 import pytest
 
 
-def test_without_pressure_it_stands_still(run_scene: Callable[..., Any]) -> None:
+def test_without_pressure_it_stands_still(run_scene):
     summary, companion = run_scene("multi-contact", seconds=0.6)
     assert not summary["fell"]
     assert companion.experiment.com_off_max < 1e-3
@@ -18,9 +14,7 @@ def test_without_pressure_it_stands_still(run_scene: Callable[..., Any]) -> None
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", ["hug", "multi-contact"])
-def test_it_yields_to_every_contact_and_keeps_its_balance(
-    name: str, run_scene: Callable[..., Any], tmp_path: Path
-) -> None:
+def test_it_yields_to_every_contact_and_keeps_its_balance(name, run_scene, tmp_path):
     summary, companion = run_scene(name)
     assert summary["completed"], summary["reasons"]
     assert summary["most_active"] >= 6
@@ -29,14 +23,14 @@ def test_it_yields_to_every_contact_and_keeps_its_balance(
 
 
 @pytest.mark.long
-def test_without_skin_many_contacts_push_it_over(run_scene: Callable[..., Any]) -> None:
+def test_without_skin_many_contacts_push_it_over(run_scene):
     summary, _ = run_scene("multi-contact", "control.skin=false")
     assert summary["fell"]
     assert summary["yield_median"] < 2.0
 
 
 @pytest.mark.long
-def test_joint_speeds_follow_the_area(run_scene: Callable[..., Any], tmp_path: Path) -> None:
+def test_joint_speeds_follow_the_area(run_scene, tmp_path):
     summary, companion = run_scene("pressure")
     assert summary["completed"], summary["reasons"]
     assert companion.experiment.plot(tmp_path)

@@ -9,20 +9,20 @@ DOWN = np.array([[0.0, 0.0, -1.0]])
 
 
 @pytest.mark.parametrize("height", [0.05, 0.1, 0.3])
-def test_view_factor_of_a_disc_is_the_closed_form(height: float) -> None:
+def test_view_factor_of_a_disc_is_the_closed_form(height):
     settings = PlateSettings()
     plate = HotPlate(np.zeros(3), settings, 1)
     exact = settings.radius**2 / (settings.radius**2 + height**2)
     assert plate.view_factors(np.array([[0.0, 0.0, height]]), DOWN)[0] == pytest.approx(exact, rel=0.03)
 
 
-def test_what_faces_away_or_is_below_sees_nothing() -> None:
+def test_what_faces_away_or_is_below_sees_nothing():
     plate = HotPlate(np.zeros(3), PlateSettings(), 2)
     points = np.array([[0.0, 0.0, 0.1], [0.0, 0.0, -0.1]])
     assert plate.view_factors(points, np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 1.0]])).tolist() == [0.0, 0.0]
 
 
-def test_it_starts_at_the_rate_of_the_heat_flux_and_ends_where_gain_is_loss() -> None:
+def test_it_starts_at_the_rate_of_the_heat_flux_and_ends_where_gain_is_loss():
     s = PlateSettings(plume=0.001)
     plate = HotPlate(np.zeros(3), s, 1)
     place = np.array([[0.0, 0.0, 0.1]])
@@ -36,7 +36,7 @@ def test_it_starts_at_the_rate_of_the_heat_flux_and_ends_where_gain_is_loss() ->
     assert gain == pytest.approx(s.loss * (last - s.room), rel=1e-6)
 
 
-def test_far_from_the_plate_it_cools_to_the_room() -> None:
+def test_far_from_the_plate_it_cools_to_the_room():
     plate = HotPlate(np.zeros(3), PlateSettings(), 1)
     plate.temperature[:] = 60.0
     for _ in range(5000):

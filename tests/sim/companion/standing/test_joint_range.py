@@ -11,7 +11,7 @@ ARM = """<mujoco><worldbody><body><joint name="a" axis="0 0 1"/><geom size=".1" 
 <body pos=".3 0 0"><joint name="b" axis="0 0 1"/><geom size=".1" pos=".3 0 0"/></body></body></worldbody></mujoco>"""
 
 
-def test_rows_are_those_of_joints_near_an_end() -> None:
+def test_rows_are_those_of_joints_near_an_end():
     robot = MujocoDynamics(mujoco.MjModel.from_xml_string(ARM))
     task = JointRange([-1.0, -1.0], [1.0, 2.0], margin=0.1, stiffness=50.0, damping=2.0)
     robot.update(np.array([0.5, 1.0]), np.zeros(2), 0.0)

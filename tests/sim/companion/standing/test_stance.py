@@ -11,12 +11,12 @@ from plantar.sim.companion.standing.stance import Stance
 
 
 @pytest.fixture(scope="module")
-def one_leg() -> MultiContact:
+def one_leg():
     machine = load_machine("h1-body")
     return MultiContact(machine, MultiContact.settings_type(), MultiContact.control_type(), 0)
 
 
-def test_first_posture_on_one_leg_has_the_centre_of_mass_over_the_sole(one_leg: MultiContact) -> None:
+def test_first_posture_on_one_leg_has_the_centre_of_mass_over_the_sole(one_leg):
     place = one_leg.stance.places["left_foot"]
     assert one_leg.com == pytest.approx([place[0], place[1], 0.8], abs=1e-4)
     one_leg.robot.update(one_leg.first, np.zeros(36), 0.0)
@@ -26,7 +26,7 @@ def test_first_posture_on_one_leg_has_the_centre_of_mass_over_the_sole(one_leg: 
     assert one_leg.robot.pose("right_foot")[0][2] > origin[2] + 0.04
 
 
-def test_base_comes_from_feet_and_not_from_what_was_measured_of_it(one_leg: MultiContact) -> None:
+def test_base_comes_from_feet_and_not_from_what_was_measured_of_it(one_leg):
     robot, rng = one_leg.robot, np.random.default_rng(2)
     qpos, qvel = one_leg.first.copy(), rng.normal(0.0, 0.3, 36)
     robot.update(qpos, qvel, 0.0)
@@ -41,7 +41,7 @@ def test_base_comes_from_feet_and_not_from_what_was_measured_of_it(one_leg: Mult
     assert robot.velocity == pytest.approx(qvel, abs=1e-9)
 
 
-def test_a_machine_without_soles_is_refused() -> None:
+def test_a_machine_without_soles_is_refused():
     alone = load_machine("planar-arm").spec().compile()
     with pytest.raises(RobotError, match="no left sole"):
         Stance(MujocoDynamics(alone).model, ("left",))
