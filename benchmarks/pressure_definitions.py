@@ -37,8 +37,6 @@ def theirs(analysis: Analysis, gait: FootGait, step: Step, between_ours: bool = 
     """pressuRe's measures of a step, in SI units."""
     platform = analysis.recording.kind == "platform"
     force, pressure, layout = gait.foot.vertical_force, gait.foot.pressure(), gait.foot.layout
-    assert pressure is not None
-    assert layout is not None
     light = np.flatnonzero(force <= (0.0 if platform else FORCE))
     middle = (step.contact.begin + step.contact.end) // 2
     if not (light < middle).any() or not (light > middle).any():
@@ -71,8 +69,6 @@ def reason(key: str, ours: float, other: float, cut: float, gait: FootGait) -> s
     if abs(ours / other - 1.0) <= 0.01:
         return ""
     levels, layout = gait.levels, gait.foot.layout
-    assert levels is not None
-    assert layout is not None
     least = gait.cell_threshold / layout.areas * 1e-3
     loaded = f"cells count from {least.min():.3g} to {least.max():.3g} kPa on, by the cell"
     rest = {

@@ -53,7 +53,6 @@ def strides_of(path: Path, folder: Path) -> Strides:
     walk = analyse(path)
     feet = [walk.recording.feet[side] for side in SIDES]
     layout = feet[0].layout
-    assert layout is not None
     write_layout(layout, folder / "layout.json")
     forces = np.stack([np.nan_to_num(foot.force) for foot in feet], axis=1)
     begins = [contact.begin for contact in walk.feet["left"].contacts if contact.complete]
@@ -99,8 +98,6 @@ def draw(strides: Strides, folder: Path, seed: int, effect: bool) -> Comparison:
 def found(comparison: Comparison) -> tuple[bool, bool, bool]:
     """Whether the table, the curves and the maps show that the conditions differ."""
     curve, area = comparison.curve_test, comparison.map_test
-    assert curve is not None
-    assert area is not None
     table = any(effect.p_all <= 0.05 for effect in comparison.effects.values())
     return table, bool(curve.significant.any()), bool(area.significant.any())
 

@@ -36,7 +36,6 @@ def errors(layout: SoleLayout, pressure: SolePressure | ElasticPressure) -> NDAr
         if len(true) < 3 or not 0.2 < area(true) / area(whole) < 0.9:
             continue
         middle = centroid(true)
-        assert middle is not None
         place = tuple((middle + rng.normal(0.0, 0.008, 2)).tolist())
         force = pressure.spread([tuple(p) for p in true.tolist()], LOAD, place)
         force = np.maximum(force + rng.normal(0.0, NOISE, len(layout)), 0.0)

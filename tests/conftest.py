@@ -74,7 +74,7 @@ def within():
 
     def held(what: str) -> float:
         status = Path("/proc/self/status").read_text()
-        return float(re.search(rf"{what}:\s*(\d+) kB", status)[1]) / 1e3  # type: ignore[index]
+        return float(re.search(rf"{what}:\s*(\d+) kB", status)[1]) / 1e3
 
     @contextmanager
     def limit(megabytes: float = 400.0, seconds: float = 5.0) -> Iterator[None]:

@@ -65,7 +65,6 @@ def test_every_stop_on_the_way_of_a_force_is_there():
 @pytest.mark.parametrize("package", ["gait", "wholebody", "sim", "shoes"])
 def test_every_room_is_told_with_its_question(package):
     table = re.search(rf"^\| room of `{package}` \|.*\n\|---\|---\|\n((?:\|.*\n)+)", TEXT, re.MULTILINE)
-    assert table is not None
     told = set(re.findall(r"`(\w+)`", table[1]))
     left_out = {"robots", "scenes", "py"} if package == "sim" else set()
     assert rooms_of(package) - told - left_out - {"py.typed"} == set()

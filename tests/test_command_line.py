@@ -15,7 +15,7 @@ import plantar
 from plantar import cli
 
 PLANTAR = [str(Path(sys.executable).parent / "plantar")]
-COMMANDS = typer.main.get_command(cli.app).commands  # type: ignore[attr-defined]
+COMMANDS = typer.main.get_command(cli.app).commands
 linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="/dev/full and signals as on Linux")
 
 

@@ -33,7 +33,7 @@ DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *PAGES, *sorted((ROOT
 FOLLOWED = {"start", "questions", "concepts", "index"}
 """Pages that test_site.py follows, as the tutorials; the front page shows a file that a reader has."""
 
-COMMANDS = typer.main.get_command(cli.app).commands  # type: ignore[attr-defined]
+COMMANDS = typer.main.get_command(cli.app).commands
 
 
 def blocks(text: str, language: str) -> list[str]:

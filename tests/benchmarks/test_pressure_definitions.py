@@ -13,7 +13,6 @@ SOURCE = Path(__file__).parents[2] / "benchmarks" / "pressure_definitions.py"
 def test_causes_make_up_the_difference(real_data, name):
     specification = importlib.util.spec_from_file_location("pressure_definitions", SOURCE)
     assert specification is not None
-    assert specification.loader is not None
     module = importlib.util.module_from_spec(specification)
     specification.loader.exec_module(module)
     rows = [[cell.strip() for cell in row.split("|")[1:-1]] for row in module.rows_of(real_data / "recordings" / name)]

@@ -16,7 +16,6 @@ FOLDER = Path(__file__).resolve().parents[2] / "benchmarks"
 def resumable(monkeypatch):
     spec = importlib.util.spec_from_file_location("resumable", FOLDER / "resumable.py")
     assert spec is not None
-    assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     monkeypatch.setitem(sys.modules, "resumable", module)
     spec.loader.exec_module(module)

@@ -47,7 +47,7 @@ def test_the_trunk_leans_over_the_foot_that_the_com_moves_to(controller, yaw, as
 def test_a_swing_foot_of_a_body_that_leans_comes_to_its_place_in_the_world(controller, lean):
     """What is commanded, seen from the body and turned by its lean, is the place that was wanted."""
     side = "left"
-    controller.footing.motion = SimpleNamespace(last_side=side)  # type: ignore[assignment]
+    controller.footing.motion = SimpleNamespace(last_side=side)
     place, com = np.array([0.1, 0.085, 0.03]), np.array([0.02, -0.05, 0.8])
     state: Any = BaseState(
         rotation_base_to_world=rolled(lean),
@@ -62,7 +62,7 @@ def test_a_swing_foot_of_a_body_that_leans_comes_to_its_place_in_the_world(contr
     phase: Any = next(p for p in controller.schedule.phases if p.swing == side)
     for _ in range(400):
         feet = {side: FootTarget(place, np.eye(3), np.zeros(3), np.zeros(2))}
-        controller.foot_targets.compensate(feet, phase, com, 0.0, np.eye(3), state)  # type: ignore[arg-type]
+        controller.foot_targets.compensate(feet, phase, com, 0.0, np.eye(3), state)
     target = feet[side]
     executed = state.com + rolled(lean) @ (target.position - com)
     assert executed == pytest.approx(place, abs=2e-3)

@@ -32,7 +32,6 @@ def test_hrp2kai_has_the_published_masses_limits_and_heights():
         assert np.degrees(right.range) == pytest.approx([-high, -low] if mirrored else [low, high])
         # Not published: the H1's effort scaled by mass.
         h1 = load_robot("h1")
-        assert h1.biped is not None
         i = robot.legs["left"].joints.index(f"left_{name}")
         assert model.actuator(f"left_{name}").forcerange[1] == pytest.approx(
             h1.biped.effort_limits[i] * 65 / 86, abs=0.1
@@ -52,7 +51,6 @@ def test_hrp2kai_has_the_published_masses_limits_and_heights():
 
 def test_the_hrp2kai_shoe_carries_51_taxels_and_overhangs_the_foot():
     robot = load_robot("hrp2kai")
-    assert robot.foot is not None
     for side in ("left", "right"):
         layout = robot.layouts[side]
         assert len(layout) == robot.foot.taxels == 51

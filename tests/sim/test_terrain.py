@@ -29,7 +29,7 @@ def feet(steps: int = 6, length: float = 0.2, sideways: float = 0.0) -> PlannedF
     def footprint(side: str, x: float, y: float, k: int | None = None) -> Footprint:
         center = np.array([x + 0.02, y])
         times = () if k is None else (2.0 + 1.2 * k, 2.9 + 1.2 * k)
-        return Footprint(side, center, 0.0, HALF, np.array([x, y]), *times)  # type: ignore[arg-type]
+        return Footprint(side, center, 0.0, HALF, np.array([x, y]), *times)
 
     standing = {"left": footprint("left", 0.0, 0.09), "right": footprint("right", 0.0, -0.09)}
     taken = []
@@ -37,10 +37,10 @@ def feet(steps: int = 6, length: float = 0.2, sideways: float = 0.0) -> PlannedF
         side = "left" if k % 2 == 0 else "right"
         y = (0.09 if side == "left" else -0.09) + sideways * (k // 2 + 1)
         taken.append(footprint(side, length * (k + 1), y, k))
-    return PlannedFeet(standing, tuple(taken))  # type: ignore[arg-type]
+    return PlannedFeet(standing, tuple(taken))
 
 
-def height_of(terrain: Terrain, planned: PlannedFeet, seed: int = 0):  # type: ignore[no-untyped-def]
+def height_of(terrain: Terrain, planned: PlannedFeet, seed: int = 0):
     """Height of the ground at a point, by a ray from above through the compiled model."""
     spec = mujoco.MjSpec()
     spec.add_material(name="ground")
@@ -57,7 +57,7 @@ def height_of(terrain: Terrain, planned: PlannedFeet, seed: int = 0):  # type: i
     return height
 
 
-def share(height, foot: Footprint, level: float = 0.0, tolerance: float = 1e-3) -> float:  # type: ignore[no-untyped-def]
+def share(height, foot: Footprint, level: float = 0.0, tolerance: float = 1e-3) -> float:
     """Share of a footprint that has ground at a level."""
     grid = [(a, b) for a in np.linspace(-0.99, 0.99, 31) for b in np.linspace(-0.99, 0.99, 21)]
     on = [abs(height(foot.place(a * HALF[0], b * HALF[1])) - level) < tolerance for a, b in grid]

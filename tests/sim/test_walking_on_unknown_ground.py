@@ -82,7 +82,6 @@ def test_heading_does_not_drift_in_a_long_walk():
 def test_where_there_is_no_way_the_robot_stops():
     simulation = Simulation(load_scene("feasibility-3", ["settle=0.5"]), 0)
     guard = simulation.controller.footing.guard
-    assert guard is not None
     guard.rules = replace(guard.rules, attempts=0)
     summary = simulation.run()
     assert summary["emergency_stop"]

@@ -53,7 +53,7 @@ def printed(page: Path, work: Path) -> bytes:
 def _images_of(sheet: bytes, number: int, parts: dict[bytes, bytes], images: set[bytes]) -> list[PrintedImage]:
     """The images of a sheet, by following the transformations of its drawing operations (PDF 32000-1, 8.3 and 8.10)."""
     used = dict(re.findall(rb"/(\w+) (\d+) 0 R", sheet))
-    box = np.array(re.search(rb"/MediaBox \[([^\]]*)\]", sheet)[1].split(), dtype=float)  # type: ignore[index]
+    box = np.array(re.search(rb"/MediaBox \[([^\]]*)\]", sheet)[1].split(), dtype=float)
     drawing = parts[used[b"Contents"]]
     stream = drawing[drawing.index(b"stream\n") + 7 : drawing.rindex(b"endstream")]
     state, kept, found = np.eye(3), [], []

@@ -55,7 +55,7 @@ def test_a_run_has_flight_and_a_walk_none(stride, stance, name, one_foot):
 )
 def test_where_the_foot_lands_names_the_walk(name, roll, side):
     recording = made_walk(strides=5, roll=roll).recording
-    recording = replace(recording, feet={side: recording.feet[side]})  # type: ignore[index]
+    recording = replace(recording, feet={side: recording.feet[side]})
     feet = analyse_feet(recording)
     assert activity_of(recording, feet).name == name
     assert progression_doubts(recording, feet) == []
@@ -118,14 +118,14 @@ def standing(seconds: float = 20.0, seed: int = 0) -> PressureRecording:
     time = np.arange(0.0, seconds, 0.02)
     feet = {}
     for side in ("left", "right"):
-        layout = nominal_insole("x", side)  # type: ignore[arg-type]
+        layout = nominal_insole("x", side)
         kernel = np.exp(-0.5 * (np.arange(-50, 51) / 12.0) ** 2)
         wander = np.array([np.convolve(random.normal(0, 1, len(time) + 100), kernel, "valid") for _ in "xy"]).T
         wander *= np.array([0.004, 0.002]) / wander.std(axis=0)
         near = layout.positions[:, None, :2] - (layout.positions[:, :2].mean(axis=0) + wander)
         load = np.exp(-0.5 * (near**2).sum(axis=2) / 0.03**2).T
-        feet[side] = FootRecording(side, 350.0 * load / load.sum(axis=1, keepdims=True), layout)  # type: ignore[arg-type]
-    return PressureRecording(Path("standing"), "synthetic", 50.0, time, feet)  # type: ignore[arg-type]
+        feet[side] = FootRecording(side, 350.0 * load / load.sum(axis=1, keepdims=True), layout)
+    return PressureRecording(Path("standing"), "synthetic", 50.0, time, feet)
 
 
 def test_standing_is_named_and_its_sway_measured():
@@ -157,7 +157,7 @@ def test_steps_that_nobody_asked_for_are_a_walk_all_the_same(steps):
 @pytest.mark.parametrize("walk", [{"stride": 0.4, "stance": 0.2}, {"stride": 1.1, "rate": 10.0}])
 def test_feet_that_are_lifted_do_not_stand_though_no_step_is_found(walk):
     """A sprint whose contacts are all shorter than 0.1 s, and ten frames a second."""
-    recording = made_walk(strides=30, **walk).recording  # type: ignore[arg-type]
+    recording = made_walk(strides=30, **walk).recording
     feet = analyse_feet(recording)
     assert not any(gait.steps for gait in feet.values())
     found = activity_of(recording, feet)
@@ -183,8 +183,8 @@ def test_weight_that_goes_from_foot_to_foot_is_no_walk(period, depth):
     feet = {}
     for side, sign in (("left", 1.0), ("right", -1.0)):
         load = 350.0 * (1.0 + sign * depth * np.sin(2.0 * np.pi * time / period))
-        feet[side] = FootRecording(side, np.outer(load, np.full(len(layout), 1.0 / len(layout))), None)  # type: ignore[arg-type]
-    recording = PressureRecording(Path("x"), "x", 100.0, time, feet, kind="insole")  # type: ignore[arg-type]
+        feet[side] = FootRecording(side, np.outer(load, np.full(len(layout), 1.0 / len(layout))), None)
+    recording = PressureRecording(Path("x"), "x", 100.0, time, feet, kind="insole")
     for given in (recording, without_baselines(recording)):
         found = analyse_feet(given)
         assert not any(gait.steps for gait in found.values())

@@ -42,7 +42,6 @@ def test_standing_and_raw_counts():
 def test_taxels_of_a_robot_are_held_against_their_range():
     recording = replace(made_walk().recording, kind="robot")
     layout = recording.feet["left"].layout
-    assert layout is not None
     rated = max(layout.ranges["force"])
     gain = 2.0 * rated / float(recording.feet["left"].force.max())
     loud = {side: replace(foot, force=foot.force * gain) for side, foot in recording.feet.items()}

@@ -17,7 +17,7 @@ from .walks import made_walk
 @pytest.mark.parametrize("kind", ["insole", "robot"])
 @pytest.mark.parametrize("noise", [0.0, 0.3])
 def test_physical_bounds(kind, noise):
-    recording = replace(made_walk(strides=4, rate=50.0, noise=noise).recording, kind=kind)  # type: ignore[arg-type]
+    recording = replace(made_walk(strides=4, rate=50.0, noise=noise).recording, kind=kind)
     steps = [step for gait in analyse_feet(recording).values() for step in gait.steps]
     assert len(steps) == 8
     for step in steps:

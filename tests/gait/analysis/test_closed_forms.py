@@ -80,7 +80,7 @@ def test_a_rolling_ellipse_has_the_measures_of_its_formulas(kind):
         assert step["cop_excursion_ml_m"] < 1e-6
         assert step["cop_velocity_m_s"] == pytest.approx(speed, rel=0.01)
         assert step["support_polygon_area_m2"] == pytest.approx(AREA, rel=0.05)
-    path = gait.cop[gait.contacts[1].begin : gait.contacts[1].end]  # type: ignore[index]
+    path = gait.cop[gait.contacts[1].begin : gait.contacts[1].end]
     straight = np.linspace(FROM, TO, len(path))
     assert np.nanmax(np.abs(path[2:-2, 0] - straight[2:-2])) < PITCH
 
@@ -168,7 +168,7 @@ def test_cpei_of_a_bowed_path():
     from plantar.gait.analysis.steps.cop_path import excursion_index
 
     for side, outward in (("left", 1.0), ("right", -1.0)):
-        print_ = ellipse_print(0.12, 0.045, 0.0, side=side)  # type: ignore[arg-type]
+        print_ = ellipse_print(0.12, 0.045, 0.0, side=side)
         share = np.linspace(0.0, 1.0, 201)
         x = -0.10 + 0.20 * share
         bow = 0.01 * np.sin(np.pi * share) * outward  # to the lateral side, which is the left of a left foot

@@ -35,7 +35,6 @@ def test_a_mask_is_the_same_part_of_both_feet(analysis):
     assert left.tolist() == right.tolist()
     assert len(left) > 5
     layout = analysis.recording.feet["left"].layout
-    assert layout is not None
     assert (layout.positions[left, 1] < layout.positions[:, 1].mean()).all()
     notch = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.5, 0.5], [0.0, 1.0]]
     kept = set(mask_cells(analysis, "left", notch).tolist())

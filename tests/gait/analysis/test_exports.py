@@ -73,7 +73,6 @@ def test_a_c3d_file_has_no_centre_of_pressure_without_load(tmp_path, analysis):
     path, _ = export_analysis(analysis, tmp_path / "walk.c3d")
     file = ezc3d.c3d(str(path))
     cop = analysis.feet["left"].cop
-    assert cop is not None
     there = file["data"]["meta_points"]["residuals"][0, 0] >= 0.0
     assert there.tolist() == np.isfinite(cop[:, 0]).tolist()
     written = file["data"]["points"][:2, 0, there].T
@@ -118,8 +117,6 @@ def test_forces_are_read_back_as_plates(tmp_path, analysis, suffix):
         force = gait.foot.vertical_force
         assert np.abs(again.feet[side].vertical_force - force).max() < 1e-6 * force.max()
         cop, read = gait.foot.center_of_pressure(100.0), again.feet[side].cop
-        assert cop is not None
-        assert read is not None
         there = np.isfinite(cop[:, 0])
         axes = read[there] if suffix == ".c3d" else read[there][:, ::-1] * [1.0, -1.0]  # (right, ahead) in OpenSim
         assert np.abs(axes - cop[there]).max() < 1e-5

@@ -41,7 +41,7 @@ def test_every_measure_of_an_insole_has_an_error():
 def test_coarser_cells_and_frames_err_more():
     def errors(rate: float, size: str) -> dict[str, float]:
         layouts = {side: nominal_insole(size, side) for side in ("left", "right")}
-        recording = made_walk(strides=6, rate=rate, noise=0.3, layouts=layouts).recording  # type: ignore[arg-type]
+        recording = made_walk(strides=6, rate=rate, noise=0.3, layouts=layouts).recording
         return errors_of_foot(recording, analyse_feet(recording)["left"])
 
     assert errors(25.0, "u")["contact_time_s"] > errors(200.0, "u")["contact_time_s"]

@@ -23,7 +23,6 @@ def arched(mirrored: tuple[str, ...] = ()) -> PressureRecording:
     feet = {}
     for side, foot in recording.feet.items():
         layout = foot.layout
-        assert layout is not None
         inward = layout.positions[:, 1] * (1.0 if side == "right" else -1.0) / 0.05
         along = layout.positions[:, 0] / float(layout.outline[:, 0].max())
         turn = -1.0 if side in mirrored else 1.0

@@ -33,7 +33,6 @@ def test_a_rolling_half_sine_has_the_measures_of_its_formula():
     gait = analyse_foot(recording, "left")
     assert len(gait.steps) == 4
     step = gait.steps[1]
-    assert gait.levels is not None
     late = 0.6 / np.pi * np.arcsin(gait.levels.release / 800.0)  # the CoP is known above this level
     assert gait.levels.lift == pytest.approx(2 * gait.levels.release, rel=0.01)  # a shoe presses on after toe off
     assert step["contact_time_s"] == pytest.approx(0.6, rel=0.005)
@@ -43,13 +42,11 @@ def test_a_rolling_half_sine_has_the_measures_of_its_formula():
     assert step["peak_force_N"] == pytest.approx(800.0, rel=1e-3)
     assert step["impulse_Ns"] == pytest.approx(2.0 * 800.0 * 0.6 / np.pi, rel=0.01)
     layout = recording.feet["left"].layout
-    assert layout is not None
     travel = float(layout.outline[:, 0].max()) * 0.4 * (0.6 - 2.0 * late) / 0.6
     assert step["cop_excursion_ap_m"] == pytest.approx(travel, rel=0.03)
     assert step["cop_path_m"] == pytest.approx(travel, rel=0.05)
     assert step["cop_velocity_m_s"] == pytest.approx(step["cop_path_m"] / (0.6 - 2.0 * late), rel=0.03)
     pressure = recording.feet["left"].pressure()
-    assert pressure is not None
     assert step["peak_pressure_Pa"] == pytest.approx(pressure.max(), rel=1e-3)
     assert 0.02 < step["cop_margin_m"] < 0.05
     assert np.isnan(step["step_time_s"])  # one foot only
@@ -83,7 +80,6 @@ def test_walk_as_a_whole(walk):
     )
     assert max(abs(known[key]) for key in ("contact_time_s", "stride_time_s", "peak_force_N", "impulse_Ns")) < 2.0
     index = symmetry(feet)["contact_time_s"]
-    assert index is not None
     assert abs(index) < 1.0
 
 
@@ -120,9 +116,7 @@ def test_an_insole_gives_no_outline_of_a_foot(forefoot):
     assert not set(gait.steps[2].measures) & {"arch_index", "foot_length_m", "foot_width_m"}
     assert set(not_given("insole")) == {"arch_index", "foot_length_m", "foot_width_m"}
     assert not_given("platform") == {}
-    assert gait.sole is not None
     layout = gait.foot.layout
-    assert layout is not None
     assert gait.sole.length == pytest.approx(float(np.ptp(layout.outline[:, 0])), rel=1e-6)
 
 

@@ -82,8 +82,6 @@ def test_the_emed_step_by_another_packages_definitions(real_data):
     (gait,) = analysis.feet.values()
     (step,) = gait.steps
     pressure, layout = gait.foot.pressure(), gait.foot.layout
-    assert pressure is not None
-    assert layout is not None
     force, frame = pressure @ layout.areas, 1.0 / analysis.recording.rate_hz
     theirs = {
         "peak_pressure_Pa": (pressure.max(), 1e-9),
@@ -104,8 +102,6 @@ def test_the_pedar_steps_by_another_packages_definitions(real_data, side, share)
     """pressuRe's steps reach from 30 N to 30 N; all that does not depend on where they begin is the same."""
     gait = analyse(real_data / "recordings" / "pedar_walk.asc").feet[side]
     force, pressure, layout = gait.foot.vertical_force, gait.foot.pressure(), gait.foot.layout
-    assert pressure is not None
-    assert layout is not None
     theirs: dict[str, list[float]] = {key: [] for key in ("contact_time_s", "impulse_Ns", "contact_area_m2")}
     for step in gait.used:
         middle = (step.contact.begin + step.contact.end) // 2

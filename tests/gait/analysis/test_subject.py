@@ -33,7 +33,7 @@ from .walks import made_walk
 )
 def test_impossible_bodies_are_refused(values, message):
     with pytest.raises(InputError, match=re.escape(message)):
-        Subject(**values)  # type: ignore[arg-type]
+        Subject(**values)
 
 
 def test_a_mass_that_is_not_of_these_forces_is_doubted():
@@ -73,7 +73,6 @@ def test_the_head_of_the_report_tells_of_whom_it_is():
     assert "Vertical force, % of body weight (71.4 kg, as stated)" in page
     assert "Peak force (% of body weight)" in page
     layout = feet["left"].foot.layout
-    assert layout is not None
     assert device_of(recording)["feet"]["left"]["length_m"] == pytest.approx(np.ptp(layout.outline[:, 0]))
     unknown = report_page(metrics_of(recording, feet), (), "walk")
     assert "not stated; the forces imply" in unknown

@@ -71,7 +71,7 @@ def test_pedar(tmp_path, changes):
 def test_people_of_all_weights_at_all_cadences(tmp_path, rate, kilograms, stride):
     insoles = {side: moticon_insole(3 if kilograms < 20.0 else 7, side) for side in SIDES}
     made = {"rate": rate, "weight": 9.81 * kilograms, "stride": stride, "strides": 3}
-    walk = made_walk(**made, layouts=insoles)  # type: ignore[arg-type]
+    walk = made_walk(**made, layouts=insoles)
     check_with_stance(analysed(tmp_path / "walk.txt", moticon(walk, replace(PLAIN, unit="n/cm2"))), walk)
 
 

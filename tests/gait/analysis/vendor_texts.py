@@ -57,7 +57,6 @@ class Writing:
 
 def _pressures(walk: MadeWalk, side: Side, how: Writing) -> NDArray[np.float64]:
     foot = walk.recording.feet[side]
-    assert foot.layout is not None
     return foot.force / (foot.layout.areas * PASCALS[how.unit])
 
 
@@ -87,7 +86,6 @@ def matrix_insoles(rows: int, columns: int, pitch: float) -> dict[Side, SoleLayo
 def _matrices(walk: MadeWalk, side: Side, how: Writing, cells: int) -> NDArray[np.float64]:
     """Pressures (n, cells) of a whole matrix; NaN where there is no cell."""
     layout = walk.recording.feet[side].layout
-    assert layout is not None
     out = np.full((len(walk.recording.time), cells), np.nan)
     out[:, layout.ids - 1] = _pressures(walk, side, how)
     return out

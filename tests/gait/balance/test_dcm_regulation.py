@@ -16,14 +16,13 @@ PLAN = WalkPlan(FEET, STEPS, Timing(single_support=0.8, double_support=0.4), MID
 PUSH = np.array([0.01, -0.02])
 
 
-def phase_of(kind: PhaseKind, step: int):  # type: ignore[no-untyped-def]
+def phase_of(kind: PhaseKind, step: int):
     return next(p for p in PLAN.schedule.phases if p.kind == kind and p.step == step)
 
 
 def test_after_the_goal_of_a_double_support_the_walk_comes_to_rest_over_its_next_step():
     phase = phase_of(PhaseKind.DOUBLE_SUPPORT, 2)
     goal = phase_goal(PLAN, phase, PUSH, OMEGA)
-    assert goal is not None
     stance = PLAN.stance_vrp(2)
     # xi' = w (xi - u + u_w) for the single support after it, with the VRP at rest over the stance foot.
     after = stance - PUSH + np.exp(OMEGA * 0.8) * (goal - stance + PUSH)
@@ -34,11 +33,9 @@ def test_after_the_goal_of_a_double_support_the_walk_comes_to_rest_over_its_next
 def test_a_pendulum_that_follows_the_vrp_reaches_the_goal(kind, step):
     phase, tick = phase_of(kind, step), 1e-4
     goal = phase_goal(PLAN, phase, PUSH, OMEGA)
-    assert goal is not None
     time, dcm = phase.start, goal + np.array([-0.03, 0.02])
     while time < phase.end - 1.5 * tick:
         found = regulated_vrp(PLAN, phase, time, dcm, goal, PUSH, OMEGA)
-        assert found is not None
         dcm = dcm + tick * OMEGA * (dcm - found.vrp + PUSH)
         time += tick
     assert dcm == pytest.approx(goal, abs=1e-4)

@@ -34,7 +34,6 @@ def looked(
 @pytest.mark.parametrize("orientation", ["plane", "moment"])
 def test_sloping_ground_gives_its_slope_and_the_first_contact(orientation):
     view = looked(0.03 - 0.08 * X + 0.05 * Y, GroundMapSettings(orientation=orientation))
-    assert view is not None
     assert view.slope == pytest.approx((0.08, -0.05), abs=2e-3)
     assert view.middle == pytest.approx(0.03, abs=1e-3)
     assert view.distance == pytest.approx(0.03 - 0.08 * 0.1 - 0.05 * 0.07, abs=1e-3)
@@ -42,9 +41,7 @@ def test_sloping_ground_gives_its_slope_and_the_first_contact(orientation):
 
 def test_noise_averages_out():
     view = looked(np.full(len(LAYOUT), 0.02), noise=2e-3)
-    assert view is not None
     assert view.distance == pytest.approx(0.02, abs=1e-3)
-    assert view.slope is not None
     assert np.hypot(*view.slope) < 0.01
 
 
@@ -58,14 +55,12 @@ def test_a_small_block_is_what_is_met_first_and_is_not_followed():
 @pytest.mark.parametrize("rim", [0.02, 0.03, 0.04, 0.06, 0.07])
 def test_a_block_under_the_front_rim_is_what_is_met_first(rim):
     view = looked(np.where((0.1 - rim < X) & (np.abs(Y) < 0.05), 0.012, 0.04), noise=2e-3)
-    assert view is not None
     assert view.distance < 0.015
     assert view.slope is None or np.hypot(*view.slope) < 0.02  # a sole that followed it would swing its heel down
 
 
 def test_a_slab_under_half_the_sole_is_what_is_met_first():
     view = looked(np.where(X > 0.0, 0.012, 0.04))
-    assert view is not None
     assert view.distance == pytest.approx(0.012, abs=1e-3)
 
 
@@ -73,7 +68,6 @@ def test_a_taxel_over_the_edge_does_not_tilt_the_ground():
     distance = np.full(len(LAYOUT), 0.01)
     distance[np.argmax(X + Y)] = 0.018  # 8 mm lower than the rest, at a corner of the sole
     view = looked(distance)
-    assert view is not None
     assert view.slope == pytest.approx((0.0, 0.0), abs=1e-12)
     assert view.distance == pytest.approx(0.01)
     assert view.even
@@ -105,7 +99,6 @@ def test_one_noisy_reading_of_a_taxel_is_not_yet_high_ground():
         ground.update(percept(distance, PERIOD * k), np.array([0.0, 0.0, 0.03]), np.eye(3), PERIOD * k)
     ground._readings[0], ground._distance[0] = 1.0, 0.005  # a taxel that sees this ground for the first time
     view = ground.update(percept(distance, 0.195), np.array([0.0, 0.0, 0.03]), np.eye(3), 0.195)
-    assert view is not None
     assert view.distance == pytest.approx(0.01, abs=5e-4)
     assert view.slope == pytest.approx((0.0, 0.0), abs=5e-3)
 
@@ -114,7 +107,6 @@ def test_dead_taxels_and_no_ground_are_no_obstacle():
     distance = np.full(len(LAYOUT), 0.02)
     distance[:5] = np.nan
     view = looked(distance)
-    assert view is not None
     assert view.distance == pytest.approx(0.02)
     assert looked(np.full(len(LAYOUT), np.inf)) is None
     assert looked(np.full(len(LAYOUT), np.nan)) is None
@@ -126,13 +118,10 @@ def test_the_map_moves_with_the_sole_between_readings():
     ground.update(percept(np.full(len(LAYOUT), 0.03)), np.array([0.0, 0.0, 0.03]), np.eye(3), 0.0)
     blind = Percept(LAYOUT, Reading(time=0.01, force=np.zeros(len(LAYOUT))))
     view = ground.update(blind, np.array([0.0, 0.0, 0.021]), np.eye(3), 0.01)
-    assert view is not None
     assert view.middle == pytest.approx(0.021)
     angle = 0.05
     tilted = np.array([[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]])
     view = ground.update(blind, np.array([0.0, 0.0, 0.021]), tilted, 0.015)  # toes down
-    assert view is not None
-    assert view.slope is not None
     assert view.slope[0] == pytest.approx(np.tan(angle), rel=0.02)
 
 
@@ -194,7 +183,6 @@ def test_ground_that_was_no_plane_teaches_no_bias():
 def test_a_reading_counts_for_when_it_was_taken():
     ground = GroundMap(LAYOUT, GroundMapSettings())
     view = swung(ground, lambda z: np.full(len(LAYOUT), z), 0.0, age=2 * PERIOD)
-    assert view is not None
     assert view.distance == pytest.approx(0.02 * np.sin(0.75 * np.pi), abs=1e-4)
 
 
@@ -206,7 +194,6 @@ def test_ground_that_moves_is_seen_at_once_and_noise_is_no_move():
     for k in range(120):
         distance = (0.03 if k < 100 else 0.015) + rng.normal(0.0, 2e-3, len(LAYOUT))
         view = ground.update(percept(distance, PERIOD * k), np.array([0.0, 0.0, 0.03]), np.eye(3), PERIOD * k)
-        assert view is not None
         views.append(view.distance)
     assert np.ptp(views[60:100]) < 1e-3
     assert views[100] == pytest.approx(0.015, abs=2.5e-3)

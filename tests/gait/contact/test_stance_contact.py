@@ -20,7 +20,7 @@ class Foot:
     """A sole that comes down on ground with given edges and takes the weight over."""
 
     def __init__(self, lines: np.ndarray, seed: int = 0, **settings: object) -> None:
-        self.contact = StanceContact(SOLE, ContactSettings(**settings))  # type: ignore[arg-type]
+        self.contact = StanceContact(SOLE, ContactSettings(**settings))
         self.rng = np.random.default_rng(seed)
         self.lines, self.time = lines, 0.0
 
@@ -142,7 +142,6 @@ def test_a_foothold_is_foreseen_where_the_sole_will_land():
     assert foot.contact.foresee(np.zeros(2)) is None
     foot.descend()
     here, further = foot.contact.foresee(np.zeros(2)), foot.contact.foresee(np.array([0.014, 0.0]))
-    assert here is not None
     assert further is not None
     assert centroid(here) == pytest.approx([-0.0565, 0.0], abs=0.008)
     moved = centroid(further)[0] - centroid(here)[0]

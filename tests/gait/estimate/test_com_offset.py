@@ -26,8 +26,8 @@ def carried(com: NDArray[np.float64]) -> dict[Side, NDArray[np.float64]]:
     wrenches: dict[Side, NDArray[np.float64]] = {}
     for side, part in (("left", share), ("right", 1.0 - share)):
         x, y = level_rotation(FEET[side][3])[:2, :2].T @ (points[side] + com[:2] - on_line - np.array(FEET[side][:2]))
-        wrenches[side] = part * WEIGHT * np.array([0.0, 0.0, 1.0, y, -x, 0.0])  # type: ignore[index]
-    return wrenches  # type: ignore[return-value]
+        wrenches[side] = part * WEIGHT * np.array([0.0, 0.0, 1.0, y, -x, 0.0])
+    return wrenches
 
 
 def standing(rotation: NDArray[np.float64]) -> Posture:

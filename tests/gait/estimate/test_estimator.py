@@ -70,7 +70,7 @@ class Swaying:
         for side, share in (("left", left), ("right", 1.0 - left)):
             x, y = zmp[0], zmp[1] - (left * 0.09 - (1 - left) * 0.09)
             load = 800.0 * share * (weights_of(layout) @ np.array([1.0, x, y]))
-            out[side] = Percept(layout, Reading(time, load), force_threshold=-1e9)  # type: ignore[index]
+            out[side] = Percept(layout, Reading(time, load), force_threshold=-1e9)
         return out
 
 

@@ -58,7 +58,7 @@ def test_plans_move_with_their_start(steps, length, sideways, x, y, yaw):
 @pytest.mark.parametrize("arguments", [{"steps": -1}, {"steps": 2, "length": math.nan}, {"steps": 2, "width": 0.0}])
 def test_bad_plans_are_refused(arguments):
     with pytest.raises(InputError):
-        straight_plan(**arguments)  # type: ignore[arg-type]
+        straight_plan(**arguments)
 
 
 def test_rotation_is_a_level_heading():

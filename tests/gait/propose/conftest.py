@@ -19,7 +19,7 @@ MIDDLES = {side: np.array([0.02, 0.0]) for side in SIDES}
 
 def _plan_of(count: int = 6, **walk: float) -> WalkPlan:
     """The plan of a straight walk."""
-    feet, steps = straight_plan(count, **walk)  # type: ignore[arg-type]
+    feet, steps = straight_plan(count, **walk)
     return WalkPlan(feet, steps, Timing(), MIDDLES, OMEGA, 1.0)
 
 

@@ -69,7 +69,7 @@ def test_the_way_around_clears_the_obstacle_by_the_clearance(side, seed):
     rng = np.random.default_rng(seed)
     middle, half = rng.uniform(-0.06, 0.06, 2), rng.uniform(0.01, 0.04, 2)
     obstacle = np.array([middle - half, middle + half])
-    move = way_around(obstacle, OUTLINE, side, RULES)  # type: ignore[arg-type]
+    move = way_around(obstacle, OUTLINE, side, RULES)
     if move is None:
         return
     assert np.count_nonzero(move) == 1
@@ -87,7 +87,6 @@ def test_a_foot_does_not_go_where_the_other_one_stands_and_gives_up_where_nothin
     obstacle = np.array([[-0.09, 0.0], [0.09, 0.065]])
     rules = FeasibilityRules(sideways_cost=1.0, outward=0.2, inward=0.02, forward=0.02, backward=0.02)
     left = way_around(obstacle, OUTLINE, "left", rules)
-    assert left is not None
     assert left[1] > 0.1
     assert way_around(obstacle, OUTLINE, "right", rules) is not None  # its outward is to the right
     assert way_around(np.array([[-0.3, -0.3], [0.3, 0.3]]), OUTLINE, "left", rules) is None

@@ -41,7 +41,6 @@ def test_a_partial_foothold_gets_the_vrp_over_it(plan_of, tick_at):
     plan = plan_of()
     here = found(plan, 2, (0.0, 0.03))
     change = proposer().propose(tick_at(plan, double_support(plan, 2), found=(here,)))
-    assert change is not None
     assert (change.step, change.vrp) == (2, tuple(here.vrp))
     assert change.foothold is None
     assert change.shift == (0.0, 0.0)
@@ -71,8 +70,6 @@ def test_a_foothold_whose_change_was_not_chosen_is_proposed_again(plan_of, tick_
     first = asked.propose(tick_at(plan, time, found=(found(plan, 2, (0.0, 0.03)),)))
     plan.apply(PlanChange("something else", 4, vrp=(1.0, 0.0)), time, NOWHERE)
     second = asked.propose(tick_at(plan, time + 0.005))
-    assert first is not None
-    assert second is not None
     assert second.vrp == first.vrp
     plan.apply(second, time + 0.005, NOWHERE)
     assert asked.propose(tick_at(plan, time + 0.01)) is None
@@ -105,7 +102,6 @@ def test_ground_that_ends_along_the_walk_is_no_strip(plan_of, tick_at):
         here = found(plan, step, (0.0, 0.05 - float(plan.view.vrp(step)[1])))
         ends = replace(here, polygon=here.middle + np.array([0.5, 1.0]) * SQUARE)
         change = asked.propose(tick_at(plan, time, found=(ends,)))
-        assert change is not None
         assert change.shift == (0.0, 0.0)
         plan.apply(change, time, NOWHERE)
 
@@ -117,7 +113,6 @@ def test_ground_that_loads_alone_show_may_be_a_strip_however_wide_it_is_known_to
         here = found(plan, step, (0.0, 0.05 - float(plan.view.vrp(step)[1])))
         wide = replace(here, polygon=here.middle + np.array([0.5, 1.0]) * SQUARE, seen=False)
         change = asked.propose(tick_at(plan, time, found=(wide,)))
-        assert change is not None
         shifts.append(change.shift[1])
         plan.apply(change, time, NOWHERE)
     assert shifts[0] == 0.0
@@ -134,12 +129,10 @@ def test_footsteps_move_once_a_foothold_until_the_ankle_is_over_what_carries(ahe
     change = asked.propose(tick_at(plan, time, found=(here,)))
     far = ahead > 0.05  # half of what the ankle bears
     least = min(RULES.largest_shift, ahead - 0.02)
-    assert change is not None
     assert change.shift == pytest.approx((least if far else 0.0, 0.0))
     plan.apply(change, time, NOWHERE)
     again = replace(here, vrp=here.vrp + np.array([0.01, 0.0]))
     change = asked.propose(tick_at(plan, time + 1.5 * RULES.replan_pause, found=(again,)))
-    assert change is not None
     assert change.shift == (0.0, 0.0)
 
 
@@ -165,7 +158,6 @@ def test_a_foothold_that_is_seen_moves_the_vrp_of_the_step_in_the_air(plan_of, t
     plan, time = plan_of(), 2.2 + 0.7
     seen = FootholdSeen(0, "left", plan.view.vrp(0) + np.array([0.03, 0.0]))
     change = FootholdSeenAhead(RULES).propose(tick_at(plan, time, seen=seen))
-    assert change is not None
     assert (change.step, change.vrp) == (0, tuple(seen.vrp))
     close = FootholdSeen(0, "left", plan.view.vrp(0) + np.array([0.002, 0.0]))
     assert FootholdSeenAhead(RULES).propose(tick_at(plan, time, seen=close)) is None

@@ -23,7 +23,6 @@ def test_inside_is_towards_the_other_foot(side, sign):
 def test_a_foot_on_a_slope_is_stood_on_further_inside(plan_of, tick_at):
     plan, time = plan_of(), 2.2 + 0.85
     change = SlopeInside().propose(tick_at(plan, time, feet=touchdown("left"), inward=-0.02))
-    assert change is not None
     assert change.step == 0
     assert change.vrp == pytest.approx(tuple(plan.view.vrp(0) + np.array([0.0, -0.02])))
 

@@ -125,7 +125,6 @@ def by_daqp(p: SspProblem) -> tuple[np.ndarray, float]:
 def test_it_is_the_optimum_of_the_printed_cost(seed):
     p = drawn(np.random.default_rng(seed))
     found = solve_ssp(p, WEIGHTS)
-    assert found is not None
     assert found.residual < 1e-12
     place, tau = by_daqp(p)
     least = printed_cost(p, found.place, math.exp(p.omega * found.time))
@@ -139,7 +138,6 @@ def test_it_is_the_optimum_of_the_printed_cost(seed):
 def test_the_papers_solver_finds_no_less(seed):
     p = drawn(np.random.default_rng(seed), polygon=False)
     found = solve_ssp(p, WEIGHTS)
-    assert found is not None
     low, high = (math.exp(p.omega * t) for t in bounds_of(p))
     corners = np.asarray(p.region)
     box = [*zip(corners.min(axis=0), corners.max(axis=0), strict=True), (low / high, 1.0)]
@@ -152,7 +150,6 @@ def test_the_papers_solver_finds_no_less(seed):
 def test_what_it_says_it_misses_is_missed(seed):
     p = drawn(np.random.default_rng(seed))
     found = solve_ssp(p, WEIGHTS)
-    assert found is not None
     wanted = target_dcms(found.place, p.stance, p.next_stride, p.next_duration, p.double_support, p.offset, p.omega)
     reached = dcm_at(p, found.time)
     assert found.missed == pytest.approx(reached - wanted.single_end, abs=1e-9)
@@ -160,8 +157,6 @@ def test_what_it_says_it_misses_is_missed(seed):
 
 def test_a_push_outward_moves_the_step_outward_and_ends_it_sooner():
     calm, pushed = (solve_ssp(problem(dcm=[0.0, y]), WEIGHTS) for y in (0.05, 0.08))
-    assert calm is not None
-    assert pushed is not None
     assert pushed.place[1] > calm.place[1]
     assert pushed.time < calm.time
 
@@ -169,8 +164,6 @@ def test_a_push_outward_moves_the_step_outward_and_ends_it_sooner():
 def test_confidence_keeps_the_nominal_footstep():
     away = {"dcm": [0.0, 0.075], "target": (0.1, 0.25, 0.6)}
     sure, unsure = (solve_ssp(problem(confidence=c, **away), WEIGHTS) for c in (1.0, 0.0))
-    assert sure is not None
-    assert unsure is not None
     assert abs(sure.place[0]) < abs(unsure.place[0])
     assert unsure.place[0] > 0.01
 
@@ -178,8 +171,6 @@ def test_confidence_keeps_the_nominal_footstep():
 def test_bounds_are_told():
     late = solve_ssp(problem(dcm=[0.0, 0.4]), WEIGHTS)
     early = solve_ssp(problem(dcm=[0.0, 0.0305], longest=0.5), WEIGHTS)
-    assert late is not None
-    assert early is not None
     assert (late.at_bound, late.time, late.at_edge) == (-1, pytest.approx(0.4), True)
     assert (early.at_bound, early.time) == (1, pytest.approx(0.5))
 
@@ -187,7 +178,6 @@ def test_bounds_are_told():
 @pytest.mark.parametrize("region", [[[0.1, 0.2]], [[0.0, 0.2], [0.1, 0.3]], [[0.0, 0.2], [0.0, 0.2]]])
 def test_a_region_may_be_a_line_or_a_point(region):
     found = solve_ssp(problem(region=region), WEIGHTS)
-    assert found is not None
     assert found.residual < 1e-12
     assert found.at_edge
     along, off = np.subtract(region[-1], region[0]), found.place - region[0]
@@ -207,7 +197,6 @@ def test_nothing_overflows(longest, dcm, omega):
     for elapsed in (0.0, longest):
         p = problem(omega=omega, dcm=dcm, longest=longest, offset=[80.0, -80.0], elapsed=elapsed, next_duration=100.0)
         found = solve_ssp(p, WEIGHTS)
-        assert found is not None
         assert np.isfinite([*found.place, found.time, *found.missed, found.residual]).all()
         assert found.residual < 1e-8
 

@@ -43,7 +43,6 @@ def late_by(seconds: float) -> Callable[[WalkPlan], np.ndarray]:
 def missed(tick: Tick, left: float) -> float:
     """By how much the DCM misses the end of the stance, with the best constant ZMP: a distance in GEOS."""
     pendulum, growth = tick.pendulum, math.exp(3.5 * left) - 1.0
-    assert pendulum is not None
     wanted = pendulum.dcm + (pendulum.dcm - pendulum.goal) / growth
     return growth * float(shapely.Polygon(pendulum.zmp_region).distance(shapely.Point(wanted)))
 
@@ -52,7 +51,6 @@ def missed(tick: Tick, left: float) -> float:
 def test_a_dcm_that_is_behind_gets_the_time_that_it_needs(late, timed):
     plan, tick = timed(NOW, late_by(late))
     change = proposed(tick, price=0.0)
-    assert change is not None
     assert change.reason == "DCM behind"
     assert change.longer == pytest.approx(late, abs=2.0 * PERIOD)
     plan.apply(change, NOW, tick.pendulum.zmp_region)
@@ -66,12 +64,10 @@ def test_a_dcm_that_is_behind_gets_the_time_that_it_needs(late, timed):
 def test_one_that_is_ahead_is_followed_as_far_as_the_foot_can_be_hurried(timed):
     _, tick = timed(NOW, late_by(-0.06))
     change = proposed(tick, price=0.0)
-    assert change is not None
     assert change.reason == "DCM ahead"
     assert change.longer == pytest.approx(-0.06, abs=2.0 * PERIOD)
     _, far = timed(NOW, late_by(-0.3))
     hurried = proposed(far, price=0.0)
-    assert hurried is not None
     assert hurried.longer == pytest.approx(-RULES.shortest * 0.9, abs=1.5 * PERIOD)  # of a single support, and no more
     assert proposed(far, shortest=0.0) is None or proposed(far, shortest=0.0).longer > 0.0
 

@@ -184,7 +184,7 @@ def test_nothing_is_changed_while_a_foot_swings(plan_of, tick_at):
 )
 def test_a_row_that_is_no_command_is_named(row):
     with pytest.raises(InputError, match=r"a velocity command is .*; allowed: \[time, forward, left, turn\] or"):
-        table_of([row], 0.0)  # type: ignore[list-item]
+        table_of([row], 0.0)
 
 
 def test_bad_tables_are_refused():

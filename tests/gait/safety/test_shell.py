@@ -69,7 +69,6 @@ def test_an_undisturbed_walk_is_the_same_to_the_last_bit_and_the_shell_takes_5_u
         mujoco.mj_step(world.model, world.data)
     assert controller.safe_state is None
     shell = controller.shell
-    assert shell is not None
     shell._tick = lambda sensors: command  # what remains is the shell's own time
     shell._last, times = command, []
     for reading in readings[-300:]:
@@ -82,7 +81,7 @@ def test_an_undisturbed_walk_is_the_same_to_the_last_bit_and_the_shell_takes_5_u
 
 def test_what_comes_first_may_be_anything():
     parts = Simulation(load_scene("flat", ["steps=2"]))
-    nothing = Sensors(time=np.nan, joint_positions=None, gyro=None, accelerometer=None, readings=None)  # type: ignore[arg-type]
+    nothing = Sensors(time=np.nan, joint_positions=None, gyro=None, accelerometer=None, readings=None)
     command = parts.controller.step(nothing)
     assert command.com[2] == pytest.approx(parts.settings.com_height, abs=0.05)
     assert parts.controller.step(nothing).feet["left"].force[2] > 0.0

@@ -50,7 +50,7 @@ def strange(tmp_path):
 def test_what_is_no_regular_file_is_refused_at_once(strange, what, reason):
     for read in (check_input, open_input, lambda path, error: read_input(path, error, 10)):
         with pytest.raises(FormatError, match=reason):
-            read(strange[what], FormatError)  # type: ignore[operator]
+            read(strange[what], FormatError)
     assert not is_file(strange[what])
 
 
@@ -80,7 +80,7 @@ def test_what_is_too_large_is_refused_unread(tmp_path):
         stream.truncate(10**12)  # takes no room on the disk
     for read in (check_input, open_input, read_input):
         with pytest.raises(FootError, match=r"sparse\.stl: holds 1e\+03 GB; allowed: up to 200 MB"):
-            read(path, FootError, 200e6)  # type: ignore[operator]
+            read(path, FootError, 200e6)
 
 
 @linux

@@ -44,10 +44,8 @@ def test_a_plate(tmp_path, frames, delimiter, comma):
     assert (recording.kind, recording.grid, recording.raw) == ("platform", (48, 64), False)
     assert recording.rate_hz == pytest.approx(80.0)
     assert foot.vertical_force == pytest.approx(np.round(frames, 1).sum(axis=(1, 2)))
-    assert foot.layout is not None
     assert foot.layout.areas == pytest.approx(5.08e-3 * 7.62e-3)
     cop = foot.center_of_pressure(20.0)
-    assert cop is not None
     assert cop[40, 0] > cop[20, 0]  # the hind rows come first in the file
     assert 0.0 < 32 * 5.08e-3 - 30 * 5.08e-3 - cop[30, 1] < 12 * 5.08e-3  # columns from the left
 
@@ -70,7 +68,6 @@ def test_a_plate_that_is_walked_across_its_rows(tmp_path, frames):
     path = tmp_path / "walk.txt"
     export(path, frames.transpose(0, 2, 1))
     layout = read_recording(path).feet["left"].layout
-    assert layout is not None
     assert np.ptp(layout.outline, axis=0) == pytest.approx([64 * 5.08e-3, 48 * 7.62e-3])
 
 
@@ -86,7 +83,7 @@ def test_a_plate_that_is_walked_across_its_rows(tmp_path, frames):
 def test_damaged_files_are_named(tmp_path, frames, change, message):
     path = tmp_path / "walk.txt"
     export(path, frames[:5])
-    path.write_text(change(path.read_text()))  # type: ignore[operator]
+    path.write_text(change(path.read_text()))
     with pytest.raises(FormatError, match=message):
         read_recording(path)
 

@@ -15,7 +15,6 @@ def marked(mark: float, lost: np.ndarray, layout: bool) -> tuple[PressureRecordi
     """Steps with a mark (Pa, or N without a layout) where something was lost, and their true forces."""
     recording = steps()
     foot = recording.feet["left"]
-    assert foot.layout is not None
     force = np.where(lost, mark * (foot.layout.areas if layout else 1.0), foot.force)
     recording = with_force(recording, force)
     if not layout:
@@ -57,7 +56,6 @@ def test_a_mark_counts_as_not_measured(mark, layout, kind):
 def test_a_mark_above_and_one_below():
     recording, _ = marked(9999e3, lost_somewhere("anywhere", steps().feet["left"].force.shape), True)
     foot = recording.feet["left"]
-    assert foot.layout is not None
     force = foot.force.copy()
     force[::50, 7] = -500e3 * foot.layout.areas[7]
     assert len(without_marks(with_force(recording, force)).warnings) == 2
@@ -67,7 +65,6 @@ def test_a_mark_above_and_one_below():
 def test_what_a_sensor_reads_is_no_mark(what):
     recording = steps()
     foot = recording.feet["left"]
-    assert foot.layout is not None
     areas, value = foot.layout.areas, foot.force / foot.layout.areas
     rng = np.random.default_rng(1)
     top = value.max()

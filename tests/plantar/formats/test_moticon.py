@@ -88,7 +88,7 @@ def test_two_insoles_with_dropouts(tmp_path, feet):
     recording = read_recording(path)
     assert (len(recording.time), recording.rate_hz) == (200, pytest.approx(100.0))
     for side, gone in (("left", slice(0, 50)), ("right", slice(100, 103))):
-        foot = recording.feet[side]  # type: ignore[index]
+        foot = recording.feet[side]
         missing = np.zeros(200, dtype=bool)
         missing[gone] = True
         assert (np.isnan(foot.vertical_force) == missing).all()  # a dropout is no zero
@@ -96,7 +96,6 @@ def test_two_insoles_with_dropouts(tmp_path, feet):
         truth = feet[side] @ (AREAS * 1e4)
         assert foot.vertical_force[~missing] == pytest.approx(truth[~missing], abs=0.01)
         cop = foot.center_of_pressure(20.0)
-        assert cop is not None
         loaded = ~missing & (truth > 20.5)
         assert cop[loaded, 0] == pytest.approx(0.4 * 0.297)
         outward = 1.0 if side == "right" else -1.0
@@ -116,11 +115,11 @@ def test_two_insoles_with_dropouts(tmp_path, feet):
 )
 def test_ways_to_write_it(tmp_path, feet, options):
     path = tmp_path / "walk.txt"
-    export(path, feet, **options)  # type: ignore[arg-type]
+    export(path, feet, **options)
     recording = read_recording(path)
-    truth = feet["left"] @ (AREAS * float(options.get("factor", 1e4)))  # type: ignore[arg-type]
+    truth = feet["left"] @ (AREAS * float(options.get("factor", 1e4)))
     assert recording.feet["left"].vertical_force == pytest.approx(truth, abs=0.01)
-    assert recording.rate_hz == pytest.approx(float(options.get("rate", 100.0)))  # type: ignore[arg-type]
+    assert recording.rate_hz == pytest.approx(float(options.get("rate", 100.0)))
     if "header" in options:
         assert any("size 7) is assumed" in w for w in recording.warnings)
     if "total" in options:

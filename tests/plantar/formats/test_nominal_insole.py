@@ -30,7 +30,7 @@ def test_rows_of_a_wide_insole_end_in_two_of_five():
 
 def test_numbering_runs_heel_to_toe_and_medial_to_lateral():
     for side, medial in (("left", -1.0), ("right", 1.0)):
-        layout = nominal_insole("x", side)  # type: ignore[arg-type]
+        layout = nominal_insole("x", side)
         starts = np.concatenate([[0], np.cumsum(ROWS)])
         rows = [layout.positions[a:b] for a, b in itertools.pairwise(starts)]
         assert all(b[:, 0].min() > a[:, 0].max() for a, b in itertools.pairwise(rows))

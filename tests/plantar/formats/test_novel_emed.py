@@ -82,11 +82,9 @@ def test_a_step_with_its_forces(tmp_path, step):
     recording = read_recording(path)
     (foot,) = recording.feet.values()
     assert (len(recording.time), recording.rate_hz, recording.grid, recording.kind) == (30, 100.0, (95, 64), "platform")
-    assert foot.layout is not None
     assert foot.layout.areas == pytest.approx(25e-6)
     assert foot.vertical_force == pytest.approx(step.sum(axis=(1, 2)) * 1e3 * 25e-6)
     pressure = foot.pressure()
-    assert pressure is not None
     window = pressure.reshape(30, 95, 64)[:, 29:49, 25:37]
     assert window == pytest.approx(step * 1e3)
     assert pressure.sum() == pytest.approx(window.sum())
@@ -109,7 +107,7 @@ def test_a_step_with_its_forces(tmp_path, step):
 )
 def test_ways_to_write_it(tmp_path, step, options):
     path = tmp_path / "step.lst"
-    export(path, step, **options)  # type: ignore[arg-type]
+    export(path, step, **options)
     recording = read_recording(path)
     (foot,) = recording.feet.values()
     assert foot.vertical_force == pytest.approx(step.sum(axis=(1, 2)) * 0.025)

@@ -62,7 +62,7 @@ def pressures():
 
 
 def read_pa(path: Path, side: str) -> np.ndarray:
-    pressure = read_recording(path).feet[side].pressure()  # type: ignore[index]
+    pressure = read_recording(path).feet[side].pressure()
     assert pressure is not None
     return pressure
 
@@ -76,11 +76,10 @@ def test_two_insoles(tmp_path, pressures):
     assert np.abs(recording.time - time).max() < 1e-9
     for side, truth in zip(("left", "right"), pressures, strict=True):
         assert np.abs(read_pa(path, side) - truth * 1e3).max() < 1e-6
-        layout = recording.feet[side].layout  # type: ignore[index]
-        assert layout is not None
+        layout = recording.feet[side].layout
         assert layout.side == side
         assert layout.areas.mean() == pytest.approx(193e-6, rel=1e-3)
-        assert recording.feet[side].force == pytest.approx(truth * 1e3 * layout.areas)  # type: ignore[index]
+        assert recording.feet[side].force == pytest.approx(truth * 1e3 * layout.areas)
     assert any("nominal 99-cell insole of size Y" in w for w in recording.warnings)
 
 
@@ -110,7 +109,6 @@ def test_side_says_whose_the_first_columns_are(tmp_path, pressures, first):
     assert not any("which of the two insoles is which" in w for w in recording.warnings)
     for side, truth in zip((first, other_side(first)), pressures, strict=True):
         layout = recording.feet[side].layout
-        assert layout is not None
         assert recording.feet[side].force == pytest.approx(truth * 1e3 * layout.areas)
 
 
@@ -136,7 +134,7 @@ def test_side_is_not_used_where_the_file_knows(tmp_path, pressures):
 )
 def test_variants_hold_the_same_values(tmp_path, pressures, options):
     path = tmp_path / "walk.ASC"
-    export(path, *pressures, **options)  # type: ignore[arg-type]
+    export(path, *pressures, **options)
     recording = read_recording(path)
     assert recording.rate_hz == pytest.approx(options.get("rate", 100.0), rel=1e-3)
     for side, truth in zip(("left", "right"), pressures, strict=True):
@@ -185,7 +183,6 @@ def test_masked_cells_keep_their_places(tmp_path, pressures):
     cells = [1, 2, 3, 50, 98, 99]
     export(path, pressures[0][:, :6], pressures[1][:, :6], cells=cells)
     left = read_recording(path).feet["left"]
-    assert left.layout is not None
     assert left.layout.ids.tolist() == cells
     whole = nominal_insole("y", "left")
     assert left.layout.positions == pytest.approx(whole.positions[[c - 1 for c in cells]])
@@ -199,7 +196,6 @@ def test_the_size_is_taken_from_the_sensor(tmp_path, pressures, size, after):
     export(path, *pressures, sensor=size.upper() + after)
     recording = read_recording(path)
     right = recording.feet["right"]
-    assert right.layout is not None
     assert right.layout.areas == pytest.approx(CELL_AREAS[size])
     assert right.vertical_force == pytest.approx(pressures[1] @ CELL_AREAS[size] * 1e3)
     assert not any("assumed" in w for w in recording.warnings)
@@ -249,8 +245,6 @@ def test_layout_file_overrides_the_geometry(tmp_path, pressures):
     small = nominal_insole("u", "left")
     recording = read_recording(path, layout=small)
     left, right = recording.feet["left"], recording.feet["right"]
-    assert left.layout is not None
-    assert right.layout is not None
     assert left.layout.areas == pytest.approx(small.areas)
     assert right.layout.positions[:, 1] == pytest.approx(-small.positions[:, 1])
     assert not any("nominal" in w for w in recording.warnings)
@@ -291,7 +285,6 @@ def test_pliance_mat_with_its_own_geometry(tmp_path):
     recording = read_recording(tmp_path / "mat.asc")
     foot = recording.feet["left"]
     assert recording.rate_hz == pytest.approx(24.0)
-    assert foot.layout is not None
     assert foot.layout.areas == pytest.approx([2e-4] * 6)
     assert foot.force == pytest.approx(values * 1e3 * 2e-4)
     assert foot.layout.positions[0, :2] == pytest.approx([0.01, -0.005])

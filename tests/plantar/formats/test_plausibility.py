@@ -36,7 +36,6 @@ def test_a_usual_recording_is_not_doubted(rate, resolution):
 def test_cells_at_the_end_of_their_range_are_told():
     recording = steps()
     foot = recording.feet["left"]
-    assert foot.layout is not None
     clipped = np.minimum(foot.force, 50e3 * foot.layout.areas)
     (doubt,) = doubts(with_force(recording, clipped))
     assert "cells of the left foot stay at 50 kPa" in doubt
@@ -55,7 +54,6 @@ def test_cells_that_read_nothing_at_low_load_are_told(threshold, told):
     """Usual thresholds of vendors, up to an eighth of the high readings, move events by less than 20 ms."""
     recording = steps()
     foot = recording.feet["left"]
-    assert foot.layout is not None
     force = np.where(foot.force < threshold * foot.layout.areas, 0.0, foot.force)
     found = [doubt for doubt in doubts(with_force(recording, force)) if "reads between 0 and" in doubt]
     assert len(found) == told
@@ -80,7 +78,6 @@ def test_a_slow_sensor_is_told():
 def test_an_insole_that_is_too_slender_or_too_wide(wide, doubted):
     recording = steps()
     layout = recording.feet["left"].layout
-    assert layout is not None
     scale = np.array([1.0, wide])
     other = replace(layout, outline=layout.outline * scale)
     odd = replace(recording, feet={"left": replace(recording.feet["left"], layout=other)})

@@ -158,7 +158,7 @@ def bioware() -> str:
 )
 def test_text_of_laboratories(tmp_path, name, text, kind, sides):
     path = tmp_path / name
-    path.write_text(text())  # type: ignore[operator]
+    path.write_text(text())
     walk = analyse(path)
     check(walk, sides)
     assert walk.recording.kind == kind

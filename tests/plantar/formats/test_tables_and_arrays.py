@@ -64,13 +64,13 @@ def both(layout: SoleLayout, values: np.ndarray, unit: str = "[kPa]") -> dict[st
 )
 def test_two_feet_with_units(tmp_path, layout, values, options):
     path = tmp_path / "walk.csv"
-    write_csv(path, both(layout, values, "" if "comments" in options else "[kPa]"), **options)  # type: ignore[arg-type]
+    write_csv(path, both(layout, values, "" if "comments" in options else "[kPa]"), **options)
     assert detect_format(path).name == "csv"
     recording = read_recording(path, layout=layout)
     assert (recording.rate_hz, recording.raw) == (pytest.approx(100.0), False)
     assert recording.feet["left"].force == pytest.approx(values * 1e3 * layout.areas, rel=1e-4)
     assert recording.feet["right"].force == pytest.approx(2.0 * values * 1e3 * layout.areas, rel=1e-4)
-    assert recording.feet["right"].layout.side == "right"  # type: ignore[union-attr]
+    assert recording.feet["right"].layout.side == "right"
 
 
 def test_the_cells_are_found_by_their_ids(tmp_path, layout, values):
@@ -81,7 +81,6 @@ def test_the_cells_are_found_by_their_ids(tmp_path, layout, values):
     recording = read_recording(path, layout=layout)
     foot = recording.feet["left"]
     assert recording.rate_hz == pytest.approx(100.0)
-    assert foot.layout is not None
     assert foot.layout.ids.tolist() == layout.ids.tolist()[::-1]
     assert foot.force == pytest.approx(values[:, ::-1], rel=1e-4)
 

@@ -67,7 +67,6 @@ def test_an_insole(tmp_path, frames):
     assert (recording.rate_hz, recording.grid, recording.kind, recording.raw) == (100.0, (30, 11), "insole", False)
     assert foot.force.shape == (40, 30 * 11 - 4)
     assert foot.vertical_force == pytest.approx(np.nansum(frames, axis=(1, 2)) * 1e3 * 5.08e-3**2)
-    assert foot.layout is not None
     assert foot.layout.positions[0, 0] == pytest.approx(29.5 * 5.08e-3)  # the first row is the front
     assert foot.layout.positions[0, 1] == pytest.approx((5.5 - 4.5) * 5.08e-3)  # the fifth column, from the left
 
@@ -104,7 +103,7 @@ def test_other_sizes_sides_and_a_platform(tmp_path, frames):
     export(path, frames, name="walk_R.fsx", spacing=("0.2 in", "0.508 cm"), separator=",")
     recording = read_recording(path)
     assert list(recording.feet) == ["right"]
-    assert recording.feet["right"].layout.areas == pytest.approx(5.08e-3**2)  # type: ignore[union-attr]
+    assert recording.feet["right"].layout.areas == pytest.approx(5.08e-3**2)
     export(path, frames, name="walk.fsx")
     assert any("does not say which foot" in w for w in read_recording(path).warnings)
     assert list(read_recording(path, options=ReadOptions(side="right")).feet) == ["right"]
@@ -168,4 +167,4 @@ def test_the_real_insole(real_data):
     recording = read_recording(real_data / "recordings" / "fscan_walk_left.asf")
     assert (len(recording.time), recording.rate_hz, recording.grid) == (205, 31.25, (60, 21))
     assert list(recording.feet) == ["left"]
-    assert recording.feet["left"].layout.areas == pytest.approx(25.8064e-6)  # type: ignore[union-attr]
+    assert recording.feet["left"].layout.areas == pytest.approx(25.8064e-6)

@@ -86,11 +86,10 @@ def test_two_insoles_with_their_stated_loads(tmp_path, feet):
     assert (len(recording.time), recording.grid, recording.raw) == (60, (13, 5), False)
     assert recording.rate_hz == pytest.approx(75.0, rel=0.002)
     for side, truth in zip(("left", "right"), feet, strict=True):
-        foot = recording.feet[side]  # type: ignore[index]
+        foot = recording.feet[side]
         # the cells' area follows from the stated contact area: 0.86 cm is rounded
         assert foot.vertical_force == pytest.approx(truth.sum(axis=(1, 2)) * MMHG * 0.7412e-4, rel=1e-3)
         pressure = foot.pressure()
-        assert pressure is not None
         assert pressure.reshape(truth.shape) == pytest.approx(truth * MMHG, rel=1e-9)
 
 
@@ -109,11 +108,11 @@ def test_two_insoles_with_their_stated_loads(tmp_path, feet):
 )
 def test_ways_to_write_it(tmp_path, feet, options):
     path = tmp_path / "walk.csv"
-    export(path, feet, **options)  # type: ignore[arg-type]
+    export(path, feet, **options)
     recording = read_recording(path)
-    factor = float(options.get("factor", MMHG)) * float(options.get("true_area", 0.7412e-4))  # type: ignore[arg-type]
+    factor = float(options.get("factor", MMHG)) * float(options.get("true_area", 0.7412e-4))
     assert recording.feet["right"].vertical_force == pytest.approx(feet[1].sum(axis=(1, 2)) * factor, rel=1e-3)
-    assert recording.rate_hz == pytest.approx(1.0 / float(options.get("step", 1 / 75)), rel=0.01)  # type: ignore[arg-type]
+    assert recording.rate_hz == pytest.approx(1.0 / float(options.get("step", 1 / 75)), rel=0.01)
 
 
 def test_frames_without_times_lie_where_their_numbers_say(tmp_path, feet):
@@ -201,8 +200,7 @@ def test_the_real_walk_agrees_with_its_frame_headers(real_data):
             stated[sensor].append((float(value), area))
     checked = 0
     for side, name in (("left", "LF"), ("right", "RF")):
-        foot = recording.feet[side]  # type: ignore[index]
-        assert foot.layout is not None
+        foot = recording.feet[side]
         for i, (load, contact) in enumerate(stated[name]):
             if load > 50.0:
                 checked += 1

@@ -59,7 +59,7 @@ def test_named_components_are_those_of_the_array():
     assert (wrench.fx, wrench.fy, wrench.fz, wrench.tx, wrench.ty, wrench.tz) == (1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
     assert np.asarray(wrench).tolist() == [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]
     assert wrench.center_of_pressure == (-5.0 / 3.0, 4.0 / 3.0)
-    assert np.array_equal(wrench.center_of_pressure, zmp_in_plane(wrench))  # type: ignore[arg-type]
+    assert np.array_equal(wrench.center_of_pressure, zmp_in_plane(wrench))
     for unloaded in (0.0, -1.0, float("nan")):
         assert wrench._replace(fz=unloaded).center_of_pressure is None
     with pytest.raises(TypeError):

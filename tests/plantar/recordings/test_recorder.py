@@ -50,14 +50,11 @@ def test_mcap_library_reads_and_seeks_the_file(tmp_path):
     with (tmp_path / "run.mcap").open("rb") as stream:
         reader = make_reader(stream, validate_crcs=True)
         summary = reader.get_summary()
-        assert summary is not None
-        assert summary.statistics is not None
         assert summary.statistics.message_count == 600
         assert summary.statistics.chunk_count == len(summary.chunk_indexes) >= 4
         found = list(reader.iter_messages(topics=["/skin/left"], starting_at=10**9))
     assert [message.log_time for _, _, message in found] == [10**9 + i * 4_000_000 for i in range(250)]
     schema, _, message = found[0]
-    assert schema is not None
     assert (schema.encoding, schema.data) == ("ros2msg", b"float64[42] force")
     assert message.data[:4] == b"\x00\x01\x00\x00"
     assert len(message.data) == 4 + 42 * 8
@@ -143,7 +140,6 @@ def test_killed_writer_leaves_a_readable_file(tmp_path):
     )
     process = subprocess.Popen([sys.executable, "-c", code, str(path)], stdout=subprocess.PIPE, text=True)
     try:
-        assert process.stdout is not None
         assert process.stdout.readline() == "ready\n"
         time.sleep(0.02)
     finally:
@@ -264,7 +260,6 @@ def test_chunks_are_compressed(tmp_path):
             channel.write(0.005 * k, row)
     with (tmp_path / "run.mcap").open("rb") as stream:
         summary = make_reader(stream).get_summary()
-    assert summary is not None
     assert {c.compression for c in summary.chunk_indexes} == {"zstd"}
     sizes = np.array([(c.compressed_size, c.uncompressed_size) for c in summary.chunk_indexes]).sum(axis=0)
     assert sizes[0] < 0.75 * sizes[1]

@@ -54,7 +54,7 @@ def test_a_pace_is_a_beat_unless_motors_are_slow():
 
 
 def test_a_number_is_in_si_and_stays():
-    foot = Foot(force=70.0, time="2 beat").for_body(SMALL)  # type: ignore[arg-type]
+    foot = Foot(force=70.0, time="2 beat").for_body(SMALL)
     assert foot.force == 70.0
     assert foot.time == pytest.approx(2.0 * SMALL.beat)
     assert foot.stated == {
@@ -68,7 +68,7 @@ def test_a_number_is_in_si_and_stays():
     ("text", "value"), [("70 N", 70.0), ("0.2 weight", 0.2 * SMALL.weight), ("3/4 mass m/s^2", 2.25), ("0 N", 0.0)]
 )
 def test_a_text_names_its_unit(text, value):
-    assert Foot(force=text).for_body(SMALL).force == pytest.approx(value)  # type: ignore[arg-type]
+    assert Foot(force=text).for_body(SMALL).force == pytest.approx(value)
 
 
 @pytest.mark.parametrize(
@@ -116,7 +116,7 @@ def test_a_list_of_settings_says_share_and_number():
 
 @pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda s: pickle.loads(pickle.dumps(s))])
 def test_a_copy_keeps_body_and_shares(again):
-    foot = again(Foot().for_body(SMALL))  # type: ignore[operator]
+    foot = again(Foot().for_body(SMALL))
     assert foot.body == SMALL
     assert foot.for_body(REFERENCE_BODY) == Foot()
 

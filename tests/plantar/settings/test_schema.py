@@ -33,7 +33,7 @@ class Spring(Settings):
 
 
 def test_values_take_the_type_of_their_default():
-    spring = Spring(stiffness=3, coils=4.0)  # type: ignore[arg-type]
+    spring = Spring(stiffness=3, coils=4.0)
     assert (spring.stiffness, type(spring.stiffness)) == (3.0, float)
     assert (spring.coils, type(spring.coils)) == (4, int)
     assert Spring.from_table({"metal": "brass"}, "[spring]") == Spring(metal="brass")

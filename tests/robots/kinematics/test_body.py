@@ -15,7 +15,6 @@ from plantar.sides import SIDES
 def test_a_leg_is_as_long_as_thigh_and_shank(name):
     robot = load_robot(name)
     model = build_leg_model(robot).model
-    assert robot.biped is not None
     assert leg_length(robot, model) == pytest.approx(robot.biped.thigh_length + robot.biped.shank_length, abs=1e-6)
     body = body_of(robot, model)
     assert body.mass == pytest.approx(robot.biped.total_mass)

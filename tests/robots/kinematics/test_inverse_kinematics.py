@@ -67,9 +67,7 @@ def far_from_singular(build: Callable[..., Robot], seed: int) -> Robot:
 
 @settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(seed=st.integers(0, 10**6), floating=st.booleans(), size=st.floats(-2.0, 2.0), largest=st.floats(0.01, 0.5))
-def test_no_target_makes_a_step_too_large_or_leaves_a_limit(  # type: ignore[no-untyped-def]
-    random_robot, seed, floating, size, largest
-):
+def test_no_target_makes_a_step_too_large_or_leaves_a_limit(random_robot, seed, floating, size, largest):
     rng = np.random.default_rng(seed)
     model, data = random_robot(seed, limbs=2, joints=int(rng.integers(2, 8)), floating=floating)
     tasks = [PoseTask(model, data, model.site(f"{name}_end").id) for name in "ab"]
@@ -99,7 +97,7 @@ class AskedPose(PoseTask):
 
 @pytest.mark.parametrize("seed", range(6))
 @pytest.mark.parametrize("floating", [False, True])
-def test_a_kernel_takes_the_step_of_what_a_task_says(random_robot, floating, seed):  # type: ignore[no-untyped-def]
+def test_a_kernel_takes_the_step_of_what_a_task_says(random_robot, floating, seed):
     """Of all turns, also of more than a quarter, whose error the task writes itself."""
     ways, counts = [], []
     for kind in (PoseTask, AskedPose):
@@ -123,7 +121,7 @@ def test_a_kernel_takes_the_step_of_what_a_task_says(random_robot, floating, see
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_it_goes_where_mink_goes(random_robot, seed):  # type: ignore[no-untyped-def]
+def test_it_goes_where_mink_goes(random_robot, seed):
     mink = pytest.importorskip("mink")
     model, data = far_from_singular(random_robot, seed)
     goal, start = data.qpos.copy(), data.qpos.copy()
@@ -146,7 +144,7 @@ def test_it_goes_where_mink_goes(random_robot, seed):  # type: ignore[no-untyped
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_well_conditioned_steps_are_newtons(random_robot, seed):  # type: ignore[no-untyped-def]
+def test_well_conditioned_steps_are_newtons(random_robot, seed):
     model, data = far_from_singular(random_robot, seed)
     task = PoseTask(model, data, model.site("a_end").id)
     jacobian, error = np.empty((6, 6)), np.empty(6)
@@ -226,7 +224,7 @@ def test_what_is_straight_bends_again():
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_a_lower_level_does_not_move_the_upper(random_robot, seed):  # type: ignore[no-untyped-def]
+def test_a_lower_level_does_not_move_the_upper(random_robot, seed):
     """Two limbs of a floating robot: whatever is asked of one, the other and the CoM stay where they are."""
     model, data = random_robot(seed, limbs=2, joints=6, floating=True, limited=False)
     stays, goes = (PoseTask(model, data, model.site(f"{name}_end").id) for name in "ab")
@@ -243,7 +241,7 @@ def test_a_lower_level_does_not_move_the_upper(random_robot, seed):  # type: ign
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
-def test_a_target_that_is_no_number_moves_nothing(random_robot, bad):  # type: ignore[no-untyped-def]
+def test_a_target_that_is_no_number_moves_nothing(random_robot, bad):
     model, data = random_robot(0)
     task = PointTask(model, data, model.site("a_end").id)
     before, inverse = data.qpos.copy(), solver((model, data), [task])

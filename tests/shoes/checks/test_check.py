@@ -38,7 +38,7 @@ def test_a_good_shoe_passes(exported, failed):
         assert check.watertight
         assert check.min_wall_mm == pytest.approx(1.5, abs=0.01)  # the rail behind the connection board
         assert check.mass_g == pytest.approx(check.volume_cm3 * 1.01, abs=0.01)
-        assert check.size_mm[2] == pytest.approx(p.thickness + report.build.retention.top(p) - p.bottom, abs=0.01)  # type: ignore[union-attr]
+        assert check.size_mm[2] == pytest.approx(p.thickness + report.build.retention.top(p) - p.bottom, abs=0.01)
         assert check.printing[0].direction == "sole down"
         assert check.printing[0].overhang == 0.0
         assert check.mounting.gap == pytest.approx(p.clearance, abs=0.01)
@@ -47,7 +47,6 @@ def test_a_good_shoe_passes(exported, failed):
 
 def test_an_open_surface_fails(exported, failed):
     surface = exported[0].build.shoes[0].surface
-    assert surface is not None
     assert "watertight" in failed(surface=surface[5:])
     assert "watertight" in failed(surface=surface[:, ::-1])  # inside out
 
@@ -62,7 +61,6 @@ def test_two_bodies_fail(exported, failed, box):
 
 def test_another_volume_fails(exported, failed):
     surface = exported[0].build.shoes[0].surface
-    assert surface is not None
     assert "STL against STEP volume, %" in failed(surface=surface * 1.01)
     assert "STL against STEP volume, %" not in failed(surface=surface * 1.001)
 

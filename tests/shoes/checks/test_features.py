@@ -18,7 +18,7 @@ def missing(report: ShoeReport, cut: Block | None = None, add: Block | None = No
     surface = shoe.surface
     if cut is not None or add is not None:
         assert build.retention is not None
-        more = Step("add", "block", (add,)) if add is not None else Step("cut", "block", (cut,))  # type: ignore[arg-type]
+        more = Step("add", "block", (add,)) if add is not None else Step("cut", "block", (cut,))
         steps = (*shoe_steps(build.foot, shoe.plan, build.retention, build.parameters), more)
         surface = _polyhedron(_assembled(steps)).surface  # of several bodies, too
     assert surface is not None
@@ -35,7 +35,7 @@ def test_each_feature_is_missed_where_it_is_not_there(exported):
     behind = shapely.box(low_x - 60, low_y - 60, plan.heel.x - 0.1, high_y + 60)
     assert missing(report, cut=Block(behind, p.thickness + 1.0, p.rim_top + 5)) == {"rails at both ends of the board"}
     assert "shelf below the board" in missing(report, cut=Block(behind, 0.0, p.thickness - 0.2))
-    above = Block(everywhere, p.thickness + build.retention.top(p) - 3.5, p.rim_top + 60.0)  # type: ignore[union-attr]
+    above = Block(everywhere, p.thickness + build.retention.top(p) - 3.5, p.rim_top + 60.0)
     assert missing(report, cut=above) == {"bar above each slot"}
     pocket = plan.pockets[-1].buffer(-3.0)
     assert missing(report, add=Block(pocket, p.bottom, p.ceiling + 1.0)) >= {"pocket of each"}
@@ -55,7 +55,7 @@ def test_round_heels_have_their_rails(radius):
     build = build_shoe(foot_from_outline("a", outline), side="left", layout_only=True)
     plan, p = build.shoes[0].plan, build.parameters
     blocks, steps = wiring_steps(plan, p)
-    slot = steps[0].blocks[0].low  # type: ignore[union-attr]
+    slot = steps[0].blocks[0].low
     for post in blocks[1:]:
         assert isinstance(post, Block)
         behind = post.low.difference(slot) & plan.heel.placed(shapely.box(-30.0, -60.0, 0.0, 60.0))

@@ -34,7 +34,7 @@ def foot(box):
 @pytest.mark.parametrize("side", ["left", "right"])
 @pytest.mark.parametrize("gap", [0.5, 2.0])
 def test_gaps_are_those_of_the_tray(box, foot, side, gap):
-    found = check_mounting(foot, side, tray(box, gap), NONE, P)  # type: ignore[arg-type]
+    found = check_mounting(foot, side, tray(box, gap), NONE, P)
     assert found.gap == pytest.approx(gap, abs=1e-3)
     assert found.gap_on_the_way == pytest.approx(gap, abs=1e-3)
     assert found.play == pytest.approx(gap * np.sqrt(2.0), abs=1e-3)  # at the corners
@@ -63,6 +63,5 @@ def test_a_hole_in_the_floor_and_a_foot_above_it_are_told(box, foot):
     holed = np.concatenate([tray(box, 0.5), box((0, 100), (-40, 40), (P.bottom + 0.1, P.thickness - 0.01))[:, ::-1]])
     found = check_mounting(foot, "left", holed, NONE, P)
     assert found.support_share == pytest.approx(0.5, abs=1e-3)
-    assert foot.triangles is not None
     lifted = replace(foot, triangles=foot.triangles + np.array([0.0, 0.0, 0.4]))
     assert check_mounting(lifted, "left", tray(box, 0.5), NONE, P).floor_gap == pytest.approx(0.4)

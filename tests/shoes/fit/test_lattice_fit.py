@@ -18,7 +18,7 @@ WIDTH = math.sqrt(2 / math.sqrt(3))  # flat to flat of a hexagon of area 1
 
 
 def cells(fit: object) -> list[shapely.Polygon]:
-    return [shapely.Polygon(c) for c in fit.lattice.corners(fit.cells)]  # type: ignore[attr-defined]
+    return [shapely.Polygon(c) for c in fit.lattice.corners(fit.cells)]
 
 
 @pytest.mark.parametrize(("columns", "rows"), [(5, 4), (1, 1), (7, 2), (3, 3)])

@@ -21,7 +21,7 @@ from plantar.shoes.foot.foot import foot_from_dimensions, foot_from_outline
 def test_dimensions_out_of_range_are_refused(change):
     good = {"length": 0.2, "width": 0.1, "sole_center": (0.0, 0.0), "corner_radius": 0.01}
     with pytest.raises(FootError, match="foot of a"):
-        foot_from_dimensions("a", **(good | change))  # type: ignore[arg-type]
+        foot_from_dimensions("a", **(good | change))
 
 
 def test_an_outline_of_a_foots_size_is_a_foot():

@@ -29,7 +29,7 @@ Writer = Callable[..., Path]
     ],
 )
 def test_the_unit_is_found_and_stated(box, stl, scale, unit, note):
-    foot = foot_from_mesh(stl(box((-50, 150), (-40, 40), (10, 70)) * scale), unit=unit)  # type: ignore[arg-type]
+    foot = foot_from_mesh(stl(box((-50, 150), (-40, 40), (10, 70)) * scale), unit=unit)
     assert note in foot.notes
     assert foot.sole.bounds == pytest.approx((-50, -40, 150, 40), abs=2e-3)
     assert foot.height == pytest.approx(60, abs=1e-3)
@@ -51,7 +51,7 @@ def test_another_sole_plane_and_forward_axis_can_be_given(box, stl):
 def test_a_turned_foot_is_the_same_foot(prism, stl, forward):
     outline = np.array([[-60, -40], [120, -30], [140, 10], [110, 50], [-60, 35]], dtype=float)
     turn = {"x": [[1, 0], [0, 1]], "-x": [[-1, 0], [0, -1]], "y": [[0, -1], [1, 0]], "-y": [[0, 1], [-1, 0]]}[forward]
-    foot = foot_from_mesh(stl(prism(outline @ np.array(turn).T, 0, 50)), forward=forward)  # type: ignore[arg-type]
+    foot = foot_from_mesh(stl(prism(outline @ np.array(turn).T, 0, 50)), forward=forward)
     assert foot.sole.equals(shapely.Polygon(outline))
 
 
@@ -95,7 +95,7 @@ def test_bodies_that_are_no_foot_are_refused(box, stl):
     with pytest.raises(FootError, match="no surface in its lowest 5 mm"):
         foot_from_mesh(stl(box((0, 200), (0, 80), (0, 60))), sole_z=-500.0)
     with pytest.raises(InputError, match="allowed: x, -x, y, -y"):
-        foot_from_mesh(stl(box((0, 200), (0, 80), (0, 60))), forward="z")  # type: ignore[arg-type]
+        foot_from_mesh(stl(box((0, 200), (0, 80), (0, 60))), forward="z")
 
 
 def test_a_plate_is_a_foot_whichever_way_it_lies(box, stl):
@@ -148,7 +148,7 @@ def test_another_axis_may_point_up(prism, stl, up, axes):
     from plantar.shoes.foot.orientation import rotation_up
 
     standing = np.concatenate([prism(outline, 0, 20), prism(outline * 0.5, 20, 70)])
-    foot = foot_from_mesh(stl(standing @ rotation_up(up)), up=up)  # type: ignore[arg-type]
+    foot = foot_from_mesh(stl(standing @ rotation_up(up)), up=up)
     assert foot.sole.bounds == pytest.approx((-60, -40, 140, 50))
     assert any(f"the mesh's {up} axis points up, as given" in n for n in foot.notes)
 
@@ -177,7 +177,6 @@ def test_a_tilted_sole_is_levelled(box, stl):
     foot = foot_from_mesh(stl(body @ turn.T))
     assert foot.sole.bounds == pytest.approx((-50, -40, 150, 40), abs=0.01)
     assert any("tilted by 6.0 degrees" in n for n in foot.notes)
-    assert foot.triangles is not None
     assert np.ptp(foot.triangles[..., 2]) == pytest.approx(90.0, abs=0.01)
 
 
@@ -185,5 +184,4 @@ def test_what_touches_the_floor_is_told(generated_feet):
     from plantar.shoes.foot.foot_mesh import foot_from_triangles
 
     far = foot_from_triangles("a", generated_feet["far_patches"], where="a")
-    assert far.support is not None
     assert far.support.area == pytest.approx(80 * 90 + 100 * 100)

@@ -28,11 +28,11 @@ Shape = Callable[..., NDArray[np.float64]]
 def test_rotations_bring_their_axis_where_it_should_be(axis):
     direction = np.zeros(3)
     direction["xyz".index(axis[-1])] = -1.0 if axis[0] == "-" else 1.0
-    up = rotation_up(axis)  # type: ignore[arg-type]
+    up = rotation_up(axis)
     np.testing.assert_array_equal(up @ direction, [0, 0, 1])
     assert np.linalg.det(up) == pytest.approx(1.0)
     if axis[-1] != "z":
-        forward = rotation_forward(axis)  # type: ignore[arg-type]
+        forward = rotation_forward(axis)
         np.testing.assert_array_equal(forward @ direction, [1, 0, 0])
         np.testing.assert_array_equal(forward[2], [0, 0, 1])
         assert np.linalg.det(forward) == pytest.approx(1.0)

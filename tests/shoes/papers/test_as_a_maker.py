@@ -26,7 +26,7 @@ def bodies_of(path: Path) -> dict[str, tuple[str, Triangles]]:
     """Material and triangles (n, 3, 3) in mm of each named body of a 3MF package."""
     with zipfile.ZipFile(path) as package:
         root = ElementTree.fromstring(package.read("3D/3dmodel.model"))
-    space = re.match(r"\{.*\}", root.tag)[0]  # type: ignore[index]
+    space = re.match(r"\{.*\}", root.tag)[0]
     assert root.get("unit") == "millimeter"
     materials = [base.get("name", "") for base in root.iter(f"{space}base")]
     out = {}

@@ -59,7 +59,6 @@ def test_counts_and_lengths_are_those_of_the_files(exported):
     ):
         assert words in text, words
     total = re.search(r"(\d+) in all", text)
-    assert total is not None
     assert abs(float(total[1]) - sum(wires)) < 1.0
     told = {int(b) for line in re.findall(r"from \d+ ([^f]+)", text) for b in re.findall(r"(\d+) \(\d+\)", line)}
     assert told == {int(r["cell"]) for r in rows if r["from_cell"]}

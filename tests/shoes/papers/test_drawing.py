@@ -42,7 +42,6 @@ def test_a_reviewer_finds_datums_every_feature_tolerances_and_the_title(exported
         assert rows[f"pocket {number}"] == [f"{x:.2f}", f"{y:.2f}", "⌀0.3 A B C"]
     ports = [t for t in texts if t.startswith("port ") and "-" in t]
     assert len(ports) == len(plan.route)
-    assert report.build.retention is not None
     assert len([t for t in texts if t.startswith("lug, ")]) == len(report.build.retention.places)
     assert any(t.startswith("board slot") for t in texts)
     for detail in ("pocket and rib", "port", "lug", "slot of the board"):
@@ -66,7 +65,7 @@ def test_every_format_holds_the_drawing(exported, tmp_path):
     paths = draw_shoe(build.shoes[0], build, surface, [tmp_path / f"a.{e}" for e in ("pdf", "svg", "dxf")])
     assert paths[0].read_bytes().startswith(b"%PDF")
     assert "<!-- pocket 3 -->" in paths[1].read_text()
-    found = ezdxf.readfile(paths[2]).modelspace()  # type: ignore[attr-defined]
+    found = ezdxf.readfile(paths[2]).modelspace()
     assert {"OUTLINE", "HATCH", "HIDDEN", "CENTRE", "FOOT", "TEXT"} <= {e.dxf.layer for e in found}
     assert "pocket 3" in {t.dxf.text for t in found.query("TEXT")}
 

@@ -15,7 +15,6 @@ def test_moved_edges_keep_their_corners_and_lie_at_their_distance(points, distan
     hull = shapely.geometry.polygon.orient(shapely.MultiPoint(points).convex_hull.buffer(20, quad_segs=2))
     corners = ring(hull)
     moved = moved_edges(corners, distance)
-    assert moved is not None
     assert moved.shape == corners.shape
     for i in range(len(corners)):
         line = shapely.LineString([moved[i - 1], moved[i]])

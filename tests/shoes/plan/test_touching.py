@@ -61,7 +61,6 @@ def test_stiff_springs_touch_where_a_plate_rests_on_three():
 @pytest.mark.parametrize("mass", [4.0, 60.0])
 def test_the_pad_is_soft_enough_for_every_process(process, mass):
     build = build_shoe(replace(FOOT, mass=mass), layout_only=True, parameters=ShoeParameters(process=process))
-    assert build.touching is not None
     assert build.touching.holds()
     p = build.parameters
     rubber = replace(p, pad_foam=0.0, pad_thickness=2.0)

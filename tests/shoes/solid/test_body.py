@@ -73,7 +73,6 @@ def test_the_mark_lies_beside_what_rises_below_an_arch():
     steps = shoe_steps(foot, plan, choose_retention(foot, plan, p), p)
     assert bare_floor(steps) == floor
     other = bare_floor(tuple(mirrored_step(s) for s in steps))
-    assert other is not None
     assert other.equals(shapely.affinity.scale(floor, 1.0, -1.0, origin=(0.0, 0.0)))
     assert other.buffer(-3.9).covers(mark_outline(mirrored_plan(plan), p, "right", other))
     assert bare_floor(insole_steps(plan, p)) is None

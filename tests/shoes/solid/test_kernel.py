@@ -19,7 +19,6 @@ def test_the_solid_is_one_and_its_sections_are_the_plan(exported):
     p = report.build.parameters
     for shoe in report.build.shoes:
         solid, plan, surface = shoe.solid, shoe.plan, shoe.surface
-        assert solid is not None
         assert surface is not None
         low, high = solid.corners[:, 2].min(), solid.corners[:, 0].max()
         assert (low, high) == pytest.approx((p.bottom, plan.contact.bounds[2]), abs=0.01)
@@ -50,18 +49,15 @@ def test_the_surface_is_closed_and_points_outwards(exported):
     shoe = exported[0].build.shoes[0]
     assert shoe.surface is not None
     a, b, c = np.moveaxis(shoe.surface, 1, 0)
-    assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(shoe.solid.volume, rel=1e-6)  # type: ignore[union-attr]
+    assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(shoe.solid.volume, rel=1e-6)
     np.testing.assert_allclose(np.cross(b - a, c - a).sum(axis=0), 0.0, atol=1e-4)
 
 
 def test_the_sides_mirror_each_other_but_for_the_mark(small_foot):
     build = build_shoe(small_foot, parameters=ShoeParameters(mark_height=0.0))
     left, right = (shoe.solid for shoe in build.shoes)
-    assert left is not None
-    assert right is not None
     assert left.volume == pytest.approx(right.volume, rel=1e-6)
     marked = build_shoe(small_foot, side="left").shoes[0].solid
-    assert marked is not None
     assert 5.0 < left.volume - marked.volume < 200.0
 
 
@@ -89,5 +85,4 @@ def test_other_dimensions_give_another_solid(small_foot):
     p = ShoeParameters(floor=4.0, pad_thickness=0.0, rim_height=5.0, rim_thickness=1.5, retention="none", scribe=0.0)
     build = build_shoe(small_foot, side="left", parameters=replace(p, board_length=0.0, fillet=0.0, lead_in=0.0))
     shoe = build.shoes[0]
-    assert shoe.surface is not None
     assert np.ptp(shoe.surface[..., 2]) == pytest.approx(2.5 + 4.0 + 5.0)

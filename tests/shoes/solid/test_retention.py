@@ -27,10 +27,10 @@ def test_clips_reach_over_a_free_edge(plate):
     p = ShoeParameters()
     assert found.strain == pytest.approx(1.5 * p.clip_thickness * p.clip_hook / (18.0 + 2.5) ** 2, rel=0.02)
     steps = retention_steps(foot, plan, found, p)[1]
-    tops = [b.z_high for s in steps if s.name == "clips" for b in s.blocks]  # type: ignore[union-attr]
+    tops = [b.z_high for s in steps if s.name == "clips" for b in s.blocks]
     assert max(tops) == pytest.approx(p.thickness + found.top(p), abs=0.5)
-    hooks = [b for s in steps if s.name == "clips" for b in s.blocks if b.z_high > p.thickness + 18.0]  # type: ignore[union-attr]
-    assert any(b.low.intersection(plan.foot).area > p.clip_hook for b in hooks)  # type: ignore[union-attr]
+    hooks = [b for s in steps if s.name == "clips" for b in s.blocks if b.z_high > p.thickness + 18.0]
+    assert any(b.low.intersection(plan.foot).area > p.clip_hook for b in hooks)
 
 
 def test_straps_take_over_where_clips_cannot_hold(plate):
@@ -39,7 +39,7 @@ def test_straps_take_over_where_clips_cannot_hold(plate):
         ({"clip_height_max": 12.0}, "18 mm high, above clip_height_max"),
         ({"clip_thickness": 5.0, "clip_hook": 4.0, "material": "PLA"}, "PLA takes 1.5 %"),
     ):
-        found = choose_retention(foot, plan, ShoeParameters(**change))  # type: ignore[arg-type]
+        found = choose_retention(foot, plan, ShoeParameters(**change))
         assert found.kind == "straps"
         assert found.straps == 2
         assert reason in found.note
@@ -74,7 +74,7 @@ def test_what_is_asked_for_is_given(plate):
 )
 def test_clips_that_would_not_hold_or_not_snap_on_give_way_to_straps(box, height, size, change, reason):
     foot = foot_from_triangles("f", box((-0.4 * size, 0.6 * size), (-0.22 * size, 0.22 * size), (0, height)), where="f")
-    build = build_shoe(foot, cell_area=300.0, layout_only=True, parameters=ShoeParameters(**change))  # type: ignore[arg-type]
+    build = build_shoe(foot, cell_area=300.0, layout_only=True, parameters=ShoeParameters(**change))
     found = choose_retention(foot, build.shoes[0].plan, build.parameters)
     assert found.kind == "straps"
     assert reason in found.note

@@ -60,8 +60,7 @@ def test_robots_without_such_an_arm_are_refused(h1):
     with pytest.raises(SceneError, match=r"left_shoulder_roll at nan deg; allowed: -5 to 110"):
         WornArm(h1, "left", [0, float("nan"), 0, 0, 0, 0, 0])
     with pytest.raises(SceneError, match=r"\[arm\] posture"):
-        WornArm(h1, "left", ["bent"])  # type: ignore[list-item]
-    assert h1.arms is not None
+        WornArm(h1, "left", ["bent"])
     wrong = replace(h1, arms=Arms("h1-body", h1.arms.chest, {"left": "tail", "right": "tail"}))
     with pytest.raises(RobotError, match="left is 'tail'; machine 'h1-body' has no such link"):
         WornArm(wrong, "left")

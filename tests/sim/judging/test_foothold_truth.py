@@ -14,11 +14,11 @@ KEPT = ["step_adjustment=false"]  # steps keep their places and do not move for 
 
 
 @pytest.fixture(scope="module")
-def inner():  # type: ignore[type-arg]
+def inner():
     return run_scene(load_scene("partial-inner", ["settle=0.5"]), 1)
 
 
-def test_half_a_foothold_is_found_and_walked_over(inner):  # type: ignore[type-arg]
+def test_half_a_foothold_is_found_and_walked_over(inner):
     assert inner["completed"]
     assert inner["replans"] >= 1
     found, true = inner["footholds"]["area_ratio_found"], inner["footholds"]["area_ratio_true"]
@@ -82,11 +82,11 @@ def test_a_leaning_trunk_takes_load_off_the_hips():
         rolls = [i for i, name in enumerate(world.robot.legs["left"].joints) if name.endswith("hip_roll")]
         look = simulation.judge.update
 
-        def watch(*arguments, seen=torques, at=rolls, now=world, look=look):  # type: ignore[no-untyped-def]
+        def watch(*arguments, seen=torques, at=rolls, now=world, look=look):
             seen.append(np.abs(now.data.actuator_force[now.servos])[at + [i + 6 for i in at]].max())
             return look(*arguments)
 
-        simulation.judge.update = watch  # type: ignore[method-assign]
+        simulation.judge.update = watch
         assert simulation.run()["completed"]
         loads.append(float(np.percentile(torques, 90)))
     assert loads[1] < loads[0] - 4.0

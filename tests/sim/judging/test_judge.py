@@ -18,7 +18,7 @@ WAY = (0.2, -0.17, 0.0)
 
 def judge(pushed: tuple[float, ...] = (), *solids: Solid) -> Judge:
     made = object.__new__(Judge)
-    made.world = SimpleNamespace(body=SimpleNamespace(beat=0.25))  # type: ignore[assignment]
+    made.world = SimpleNamespace(body=SimpleNamespace(beat=0.25))
     made.ground = PlainGround(Ground(solids, 0.0, 0.8), {"left": SOLE, "right": SOLE}, 0.1)
     made._pushed = list(pushed)
     return made

@@ -186,7 +186,7 @@ def test_a_walk_that_is_cut_short_by_moving_its_steps_is_not_taken_over():
         walk.report(MovedStep(k, 0.0, step.y, 0.0, "tired"))
         walk.land(replace(step, x=0.0))
     assert walk.taken == 1
-    assert walk.goal.end({"left": [0.0, 0.0], "right": [0.0, 0.0]})[0][0] > 3.0  # type: ignore[dict-item]
+    assert walk.goal.end({"left": [0.0, 0.0], "right": [0.0, 0.0]})[0][0] > 3.0
 
 
 def test_a_strip_that_turns_away_is_followed_to_its_end():

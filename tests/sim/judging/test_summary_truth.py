@@ -42,7 +42,7 @@ class Watched(Simulation):
             self.moved += command.moved_steps
             return command
 
-        self.controller.step = kept  # type: ignore[method-assign]
+        self.controller.step = kept
 
     def step_physics(self) -> None:
         time, pushed = float(self.world.data.time), self.world.data.xfrc_applied[self.world.torso, :3].copy()
@@ -224,7 +224,6 @@ def planned_end(run: Watched, moved: dict[int, Any]) -> tuple[np.ndarray, float]
 
 def commanded_course(run: Watched) -> tuple[np.ndarray, float]:
     """Where the commands lead from the start, with the delays that a walk has: one step, and its start."""
-    assert run.velocities is not None
     timing = run.settings.timing
     step = timing.single_support + timing.double_support
     place, heading = planned_end(run, {})

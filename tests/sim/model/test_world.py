@@ -55,9 +55,9 @@ def test_the_sole_box_is_the_outline_s_rectangle_with_its_face_in_the_sole_plane
     mujoco.mj_kinematics(model, data)
     for side in ("left", "right"):
         geom = model.geom(f"{side}_sole_box")
-        center, half = world.robot.sole_rectangle(side)  # type: ignore[arg-type]
+        center, half = world.robot.sole_rectangle(side)
         assert geom.size[:2] == pytest.approx(half)
-        site = data.site(world.sole_sites[side]).xpos  # type: ignore[index]
+        site = data.site(world.sole_sites[side]).xpos
         box = data.geom(f"{side}_sole_box").xpos
         assert (box - site)[:2] == pytest.approx(center)
         assert box[2] - geom.size[2] == pytest.approx(site[2])

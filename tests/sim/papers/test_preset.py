@@ -39,13 +39,13 @@ def test_own_settings_count_after_the_paper():
     paper, settings = with_paper(["walk.confidence=1", "paper=K"], "push-step", "h1")
     assert paper == "K"
     assert settings.index("walk.confidence=0") < settings.index("walk.confidence=1")
-    assert open_scene("push-step", ["walk.confidence=1", "paper=K"]).walk.confidence == 1.0  # type: ignore[union-attr]
+    assert open_scene("push-step", ["walk.confidence=1", "paper=K"]).walk.confidence == 1.0
 
 
 def test_each_robot_has_its_own_times():
     for robot, single in (("h1", 0.9), ("hrp2kai", 1.4)):
-        assert open_scene("flat", ["paper=T"], robot).walk.single_support == single  # type: ignore[union-attr]
-        assert open_scene("flat", ["paper=T", f"robot={robot}"]).walk.single_support == single  # type: ignore[union-attr]
+        assert open_scene("flat", ["paper=T"], robot).walk.single_support == single
+        assert open_scene("flat", ["paper=T", f"robot={robot}"]).walk.single_support == single
 
 
 @pytest.mark.parametrize(

@@ -153,7 +153,6 @@ def test_a_joint_stands_off_by_its_encoder_s_error_and_reads_as_if_it_did_not():
     for simulation in (nominal, true):
         simulation.sensors.read_skins()
         read.append(simulation.sensors.read_body().joint_positions)
-    assert true.plant is not None
     off = true.plant.encoder_offsets
     # Both feet stand on the ground, so the joints cannot all go their own way: most of each error shows.
     moved = true.world.data.qpos[true.world.joint_qpos] - nominal.world.data.qpos[nominal.world.joint_qpos]

@@ -68,7 +68,6 @@ def scaled_h1(folder: Path, s: float, mass: float = 0.0) -> Path:
     """
     folder.mkdir(parents=True, exist_ok=True)
     h1 = load_robot("h1")
-    assert h1.biped is not None
     m, root = (mass / h1.biped.total_mass if mass else s**3), math.sqrt(s)
     (folder / "robot.xml").write_text(_model(h1, s, m), encoding="utf-8")
     for side in SIDES:

@@ -14,7 +14,6 @@ from plantar.sim.run.scene import load_scene
 def test_the_controller_knows_where_the_arm_is_that_feels():
     simulation = Simulation(load_scene("guide"), seed=2)
     skin, arm = simulation.settings.skin, simulation.arm
-    assert skin is not None
     assert arm is not None
     assert all(link.startswith("arm/left_") for link in skin.links)
     assert simulation.world.model.nv == simulation.legs.model.nv + 3  # the hand
@@ -25,7 +24,6 @@ def test_the_controller_knows_where_the_arm_is_that_feels():
     for link, (place, _) in reading.links.items():
         true = base.xmat.reshape(3, 3).T @ (simulation.world.data.body(link).xpos - base.xpos)
         assert place == pytest.approx(true, abs=1e-3)
-    assert reading.skin is not None
     assert not (reading.skin.force > skin.thresholds).any()
 
 
@@ -34,7 +32,6 @@ def test_a_force_on_the_arm_counts_where_the_arm_is():
     taxel as MuJoCo has them."""
     simulation = Simulation(load_scene("guide"), seed=2)
     controller, sensors, skin = simulation.controller, simulation.sensors, simulation.settings.skin
-    assert skin is not None
     sensors.read_skins()
     reading = sensors.read_body()
     state = controller.step(reading).state
@@ -54,7 +51,6 @@ def test_a_force_on_the_arm_counts_where_the_arm_is():
 def test_an_arm_that_moves_has_its_skin_beside_that_of_the_trunk():
     simulation = Simulation(load_scene("push-step", ["arm.side=left"]), seed=2)
     skin = simulation.settings.skin
-    assert skin is not None
     assert {"base", "arm/left_lower_arm"} < set(skin.links)
     assert simulation.arm is not None
     assert simulation.touched is not None

@@ -23,7 +23,7 @@ SKIN = box_skin()
 
 
 def hands(seed: int = 0, schedule: WalkSchedule = SCHEDULE, **given: object) -> HandPushes:
-    push = Push(**({"by": "hands", "impulse": 20.0, "duration": 0.1} | given))  # type: ignore[arg-type]
+    push = Push(**({"by": "hands", "impulse": 20.0, "duration": 0.1} | given))
     return hand_pushes(push, lambda: schedule, (FEET, STEPS), SKIN, REFERENCE_BODY, seed)
 
 
@@ -53,7 +53,6 @@ def test_a_push_may_come_anywhere_in_a_stride_and_in_any_direction():
 def test_a_named_place_is_one_on_the_skin_however_high_the_robot_stands(robot, place):
     simulation = Simulation(load_scene("push-height", [f"push.place={place}", "push.direction=left"], robot), 0)
     world, touched = simulation.world, simulation.touch
-    assert touched is not None
     for base in np.random.default_rng(0).uniform(0.3, 3.0, 50):  # the last bits of sums differ from one to the next
         world.data.qpos[2] = base
         mujoco.mj_forward(world.model, world.data)
@@ -114,7 +113,7 @@ def test_what_the_walk_has_no_room_for_is_refused(given, words):
     [{"direction": "step"}, {"cycle": 0.1}, {"repeat": 2}, {"small": 0.5}, {"place": "com"}, {"verdict": "steps"}],
 )
 def test_a_force_refuses_what_only_hands_do(given):
-    push: Settings = Push(impulse=10.0, **given)  # type: ignore[arg-type]
+    push: Settings = Push(impulse=10.0, **given)
     assert isinstance(push, Push)
     with pytest.raises(SceneError, match=f"{next(iter(given))} is for pushes by hands"):
         Pusher(push, SCHEDULE, 0)

@@ -35,7 +35,6 @@ def test_gyro_com_and_mass_are_found(robot):
 
 def test_encoder_offsets_put_the_feet_where_they_are():
     simulation = Simulation(load_scene("flat", ["walk.steps=2", "plant.encoder_offset=0.3"], "h1"), 2)
-    assert simulation.plant is not None
     true = simulation.plant.encoder_offsets
     summary = simulation.run()
     found = np.radians(summary["identified"]["encoder_offsets_deg"])

@@ -104,7 +104,6 @@ def test_a_scene_grows_with_the_robot():
     assert (beam.terrain.width, beam.terrain.start) == (pytest.approx(0.52 * 0.12), 0.2)
     assert (beam.walk.sideways, beam.walk.start) == pytest.approx((0.04, 2.0 * body.beat))
     turn = load_scene("turn").for_body(body).walk.velocities(0)
-    assert turn is not None
     assert turn.commands[0] == Velocity(turn=0.0495 * (1.0 / body.beat))
     shares = shares_of(beam)
     assert shares["terrain.width"] == {"share": "0.52 sole", "value": 0.0624, "unit": "m"}

@@ -38,7 +38,7 @@ def controllers_settings(text: str) -> list[str]:
 @pytest.mark.parametrize("name", builtin_scenes())
 def test_no_built_in_scene_holds_a_setting_of_the_controller(name):
     path = scene_file(name)
-    assert read_toml(path, ValueError, name)  # type: ignore[arg-type]
+    assert read_toml(path, ValueError, name)
     assert controllers_settings(path.read_text()) == []
 
 

@@ -87,7 +87,7 @@ def test_no_tick_moves_a_joint_by_more_than_a_tenth_of_a_radian(standing, seed):
         last = joints
 
 
-def _sensors(simulation: Simulation):  # type: ignore[no-untyped-def]
+def _sensors(simulation: Simulation):
     simulation.sensors.read_skins()
     return simulation.sensors.read_body()
 

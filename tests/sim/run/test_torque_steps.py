@@ -33,7 +33,7 @@ def torque_steps(scene: str, robot: str, settings: tuple[str, ...] = (), seed: i
         pressed[pressed] = data.efc_force[address[pressed]] > CARRIES
         points.append(sorted(map(tuple, data.contact.geom[: data.ncon][pressed].tolist())))
 
-    run.step_physics = step  # type: ignore[method-assign]
+    run.step_physics = step
     run.run()
     steps = np.abs(np.diff(np.array(torques), axis=0)) / limits
     quiet = np.ones(len(steps), bool)

@@ -20,12 +20,10 @@ def test_a_scene_without_touch_has_neither_skin_nor_bodies_for_it():
 def test_hands_come_with_a_skin_that_the_controller_knows_and_reads():
     simulation = Simulation(load_scene("push-step"), seed=2)
     skin, world = simulation.settings.skin, simulation.world
-    assert skin is not None
     base = world.model.body(world.model.body_rootid[world.torso]).name
     assert skin.links == (base,)
     assert world.model.nv == simulation.legs.model.nv + 4  # one hand, for the left and the right of one seed
     reading = simulation.sensors._read_now().skin
-    assert reading is not None
     assert reading.force.shape == (len(skin),)
     assert not (reading.force > skin.thresholds).any()
     assert np.isinf(reading.distance).all()

@@ -49,7 +49,6 @@ def test_a_velocity_and_a_table_of_them_exclude_each_other():
 def test_the_seed_draws_where_a_walk_wanders_to():
     walk = load_scene("wander").walk
     one, again, other = (walk.velocities(seed) for seed in (1, 1, 2))
-    assert one is not None
     assert one == again != other
     assert len(one.times) == 11
     assert one.commands[-1] is None

@@ -149,7 +149,7 @@ def test_unknown_names_and_bad_values_are_refused():
         {"dead": [len(LAYOUT)]},
     ):
         with pytest.raises(InputError):
-            SkinSensor(skin, SkinElectronics(**bad), rng)  # type: ignore[arg-type]
+            SkinSensor(skin, SkinElectronics(**bad), rng)
     with pytest.raises(InputError, match="random generator"):
         SkinSensor(skin)
 
@@ -172,7 +172,7 @@ class _CountingSkin:
 def sensor(**options: Any) -> tuple[SkinSensor, _CountingSkin]:
     skin = _CountingSkin()
     rng, proximity = options.pop("rng", None), options.pop("proximity", None)
-    return SkinSensor(skin, SkinElectronics(**{"noise_std_N": 0.0, **options}), rng, proximity), skin  # type: ignore[arg-type]
+    return SkinSensor(skin, SkinElectronics(**{"noise_std_N": 0.0, **options}), rng, proximity), skin
 
 
 def at(time: float) -> Any:

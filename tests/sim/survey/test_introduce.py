@@ -81,7 +81,6 @@ def test_the_check_names_what_is_spoilt(made, field, factor, shift, name, words)
     folder = made[2]
     text = (folder / "robot.toml").read_text()
     match = re.search(rf"^{field} = ([^#\n]*)", text, re.MULTILINE)
-    assert match is not None
     changed = factor * np.array(json.loads(match[1])) + np.array(shift)
     spoilt = folder / "spoilt.toml"
     spoilt.write_text(text.replace(match[0], f"{field} = {np.round(changed, 6).tolist()}", 1))

@@ -15,7 +15,7 @@ Rows = dict[Key, dict[str, str]]
 
 
 def search(limit: str = "impulse=10:60", grid: tuple[str, ...] = (), **options: object) -> LimitSearch:
-    plan = plan_from_texts("push", grid, limit=limit, **options)  # type: ignore[arg-type]
+    plan = plan_from_texts("push", grid, limit=limit, **options)
     assert isinstance(plan, LimitSearch)
     return plan
 
@@ -42,7 +42,7 @@ def finished(plan: LimitSearch, tell: Callable[[Run], dict[str, str]], workers: 
                 break
             more = run != "end"
             if more:
-                running.append(run)  # type: ignore[arg-type]
+                running.append(run)
         if running:
             ended = running.pop(chance.randrange(len(running)))
             rows[key_of(*ended)] = tell(ended)
@@ -176,7 +176,7 @@ def test_shares_of_a_body_and_whole_numbers_are_searched_as_such():
 )
 def test_bad_searches_are_refused_before_the_first_run(options, words):
     with pytest.raises(PlantarError) as caught:
-        plan_from_texts("push", **options)  # type: ignore[arg-type]
+        plan_from_texts("push", **options)
     assert words in str(caught.value)
     assert "\n" not in str(caught.value)
 
@@ -188,8 +188,8 @@ def test_random_points_follow_from_their_seed_and_more_may_be_added():
     some, all_of_them = list(few.runs({})), list(many.runs({}))
     assert all_of_them[:10] == some
     assert some[0][0][1:] == some[1][0][1:]  # the same point with and without feedback
-    impulses = [float(point[1].partition("=")[2]) for point, _ in all_of_them if point]  # type: ignore[misc]
+    impulses = [float(point[1].partition("=")[2]) for point, _ in all_of_them if point]
     assert 10.0 <= min(impulses) < 15.0
     assert 55.0 < max(impulses) <= 60.0
     with pytest.raises(InputError, match="no setting"):
-        type(few)(few.sweep, ())  # type: ignore[call-arg,union-attr,arg-type]
+        type(few)(few.sweep, ())

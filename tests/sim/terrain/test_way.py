@@ -13,7 +13,7 @@ from plantar.sim.terrain import Relief, Slopes, Stairs
 from ..test_terrain import feet, height_of
 
 
-def placed(steps: int, length: float, heading: float = 0.0):  # type: ignore[no-untyped-def]
+def placed(steps: int, length: float, heading: float = 0.0):
     """Footprints of a walk whose places are `length` apart, turned by a heading."""
     planned = feet(steps, length)
     c, s = math.cos(heading), math.sin(heading)

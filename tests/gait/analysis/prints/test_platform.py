@@ -77,7 +77,7 @@ def walkway(
     ],
 )
 def test_a_walkway(options):
-    recording, truth = walkway(**options)  # type: ignore[arg-type]
+    recording, truth = walkway(**options)
     told, prints = separated_feet(recording)
     assert [(p.side, round(float(told.time[p.begin]), 1)) for p in prints] == [(s, round(t, 1)) for s, t in truth]
     feet = analyse_feet(told, prints)
@@ -111,7 +111,6 @@ def test_a_single_footprint_tells_its_side_by_its_shape(first, reverse):
     assert [p.side for p in prints] == [first]
     assert any(f"taken as the {first} one from the footprint's shape" in w for w in told.warnings)
     data = player_data(told, analyse_feet(told, prints))
-    assert data is not None
     assert len(data["feet"][0]["cells"]) < 400  # not the whole platform
 
 

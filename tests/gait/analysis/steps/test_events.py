@@ -24,7 +24,6 @@ def test_half_sine_contacts_are_timed_between_samples(rate):
     contacts = find_contacts(time, force)
     assert len(contacts) == 5
     levels = force_levels(force)
-    assert levels is not None
     late = 0.6 / np.pi * np.arcsin(levels.release / 700.0)  # where the half sine crosses the level
     for i, contact in enumerate(contacts):
         assert contact.heel_strike == pytest.approx(i + 0.2 + late, abs=0.25 / rate)
@@ -80,8 +79,6 @@ def test_levels_do_not_depend_on_how_long_someone_stands(stands):
     alone = force_levels(force)
     before = np.concatenate([np.full(round(stands * 100.0), 350.0), force])
     found = force_levels(before)
-    assert alone is not None
-    assert found is not None
     assert (found.peak, found.release) == pytest.approx((alone.peak, alone.release), rel=1e-9)
     assert sum(c.complete for c in find_contacts(np.arange(len(before)) * 0.01, before)) == 5
 
@@ -91,8 +88,6 @@ def test_a_single_leap_does_not_raise_the_levels_of_a_walk():
     leap = force.copy()
     leap[500:600] *= 4.0
     before, after = force_levels(force), force_levels(leap)
-    assert before is not None
-    assert after is not None
     assert after.release == pytest.approx(before.release, rel=0.01)
 
 
@@ -182,10 +177,10 @@ def test_one_damaged_frame_is_not_a_peak():
 @pytest.mark.parametrize("seed", range(5))
 def test_noisy_robot_soles_land_within_10_ms(walk, clip, seed):
     made = walk(steps=20, noise=1.4715, clip=clip, seed=seed)
-    for side, foot in made.recording.feet.items():  # type: ignore[attr-defined]
-        contacts = find_contacts(made.recording.time, foot.vertical_force)  # type: ignore[attr-defined]
+    for side, foot in made.recording.feet.items():
+        contacts = find_contacts(made.recording.time, foot.vertical_force)
         landings = [c.heel_strike for c in contacts if c.heel_strike is not None]
-        truth = made.touchdowns[side]  # type: ignore[attr-defined]
+        truth = made.touchdowns[side]
         assert len(landings) == len(truth) == 10
         assert np.abs(np.array(landings) - truth).max() < 0.010
         assert sum(c.complete for c in contacts) == 9  # the last contact stands until the end

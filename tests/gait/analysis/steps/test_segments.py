@@ -32,7 +32,7 @@ def stand(seconds: float = 10.0) -> list[np.ndarray]:
 
 def analysed(*parts: list[np.ndarray], **more: object) -> Analysis:
     left, right = (np.concatenate([part[i] for part in parts]) for i in (0, 1))
-    return analyse({"left": left, "right": right, "unit": "N"}, rate_hz=RATE, **more)  # type: ignore[arg-type,return-value]
+    return analyse({"left": left, "right": right, "unit": "N"}, rate_hz=RATE, **more)
 
 
 def test_a_stop_between_walks_is_no_step():

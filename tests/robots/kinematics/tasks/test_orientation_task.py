@@ -8,12 +8,12 @@ from plantar.robots.kinematics.tasks.pose_task import OrientationTask
 
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("floating", [False, True])
-def test_its_jacobian_is_the_derivative_of_its_error(random_robot, differentiate, seed, floating):  # type: ignore[no-untyped-def]
+def test_its_jacobian_is_the_derivative_of_its_error(random_robot, differentiate, seed, floating):
     model, data = random_robot(seed, limbs=2, joints=4, floating=floating)
     differentiate(model, data, OrientationTask(model, data, model.body("a2").id))
 
 
-def test_its_error_turns_the_body_into_the_target(random_robot):  # type: ignore[no-untyped-def]
+def test_its_error_turns_the_body_into_the_target(random_robot):
     model, data = random_robot(1, floating=True)
     task, out = OrientationTask(model, data, model.body("root").id), np.empty(3)
     task.target = rotation_from_vector(np.array([0.5, -1.0, 2.0]))

@@ -7,12 +7,12 @@ from plantar.robots.kinematics.tasks.pose_task import PoseTask
 
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("floating", [False, True])
-def test_its_jacobian_is_the_derivative_of_its_error(random_robot, differentiate, seed, floating):  # type: ignore[no-untyped-def]
+def test_its_jacobian_is_the_derivative_of_its_error(random_robot, differentiate, seed, floating):
     model, data = random_robot(seed, limbs=2, joints=4, floating=floating)
     differentiate(model, data, PoseTask(model, data, model.site("b_end").id))
 
 
-def test_its_error_is_way_and_turn_in_the_world_frame(random_robot):  # type: ignore[no-untyped-def]
+def test_its_error_is_way_and_turn_in_the_world_frame(random_robot):
     model, data = random_robot(2)
     task, out = PoseTask(model, data, model.site("a_end").id), np.empty(6)
     turn = np.array([0.002, -0.001, 0.003])

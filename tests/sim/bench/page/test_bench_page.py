@@ -101,7 +101,6 @@ def test_what_is_not_good_is_reported():
 
 def test_an_approximation_is_no_rival_and_the_fastest_of_others_is():
     row = re.search(r'<th scope="row">hull \+ area, 20</th>(.*?)</tr>', bench_page(RESULT))
-    assert row is not None
     assert "shapely, ready" in row[1]
     assert "40 ×" in row[1]
 
