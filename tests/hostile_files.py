@@ -16,8 +16,6 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["COMMANDS", "DEFECTS_OF_ANY", "FAMILIES"]
-
 Content = bytes | str | Callable[[Path], object]
 """A file's content, or a function that makes the file."""
 

@@ -30,8 +30,6 @@ from plantar.sim.run.setting_list import settings_of_robot
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
 DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *PAGES, *sorted((ROOT / "benchmarks").glob("*.md"))]
-FOLLOWED = {"start", "questions", "concepts", "index"}
-"""Pages that test_site.py follows, as the tutorials; the front page shows a file that a reader has."""
 
 COMMANDS = typer.main.get_command(cli.app).commands
 
@@ -204,9 +202,6 @@ def write_study(folder: Path) -> None:
             np.savez(file, time=walk.time, unit="N", left=left, right=right)
             rows.append(f"{condition}{person}.npz,P{person},{condition}")
     (folder / "table.csv").write_text("\n".join(rows) + "\n")
-
-
-RUN = ("shoes", "robots", "companion", "simulation", "scenes")
 
 
 def shown(page: str) -> list[object]:

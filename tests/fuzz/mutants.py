@@ -20,8 +20,6 @@ from plantar.errors import PlantarError
 
 from .targets import TARGETS, Target
 
-__all__ = ["CASES", "Failure", "mutant", "read_all", "tried"]
-
 CASES = Path(__file__).parent / "cases"
 _LONGEST = 10.0
 _WORDS = (b"0", b"-1", b"1e308", b"nan", b"inf", b"99999999999", b"\xff" * 8, bytes(8), b"\n", b",", b'"', b"<", b"=")

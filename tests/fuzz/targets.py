@@ -27,8 +27,6 @@ from plantar.viewer.walk import read_walk
 
 from ..plantar.viewer.small_walk import soles, write_walk
 
-__all__ = ["TARGETS", "Target"]
-
 
 class Target(NamedTuple):
     """A reader under test.

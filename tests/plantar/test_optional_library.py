@@ -4,14 +4,11 @@ import importlib
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
 
 import pytest
 
 from plantar.errors import DependencyError
 from plantar.optional_library import need_libraries, optional_library
-
-Load = Callable[[str], None]
 
 INTERRUPTED = """
 import os, signal

@@ -6,8 +6,6 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["FAMILY", "REFUSED", "TURNS", "box", "loft", "oval", "prism", "rounded", "small_turns", "turned"]
-
 Triangles = NDArray[np.float64]
 
 TURNS = 50

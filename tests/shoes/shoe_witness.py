@@ -15,8 +15,6 @@ import trimesh
 from numpy.typing import NDArray
 from scipy.ndimage import label
 
-__all__ = ["Witness"]
-
 Array = NDArray[np.float64]
 
 

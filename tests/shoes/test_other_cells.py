@@ -3,7 +3,6 @@
 import csv
 import json
 import sys
-from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -16,7 +15,6 @@ from plantar.shoes.cells.cell import read_cell
 from .foot_family import prism
 from .shoe_witness import Witness
 
-Shape = Callable[..., np.ndarray]
 OWN = """shape = "rectangle"
 length = 26.0
 width = 14.0

@@ -20,8 +20,6 @@ from plantar.layouts.layout import Side
 PERIOD = 0.005
 LANDING = Landing()
 
-GAINS = (ComplianceGains(), TouchdownGains(), GroundMapSettings())
-
 
 def taken(steps: Sequence[Footstep], phase: Phase) -> Footstep | None:
     return steps[phase.step] if phase.swing is not None else None

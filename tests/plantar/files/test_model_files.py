@@ -1,8 +1,6 @@
 """A robot reads nothing but what came with it, unless the user says so; models of any shape are refused in one line."""
 
 import os
-from collections.abc import Callable
-from contextlib import AbstractContextManager
 from pathlib import Path
 
 import pytest
@@ -10,8 +8,6 @@ import pytest
 from plantar.errors import RobotError
 from plantar.files.model_files import VARIABLE, check_model, folders_of_model, mesh_of_urdf, named_file, parsed_model
 from plantar.files.xml_file import parse_xml
-
-Within = Callable[..., AbstractContextManager[None]]
 
 
 @pytest.fixture

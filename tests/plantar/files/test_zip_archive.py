@@ -3,7 +3,6 @@
 import io
 import zipfile
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +12,6 @@ from plantar.errors import FormatError
 from plantar.files.zip_archive import open_archive
 from plantar.formats import ReadOptions, read_recording
 
-Within = Callable[..., AbstractContextManager[None]]
 SIDE = ReadOptions(side="left")
 
 

@@ -4,8 +4,6 @@ import os
 import struct
 import sys
 import zlib
-from collections.abc import Callable
-from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +17,6 @@ from plantar.formats import ReadOptions, formats, read_recording
 from plantar.formats.footprint_image import read_footprints
 from plantar.recordings.recording import read_mcap
 
-Within = Callable[..., AbstractContextManager[None]]
 linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="pipes and devices as on Linux")
 
 # --- what is no file ------------------------------------------------------------------------------------------------

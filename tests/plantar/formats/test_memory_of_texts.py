@@ -1,7 +1,6 @@
 """Text exports are read in memory once, and files that would make much of little are refused at once."""
 
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import AbstractContextManager
 
 import numpy as np
 import pytest
@@ -10,8 +9,6 @@ from plantar.errors import FormatError
 from plantar.formats import ReadOptions, read_recording
 from plantar.formats.text import blocks_of_lines, open_text
 from plantar.recordings.frame_table import FrameTable
-
-Within = Callable[..., AbstractContextManager[None]]
 
 TEKSCAN = (
     "DATA_TYPE MOVIE\nROWS {}\nCOLS {}\nROW_SPACING 5 mm\nCOL_SPACING 5 mm\nSECONDS_PER_FRAME 0.01\nUNITS KPa\n"

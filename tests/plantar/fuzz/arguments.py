@@ -19,8 +19,6 @@ from plantar.geometry.outline import Outline
 
 from .public_calls import Argument, Call
 
-__all__ = ["MEMBERS", "complaint", "same_answer"]
-
 Array = NDArray[Any]
 _ROUNDING = 1e-13  # of an answer's largest number
 Draw = Callable[[Array, np.random.Generator], Any]

@@ -14,8 +14,6 @@ from plantar.bench.references import exact_hull, turn
 from plantar.geometry.polygon import convex_hull
 from plantar.layouts.hex_lattice import HexLattice
 
-__all__ = ["ExactRing", "chamfered_rectangle", "convex_ring", "dirty_ring", "vanishing_depths"]
-
 Array = NDArray[np.float64]
 Corner = tuple[Fraction, Fraction]
 _RESOLVED = Fraction(1, 10**11)

@@ -15,8 +15,6 @@ from plantar.sensing import force, ground_plane, proximity, temperature, virtual
 from .shapes import strictly_convex
 from .soles import Block, check, differing, not_finite, numbers, unit_wrenches
 
-__all__ = ["MEMBER_CHECKS"]
-
 Array = NDArray[np.float64]
 _SUM = 1e-14
 """Allowed error of a sum of up to 51 terms, over the sum of their absolute values."""

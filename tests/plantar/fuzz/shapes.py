@@ -12,8 +12,6 @@ from plantar.geometry.outline import concave_outline, feet_outline
 
 from .soles import Block, numbers
 
-__all__ = ["SHAPE_CHECKS", "strictly_convex"]
-
 SHAPES = {
     "inscribed_triangle_in_sole": inscribed.inscribed_triangle,
     "inscribed_parallelogram_in_sole": inscribed.inscribed_parallelogram,

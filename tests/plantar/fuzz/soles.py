@@ -19,8 +19,6 @@ from plantar.percepts.percept import Percept
 from plantar.percepts.sole_pose import SolePose
 from plantar.sensing.reading import Reading
 
-__all__ = ["Block", "block_of", "check", "differing", "not_finite", "numbers", "stress_soles", "unit_wrenches"]
-
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 

@@ -1,15 +1,11 @@
 """Random robots for kinematics: chains of hinges, fixed or floating, one limb or two."""
 
-from collections.abc import Callable
-
 import mujoco
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from plantar.robots.kinematics.tasks.task import Task
-
-Robots = Callable[..., tuple[mujoco.MjModel, mujoco.MjData]]
 
 
 def _text(values: NDArray[np.float64]) -> str:

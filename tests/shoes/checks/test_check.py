@@ -1,18 +1,14 @@
 """Tests of the checks: each holds on a good shoe and fails on one that is broken in its way."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 import shapely
-from numpy.typing import NDArray
 
 from plantar.shoes.checks.check import check_shoe, corner_errors
 from plantar.shoes.solid.step_model import read_step
-
-Shape = Callable[..., NDArray[np.float64]]
 
 
 @pytest.fixture(scope="module")

@@ -1,7 +1,5 @@
 """Tests of printability: overhangs, bridges, directions and the bed."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -13,7 +11,6 @@ from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.solid.pad import taxel_surfaces
 from plantar.shoes.solid.polyhedron import volume_of
 
-Shape = Callable[..., NDArray[np.float64]]
 P = ShoeParameters()
 
 

@@ -1,22 +1,16 @@
 """Tests of feet from a surface: units, sole plane, frames, and bodies that are no foot."""
 
 import json
-from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
 import shapely
 import trimesh
-from numpy.typing import NDArray
 
 from plantar.errors import FootError, InputError
 from plantar.shoes.foot.foot_mesh import foot_from_mesh, foot_from_triangles
 
 from ..foot_family import rounded
-
-Shape = Callable[..., NDArray[np.float64]]
-Writer = Callable[..., Path]
 
 
 @pytest.mark.parametrize(

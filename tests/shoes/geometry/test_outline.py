@@ -1,11 +1,8 @@
 """Tests of outlines: a sole's, of any number of patches."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 import shapely
-from numpy.typing import NDArray
 
 from plantar.errors import FootError
 from plantar.shoes.geometry.outline import (
@@ -17,8 +14,6 @@ from plantar.shoes.geometry.outline import (
     single_outline,
     tidy,
 )
-
-Shape = Callable[..., NDArray[np.float64]]
 
 
 def test_the_outline_of_a_box_is_its_rectangle(box):

@@ -1,17 +1,13 @@
 """Tests of sections and of wall thickness measured in them."""
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 import pytest
 import shapely
 import trimesh
-from numpy.typing import NDArray
 
 from plantar.shoes.geometry.section import cut_segments, section, section_along, thinnest_wall, wall_thickness
-
-Shape = Callable[..., NDArray[np.float64]]
 
 
 @pytest.fixture

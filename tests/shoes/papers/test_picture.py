@@ -1,14 +1,10 @@
 """Tests of the renderer: what is in front is seen, where it is, in its colour."""
 
-from collections.abc import Callable
-
 import numpy as np
-from numpy.typing import NDArray
 
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.papers.picture import draw_preview, render
 
-Shape = Callable[..., NDArray[np.float64]]
 RED, GREEN = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 
 

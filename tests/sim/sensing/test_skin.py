@@ -18,7 +18,6 @@ MASS = 43.0
 HALF = np.array([0.125, 0.0775])
 OUTLINE = HALF * [[-1, -1], [1, -1], [1, 1], [-1, 1]]
 LAYOUT = hex_layout(OUTLINE)
-WHOLE = [(float(x), float(y)) for x, y in OUTLINE]
 PLANE = "<geom name='floor' type='plane' size='2 2 0.1'/>"
 
 
