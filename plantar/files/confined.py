@@ -28,15 +28,10 @@ _STARTING = 10.0  # s that starting the process may take on a busy machine
 def confined(
     function: str, path: str | os.PathLike[str], error: type[PlantarError], what: str, memory: float, seconds: float
 ) -> dict[str, NDArray[Any]]:
-    """Returns arrays of a function called on a file in a separate process.
+    """Returns arrays of a `function`, "package.module:name", called on `path` in a separate process.
 
-    Args:
-        function: "package.module:name"; takes the path, returns arrays by name.
-        path: File.
-        error: Class if the function raises, crashes or passes a limit.
-        what: Expected file, for messages, such as "a C3D file".
-        memory: Allowed bytes of data.
-        seconds: Processor time in s; as much again to wait.
+    It takes the path and returns arrays by name. Raises `error` if it raises, crashes or passes a limit: `memory` in
+    bytes, processor time `seconds` (as much again to wait); `what` is the expected file, such as "a C3D file".
 
     Example:
         >>> confined("os.path:getsize", "none", PlantarError, "a file", memory=1e9, seconds=10.0)

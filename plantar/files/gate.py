@@ -72,13 +72,9 @@ HELPERS: Mapping[str, Helper] = {
 def read_apart(
     kind: str, path: str | os.PathLike[str], error: type[PlantarError], size: int | None = None
 ) -> dict[str, NDArray[Any]]:
-    """Returns arrays of a file, read in a separate process.
+    """Returns arrays of the file at `path`, read in a separate process by the helper of a `kind` of HELPERS.
 
-    Args:
-        kind: Of HELPERS.
-        path: File.
-        error: Class if unreadable, or reading crashes or passes a limit.
-        size: Bytes of a folder; None for a single file.
+    Raises `error` if unreadable, or reading crashes or passes a limit; `size` is a folder's in bytes, None for a file.
 
     Example:
         >>> read_apart("image", "/dev/zero", PlantarError)

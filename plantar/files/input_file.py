@@ -35,13 +35,10 @@ def is_file(path: Name) -> bool:
 
 
 def check_input(path: Name, error: type[PlantarError], most: float | None = None, where: str | None = None) -> int:
-    """Returns size in bytes of a file that a library opens itself.
+    """Returns size in bytes of the file at `path` that a library opens itself.
 
-    Args:
-        path: File.
-        error: Class if unreadable, no regular file, or too large.
-        most: Largest size in bytes, or None.
-        where: Message's beginning; the path where None.
+    Raises `error` if unreadable, no regular file, or larger than `most` bytes; `where` begins the message, else the
+    path.
 
     Example:
         >>> from plantar.errors import FormatError

@@ -46,13 +46,9 @@ _OWN = Path(__file__).resolve().parents[1]
 
 
 def named_file(path: Path, folders: tuple[Path, ...], error: type[PlantarError], where: str) -> Path:
-    """Returns path of a file named by another, if its place is allowed.
+    """Returns path of a file named by another, if it lies in `folders`, links followed, or below.
 
-    Args:
-        path: File.
-        folders: Allowed, with subfolders.
-        error: Class for other places, links followed.
-        where: Message's beginning: what names it.
+    Else raises `error`, its message beginning with `where`: what names it.
 
     Example:
         >>> named_file(Path("/etc/passwd"), (Path("/robots/mine"),), PlantarError, "robot.toml")
@@ -95,13 +91,9 @@ def folders_of_model(file: Path) -> tuple[Path, ...]:
 
 
 def mesh_of_urdf(file: Path, name: str, error: type[PlantarError], where: str) -> Path:
-    """Returns path, perhaps missing, of a URDF's mesh; `package://` is found in the folders above the file.
+    """Returns path, perhaps missing, of mesh `name` of a URDF `file`; `package://` is found in the folders above it.
 
-    Args:
-        file: URDF.
-        name: Mesh's name.
-        error: Class for forbidden places.
-        where: Message's beginning.
+    Raises `error`, its message beginning with `where`, for forbidden places.
 
     Example:
         >>> mesh_of_urdf(Path("/robots/mine/mine.urdf"), "foot.stl", PlantarError, "mine.urdf").as_posix()
@@ -124,11 +116,9 @@ def mesh_of_urdf(file: Path, name: str, error: type[PlantarError], where: str) -
 
 
 def parsed_model(file: Path, error: type[PlantarError]) -> Element:
-    """Returns outermost element of an MJCF or URDF, with MJCF includes in place.
+    """Returns outermost element of an MJCF or URDF `file`, with MJCF includes in place.
 
-    Args:
-        file: Model.
-        error: Class if a file is unreadable, no XML, included twice, or in a forbidden place.
+    Raises `error` if a file is unreadable, no XML, included twice, or in a forbidden place.
 
     Example:
         >>> parsed_model(Path("none.xml"), PlantarError)

@@ -38,10 +38,7 @@ _UNITS = {"": 1.0, "K": 2.0**10, "M": 2.0**20, "G": 2.0**30}
 def check_model_size(root: Element, error: type[PlantarError], where: str) -> None:
     """Refuse models with more parts than any robot, replicas counted, or too much table memory.
 
-    Args:
-        root: Outermost element, includes in place.
-        error: Class if it passes a limit.
-        where: Message's beginning.
+    Raises `error`, its message beginning with `where`; `root` is the outermost element, includes in place.
 
     Example:
         >>> from plantar.files.xml_file import parse_xml

@@ -55,12 +55,9 @@ def _refuse_long_integers(value: Any) -> None:
 
 
 def read_toml(path: str | os.PathLike[str], error: type[PlantarError], where: str) -> dict[str, Any]:
-    """Returns table of a TOML file, UTF-8 with or without a byte order mark.
+    """Returns table of the TOML file at `path`, UTF-8 with or without a byte order mark, up to TOML_MOST bytes.
 
-    Args:
-        path: Up to TOML_MOST bytes.
-        error: Class if unreadable or invalid.
-        where: Message's beginning, such as "scene file walk.toml".
+    Raises `error` if unreadable or invalid; `where` begins the message, such as "scene file walk.toml".
 
     Example:
         >>> from plantar.errors import SceneError
@@ -75,13 +72,9 @@ def read_toml(path: str | os.PathLike[str], error: type[PlantarError], where: st
 
 
 def read_json(path: str | os.PathLike[str], error: type[PlantarError], where: str, kind: str = "valid JSON") -> Any:
-    """Returns value of a JSON file, UTF-8 with or without a byte order mark.
+    """Returns value of the JSON file at `path`, UTF-8 with or without a byte order mark, up to JSON_MOST bytes.
 
-    Args:
-        path: Up to JSON_MOST bytes.
-        error: Class if unreadable or invalid.
-        where: Message's beginning, such as "layout file sole.json".
-        kind: Expected file, for messages.
+    Raises `error` if unreadable or not of a `kind`; `where` begins the message, such as "layout file sole.json".
 
     Example:
         >>> from plantar.errors import LayoutError
@@ -98,11 +91,7 @@ def read_json(path: str | os.PathLike[str], error: type[PlantarError], where: st
 
 
 def packaged_files(package: str, pattern: str) -> list[Path]:
-    """Returns sorted paths of data files in a package, which is not loaded; none if not installed.
-
-    Args:
-        package: Its name.
-        pattern: Wildcards, below its folder.
+    """Returns sorted paths of data files by `pattern` below a `package`, which is not loaded; none if not installed.
 
     Example:
         >>> [path.name for path in packaged_files("plantar.sim", "scenes/beam*.toml")]

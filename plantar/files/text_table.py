@@ -38,11 +38,9 @@ class TextTable(NamedTuple):
 
 
 def read_text_table(path: str | os.PathLike[str], error: type[PlantarError]) -> TextTable:
-    """Returns table: tabs, semicolons or commas between cells, names first.
+    """Returns the table at `path`: tabs, semicolons or commas between cells, names first.
 
-    Args:
-        path: Up to TABLE_MOST bytes; UTF-8, UTF-16 or Latin-1.
-        error: Class if unreadable, no text, or too large.
+    Up to TABLE_MOST bytes of UTF-8, UTF-16 or Latin-1; raises `error` if unreadable, no text, or too large.
 
     Example:
         >>> read_text_table("none.csv", PlantarError)

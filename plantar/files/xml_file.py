@@ -39,18 +39,7 @@ class _Limited(ElementTree.TreeBuilder):
 
 
 def parse_xml(data: bytes, error: type[PlantarError], where: str) -> ElementTree.Element:
-    """Outermost element of XML text.
-
-    Args:
-        data: Text.
-        error: What is raised.
-        where: Message's beginning, such as the file's name.
-
-    Returns:
-        Element.
-
-    Raises:
-        PlantarError: For bad XML; class `error`.
+    """Returns outermost element of XML text `data`; raises `error`, its message beginning with `where`, for a bad one.
 
     Example:
         >>> parse_xml(b"<robot name='a'/>", PlantarError, "a.urdf").tag

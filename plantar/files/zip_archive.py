@@ -26,14 +26,7 @@ _END, _END_64 = b"PK\x05\x06", b"PK\x06\x06"
 
 
 def is_bomb(size: float, unpacked: float) -> bool:
-    """Whether a file unpacks to more than measurements and meshes do.
-
-    Args:
-        size: File's bytes.
-        unpacked: Stated unpacked bytes.
-
-    Returns:
-        Whether it is.
+    """Returns whether a file of `size` bytes unpacks to more than measurements and meshes do: `unpacked`, as stated.
 
     Example:
         >>> is_bomb(1e6, 99e6), is_bomb(1e6, 101e6), is_bomb(2e6, 101e6)
@@ -46,18 +39,9 @@ def is_bomb(size: float, unpacked: float) -> bool:
 def open_archive(
     path: str | os.PathLike[str], error: type[PlantarError], most: float
 ) -> Iterator[tuple[zipfile.ZipFile, BinaryIO]]:
-    """Open a ZIP archive with contents of a readable size.
+    """Open the ZIP archive at `path`; yields archive and its file.
 
-    Args:
-        path: File.
-        error: What is raised.
-        most: Unpacked bytes of all parts.
-
-    Yields:
-        Archive, and its file.
-
-    Raises:
-        PlantarError: For bad archives; class `error`.
+    Raises `error` for a bad one, or one that unpacks to more than `most` bytes in all.
 
     Example:
         >>> import tempfile
@@ -96,19 +80,9 @@ def open_archive(
 
 
 def read_part(archive: zipfile.ZipFile, name: str, error: type[PlantarError], where: str) -> bytes:
-    """Part of an archive, checked by stated length and checksum.
+    """Returns bytes of part `name` of an `archive` of `open_archive`, checked by stated length and checksum.
 
-    Args:
-        archive: Archive of `open_archive`.
-        name: Part.
-        error: What is raised.
-        where: Message's beginning.
-
-    Returns:
-        Bytes.
-
-    Raises:
-        PlantarError: If missing, damaged, encrypted; class `error`.
+    Raises `error`, its message beginning with `where`, if missing, damaged or encrypted.
     """
     try:
         return archive.read(name)

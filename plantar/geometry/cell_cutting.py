@@ -16,17 +16,9 @@ __all__ = ["CellCutter", "half_planes"]
 
 
 def half_planes(lines: ArrayLike, name: str = "lines") -> NDArray[np.float64]:
-    """Half-planes from a caller; an empty list is none.
+    """Returns half-planes (m, 3) n . x <= h of a caller's `lines`, not copied if float64; an empty list is none.
 
-    Args:
-        lines: Half-planes (m, 3) n . x <= h.
-        name: Name in errors.
-
-    Returns:
-        Half-planes (m, 3), not copied if float64.
-
-    Raises:
-        InputError: Not (m, 3), not finite.
+    An InputError with their `name` for others.
     """
     if isinstance(lines, list | tuple) and not len(lines):
         return np.empty((0, 3))

@@ -16,13 +16,8 @@ __all__ = ["bounding_box", "convex_shapes", "enclosing_parallelogram", "oriented
 
 
 def bounding_box(points: ArrayLike) -> NDArray[np.float64]:
-    """Axis-aligned box of points (T 4.4.4); exact.
-
-    Args:
-        points: Points (k, 2) in m.
-
-    Returns:
-        Corners (4, 2) in m from the lower left one; (0, 2) without points.
+    """Corners (4, 2) in m of the axis-aligned box of points (k, 2), from the lower left one; (0, 2) without points (T
+    4.4.4).
 
     Example:
         >>> bounding_box([[0.0, 0.0], [2.0, 1.0], [1.0, 3.0]]).tolist()

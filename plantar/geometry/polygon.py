@@ -35,19 +35,12 @@ _NOISE = 1e-15  # of a polygon's extent: corners that a cut leaves nearer to eac
 
 
 def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
-    """Convex hull by Andrew's monotone chain, without vertices on straight edges.
+    """Returns convex hull (k, 2) of points (n, 2) in m, counter-clockwise from the lowest x, without vertices on
+    straight edges: Andrew's monotone chain.
 
-    Every turn is decided exactly; a vertex within rounding of its neighbours' line (4 units in the last place, at most
-    1e-13 of the extent) is left out.
-
-    Args:
-        points: Points (n, 2) in m; those not finite, or beyond 1e100 m, are left out.
-
-    Returns:
-        Hull (k, 2), counter-clockwise from lowest x; vertices are input points.
-
-    Raises:
-        InputError: Not (n, 2).
+    Vertices are input points; those not finite, or beyond 1e100 m, are left out. Every turn is decided exactly; a
+    vertex within rounding of its neighbours' line (4 units in the last place, at most 1e-13 of the extent) is left
+    out. An InputError for other shapes.
 
     Example:
         >>> convex_hull([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0.5]]).tolist()
@@ -60,16 +53,9 @@ def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
 
 
 def convex_ring(polygon: ArrayLike) -> NDArray[np.float64]:
-    """Caller's convex polygon; repeated and collinear vertices are allowed.
+    """Caller's convex polygon (k, 2) in m, either orientation, not copied if float64; an InputError if not convex.
 
-    Args:
-        polygon: Polygon (k, 2) in m, either orientation.
-
-    Returns:
-        Vertices (k, 2) in m, not copied if float64.
-
-    Raises:
-        InputError: Not finite (k, 2).
+    Repeated and collinear vertices are allowed.
     """
     ring = plane_points(polygon)
     if len(ring) > 3 and turning(ring, 0.0, 0.0, 0.0) == 0:
@@ -85,31 +71,12 @@ def convex_ring(polygon: ArrayLike) -> NDArray[np.float64]:
 
 
 def area(polygon: ArrayLike) -> float:
-    """Signed area in m^2 (shoelace): positive for counter-clockwise.
-
-    Args:
-        polygon: Simple polygon (k, 2) in m.
-
-    Returns:
-        Area; 0 below 3 vertices.
-
-    Raises:
-        InputError: Not finite (k, 2).
-    """
+    """Signed area in m^2 of a simple polygon (k, 2) in m: positive counter-clockwise, 0 below 3 vertices (shoelace)."""
     return float(_kernel.area_of(plane_points(polygon)))
 
 
 def centroid(polygon: ArrayLike) -> NDArray[np.float64] | None:
-    """Centroid of the polygon's area.
-
-    Args:
-        polygon: Simple polygon (k, 2) in m.
-
-    Returns:
-        Position (2,) in m; mean of vertices where area is 0; None if empty.
-
-    Raises:
-        InputError: Not finite (k, 2).
+    """Centroid (2,) in m of the area of a simple polygon (k, 2) in m; mean of vertices where that is 0, None if empty.
 
     Example:
         >>> centroid(np.array([[0.0, 0], [2, 0], [2, 1], [0, 1]])).tolist()
@@ -123,19 +90,11 @@ def centroid(polygon: ArrayLike) -> NDArray[np.float64] | None:
 
 
 def closest_point(polygon: ArrayLike, point: ArrayLike) -> NDArray[np.float64] | None:
-    """Closest point of a convex polygon (T Algorithm 1, corrected).
+    """Returns the point (2,) in m of a convex `polygon` (k, 2), either orientation, closest to a `point` (2,), itself
+    if inside (T Algorithm 1, corrected); None if empty, NaN for no finite point.
 
-    Printed (d x l)_z > 0 holds for counter-clockwise vertices alone; here its sign follows the polygon's.
-
-    Args:
-        polygon: Convex polygon (k, 2), either orientation.
-        point: Point (2,) in m.
-
-    Returns:
-        Point itself inside, else closest point (2,) on boundary; None if empty, NaN for no finite point.
-
-    Raises:
-        InputError: Polygon not convex.
+    Printed (d x l)_z > 0 holds for counter-clockwise vertices alone; here its sign follows the polygon's. An
+    InputError if invalid.
 
     Example:
         >>> closest_point(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), [2.0, 0.5]).tolist()
@@ -150,17 +109,8 @@ def closest_point(polygon: ArrayLike, point: ArrayLike) -> NDArray[np.float64] |
 
 
 def signed_margin(polygon: ArrayLike, point: ArrayLike) -> float:
-    """Signed distance in m of a point to a convex polygon's edge: positive inside.
-
-    Args:
-        polygon: Convex polygon (k, 2), either orientation.
-        point: Point (2,) in m.
-
-    Returns:
-        Distance; -inf if empty, NaN for no finite point.
-
-    Raises:
-        InputError: Polygon not convex.
+    """Returns signed distance in m of a `point` (2,) to the edge of a convex `polygon` (k, 2), either orientation:
+    positive inside, -inf if empty, NaN for no finite point; an InputError if invalid.
 
     Example:
         >>> signed_margin(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), [0.5, 0.25])
@@ -174,17 +124,10 @@ def signed_margin(polygon: ArrayLike, point: ArrayLike) -> float:
 
 
 def inner_offset(polygon: ArrayLike, distance: float) -> NDArray[np.float64]:
-    """Convex polygon of the points that keep a distance from every edge.
+    """Returns the convex polygon (m, 2), counter-clockwise, of points that keep a `distance` in m, 0 or more, from
+    every edge of a convex `polygon` (k, 2), either orientation.
 
-    Args:
-        polygon: Convex polygon (k, 2), either orientation.
-        distance: Distance in m, 0 or more.
-
-    Returns:
-        Smaller polygon (m, 2), counter-clockwise; if none, or NaN, deepest point (1, 2); empty for empty, a copy for 0.
-
-    Raises:
-        InputError: Polygon not convex, distance negative.
+    If none, or NaN, the deepest point (1, 2); empty for empty, a copy for 0. An InputError if invalid.
 
     Example:
         >>> inner_offset(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), 0.25).tolist()
@@ -204,16 +147,9 @@ def inner_offset(polygon: ArrayLike, distance: float) -> NDArray[np.float64]:
 
 
 def part_inside(polygon: NDArray[np.float64], nx: float, ny: float, h: float) -> NDArray[np.float64]:
-    """Part of a convex polygon where n . x <= h, without near-duplicates.
+    """Returns part (k, 2) in m of a convex counter-clockwise `polygon` (k, 2) where n . x <= h; near points are one.
 
-    Args:
-        polygon: Convex polygon (k, 2) in m, counter-clockwise.
-        nx: Line's normal n, along x.
-        ny: Same along y.
-        h: Distance in m of line from origin, along normal.
-
-    Returns:
-        Convex polygon (k, 2) in m, counter-clockwise; may be empty.
+    n is the line's normal (`nx`, `ny`), `h` its distance in m from the origin along that.
     """
     left = part_below(np.ascontiguousarray(polygon, dtype=np.float64), nx, ny, h)
     near = _NOISE * extent(polygon)

@@ -16,18 +16,9 @@ _FLOAT, _BOOL = np.dtype(np.float64), np.dtype(np.bool_)
 
 
 def taxel_values(layout: SoleLayout, values: object, name: str = "forces") -> NDArray[np.float64]:
-    """One reading of a sole's taxels.
+    """Returns one reading `values` (n,) of a `layout`'s taxels, NaN where dead, not copied if float64.
 
-    Args:
-        layout: The sole, n taxels.
-        values: The argument.
-        name: Its name in an error.
-
-    Returns:
-        Values (n,), NaN where dead; not copied if float64.
-
-    Raises:
-        ReadingError, InputError: If numbers or layout are invalid.
+    A ReadingError or InputError with its `name` for others.
     """
     if not isinstance(layout, SoleLayout):
         instance(layout, SoleLayout, "layout")
@@ -38,13 +29,7 @@ def taxel_values(layout: SoleLayout, values: object, name: str = "forces") -> ND
 
 
 def taxel_frames(layout: SoleLayout, values: object, name: str = "forces") -> NDArray[np.float64]:
-    """Returns a sole's readings, (n,) or (frames, n), as `taxel_values`.
-
-    Args:
-        layout: The sole, n taxels.
-        values: The argument.
-        name: Its name in an error.
-    """
+    """Returns `values` (n,) or (frames, n) of a `layout`'s taxels, as `taxel_values`, with their `name` in errors."""
     instance(layout, SoleLayout, "layout")
     given = numbers(values, name, ReadingError)
     if given.ndim not in (1, 2) or given.shape[-1] != len(layout):
@@ -53,13 +38,7 @@ def taxel_frames(layout: SoleLayout, values: object, name: str = "forces") -> ND
 
 
 def taxel_mask(layout: SoleLayout, values: object, name: str = "mask") -> NDArray[np.bool_]:
-    """Returns a mask (n,) of taxels; a ReadingError unless n truth values.
-
-    Args:
-        layout: The sole, n taxels.
-        values: The argument.
-        name: Its name in an error.
-    """
+    """Returns mask `values` (n,) of a `layout`'s taxels; a ReadingError with its `name` unless n truth values."""
     if not isinstance(layout, SoleLayout):
         instance(layout, SoleLayout, "layout")
     given = values if type(values) is np.ndarray and values.dtype is _BOOL else mask(values, name, (...,), ReadingError)
@@ -69,11 +48,7 @@ def taxel_mask(layout: SoleLayout, values: object, name: str = "mask") -> NDArra
 
 
 def without_dead(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Readings with 0 where dead; not copied if none is.
-
-    Args:
-        values: Readings of any shape.
-    """
+    """Readings of any shape with 0 where dead; not copied if none is."""
     return values if is_finite(values) else np.where(np.abs(values) <= LARGEST, values, 0.0)
 
 

@@ -30,39 +30,23 @@ _NEAR_HALF_TURN = -0.9
 
 
 def rotation_from_vector(vector: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Exponential map (Rodrigues), exact to rounding.
-
-    Args:
-        vector: Axis times angle (3,) in rad.
-
-    Returns:
-        Rotation (3, 3).
-    """
+    """Rotation (3, 3) of a vector (3,), axis times angle in rad: exponential map (Rodrigues), exact to rounding."""
     x, y, z = vector.tolist()
     rotation: NDArray[np.float64] = rotations.rotation_of(x, y, z)
     return rotation
 
 
 def sine_vector(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Axis times sine of the angle (3,): the logarithm to first order.
-
-    Args:
-        rotation: Rotation (3, 3).
-    """
+    """Axis times sine of the angle (3,) of a rotation (3, 3): the logarithm to first order."""
     (_, xy, xz), (yx, _, yz), (zx, zy, _) = rotation.tolist()
     return vector(0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy))
 
 
 def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Logarithm map: a rotation's shortest vector, exact to rounding.
+    """Axis times angle (3,) in rad of a rotation (3, 3), of length 0 to pi; of half a turn, one of its two vectors.
 
-    By R - R^T = 2 sin a [n]x and, near half a turn, R + R^T - 2 cos a I = 2 (1 - cos a) n n^T.
-
-    Args:
-        rotation: Rotation (3, 3).
-
-    Returns:
-        Axis times angle (3,) in rad, of length 0 to pi; of half a turn, one of its two vectors.
+    Logarithm map, exact to rounding, by R - R^T = 2 sin a [n]x and, near half a turn, R + R^T - 2 cos a I = 2 (1 - cos
+    a) n n^T.
     """
     axis = sine_vector(rotation)
     sine = math.sqrt(float(axis.dot(axis)))
@@ -78,17 +62,10 @@ def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Error of a rotation as a vector (3,) of the common frame.
+    """Returns the error (3,) of a rotation `actual` (3, 3) from a `wanted` one, both to a common frame, in that frame.
 
     Along the axis of the shortest turn from `actual` to `wanted`; of length sine of the angle up to a quarter turn, 1
     beyond.
-
-    Args:
-        wanted: Rotation (3, 3) to common frame.
-        actual: Rotation (3, 3) to the same frame.
-
-    Returns:
-        Error.
     """
     between = wanted.dot(actual.T)
     (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = between.tolist()
@@ -110,15 +87,9 @@ def level_rotation(yaw: float) -> NDArray[np.float64]:
 
 
 def rotation_from_angles(yaw: float, pitch: float = 0.0, roll: float = 0.0) -> NDArray[np.float64]:
-    """Rotation by roll, then pitch, then yaw, about fixed axes.
+    """Returns rotation (3, 3) to world by `roll`, then `pitch`, then `yaw` in rad, about fixed axes x, y and z.
 
-    Args:
-        yaw: Angle about z in rad.
-        pitch: Angle about y in rad; positive lowers front.
-        roll: Angle about x in rad; positive raises the left.
-
-    Returns:
-        Rotation (3, 3) to world.
+    Positive pitch lowers the front, positive roll raises the left.
     """
     cy, sy, cp, sp, cr, sr = (f(a) for a in (yaw, pitch, roll) for f in (math.cos, math.sin))
     return np.array(
