@@ -25,16 +25,9 @@ _LEFTOVER = re.compile(r"\.plantar-([0-9a-f]{8})-([1-9]\d{0,9})-")
 
 @contextmanager
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Give a temporary path, renamed to `path` on success, deleted on an error.
+    """Give a temporary path with the suffix of `path`, renamed to that on success, deleted on an error.
 
-    Args:
-        path: Final path; temporary one keeps its suffix.
-
-    Yields:
-        Temporary path to write to.
-
-    Raises:
-        InputError: If the folder does not exist or cannot be written to.
+    An InputError if the folder does not exist or cannot be written to.
     """
     final = Path(path)
     temporary = temporary_beside(final)
@@ -48,16 +41,9 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def temporary_beside(path: str | os.PathLike[str]) -> Path:
-    """Empty temporary file next to `path`, with a new file's permissions.
+    """Empty temporary file next to `path`, with its suffix and a new file's permissions, to rename or remove.
 
-    Args:
-        path: Final path; temporary one keeps its suffix.
-
-    Returns:
-        Temporary path, to rename or remove.
-
-    Raises:
-        InputError: If the folder does not exist or cannot be written to.
+    An InputError if the folder does not exist or cannot be written to.
     """
     final = Path(path)
     try:
@@ -83,17 +69,10 @@ def write_text(path: str | os.PathLike[str], text: str) -> Path:
 
 @contextmanager
 def output_folder(path: str | os.PathLike[str], inputs: Iterable[str | os.PathLike[str] | None] = ()) -> Iterator[Path]:
-    """Give a temporary folder, moved into `path` (made if needed) on success, else deleted; other files in `path` stay.
+    """Yields a temporary folder, moved into `path` (made if needed) on success, else deleted; other files in `path`
+    stay.
 
-    Args:
-        path: Output folder, which may exist.
-        inputs: Input files, which are not overwritten; or None.
-
-    Yields:
-        Temporary folder to write to.
-
-    Raises:
-        InputError: If the folder cannot be made or written to, or a file would replace an input.
+    An InputError if the folder cannot be made or written to, or a file would replace one of `inputs` (files, or None).
     """
     final = Path(path)
     kept = {os.path.realpath(source) for source in inputs if source is not None}
@@ -134,11 +113,7 @@ def output_folder(path: str | os.PathLike[str], inputs: Iterable[str | os.PathLi
 def parent_folder(path: str | os.PathLike[str]) -> Iterator[None]:
     """Make a file's folder; on an error remove what was made.
 
-    Args:
-        path: File.
-
-    Raises:
-        InputError: If the folder cannot be made, or the path is a folder itself.
+    An InputError if the folder cannot be made, or the path is a folder itself.
     """
     final = Path(path)
     made: list[Path] = []

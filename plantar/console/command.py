@@ -86,17 +86,10 @@ def _command_path(command: Any) -> str:
 def end_command(
     result: Mapping[str, Any], as_json: bool, text: str, failures: Iterable[str] = (), failed: bool = False
 ) -> None:
-    """Print a command's result: JSON or text on stdout, failures on stderr.
+    """Print a command's `result`, as one JSON object if `as_json`, else `text`; then `failures` on stderr, a line
+    each.
 
-    Args:
-        result: Result.
-        as_json: Print one JSON object.
-        text: Result for people.
-        failures: A line each.
-        failed: Whether the whole command failed.
-
-    Raises:
-        typer.Exit: Code 1, if failed.
+    A typer.Exit with code 1 if `failed`.
     """
     print(json.dumps(result) if as_json else plain_lines(text))
     for line in failures:
@@ -114,19 +107,10 @@ T = TypeVar("T")
 
 
 def with_option_groups(command: Callable[..., T]) -> Callable[..., T]:
-    """Replace a command's dataclass parameters by their options.
+    """Replace a command's dataclass parameters by their options; returns the function of single options.
 
     Typer knows no groups. Fields with "help" in their metadata are options; "metavar" is shown for the value, "names"
-    replaces option names. So dataclasses need no typer.
-
-    Args:
-        command: All fields of its dataclasses have defaults.
-
-    Returns:
-        Function of single options, in order, which calls the command with the groups.
-
-    Raises:
-        TypeError: If names repeat.
+    replaces option names; all have defaults. So dataclasses need no typer. A TypeError if names repeat.
 
     Example:
         >>> from dataclasses import dataclass, field

@@ -67,10 +67,8 @@ class Terminated(SystemExit):
 
 
 def one_line(text: object) -> str:
-    """A text as one line that any terminal can show: line ends, control and broken characters escaped.
-
-    Args:
-        text: The text, for example an error that names a file.
+    """A text, such as an error that names a file, as one line that any terminal can show: line ends, control and
+    broken characters escaped.
 
     Example:
         >>> one_line("no file 'a\\nb'")
@@ -80,10 +78,7 @@ def one_line(text: object) -> str:
 
 
 def plain_lines(text: object) -> str:
-    """A text of several lines without characters that move a terminal's cursor or set a color.
-
-    Args:
-        text: The text, for example a recording's metadata.
+    """A text of several lines, such as metadata, without characters that move a terminal's cursor or set a color.
 
     Example:
         >>> plain_lines("name: \x1b[2Jred\\nsecond")
@@ -129,13 +124,7 @@ def _interruptible() -> Iterator[None]:
 
 
 def run(command: Callable[[], int | None]) -> int:
-    """Run a command to its exit code.
-
-    Args:
-        command: Returns an exit code, None for 0.
-
-    Returns:
-        Exit code; see the table at the top of this file.
+    """Run a command, which returns its exit code or None for 0, to the exit code at the top of this file.
 
     Example:
         >>> run(lambda: 1)

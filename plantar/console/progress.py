@@ -32,16 +32,8 @@ def progress_bar() -> Iterator[Progress]:
 
 
 def part_of(whole: Progress, start: float, share: float, name: str = "") -> Progress:
-    """Progress of one part of some work.
-
-    Args:
-        whole: Whole's progress.
-        start: Fraction done before the part.
-        share: Part's fraction.
-        name: Prefix of the part's texts.
-
-    Returns:
-        Part's progress.
+    """Returns progress of a part of some work, from that of the `whole`: from fraction `start` on, a `share` of it,
+    texts after `name`.
 
     Example:
         >>> part_of(lambda fraction, text: print(fraction, text), 0.5, 0.25, "walk: ")(0.5, "step 3")

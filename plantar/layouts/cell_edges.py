@@ -20,19 +20,11 @@ WELD = 1e-6
 
 
 def edge_table(vertices: ArrayLike, corners: Sequence[Sequence[int]]) -> EdgeTable | None:
-    """Table of the directed edges of cells that tile a region.
+    """Returns table of the directed edges of cells that tile a region: `vertices` (v, 2) in m, and `corners`, for each
+    of n cells the indices of its corners in order.
 
-    Corners without shared vertices are one within WELD of a typical edge; edges are cut at other cells' corners.
-
-    Args:
-        vertices: Corner points (v, 2) in m.
-        corners: For each of n cells the indices of its corners, in order.
-
-    Returns:
-        The table; None where cells overlap, and unshared edges give no outline.
-
-    Raises:
-        InputError: If points or indices are invalid.
+    Corners without shared vertices are one within WELD of a typical edge; edges are cut at other cells' corners. None
+    where cells overlap, and unshared edges give no outline; an InputError if invalid.
     """
     xy = plane_points(vertices, "vertices")
     if any(not 0 <= i < len(xy) for cell in corners for i in cell):
@@ -130,12 +122,8 @@ def _cut_edges(
 
 
 def cells_overlap(tail: NDArray[np.float64], head: NDArray[np.float64], tolerance: float) -> bool:
-    """Returns whether cells overlap, by their unshared edges.
-
-    Args:
-        tail: Starts of b lone edges (b, 2), the cell on their left, in m.
-        head: Their ends (b, 2).
-        tolerance: Distance in m below which points are one.
+    """Returns whether cells overlap, by their unshared edges from `tail` (b, 2) to `head` (b, 2) in m, the cell on
+    their left; points nearer than `tolerance` are one.
     """
     d = head - tail
     length = np.hypot(d[:, 0], d[:, 1])

@@ -144,17 +144,9 @@ def joined_layout(
 
 
 def shared_vertices(rings: Sequence[ArrayLike], tolerance: float) -> tuple[NDArray[np.float64], list[tuple[int, ...]]]:
-    """Give points of cell rings that agree within a tolerance one index.
+    """Give points of cell `rings` (k, 2) in m that agree within a `tolerance` in m one index.
 
-    Args:
-        rings: Corners (k, 2) of each cell in m.
-        tolerance: Distance in m.
-
-    Returns:
-        Points (v, 2) in m, and each cell's corner indices, none twice in a row.
-
-    Raises:
-        InputError: If an argument is invalid.
+    Returns points (v, 2) in m, and each cell's corner indices, none twice in a row; an InputError if invalid.
     """
     if not number(tolerance, "tolerance of corners", finite=True) > 0.0:
         raise InputError(f"tolerance of corners is {tolerance} m; allowed: above 0")
@@ -180,10 +172,8 @@ def shared_vertices(rings: Sequence[ArrayLike], tolerance: float) -> tuple[NDArr
 
 
 def edge_neighbours(corners: Sequence[Sequence[int]]) -> tuple[tuple[int, ...], ...]:
-    """Each cell's increasing indices of those that share an edge.
-
-    Args:
-        corners: Vertex indices of each cell; an InputError if one is not a list of indices.
+    """Each cell's increasing indices of those that share an edge, by vertex indices of each cell; an InputError if one
+    is not a list of indices.
     """
     owners: dict[tuple[int, int], list[int]] = {}
     rows = [integers(ring, f"cell {i}", ("k",)).tolist() for i, ring in enumerate(items(corners, "cells"))]

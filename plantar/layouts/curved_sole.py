@@ -79,10 +79,8 @@ def laid_over(layout: SoleLayout, surface: Surface) -> SoleLayout:
 
 
 def rotations_to_normals(normals: ArrayLike) -> NDArray[np.float64]:
-    """Shortest rotations (n, 3, 3) that take the z axis onto directions.
-
-    Args:
-        normals: Directions (n, 3), any length, z above 0; else a LayoutError.
+    """Shortest rotations (n, 3, 3) that take the z axis onto directions (n, 3), any length, z above 0; else a
+    LayoutError.
     """
     given = array(normals, "directions", ("n", 3), LayoutError, finite=True)
     if not (given[:, 2] > 0.0).all():

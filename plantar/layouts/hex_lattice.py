@@ -34,11 +34,7 @@ _CORNER_OFFSETS: tuple[tuple[int, int], ...] = ((1, -1), (1, 1), (0, 2), (-1, 1)
 
 
 def hexagon_side(area: float) -> float:
-    """Side s in m of a regular hexagon, from area = 3 sqrt(3) / 2 s^2.
-
-    Args:
-        area: In m^2, above 0 (else an InputError).
-    """
+    """Side s in m of a regular hexagon of an area in m^2, above 0 (else an InputError): area = 3 sqrt(3) / 2 s^2."""
     whole = number(area, "cell area", nan=True)
     if not 0.0 < whole <= LARGEST:
         raise InputError(f"cell area is {area} m^2; allowed: a finite value above 0")
@@ -86,10 +82,8 @@ class HexLattice:
         return math.sqrt(3.0) * self.side
 
     def position_of_keys(self, keys: ArrayLike) -> NDArray[np.float64]:
-        """Positions (..., 2) in m, sole plane, of integer keys.
-
-        Args:
-            keys: Integers (..., 2): multiples of (half width, half side); else an InputError.
+        """Positions (..., 2) in m, sole plane, of integer keys (..., 2), multiples of (half width, half side); else an
+        InputError.
         """
         whole = integers(keys, "keys", (..., 2))
         u = whole[..., 0] * (0.5 * self.width)
@@ -119,17 +113,10 @@ class HexLattice:
         return self.position_of_keys(self.corner_keys(axial))
 
     def cells_near(self, lower: ArrayLike, upper: ArrayLike) -> NDArray[np.int64]:
-        """Axial coordinates (n, 2) of cells with center within a cell of a box, by row r, then q.
+        """Returns axial coordinates (n, 2) of cells with center within a cell of a box from `lower` to `upper` (2,) in
+        m, by row r, then q.
 
-        Args:
-            lower: Lower corner (2,) of box in m.
-            upper: Upper corner (2,) in m.
-
-        Returns:
-            The cells.
-
-        Raises:
-            InputError: If corners are not finite, or the box reaches over 3000 sides from its middle.
+        An InputError if corners are not finite, or the box reaches over 3000 sides from its middle.
         """
         low = array(lower, "lower corner", (2,), finite=True)
         high = array(upper, "upper corner", (2,), finite=True)

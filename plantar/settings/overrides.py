@@ -76,11 +76,7 @@ def value_of(text: str) -> Any:
 
 
 def setting_text(found: Mapping[str, Setting]) -> str:
-    """Returns each setting's default, share, unit and range in a line, then its meaning.
-
-    Args:
-        found: Settings by dotted names.
-    """
+    """Each setting's default, share, unit and range in a line, then its meaning; settings by dotted names."""
     lines = []
     for full, told in found.items():
         unit = f" {told.unit}" if told.unit not in ("", "1") else ""

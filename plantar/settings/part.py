@@ -43,11 +43,7 @@ class Part(Settings):
 
     @classmethod
     def unmet(cls, value_of: Any) -> str | None:
-        """Unmet needs of the part as a text; None if it runs.
-
-        Args:
-            value_of: Function from a dotted name to a setting's value.
-        """
+        """Unmet needs of the part as a text, None if it runs, by a function from a dotted name to a setting's value."""
         if all(value_of(name) in values for name, values in cls.needs.items()):
             return None
         return " and ".join(f"{name} = {' or '.join(map(_shown, values))}" for name, values in cls.needs.items())

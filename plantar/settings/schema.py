@@ -23,26 +23,17 @@ __all__ = ["Setting", "Settings", "choice", "fixed", "number", "share", "switch"
 
 
 def number(default: float, unit: str, low: float = 0.0, high: float = math.inf, words: tuple[str, ...] = ()) -> Any:
-    """A field for a number; returns the dataclass field.
+    """Returns the dataclass field of a number from `low` to `high` in a `unit`, "1" for none, or one of `words`, such
+    as "random".
 
-    Args:
-        default: Its default.
-        unit: "1" for none.
-        low: Smallest allowed.
-        high: Largest allowed; infinity allows every finite one.
-        words: Texts allowed instead, such as "random".
+    An infinite `high` allows every finite one; `default` is one of them.
     """
     return field(default=float(default), metadata={"unit": unit, "low": low, "high": high, "words": words})
 
 
 def share(default: float, unit: str, low: float = 0.0, high: float = math.inf) -> Any:
-    """A number field that grows with the robot; returns the dataclass field.
-
-    Args:
-        default: As a share.
-        unit: Of the share, such as "weight", "leg" or "leg/beat".
-        low: Smallest allowed in SI.
-        high: Largest allowed in SI.
+    """Returns the field of a number that grows with the robot: `default` in a `unit` of its body, such as "weight",
+    "leg" or "leg/beat", from `low` to `high` in SI.
     """
     quantity = Quantity(float(default), unit)
     return field(default=quantity, metadata={"unit": si_unit(unit), "low": low, "high": high})
@@ -54,14 +45,7 @@ def fixed(value: float, unit: str) -> Any:
 
 
 def whole(default: int, unit: str, low: int = 0, high: float = math.inf) -> Any:
-    """A field for a whole number; returns the dataclass field.
-
-    Args:
-        default: Its default.
-        unit: What is counted.
-        low: Smallest allowed.
-        high: Largest allowed.
-    """
+    """Returns the field of a whole number from `low` to `high` with a `default`; `unit` is what is counted."""
     return field(default=int(default), metadata={"unit": unit, "low": low, "high": high})
 
 
@@ -76,12 +60,7 @@ def switch(default: bool) -> Any:
 
 
 def tables(allowed: str = "a list of tables", words: tuple[str, ...] = ()) -> Any:
-    """A field for a list that its class checks; returns it.
-
-    Args:
-        allowed: Description of allowed values.
-        words: Texts allowed instead, such as "random".
-    """
+    """Returns the field of a list that its class checks, `allowed` in words, or one of `words`, such as "random"."""
     return field(default=(), metadata={"unit": "", "allowed": allowed, "words": words})
 
 
@@ -181,15 +160,9 @@ class Settings:
         return found
 
     def in_si(self, value: Any, unit: str, owner: str = "a list") -> Any:
-        """Returns a list's member in SI; other values stay.
+        """Returns a list's member `value` in SI, a number or a text with a unit such as "0.03 leg"; other values stay.
 
-        Args:
-            value: A number, or a text with a unit such as "0.03 leg".
-            unit: Its SI unit.
-            owner: Owner of member, for messages.
-
-        Raises:
-            InputError: If the unit does not fit.
+        An InputError that names the list's `owner` if it does not fit its SI `unit`.
         """
         found = Quantity.parsed(value) if isinstance(value, str) else None
         if found is None:
@@ -200,16 +173,10 @@ class Settings:
 
     @classmethod
     def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:
-        """Returns the settings from a TOML table, with defaults.
+        """Returns the settings from a TOML `table`, with defaults.
 
-        Args:
-            table: Values by name.
-            where: Name of table, for messages.
-            error: Class of the error.
-            note: What the allowed keys depend on, for messages.
-
-        Raises:
-            PlantarError: Of the class `error`: an unknown key or wrong value, named in the message.
+        Raises `error` for an unknown key or wrong value, with `where` as the table's name and a `note` on what the
+        allowed keys depend on.
         """
         if not isinstance(table, Mapping):
             raise error(f"{where} is not a table")

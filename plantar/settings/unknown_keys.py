@@ -13,17 +13,10 @@ __all__ = ["refuse_unknown_keys"]
 def refuse_unknown_keys(
     given: Iterable[str], allowed: Iterable[str], where: str, error: type[PlantarError] = InputError, note: str = ""
 ) -> None:
-    """Refuse keys of a table that are not read.
+    """Refuse keys `given` in a table that are not among `allowed`.
 
-    Args:
-        given: The table's keys.
-        allowed: Those that are read.
-        where: Name of table, for the message.
-        error: Class of the error.
-        note: What the allowed keys depend on, such as " with law 'dcm'".
-
-    Raises:
-        PlantarError: If a key is unknown; the message names the nearest and the allowed ones.
+    Raises `error` with `where` as the table's name, the nearest and the allowed keys, and a `note` on what they depend
+    on, such as " with law 'dcm'".
 
     Example:
         >>> refuse_unknown_keys(["heigth"], ["height", "width"], "[terrain]")

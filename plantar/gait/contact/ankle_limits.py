@@ -40,14 +40,11 @@ class AnkleLimits:
         return left if area(left) > 0.0 else polygon
 
     def center(self, polygon: NDArray[np.float64], center: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Returns the best place (2,) in m to load a foot alone.
+        """Returns the best place (2,) in m to load a foot alone on a `polygon` (k, 2), sole frame, in m, counter-
+        clockwise.
 
-        `center` if the ankle reaches all of the polygon, else the centroid of the ZMP's region, or the nearest place
-        with the margin: over an edge the robot falls, at a joint's limit it only sinks.
-
-        Args:
-            polygon: Support (k, 2), sole frame, in m, counter-clockwise.
-            center: Best (2,) in m for a strong ankle: the centroid.
+        `center` (2,), best for a strong ankle, if the ankle reaches all of the polygon, else the centroid of the ZMP's
+        region, or the nearest place with the margin: over an edge the robot falls, at a joint's limit it only sinks.
         """
         reached = self._cut(polygon)
         if area(reached) >= area(polygon) * (1.0 - 1e-9):

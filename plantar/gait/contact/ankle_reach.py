@@ -13,11 +13,9 @@ _HALF = 0.5  # of an ankle's torque, which the other half is to balance with
 
 
 def borne_part(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
-    """Returns a foothold's part (k, 2) that the ankle bears, or the nearest point (1, 2).
+    """Returns a convex foothold's part (k, 2) that the ankle bears, or the nearest point (1, 2).
 
-    Args:
-        polygon: Convex (k, 2), sole frame, in m, counter-clockwise.
-        reach: From the ankle along the sole in m.
+    `polygon` (k, 2) is counter-clockwise in the sole frame, `reach` from the ankle along the sole, in m.
 
     Example:
         >>> borne_part(np.array([[-0.1, -0.04], [0.2, -0.04], [0.2, 0.04], [-0.1, 0.04]]), 0.08)[:, 0].round(3).tolist()
@@ -34,13 +32,9 @@ def borne_part(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64
 
 
 def loaded_middle(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
-    """Returns the best place (2,), sole frame, in m to load a foothold.
+    """Returns the best place (2,), sole frame, in m to load a foothold; `polygon` and `reach` as of `borne_part`.
 
     The centroid, or nearest place at half the ankle's torque, or the nearest that it bears.
-
-    Args:
-        polygon: Convex (k, 2), sole frame, in m, counter-clockwise.
-        reach: From the ankle along the sole in m.
     """
     middle = centroid(polygon)
     assert middle is not None  # a foothold has an area

@@ -52,12 +52,8 @@ class ContactMemory:
         self._time = -np.inf
 
     def update(self, reading: Reading, rotation: NDArray[np.float64], center_of_pressure: NDArray[np.float64]) -> None:
-        """Add a reading.
-
-        Args:
-            reading: Sole's; dead taxels count as unloaded.
-            rotation: Sole to world (3, 3), estimated.
-            center_of_pressure: (2,), sole frame, in m.
+        """Add a sole's `reading`, dead taxels unloaded, at its estimated `rotation` to world (3, 3), with
+        `center_of_pressure` (2,), sole frame, in m.
         """
         slope = rotation[2, :2]
         if reading.time > self._time:

@@ -62,14 +62,11 @@ class EdgeMemory:
         position: NDArray[np.float64],
         rotation: NDArray[np.float64],
     ) -> None:
-        """Store a foothold's edges; none if whole.
+        """Store the edges `lines` (m, 3) n . x <= h, sole frame, of a `step`'s foothold, none if whole; replaces a
+        stored one.
 
-        Args:
-            step: Its step; replaces a stored one.
-            lines: (m, 3) n . x <= h, sole frame.
-            middle: Of what carries (2,), sole frame, in m.
-            position: Sole origin (3,), world frame, in m.
-            rotation: Sole to world (3, 3).
+        `middle` (2,) of what carries is in the sole frame, `position` (3,) the sole origin in the world, in m;
+        `rotation` sole to world (3, 3).
         """
         if self._footholds and self._footholds[-1].step >= step:
             self._footholds.pop()
@@ -84,12 +81,8 @@ class EdgeMemory:
         self._footholds.append(_Foothold(step, edges))
 
     def expected(self, step: int, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Returns the last foothold's edges (m, 3) n . x <= h in a landing sole's frame.
-
-        Args:
-            step: Its step.
-            position: Sole origin (3,), world frame, in m.
-            rotation: Sole to world (3, 3).
+        """Returns the last foothold's edges (m, 3) n . x <= h in a landing sole's frame, for a `step`, `position` (3,)
+        in the world in m, and `rotation` sole to world (3, 3).
         """
         if not self._footholds or self._footholds[-1].step != step - 1:
             return np.empty((0, 3))

@@ -31,14 +31,10 @@ _FORGETS = 4  # steps after which a foothold that carried a part of the sole is 
 
 
 def middle_of_sole(layout: SoleLayout, reach: float = math.inf) -> NDArray[np.float64]:
-    """VRP place (2,) over a whole foothold, sole frame, in m (`plantar.gait.contact.ankle_reach`).
+    """Returns VRP place (2,) over a whole foothold of a `layout`, sole frame, in m
+    (`plantar.gait.contact.ankle_reach`).
 
-    Args:
-        layout: Of the sole.
-        reach: Distance in m along the sole, from its origin, at which the ankle bears the robot.
-
-    Returns:
-        The place.
+    `reach` is the distance in m along the sole, from its origin, at which the ankle bears the robot.
     """
     return loaded_middle(layout.outline, reach)
 
@@ -150,12 +146,7 @@ class FootContacts:
         return step > self._part + _FORGETS
 
     def lift_off(self, side: Side, step: int) -> None:
-        """Clear a swinging foot's foothold.
-
-        Args:
-            side: Which foot.
-            step: Its step.
-        """
+        """Clear the foothold of a `side`'s swinging foot in a `step`."""
         foot = self._feet[side]
         foot.contact.lift()
         foot.support = foot.alone = None
@@ -173,24 +164,14 @@ class FootContacts:
         foot.seen_partial = ground is not None
 
     def bear_inside(self, side: Side, distance: float) -> None:
-        """Load a foot that just landed nearer to the robot's middle.
-
-        Args:
-            side: Which foot.
-            distance: Along the sole's y axis in m.
+        """Load a `side`'s foot that just landed nearer to the robot's middle, by a `distance` along the sole's y axis
+        in m.
         """
         self._feet[side].center = self._feet[side].center + np.array([0.0, distance])
 
     def coming_to_carry(self, phase: Phase, time: float, feet: FeetView) -> list[Side]:
-        """Feet, left first, that take weight over, or landed and wait for it.
-
-        Args:
-            phase: The walk's.
-            time: In s.
-            feet: Commanded.
-
-        Returns:
-            Their sides.
+        """Returns sides of `feet` (commanded), left first, that take weight over in a `phase` at a `time` in s, or
+        landed and wait for it.
         """
         early = phase.kind == PhaseKind.SINGLE_SUPPORT and time < phase.start + self._settings.watch
         sides: list[Side] = []
@@ -206,12 +187,8 @@ class FootContacts:
     ) -> FootholdSeen | None:
         """Returns the swing foot's coming foothold, once a step, if seen and not whole.
 
-        Args:
-            phase: The walk's.
-            time: In s.
-            feet: Commanded.
-            state: Estimate.
-            soles: View of each sole.
+        In a walk's `phase` at a `time` in s, by commanded `feet`, the estimated `state` and the view of each sole,
+        `soles`.
         """
         side = phase.swing
         if side is None or feet.landed:
@@ -241,13 +218,8 @@ class FootContacts:
     ) -> tuple[FootholdFound, ...]:
         """Returns footholds of feet that come to carry, when found or changed.
 
-        Args:
-            phase: The walk's.
-            time: In s.
-            feet: Commanded.
-            state: Estimate.
-            soles: Percept of each sole.
-            slope: Of each sole against the ground, where followed.
+        In a walk's `phase` at a `time` in s, by commanded `feet`, the estimated `state`, the percept of each sole,
+        `soles`, and its `slope` against the ground, where followed.
         """
         found = []
         for side in self.coming_to_carry(phase, time, feet):
@@ -299,15 +271,10 @@ class FootContacts:
     def zmp_region(
         self, phase: Phase, feet: FeetView, frame_offset: Sequence[float], margin: float
     ) -> NDArray[np.float64]:
-        """Returns the desired ZMP's region: support polygon (k, 2), world frame, in m, moved in.
+        """Returns the desired ZMP's region: support polygon (k, 2), world frame, in m, moved in by a `margin` in m.
 
-        Unknown support counts as the whole sole; a single foot within its ankle's torques.
-
-        Args:
-            phase: The walk's.
-            feet: Commanded.
-            frame_offset: Of the command frame in the world (3,) in m.
-            margin: From the edge in m.
+        Unknown support counts as the whole sole; a single foot within its ankle's torques. `phase` is the walk's,
+        `feet` the commanded, `frame_offset` (3,) of the command frame in the world in m.
         """
         standing = [s for s in SIDES if feet.landed or phase.swing != s]
         alone = len(standing) == 1

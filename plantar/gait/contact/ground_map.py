@@ -125,24 +125,16 @@ class GroundMap:
         self._stood = None
 
     def stand(self, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> None:
-        """Store the loaded sole's height before lift-off.
-
-        Args:
-            position: Sole's estimated (3,), world frame, in m.
-            rotation: Sole to world (3, 3), estimated.
+        """Store the loaded sole's height before lift-off: estimated `position` (3,), world frame, in m, and `rotation`
+        to world (3, 3).
         """
         self._stood = (position, rotation)
 
     def update(
         self, percept: Percept, position: NDArray[np.float64], rotation: NDArray[np.float64], time: float
     ) -> GroundView | None:
-        """Returns the ground with the new percept, or None if unseen.
-
-        Args:
-            percept: Of the sole.
-            position: Sole's estimated (3,), world frame, in m.
-            rotation: Sole to world (3, 3), estimated.
-            time: In s.
+        """Returns the ground with the new `percept` of a sole at a `time` in s, or None if unseen; `position` and
+        `rotation` as of `stand`.
         """
         if self._poses:
             _, before, turned = self._poses[-1]

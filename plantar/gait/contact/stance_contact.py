@@ -143,12 +143,9 @@ class StanceContact:
         return found
 
     def update(self, reading: Reading, load: float, slope: NDArray[np.float64] | None = None) -> bool:
-        """Returns whether a reading settles or changes the polygon.
+        """Returns whether a sole's latest `reading` settles or changes the polygon.
 
-        Args:
-            reading: Sole's latest.
-            load: Vertical in N.
-            slope: Sole's rise (2,) along x, y against the ground in m/m; None for level.
+        `load` is vertical in N, `slope` the sole's rise (2,) along x, y against the ground in m/m, None for level.
         """
         s = self.settings
         if reading.time <= self._time or load < s.minimum_load:

@@ -38,12 +38,8 @@ class SupportStrip:
 
     @classmethod
     def for_body(cls, body: BodyScale, origin: NDArray[np.float64], along: NDArray[np.float64]) -> SupportStrip:
-        """Returns a robot's strip, with distances as shares of its soles.
-
-        Args:
-            body: Robot's dimensions.
-            origin: Point (2,) on the walk's line in m.
-            along: Its unit direction (2,).
+        """Returns a robot's strip, with distances as shares of its soles: its dimensions `body`, a point `origin` (2,)
+        on the walk's line in m and its unit direction `along` (2,).
         """
         return cls(origin, along, spread=_SPREAD * body.sole, agreement=_AGREEMENT * body.sole)
 
@@ -67,12 +63,8 @@ class SupportStrip:
         self._footholds.clear()
 
     def update(self, step: int, side: Side, centroid: NDArray[np.float64]) -> None:
-        """Add a partial foothold.
-
-        Args:
-            step: Its step; replaces a stored one.
-            side: Which foot.
-            centroid: Of what carries (2,), world frame, in m.
+        """Add a partial foothold of a `side` in a `step`, replacing a stored one: `centroid` (2,) of what carries,
+        world frame, in m.
         """
         place, lateral = self.coordinates(centroid)
         if self._footholds and self._footholds[-1][0] == step:

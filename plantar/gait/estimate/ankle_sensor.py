@@ -58,14 +58,10 @@ class AnkleSensor:
     com: NDArray[np.float64]
 
     def sole_wrench(self, measured: NDArray[np.float64], rotation_sole_to_world: NDArray[np.float64]) -> SoleWrench:
-        """The ground's wrench (6,) on the sole, without the foot's weight.
+        """Returns the ground's wrench (6,) on the sole, without the foot's weight.
 
-        Args:
-            measured: (6,), sensor frame, about its origin in N and N m, by the foot on the leg.
-            rotation_sole_to_world: Sole's estimated (3, 3).
-
-        Returns:
-            The wrench on the sole.
+        Of `measured` (6,), sensor frame, about its origin in N and N m, by the foot on the leg;
+        `rotation_sole_to_world` (3, 3) is the estimated one.
         """
         force = self.rotation.dot(measured[:3])
         lift = (self.mass * GRAVITY) * rotation_sole_to_world[2]  # what carries the weight, in the sole frame

@@ -22,16 +22,11 @@ def com_offset(
     feet: Mapping[Side, tuple[float, float, float, float]],
     wrenches: Mapping[Side, NDArray[np.float64]],
 ) -> NDArray[np.float64]:
-    """CoM's horizontal offset (3,) in m, base frame, of a standing robot from its model; zero without load.
+    """Returns CoM's horizontal offset (3,) in m, base frame, of a standing robot from its model, with the effects of
+    encoder errors and unequal taxels; zero without load.
 
-    Args:
-        posture: Its posture.
-        rotation: Base to world (3, 3).
-        feet: Flat soles: x, y, z in m and heading in rad.
-        wrenches: (6,) on each sole, own frame, in N and N m.
-
-    Returns:
-        The offset, with the effects of encoder errors and unequal taxels.
+    By its `posture`, `rotation` base to world (3, 3), flat soles `feet` (x, y, z in m and heading in rad), and
+    `wrenches` (6,) on each sole, own frame, in N and N m.
     """
     points: list[NDArray[np.float64] | None] = []
     bases: list[NDArray[np.float64]] = []

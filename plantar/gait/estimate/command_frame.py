@@ -30,12 +30,8 @@ class CommandFrame:
         self._share = min(1.0, period / time_constant)
 
     def update(self, commanded: NDArray[np.float64], real: NDArray[np.float64], turn: float) -> None:
-        """Follow the carrying foot for a tick.
-
-        Args:
-            commanded: Its commanded (3,) in m.
-            real: Its estimated (3,), world frame, in m.
-            turn: Its heading less the commanded one in rad.
+        """Follow the carrying foot for a tick: `commanded` and `real`, estimated in the world, (3,) in m, and its
+        heading less the commanded one, `turn` in rad.
         """
         (ax, ay, az), (ox, oy, oz), share = self._anchor, self._offset, self._share
         (cx, cy, cz), (rx, ry, rz) = commanded.tolist(), real.tolist()

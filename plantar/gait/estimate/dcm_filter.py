@@ -104,19 +104,11 @@ class DcmFilter:
     def update(
         self, com: ArrayLike, com_velocity: ArrayLike | None, zmp: ArrayLike | None, offset: ArrayLike
     ) -> PushedPendulum:
-        """CoM and DCM after a tick; at first as measured.
+        """Returns CoM and DCM after a tick; at first as measured.
 
-        Args:
-            com: Kinematic CoM (2,) in m.
-            com_velocity: Its measured (2,) in m/s, or None.
-            zmp: ZMP (2,) since the last tick in m; None without load.
-            offset: VRP's u_w (2,) by the measured push in m (`plantar.mechanics.external_wrench.vrp_offset`).
-
-        Returns:
-            The state.
-
-        Raises:
-            InputError: Non-finite or misshaped input.
+        By the kinematic `com` (2,) in m, its measured `com_velocity` (2,) in m/s or None, the `zmp` (2,) since the
+        last tick in m, None without load, and the VRP's `offset` u_w (2,) by the measured push in m
+        (`plantar.mechanics.external_wrench.vrp_offset`). An InputError for others.
         """
         place = array(com, "CoM", (2,), finite=True)
         felt = array(offset, "VRP offset", (2,), finite=True)

@@ -93,15 +93,10 @@ def encoder_offsets(
 def standing_base(
     posture: _Posture, up: NDArray[np.float64], feet: Mapping[Side, tuple[float, float, float, float]]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Base to world (3, 3) and base position (3,) in m: level by gravity, placed by its feet.
+    """Returns base to world (3, 3) and base position (3,) in m: level by gravity, placed by its feet.
 
-    Args:
-        posture: Each sole's position (3,) in m and rotation (3, 3), base frame.
-        up: Unit vector (3,) against gravity, base frame.
-        feet: Soles: x, y, z in m and heading in rad.
-
-    Returns:
-        Rotation and position.
+    By the `posture`, each sole's position (3,) in m and rotation (3, 3) in the base frame, the unit vector `up` (3,)
+    there, and soles `feet`: x, y, z in m and heading in rad.
     """
     forward = np.array([1.0, 0.0, 0.0]) - up[0] * up
     forward /= float(np.linalg.norm(forward))

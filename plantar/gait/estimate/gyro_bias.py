@@ -69,15 +69,10 @@ class GyroBias:
         turn: NDArray[np.float64] | None,
         weights: Mapping[Side, float],
     ) -> NDArray[np.float64]:
-        """Bias (3,) in rad/s after a tick.
+        """Returns bias (3,) in rad/s after a tick.
 
-        Args:
-            gyro: Base's angular velocity (3,), base frame, in rad/s.
-            turn: Base's turn (3,) in rad by still feet, base frame; None without.
-            weights: Each foot's load in any unit; 0 if not still.
-
-        Returns:
-            The bias.
+        By the `gyro` (3,) in rad/s and the base's `turn` (3,) in rad by still feet, None without, both in the base
+        frame; `weights` is each foot's load in any unit, 0 if not still.
         """
         gx, gy, gz = gyro.tolist()
         tx, ty, tz = (0.0, 0.0, 0.0) if turn is None else turn.tolist()

@@ -90,12 +90,8 @@ class IdentifiedBody:
     def stand(
         self, joint_positions: NDArray[np.float64], accelerometer: NDArray[np.float64], soles: Mapping[Side, SoleLoad]
     ) -> None:
-        """Add a tick of standing still.
-
-        Args:
-            joint_positions: Encoders (k,) in rad.
-            accelerometer: Specific force (3,) of the base, base frame, in m/s^2.
-            soles: Each sole's load.
+        """Add a tick of standing still: encoders `joint_positions` (k,) in rad, specific force `accelerometer` (3,) of
+        the base, base frame, in m/s^2, and each sole's load, `soles`.
         """
         self._stand.update(joint_positions, accelerometer, soles)
 

@@ -54,12 +54,8 @@ class OpeningStand:
     def update(
         self, joint_positions: NDArray[np.float64], accelerometer: NDArray[np.float64], soles: Mapping[Side, _Sole]
     ) -> None:
-        """Add a control tick.
-
-        Args:
-            joint_positions: Encoders (k,) in rad.
-            accelerometer: Specific force (3,) of the base, base frame, in m/s^2.
-            soles: Each sole's load.
+        """Add a control tick: encoders `joint_positions` (k,) in rad, specific force `accelerometer` (3,) of the base,
+        base frame, in m/s^2, and each sole's load, `soles`.
         """
         self._count += 1
         self._joints = joint_positions.copy() if self._count == 1 else self._joints + joint_positions

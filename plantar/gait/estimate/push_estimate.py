@@ -51,14 +51,10 @@ class PushEstimate:
         self.acts = False
 
     def update(self, measured: NDArray[np.float64], pendulum: NDArray[np.float64] | None) -> NDArray[np.float64]:
-        """CoM acceleration (2,) in m/s^2 by a push after a tick; zero without.
+        """Returns CoM acceleration (2,) in m/s^2 by a push after a tick; zero without.
 
-        Args:
-            measured: Base's horizontal (2,), world frame, in m/s^2.
-            pendulum: w^2 (x - p), (2,) in m/s^2; None without load.
-
-        Returns:
-            The acceleration.
+        By the base's `measured` horizontal one (2,), world frame, and the `pendulum`'s w^2 (x - p), (2,) in m/s^2,
+        None without load.
         """
         if pendulum is None:
             self._acceleration, self.acts = np.zeros(2), False

@@ -17,14 +17,8 @@ __all__ = ["SkinLoad", "at_its_limit", "percept_to_its_limit"]
 
 
 def at_its_limit(reading: Reading, layout: SoleLayout) -> Reading:
-    """A reading with saturated taxels at their largest force; without, a loaded foot could seem in the air.
-
-    Args:
-        reading: Sole's.
-        layout: Of the sole.
-
-    Returns:
-        The same reading without saturated taxels.
+    """Returns a sole's `reading` on a `layout` with saturated taxels at their largest force; without, a loaded foot
+    could seem in the air.
     """
     if not layout.kernel.reaches(reading.force, layout.force_limit):
         return reading
@@ -32,15 +26,7 @@ def at_its_limit(reading: Reading, layout: SoleLayout) -> Reading:
 
 
 def percept_to_its_limit(reading: Reading, layout: SoleLayout) -> Percept:
-    """Sole's percept, saturated as in `at_its_limit`, loads summed.
-
-    Args:
-        reading: Sole's.
-        layout: Of the sole.
-
-    Returns:
-        The percept.
-    """
+    """Returns the percept of a sole's `reading` on a `layout`, saturated as in `at_its_limit`, loads summed."""
     loads = layout.kernel.unsaturated_loads(reading.force, layout.force_threshold, layout.force_limit)
     return Percept(layout, at_its_limit(reading, layout)) if loads is None else Percept.summed(layout, reading, loads)
 

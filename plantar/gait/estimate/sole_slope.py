@@ -36,12 +36,8 @@ class SoleSlope:
     def update(
         self, rotations: Mapping[str, NDArray[np.float64]], loads: Mapping[str, float], standing: bool = False
     ) -> None:
-        """Add a tick.
-
-        Args:
-            rotations: Each sole to world (3, 3).
-            loads: Vertical on each foot in N.
-            standing: Whether in the opening stand, both soles flat.
+        """Add a tick: `rotations` of each sole to world (3, 3), vertical `loads` on each foot in N, and whether in the
+        opening stand, both soles flat, `standing`.
         """
         between = rotations["right"].T @ rotations["left"]
         against = {"left": between[2, :2], "right": between[:2, 2]}

@@ -75,13 +75,8 @@ class WrenchFilter:
         return self._x != 0.0 or self._y != 0.0
 
     def update(self, offset: ArrayLike) -> NDArray[np.float64]:
-        """Expected offset (2,) in m after a tick (K 19).
-
-        Args:
-            offset: VRP's measured u_w (2,) in m, cut to `MOST_OFFSET`; zero where not finite.
-
-        Raises:
-            InputError: Misshaped offset.
+        """Expected offset (2,) in m after a tick (K 19), by the VRP's measured u_w (2,) in m, cut to `MOST_OFFSET`,
+        zero where not finite; an InputError if misshaped.
         """
         x, y = array(offset, "VRP offset", (2,)).tolist()
         size = math.hypot(x, y)
