@@ -27,16 +27,7 @@ def run(*command: str | Path, cwd: Path, check: bool = True, **more: str) -> sub
 
 
 def copied_source(folder: Path, *, generated: bool, compiled: bool) -> Path:
-    """A copy of the checkout to build from, so that the checkout stays as it is.
-
-    Args:
-        folder: Where the copy comes to lie.
-        generated: With the C files of the checkout's own build. What is older than its source is generated again.
-        compiled: With the extension modules of the checkout's own build too; likewise.
-
-    Returns:
-        The copy's folder.
-    """
+    """A copy of the checkout to build from, so that the checkout stays as it is."""
     source = folder / "source"
     library = Path("build") / f"lib.{sysconfig.get_platform()}-{sys.implementation.cache_tag}"
     kernels = Path("plantar") / "kernels"

@@ -51,11 +51,7 @@ def mutant(seed: bytes, rng: np.random.Generator) -> bytes:
 
 
 def tried(target: Target, path: Path, content: bytes) -> bool:
-    """Read a file; returns whether it was read, and not refused.
-
-    Raises:
-        Failure: If reading it traces back or takes too long.
-    """
+    """Read a file; returns whether it was read, and not refused."""
     path.write_bytes(content)
     begun = time.process_time()
     try:
@@ -75,11 +71,7 @@ def tried(target: Target, path: Path, content: bytes) -> bool:
 
 
 def read_all(name: str, seconds: float, most: int, folder: Path, seed: int = 0) -> Iterator[tuple[bytes, str]]:
-    """Try mutants for a while.
-
-    Yields:
-        Each mutant that failed, and how; at the end an empty one with the number that were tried.
-    """
+    """Try mutants for a while."""
     target, rng, count = TARGETS[name], np.random.default_rng(seed), 0
     corpus = target.seeds(folder)
     begun = time.monotonic()

@@ -67,15 +67,6 @@ def visit(
     """Open a copy of a page that runs a probe at its end, and take what the probe sends back.
 
     The page comes from a server on this machine, so that the browser runs in real time and ends when the probe has.
-
-    Args:
-        page: The page.
-        probe: Body of an async JavaScript function; what it returns comes back as JSON.
-        work: Folder for the browser's profile.
-        dark: Whether the system prefers dark mode.
-        timeout: Longest time in s.
-        width: Width of the window in CSS pixels.
-        webgl: Whether the page draws in 3D, which the browser then does without a GPU.
     """
     script = (
         "<script>window.problems = [];"

@@ -24,15 +24,7 @@ class PrintedImage(NamedTuple):
 
 
 def printed_images(page: Path, work: Path) -> list[PrintedImage]:
-    """Print a page and find its images: one that is cut lies on two sheets, or beyond the edge of one.
-
-    Args:
-        page: The page.
-        work: Folder for the PDF and the browser's profile.
-
-    Returns:
-        The images in the order of the sheets.
-    """
+    """Print a page and find its images: one that is cut lies on two sheets, or beyond the edge of one."""
     content = printed(page, work)
     parts = {m[1]: m[2] for m in re.finditer(rb"(?:^|\n)(\d+) 0 obj\n(.*?)endobj", content, re.DOTALL)}
     images = {number for number, part in parts.items() if b"/Subtype /Image" in part.partition(b"stream\n")[0]}

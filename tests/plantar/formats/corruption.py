@@ -19,16 +19,7 @@ def survive_corruption(
     header: int = 1500,
     check: Callable[[PressureRecording], None] | None = None,
 ) -> int:
-    """Damage a file in many ways and read each; returns how many were read.
-
-    Args:
-        path: The file, which is put back afterwards.
-        trials: How many damages.
-        seed: Of their places.
-        options: Given to the reader.
-        header: Bytes at the beginning that half of the damages fall into.
-        check: Called with each recording that was read.
-    """
+    """Damage a file in many ways and read each; returns how many were read."""
     whole = path.read_bytes()
     before = read_recording(path, options=options)
     usual = peaks(before)

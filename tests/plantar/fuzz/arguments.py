@@ -176,23 +176,7 @@ MEMBERS: dict[str, tuple[str, Draw]] = {
 
 
 def complaint(call: Call, array: str, member: str, rng: np.random.Generator) -> str | None:
-    """What is wrong with what a function makes of a wrong argument.
-
-    Args:
-        call: The function with right arguments.
-        array: Which of its arrays is replaced.
-        member: Name of the member that replaces it, of `MEMBERS`.
-        rng: Chooses places and axes.
-
-    Returns:
-        The fault, or None.
-
-    Example:
-        >>> from .public_calls import public_calls
-        >>> area = next(call for call in public_calls() if call.name == "polygon.area")
-        >>> complaint(area, "polygon", "complex", np.random.default_rng(0)) is None
-        True
-    """
+    """What is wrong with what a function makes of a wrong argument."""
     argument = call.arrays[array]
     family, draw = MEMBERS[member]
     given = draw(np.asarray(argument.value), rng)
@@ -233,19 +217,7 @@ def _of_message(text: str, argument: Argument) -> str | None:
 
 
 def same_answer(one: Any, other: Any) -> bool:
-    """Whether two answers are the same to rounding, whatever they are made of: sums go in another order in memory.
-
-    Args:
-        one: An array, a number, an outline, an object with fields, or a list of such.
-        other: Another.
-
-    Returns:
-        Whether they are; NaN is NaN.
-
-    Example:
-        >>> same_answer((np.zeros(2), None), (np.zeros(2), None)), same_answer([1.0], [2.0])
-        (True, False)
-    """
+    """Whether two answers are the same to rounding, whatever they are made of: sums go in another order in memory."""
     a, b = list(_parts(one)), list(_parts(other))
     return len(a) == len(b) and all(_same_array(x, y) for x, y in zip(a, b, strict=True))
 

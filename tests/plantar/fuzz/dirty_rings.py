@@ -79,11 +79,7 @@ class ExactRing:
 
 
 def chamfered_rectangle(rng: np.random.Generator) -> Array:
-    """A rectangle (8, 2) in m with its corners cut off, by as little as 1e-17 of its sides.
-
-    Args:
-        rng: Where its sides and cuts come from.
-    """
+    """A rectangle (8, 2) in m with its corners cut off, by as little as 1e-17 of its sides."""
     w, h = rng.uniform(0.05, 1.0, 2).tolist()
     cut = min(w, h) * 10.0 ** rng.uniform(-17.0, -0.4)
     x, y = rng.permutation([cut, cut * float(rng.choice([1.0, 0.3, 1e-3]))]).tolist()
@@ -91,11 +87,7 @@ def chamfered_rectangle(rng: np.random.Generator) -> Array:
 
 
 def convex_ring(rng: np.random.Generator) -> Array:
-    """A convex polygon (k, 2) in m: a hull, part of an ellipse, cells, a rectangle, a sliver or a regular one, turned.
-
-    Args:
-        rng: What it is drawn with.
-    """
+    """A turned convex polygon (k, 2) in m: a hull, part of an ellipse, cells, a rectangle, a sliver, a regular one."""
     kind = int(rng.integers(8))
     if kind == 0:
         ring = convex_hull(rng.normal(0.0, 0.1, (int(rng.integers(3, 14)), 2)) * [1.0, rng.uniform(0.05, 1.0)])
@@ -126,9 +118,6 @@ def dirty_ring(rng: np.random.Generator) -> Array:
     Some of them come twice or more often, up to 3 units in the last place apart, with points on the edges beside them,
     or with spikes back along the edges; from any of them on, either way round; 1e-6 to 1e3 times as large and up to
     1e6 m away, but at least 1e6 units in the last place wide.
-
-    Args:
-        rng: What it is drawn with.
     """
     ring = convex_ring(rng) * 10.0 ** int(rng.choice([0, 0, 0, -1, -6, 3]))
     away = float(rng.choice([0.0, 0.0, 0.0, 0.0, 1.0, 1e3, 1e6]))
@@ -169,14 +158,7 @@ def _off(point: Array, rng: np.random.Generator) -> Array:
 
 
 def vanishing_depths(ring: Array) -> Array:
-    """Depths in m at which edges of a convex polygon vanish while all of them move inwards, the least first.
-
-    Args:
-        ring: Convex polygon (k, 2) in m, counter-clockwise.
-
-    Returns:
-        Depths (m,): where the lines of three edges in a row meet in a point; the first ones are where edges vanish.
-    """
+    """Depths in m at which edges of a convex polygon vanish while all of them move inwards, the least first."""
     local = convex_hull(ring) - ring[0]
     edge = np.roll(local, -1, axis=0) - local
     normal = np.column_stack([-edge[:, 1], edge[:, 0]]) / np.hypot(*edge.T)[:, None]

@@ -139,15 +139,7 @@ class Call:
         return self.function(**{k: a.value for k, a in self.arrays.items()} | changed)
 
     def taken(self, name: str, shape: tuple[int, ...]) -> bool:
-        """Whether a shape of one array goes with the others.
-
-        Args:
-            name: The array.
-            shape: A shape for it.
-
-        Returns:
-            Whether it does.
-        """
+        """Whether a shape of one array goes with the others."""
         if not self.arrays[name].fits(shape):
             return False
         known: dict[str, int] = {}
@@ -158,15 +150,7 @@ class Call:
 
 
 def array_functions() -> Iterator[str]:
-    """Module and name of every public function, constructor and method of the rooms that takes an array.
-
-    Yields:
-        Names such as "polygon.area", "reading.Reading" and "outline.Outline.moved".
-
-    Example:
-        >>> "polygon.area" in set(array_functions())
-        True
-    """
+    """Module and name of every public function, constructor and method of the rooms that takes an array."""
     rooms = [f"plantar.{room}" for room in ROOMS]
     inside = [f"{r}.{m.name}" for r in rooms for m in pkgutil.iter_modules(import_module(r).__path__)]
     for module in map(import_module, [*inside, "plantar.batch"]):
@@ -192,15 +176,7 @@ def _takes_array(function: Any) -> bool:
 
 
 def public_calls() -> list[Call]:
-    """A right call of every function that takes arrays, made anew.
-
-    Returns:
-        The calls.
-
-    Example:
-        >>> {call.name for call in public_calls()} | INNER >= set(array_functions())
-        True
-    """
+    """A right call of every function that takes arrays, made anew."""
     sole = tiling.hex_layout(_OUTLINE, cell_area=900e-6)
     return [
         *_of_polygons(sole),

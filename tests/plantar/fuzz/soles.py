@@ -119,14 +119,7 @@ def differing(one: Sequence[Any], other: Sequence[Any], equal_nan: bool = False)
 
 @cache
 def unit_wrenches(layout: SoleLayout) -> Array:
-    """Wrench of 1 N on each taxel of a sole, one cross product at a time.
-
-    Args:
-        layout: The sole, n taxels.
-
-    Returns:
-        Wrenches (n, 6) about the sole frame's origin.
-    """
+    """Wrench of 1 N on each taxel of a sole, one cross product at a time."""
     out = np.empty((len(layout), 6))
     for i, (place, turn) in enumerate(zip(layout.positions, layout.rotations, strict=True)):
         normal = turn @ [0.0, 0.0, 1.0]
@@ -135,12 +128,7 @@ def unit_wrenches(layout: SoleLayout) -> Array:
 
 
 def stress_soles() -> list[SoleLayout]:
-    """The soles: small ones first, since they meet every pattern of activity.
-
-    Returns:
-        Lattices of three rows, turned ones, square grids, clipped and mixed cells, a curved sole, clockwise cells,
-        a mirrored sole, single cells, and the 51 cells of the papers.
-    """
+    """The soles: small ones first, since they meet every pattern of activity."""
     box = [[-0.06, -0.04], [0.06, -0.04], [0.06, 0.04], [-0.06, 0.04]]
     rows3 = np.array([(column - row // 2, row) for row in range(3) for column in range(3)])
     rows4 = np.array([(column - row // 2, row) for row in range(3) for column in range(4)])
@@ -172,17 +160,7 @@ def stress_soles() -> list[SoleLayout]:
 
 
 def block_of(layout: SoleLayout, count: int, seed: int, number: int) -> Block:
-    """A block of readings.
-
-    Args:
-        layout: The sole.
-        count: How many readings.
-        seed: Of what is left to chance.
-        number: Number of the block: patterns of few cells go on from one to the next, every third is far away.
-
-    Returns:
-        The block; the same one for the same arguments.
-    """
+    """A block of readings."""
     rng, first = np.random.default_rng([seed, number]), number * count
     n = len(layout)
     if n <= 12:  # every pattern in turn

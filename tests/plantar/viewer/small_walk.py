@@ -51,14 +51,7 @@ def turned(yaw: float) -> tuple[float, ...]:
 
 
 def write_walk(path: Path, *, drawn: bool = True, mass: float | None = WEIGHT / 9.81, name: str = "test") -> Path:
-    """Write it: a trunk that moves forward by 0.5 m over two soles that turn.
-
-    Args:
-        path: MCAP file.
-        drawn: Whether it holds what viewers draw, as newer recordings do.
-        mass: Mass that the metadata state in kg; None for none.
-        name: Name of the scene.
-    """
+    """Write it: a trunk that moves forward by 0.5 m over two soles that turn."""
     told = {"scene": name, "robot": "box", "seed": 4} | ({} if mass is None else {"mass_kg": mass})
     wedge = [(0.0, 0.0, 0.5), (0.1, 0.0, 0.5), (0.0, 0.1, 0.5), (0.0, 0.0, 0.6)]
     body = (

@@ -57,14 +57,6 @@ def scaled_h1(folder: Path, s: float, mass: float = 0.0) -> Path:
 
     Dynamic similarity says how all else goes with the factor s of lengths and m of masses: times by sqrt(s), forces by
     m, torques and stiffnesses of joints by m s, their dampings by m s sqrt(s), inertias by m s^2.
-
-    Args:
-        folder: Where model, layouts and robot.toml are written; made where it is missing.
-        s: Factor of lengths.
-        mass: Mass of the robot in kg; 0 takes that of the same density, by s^3.
-
-    Returns:
-        The robot.toml.
     """
     folder.mkdir(parents=True, exist_ok=True)
     h1 = load_robot("h1")
