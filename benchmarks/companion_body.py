@@ -11,6 +11,8 @@ from pathlib import Path
 from resumable import write_table
 from sweep_cases import SweepCase, completed, median_and_range, rows_of_cases, run_cases, write_rows
 
+from plantar.bench.tables import markdown_table
+
 HERE = Path(__file__).parent
 CASES = (
     SweepCase("feather"),
@@ -43,16 +45,17 @@ COLUMNS: dict[str, tuple[str, ...]] = {
 
 
 def report(folder: Path) -> None:
-    gathered, lines = [], ["| scene | completed | median (least to most) over the seeds |", "|---|---|---|"]
+    gathered, lines = [], []
     for case, rows in rows_of_cases(sorted(CASES, key=lambda c: list(COLUMNS).index(c.scene)), folder):
         for row in rows:
             kept = {name: row[name] for name in COLUMNS[case.scene]}
             gathered.append([case.folder, row["seed"], row["completed"], json.dumps(kept), row["reasons"]])
         shown = "; ".join(f"{name} {median_and_range(rows, name)}" for name in COLUMNS[case.scene])
         name = f"`{case.scene}`, {case.what}" if case.what else f"`{case.scene}`"
-        lines.append(f"| {name} | {completed(rows)} | {shown} |")
+        lines.append((name, completed(rows), shown))
     write_rows(HERE / "companion_body.csv", ("case", "seed", "completed", "figures", "reasons"), gathered)
-    write_table(HERE / "companion_body.md", lines)
+    head = ("scene", "completed", "median (least to most) over the seeds")
+    write_table(HERE / "companion_body.md", [markdown_table(head, lines)])
 
 
 if __name__ == "__main__":

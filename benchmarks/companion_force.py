@@ -10,6 +10,8 @@ from pathlib import Path
 from resumable import write_table
 from sweep_cases import Row, SweepCase, completed, median_and_range, rows_of_cases, run_cases, write_rows
 
+from plantar.bench.tables import markdown_table
+
 HERE = Path(__file__).parent
 COLUMNS = (
     *("completed", "force_rms_free_N", "force_rms_disturbed_N", "force_max_N", "contact_lost_s"),
@@ -40,15 +42,14 @@ CASES = (
 
 
 def report(folder: Path) -> None:
-    gathered: list[list[str]] = []
-    lines = [f"| {' | '.join(('experiment', 'completed', *SHOWN.values()))} |", "|---" * (2 + len(SHOWN)) + "|"]
+    gathered, lines = [], []
     for case, rows in rows_of_cases(CASES, folder):
         gathered += [[case.folder, row["seed"], *(row[name] for name in COLUMNS)] for row in rows]
         number = case.scene.removeprefix(NAME)
         name = f"{number}, {case.what}" if case.what else number
-        lines.append(f"| {name} | {completed(rows)} | {' | '.join(_figure(rows, column) for column in SHOWN)} |")
+        lines.append((name, completed(rows), *(_figure(rows, column) for column in SHOWN)))
     write_rows(HERE / "companion_force.csv", ("case", "seed", *COLUMNS), gathered)
-    write_table(HERE / "companion_force.md", lines)
+    write_table(HERE / "companion_force.md", [markdown_table(("experiment", "completed", *SHOWN.values()), lines)])
 
 
 def _figure(rows: list[Row], column: str) -> str:

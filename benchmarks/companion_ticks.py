@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from resumable import write_table
 
+from plantar.bench.tables import markdown_table
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.sim.companion.experiments.multi_contact import MultiContact
@@ -77,9 +78,9 @@ def main() -> None:
                 jacobians[kind] = robot.jacobians - before
         table.append((count, median(took["skipping"]), median(took["not"]), jacobians["skipping"], jacobians["not"]))
         print(*table[-1], flush=True)
-    lines = ["| touched | skipping [us] | not [us] | Jacobians | Jacobians, not skipping |", "|---|---|---|---|---|"]
-    lines += [f"| {n} | {a:.0f} | {b:.0f} | {j} | {k} |" for n, a, b, j, k in table]
-    write_table(HERE / "companion_ticks.md", lines)
+    head = ("touched", "skipping [us]", "not [us]", "Jacobians", "Jacobians, not skipping")
+    shown = markdown_table(head, [(n, f"{a:.0f}", f"{b:.0f}", j, k) for n, a, b, j, k in table])
+    write_table(HERE / "companion_ticks.md", [shown])
     draw(np.array(table))
 
 

@@ -5,12 +5,12 @@ completed, on fresh seeds, to a tenth at 95 %. FOLDER keeps the rows of a stoppe
 """
 
 import os
-import resource
 import sys
 from pathlib import Path
 
-from resumable import write_table
+from resumable import processor_time, write_table
 
+from plantar.bench.tables import markdown_table
 from plantar.sim.sweep import LimitSearch, plan_from_texts, run_sweep
 
 FOLDER = Path(__file__).parent
@@ -29,17 +29,9 @@ SEARCHES = {
 }
 
 
-def processor_time() -> float:
-    """In s, of this process and its finished workers."""
-    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
-    return sum(u.ru_utime + u.ru_stime for u in used)
-
-
 def main(folder: Path, names: list[str]) -> None:
-    lines = [
-        "| scene | robot | limit | 95 % interval | width | runs | completed | processor time of a run [s] |",
-        "|---|---|---|---|---|---|---|---|",
-    ]
+    lines = []
+    head = ["scene", "robot", "limit", "95 % interval", "width", "runs", "completed", "processor time of a run [s]"]
     for name in names:
         scene, robot, grid, limit, unit = SEARCHES[name]
         plan = plan_from_texts(scene, grid, MOST[scene], robot=robot, limit=limit, first_seed=1000)
@@ -50,18 +42,13 @@ def main(folder: Path, names: list[str]) -> None:
         print(f"{name}: {found['runs']} runs took {used:.0f} s of processor time", file=sys.stderr)
         for outcome in found["limits"]:
             low, high = outcome["interval"] or (float("nan"), float("nan"))
-            cells = (
-                " ".join([f"`{scene}`", *outcome["settings"].values()]),
-                robot,
-                f"{outcome['limit']:.3g} {unit}" if outcome["reached"] else "not known so well",
-                f"{low:.3g} to {high:.3g}",
-                f"{outcome['width']:.1%}" if outcome["width"] is not None else "-",
-                str(outcome["runs"]),
-                str(outcome["completed"]),
-                f"{used / found['runs']:.2f}" if found["runs"] else "-",
-            )
-            lines.append(f"| {' | '.join(cells)} |")
-        write_table(FOLDER / "limits.md", lines)  # after each: one takes up to half an hour
+            where = " ".join([f"`{scene}`", *outcome["settings"].values()])
+            limit = f"{outcome['limit']:.3g} {unit}" if outcome["reached"] else "not known so well"
+            width = f"{outcome['width']:.1%}" if outcome["width"] is not None else "-"
+            a_run = f"{used / found['runs']:.2f}" if found["runs"] else "-"
+            counts = outcome["runs"], outcome["completed"]
+            lines.append((where, robot, limit, f"{low:.3g} to {high:.3g}", width, *counts, a_run))
+        write_table(FOLDER / "limits.md", [markdown_table(head, lines)])  # after each: one takes up to half an hour
 
 
 if __name__ == "__main__":

@@ -14,6 +14,8 @@ from pathlib import Path
 
 from resumable import append_row, commit, drawn_seeds, rows_of, write_table
 
+from plantar.bench.tables import markdown_table
+
 FOLDER = Path(__file__).parent
 CSV = FOLDER / "motors.csv"
 COLUMNS = ("robot", "drives", "scene", "seed", "completed", "failed", "tilt_deg", "impact", "tick_us", "commit")
@@ -68,7 +70,7 @@ def run(minutes: float, robots: dict[str, str]) -> None:
 def report() -> None:
     """Write the table between its markers in motors.md."""
     rows = {(r["robot"], r["drives"], r["scene"]): r for r in rows_of(CSV)}
-    lines = [f"| robot | drives | {' | '.join(SCENES)} |", "|---" * (len(SCENES) + 2) + "|"]
+    lines = []
     for name, drives in dict.fromkeys((r[0], r[1]) for r in rows):
         cells = []
         for scene in SCENES:
@@ -79,8 +81,8 @@ def report() -> None:
                 cells.append(f"yes, {float(row['tilt_deg']):.1f} deg, {float(row['impact']):.0f} N")
             else:
                 cells.append(f"no: {row['failed']}")
-        lines.append(f"| {name} | {drives} | {' | '.join(cells)} |")
-    write_table(FOLDER / "motors.md", lines)
+        lines.append((name, drives, *cells))
+    write_table(FOLDER / "motors.md", [markdown_table(("robot", "drives", *SCENES), lines)])
 
 
 if __name__ == "__main__":

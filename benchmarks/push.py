@@ -4,6 +4,8 @@ from statistics import median
 
 from resumable import FOLDER, HEADS, Benchmark, Case, counted, of_now, origin, rows_of, write_table
 
+from plantar.bench.tables import markdown_table
+
 COLUMNS = {
     "fell": "fell",
     "direction": "push.direction",
@@ -53,18 +55,19 @@ def report() -> None:
         if not r.get("plant") and way in _OLDER:
             r["case"] = f"{impulse}, {_OLDER[way]}"
     ways = dict.fromkeys([*WAYS, *_OLDER.values()])
-    lines = [f"| robot | impulse | what balances | {' | '.join(HEADS)} |", "|---|---|---|---|---|---|"]
+    lines = []
     bars: list[tuple[str, list[float]]] = []
     for robot, impulse in LINES:
         shares = []
         for way in ways:
             mine = [r for r in rows if r["robot"] == robot and r["case"] == _name(impulse, way)]
             if mine:
-                lines.append(f"| {robot} | {impulse} N s | {way} | {' | '.join(counted(mine))} |")
+                lines.append((robot, f"{impulse} N s", way, *counted(mine)))
             now = of_now(mine)
             shares.append(100.0 * sum(r["completed"] == "True" for r in now) / max(len(now), 1))
         bars.append((f"{robot}\n{impulse} N s", shares))
-    write_table(FOLDER / "push.md", [*lines, "", origin(BENCHMARK)])
+    table = markdown_table(("robot", "impulse", "what balances", *HEADS), lines)
+    write_table(FOLDER / "push.md", [table, "", origin(BENCHMARK)])
     figure, axis = new_figure(6.0, 3.2)
     colours = [COLOURS[name] for name in ("polygon", "left", "right", "reference")]
     for i, (way, colour) in enumerate(zip(WAYS, colours, strict=True)):

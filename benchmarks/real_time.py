@@ -12,6 +12,8 @@ from typing import Any, NamedTuple
 
 from resumable import write_table
 
+from plantar.bench.tables import markdown_table
+
 FOLDER = Path(__file__).parent
 # scene, robot, settings: the longest ones shortened
 SCENES = (
@@ -58,16 +60,14 @@ def main(runs: int) -> None:
         for costs, scene in zip(seen, SCENES, strict=True):
             costs.append(cost(*scene))
             print(f"{turn + 1}/{runs} {' '.join(scene[:2])}: {costs[-1].factor:.2f}", file=sys.stderr)
-    lines = [
-        "| scene | robot | settings | real-time factor | best run | control tick, median [us] | 99 % [us] |",
-        "|---|---|---|---|---|---|---|",
-    ]
+    lines = []
     for costs, (scene, robot, settings) in zip(seen, SCENES, strict=True):
         factor, p50, p99 = (median(column) for column in zip(*costs, strict=True))
         best = max(c.factor for c in costs)
-        cells = (scene, robot, " ".join(settings), f"{factor:.1f}", f"{best:.1f}", f"{p50:.0f}", f"{p99:.0f}")
-        lines.append(f"| {' | '.join(cells)} |")
-    write_table(FOLDER / "real_time.md", lines)
+        numbers = (f"{factor:.1f}", f"{best:.1f}", f"{p50:.0f}", f"{p99:.0f}")
+        lines.append((scene, robot, " ".join(settings), *numbers))
+    head = ("scene", "robot", "settings", "real-time factor", "best run", "control tick, median [us]", "99 % [us]")
+    write_table(FOLDER / "real_time.md", [markdown_table(head, lines)])
 
 
 if __name__ == "__main__":

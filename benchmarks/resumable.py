@@ -9,6 +9,7 @@ at every commit; they have a separate column until they are counted again.
 import csv
 import hashlib
 import os
+import resource
 import subprocess
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -19,6 +20,7 @@ from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 from plantar.bench.intervals import wilson_interval
+from plantar.bench.tables import markdown_table
 
 FOLDER = Path(__file__).parent
 
@@ -90,14 +92,14 @@ class Benchmark:
     def report(self) -> None:
         """Write the table between its markers in the page: a line a case with runs."""
         rows = rows_of(self.path)
-        heads = ("case", "robot", *HEADS, *self.shown)
-        lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
+        lines = []
         for case in self.cases:
             mine = [r for r in rows if (r["case"], r["robot"]) == (case.name, case.robot)]
             if mine:
                 cells = [cell(of_now(mine)) for cell in self.shown.values()]
-                lines.append(f"| {' | '.join((case.name, case.robot, *counted(mine), *cells))} |")
-        write_table(self.folder / f"{self.name}.md", [*lines, "", f"{self.note} {origin(self)}".strip()])
+                lines.append((case.name, case.robot, *counted(mine), *cells))
+        table = markdown_table(("case", "robot", *HEADS, *self.shown), lines)
+        write_table(self.folder / f"{self.name}.md", [table, "", f"{self.note} {origin(self)}".strip()])
 
 
 def figures(benchmark: Benchmark, simulation: Any, summary: dict[str, Any]) -> dict[str, Any]:
@@ -143,6 +145,12 @@ def failed(rows: list[Row]) -> str:
 
 def fallen(rows: list[Row]) -> str:
     return str(sum(r["fell"] in ("True", "1") for r in rows))
+
+
+def processor_time() -> float:
+    """In s, of this process and its finished workers."""
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(u.ru_utime + u.ru_stime for u in used)
 
 
 def commit() -> str:

@@ -6,7 +6,6 @@ sweep's part outside of its workers, and the processor time of a worker's start 
 """
 
 import os
-import resource
 import sys
 import time
 from pathlib import Path
@@ -14,7 +13,7 @@ from statistics import median
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
-from resumable import write_table
+from resumable import processor_time, write_table
 
 from plantar.sim.sweep import plan_from_texts, run_sweep
 
@@ -32,16 +31,11 @@ class Cost(NamedTuple):
 def cost(workers: int, seeds: int = SEEDS) -> Cost:
     plan = plan_from_texts(SCENE, seeds=seeds, first_seed=1000)
     with TemporaryDirectory() as folder:
-        wall, busy, own, here = time.monotonic(), _busy(), _processor(), time.process_time()
+        wall, busy, own, here = time.monotonic(), _busy(), processor_time(), time.process_time()
         run_sweep(plan, folder, workers=workers)
         wall, busy = time.monotonic() - wall, _busy() - busy
-        own, here = _processor() - own, time.process_time() - here
+        own, here = processor_time() - own, time.process_time() - here
     return Cost(wall, own, here, max(0.0, busy - own) / (wall * (os.cpu_count() or 1)))
-
-
-def _processor() -> float:
-    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
-    return sum(u.ru_utime + u.ru_stime for u in used)
 
 
 def _busy() -> float:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from resumable import write_table
 
+from plantar.bench.tables import markdown_table
 from plantar.geometry.polygon import area, centroid
 from plantar.layouts.layout import SoleLayout
 from plantar.robots.robot_file import load_robot
@@ -48,10 +49,8 @@ def errors(layout: SoleLayout, pressure: SolePressure | ElasticPressure) -> NDAr
 
 
 if __name__ == "__main__":
-    lines = [
-        "| taxels | robot | centroid error, median [mm] | 95 % [mm] | area found less true [share of the sole] |",
-        "|---|---|---|---|---|",
-    ]
+    lines = []
+    head = ["taxels", "robot", "centroid error, median [mm]", "95 % [mm]", "area found less true [share of the sole]"]
     for robot in ("h1", "hrp2kai"):
         layout = load_robot(robot).layouts["left"]
         models: dict[str, SolePressure | ElasticPressure] = {
@@ -62,6 +61,6 @@ if __name__ == "__main__":
         }
         for name, model in models.items():
             error, share = errors(layout, model).T
-            cells = f"{np.median(error):.1f} | {np.percentile(error, 95):.1f} | {np.median(share):+.3f}"
-            lines.append(f"| {name} | {robot} | {cells} |")
-    write_table(Path(__file__).with_name("taxel_models.md"), lines)
+            cells = f"{np.median(error):.1f}", f"{np.percentile(error, 95):.1f}", f"{np.median(share):+.3f}"
+            lines.append((name, robot, *cells))
+    write_table(Path(__file__).with_name("taxel_models.md"), [markdown_table(head, lines)])
