@@ -1,16 +1,20 @@
 """The report in a real browser: it opens, its player moves, and what it shows can be read and reached."""
 
 import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from plantar import write_layout
+from plantar.formats.nominal_insole import nominal_insole
 from plantar.gait.analysis.analyse import analyse_recording
 from plantar.gait.analysis.compare import compare_recordings
 
 from .browser import AXE, axe_script, visit
 from .printing import PrintedImage, printed, printed_images
+from .walks import made_walk
 
 WAIT = """
 const player = document.getElementById('player');
@@ -102,34 +106,17 @@ return {weak, texts, wide, cut, outline, axe: audit.map(v => [v.impact, v.id, v.
 def report(tmp_path_factory):
     """The report of a walk of 60 s in two insoles of 99 cells at 100 Hz."""
     folder = tmp_path_factory.mktemp("report")
-    path = folder / "walk.npz"
-    time, left, right = insole_walk(60.0)
-    layout = folder / "layout.json"
-    from plantar import write_layout
-    from plantar.formats.nominal_insole import nominal_insole
-
-    write_layout(nominal_insole("y", "left"), layout)
-    np.savez(path, time=time, left=left, right=right, unit="kPa")
-    analyse_recording(path, folder / "out", layout=layout)
+    write_layout(nominal_insole("x", "left"), folder / "layout.json")
+    walk_in(folder / "walk.npz", strides=54)
+    analyse_recording(folder / "walk.npz", folder / "out", layout=folder / "layout.json")
     return folder / "out" / "report.html"
 
 
-def insole_walk(seconds: float, rate: float = 100.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Times and pressures in kPa of both feet: loads that roll from heel to toe, with noise."""
-    from plantar.formats.nominal_insole import nominal_insole
-
-    layout = nominal_insole("y", "left")
-    random = np.random.default_rng(2)
-    time = np.arange(0.0, seconds, 1.0 / rate)
-    feet = []
-    for offset in (0.0, 0.55):
-        phase = ((time + offset) % 1.1) / 0.7
-        load = np.where(phase < 1.0, 750.0 * np.sin(np.pi * np.clip(phase, 0.0, 1.0)) ** 0.5, 0.0)
-        centre = 0.28 * (0.1 + 0.75 * np.clip(phase, 0.0, 1.0))
-        near = np.exp(-0.5 * ((layout.positions[:, 0] - centre[:, None]) / 0.04) ** 2)
-        pressure = 1e-3 * load[:, None] * near / (near * layout.areas).sum(axis=1, keepdims=True)
-        feet.append(np.maximum(pressure + random.normal(0.0, 1.0, pressure.shape), 0.0))
-    return time, feet[0], feet[1]
+def walk_in(path: Path, strides: int, gain: float = 1.0) -> None:
+    """Write the forces of a walk of 1.1 s a stride in both insoles."""
+    recording = made_walk(strides=strides, noise=0.1).recording
+    forces = {side: gain * foot.force for side, foot in recording.feet.items()}
+    np.savez(path, time=recording.time, unit="N", **forces)
 
 
 def test_the_player_moves_by_mouse_and_keyboard_without_errors(report, tmp_path):
@@ -177,9 +164,8 @@ def test_everything_can_be_read_and_reached(report, tmp_path, dark):
 def test_the_comparison_opens_without_errors(tmp_path):
     paths = []
     for i, gain in enumerate((1.0, 1.2)):
-        time, left, right = insole_walk(12.0)
         paths.append(tmp_path / f"{i}.npz")
-        np.savez(paths[-1], time=time, left=gain * left, right=gain * right, unit="N")
+        walk_in(paths[-1], strides=10, gain=gain)
     compare_recordings(*paths, tmp_path / "out")
     seen = visit(tmp_path / "out" / "report.html", READABLE, tmp_path)
     assert seen.console == []
