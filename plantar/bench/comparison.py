@@ -31,16 +31,10 @@ def time_routes(
     rounds: int = 9,
     most: float = 1.0,
 ) -> dict[str, Time]:
-    """Time each route on its cases, a case a call, routes interleaved.
+    """Returns the mean time of a call of each of `routes`, functions of a case by name, on its `cases`, in the same
+    order, interleaved.
 
-    Args:
-        routes: Each route's name and function of a case.
-        cases: Each route's cases, in the same order.
-        rounds: Rounds of median.
-        most: Time in s to spend on a route; a slow one gets fewer rounds, 2 or more.
-
-    Returns:
-        Mean time of one call of each route.
+    Over `rounds` of median; a route that takes more than `most` s in all gets fewer, 2 or more.
 
     Example:
         >>> times = time_routes({"sum": sum, "max": max}, {"sum": [[1, 2]], "max": [[1, 2]]}, rounds=3)
@@ -136,18 +130,10 @@ def compare(
     rounds: int = 9,
     most: float = 0.5,
 ) -> list[Result]:
-    """Time routes interleaved, and compare results with the reference.
+    """Returns a result a route, in order, timed interleaved and compared with the `reference`, right results or None.
 
-    Args:
-        kernel: What is computed.
-        size: Its size.
-        routes: The routes, ours first.
-        reference: Right results, or None.
-        rounds: Rounds of median.
-        most: Time in s to spend on a route.
-
-    Returns:
-        A result a route, in order; error 1 if it raises.
+    `kernel` is what is computed, `size` its size; `routes` have ours first. Over `rounds` of median, up to `most` s a
+    route; error 1 if it raises.
 
     Example:
         >>> routes = [Route("builtin", sum, [[1.0, 2.0]], ours=True), Route("first", min, [[1.0, 2.0]])]

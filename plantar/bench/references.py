@@ -274,16 +274,8 @@ def rectangle_area(polygon: Array, angle: float = 0.0) -> float:
 
 
 def search_period(values: Callable[[Array], Array], period: float, samples: int, finest: float = 1e-10) -> float:
-    """Largest value over a period: samples, then finer around the best.
-
-    Args:
-        values: Values (m,) at angles (m,) in rad.
-        period: In rad.
-        samples: Angles tried first.
-        finest: Last step in rad.
-
-    Returns:
-        The best value.
+    """Returns the largest of `values`, a function of angles (m,) in rad, over a `period` in rad: `samples` angles,
+    then finer around the best down to a step `finest` in rad.
 
     Example:
         >>> round(search_period(lambda angles: np.cos(angles - 1.0), 2.0 * math.pi, 12), 12)

@@ -49,15 +49,9 @@ class Target:
 
 
 def measure_kernels(folder: Path, progress: Callable[[float, str], None], rounds: int = 9) -> dict[str, Any]:
-    """Run the whole comparison and write its report.
+    """Run the whole comparison and write its report into an existing `folder`, in `rounds` of medians.
 
-    Args:
-        folder: Existing folder.
-        progress: Gets fraction done and text.
-        rounds: Rounds of medians.
-
-    Returns:
-        Results and targets as plain JSON values, and file names.
+    `progress` gets fraction done and text. Returns results and targets as plain JSON values, and file names.
     """
     parts: list[Iterator[tuple[str, list[Result]]]] = [compare_shapes(size, rounds) for size in SIZES]
     parts += [compare_random_cells(rounds), compare_percepts(rounds)]

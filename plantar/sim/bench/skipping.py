@@ -147,21 +147,11 @@ class SkipRow:
 def compare_skipping(
     scene: str, robot: str, settings: Sequence[str] = (), rounds: int = 3, seed: int = _SEED
 ) -> SkipRow:
-    """Run a scene as needed, with everything, and its physics alone.
+    """Returns the comparison of a `scene` without pushes and moving ground as needed, with everything, and its physics
+    alone.
 
-    Args:
-        scene: Name of a scene without pushes and moving ground.
-        robot: Name.
-        settings: Changes of scene, as `key=value`.
-        rounds: Rounds of medians; 1 or more.
-        seed: Of the runs.
-
-    Returns:
-        The comparison.
-
-    Raises:
-        SceneError: If scene or setting is unknown.
-        InputError: Without a timer signal (see `RoomTimes`).
+    Of a `robot` with `settings` as `key=value`, in medians of `rounds`, 1 or more, with a `seed`. A SceneError if
+    scene or setting is unknown, an InputError without a timer signal (see `RoomTimes`).
     """
     needed, everything = load_scene(scene, tuple(settings), robot), load_scene(scene, (*settings, _NONE), robot)
     watched, full = WatchedSimulation(needed, seed), WatchedSimulation(everything, seed)

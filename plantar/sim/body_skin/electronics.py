@@ -65,16 +65,11 @@ class SkinElectronics:
         distance: NDArray[np.float64],
         temperature: NDArray[np.float64] | None = None,
     ) -> SkinReading:
-        """The reading delivered at a time; samples where due.
+        """Returns the reading delivered at a `time` in s: the latest sample old enough, or the first; samples where
+        due.
 
-        Args:
-            time: In s.
-            force: True normal (N,) in N.
-            distance: True (N,) in m, inf out of range, negative where pressed in.
-            temperature: True (N,) in degC, or None.
-
-        Returns:
-            The latest sample old enough, or the first.
+        Of the true normal `force` (N,) in N, `distance` (N,) in m, inf out of range, negative where pressed in, and
+        `temperature` (N,) in degC, or None.
         """
         if time >= self._due - 1e-9 or self._delivered is None:
             period = 1.0 / self.settings.rate

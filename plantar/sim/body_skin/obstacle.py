@@ -56,16 +56,10 @@ class Obstacle:
         before: tuple[NDArray[np.float64], NDArray[np.float64]],
         period: float,
     ) -> NDArray[np.float64]:
-        """Velocity of its points by two poses.
+        """Returns velocity (m, 3) in m/s of its `points` (m, 3) in the world in m by two poses.
 
-        Args:
-            points: (m, 3) in the world in m.
-            now: Middle (3,) in m and rotation (9,) to the world.
-            before: Both, `period` earlier.
-            period: In s; 0 for zero velocity.
-
-        Returns:
-            (m, 3) in m/s.
+        Middle (3,) in m and rotation (9,) to the world `now` and `before`, a `period` in s earlier; 0 for zero
+        velocity.
         """
         if not period or ((now[0] == before[0]).all() and (now[1] == before[1]).all()):
             return np.zeros_like(points)
@@ -76,16 +70,10 @@ class Obstacle:
     def lengths(
         self, data: Any, starts: NDArray[np.float64], ways: NDArray[np.float64], reach: float
     ) -> NDArray[np.float64]:
-        """Lengths of rays that meet it.
+        """Returns lengths (n,) in m of rays that meet it, -1 for a miss, in MuJoCo's `data`.
 
-        Args:
-            data: The MjData.
-            starts: (n, 3) in the world in m.
-            ways: Unit vectors (n, 3).
-            reach: Length in m that matters.
-
-        Returns:
-            (n,) in m; -1 for a miss.
+        From `starts` (n, 3) in the world in m along unit vectors `ways` (n, 3); lengths beyond `reach` in m do not
+        matter.
         """
         found = np.empty(len(starts))
         if self._mesh:

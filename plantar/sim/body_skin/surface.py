@@ -60,19 +60,11 @@ class PatchShape(Settings):
 
 
 def skin_from_tables(model: Any, patches: Iterable[Mapping[str, Any]], where: str) -> BodySkin:
-    """Lay a machine file's patches on the model's links.
+    """Returns the skin of a machine file's `patches`, its `[[patch]]` tables, laid on the links of a `model`, whose
+    obstacles carry none.
 
-    Args:
-        model: Its obstacles carry no skin.
-        patches: The `[[patch]]` tables.
-        where: File name, for messages.
-
-    Returns:
-        The skin.
-
-    Raises:
-        RobotError: If value or link is invalid.
-        LayoutError: If a patch misses, or names repeat.
+    A RobotError with the file's name, `where`, if value or link is invalid; a LayoutError if a patch misses, or names
+    repeat.
     """
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)

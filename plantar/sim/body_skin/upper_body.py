@@ -28,19 +28,10 @@ _SMALLEST = 0.05  # leg: least edge of the box
 
 
 def upper_body_skin(model: Any, base: int, *, leg: float, weight: float) -> BodySkin:
-    """Lay skin around all that is welded to the base.
+    """Returns skin around all that is welded to the `base`, an id, of a robot's `model`: a patch of each of `FACES`,
+    in the base frame.
 
-    Args:
-        model: Of the robot alone.
-        base: Id of the floating body.
-        leg: Leg length in m.
-        weight: In N.
-
-    Returns:
-        A patch of each of `FACES`, in the base frame.
-
-    Raises:
-        RobotError: If there is no extent.
+    By its `leg` length in m and `weight` in N; a RobotError if there is no extent.
     """
     low, high = _extent(model, base)
     if (high - low < _SMALLEST * leg).any():

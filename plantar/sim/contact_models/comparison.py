@@ -130,17 +130,10 @@ def compare_contact_models(
     contact: Contact | None = None,
     progress: Callable[[float, str], None] | None = None,
 ) -> list[ContactRow]:
-    """Measure contact models against MuJoCo's contact wrench.
+    """Returns a row a candidate of contact models against MuJoCo's contact wrench.
 
-    Args:
-        layout: Its bounding rectangle is the true edge.
-        candidates: What to compare.
-        seeds: Random load cases at each of 25 CoPs in full-sole stance.
-        contact: Contact parameters.
-        progress: Called with fraction and text.
-
-    Returns:
-        A row a candidate.
+    The `layout`'s bounding rectangle is the true edge; `seeds` are random load cases at each of 25 CoPs in full-sole
+    stance, `candidates` what is compared, `contact` the parameters; `progress` gets fraction and text.
     """
     rows = []
     candidates = tuple(candidates)

@@ -36,18 +36,11 @@ def holds(row: ContactRow) -> bool:
 
 
 def measure_contact(folder: Path, layout: Path | None, progress: Callable[[float, str], None]) -> dict[str, Any]:
-    """Compare contact models and parameters, and write the report.
+    """Compare contact models and parameters, and write the report into an existing `folder`.
 
-    Args:
-        folder: Existing folder.
-        layout: Layout file; None for 250 x 155 mm with taxels of 691 mm^2.
-        progress: Called with fraction and text.
-
-    Returns:
-        Chosen model's name, whether it meets the requirements, rows of models and parameters, file names.
-
-    Raises:
-        LayoutError: If the file is invalid.
+    `layout` is a file, None 250 x 155 mm with taxels of 691 mm^2; `progress` gets fraction and text. Returns the
+    chosen model's name, whether it meets the requirements, rows of models and parameters, file names; a LayoutError if
+    the file is invalid.
     """
     sole = hex_layout(_SOLE) if layout is None else read_layout(layout)
     rows = compare_contact_models(sole, progress=lambda share, text: progress(0.9 * share, text))

@@ -47,21 +47,11 @@ def build_sole(
     com_height: float = 0.05,
     contact: Contact | None = None,
 ) -> Sole:
-    """Compile a free body with one sole over some ground.
+    """Returns the compiled rig of a free body with one sole over some ground.
 
-    Args:
-        candidate: Contact model.
-        layout: Its bounding rectangle is the box.
-        ground: MJCF of ground geoms with placeholder {contact}.
-        mass: In kg.
-        com_height: Above the sole in m.
-        contact: Contact parameters.
-
-    Returns:
-        The compiled rig.
-
-    Raises:
-        InputError: If kind or reading is unknown.
+    Of a contact model `candidate`, a `layout`, whose bounding rectangle is the box, MJCF of `ground` geoms with
+    placeholder {contact}, `mass` in kg, `com_height` above the sole in m, and `contact` parameters. An InputError if
+    kind or reading is unknown.
     """
     contact = contact or Contact()
     attributes = contact.geom_attributes()

@@ -20,16 +20,10 @@ __all__ = ["Hand", "HandTarget", "body_point"]
 def body_point(
     data: Any, body: int, root: int, local: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Position and velocity of a point of a body.
+    """Returns position (3,) in m and velocity (3,) in m/s in the world of a point `local` (3,) in m of a `body`, by
+    ids.
 
-    Args:
-        data: MjData.
-        body: Body id.
-        root: Tree root id, of whose CoM MuJoCo gives velocities.
-        local: (3,) in the body's frame in m.
-
-    Returns:
-        (3,) in m and (3,) in m/s in the world.
+    MuJoCo's `data` has velocities of the CoM of the tree's `root`.
     """
     place = data.xpos[body] + data.xmat[body].reshape(3, 3) @ local
     # The cross product in full: np.cross takes ten times as long, and this runs once a physics step.

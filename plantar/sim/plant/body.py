@@ -24,15 +24,10 @@ def make_true(
     touching: Sequence[str],
     body: BodyScale,
 ) -> None:
-    """Change a compiled world model into the true plant.
+    """Change a compiled world `model` in place into the true `plant`.
 
-    Args:
-        model: Changed in place.
-        plant: The true plant.
-        torso: Body id.
-        servos: Of the legs' actuators.
-        touching: Geom names of soles and ground.
-        body: Size by its file.
+    By the `torso`'s id, `servos` of the legs' actuators, names of geoms `touching`, soles and ground, and the size by
+    the robot's file, `body`.
     """
     load = plant.load * float(model.body_mass[model.body_rootid == model.body_rootid[torso]].sum())
     _scale_mass(model, plant.mass_ratio, torso)

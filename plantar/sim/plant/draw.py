@@ -175,19 +175,10 @@ class TruePlant:
 def drawn_plant(
     plant: Plant, seed: int, body: BodyScale, joints: int, layouts: Mapping[Side, SoleLayout]
 ) -> TruePlant | None:
-    """The true plant of a run.
+    """Returns the true plant of a run, None where nominal.
 
-    Each item has its own random stream and scales with the level.
-
-    Args:
-        plant: The scene's settings.
-        seed: Seed of the rest.
-        body: The robot's size.
-        joints: Of leg joints.
-        layouts: The soles.
-
-    Returns:
-        The plant; None where nominal.
+    Each item has its own random stream and scales with the level. Drawn by the scene's settings `plant` and the `seed`
+    of the rest for the robot's size `body`, its leg `joints` and soles' `layouts`.
     """
     plant = plant.for_body(body)
     values = {name: _value(plant, name, seed) for name in (*plant.items(), *STATED)}

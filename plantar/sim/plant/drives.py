@@ -63,16 +63,10 @@ class TrueDrives:
     def offset(
         self, time: float, asked: NDArray[np.float64], joints: NDArray[np.float64], speeds: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """The actuators' torque offset.
+        """Returns the actuators' torque offset (k,) in N m at a `time` in s, never decreasing.
 
-        Args:
-            time: Time in s, never decreasing.
-            asked: stiffness q* + damping v* + tau_ff (k,) in N m, delayed.
-            joints: True joint angles (k,) in rad.
-            speeds: True joint speeds (k,) in rad/s.
-
-        Returns:
-            (k,) in N m.
+        `asked` is stiffness q* + damping v* + tau_ff (k,) in N m, delayed; true angles `joints` (k,) are in rad,
+        `speeds` (k,) in rad/s.
         """
         arrived = asked if self._line is None else self._line.passed(time, asked)
         offset = arrived - self._zero

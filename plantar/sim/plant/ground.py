@@ -47,16 +47,11 @@ def foam_time(thickness: float, body: BodyScale) -> float:
 
 
 def make_ground_true(model: Any, plant: TruePlant, touching: Sequence[int], body: BodyScale) -> None:
-    """Change contact friction and softness into the true plant's.
+    """Change contact friction and softness of a `model` in place into the true `plant`'s.
 
     Time constants add in squares, as springs in series. MuJoCo takes a pair's larger friction and mean time constant;
-    differing ground pieces override both.
-
-    Args:
-        model: Changed in place.
-        plant: The true plant.
-        touching: Geom ids of soles, ground.
-        body: Size by its file.
+    differing ground pieces override both. `touching` are ids of geoms, soles and ground, `body` the size by the
+    robot's file.
     """
     foam = foam_time(plant.rubber, body)
     before = model.geom_solref[touching, 0]

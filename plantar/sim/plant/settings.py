@@ -115,19 +115,10 @@ class Plant(Settings):
 
     @classmethod
     def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:
-        """Make the settings from a table; `draw` draws only what is not stated.
+        """Returns the settings of a `table`; `draw` draws only what is not stated.
 
-        Args:
-            table: Values by name.
-            where: Table name, for messages.
-            error: Error class to raise.
-            note: What decides on keys, for messages.
-
-        Returns:
-            The settings.
-
-        Raises:
-            PlantarError: Of class `error`: invalid key or value.
+        Raises `error` for an invalid key or value, with the table's name, `where`, and a `note` on what decides on
+        keys.
         """
         if isinstance(table, Mapping) and (drawn := cls._drawn_by(table.get("draw"))):
             table = {**dict.fromkeys(drawn, RANDOM), **table, "draw": "nominal"}

@@ -27,16 +27,8 @@ _SHOWN = {
 
 
 def figures_of(plan: Plan, found: Mapping[str, Any], rows: Rows) -> dict[str, Any]:
-    """The figures of a table.
-
-    Args:
-        plan: What was run.
-        found: Its results.
-        rows: The rows.
-
-    Returns:
-        Figures by name: "limit" of a limit search; else "completed", "map" over the first two numeric settings, and
-        "distributions".
+    """Returns figures of a `plan`'s results `found` and `rows` by name: "limit" of a limit search; else "completed",
+    "map" over the first two numeric settings, and "distributions".
     """
     scene = plan.checked.scene
     if isinstance(plan, LimitSearch):

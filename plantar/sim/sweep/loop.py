@@ -93,22 +93,13 @@ def run_sweep(
     scheduler: str | None = None,
     progress: Progress | None = None,
 ) -> dict[str, Any]:
-    """Run what results.csv lacks, append each run, and draw figures.
+    """Run what results.csv in a `folder` (made if needed) lacks of a `plan`, append each run, and draw figures.
 
-    Args:
-        plan: A `Sweep`, a `LimitSearch` or a `RandomSearch`.
-        folder: Folder of results.csv; made if needed.
-        workers: Processes on this machine.
-        scheduler: Address of a Dask scheduler to use instead.
-        progress: Gets fraction done and text.
+    `workers` is the number of processes on this machine, `scheduler` a Dask scheduler's address to use instead.
+    `progress` gets fraction done and text. Returns the plan's `found` for all rows, and "runs", "resumed", "files".
 
-    Returns:
-        The plan's `found` for all rows, and "runs", "resumed", "files".
-
-    Raises:
-        InputError: If folder, scheduler or inputs fail.
-        WorkerError: If workers fail; names kept rows.
-        SweepStopped: After Ctrl-C or SIGTERM; names kept rows.
+    An InputError if folder, scheduler or inputs fail; a WorkerError if workers do, and SweepStopped after Ctrl-C or
+    SIGTERM, which name the kept rows.
     """
     if workers < 1:
         raise InputError(f"number of workers is {workers}; allowed: 1 or more")

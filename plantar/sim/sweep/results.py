@@ -179,17 +179,11 @@ def open_results(
     axes: Sequence[str],
     columns: Sequence[str],
 ) -> Iterator[Results]:
-    """Open a sweep's results, new or stopped, for this process alone.
+    """Open a sweep's results in a `folder` (made if needed), new or stopped, for this process alone; yields the table.
 
-    Args:
-        folder: Folder of results.csv and sweep.json; made if needed.
-        identity: What all rows share (`Sweep.identity`).
-        inputs: Per robot what its rows depend on (`inputs_of`).
-        axes: Settings of grid, the first columns.
-        columns: Columns after those and seed.
-
-    Yields:
-        The table; an InputError if the folder is unusable, in use, or another sweep's.
+    `identity` is what all rows share (`Sweep.identity`), `inputs` per robot what its rows depend on (`inputs_of`),
+    `axes` the grid's settings and first columns, `columns` those after the seed. An InputError if the folder is
+    unusable, in use, or another sweep's.
     """
     path, plan = folder / "results.csv", folder / "sweep.json"
     with ExitStack() as stack:

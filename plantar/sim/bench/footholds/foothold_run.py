@@ -96,20 +96,11 @@ class FootholdResult(NamedTuple):
 
 
 def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) -> FootholdResult:
-    """Run a policy on a trial.
+    """Returns the result of a policy, which `make_policy` makes of a `WalkTask`, on a `trial` with a `robot` (name or
+    file).
 
-    Args:
-        make_policy: Makes the policy of a `WalkTask`.
-        trial: The trial.
-        robot: Name or file.
-        seed: Draws ground, push and sensor noise.
-
-    Returns:
-        The result.
-
-    Raises:
-        InputError: If the policy fails.
-        SceneError: If the physics become unstable.
+    `seed` draws ground, push and sensor noise. An InputError if the policy fails, a SceneError if the physics become
+    unstable.
     """
     run = Simulation(scene_of_trial(trial, robot), seed)
     world, data, judge = run.world, run.world.data, run.judge

@@ -27,21 +27,11 @@ def measure_footholds(
     kinds: Sequence[str] = (),
     progress: Callable[[float, str], None] | None = None,
 ) -> dict[str, Any]:
-    """Run a policy on all trials that the table lacks.
+    """Run a policy on all trials that footholds.csv in a `folder` lacks.
 
-    Args:
-        folder: Of footholds.csv and footholds.md.
-        policy: Python file with `make_policy(task)`, or None for built-in controller.
-        robots: Names or files; h1 where empty.
-        seeds: Runs of each trial.
-        kinds: Kinds of trials; all where empty.
-        progress: Gets fraction done and text.
-
-    Returns:
-        A row for each policy, robot and trial, and the files' names.
-
-    Raises:
-        InputError: If an argument is invalid.
+    `policy` is a Python file with `make_policy(task)`, None the built-in controller; `robots` are names or files, h1
+    where empty, `seeds` the runs of each trial, `kinds` those of trials, all where empty. `progress` gets fraction
+    done and text. Returns a row for each policy, robot and trial, and the files' names; an InputError if invalid.
     """
     known = list(dict.fromkeys(t.kind for t in TRIALS))
     if seeds < 1 or set(kinds) - set(known):

@@ -29,15 +29,10 @@ _HEADLINES = (
 
 
 def bench_page(result: Mapping[str, Any], figures: Mapping[str, bytes] | None = None) -> str:
-    """The page.
+    """Returns HTML without references to other files.
 
-    Args:
-        result: Results by part: "kernels", "contact", "skip", "scenes" and "papers", each optional; "made" has date,
-            version, machine and whether the run was quick.
-        figures: PNG files by part.
-
-    Returns:
-        HTML without references to other files.
+    `result` has "kernels", "contact", "skip", "scenes" and "papers", each optional; its "made" has date, version,
+    machine and whether the run was quick. `figures` are PNG files by part.
     """
     parts = (
         ("kernels", "Kernels compared with libraries", _kernels),

@@ -145,17 +145,11 @@ Progress = Callable[[float, str], None]
 def measure_page(
     folder: Path, before: Path, progress: tuple[Progress, Progress], result: Mapping[str, Any], quick: bool
 ) -> dict[str, Any]:
-    """Measure scenes and papers, and write bench.html.
+    """Measure scenes and papers, and write bench.html into an existing `folder`.
 
-    Args:
-        folder: Existing folder.
-        before: Folder of an earlier run, whose table of scene runs is continued.
-        progress: Gets fraction done and text, for scenes and papers.
-        result: Results of the other parts, by name.
-        quick: Leave out the long experiments.
-
-    Returns:
-        "scenes", "papers" and "made", each with its files' names.
+    The table of scene runs in the folder `before` is continued; `progress` gets fraction done and text, for scenes and
+    papers; `result` has the other parts' by name; `quick` leaves out the long experiments. Returns "scenes", "papers"
+    and "made", each with its files' names.
     """
     if (before / TABLE).is_file():
         shutil.copy(before / TABLE, folder / TABLE)

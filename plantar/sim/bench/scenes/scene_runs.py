@@ -58,14 +58,9 @@ class SceneRuns:
         traced: int,
         progress: Callable[[float, str], None],
     ) -> None:
-        """Run what is missing, settings in turn against busy minutes.
+        """Run what is missing of `cases`, walks, with each of `settings`, in turn against busy minutes, and `seeds`.
 
-        Args:
-            cases: The walks.
-            settings: How each is run.
-            seeds: Of each.
-            traced: Number of first seeds whose motions are compared.
-            progress: Gets fraction done and text.
+        `traced` is the number of first seeds whose motions are compared; `progress` gets fraction done and text.
         """
         have = {_key(row) for row in self.rows}
         wanted = [job for case in cases for job in _jobs(case, settings, seeds, traced)]

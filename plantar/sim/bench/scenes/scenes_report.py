@@ -36,20 +36,11 @@ def measure_scenes(
     robots: Sequence[str] = (),
     quick: bool = False,
 ) -> dict[str, Any]:
-    """Run what scene_runs.csv lacks, and write scenes.md, scenes.csv and scenes.png.
+    """Run what scene_runs.csv in a `folder` (made if needed) lacks, and write scenes.md, scenes.csv and scenes.png.
 
-    Args:
-        folder: Of the table; made if needed.
-        progress: Gets fraction done and text.
-        scenes: Names; all of `CASES` where empty.
-        robots: Names; likewise.
-        quick: Run the most informative settings with one seed, by default of H1 on flat ground.
-
-    Returns:
-        Rows and verdicts as plain JSON values, and the files' names.
-
-    Raises:
-        InputError: If an argument or table is invalid.
+    `scenes` and `robots` are names, all of `CASES` where empty; `quick` runs the most informative settings with one
+    seed, by default of H1 on flat ground. `progress` gets fraction done and text. Returns rows and verdicts as plain
+    JSON values, and the files' names; an InputError if invalid.
     """
     cases = _chosen(scenes, robots, quick)
     folder.mkdir(parents=True, exist_ok=True)

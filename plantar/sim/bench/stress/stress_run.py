@@ -177,19 +177,11 @@ _TABLE = "stress.csv"
 def measure_stress(
     folder: Path, count: int, first: int = 0, progress: Callable[[float, str], None] | None = None
 ) -> dict[str, Any]:
-    """Run the scenarios that stress.csv lacks.
+    """Run the scenarios that stress.csv in a `folder` (made if needed) lacks: `count`, 1 or more, from number `first`
+    on.
 
-    Args:
-        folder: Of the table; made if needed.
-        count: Number of scenarios, 1 or more.
-        first: Number of the first.
-        progress: Gets fraction done and text.
-
-    Returns:
-        Counts of each outcome, the failures, and the table's name.
-
-    Raises:
-        InputError: If count or file is invalid.
+    `progress` gets fraction done and text. Returns counts of each outcome, the failures, and the table's name; an
+    InputError if invalid.
     """
     if count < 1:
         raise InputError(f"stress run of {count} scenarios; allowed: 1 or more")
