@@ -18,7 +18,7 @@ __all__ = ["CellCutter", "half_planes"]
 def half_planes(lines: ArrayLike, name: str = "lines") -> NDArray[np.float64]:
     """Returns half-planes (m, 3) n . x <= h of a caller's `lines`, not copied if float64; an empty list is none.
 
-    An InputError with their `name` for others.
+    An InputError with their `name` unless (m, 3) and finite.
     """
     if isinstance(lines, list | tuple) and not len(lines):
         return np.empty((0, 3))

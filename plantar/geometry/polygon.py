@@ -40,7 +40,7 @@ def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
 
     Vertices are input points; those not finite, or beyond 1e100 m, are left out. Every turn is decided exactly; a
     vertex within rounding of its neighbours' line (4 units in the last place, at most 1e-13 of the extent) is left
-    out. An InputError for other shapes.
+    out. An InputError unless (n, 2).
 
     Example:
         >>> convex_hull([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0.5]]).tolist()
@@ -71,7 +71,7 @@ def convex_ring(polygon: ArrayLike) -> NDArray[np.float64]:
 
 
 def area(polygon: ArrayLike) -> float:
-    """Signed area in m^2 of a simple polygon (k, 2) in m: positive counter-clockwise, 0 below 3 vertices (shoelace)."""
+    """Signed area in m^2 of a simple polygon (k, 2) in m: positive counter-clockwise, 0 below 3 vertices."""
     return float(_kernel.area_of(plane_points(polygon)))
 
 
@@ -94,7 +94,7 @@ def closest_point(polygon: ArrayLike, point: ArrayLike) -> NDArray[np.float64] |
     if inside (T Algorithm 1, corrected); None if empty, NaN for no finite point.
 
     Printed (d x l)_z > 0 holds for counter-clockwise vertices alone; here its sign follows the polygon's. An
-    InputError if invalid.
+    InputError if not convex.
 
     Example:
         >>> closest_point(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), [2.0, 0.5]).tolist()
@@ -110,7 +110,7 @@ def closest_point(polygon: ArrayLike, point: ArrayLike) -> NDArray[np.float64] |
 
 def signed_margin(polygon: ArrayLike, point: ArrayLike) -> float:
     """Returns signed distance in m of a `point` (2,) to the edge of a convex `polygon` (k, 2), either orientation:
-    positive inside, -inf if empty, NaN for no finite point; an InputError if invalid.
+    positive inside, -inf if empty, NaN for no finite point; an InputError if not convex.
 
     Example:
         >>> signed_margin(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), [0.5, 0.25])
@@ -127,7 +127,8 @@ def inner_offset(polygon: ArrayLike, distance: float) -> NDArray[np.float64]:
     """Returns the convex polygon (m, 2), counter-clockwise, of points that keep a `distance` in m, 0 or more, from
     every edge of a convex `polygon` (k, 2), either orientation.
 
-    If none, or NaN, the deepest point (1, 2); empty for empty, a copy for 0. An InputError if invalid.
+    If none, or NaN, the deepest point (1, 2); empty for empty, a copy for 0. An InputError if not convex, or
+    for a distance below 0.
 
     Example:
         >>> inner_offset(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), 0.25).tolist()
