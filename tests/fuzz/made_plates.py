@@ -41,9 +41,7 @@ class Laboratory:
         return sorted((c for own in self.plates for c in own), key=lambda c: c.begin)
 
 
-def made_contact(
-    random: np.random.Generator, time: np.ndarray, side: str, begin: float, last: float, place: np.ndarray, top: float
-) -> Contact:
+def made_contact(random, time, side, begin, last, place, top):
     share = np.clip((time - begin) / last, 0.0, 1.0)
     humps = np.sin(np.pi * share) + random.uniform(0.15, 0.3) * np.sin(3.0 * np.pi * share)
     up = np.where((share > 0.0) & (share < 1.0), top * humps / humps.max(), 0.0)

@@ -175,9 +175,7 @@ def _places(made: Table, random: np.random.Generator) -> list[np.ndarray]:
     return columns
 
 
-def _write(
-    path: Path, made: Table, columns: list[np.ndarray], rate: float, random: np.random.Generator, twist: str
-) -> None:
+def _write(path, made, columns, rate, random, twist):
     """The text, with separators, decimal signs, times, comments, gaps and a twist drawn."""
     comma = bool(random.random() < 0.25)
     sign = str(random.choice([";", "\t"])) if comma else str(random.choice([",", ";", "\t"]))

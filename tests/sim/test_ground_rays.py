@@ -41,9 +41,7 @@ def rays(rng: np.random.Generator) -> tuple[NDArray[np.float64], NDArray[np.floa
     return starts, np.tile(way / np.linalg.norm(way), (51, 1))
 
 
-def cast(
-    module: Any, model: Any, data: Any, starts: NDArray[np.float64], ways: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def cast(module, model, data, starts, ways):
     lengths = np.empty(len(starts))
     ids, kinds = np.arange(model.ngeom, dtype=np.int32), model.geom_type.astype(np.int32)
     solids = (ids, kinds, model.geom_size, model.geom_rbound, data.geom_xpos, data.geom_xmat)

@@ -54,16 +54,7 @@ def axe_script() -> str:
     return "<script>" + AXE.read_text(encoding="utf-8").replace("</script", "<\\/script") + "</script>"
 
 
-def visit(
-    page: Path,
-    probe: str,
-    work: Path,
-    *,
-    dark: bool = False,
-    timeout: float = 90.0,
-    width: int = 1000,
-    webgl: bool = False,
-) -> Visit:
+def visit(page, probe, work, *, dark=False, timeout=90.0, width=1000, webgl=False):
     """Open a copy of a page that runs a probe at its end, and take what the probe sends back.
 
     The page comes from a server on this machine, so that the browser runs in real time and ends when the probe has.

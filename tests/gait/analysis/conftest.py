@@ -26,16 +26,7 @@ def sole() -> SoleLayout:
     return hex_layout([[-0.08, -0.07], [0.16, -0.07], [0.16, 0.07], [-0.08, 0.07]], name="test sole")
 
 
-def make_walk(
-    *,
-    steps: int = 10,
-    rate: float = 250.0,
-    noise: float = 0.0,
-    clip: bool = False,
-    rise: float = 0.012,
-    weight: float = 843.7,
-    seed: int = 0,
-) -> Walk:
+def make_walk(*, steps=10, rate=250.0, noise=0.0, clip=False, rise=0.012, weight=843.7, seed=0):
     """Single support 0.9 s, double support 0.3 s, standing before and after; the landing carries half the weight."""
     random = np.random.default_rng(seed)
     single, double, start = 0.9, 0.3, 1.5137

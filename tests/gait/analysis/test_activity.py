@@ -61,9 +61,7 @@ def test_where_the_foot_lands_names_the_walk(name, roll, side):
     assert progression_doubts(recording, feet) == []
 
 
-def stairs_up(
-    seed: int, stance: float | None = None, landing: float | None = None, peaks: tuple[float, float] | None = None
-) -> PressureRecording:
+def stairs_up(seed, stance=None, landing=None, peaks=None):
     """A walk up stairs as the literature describes it: front or middle of the foot first, slow, a strong push-off."""
     random = np.random.default_rng(seed)
     stances, landings, stride = random.uniform(0.645, 0.68), random.uniform(0.5, 0.62), random.uniform(1.3, 1.6)

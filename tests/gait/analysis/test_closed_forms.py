@@ -14,7 +14,7 @@ from plantar.gait.analysis.prints.regions import REGIONS, regions_of, with_toe_l
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.gait.analysis.steps.step_measures import force_measures
 from plantar.layouts.layout import Side
-from plantar.recordings.pressure_recording import FootRecording, Kind, PressureRecording
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
 A, B = 0.05, 0.03
 """Half axes of the ellipse along and across the foot in m."""
@@ -26,9 +26,7 @@ PITCH = 0.002
 AREA = math.pi * A * B
 
 
-def rolling_ellipse(
-    kind: Kind = "insole", rate: float = 200.0, turn: float = 0.0, side: Side = "left"
-) -> PressureRecording:
+def rolling_ellipse(kind="insole", rate=200.0, turn=0.0, side="left"):
     """An ellipse of even pressure whose middle moves along x from FROM to TO at even speed, three times."""
     rows, columns = 130, 60
     layout = grid_cells(np.ones((rows, columns), dtype=bool), PITCH, PITCH, side="left", name="mat", threshold=1e3)

@@ -1,6 +1,5 @@
 """Made walks in two 99-cell insoles whose every property is chosen: for tests of what recordings may be like."""
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -8,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.formats.nominal_insole import nominal_insole
-from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 from plantar.sides import SIDES, Side
 
@@ -38,24 +36,24 @@ def two_humps(share: NDArray[np.float64], first: float = 1.1, valley: float = 0.
 
 def made_walk(
     *,
-    strides: int = 9,
-    stride: float = 1.1,
-    stance: float = 0.62,
-    weight: float = 700.0,
-    rate: float = 100.0,
-    offset: float = 0.0,
-    drift: float = 0.0,
-    crease: Sequence[int] = (),
-    crease_force: float = 20.0,
-    noise: float = 0.0,
-    gains: Sequence[float] | None = None,
-    slow_ends: float = 1.0,
-    forefoot: float = 1.0,
-    roll: Sequence[tuple[float, float]] = ((0.0, 0.15), (1.0, 0.85)),
-    humps: tuple[float, float, float] = (1.1, 0.75, 1.15),
-    seed: int = 0,
-    layouts: Mapping[Side, SoleLayout] | None = None,
-) -> MadeWalk:
+    strides=9,
+    stride=1.1,
+    stance=0.62,
+    weight=700.0,
+    rate=100.0,
+    offset=0.0,
+    drift=0.0,
+    crease=(),
+    crease_force=20.0,
+    noise=0.0,
+    gains=None,
+    slow_ends=1.0,
+    forefoot=1.0,
+    roll=((0.0, 0.15), (1.0, 0.85)),
+    humps=(1.1, 0.75, 1.15),
+    seed=0,
+    layouts=None,
+):
     """A walk from heel to toe.
 
     Args:

@@ -8,7 +8,7 @@ from msgspec.structs import astuple
 from plantar.errors import InputError
 from plantar.gait.balance.balance_laws import balance_gains, balance_law
 from plantar.gait.balance.dcm_balance import BalanceGains, DcmBalance
-from plantar.gait.balance.law import BalanceState, Feet, FootAction, FootState
+from plantar.gait.balance.law import Feet, FootAction, FootState
 from plantar.gait.balance.wrench_balance import WrenchBalance, WrenchBalanceGains
 from plantar.gait.estimate.command_frame import CommandFrame
 from plantar.gait.plan.vrp_plan import LipReference
@@ -37,9 +37,7 @@ def standing(*sides: Side, fz: float = 300.0, moment: float = -0.015 * 300.0) ->
     return Feet(states, None, CommandFrame(np.zeros(3), PERIOD, 0.3))
 
 
-def tick(
-    balance: WrenchBalance, dcm: np.ndarray, zmp: np.ndarray | None, region: np.ndarray, feet: Feet
-) -> tuple[BalanceState, Mapping[Side, FootAction]]:
+def tick(balance, dcm, zmp, region, feet):
     """What a law decides and wants of the feet."""
     state = balance.update(STILL, dcm, zmp, region)
     return state, balance.act(state, feet)

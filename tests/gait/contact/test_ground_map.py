@@ -1,13 +1,11 @@
 """What a swinging sole sees of made-up ground."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from plantar import Percept, Reading, hex_layout
-from plantar.gait.contact.ground_map import GroundMap, GroundMapSettings, GroundView
+from plantar.gait.contact.ground_map import GroundMap, GroundMapSettings
 
 LAYOUT = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
 PERIOD = 0.005
@@ -18,9 +16,7 @@ def percept(distance: NDArray[np.float64], time: float = 0.0) -> Percept:
     return Percept(LAYOUT, Reading(time=time, force=np.zeros(len(LAYOUT)), proximity=distance))
 
 
-def looked(
-    distance: NDArray[np.float64], gains: GroundMapSettings | None = None, noise: float = 0.0
-) -> GroundView | None:
+def looked(distance, gains=None, noise=0.0):
     rng = np.random.default_rng(1)
     ground = GroundMap(LAYOUT, gains or GroundMapSettings())
     ground.begin()
@@ -125,9 +121,7 @@ def test_the_map_moves_with_the_sole_between_readings():
     assert view.slope[0] == pytest.approx(np.tan(angle), rel=0.02)
 
 
-def swung(
-    ground: GroundMap, distance: Callable[[float], NDArray[np.float64]], start: float, age: float = 0.0
-) -> GroundView | None:
+def swung(ground, distance, start, age=0.0):
     """A swing from the ground to 20 mm above it and half way down again; readings are as old as `age`."""
     ground.begin()
     view = None

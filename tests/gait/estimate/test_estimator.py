@@ -74,14 +74,7 @@ class Swaying:
         return out
 
 
-def follow(
-    robot: Swaying,
-    duration: float,
-    noise: float = 0.0,
-    bias: float = 0.0,
-    identified: GyroBias | None = None,
-    known: DcmFilter | None = None,
-) -> tuple[float, float, float]:
+def follow(robot, duration, noise=0.0, bias=0.0, identified=None, known=None):
     """Worst errors after the first second: orientation in rad, CoM in m, CoM velocity in m/s."""
     rng = np.random.default_rng(0)
     estimator = FloatingBaseEstimator(robot, OMEGA, PERIOD, START, gyro_bias=identified, dcm_filter=known)

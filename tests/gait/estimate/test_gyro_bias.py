@@ -18,9 +18,7 @@ def sway(time: float) -> NDArray[np.float64]:
     return np.asarray(Rotation.from_euler("xyz", 0.05 * np.sin([1.3 * time, 2.0 * time, 0.7 * time])).as_matrix())
 
 
-def turned(
-    before: dict[Side, NDArray[np.float64]], now: dict[Side, NDArray[np.float64]], weights: dict[Side, float]
-) -> NDArray[np.float64] | None:
+def turned(before, now, weights):
     """By how much soles that stand say the base has turned, weighted; None where none stands."""
     standing = [side for side, weight in weights.items() if weight > 0.0]
     if not standing:
@@ -29,13 +27,7 @@ def turned(
     return np.asarray(np.average(each, axis=0, weights=[weights[side] for side in standing]))
 
 
-def found(
-    bias: NDArray[np.float64],
-    duration: float = 3.0,
-    seed: int = 0,
-    weights: dict[Side, float] = BOTH,
-    turning: NDArray[np.float64] | None = None,
-) -> NDArray[np.float64]:
+def found(bias, duration=3.0, seed=0, weights=BOTH, turning=None):
     """What is identified of a bias by a base that sways over its feet; a rate `turning` turns the right sole."""
     rng = np.random.default_rng(seed)
     identified = GyroBias(PERIOD, 20.0, LARGEST, 0.25, 6e-4)

@@ -25,9 +25,7 @@ def taken(steps: Sequence[Footstep], phase: Phase) -> Footstep | None:
     return steps[phase.step] if phase.swing is not None else None
 
 
-def walked(
-    ground: float, until: float, fit: SwingFitRules | None = None
-) -> tuple[FootMotion, list[tuple[float, float]]]:
+def walked(ground, until, fit=None):
     """The first step over ground at a height; the foot feels a stiff spring. Times and commanded sole heights."""
     feet, steps = straight_plan(2)
     schedule = WalkSchedule.of([step.side for step in steps], Timing())

@@ -8,7 +8,7 @@ from plantar.errors import InputError
 from plantar.gait.contact.ground_map import GroundMapSettings
 from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from plantar.gait.feet.foot_motion import FootMotion, Landing
-from plantar.gait.feet.ground_conformity import ConformityGains, FootTurn, GroundConformity, SoleTurn
+from plantar.gait.feet.ground_conformity import ConformityGains, FootTurn, GroundConformity
 from plantar.gait.feet.swing_compliance import SwingCompliance
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.gait.plan.phases import Phase, PhaseKind
@@ -88,9 +88,7 @@ def test_a_gain_below_zero_is_refused():
         ConformityGains(firm=-1.0)
 
 
-def _turned(
-    swing: Side | None, cop: tuple[float, float], zmp: tuple[float, float], landed: bool, parts: dict[Side, np.ndarray]
-) -> dict[Side, SoleTurn]:
+def _turned(swing, cop, zmp, landed, parts):
     """Turns of soles of which the right one carries 800 N around a place of it, with a ZMP wanted at another place."""
     feet, _ = straight_plan(2)
     layout = hex_layout([[-0.1, -0.07], [0.12, -0.07], [0.12, 0.07], [-0.1, 0.07]])

@@ -1,15 +1,12 @@
-from collections.abc import Sequence
 from dataclasses import FrozenInstanceError, replace
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from plantar.errors import InputError
 from plantar.gait.plan.footsteps import Footstep, straight_plan
 from plantar.gait.plan.phases import PhaseKind, Timing
-from plantar.gait.plan.plan_change import AppliedChange, PlanChange
-from plantar.gait.plan.vrp_plan import LipReference
+from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.walk_plan import WalkPlan, vrp_of_step
 from plantar.sides import other_side
 
@@ -47,9 +44,7 @@ def test_turned_footsteps_turn_their_vrps():
     assert vrp_of_step(feet["left"], CENTER["left"]) == pytest.approx([1.0 - 0.085 - 0.01, 2.0 + 0.025])
 
 
-def turned_by_a_foothold(
-    step: int = 3, shift: tuple[float, float] = (0.06, 0.0), late: float = 0.02
-) -> tuple[WalkPlan, float, LipReference, AppliedChange]:
+def turned_by_a_foothold(step=3, shift=(0.06, 0.0), late=0.02):
     """A walk in the double support after a step, and what a foothold off its middle makes of it."""
     feet, steps = straight_plan(12, length=0.0, sideways=0.08)
     plan = WalkPlan(feet, steps, Timing(), CENTER, OMEGA, 1.0)
@@ -60,14 +55,7 @@ def turned_by_a_foothold(
     return plan, time, before, replan
 
 
-def moved(
-    plan: WalkPlan,
-    step: int,
-    by: Sequence[float],
-    time: float,
-    region: NDArray[np.float64],
-    later: tuple[float, float] = (0.0, 0.0),
-) -> AppliedChange:
+def moved(plan, step, by, time, region, later=(0.0, 0.0)):
     """Move the VRP over a step, and the later steps."""
     x, y = (plan.view.vrp(step) + by).tolist()
     return plan.apply(PlanChange("a test", step, vrp=(x, y), shift=later), time, region)

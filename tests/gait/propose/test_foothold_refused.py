@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -23,9 +23,7 @@ RULES = FeasibilityRules()
 FRONT = LAYOUT.positions[:, 0] > 0.07
 
 
-def ticks(
-    plan: WalkPlan, step: int, touch: float, carries: np.ndarray, guard: StepGuard, tick_at: Callable[..., Tick]
-) -> Iterator[Tick]:
+def ticks(plan, step, touch, carries, guard, tick_at):
     """The ticks of a step that meets something high at a time in s after lift-off, which carries on some taxels."""
     side = plan.view.foothold(step).side
     start = next(p.start for p in plan.schedule.phases if p.step == step and p.swing is not None)
@@ -61,9 +59,7 @@ def guarding(rules: FeasibilityRules = RULES) -> StepGuard:
     return StepGuard(rules, dict.fromkeys(SIDES, LAYOUT))
 
 
-def test_expected_ground_is_stepped_on_without_a_word(
-    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_expected_ground_is_stepped_on_without_a_word(plan_of, tick_at):
     guard, plan = guarding(), plan_of()
     for tick in ticks(plan, 2, 0.8, np.ones(len(LAYOUT), dtype=bool), guard, tick_at):
         level = tick.changed(feet=tick.feet.changed(surprise=0.002))
@@ -72,9 +68,7 @@ def test_expected_ground_is_stepped_on_without_a_word(
     assert guard.checked == []
 
 
-def test_a_high_foothold_that_carries_the_sole_is_probed_and_trusted(
-    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_a_high_foothold_that_carries_the_sole_is_probed_and_trusted(plan_of, tick_at):
     guard, plan = guarding(), plan_of()
     swing = next(p for p in plan.schedule.phases if p.step == 2 and p.swing is not None)
     changes = walked(guard, plan, np.ones(len(LAYOUT), dtype=bool), tick_at)
@@ -86,9 +80,7 @@ def test_a_high_foothold_that_carries_the_sole_is_probed_and_trusted(
     assert not guard.stopped
 
 
-def test_a_foothold_under_the_toes_alone_is_walked_around(
-    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_a_foothold_under_the_toes_alone_is_walked_around(plan_of, tick_at):
     guard, plan = guarding(), plan_of()
     planned = plan.view
     changes = walked(guard, plan, FRONT, tick_at)
@@ -103,9 +95,7 @@ def test_a_foothold_under_the_toes_alone_is_walked_around(
     assert swing.touchdown == pytest.approx(plan.record[-1].time + RULES.swing_time)
 
 
-def test_without_a_way_around_the_foot_goes_back_and_the_walk_ends(
-    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_without_a_way_around_the_foot_goes_back_and_the_walk_ends(plan_of, tick_at):
     guard, plan = guarding(replace(RULES, attempts=0)), plan_of()
     changes = walked(guard, plan, FRONT, tick_at)
     assert guard.stopped
@@ -116,9 +106,7 @@ def test_without_a_way_around_the_foot_goes_back_and_the_walk_ends(
     assert guard.propose(tick_at(plan, plan.schedule.end)) is None
 
 
-def test_a_probe_presses_as_the_rule_says_from_touchdown_to_verdict(
-    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_a_probe_presses_as_the_rule_says_from_touchdown_to_verdict(plan_of, tick_at):
     guard, plan = guarding(), plan_of()
     pressed = []
     for tick in ticks(plan, 2, 0.8, np.ones(len(LAYOUT), dtype=bool), guard, tick_at):
@@ -130,9 +118,7 @@ def test_a_probe_presses_as_the_rule_says_from_touchdown_to_verdict(
     assert pressed[-1] is None
 
 
-def test_at_the_impact_a_foothold_is_judged_by_the_touch_alone(
-    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_at_the_impact_a_foothold_is_judged_by_the_touch_alone(plan_of, tick_at):
     rules = replace(RULES, at="impact", sideways_cost=0.01)
     guard, plan = guarding(rules), plan_of()
     start = next(p.start for p in plan.schedule.phases if p.step == 2 and p.swing is not None)
@@ -153,9 +139,7 @@ def test_at_the_impact_a_foothold_is_judged_by_the_touch_alone(
         assert step == 2 or heel > met.max() or toe < met.min()
 
 
-def test_noise_of_a_single_reading_is_not_support(
-    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
-) -> None:
+def test_noise_of_a_single_reading_is_not_support(plan_of, tick_at):
     rules = replace(RULES, at="impact", active_force=1.5)
     guard, plan, rng = guarding(rules), plan_of(), np.random.default_rng(0)
     for tick in ticks(plan, 2, 0.8, FRONT, guard, tick_at):

@@ -1,4 +1,3 @@
-from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -13,13 +12,7 @@ RULES = LearnedStrideRules()
 NOWHERE = np.empty((0, 2))
 
 
-def walk(
-    plan: WalkPlan,
-    tick_at: Callable[..., Tick],
-    learns: LearnedStride,
-    push: Callable[[int], float],
-    early: float = 0.01,
-) -> Iterator[tuple[int, PlanChange | None]]:
+def walk(plan, tick_at, learns, push, early=0.01):
     """Take each step of a plan: lift off, go along with a push by some metres forward, land some seconds early."""
     for step in range(plan.view.count):
         phase = next(p for p in plan.schedule.phases if p.swing is not None and p.step == step)

@@ -1,7 +1,6 @@
 """Footsteps from velocities, one touchdown after another, without a walk."""
 
 import math
-from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
@@ -13,7 +12,6 @@ from plantar.gait.plan.footsteps import Footstep, straight_plan
 from plantar.gait.plan.phases import PhaseKind, Timing
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.walk_plan import WalkPlan
-from plantar.gait.propose.proposer import Tick
 from plantar.gait.propose.velocity_command import (
     STOP,
     Legs,
@@ -30,9 +28,7 @@ LEGS = Legs(0.17, 0.8, heel=0.09, toe=0.13, inner=0.06)
 T = 1.2  # s from step to step of the default timing
 
 
-def walked(
-    command: VelocityCommand, tick_at: Callable[..., Tick], until: float, count: int = 0
-) -> tuple[WalkPlan, list[Footstep]]:
+def walked(command, tick_at, until, count=0):
     """The footsteps of a walk, the plan asked at each tick of 0.1 s."""
     feet, steps = straight_plan(count)
     plan = WalkPlan(feet, steps, Timing(), {side: np.array([0.02, 0.0]) for side in feet}, 3.5, 1.0)

@@ -1,24 +1,13 @@
 """Random damage to files: a reader raises a PlantarError of one line or gives a recording, never anything else."""
 
-from collections.abc import Callable
-from pathlib import Path
-
 import numpy as np
 
 from plantar import PlantarError
 from plantar.formats import read_recording
-from plantar.formats.format import ReadOptions
 from plantar.recordings.pressure_recording import PressureRecording
 
 
-def survive_corruption(
-    path: Path,
-    trials: int = 40,
-    seed: int = 0,
-    options: ReadOptions | None = None,
-    header: int = 1500,
-    check: Callable[[PressureRecording], None] | None = None,
-) -> int:
+def survive_corruption(path, trials=40, seed=0, options=None, header=1500, check=None):
     """Damage a file in many ways and read each; returns how many were read."""
     whole = path.read_bytes()
     before = read_recording(path, options=options)

@@ -23,9 +23,7 @@ def canvas(feet: int = 1, background: int = 255) -> np.ndarray:
     return np.full((640, 320 * feet, 3), background, dtype=np.uint8)
 
 
-def draw_foot(
-    image: np.ndarray, middle: float, side: str, colour: tuple[int, int, int], toes: bool = True, arch: bool = False
-) -> None:
+def draw_foot(image, middle, side, colour, toes=True, arch=False):
     """A foot of 240 mm, toes up: heel, lateral midfoot, ball, and toes apart from it."""
     medial = 1.0 if side == "left" else -1.0  # in the image to the right of a left foot
 

@@ -1,7 +1,5 @@
 """The Moticon reader, on exports of every kind that the format allows."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -16,21 +14,21 @@ AREAS = moticon_insole(7, "left").areas
 
 
 def export(
-    path: Path,
-    feet: dict[str, np.ndarray],
+    path,
+    feet,
     *,
-    unit: str = "N/cm²",
-    factor: float = 1e4,
-    total: bool = True,
-    cop: bool = True,
-    size: int | None = 7,
-    rate: float = 100.0,
-    end: str = "\n",
-    comma: bool = False,
-    missing: dict[str, slice] | None = None,
-    events: bool = False,
-    header: bool = True,
-) -> None:
+    unit="N/cm²",
+    factor=1e4,
+    total=True,
+    cop=True,
+    size=7,
+    rate=100.0,
+    end="\n",
+    comma=False,
+    missing=None,
+    events=False,
+    header=True,
+):
     """Write pressures (n, 16) of each foot; the total force is that of the insole's own areas."""
     n = len(next(iter(feet.values())))
     names = ["time"]

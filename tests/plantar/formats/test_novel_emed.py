@@ -1,7 +1,5 @@
 """The emed reader, on exports of every kind that the format allows."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -13,24 +11,24 @@ from .corruption import survive_corruption
 
 
 def export(
-    path: Path,
-    pressure: np.ndarray,
+    path,
+    pressure,
     *,
-    first: tuple[int, int] = (30, 26),
-    matrix: str | None = "64x95",
-    size: str | None = "0.500x0.500 cm",
-    area: str | None = "0.25 cm²",
-    time: str | None = "10.0 ms",
-    scale: float = 1e3,
-    forces: bool = True,
-    end: str = "\n",
-    comma: bool = False,
-    split: int | None = None,
-    encoding: str = "latin-1",
-    start: int = 1,
-    summary: bool = False,
-    cell: float = 25e-6,
-) -> None:
+    first=(30, 26),
+    matrix="64x95",
+    size="0.500x0.500 cm",
+    area="0.25 cm²",
+    time="10.0 ms",
+    scale=1e3,
+    forces=True,
+    end="\n",
+    comma=False,
+    split=None,
+    encoding="latin-1",
+    start=1,
+    summary=False,
+    cell=25e-6,
+):
     """Write pressures (n, rows, columns) as pages; `first` is the number of the first row and column."""
     lines: list[str] = []
     page = 0

@@ -32,9 +32,7 @@ def _limb(rng: np.random.Generator, name: str, joints: int, limited: bool) -> st
 def random_robot():
     """A model and its data for a seed: `limbs` chains of `joints` hinges on a body that floats or not."""
 
-    def build(
-        seed: int, *, limbs: int = 1, joints: int = 7, floating: bool = False, limited: bool = True
-    ) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    def build(seed, *, limbs=1, joints=7, floating=False, limited=True):
         rng = np.random.default_rng(seed)
         chains = "".join(_limb(rng, name, joints, limited) for name in "ab"[:limbs])
         root = ("<freejoint/>" if floating else "") + _ball(20.0) + chains

@@ -30,9 +30,7 @@ def legs(h1):
     return model
 
 
-def random_targets(
-    seed: int,
-) -> tuple[NDArray[np.float64], NDArray[np.float64], dict[Side, NDArray], dict[Side, NDArray]]:
+def random_targets(seed):
     rng = np.random.default_rng(seed)
     com = np.array([0.05, 0.0, 0.79]) + rng.uniform(-0.02, 0.02, 3)
     torso = Rotation.from_rotvec(rng.uniform(-0.05, 0.05, 3)).as_matrix()

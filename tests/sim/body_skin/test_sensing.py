@@ -29,9 +29,7 @@ BALL = {"name": "ball", "link": "arm", "position": [0, 0, -0.05], "size": [0.05,
 PERFECT = {"noise": 0.0, "gain_error": 0.0, "bits": 24}
 
 
-def world(
-    shape: str, place: str, thing: str = "<freejoint/>", slab: str = "", **settings: Any
-) -> tuple[Any, Any, SkinSensor]:
+def world(shape, place, thing="<freejoint/>", slab="", **settings):
     model = mujoco.MjModel.from_xml_string(WORLD.format(shape=shape, place=place, thing=thing, slab=slab))
     skin = skin_from_tables(model, [TOP, BALL], "test")
     return model, mujoco.MjData(model), SkinSensor(model, skin, SkinSensing(**settings), 3)

@@ -9,7 +9,6 @@ import pytest
 
 from plantar.gait.plan.footsteps import Footstep, straight_plan
 from plantar.gait.plan.plan_change import MovedStep
-from plantar.layouts.layout import Side
 from plantar.sides import SIDES
 from plantar.sim.judging.step_count import StepCount
 from plantar.sim.judging.walk_goal import WalkGoal
@@ -21,9 +20,7 @@ WEIGHT = 800.0
 class Walk:
     """Feet that are put down somewhere, a second after each other."""
 
-    def __init__(
-        self, steps: tuple[Footstep, ...] = STEPS, feet: dict[Side, Footstep] = FEET, justified: bool = True
-    ) -> None:
+    def __init__(self, steps=STEPS, feet=FEET, justified=True):
         self.goal = WalkGoal(feet, steps)
         self.count = StepCount(self.goal, WEIGHT, float, lambda stand, way, before: justified)
         self.time = 0.0
@@ -220,9 +217,7 @@ def test_steps_that_do_not_exist_are_not_taken_over():
     assert walk.goal.refused == 2
 
 
-def walked_differently(
-    steps: tuple[Footstep, ...], feet: dict[Side, Footstep], turn: float, stretch: float, slip: float = 0.0
-) -> Walk:
+def walked_differently(steps, feet, turn, stretch, slip=0.0):
     """Each way from foothold to foothold as planned, but turned, stretched and slipped to the left by a little."""
     walk = Walk(steps, feet)
     goal, before = walk.goal, walk.goal.start()

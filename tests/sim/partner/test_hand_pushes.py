@@ -21,9 +21,7 @@ def middle(world: World) -> float:
     return 0.0
 
 
-def pushed(
-    *impulses: tuple[float, float], body: BodyScale = REFERENCE_BODY, duration: float = 0.1
-) -> tuple[Touch, HandPushes]:
+def pushed(*impulses, body=REFERENCE_BODY, duration=0.1):
     """A box with hands that push it 0.3 s apart, first at 0.4 s."""
     pushes = [
         HandPush(np.array(impulse), duration, lambda start=0.4 + 0.3 * i: start) for i, impulse in enumerate(impulses)

@@ -173,15 +173,7 @@ def random_biped(seed: int, folder: Path, order: tuple[Array, ...] = ()) -> Trut
     return Truth(file, joints, feet, soles, pitched, (length, width), world, total, imu)
 
 
-def _add_foot(
-    spec: mujoco.MjSpec,
-    link: _Link,
-    kind: str,
-    middle: Array,
-    world: Array,
-    size: tuple[float, float, float],
-    side: str,
-) -> None:
+def _add_foot(spec, link, kind, middle, world, size, side):
     """Shapes of a foot whose sole has its middle at a point of the world."""
     length, width, height = size
     half, thick = np.array([0.5 * length, 0.5 * width]), 0.15 * height
@@ -217,9 +209,7 @@ def _add_foot(
         link.geom("sphere", at(0, 0, height), world, size=[0.4 * thick, 0, 0])
 
 
-def _add_arms(
-    pelvis: _Link, rng: np.random.Generator, at, world: Array, height: float, leg: float, mass: float
-) -> None:
+def _add_arms(pelvis, rng, at, world, height, leg, mass):
     """Arms of many hinges that hang down, not as far as the feet."""
     for y in (-0.25 * leg, 0.25 * leg):
         link = pelvis

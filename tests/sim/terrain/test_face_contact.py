@@ -78,9 +78,7 @@ def turned(vector: NDArray[np.float64]) -> NDArray[np.float64]:
     return matrix.reshape(3, 3)
 
 
-def resting_pose(
-    rig: Rig, solid: Solid, rng: np.random.Generator
-) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+def resting_pose(rig, solid, rng):
     """Random place and rotation of a sole that lies 20 to 300 um deep on the upper side of a solid; None where the draw
     misses it."""
     lean = rng.normal(0.0, 10.0 ** rng.uniform(-4.0, -2.3), 2)

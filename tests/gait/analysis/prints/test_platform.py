@@ -31,9 +31,7 @@ def shape(u: np.ndarray, v: np.ndarray) -> np.ndarray:
     return inside | disc(0.165, 0.0, 0.04, 0.045) | disc(0.232, 0.02, 0.018, 0.014)
 
 
-def walkway(
-    steps: int = 6, first: Side = "left", reverse: bool = False, across: bool = False, cut: bool = False
-) -> tuple[PressureRecording, list[tuple[Side, float]]]:
+def walkway(steps=6, first="left", reverse=False, across=False, cut=False):
     """Feet that walk over a platform of cells of 1 cm, and the truth: side and heel strike of each step."""
     rows, columns = round(STEP * steps / PITCH) + 30, 50
     layout = grid_cells(np.ones((rows, columns), dtype=bool), PITCH, PITCH, side="left", name="way", threshold=1e3)
