@@ -170,8 +170,12 @@ class PressureRecording:
 
 def _product(values: NDArray[np.float64], matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     """values @ matrix by blocks: BLAS would copy a wider table's columns whole, and start threads."""
-    blocks = [np.einsum("ij,j...->i...", values[rows], matrix) for rows in blocks_of_frames(values)]
-    return np.concatenate(blocks) if blocks else np.zeros((0, *matrix.shape[1:]))
+    columns = [np.ascontiguousarray(column) for column in matrix.reshape(len(matrix), -1).T]
+    blocks = [
+        np.stack([np.einsum("ij,j->i", values[rows], column) for column in columns], axis=1)
+        for rows in blocks_of_frames(values)
+    ]
+    return np.concatenate([np.zeros((0, len(columns))), *blocks]).reshape(-1, *matrix.shape[1:])
 
 
 def layout_for(side: Side, given: SoleLayout | None) -> SoleLayout | None:
