@@ -50,8 +50,6 @@ class FileOrder:
         from plantar.formats import ReadOptions
         from plantar.formats.side import sides_of_plates
 
-        if self.side not in (None, "left", "right"):
-            raise InputError(f"--side is '{self.side}'; allowed: left, right")
         return ReadOptions(
             unit=self.unit,
             rate_hz=self.rate,

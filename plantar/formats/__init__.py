@@ -20,7 +20,7 @@ from plantar.formats.format import Format, ReadOptions
 from plantar.formats.plausibility import checked
 from plantar.formats.units import find_unit
 from plantar.layouts.layout import SoleLayout
-from plantar.recordings.pressure_recording import RATES, PressureRecording
+from plantar.recordings.pressure_recording import PressureRecording
 
 __all__ = ["Format", "ReadOptions", "detect_format", "formats", "is_study_folder", "named_format", "read_recording"]
 
@@ -120,8 +120,6 @@ def read_recording(
     known = known if layout is None else replace(known, layout=layout)
     if known.unit is not None and find_unit(known.unit) is None:
         raise InputError(f"unknown unit {known.unit!r}; allowed: kPa, N/cm2, mmHg, psi, N, kg, raw and their like")
-    if known.rate_hz is not None and not RATES[0] <= known.rate_hz <= RATES[1]:
-        raise InputError(f"a rate of {known.rate_hz} Hz is not possible; allowed: {RATES[0]:g} to {RATES[1]:g}")
     if known.insole_size is not None:
         known = replace(known, insole_size=_insole_size(known.insole_size, chosen.name))
     if chosen.read is None:

@@ -44,7 +44,9 @@ def _recognises(head: bytes) -> bool:
     above = sum(not x.startswith("#") for x in lines[: found.first])
     if above > 1:  # below other text a table needs names of loads: numbers alone may be of any maker's format
         headings = [heading_of(n) for n in found.names]
-        return any(h.quantity not in ("number", "unknown", "foreign") or (h.side and h.number) for h in headings)
+        return any(
+            h.quantity not in ("number", "unknown", "foreign") or (h.side and (h.number or h.unit)) for h in headings
+        )
     return True
 
 

@@ -6,8 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from plantar.layouts.layout import Side, SoleLayout
-from plantar.recordings.pressure_recording import PressureRecording
+from plantar.errors import InputError
+from plantar.layouts.layout import SoleLayout
+from plantar.recordings.pressure_recording import RATES, PressureRecording
+from plantar.sides import SIDES, Side
 
 __all__ = ["Format", "ReadOptions"]
 
@@ -24,6 +26,9 @@ class ReadOptions:
         insole_size: Of a pedar insole, such as "x" or "vw"; see `plantar.formats.nominal_insole`.
         mass_kg: Body mass, which turns forces in body weights into N.
         plates: Foot of each force plate in file order; None leaves a plate out.
+
+    Raises:
+        InputError: If the rate, mass or side cannot be.
     """
 
     layout: SoleLayout | None = None
@@ -33,6 +38,14 @@ class ReadOptions:
     insole_size: str | None = None
     mass_kg: float | None = None
     plates: tuple[Side | None, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.rate_hz is not None and not RATES[0] <= self.rate_hz <= RATES[1]:
+            raise InputError(f"a rate of {self.rate_hz:g} Hz is not possible; allowed: {RATES[0]:g} to {RATES[1]:g}")
+        if self.mass_kg is not None and not 0.0 < self.mass_kg < float("inf"):
+            raise InputError(f"the mass is {self.mass_kg:g} kg; allowed: above 0")
+        if self.side not in (None, *SIDES):
+            raise InputError(f"the side is {self.side!r}; allowed: left, right")
 
 
 @dataclass(frozen=True)

@@ -42,13 +42,20 @@ def recording_of(given: Any, format: str | None = None, options: ReadOptions | N
     elif isinstance(given, Mapping):
         found = recording_of_arrays({str(k): np.asarray(v) for k, v in given.items()}, known, Path("arrays"))
     elif isinstance(given, np.ndarray | list | tuple):
-        found = recording_of_arrays({"values": np.asarray(given, dtype=float)}, known, Path("array"))
+        found = recording_of_arrays({"values": _array(given)}, known, Path("array"))
     else:
         raise InputError(
             f"a {type(given).__name__} is no recording; allowed: a path, a PressureRecording, an array of frames and "
             "cells, a mapping of arrays, a data frame"
         )
     return checked(found)
+
+
+def _array(given: Any) -> np.ndarray[Any, Any]:
+    try:
+        return np.asarray(given, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"an array holds what is no number ({error}); allowed: frames of numbers") from None
 
 
 def _columns(frame: Any) -> tuple[np.ndarray[Any, Any], list[str]]:

@@ -66,7 +66,8 @@ def recording_of_columns(
     headings = [heading_of(name) for name in names]
     _refuse_curves(headings, at)
     time, rate, notes = _times(table, names, at, facts, options, warnings)
-    columns = [i for i in range(table.shape[1]) if i != at and i not in clocks]
+    copies = _copies(table, names, warnings)
+    columns = [i for i in range(table.shape[1]) if i != at and i not in clocks and i not in copies]
     kind, every, raw = "insole", True, False
     if names and is_force_table([headings[i] for i in columns]):
         named = {i: headings[i] for i in columns}
@@ -90,6 +91,20 @@ def recording_of_columns(
         raw=raw,
         kind="plate" if kind == "plate" else "insole",
     )
+
+
+def _copies(table: NDArray[np.float64], names: list[str], warnings: list[str]) -> set[int]:
+    """Columns that repeat the name and values of an earlier one."""
+    copies: set[int] = set()
+    firsts: dict[str, int] = {}
+    for i, name in enumerate(names):
+        first = firsts.setdefault(name, i)
+        if not name or first == i or not np.nan_to_num(table[:, i]).any():
+            continue
+        if np.array_equal(table[:, first], table[:, i], equal_nan=True):
+            copies.add(i)
+            warnings.append(f"column {name!r} is there twice with the same values: it counts once")
+    return copies
 
 
 def _refuse_curves(headings: Sequence[Heading], at: int | None) -> None:

@@ -213,7 +213,8 @@ _SECONDS |= {"millis": 1e-3, "micros": 1e-6}
 _SECONDS |= {"us": 1e-6, "usec": 1e-6, "microsec": 1e-6, "microsecond": 1e-6, "ns": 1e-9, "nsec": 1e-9}
 _SECONDS |= {"min": 60.0, "minute": 60.0, "h": 3600.0, "hour": 3600.0}
 _BY = "abs|absolute|elapsed|frame|sample|sampling|relative|rel|recording|measurement|system|local|unix|utc"
-_TIMES = "ts|t|times?|time[ _-]?stamps?|date[ /_-]?time|zeit|uhrzeit|zeitstempel|temps|tempo|tiempo|tijd"
+_TIMES = "ts|t|times?|times?[ _-](?:l|r|left|right)"  # a foot's own clock
+_TIMES += "|time[ _-]?stamps?|date[ /_-]?time|zeit|uhrzeit|zeitstempel|temps|tempo|tiempo|tijd"
 _UNIT = "|".join(rf"{name}s?" for name in _SECONDS)
 _NAMED = re.compile(
     rf"(?:(?:{_BY})[ _.-]*)?(?:{_TIMES})"
@@ -221,7 +222,7 @@ _NAMED = re.compile(
     rf"(?:(?P<unit>{_UNIT})\.?|(?P<clock>[hms:.,f ]{{4,}}))\s*[\])]?)?|(?P<alone>{_UNIT})"
 )
 # Units that are a column's name by themselves; "min" may be the least of something.
-_ALONE = ("sec", "second", "msec", "millisec", "millisecond", "millis", "micros")
+_ALONE = ("sec", "second", "ms", "us", "msec", "millisec", "millisecond", "millis", "micros")
 _DAY = 86400.0
 # Dates are counted from here: from the year 1 on, a second's millionth is less than a double resolves.
 _SINCE = datetime(2020, 1, 1)
@@ -239,8 +240,8 @@ def time_unit(name: str) -> float | None:
     """Unit in s of a time column's name, 0 if unstated; None for no times.
 
     Example:
-        >>> [time_unit(name) for name in ("Time [ms]", "t_min", "Elapsed time (s)", "Date/Time", "T [°C]", "left 3")]
-        [0.001, 60.0, 1.0, 0.0, None, None]
+        >>> [time_unit(name) for name in ("Time [ms]", "t_min", "Elapsed time (s)", "Date/Time", "T [°C]", "ms")]
+        [0.001, 60.0, 1.0, 0.0, None, 0.001]
     """
     match = _NAMED.fullmatch(name.strip().strip('"').strip().lower().replace("µ", "u").replace("μ", "u"))
     if match is None:

@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,11 +15,13 @@ from typer.testing import CliRunner
 from plantar import FormatError, InputError, LayoutError, cli, write_layout
 from plantar.formats import read_recording
 from plantar.formats.nominal_insole import nominal_insole
-from plantar.gait.analysis.analyse import analyse_recording
+from plantar.gait.analysis.analyse import analyse, analyse_recording
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.parameters import analyse_foot
 from plantar.plotting import thinned
 from plantar.recordings.recorder import Recorder
+
+from .walks import made_walk
 
 FIGURES = ("pressure", "regions", "force", "steps", "symmetry", "wrench", "summary")
 FILES = {"metrics.json", "steps.csv", "regions.csv", "report.html", "summary.html"} | {
@@ -213,3 +216,32 @@ def test_odd_recordings_still_give_a_report(tmp_path, gain, lost):
     assert result["feet"]["left"]["steps"] == (0 if lost == "all" else 3)
     assert any("unusual" in w for w in result["warnings"]) == (gain != 1.0 and lost != "all")
     assert (tmp_path / "out" / "report.html").stat().st_size > 10_000
+
+
+def test_every_form_of_a_walk_gives_the_same_steps(tmp_path, monkeypatch):
+    """A file, a folder, a recording, arrays with a layout, and a data frame; `.to_pandas()` holds the same columns."""
+    walk = made_walk().recording
+    sole = walk.feet["left"].layout
+    arrays = {side: foot.force for side, foot in walk.feet.items()}
+    (tmp_path / "all").mkdir()
+    path = tmp_path / "all" / "walk.npz"
+    np.savez(path, time=walk.time, unit="N", **arrays)
+    columns = {"time (s)": walk.time} | {
+        f"{side} {cell} (N)": force
+        for side, foot in arrays.items()
+        for cell, force in zip(sole.ids, foot.T, strict=True)
+    }
+    frame = type("Frame", (), {"columns": list(columns), "__getitem__": lambda self, name: columns[name]})()
+    forms = [path, path.parent, walk, {"time": walk.time, "unit": "N", **arrays}, frame]
+    found = [analyse(form, layout=sole) for form in forms]
+    expected = found[0].steps
+    assert len(expected["side"]) > 10
+    for one in found[1:]:
+        for name in ("side", "contact_time_s", "peak_force_N", "impulse_Ns", "cop_path_m", "peak_pressure_Pa"):
+            if expected[name].dtype == object:
+                assert one.steps[name].tolist() == expected[name].tolist()
+            else:
+                np.testing.assert_allclose(one.steps[name], expected[name], rtol=1e-6)
+    monkeypatch.setitem(sys.modules, "pandas", SimpleNamespace(DataFrame=dict))
+    assert list(found[0].to_pandas()) == list(expected)
+    assert "<html" in found[2].report()

@@ -37,7 +37,15 @@ def test_arrays_keep_their_values_and_are_not_changed():
     assert values.max() == 2.0
 
 
-@pytest.mark.parametrize("given", [3, object(), {"left": np.zeros(0)}, np.zeros((2, 0))])
+@pytest.mark.parametrize("given", [3, object(), {"left": np.zeros(0)}, np.zeros((2, 0)), [["a"], ["b"]]])
 def test_what_holds_no_frames_is_refused(given):
     with pytest.raises((InputError, FormatError)):
         recording_of(given)
+
+
+@pytest.mark.parametrize(
+    "stated", [{"rate_hz": 0.0}, {"rate_hz": np.nan}, {"rate_hz": 1e9}, {"mass_kg": -1.0}, {"side": "middle"}]
+)
+def test_facts_that_cannot_be_are_refused(stated):
+    with pytest.raises(InputError, match="allowed"):
+        ReadOptions(**stated)

@@ -22,6 +22,7 @@ def foot(phase: float) -> tuple[np.ndarray, np.ndarray]:
 
 (LEFT, GONE_LEFT), (RIGHT, GONE_RIGHT) = foot(0.2), foot(0.75)
 NONE = np.zeros_like(TIME)
+WALK = list(zip(TIME, LEFT, RIGHT, strict=True))
 AHEAD = {"left": 0.2 * LEFT * (GONE_LEFT - 0.5), "right": 0.2 * RIGHT * (GONE_RIGHT - 0.5)}
 LEFTWARD = {"left": -0.04 * LEFT, "right": 0.04 * RIGHT}
 PLACE = {"left": 0.2 * GONE_LEFT, "right": 0.2 * GONE_RIGHT}
@@ -192,3 +193,30 @@ def test_what_is_no_walk_of_feet_is_refused(tmp_path, text, message):
     path.write_text(text)
     with pytest.raises(FormatError, match=message):
         analyse(path)
+
+
+@pytest.mark.parametrize(
+    ("head", "scale"),
+    [
+        ("ms,left 1 (N),left 2 (N),right 1 (N),right 2 (N)", 2000.0),
+        ("time_L (s),left 1 (N),left 2 (N),right 1 (N),right 2 (N)", 2.0),
+        ("time,left 1,left 2,right 1,right 2\nms,N,N,N,N", 2000.0),
+    ],
+)
+def test_times_by_headings_that_name_a_unit_or_a_foot(tmp_path, head, scale):
+    """At 50 Hz, so that an assumed rate would show."""
+    path = tmp_path / "walk.csv"
+    rows = [f"{scale * t:g},{0.4 * a:.1f},{0.6 * a:.1f},{0.4 * b:.1f},{0.6 * b:.1f}" for t, a, b in WALK]
+    path.write_text(head + "\n" + "\n".join(rows) + "\n")
+    found = analyse(path)
+    assert found.metrics["rate_hz"] == pytest.approx(50.0)
+    assert found.metrics["feet"]["left"]["measures"]["peak_force_N"]["mean"] == pytest.approx(800.0, rel=0.01)
+
+
+def test_a_column_that_is_there_twice_counts_once(tmp_path):
+    path = tmp_path / "walk.csv"
+    rows = [f"{t:g},{a:.1f},{a:.1f},{b:.1f}" for t, a, b in WALK]
+    path.write_text("time (s),left (N),left (N),right (N)\n" + "\n".join(rows) + "\n")
+    found = analyse(path)
+    assert found.metrics["feet"]["left"]["measures"]["peak_force_N"]["mean"] == pytest.approx(800.0, rel=0.01)
+    assert any("twice" in line for line in found.warnings)
