@@ -1,4 +1,4 @@
-"""The walk in the plane, and the ZMP of skin and ankles (T 4.3.1, 61-64)."""
+"""The walk in the plane, and the ZMP of skin and ankles (T 4.3.1, Fig. 61-64)."""
 
 from __future__ import annotations
 

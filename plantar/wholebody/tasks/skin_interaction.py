@@ -22,7 +22,7 @@ __all__ = [
 
 
 class SkinInteraction(Task):
-    """Yields to taxel forces: tau = sum J^T E w over links with active ones (T 3.22-3.24).
+    """Yields to taxel forces: tau = sum J^T E w over links with active ones (T 3.22-3.24, 3.28, 3.38).
 
     Args:
         patches: Names that count; None for all; InputError if unknown.
@@ -129,7 +129,7 @@ class ProximityInteraction(SkinInteraction):
 
 
 class TemperatureInteraction(SkinInteraction):
-    """Yields to kappa_i = gain (T_i - kappa_0) of taxels at threshold (T 3.34-3.35).
+    """Yields to kappa_i = gain (T_i - kappa_0) of taxels at threshold (T 3.34-3.37).
 
     Args:
         gain: A taxel's N per kelvin above threshold.

@@ -7,8 +7,6 @@ from typing import Any
 import pytest
 
 from plantar.sim.bench.page.bench_page import bench_page
-from plantar.sim.bench.page.measure_page import EXPERIMENTS
-from plantar.sim.run.scene import load_scene
 
 from ....gait.analysis.browser import visit
 from ....gait.analysis.test_report_in_browser import READABLE
@@ -117,14 +115,6 @@ def test_figures_are_embedded_where_a_part_has_one():
     text = bench_page(RESULT, {"kernels": figure})
     assert text.count("<figure") == 1
     assert text.index('id="kernels"') < text.index("<figure") < text.index('id="papers"')
-
-
-def test_every_experiment_is_a_scene_of_its_paper():
-    for one in EXPERIMENTS:
-        scene = load_scene(one.scene, one.settings, one.robot)
-        assert scene.robot == one.robot
-        assert one.source.startswith("T ")
-        assert scene.control.pfc or "skin before contact" not in one.what
 
 
 @pytest.mark.long

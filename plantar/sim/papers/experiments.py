@@ -1,0 +1,134 @@
+"""The papers' experiments that are scenes here: one list, for `plantar bench` and for benchmarks/papers.py."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+from plantar.errors import PlantarError
+
+__all__ = ["EXPERIMENTS", "PaperExperiment", "figure_of"]
+
+_ON_SLAB = 4  # which landing of `obstacle`
+_PUSHED = slice(6, 22)  # steps of `box-step` along which a partner pushes
+_LONGER = 0.01  # m by which a stride is longer
+_NONE: Mapping[str, float] = MappingProxyType({})
+
+
+class PaperExperiment(NamedTuple):
+    """An experiment of a paper.
+
+    Attributes:
+        source: Section, figure or table.
+        paper: What the paper reports.
+        figure: Which figure of a run is compared (`figure_of`).
+        without: Settings of the ablation; empty where there is none.
+        robot: Robot; empty for that of the scene.
+        settings: Settings of all variants.
+        printed: The paper's figures of a real robot by name.
+        printed_without: The same without.
+        fell_without: Whether the paper's robot fell without.
+        long: Whether a quick bench leaves it out.
+    """
+
+    name: str
+    source: str
+    scene: str
+    paper: str
+    figure: str
+    without: tuple[str, ...] = ()
+    robot: str = ""
+    settings: tuple[str, ...] = ()
+    printed: Mapping[str, float] = _NONE
+    printed_without: Mapping[str, float] = _NONE
+    fell_without: bool = False
+    long: bool = False
+
+
+def _impacts(mean: float, largest: float) -> dict[str, float]:
+    return {"mean impact": mean, "largest impact": largest}
+
+
+_LEVEL, _BLIND, _NO_PFC = ("walk.steps=6",), ("pfc=false", "footholds=off"), ("pfc=false",)
+_ANKLES = ("control.feasibility=force_torque", "sensing.force_torque=true")
+_TOPPLE, _STILL = "skin walks around, ankles fall", ("step_adjustment=false",)
+_SLAB = "impact on the slab"
+EXPERIMENTS = (
+    PaperExperiment(
+        *("balance", "T 4.3.1", "balance", "ZMPs differ by 10 mm", "largest difference"),
+        printed={"largest difference": 10.0},
+        long=True,
+    ),
+    *(
+        PaperExperiment(f"feasibility-{n}", "T 4.3.2, Table 3", f"feasibility-{n}", paper, "steps", _ANKLES)
+        for n, paper in enumerate(("both step on", "both walk around", _TOPPLE, _TOPPLE), 1)
+    ),
+    PaperExperiment(
+        *(
+            "level ground, HRP-2Kai",
+            "T 4.4.1.2",
+            "flat",
+            "58 N, without 340",
+            "mean impact",
+            _NO_PFC,
+            "hrp2kai",
+            _LEVEL,
+        ),
+        printed=_impacts(58.0, 200.0),
+        printed_without=_impacts(340.0, 430.0),
+    ),
+    PaperExperiment(
+        *("level ground, H1", "T 4.4.1.3", "flat", "109 N, without 486", "mean impact", _NO_PFC, "h1", _LEVEL),
+        printed=_impacts(109.0, 261.0),
+        printed_without=_impacts(486.0, 615.0),
+    ),
+    PaperExperiment(
+        *("slab of 3 cm", "T 4.4.1.4", "obstacle", "370 N, without 1100 and falls", _SLAB, _NO_PFC),
+        printed={_SLAB: 370.0},
+        printed_without={_SLAB: 1100.0},
+        fell_without=True,
+    ),
+    PaperExperiment("half a foothold, rear", "T Fig. 61", "partial-rear", "walks on", "steps", _BLIND),
+    PaperExperiment(
+        *("30 % of the sole", "T Fig. 62", "partial-third", "walks on", "steps", _BLIND), printed={"steps": 6.0}
+    ),
+    PaperExperiment(
+        *("beam of 12 cm", "T Fig. 63", "beam", "50 steps", "steps", _BLIND), printed={"steps": 50.0}, long=True
+    ),
+    PaperExperiment("beam, turned", "T Fig. 64", "beam-yaw", "50 steps", "steps", _BLIND),
+    PaperExperiment(
+        *("pushed in place", "K 5.1", "push-step", "small push keeps the step, large moves it", "steps", _STILL)
+    ),
+    PaperExperiment(
+        *("follower", "K 5.2", "leader-follower", "steps back once, walks on", "steps", _STILL),
+        settings=("walk.length=0", "walk.confidence=0", "partner.role=leader"),
+    ),
+    PaperExperiment("box step", "K 5.3", "box-step", "12 of 16 strides", "strides", _STILL),
+    *(
+        PaperExperiment(f"force tracking {n}", f"A 4.3.{n}", f"force-tracking-{n}", f"RMS {rms} N", "RMS")
+        for n, rms in ((1, "0.37"), (3, "0.58"), (4, "0.80"))
+    ),
+)
+
+
+def figure_of(name: str, summary: Mapping[str, Any]) -> float | None:
+    """A figure of a run's summary, or None: impacts and RMS in N, steps, longer strides, ZMPs' difference in mm."""
+    impacts = summary.get("impacts_N") or []
+    match name:
+        case "mean impact":
+            return round(math.fsum(impacts) / len(impacts), 1) if impacts else None
+        case "largest impact":
+            return float(max(impacts)) if impacts else None
+        case "impact on the slab":
+            return float(impacts[_ON_SLAB]) if len(impacts) > _ON_SLAB else None
+        case "steps":
+            return float(summary["steps_taken"])
+        case "strides":
+            return float(sum(change > _LONGER for change in summary["push"]["step_changes_m"][_PUSHED]))
+        case "largest difference":
+            return round(1e3 * float(summary["balance"]["skin_against_force_torque"]["max_m"]), 2)
+        case "RMS":
+            return summary["force_rms_disturbed_N"]
+    raise PlantarError(f"no figure is called '{name}'")

@@ -1,0 +1,33 @@
+"""The papers' experiments open as written, as ours and without; their figures are those that runs report."""
+
+from __future__ import annotations
+
+import pytest
+
+from plantar.errors import PlantarError
+from plantar.sim.papers.experiments import EXPERIMENTS, PaperExperiment, figure_of
+from plantar.sim.run.scene_kind import open_scene
+
+
+@pytest.mark.parametrize("one", EXPERIMENTS, ids=lambda e: e.name)
+def test_every_experiment_opens_in_each_variant(one: PaperExperiment) -> None:
+    for settings in ((f"paper={one.source[0]}",), one.settings, (*one.settings, *one.without)):
+        opened = open_scene(one.scene, settings, one.robot or None)
+        assert one.robot in ("", opened.robot)
+    assert one.without or not one.printed_without
+
+
+def test_figures_of_a_run() -> None:
+    changes = [0.5] * 6 + [0.02, 0.0] * 8 + [0.5]
+    summary = {
+        "impacts_N": [1.0, 2.0, 3.0, 4.0, 10.0],
+        "steps_taken": 8,
+        "push": {"step_changes_m": changes},
+        "balance": {"skin_against_force_torque": {"max_m": 0.0021}},
+        "force_rms_disturbed_N": 0.3,
+    }
+    names = ("mean impact", "largest impact", "impact on the slab", "steps", "strides", "largest difference", "RMS")
+    assert [figure_of(name, summary) for name in names] == [4.0, 10.0, 10.0, 8.0, 8.0, 2.1, 0.3]
+    assert figure_of("impact on the slab", {"impacts_N": []}) is None
+    with pytest.raises(PlantarError, match="no figure is called 'weight'"):
+        figure_of("weight", summary)
