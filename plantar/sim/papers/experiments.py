@@ -111,6 +111,7 @@ EXPERIMENTS = (
         for n, rms in ((1, "0.37"), (3, "0.58"), (4, "0.80"))
     ),
 )
+"""In the order of the page."""
 
 
 def figure_of(name: str, summary: Mapping[str, Any]) -> float | None:
@@ -130,5 +131,5 @@ def figure_of(name: str, summary: Mapping[str, Any]) -> float | None:
         case "largest difference":
             return round(1e3 * float(summary["balance"]["skin_against_force_torque"]["max_m"]), 2)
         case "RMS":
-            return summary["force_rms_disturbed_N"]
+            return float(summary["force_rms_disturbed_N"])
     raise PlantarError(f"no figure is called '{name}'")

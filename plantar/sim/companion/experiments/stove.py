@@ -1,7 +1,7 @@
 """A hand over a hot plate draws back when its skin gets warm (T 3.3.2.1).
 
-Two orders of levels: support, hand, posture where the skin is cool; support, heat with posture where it is warm. T keeps
-one: support, heat, hand, posture.
+Two orders of levels: support, hand, posture where the skin is cool; support, heat with posture where it is warm. T
+keeps one: support, heat, hand, posture.
 """
 
 from __future__ import annotations
