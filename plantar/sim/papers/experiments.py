@@ -115,7 +115,18 @@ EXPERIMENTS = (
 
 
 def figure_of(name: str, summary: Mapping[str, Any]) -> float | None:
-    """A figure of a run's summary, or None: impacts and RMS in N, steps, longer strides, ZMPs' difference in mm."""
+    """A figure of a run.
+
+    Args:
+        name: As an experiment's `figure` or `printed`.
+        summary: The run's.
+
+    Returns:
+        Impact or RMS force in N, steps, longer strides, ZMPs' difference in mm; None where the run has none.
+
+    Raises:
+        PlantarError: If no figure has that name.
+    """
     impacts = summary.get("impacts_N") or []
     match name:
         case "mean impact":
