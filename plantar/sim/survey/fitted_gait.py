@@ -23,7 +23,7 @@ from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled, standing_feet
 from plantar.sim.survey.servo_gains import JointInertia, joint_inertia, servo_gains
-from plantar.sim.survey.step_time import ankle_reach, has_ankle_roll, least_single_support, rocking
+from plantar.sim.survey.step_time import ankle_reach, has_ankle_roll, rocking
 
 __all__ = [
     "APPROACH_HEIGHT",
@@ -36,7 +36,9 @@ __all__ = [
     "QUICK_SINGLE",
     "QUICK_STEP",
     "ROLL_MOST",
+    "SHIFT",
     "STEP_SHARE",
+    "TURN",
     "FittedGait",
     "fit_gait",
     "stance_width",
@@ -54,6 +56,11 @@ MISSED = 2e-3
 
 HELD = 0.75
 """Share of the torque limits that a planned walk may take; the rest is to balance with."""
+
+SHIFT, TURN = 0.16, 0.15
+"""Shares of the way to the sole's edge by which a swinging leg may move the ZMP, and of friction's moment by which it
+may turn the sole. Legs of servos sway at about the pace of a swing, so that three times the ZMP's way is seen: h1 has
+0.19 and 0.08, JVRC-1 fell with 0.35 and 0.13."""
 
 ROLL_MOST = math.radians(3.0)
 """Angle of a sole that carries alone against level ground up to which its taxels' soft pad lets it rest whole."""
@@ -74,6 +81,8 @@ _TURNING = 5  # joints of a leg from which it turns its foot
 _SPARE = math.radians(1.0)  # of a joint's range that a walk leaves unused
 _LEAST_CROUCH = 0.05  # of the leg: what scenes on unknown ground ask for
 _MISSED_CROUCHING = 0.01  # m
+_CROUCHED = 0.88  # of the torque limits, for that crouch
+_MORE_BENT, _STRONG = math.radians(10.0), 0.6  # of knees, and share of the torque limits from which they are
 _CROUCHES = (0.02, 0.035, _LEAST_CROUCH, 0.1, 0.15, 0.2, 0.25)  # of the leg
 _APPROACHES = (1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.75, 2.0)
 _PACES = (1.0, 1.2, 1.4, 1.6, 1.8, 2.0)
@@ -174,12 +183,11 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
     configuration = legs.configuration
     robot = replace(robot, posture=_angles(robot, legs, configuration))
     inertia = joint_inertia(robot, legs.model, configuration)
-    stiffness, damping = _gains(inertia, legs, body, height, gains, notes)
+    stiffness, damping = _gains(robot, inertia, legs, body, gains, notes)
     own = _own_gains(inertia, gains) if gains else np.array([stiffness, damping])
     limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
     crouch = _crouch(robot, legs, body, float((reach.torque / limits).max()))
     pace = _pace(robot, legs, body)
-    held = 0.0 if robot.rocks else least_single_support(robot, legs, body, STEP_SHARE * body.leg)
     robot = replace(
         robot,
         stiffness=tuple(stiffness.tolist()),
@@ -189,7 +197,6 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
         largest_crouch=crouch,
         largest_crouch_partial=crouch,
         pace=pace,
-        single_support=max(robot.single_support, held),
         balance=_balance(body),
     )
     robot = replace(robot, approach_support=_approach_support(robot, legs, body))
@@ -204,14 +211,15 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
 
 
 def _gains(
+    robot: Robot,
     inertia: JointInertia,
     legs: LegModel,
     body: BodyScale,
-    height: float,
     gains: Sequence[tuple[float, float]],
     notes: list[str],
 ) -> tuple[Array, Array]:
-    stiffness, damping = servo_gains(inertia, legs.mass, height, body.beat, CONTROL_PERIOD)
+    height, limits = robot.com_height, robot.effort_limits
+    stiffness, damping = servo_gains(inertia, legs.mass, height, body.beat, CONTROL_PERIOD, limits)
     if gains:
         own, unit = _own_gains(inertia, gains), body.weight * height
         kept = bool((own[0] >= _OWN_STIFFNESS * unit).all())
@@ -311,6 +319,7 @@ def _stepping(
             f"{share * STEP_SHARE * body.leg:.3f} m within its joints' limits; nearest is "
             f"{_nearest(robot, legs, body, seed)}"
         )
+    best = best if robot.rocks else _slowed(best, legs, heights)
     if best.body.leg < body.leg:
         why = "quick steps are short" if robot.rocks else "joints or motors leave no steps of a third of the leg"
         notes.append(f"{why}: steps are shares of leg_length = {best.body.leg:g} m, not of {body.leg:g} m")
@@ -332,6 +341,16 @@ def _other_paces(found: _Tried, legs: LegModel, heights: Array) -> _Tried:
         if paid < best.cost > _GOOD:
             best = _least(best, replace(found.robot, pace=pace), legs, found.body, heights, paid) or best
     return best
+
+
+def _slowed(found: _Tried, legs: LegModel, heights: Array) -> _Tried:
+    """The same steps so slow that the swinging leg neither rocks nor turns the robot: both fall with time squared."""
+    longer = math.sqrt(max(found.reach.shift / SHIFT, found.reach.turn / TURN))
+    if longer <= 1.0:
+        return found
+    slower = replace(found.robot, pace=longer * found.robot.pace)
+    best = _least(None, slower, legs, found.body, heights, found.paid)
+    return found if best is None else _refined(best, legs)
 
 
 @dataclass(frozen=True)
@@ -384,9 +403,11 @@ def _tried(robot: Robot, legs: LegModel, body: BodyScale, height: float, paid: f
         return None
     limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
     asked = float(np.maximum(reach.carrying / limits, HELD * reach.torque / limits).max())
-    least = KNEE_LEAST + (math.radians(10.0) if robot.rocks else 0.0)
+    # A robot that cannot crouch needs bent knees as it is: those that are almost straight throw the leg as it lands.
+    more = 1.0 if robot.rocks else min(1.0, max(0.0, (asked - _STRONG) / (HELD - _STRONG)))
+    least = KNEE_LEAST + more * _MORE_BENT
     straight, bent = max(0.0, least - reach.knee), max(0.0, reach.knee - least)
-    cost = paid + 0.2 * asked + 4.0 * max(0.0, asked - HELD) + 3.0 * straight + 0.5 * bent
+    cost = paid + 0.2 * asked + 4.0 * max(0.0, asked - HELD) + 6.0 * straight + 0.5 * bent
     return _Tried(cost, paid, robot, body, reach)
 
 
@@ -478,7 +499,8 @@ def _crouch(robot: Robot, legs: LegModel, body: BodyScale, asked: float) -> floa
     for lower in _CROUCHES:
         found = plan_reach(robot, legs, straight_walk(robot, body, robot.com_height - lower * body.leg))
         enough = found.missed <= _MISSED_CROUCHING and (lower <= _LEAST_CROUCH or float(found.spare.min()) >= _SPARE)
-        if not enough or bool((found.torque > max(HELD, 1.02 * asked) * limits).any()):
+        held = max(_CROUCHED if lower <= _LEAST_CROUCH else HELD, 1.02 * asked)
+        if not enough or bool((found.torque > held * limits).any()):
             break
         fits = lower
     return math.floor(1e3 * fits * body.leg) / 1e3

@@ -32,6 +32,10 @@ _BEGIN = 0.5  # s: standing time before the walk
 _SWINGING = 0.1  # of what a swinging foot misses counts
 _LANDING = 0.1  # of a swing, at its end, in which all of it counts
 _HOPELESS = 0.05  # m or rad by which the legs miss what is asked of them: the rest of the plan is not looked at
+_FRICTION = 0.8  # of the built-in scenes
+_ARM = (
+    0.26  # mean distance of a rectangle's points from its middle, over its diagonal: 0.25 of a line, 0.27 of a square
+)
 _STEP = 0.15  # rad: largest change in a Newton step, see plantar.robots.kinematics.inverse_kinematics
 
 Array = NDArray[np.float64]
@@ -71,8 +75,11 @@ class PlanReach:
         knee: Least bend of a knee in rad; negative backwards.
         straightest: Time in s of that.
         spare: Least distance in rad of each joint of a carrying leg to its limits, over both legs.
-        torque: Largest torque in N m of each joint, over both legs: to carry, and against damping and inertia.
+        torque: Largest torque in N m of each joint, over both legs: to carry, against damping and inertia, and against
+            what a swinging leg takes.
         carrying: The same to carry alone.
+        shift: Largest way by which a swinging leg moves the ZMP, over the way from its place to the sole's edge.
+        turn: Largest moment by which it turns the sole that carries, over what friction holds.
         roll: Largest angle in rad of a sole that carries alone off level, without ankle roll.
     """
 
@@ -82,6 +89,8 @@ class PlanReach:
     spare: Array
     torque: Array
     carrying: Array
+    shift: float
+    turn: float
     roll: float
 
 
@@ -135,13 +144,16 @@ class _Pass:
         self.middles = {s: middle_of_sole(robot.layouts[s], robot.ankle_reach) for s in SIDES}
         frequency = pendulum_frequency(walked.com_height)
         self.plan = WalkPlan(walked.feet, walked.steps, walked.timing, self.middles, frequency, begin=_BEGIN)
+        self.outline = robot.layouts["left"].outline
         self.every = walked.timing.single_support / _INSTANTS
         self.missed = settled(robot, legs, walked.feet, walked.com_height)
         self.probe = _Probe(robot, legs)
         self.knee, self.straightest = self.probe.knees(legs), 0.0
         self.spare = self.probe.spare(legs, SIDES)
         self.roll = 0.0
-        self.angles: list[Array] = []
+        self.configurations: list[Array] = []
+        self.alone: list[Array] = []  # 1 for joints of a leg that carries alone
+        self.axes: list[Array] = []
         self.static: list[Array] = []
         self.feet = dict(walked.feet)
         self.ground = float(np.mean([foot.z for foot in walked.feet.values()]))
@@ -184,7 +196,9 @@ class _Pass:
             self.roll = max(self.roll, self.probe.tilt(s))
         force = legs.mass * np.array([*push, GRAVITY])
         self.static.append(legs.static_torques({s: share[s] * force for s in SIDES}, points))
-        self.angles.append(self.probe.angles(legs))
+        self.configurations.append(legs.configuration.copy())
+        self.alone.append(np.repeat([float(alone == [s]) for s in SIDES], len(self.spare)))
+        self.axes.append(self.probe.axes())
 
     def _swing(self, start: Footstep, target: Footstep, duration: float) -> SwingTrajectory:
         walked = self.walked
@@ -197,15 +211,29 @@ class _Pass:
     def broken_off(self) -> PlanReach:
         never = np.full(len(self.spare), math.inf)
         spare = self.spare if self.missed < _HOPELESS else -never
-        return PlanReach(self.missed, self.knee, self.straightest, spare, never, never, math.pi)
+        return PlanReach(self.missed, self.knee, self.straightest, spare, never, never, math.inf, math.inf, math.pi)
 
     def result(self) -> PlanReach:
-        moved = np.gradient(np.array(self.angles), self.every, axis=0)
+        configurations, alone = np.array(self.configurations), np.array(self.alone)
+        moved = np.gradient(configurations[:, self.probe.places], self.every, axis=0)
         moving = self.probe.damping * moved + self.probe.swinging * np.gradient(moved, self.every, axis=0)
+        # The ground gives the swinging leg its angular momentum about the CoM, through the leg that carries.
+        moment = np.gradient(self.probe.angular_momenta(configurations, self.every), self.every, axis=0)
+        reaction = -alone * np.einsum("tjx,tx->tj", np.array(self.axes), moment)
         torque, carrying = (
-            np.abs(np.array(self.static) + more).max(axis=0).reshape(2, -1).max(axis=0) for more in (moving, 0.0)
+            np.abs(np.array(self.static) + more).max(axis=0).reshape(2, -1).max(axis=0)
+            for more in (moving + reaction, 0.0)
         )
-        return PlanReach(self.missed, self.knee, self.straightest, self.spare, torque, carrying, self.roll)
+        single = np.abs(moment[alone.any(axis=1)])
+        low, high = self.outline.min(axis=0), self.outline.max(axis=0)
+        weight = self.legs.mass * GRAVITY
+        near = weight * np.minimum(high - self.middles["left"], self.middles["left"] - low)
+        holds = _FRICTION * weight * _ARM * math.hypot(*(high - low))
+        (about_x, about_y, about_z) = single.max(axis=0, initial=0.0)
+        return PlanReach(
+            *(self.missed, self.knee, self.straightest, self.spare, torque, carrying),
+            *(max(about_y / near[0], about_x / near[1]), about_z / holds, self.roll),
+        )
 
 
 def _shares(vrp: Array, feet: Mapping[Side, Footstep], middles: Mapping[Side, Array]) -> dict[Side, float]:
@@ -220,7 +248,8 @@ class _Probe:
         model = legs.model
         self._data = stood(robot, model)
         ids = [model.joint(n).id for s in SIDES for n in robot.legs[s].joints]
-        self._places = model.jnt_qposadr[ids]
+        self.places = model.jnt_qposadr[ids]
+        self._joints = ids
         dofs = model.jnt_dofadr[ids]
         self.damping = model.dof_damping[dofs]
         self.swinging = floating_inertia(model, legs.configuration)[dofs]
@@ -264,10 +293,26 @@ class _Probe:
         """Angle in rad of a sole against level ground, likewise."""
         return math.acos(min(1.0, float(self._data.site_xmat[self._soles[side], 8])))
 
-    def angles(self, legs: LegModel) -> Array:
-        return np.asarray(legs.configuration[self._places])
+    def axes(self) -> Array:
+        """Axes (2 k, 3) of the legs' joints in the world, likewise."""
+        return self._data.xaxis[self._joints].copy()
+
+    def angular_momenta(self, configurations: Array, every: float) -> Array:
+        """Angular momenta (n, 3) in N m s about the CoM of configurations (n, nq) that follow `every` so many s."""
+        model, data = self._model, self._data
+        found = np.zeros((len(configurations), 3))
+        for i in range(1, len(configurations) - 1):
+            mujoco.mj_differentiatePos(model, data.qvel, 2.0 * every, configurations[i - 1], configurations[i + 1])
+            data.qpos[:] = configurations[i]
+            mujoco.mj_kinematics(model, data)
+            mujoco.mj_comPos(model, data)
+            mujoco.mj_comVel(model, data)
+            mujoco.mj_subtreeVel(model, data)
+            found[i] = data.subtree_angmom[self._root]
+        data.qvel[:] = 0.0
+        return found
 
     def spare(self, legs: LegModel, sides: Sequence[Side]) -> Array:
-        angles = legs.configuration[self._places]
+        angles = legs.configuration[self.places]
         spare = np.minimum(angles - self._low, self._high - angles).reshape(2, -1)
         return np.asarray(spare[[SIDES.index(s) for s in sides]].min(axis=0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -102,13 +103,23 @@ SAMPLED = 1.5
 _LEAD = 0.076  # damping over stiffness, in beats of the leg; h1 has 0.01875 s
 
 
+_SATURATED = 7e-3
+"""Error in rad at which a servo may reach its torque limit: with 0.003 Romeo's hips turned it by 4 degrees each way."""
+
+
 def servo_gains(
-    inertia: JointInertia, mass: float, com_height: float, beat: float, period: float
+    inertia: JointInertia,
+    mass: float,
+    com_height: float,
+    beat: float,
+    period: float,
+    limits: Sequence[float] = (),
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Gains of a leg's servos.
 
     Stiffness is 12 m g h, as of h1; for a light joint only until the foot's own swing, of frequency sqrt(k / I), moves
-    by 1.5 rad in a control period. Damping is critical for the swing, or as of h1 if more, less the joint's own.
+    by 1.5 rad in a control period, or for a weak one until 0.007 rad take all its torque. Damping is critical for the
+    swing, or as of h1 if more, less the joint's own.
 
     Args:
         inertia: About each joint of a leg.
@@ -116,13 +127,15 @@ def servo_gains(
         com_height: In m.
         beat: Time scale sqrt(leg / g) in s.
         period: Control period in s.
+        limits: Torque limits in N m, or empty.
 
     Returns:
         Stiffness in N m/rad and damping in N m s/rad of each joint, of two digits.
     """
     wanted = STIFFNESS * mass * GRAVITY * com_height
     least = LEAST_STIFFNESS * mass * GRAVITY * com_height
-    stiffness = np.clip(inertia.swing * (SAMPLED / period) ** 2, least, wanted)
+    most = np.minimum(wanted, np.array(limits) / _SATURATED) if limits else wanted
+    stiffness = np.clip(np.minimum(inertia.swing * (SAMPLED / period) ** 2, most), least, wanted)
     damping = np.maximum(2.0 * np.sqrt(stiffness * inertia.swing), _LEAD * beat * stiffness)
     damping = np.maximum(damping - inertia.damping, 0.02 * damping)
     return _two_digits(stiffness), _two_digits(damping)
@@ -131,8 +144,8 @@ def servo_gains(
 def rotor_inertia(inertia: JointInertia, mass: float, com_height: float, period: float) -> NDArray[np.float64]:
     """Rotor inertia to assume where none is stated and a joint is too light for its servo.
 
-    It keeps a bare foot's swing under the least holding stiffness to `SAMPLED` in a control period: 0.0035 and 0.0066
-    kg m^2 about the ankle of Unitree's G1, which has 0.007.
+    With it a bare foot on a servo of `STIFFNESS` swings by `SAMPLED` in a control period: 0.07 kg m^2 about the ankles
+    of JVRC-1, 0.02 about iCub's. On softer ankles a robot sways at its steps' pace, and the swinging leg rocks it.
 
     Args:
         inertia: About each joint of a leg.
@@ -143,8 +156,8 @@ def rotor_inertia(inertia: JointInertia, mass: float, com_height: float, period:
     Returns:
         Inertia in kg m^2 to add about each joint, of two digits; 0 if none is missing.
     """
-    least = LEAST_STIFFNESS * mass * GRAVITY * com_height
-    missing = least * (period / SAMPLED) ** 2 - inertia.swing
+    wanted = STIFFNESS * mass * GRAVITY * com_height
+    missing = wanted * (period / SAMPLED) ** 2 - inertia.swing
     return _two_digits(np.where(inertia.armature > 0.0, 0.0, np.maximum(missing, 0.0)))
 
 

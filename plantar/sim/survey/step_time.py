@@ -1,4 +1,4 @@
-"""How long a robot's steps take, without ankle roll or with sole-turning swing legs.
+"""How long the steps of a robot without ankle roll take, and how far weak ankles bear it.
 
 A sole without ankle roll is level only where its leg is vertical in the frontal plane. A pendulum of height h carried
 at p to the side, half the feet's distance, swings to the foot and back in a time T, and leans by atan(y / h), with
@@ -6,9 +6,6 @@ at p to the side, half the feet's distance, swings to the foot and back in a tim
     y = p (1 - 1 / cosh(w T / 2)),    w = sqrt(g / h)
 
 (Kajita et al., "The 3D linear inverted pendulum mode", IROS 2001). Quick steps keep that small.
-
-A leg thrown forward turns the robot about the standing sole, against friction. Unitree's G1 turns its sole by one or
-two degrees a step where the leg takes a sixth of friction.
 """
 
 from __future__ import annotations
@@ -16,16 +13,13 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-import numpy as np
-
 from plantar.gravity import GRAVITY
-from plantar.robots.kinematics.body import hanging_on, rolling_joints, stood
+from plantar.robots.kinematics.body import rolling_joints, stood
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
-from plantar.settings.body_scale import BodyScale
 from plantar.sides import Side
 
-__all__ = ["LEAN_MOST", "ankle_reach", "has_ankle_roll", "least_single_support", "rocking", "swinging_mass"]
+__all__ = ["LEAN_MOST", "ankle_reach", "has_ankle_roll", "rocking"]
 
 LEAN_MOST = math.radians(2.5)
 """Lean of a leg in the orbit. What a sole that stands flat does not lean, the body does."""
@@ -62,41 +56,3 @@ def ankle_reach(robot: Robot, weight: float, ankle: int) -> float | None:
     toe = float(robot.layouts["left"].outline[:, 0].max())
     reach = robot.effort_limits[ankle] / weight
     return None if reach >= toe else math.floor(1e4 * reach) / 1e4
-
-
-_HELD = 0.12
-"""Share of what friction holds that a swinging leg may take: h1 has 0.05, JVRC-1 0.10, and G1 slips with 0.17."""
-
-_FRICTION = 0.8
-"""Of the built-in scenes."""
-
-_ARM = 0.26
-"""Mean distance of a rectangle's points from its middle, over its diagonal: 0.25 of a line, 0.27 of a square."""
-
-_PEAK = 10.0 / math.sqrt(3.0)
-"""Largest acceleration of a minimum-jerk path, in its length over its time squared."""
-
-
-def swinging_mass(robot: Robot, legs: LegModel) -> float:
-    """Returns the mass in kg of `legs` of a `robot` that swings, weighted by depth below the hip."""
-    model, data = legs.model, stood(robot, legs.model)
-    hip = int(model.joint(robot.legs["left"].joints[0]).bodyid[0])
-    parts = hanging_on(model, hip)
-    top, sole = data.xpos[hip, 2], data.site_xpos[model.site(robot.legs["left"].sole_site).id, 2]
-    share = np.clip((top - data.xipos[parts, 2]) / (top - sole), 0.0, 1.0)
-    return float(share @ model.body_mass[parts])
-
-
-def least_single_support(robot: Robot, legs: LegModel, body: BodyScale, step: float) -> float:
-    """Returns the least t_ss in s, in hundredths, at which friction holds the sole.
-
-    Args:
-        robot: The robot, with stance and layouts.
-        legs: Its kinematics.
-        body: Its mass and leg.
-        step: Length in m; the foot goes twice as far.
-    """
-    length, width = np.ptp(robot.layouts["left"].outline, axis=0)
-    holds = _FRICTION * body.mass * GRAVITY * _ARM * math.hypot(length, width)
-    takes = swinging_mass(robot, legs) * robot.stance_width * _PEAK * 2.0 * step  # over t_ss squared
-    return math.ceil(100.0 * math.sqrt(takes / (_HELD * holds))) / 100.0
