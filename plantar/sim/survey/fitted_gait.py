@@ -85,7 +85,8 @@ _CROUCHED = 0.88  # of the torque limits, for that crouch
 _MORE_BENT, _STRONG = math.radians(10.0), 0.6  # of knees, and share of the torque limits from which they are
 _CROUCHES = (0.02, 0.035, _LEAST_CROUCH, 0.1, 0.15, 0.2, 0.25)  # of the leg
 _APPROACHES = (1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.75, 2.0)
-_PACES = (1.0, 1.2, 1.4, 1.6, 1.8, 2.0)
+_PACES = (1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.3, 2.6)
+_QUICK_SHIFT = 0.33  # of quick steps, as `SHIFT`: those of h1 have 0.26
 _QUICK_STEPS = 4  # two of each foot
 _GAP = 0.25  # of the sole's width between two soles that stand side by side: h1 has 0.3
 _WIDE = 0.33  # of the leg: distance of the feet above which a narrower stance is tried, too; h1 has 0.28
@@ -95,7 +96,7 @@ _LEAN = 0.48  # rad of trunk lean per leg length of lateral motion, as h1
 
 _SHORTER = (1.0, 0.85, 0.7, 0.55, 0.4)
 _OTHER_PACES = (0.8, 1.25, 0.64, 1.6)
-_TRIED_LEANS = (1.0, 1.6)
+_TRIED_LEANS = (1.0, 1.6, 2.4)
 _TRIED_STANCES = (0.3, 0.24)  # of the leg
 _HIGHEST, _LOWEST, _LOWER = 0.15, 0.45, 0.04  # of the leg, above and below the posture with knees of 40 degrees
 _WORSE = 3  # heights in a row that cost more, below which no others are looked at
@@ -266,9 +267,16 @@ def _bent(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
             )
         for k, part in ((pitch[0], -0.5), (pitch[-2], 1.0), (pitch[-1], -0.5)):
             angles[k] += part * _SEED_BEND * math.copysign(1.0, float(data.xaxis[ids[k]] @ across))
+        knee, wanted = pitch[-2], angles[pitch[-2]]
         for k, i in enumerate(ids):
             if model.jnt_limited[i]:
                 angles[k] = np.clip(angles[k], *model.jnt_range[i])
+        if abs(angles[knee] - wanted) > _SEED_BEND - KNEE_LEAST:
+            name, low, high = robot.legs[side].joints[knee], *np.degrees(model.jnt_range[ids[knee]]).tolist()
+            raise RobotError(
+                f"robot '{robot.name}': knee '{name}', from {low:.0f} to {high:.0f} degrees, does not bend the shank "
+                f"back by {math.degrees(KNEE_LEAST):.0f} degrees; allowed: knees that do: turn its axis round"
+            )
         posture[side] = tuple(angles.tolist())
     return posture
 
@@ -461,7 +469,8 @@ def _pace(robot: Robot, legs: LegModel, body: BodyScale) -> float:
         timing = walk_timing(walk, quick, body)
         walked = Walked(feet, plan, timing, walk.swing_height, robot.com_height, robot.trunk_lean)
         asked = plan_reach(robot, legs, walked)
-        if not bool((asked.torque > QUICK_HELD * limits).any()):
+        fits = asked.shift <= _QUICK_SHIFT and asked.turn <= TURN
+        if fits and not bool((asked.torque > QUICK_HELD * limits).any()):
             return beats
     return _PACES[-1]
 

@@ -125,7 +125,7 @@ def _upwards(tree: _Tree, where: str) -> tuple[Array, tuple[str, ...]]:
         there = (
             f"the longest, to '{model.body(longest).name}', has {len(tree.hinges(tree.chain(longest)))}"
             if longest
-            else f"it has {model.njnt} joints and {model.ngeom} shapes"
+            else f"its {model.ngeom} shapes are all on bodies that no joint moves, so that it has no feet"
         )
         raise RobotError(
             f"{where}: no chain of {LEAST_JOINTS} hinges or more ends in a body with a shape; {there}; a leg that "

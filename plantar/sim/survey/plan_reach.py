@@ -78,7 +78,7 @@ class PlanReach:
         torque: Largest torque in N m of each joint, over both legs: to carry, against damping and inertia, and against
             what a swinging leg takes.
         carrying: The same to carry alone.
-        shift: Largest way by which a swinging leg moves the ZMP, over the way from its place to the sole's edge.
+        shift: Largest way by which a swinging leg moves the ZMP along the sole, over that from its place to the edge.
         turn: Largest moment by which it turns the sole that carries, over what friction holds.
         roll: Largest angle in rad of a sole that carries alone off level, without ankle roll.
     """
@@ -224,15 +224,14 @@ class _Pass:
             np.abs(np.array(self.static) + more).max(axis=0).reshape(2, -1).max(axis=0)
             for more in (moving + reaction, 0.0)
         )
-        single = np.abs(moment[alone.any(axis=1)])
+        _, about_y, about_z = np.abs(moment[alone.any(axis=1)]).max(axis=0, initial=0.0)
         low, high = self.outline.min(axis=0), self.outline.max(axis=0)
-        weight = self.legs.mass * GRAVITY
-        near = weight * np.minimum(high - self.middles["left"], self.middles["left"] - low)
-        holds = _FRICTION * weight * _ARM * math.hypot(*(high - low))
-        (about_x, about_y, about_z) = single.max(axis=0, initial=0.0)
+        weight, place = self.legs.mass * GRAVITY, self.middles["left"][0]
+        shift = about_y / (weight * min(high[0] - place, place - low[0]))
+        turn = about_z / (_FRICTION * weight * _ARM * math.hypot(*(high - low)))
         return PlanReach(
             *(self.missed, self.knee, self.straightest, self.spare, torque, carrying),
-            *(max(about_y / near[0], about_x / near[1]), about_z / holds, self.roll),
+            *(float(shift), float(turn), self.roll),
         )
 
 

@@ -23,6 +23,7 @@ _BAND = 0.005  # m: the lowest part of a foot, which is its sole
 _COVERED = 0.4  # of the silhouette by the lowest band; less are balls, bars or a rounded sole
 _LEAST_LENGTH, _LEAST_WIDTH = 0.06, 0.015  # m: of a sole that a shoe is built for
 _TOED_OUT = math.radians(8.0)  # between the foot's long side and the robot's forward direction
+_ACROSS = 1.5  # width over length of a sole at most
 _SLENDER = 1.3  # length over width of a foot whose long side is given
 
 Array = NDArray[np.float64]
@@ -135,6 +136,11 @@ def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> S
             f"{where}: foot '{name}' is a point: {1e3 * length:.0f} x {1e3 * width:.0f} mm of it are "
             f"within {1e3 * _BAND:g} mm of the ground; allowed: {1e3 * _LEAST_LENGTH:g} x {1e3 * _LEAST_WIDTH:g} mm "
             "or more, on which its taxels are and its ankle pushes"
+        )
+    if width > _ACROSS * length:
+        raise RobotError(
+            f"{where}: foot '{name}' lies across: {1e3 * length:.0f} mm of it are along the robot's way and "
+            f"{1e3 * width:.0f} mm across; allowed: {_ACROSS:g} times as wide as long at most; turn its shape"
         )
     return Sole(
         origin=body_origin,

@@ -1,0 +1,69 @@
+"""What a swinging leg takes of the sole that carries, by the planned motion alone."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+import pytest
+
+from plantar.gravity import GRAVITY
+from plantar.robots import builtin_robots, load_robot
+from plantar.robots.kinematics.body import body_of
+from plantar.robots.kinematics.robot_model import build_leg_model
+from plantar.sim.survey.fitted_gait import SHIFT, TURN, fit_gait, straight_walk
+from plantar.sim.survey.plan_reach import PlanReach, _Pass, plan_reach
+
+
+def reach_of(name: str, slower: float) -> PlanReach:
+    robot = load_robot(name)
+    robot = replace(robot, single_support=slower * robot.single_support, double_support=slower * robot.double_support)
+    legs = build_leg_model(robot)
+    return plan_reach(robot, legs, straight_walk(robot, body_of(robot, legs.model), robot.com_height, steps=2))
+
+
+@pytest.mark.parametrize("name", builtin_robots())
+def test_a_swinging_leg_takes_a_quarter_at_half_the_pace(name: str) -> None:
+    usual, slow = reach_of(name, 1.0), reach_of(name, 2.0)
+    assert slow.shift == pytest.approx(usual.shift / 4.0, rel=0.25)
+    assert slow.turn == pytest.approx(usual.turn / 4.0, rel=0.25)
+    assert (slow.torque <= 1.01 * usual.torque).all()
+
+
+def test_the_moment_about_the_com_is_that_of_inverse_dynamics() -> None:
+    robot = load_robot("h1")
+    legs = build_leg_model(robot)
+    found = _Pass(robot, legs, straight_walk(robot, body_of(robot, legs.model), robot.com_height, steps=2))
+    every = found.every
+    for time in np.arange(1.6, 2.9, every).tolist():
+        found.look(time)
+    configurations = np.array(found.configurations)
+    moments = np.gradient(found.probe.angular_momenta(configurations, every), every, axis=0)
+    model = legs.model
+    data = mujoco.MjData(model)
+    velocities = np.zeros((len(configurations), model.nv))
+    for i in range(1, len(configurations) - 1):
+        mujoco.mj_differentiatePos(model, velocities[i], 2.0 * every, configurations[i - 1], configurations[i + 1])
+    off, size = 0.0, 0.0
+    for i in range(3, len(configurations) - 3):
+        data.qpos[:], data.qvel[:] = configurations[i], velocities[i]
+        data.qacc[:] = (velocities[i + 1] - velocities[i - 1]) / (2.0 * every)
+        mujoco.mj_inverse(model, data)
+        turn = data.xmat[model.body(robot.torso_body).id].reshape(3, 3) @ data.qfrc_inverse[3:6]
+        root = int(model.body_rootid[model.body(robot.torso_body).id])
+        about_com = turn + np.cross(data.qpos[:3] - data.subtree_com[root], data.qfrc_inverse[:3])
+        off, size = max(off, float(np.abs(about_com - moments[i]).max())), max(size, float(np.abs(moments[i]).max()))
+    assert size > 3.0  # N m
+    assert off < 0.15 * size
+
+
+def test_a_robot_whose_legs_would_rock_it_walks_more_slowly() -> None:
+    h1 = load_robot("h1")
+    limits = (1000.0,) * 6
+    usual = fit_gait(replace(h1, effort_limits=limits))
+    assert usual.reach.shift <= 1.25 * SHIFT
+    assert usual.reach.turn <= TURN
+    single = 3.15 * math.sqrt(usual.robot.com_height / GRAVITY)
+    assert usual.robot.single_support > 1.05 * single  # h1 at its pendulum's pace moves the ZMP by 0.19
