@@ -14,10 +14,10 @@ from plantar.robots import builtin_robots, load_robot
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.sim.survey.fitted_gait import SHIFT, TURN, fit_gait, straight_walk
-from plantar.sim.survey.plan_reach import PlanReach, _Pass, plan_reach
+from plantar.sim.survey.plan_reach import _Pass, plan_reach
 
 
-def reach_of(name: str, slower: float) -> PlanReach:
+def reach_of(name, slower):
     robot = load_robot(name)
     robot = replace(robot, single_support=slower * robot.single_support, double_support=slower * robot.double_support)
     legs = build_leg_model(robot)
@@ -25,13 +25,13 @@ def reach_of(name: str, slower: float) -> PlanReach:
 
 
 @pytest.mark.parametrize("name", builtin_robots())
-def test_a_swinging_leg_takes_less_at_half_the_pace(name: str) -> None:
+def test_a_swinging_leg_takes_less_at_half_the_pace(name):
     usual, slow = reach_of(name, 1.0), reach_of(name, 2.0)
     assert 0.0 < slow.shift < 0.75 * usual.shift  # the pelvis moves, too
     assert 0.0 < slow.turn < 0.5 * usual.turn
 
 
-def test_the_moment_about_the_com_is_that_of_inverse_dynamics() -> None:
+def test_the_moment_about_the_com_is_that_of_inverse_dynamics():
     robot = load_robot("h1")
     legs = build_leg_model(robot)
     found = _Pass(robot, legs, straight_walk(robot, body_of(robot, legs.model), robot.com_height, steps=2))
@@ -58,7 +58,7 @@ def test_the_moment_about_the_com_is_that_of_inverse_dynamics() -> None:
     assert off < 0.15 * size
 
 
-def test_a_robot_whose_legs_would_rock_it_walks_more_slowly() -> None:
+def test_a_robot_whose_legs_would_rock_it_walks_more_slowly():
     h1 = load_robot("h1")
     limits = (1000.0,) * 6
     usual = fit_gait(replace(h1, effort_limits=limits))
