@@ -82,6 +82,7 @@ _SPARE = math.radians(1.0)  # of a joint's range that a walk leaves unused
 _LEAST_CROUCH = 0.05  # of the leg: what scenes on unknown ground ask for
 _MISSED_CROUCHING = 0.01  # m
 _CROUCHED = 0.88  # of the torque limits, for that crouch
+_FULL = 0.95  # of the torque limits: no knee bends for more
 _MORE_BENT, _STRONG = math.radians(10.0), 0.6  # of knees, and share of the torque limits from which they are
 _CROUCHES = (0.02, 0.035, _LEAST_CROUCH, 0.1, 0.15, 0.2, 0.25)  # of the leg
 _APPROACHES = (1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.75, 2.0)
@@ -415,7 +416,8 @@ def _tried(robot: Robot, legs: LegModel, body: BodyScale, height: float, paid: f
     more = 1.0 if robot.rocks else min(1.0, max(0.0, (asked - _STRONG) / (HELD - _STRONG)))
     least = KNEE_LEAST + more * _MORE_BENT
     straight, bent = max(0.0, least - reach.knee), max(0.0, reach.knee - least)
-    cost = paid + 0.2 * asked + 4.0 * max(0.0, asked - HELD) + 6.0 * straight + 0.5 * bent
+    over = 4.0 * max(0.0, asked - HELD) + 20.0 * max(0.0, asked - _FULL)
+    cost = paid + 0.2 * asked + over + 6.0 * straight + 0.5 * bent
     return _Tried(cost, paid, robot, body, reach)
 
 

@@ -21,7 +21,8 @@ def reach_of(name, slower):
     robot = load_robot(name)
     robot = replace(robot, single_support=slower * robot.single_support, double_support=slower * robot.double_support)
     legs = build_leg_model(robot)
-    return plan_reach(robot, legs, straight_walk(robot, body_of(robot, legs.model), robot.com_height, steps=2))
+    body = body_of(robot, legs.model)
+    return plan_reach(robot, legs, straight_walk(robot, body, robot.com_height - 0.1 * body.leg, steps=2))
 
 
 @pytest.mark.parametrize("name", builtin_robots())
