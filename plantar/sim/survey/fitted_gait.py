@@ -273,7 +273,7 @@ def _bent(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
             if model.jnt_limited[i]:
                 angles[k] = np.clip(angles[k], *model.jnt_range[i])
         if abs(angles[knee] - wanted) > _SEED_BEND - KNEE_LEAST:
-            name, low, high = robot.legs[side].joints[knee], *np.degrees(model.jnt_range[ids[knee]]).tolist()
+            name, (low, high) = robot.legs[side].joints[knee], np.degrees(model.jnt_range[ids[knee]]).tolist()
             raise RobotError(
                 f"robot '{robot.name}': knee '{name}', from {low:.0f} to {high:.0f} degrees, does not bend the shank "
                 f"back by {math.degrees(KNEE_LEAST):.0f} degrees; allowed: knees that do: turn its axis round"

@@ -294,7 +294,7 @@ class _Probe:
 
     def axes(self) -> Array:
         """Axes (2 k, 3) of the legs' joints in the world, likewise."""
-        return self._data.xaxis[self._joints].copy()
+        return np.asarray(self._data.xaxis[self._joints])
 
     def angular_momenta(self, configurations: Array, every: float) -> Array:
         """Angular momenta (n, 3) in N m s about the CoM of configurations (n, nq) that follow `every` so many s."""
