@@ -206,7 +206,7 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
     light = [name for name, value in zip(draft.legs["left"].joints, assumed, strict=True) if value > 0.0]
     if light:
         notes.append(
-            f"the model states no rotor inertia, and {', '.join(light)} would be too light for a servo: up to "
+            f"the model states no rotor inertia, and {', '.join(light)} would be too light for a stiff servo: up to "
             f"{assumed.max():.2g} kg m^2 is assumed as armature in model.xml, put the motors' there"
         )
     return FittedGait(robot, body, inertia, reach, notes, assumed)

@@ -180,7 +180,7 @@ def _gait(fitted: FittedGait) -> list[str]:
             + (
                 "."
                 if robot.rocks
-                else "; that of h1 is 3.15, more spares the motors, or friction where heavy legs swing."
+                else "; that of h1 is 3.15, more spares the motors, or soles from what heavy legs swing."
             )
         ),
         f"single_support = {robot.single_support:g}  # s",
@@ -235,8 +235,8 @@ def _servo(survey: Survey, fitted: FittedGait) -> list[str]:
     if fitted.rotors.any():
         lines += _comment(
             f"The model states no rotor inertia (armature). Assumed in model.xml: {_numbers(fitted.rotors, 2)} kg m^2, "
-            f"without which the least stiffness to stand on would swing a joint by more than {SAMPLED:g} rad in that "
-            "time, and it would chatter on the ground. Put there what the motors have, times the gear ratio squared."
+            "without which no ankle could be as stiff, and swinging legs would rock the robot. Put there what the "
+            "motors have, times the gear ratio squared."
         )
     elif not inertia.armature.any():
         lines += _comment(
