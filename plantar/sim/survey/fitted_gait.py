@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,6 +20,7 @@ from plantar.robots.robot import Robot
 from plantar.robots.walk import CONTROL_PERIOD, Walk, walk_timing
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
+from plantar.sim.survey.first_posture import SOLE_GAP, bent_posture, posture_height, stance_width
 from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled, standing_feet
 from plantar.sim.survey.servo_gains import JointInertia, joint_inertia, servo_gains
 from plantar.sim.survey.step_time import ankle_reach, has_ankle_roll, rocking
@@ -41,7 +41,6 @@ __all__ = [
     "TURN",
     "FittedGait",
     "fit_gait",
-    "stance_width",
     "straight_walk",
 ]
 
@@ -76,7 +75,6 @@ QUICK_HELD = 0.85
 all ticks and hit the ground with 6 body weights; at 0.85 of it that was 1 %."""
 
 _OWN_STIFFNESS = 6.0  # over m g h, from which the model's own servos are kept: half of what h1 has
-_SEED_BEND = math.radians(40.0)
 _TURNING = 5  # joints of a leg from which it turns its foot
 _SPARE = math.radians(1.0)  # of a joint's range that a walk leaves unused
 _LEAST_CROUCH = 0.05  # of the leg: what scenes on unknown ground ask for
@@ -89,7 +87,6 @@ _APPROACHES = (1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.75, 2.0)
 _PACES = (1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.3, 2.6)
 _QUICK_SHIFT = 0.33  # of quick steps, as `SHIFT`: those of h1 have 0.26
 _QUICK_STEPS = 4  # two of each foot
-_GAP = 0.25  # of the sole's width between two soles that stand side by side: h1 has 0.3
 _WIDE = 0.33  # of the leg: distance of the feet above which a narrower stance is tried, too; h1 has 0.28
 _SINGLE, _DOUBLE = 3.15, 1.05  # t_ss and t_ds of h1 over sqrt(h / g) of its height
 _H1_STEP = 4.85  # beats of a step of h1
@@ -162,7 +159,7 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
         RobotError: If it cannot stand.
     """
     legs = build_leg_model(draft)
-    robot = replace(draft, posture=_bent(draft, legs))
+    robot = replace(draft, posture=bent_posture(draft, legs))
     body = body_of(robot, legs.model)
     notes: list[str] = []
     robot = replace(robot, stance_width=stance_width(robot, legs))
@@ -170,7 +167,7 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
     bears = ankle_reach(robot, body.weight, ankle)
     if bears is not None:
         robot = replace(robot, ankle_reach=bears)
-    seed = _seed_height(robot, legs)
+    seed = posture_height(robot, legs)
     robot = robot if has_ankle_roll(robot, legs) else replace(robot, rocks=True)
     robot, body, reach = _stepping(robot, legs, body, seed, notes)
     height = robot.com_height
@@ -252,53 +249,6 @@ def _balance(body: BodyScale) -> dict[str, Any]:
     return {"law": "com_admittance", **{k: float(f"{v / body.beat:.3g}") for k, v in beats.items()}}
 
 
-def _bent(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
-    model = legs.model
-    data = mujoco.MjData(model)
-    mujoco.mj_kinematics(model, data)
-    across = data.xmat[model.body(robot.torso_body).id].reshape(3, 3)[:, 1]
-    posture: dict[Side, tuple[float, ...]] = {}
-    for side in SIDES:
-        ids = [model.joint(n).id for n in robot.legs[side].joints]
-        angles = model.qpos0[model.jnt_qposadr[ids]].copy()
-        pitch = [ids.index(i) for i in pitching_joints(robot, side, model, data)]
-        if len(pitch) < 3:
-            raise RobotError(
-                f"robot '{robot.name}': the {side} leg has {len(pitch)} joints that pitch; allowed: hip, knee and ankle"
-            )
-        for k, part in ((pitch[0], -0.5), (pitch[-2], 1.0), (pitch[-1], -0.5)):
-            angles[k] += part * _SEED_BEND * math.copysign(1.0, float(data.xaxis[ids[k]] @ across))
-        knee, wanted = pitch[-2], angles[pitch[-2]]
-        for k, i in enumerate(ids):
-            if model.jnt_limited[i]:
-                angles[k] = np.clip(angles[k], *model.jnt_range[i])
-        if abs(angles[knee] - wanted) > _SEED_BEND - KNEE_LEAST:
-            name, (low, high) = robot.legs[side].joints[knee], np.degrees(model.jnt_range[ids[knee]]).tolist()
-            raise RobotError(
-                f"robot '{robot.name}': knee '{name}', from {low:.0f} to {high:.0f} degrees, does not bend the shank "
-                f"back by {math.degrees(KNEE_LEAST):.0f} degrees; allowed: knees that do: turn its axis round"
-            )
-        posture[side] = tuple(angles.tolist())
-    return posture
-
-
-def stance_width(robot: Robot, legs: LegModel) -> float:
-    """Returns the distance in m of a `robot`'s feet: as in the model of its `legs`, or wider for the soles."""
-    angles = np.array([*robot.posture["left"], *robot.posture["right"]])
-    feet = legs.posture(angles).positions
-    own = float(feet["left"][1] - feet["right"][1])
-    outline = robot.layouts["left"].outline
-    low, high = outline.min(axis=0), outline.max(axis=0)
-    inner = -float(low[1])
-    least = 2.0 * inner + _GAP * float(high[1] - low[1])
-    return round(max(own, least), 3)
-
-
-def _seed_height(robot: Robot, legs: LegModel) -> float:
-    posture = legs.posture(np.array([*robot.posture["left"], *robot.posture["right"]]))
-    return float(posture.com[2] - np.mean([posture.positions[s][2] for s in SIDES]))
-
-
 def _paced(robot: Robot, height: float, slower: float) -> Robot:
     """The robot with a pendulum's pace of its height in m, or slower."""
     if robot.rocks:
@@ -373,7 +323,7 @@ class _Tried:
 
 def _others(robot: Robot, body: BodyScale) -> list[tuple[Robot, float]]:
     outline = robot.layouts["left"].outline[:, 1]
-    least = -2.0 * float(outline.min()) + _GAP * float(np.ptp(outline))
+    least = -2.0 * float(outline.min()) + SOLE_GAP * float(np.ptp(outline))
     widths = [robot.stance_width]
     if robot.stance_width > _WIDE * body.leg:
         widths += [round(max(least, share * body.leg), 3) for share in _TRIED_STANCES]

@@ -1,0 +1,74 @@
+"""The posture that a fit begins with: knees bent, soles apart."""
+
+from __future__ import annotations
+
+import math
+
+import mujoco
+import numpy as np
+
+from plantar.errors import RobotError
+from plantar.robots.kinematics.body import pitching_joints
+from plantar.robots.kinematics.leg_model import LegModel
+from plantar.robots.robot import Robot
+from plantar.sides import SIDES, Side
+
+__all__ = ["SOLE_GAP", "bent_posture", "posture_height", "stance_width"]
+
+SOLE_GAP = 0.25
+"""Share of the sole's width between two soles that stand side by side: h1 has 0.3."""
+
+_SEED_BEND, _LEAST_BEND = math.radians(40.0), math.radians(20.0)  # of a knee
+
+
+def bent_posture(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
+    """Returns joint angles in rad of a `robot`'s `legs` with knees bent by 40 degrees, within their limits.
+
+    Raises:
+        RobotError: If a leg has fewer than three joints that pitch, or a knee that bends backwards.
+    """
+    model = legs.model
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    across = data.xmat[model.body(robot.torso_body).id].reshape(3, 3)[:, 1]
+    posture: dict[Side, tuple[float, ...]] = {}
+    for side in SIDES:
+        ids = [model.joint(n).id for n in robot.legs[side].joints]
+        angles = model.qpos0[model.jnt_qposadr[ids]].copy()
+        pitch = [ids.index(i) for i in pitching_joints(robot, side, model, data)]
+        if len(pitch) < 3:
+            raise RobotError(
+                f"robot '{robot.name}': the {side} leg has {len(pitch)} joints that pitch; allowed: hip, knee and ankle"
+            )
+        for k, part in ((pitch[0], -0.5), (pitch[-2], 1.0), (pitch[-1], -0.5)):
+            angles[k] += part * _SEED_BEND * math.copysign(1.0, float(data.xaxis[ids[k]] @ across))
+        knee, wanted = pitch[-2], angles[pitch[-2]]
+        for k, i in enumerate(ids):
+            if model.jnt_limited[i]:
+                angles[k] = np.clip(angles[k], *model.jnt_range[i])
+        if abs(angles[knee] - wanted) > _SEED_BEND - _LEAST_BEND:
+            name, (low, high) = robot.legs[side].joints[knee], np.degrees(model.jnt_range[ids[knee]]).tolist()
+            raise RobotError(
+                f"robot '{robot.name}': knee '{name}', from {low:.0f} to {high:.0f} degrees, does not bend the shank "
+                f"back by {math.degrees(_LEAST_BEND):.0f} degrees; allowed: knees that do: turn its axis round"
+            )
+        posture[side] = tuple(angles.tolist())
+    return posture
+
+
+def stance_width(robot: Robot, legs: LegModel) -> float:
+    """Returns the distance in m of a `robot`'s feet: as in the model of its `legs`, or wider for the soles."""
+    angles = np.array([*robot.posture["left"], *robot.posture["right"]])
+    feet = legs.posture(angles).positions
+    own = float(feet["left"][1] - feet["right"][1])
+    outline = robot.layouts["left"].outline
+    low, high = outline.min(axis=0), outline.max(axis=0)
+    inner = -float(low[1])
+    least = 2.0 * inner + SOLE_GAP * float(high[1] - low[1])
+    return round(max(own, least), 3)
+
+
+def posture_height(robot: Robot, legs: LegModel) -> float:
+    """Returns the height in m of the CoM above the soles of a `robot`'s `legs` in its posture."""
+    posture = legs.posture(np.array([*robot.posture["left"], *robot.posture["right"]]))
+    return float(posture.com[2] - np.mean([posture.positions[s][2] for s in SIDES]))
