@@ -142,7 +142,8 @@ class Skin:
             geoms = named
         if not geoms:
             able = sorted({model.body(int(b)).name for b in model.geom_bodyid[model.geom_contype != 0] if b})
-            raise RobotError(f"body '{self.body}' has no geom that collides; bodies that have: {', '.join(able)}")
+            listed = ", ".join(able) or "none"
+            raise RobotError(f"body '{self.body}' has no geom that collides; bodies that have: {listed}")
         shape = sole_shape(model, body, geoms, self.outward, self.forward)
         return geoms, shape if self.site is None else self._at_site(model, body, shape)
 

@@ -163,3 +163,12 @@ def test_bodies_that_are_fixed_to_it_belong_to_it():
     feel = Skin(body="foot").bind(model)
     assert len(feel.geom_ids) == 2
     assert np.isclose(np.ptp(feel.layout.outline[:, 0]), 0.3)
+
+
+def test_a_model_without_a_body_that_collides_is_refused():
+    spec = mujoco.MjSpec.from_string(
+        '<mujoco><worldbody><body name="foot"><freejoint/><geom size=".1" contype="0" conaffinity="0"/></body>'
+        "</worldbody></mujoco>"
+    )
+    with pytest.raises(RobotError, match="bodies that have: none"):
+        Skin(body="foot").edit(spec)
