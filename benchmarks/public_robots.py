@@ -120,9 +120,7 @@ def report() -> None:
         first = rows.get((name, "introduce"))
         if first is None:
             continue
-        cells = [
-            first["seconds"] if first["completed"] == "True" else f"refused: {first['failed'].rpartition(': ')[2]}"
-        ]
+        cells = [first["seconds"] if first["completed"] == "True" else f"refused: {first['failed'].split(': ', 2)[-1]}"]
         for scene in SCENES:
             row = rows.get((name, scene))
             cells.append("" if row is None else f"{marks[row['completed']]} {row['failed']}".strip())
