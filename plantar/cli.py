@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
 from importlib import import_module
 from pkgutil import iter_modules
 from typing import Annotated
@@ -12,7 +11,8 @@ import typer
 
 from plantar import __version__, commands
 from plantar.console.command import Command, run_command
-from plantar.console.ending import run
+from plantar.console.ending import print_note, run
+from plantar.errors import InputError
 from plantar.extensions import extensions
 
 __all__ = ["app", "main"]
@@ -42,15 +42,20 @@ def _commands(
     """Plantar skin and gait: build a tactile shoe, walk a robot on plantar feedback, analyse recordings."""
 
 
-def _found() -> Iterator[Command]:
-    """This package's commands, then others' (entry points of `plantar.commands`)."""
-    for module in iter_modules(commands.__path__, f"{commands.__name__}."):
-        yield import_module(module.name).COMMAND
-    yield from extensions("plantar.commands", Command).values()
+def _found() -> dict[str, Command]:
+    """This package's commands by name, then others' (entry points of `plantar.commands`)."""
+    modules = iter_modules(commands.__path__, f"{commands.__name__}.")
+    own = [import_module(module.name).COMMAND for module in modules]
+    found = {command.name or command.function.__name__: command for command in own}
+    try:
+        return {**found, **extensions("plantar.commands", Command, tuple(found))}
+    except InputError as error:  # this package's commands run all the same
+        print_note(f"{error}; commands of other packages are left out")
+        return found
 
 
-for _command in sorted(_found(), key=lambda command: command.place):
-    app.command(name=_command.name or _command.function.__name__, short_help=_command.summary)(_command.function)
+for _name, _command in sorted(_found().items(), key=lambda found: found[1].place):
+    app.command(name=_name, short_help=_command.summary)(_command.function)
 
 
 def main() -> None:

@@ -6,6 +6,7 @@ from functools import cache
 from importlib.metadata import entry_points
 from typing import TypeVar
 
+from plantar.console.ending import one_line
 from plantar.errors import InputError
 
 __all__ = ["extensions"]
@@ -14,18 +15,19 @@ T = TypeVar("T")
 
 
 @cache
-def extensions(group: str, kind: type[T]) -> dict[str, T]:
+def extensions(group: str, kind: type[T], taken: tuple[str, ...] = ()) -> dict[str, T]:
     """Parts of a group.
 
     Args:
         group: Group, e.g. "plantar.terrain".
         kind: Class that each part is an instance of or extends.
+        taken: Names of built-in parts.
 
     Returns:
         Parts by names of their entry points.
 
     Raises:
-        InputError: An entry point fails.
+        InputError: If one cannot be loaded, is of another class or has a taken name.
 
     Example:
         >>> extensions("plantar.no_such_group", object)
@@ -33,10 +35,12 @@ def extensions(group: str, kind: type[T]) -> dict[str, T]:
     """
     found: dict[str, T] = {}
     for entry in entry_points(group=group):
+        if entry.name in (*taken, *found):
+            raise InputError(f"entry point {entry.name} = {entry.value} of {group} has a taken name; rename it")
         try:
             part = entry.load()
         except Exception as error:
-            raise InputError(f"entry point {entry.value} of {group} cannot be loaded: {error}") from error
+            raise InputError(f"entry point {entry.value} of {group} cannot be loaded: {one_line(error)}") from error
         if not (issubclass(part, kind) if isinstance(part, type) else isinstance(part, kind)):
             raise InputError(f"entry point {entry.value} of {group} is no {kind.__module__}.{kind.__name__}")
         found[entry.name] = part

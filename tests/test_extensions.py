@@ -1,78 +1,51 @@
 """Parts of a user's own package, found by entry points from outside the checkout: one new file each."""
 
 import json
+import math
 import os
+import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 
-TERRAIN = """
-from plantar.settings.schema import number
-from plantar.sim.terrain import Ground, Solid, Terrain
+PAGES = ROOT / "docs" / "tutorials"
 
-class Ditch(Terrain):
-    '''A ditch across the way.
 
-    Attributes:
-        depth: Depth in m.
-    '''
-
-    depth: float = number(0.1, "m", 0.01, 1)
-
-    def _laid_out(self, feet, rng):
-        return Ground((), self.height, self.friction, {"ditch_m": self.depth})
-"""
-
-COMMAND = """
-import json
-from plantar.console.command import Command
-
-def hello(name: str = "you") -> None:
-    '''Greet.'''
-    print(json.dumps({"hello": name}))
-
-COMMAND = Command(hello, "Greet.")
-"""
-
-SWING = """
-from plantar.gait.feet.swing_flight import PolynomialSwing
-from plantar.gait.feet.swing_kind import Swing, SwingKind, SwingStart
-from plantar.settings.schema import number
-
-class HighSwing(SwingKind, table="high_swing", needs={"control.swing_shape": ("high",)}):
-    '''Lifts the foot higher than asked.
-
-    Attributes:
-        more: Height in m on top.
-    '''
-
-    more: float = number(0.01, "m", 0, 0.1)
-
-    def begin(self, start: SwingStart) -> Swing:
-        return PolynomialSwing().begin(start.changed(height=start.height + self.more))
-"""
+def blocks(page: str, language: str) -> list[str]:
+    """Blocks of a language that a tutorial shows."""
+    text = (PAGES / page).read_text(encoding="utf-8")
+    return re.findall(rf"^```{language}\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
 
 
 @pytest.fixture
 def plugin(tmp_path):
-    """A folder on the path with a package of a user's own, as pip would install it."""
+    """A folder on the path with the package of the tutorials, as pip would install it."""
     package, info = tmp_path / "mine", tmp_path / "mine-1.0.dist-info"
     package.mkdir()
     info.mkdir()
-    (package / "__init__.py").write_text("")
-    (package / "ditch.py").write_text(TERRAIN)
-    (package / "hello.py").write_text(COMMAND)
-    (package / "high_swing.py").write_text(SWING)
+    files = dict(zip(("ditch", "high_swing", "weigh", "hold"), blocks("part.md", "python"), strict=True))
+    make, files["mysole"], *_ = blocks("format.md", "python")
+    for name, text in ({"__init__": ""} | files).items():
+        (package / f"{name}.py").write_text(text)
+    (tmp_path / "make.py").write_text(make)
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: mine\nVersion: 1.0\n")
-    (info / "entry_points.txt").write_text(
-        "[plantar.terrain]\nditch = mine.ditch:Ditch\n[plantar.commands]\nhello = mine.hello:COMMAND\n"
-        "[plantar.swings]\nhigh = mine.high_swing:HighSwing\n"
-    )
+    (project,) = blocks("part.md", "toml")
+    groups = tomllib.loads(project)["project"]["entry-points"] | {"plantar.formats": {"mysole": "mine.mysole:FORMAT"}}
+    write_entries(tmp_path, groups)
     return tmp_path
+
+
+def write_entries(folder: Path, groups: dict[str, dict[str, str]]) -> None:
+    lines = [
+        f"[{group}]\n" + "".join(f"{name} = {value}\n" for name, value in parts.items())
+        for group, parts in groups.items()
+    ]
+    (folder / "mine-1.0.dist-info" / "entry_points.txt").write_text("".join(lines))
 
 
 def plantar(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
@@ -82,34 +55,39 @@ def plantar(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, cwd=folder, env=os.environ | {"PYTHONPATH": path}, capture_output=True, text=True)
 
 
-def test_a_command_of_a_users_package_runs(plugin):
-    assert json.loads(plantar(plugin, "hello", "--name", "Ada").stdout) == {"hello": "Ada"}
-    assert "hello" in plantar(plugin, "--help").stdout
+def python(folder: Path, code: str) -> str:
+    """What Python code prints with a folder on the path."""
+    path = os.pathsep.join([str(folder), str(ROOT)])
+    env = os.environ | {"PYTHONPATH": path}
+    done = subprocess.run([sys.executable, "-c", code], cwd=folder, env=env, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
 
 
-def test_a_kind_of_ground_of_a_users_package_has_settings(plugin):
+def test_a_format_and_a_command_of_a_users_package(plugin):
+    python(plugin, "import make")
+    done = plantar(plugin, "weigh", "walk.mysole", "--json")
+    assert json.loads(done.stdout)["weight_N"] == pytest.approx(4 * 200e3 * 0.06 * 0.08 / math.pi, rel=0.01), (
+        done.stderr
+    )
+    assert "weigh" in plantar(plugin, "--help").stdout
+    assert "mysole" in plantar(plugin, "list", "formats").stdout
+
+
+def test_a_ground_of_a_users_package(plugin):
     pytest.importorskip("mujoco")
     done = plantar(plugin, "list", "settings", "terrain.ditch", "--json")
     assert done.returncode == 0, done.stderr
     assert "terrain.ditch.depth" in {row["name"] for row in json.loads(done.stdout)["settings"]}
-
-
-def test_a_scene_stands_on_a_users_ground(plugin):
-    pytest.importorskip("mujoco")
     code = (
         "import plantar; from plantar.sim.run.runner import Simulation; "
         "run = Simulation(plantar.load_scene('flat', ['terrain.kind=ditch', 'terrain.depth=0.2', 'steps=0'])); "
-        "print(run.ground.facts if hasattr(run.ground, 'facts') else type(run.scene.terrain).__name__)"
+        "print(run.world.model.geom('ground').pos[2], run.world.model.ngeom)"
     )
-    path = os.pathsep.join([str(plugin), str(ROOT)])
-    done = subprocess.run(
-        [sys.executable, "-c", code], env=os.environ | {"PYTHONPATH": path}, capture_output=True, text=True
-    )
-    assert done.returncode == 0, done.stderr
-    assert "ditch" in done.stdout.lower()
+    assert python(plugin, code).startswith("-0.2")
 
 
-def test_a_robot_swings_its_foot_as_a_users_package_does(plugin):
+def test_a_swing_of_a_users_package(plugin):
     pytest.importorskip("mujoco")
     code = (
         "import plantar, numpy as np; from plantar.gait.feet.swing_kind import SwingStart; "
@@ -118,22 +96,43 @@ def test_a_robot_swings_its_foot_as_a_users_package_does(plugin):
         "swing = kind.begin(SwingStart(np.zeros(3), 0.0, np.array([0.2, 0, 0]), 0.0, 0.05, 0.8, 0.005, 0.1)); "
         "print(type(kind).__name__, round(max(swing.at(0.01 * k)[0][2] for k in range(80)), 3))"
     )
-    path = os.pathsep.join([str(plugin), str(ROOT)])
-    done = subprocess.run(
-        [sys.executable, "-c", code], env=os.environ | {"PYTHONPATH": path}, capture_output=True, text=True
-    )
-    assert done.returncode == 0, done.stderr
-    assert done.stdout.split() == ["HighSwing", "0.07"]
+    assert python(plugin, code).split() == ["HighSwing", "0.07"]
     refused = plantar(plugin, "sim", "flat", "--set", "high_swing.more=0.03")
     assert refused.returncode == 2
     assert "allowed: with control.swing_shape = 'high'" in refused.stderr
     assert "high_swing.more" in plantar(plugin, "list", "settings", "high_swing").stdout
 
 
-def test_a_part_of_another_kind_is_named(plugin):
-    (plugin / "mine-1.0.dist-info" / "entry_points.txt").write_text("[plantar.terrain]\nditch = mine.hello:hello\n")
-    done = plantar(plugin, "list", "settings", "terrain")
+def test_an_experiment_of_a_users_package(plugin):
+    pytest.importorskip("mujoco")
+    (plugin / "h.toml").write_text('description = "pushed"\nexperiment = "hold"\nmachine = "planar-arm"\n')
+    held = plantar(plugin, "sim", "h.toml", "--json")
+    assert held.returncode == 0, held.stderr
+    assert 0.0 < json.loads(held.stdout)["moved_m"] < 0.05
+    pushed = plantar(plugin, "sim", "h.toml", "--set", "force=50")
+    assert pushed.returncode == 1
+    assert "the tip moved by" in pushed.stdout
+
+
+@pytest.mark.parametrize(
+    ("group", "name", "value", "words"),
+    [
+        ("plantar.terrain", "ditch", "mine.weigh:weigh", ("mine.weigh:weigh", "Terrain")),
+        ("plantar.terrain", "flat", "mine.ditch:Ditch", ("flat = mine.ditch:Ditch", "taken name")),
+        ("plantar.formats", "csv", "mine.mysole:FORMAT", ("csv = mine.mysole:FORMAT", "taken name")),
+        ("plantar.swings", "low", "mine.gone:Low", ("mine.gone:Low", "No module named")),
+    ],
+)
+def test_a_part_that_cannot_be_used_is_named(plugin, group, name, value, words):
+    write_entries(plugin, {group: {name: value}})
+    done = plantar(plugin, "list", *(["formats"] if group == "plantar.formats" else ["settings", "terrain"]))
     assert done.returncode == 2
-    assert "mine.hello:hello" in done.stderr
-    assert "Terrain" in done.stderr
+    assert all(word in done.stderr for word in words)
     assert len(done.stderr.strip().splitlines()) == 1
+
+
+def test_commands_go_on_without_one_that_cannot_be_loaded(plugin):
+    write_entries(plugin, {"plantar.commands": {"gone": "mine.gone:COMMAND"}})
+    done = plantar(plugin, "--version")
+    assert done.returncode == 0
+    assert "mine.gone:COMMAND" in done.stderr

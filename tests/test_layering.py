@@ -34,8 +34,18 @@ def part_of(module: str) -> str | None:
 
 ROOMS: dict[str, tuple[str, ...]] = {
     "plantar": (
-        *("errors", "extensions", "sides", "gravity", "kernels", "arguments", "arrays", "plane_points"),
-        *("lazy", "record", "kernel_class", "atomic", "csv_table", "console", "optional_library", "doctor"),
+        *("errors", "sides", "gravity", "kernels", "arguments", "arrays", "plane_points"),
+        *(
+            "lazy",
+            "record",
+            "kernel_class",
+            "atomic",
+            "csv_table",
+            "console",
+            "extensions",
+            "optional_library",
+            "doctor",
+        ),
         *("files", "settings", "mechanics", "layouts", "plotting", "pages", "geometry", "sensing"),
         *("percepts", "batch", "mujoco", "recordings", "formats", "viewer", "bench"),
     ),

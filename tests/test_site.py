@@ -17,7 +17,7 @@ PAGES = [
     *(ROOT / "docs" / f"{name}.md" for name in ("start", "questions", "concepts")),
     *sorted((ROOT / "docs" / "tutorials").glob("*.md")),
 ]
-QUICK = {"concepts", "format", "questions", "sensor", "task"}
+QUICK = {"concepts", "format", "part", "questions", "sensor", "task"}
 """Pages that take a second; the others walk, build or analyse, and run with the long tests."""
 BLOCK = re.compile(r"^```(python|sh)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 

@@ -9,12 +9,12 @@ import os
 from dataclasses import replace
 from functools import cache
 from importlib import import_module
-from importlib.metadata import entry_points
 from pathlib import Path
 from pkgutil import iter_modules
 
 from plantar.console.ending import one_line
 from plantar.errors import FormatError, InputError, PlantarError
+from plantar.extensions import extensions
 from plantar.files.input_file import check_input, is_file, open_input
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.plausibility import checked
@@ -24,14 +24,13 @@ from plantar.recordings.pressure_recording import PressureRecording
 
 __all__ = ["Format", "ReadOptions", "detect_format", "formats", "is_study_folder", "named_format", "read_recording"]
 
-_GROUP = "plantar.formats"  # Entry points under which other packages name a `Format`
 # How many bytes of a file are looked at, and how many where those do not decide: a platform's table has a row of
 # names of a hundred kilobytes.
 _HEADS = (1 << 16, 1 << 22)
 
 
 def formats() -> dict[str, Format]:
-    """All formats by name, in trial order; FormatError if an entry point is no format.
+    """All formats by name, in trial order; InputError if an entry point is no format.
 
     Example:
         >>> list(formats())[:4]
@@ -44,14 +43,8 @@ def formats() -> dict[str, Format]:
 def _formats() -> dict[str, Format]:
     modules = (import_module(f"{__name__}.{module.name}") for module in iter_modules(__path__))
     found = [f for module in modules if isinstance(f := getattr(module, "FORMAT", None), Format)]
-    for entry in entry_points(group=_GROUP):
-        try:
-            loaded = entry.load()
-        except Exception as error:
-            raise FormatError(f"entry point {entry.value} of {_GROUP} cannot be loaded: {one_line(error)}") from error
-        if not isinstance(loaded, Format):
-            raise FormatError(f"entry point {entry.value} of {_GROUP} is no plantar.formats.format.Format")
-        found.append(loaded)
+    others = extensions("plantar.formats", Format, tuple(f.name for f in found))
+    found += [replace(f, name=name) for name, f in others.items()]
     return {f.name: f for f in sorted(found, key=lambda f: f.order)}
 
 

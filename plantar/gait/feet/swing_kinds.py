@@ -20,4 +20,5 @@ def swing_kinds() -> dict[str, type[SwingKind]]:
         >>> list(swing_kinds())[:2]
         ['polynomial', 'fit']
     """
-    return {"polynomial": PolynomialSwing, "fit": SwingFitRules, **extensions("plantar.swings", SwingKind)}
+    own = {"polynomial": PolynomialSwing, "fit": SwingFitRules}
+    return {**own, **extensions("plantar.swings", SwingKind, tuple(own))}

@@ -194,9 +194,16 @@ class Experiment:
 
 def experiment_names() -> tuple[str, ...]:
     """Names of all experiments: built-in, and of entry points `plantar.experiments`."""
+    return tuple(sorted([*_built_in(), *_of_others()]))
+
+
+def _built_in() -> tuple[str, ...]:
     package = Path(__file__).parent / "experiments"
-    own = [found.name.replace("_", "-") for found in pkgutil.iter_modules([str(package)])]
-    return tuple(sorted([*own, *extensions("plantar.experiments", Experiment)]))
+    return tuple(found.name.replace("_", "-") for found in pkgutil.iter_modules([str(package)]))
+
+
+def _of_others() -> dict[str, Any]:
+    return extensions("plantar.experiments", Experiment, _built_in())
 
 
 def experiment_class(name: str) -> type[Experiment]:
@@ -210,9 +217,8 @@ def experiment_class(name: str) -> type[Experiment]:
         near = ", ".join(get_close_matches(name, known))
         hint = f"nearest: {near}; " if near else ""
         raise SceneError(f"unknown experiment '{name}'; {hint}allowed: {', '.join(known)}")
-    other = extensions("plantar.experiments", Experiment).get(name)
-    if other is not None:
-        return cast(type[Experiment], other)
+    if name in (others := _of_others()):
+        return cast(type[Experiment], others[name])
     module = import_module(f"plantar.sim.companion.experiments.{name.replace('-', '_')}")
     own = [
         kind

@@ -34,7 +34,7 @@ class Beam(Terrain):
     yaw: float = number(0.0, "deg", -45, 45)
     depth: float = share(0.5, "leg", 0.02, 10)
 
-    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         way = way_of(feet)
         offset = self.offset + float(rng.uniform(-1.0, 1.0)) * self.offset_range
         start = max(self.start, way.reach(tuple(feet.standing.values()))[1])

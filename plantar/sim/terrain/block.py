@@ -51,7 +51,7 @@ class Block(Terrain):
     slide: float = number(0.0, "m", 0, 2)
     height_range: float = number(0.0, "m", 0, 0.1)
 
-    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         if self.step >= len(feet.steps):
             raise SceneError(f"terrain.step is {self.step}; allowed: 0 to {len(feet.steps) - 1}, the steps of the walk")
         foot = feet.steps[self.step]

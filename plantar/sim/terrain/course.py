@@ -36,7 +36,7 @@ class Course(Terrain):
         for i, table in enumerate(self.solid):
             _solid(table, f"terrain.solid {i}")
 
-    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         solids = tuple(_solid(table, f"terrain.solid {i}") for i, table in enumerate(self.solid))
         return Ground(solids, self.floor, self.friction)
 

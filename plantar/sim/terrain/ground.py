@@ -243,15 +243,12 @@ class Terrain(Settings):
     height: float = number(0.0, "m", -10, 10)
 
     def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        """Returns the ground for planned `feet`, with choices drawn from `rng`."""
-        return self._laid_out(feet, rng)
-
-    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        raise NotImplementedError
+        """Returns the ground for planned `feet`, with choices drawn from `rng`; each kind defines it."""
+        raise NotImplementedError(f"{type(self).__name__} needs a method `ground(feet, rng)`")
 
 
 class Flat(Terrain):
     """An endless level plane."""
 
-    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         return Ground((), self.height, self.friction)

@@ -31,4 +31,4 @@ def terrain_kinds() -> dict[str, type[Terrain]]:
         for name in module.__all__
         if isinstance(kind := getattr(module, name), type) and issubclass(kind, Terrain) and kind is not Terrain
     }
-    return {"flat": found.pop("flat"), **found, **extensions("plantar.terrain", Terrain)}
+    return {"flat": found.pop("flat"), **found, **extensions("plantar.terrain", Terrain, ("flat", *found))}

@@ -33,7 +33,7 @@ class Laid(Terrain):
 
     depth: float = share_of_body(0.25, "leg", 0.01, 10)
 
-    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         solids: list[Solid] = []
         before: list[Footprint] = []
         for k, foot in enumerate([*(feet.standing[side] for side in SIDES), *feet.steps], -len(SIDES)):
@@ -114,7 +114,7 @@ class Uneven(Terrain):
     gap: float = share_of_body(1 / 12, "leg", 0, 0.2)
     depth: float = share_of_body(0.25, "leg", 0.02, 10)
 
-    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         standing = feet.standing
         solids = {side: [stone_under(standing[side], feet, self.height, self.depth, gap=self.gap)] for side in SIDES}
         place, height = dict(feet.standing), dict.fromkeys(SIDES, 0.0)

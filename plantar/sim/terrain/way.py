@@ -89,7 +89,7 @@ class Stairs(Terrain):
     rise: float = share(0.2, "leg", -0.5, 0.5)
     spread: float = share(0.0, "leg", 0, 0.1)
 
-    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         way = way_of(feet)
         edges = _edges(way, feet)
         sole = max((2.0 * foot.half[0] for foot in feet.steps), default=0.0)
@@ -114,7 +114,7 @@ class Slopes(Terrain):
 
     slope: float = number(10.0, "deg", -30, 30)
 
-    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         way = way_of(feet)
         edges = _edges(way, feet)
         if len(edges) < 6:
@@ -138,7 +138,7 @@ class Relief(Terrain):
     unevenness: float = share(1 / 15, "leg", 0, 0.3)
     bump: float = share(2.0, "sole", 0.05, 5)
 
-    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         way = way_of(feet)
         _, foremost = way.reach(tuple(feet.standing.values()))
         half_length = 0.5 * way.length + foremost + 0.5
