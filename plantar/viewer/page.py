@@ -126,7 +126,7 @@ def _view(number: int, walk: Walk, alone: bool) -> str:
         f"{html.escape(event.text)}</li>"
         for event in walk.events
     )
-    log = f'<ol class="log">{lines}</ol>' if lines else "<p>Nothing was logged.</p>"
+    log = f'<ol class="log">{lines}</ol>' if lines else "<p>No messages.</p>"
     return f"""<section class="walk" id="walk-{number}" aria-labelledby="name-{number}">
 <h2 id="name-{number}"{' class="hidden"' if alone else ""}>{name}</h2>
 {f'<ul class="warnings">{warnings}</ul>' if warnings else ""}

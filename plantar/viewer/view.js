@@ -359,7 +359,8 @@ const spaces = walks.map((walk, k) => {
   try {
     return new Space(walk, sections[k].querySelector('.space'), eye);
   } catch (error) {
-    $('trouble').textContent = 'This browser draws nothing in 3D (' + error.message + '); soles and forces are shown below.';
+    $('trouble').textContent = 'This browser cannot draw in 3D (' + error.message + '): soles and forces only.';
+    sections[k].querySelector('.space').hidden = true;
     return null;
   }
 });

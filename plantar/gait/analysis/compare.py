@@ -147,7 +147,7 @@ def difference_of(analyses: Mapping[str, Analysis], one: Side, other: Side) -> d
             "a": x,
             "b": y,
             "difference": change,
-            "percent": 100.0 * change / abs(x["mean"]) if x["mean"] else None,
+            "percent": 100.0 * change / abs(x["mean"]) if x["mean"] and not key.endswith("_deg") else None,
             "effect_size": change / pooled if pooled else None,
         }
     return out

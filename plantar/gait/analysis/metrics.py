@@ -25,7 +25,7 @@ from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 from plantar.gait.analysis.steps.segments import Segment, segments_of
 from plantar.gait.analysis.steps.stated import stated_beside_own
 from plantar.gait.analysis.steps.step_measures import landing_impact
-from plantar.gait.analysis.subject import Subject, device_of, mass_doubts
+from plantar.gait.analysis.subject import Subject, device_of, mass_doubts, subject_of
 from plantar.gait.analysis.summary import gait_of_feet, regions_of_foot, spread, summary_of_foot, symmetry
 from plantar.layouts.layout import Side
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
@@ -63,7 +63,7 @@ def metrics_of(
             )
         warnings += gait.warnings
     weight = implied_weight(recording, feet)
-    subject = subject or Subject()
+    subject = subject_of(recording, subject)
     segments = () if standing else segments_of(feet)
     warnings += _segment_notes(segments, feet)
     warnings += silent_cell_doubts(recording) + creep_doubts(feet)

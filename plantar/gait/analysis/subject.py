@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from plantar.formats import formats
 from plantar.gravity import GRAVITY
 from plantar.recordings.pressure_recording import PressureRecording
 
-__all__ = ["BODY_MASSES", "FOOT_LENGTHS", "Subject", "device_of", "mass_doubts"]
+__all__ = ["BODY_MASSES", "FOOT_LENGTHS", "Subject", "device_of", "mass_doubts", "subject_of"]
 
 BODY_MASSES, FOOT_LENGTHS = (2.0, 400.0), (0.05, 0.45)
 """Masses in kg and lengths of a foot in m, smallest and largest, that are believed of people and robots."""
@@ -50,6 +50,20 @@ class Subject:
     def weight(self) -> float | None:
         """Weight in N; None without mass."""
         return None if self.mass_kg is None else self.mass_kg * GRAVITY
+
+
+def subject_of(recording: PressureRecording, given: Subject | None) -> Subject:
+    """Given subject, completed by the name and mass that a robot's recording holds."""
+    subject = given or Subject()
+    if recording.kind != "robot":
+        return subject
+    name, mass = recording.metadata.get("robot"), recording.metadata.get("mass_kg")
+    believed = type(mass) in (int, float) and BODY_MASSES[0] <= mass <= BODY_MASSES[1]
+    return replace(
+        subject,
+        name=subject.name or (name if isinstance(name, str) else ""),
+        mass_kg=subject.mass_kg or (float(mass) if believed else None),
+    )
 
 
 def mass_doubts(subject: Subject, implied: float | None) -> list[str]:

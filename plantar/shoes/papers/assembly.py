@@ -68,7 +68,7 @@ def _parts(side: str, bill: Sequence[Part]) -> str:
         cells = (str(part.quantity), *map(_words, (part.material, part.size)), mass, _words(part.note))
         rows.append(row(_words(part.part), cells))
     head = ("Part", "Number", "Material", "Size", "Mass in g", "Note")
-    return table(f"parts, {side}", f"Of the {side} one", head, rows)
+    return table(f"parts, {side}", f"Of the {side} one", head, rows, words=("Material", "Size", "Note"))
 
 
 def _step(paragraphs: Sequence[str], view: bytes, caption: str, more: str = "") -> str:
@@ -145,7 +145,7 @@ def _print(shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], views:
         ],
         views.of_print(),
         f"The {shoe.side} print from above, toes to the right",
-        table("prints", "What is printed", head, rows),
+        table("prints", "What is printed", head, rows, words=("Direction",)),
     )
 
 
@@ -233,7 +233,7 @@ def _wires(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
         ],
         views.of_wires(),
         "From below: the wires in their pockets, through the ports, and the cable in its channel",
-        table("wires", "In this order: to which taxels a wire leads, with its length", ("Taxel", "to"), rows)
+        table("wires", "In this order: to which taxels a wire leads, with its length", ("Taxel", "to"), rows, words=("to",))
         if rows else "",
     )  # fmt: skip
 

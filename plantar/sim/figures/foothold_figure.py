@@ -108,7 +108,7 @@ def _draw_time(axis: Any, run: Recording, view: _View) -> None:
     axis.set_ylabel(AXES[along])
     axis.set_xlim(clock[0], clock[-1])
     axis.grid(alpha=0.3)
-    axis.legend(fontsize=7, ncol=3, loc="upper left")
+    axis.legend(fontsize=7, ncol=3, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
 
 
 def _ring(row: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -113,7 +113,7 @@ def _feet(run: Recording) -> Any:
         axes[1].plot(
             time, 1e3 * run.values(f"/truth/{side}", "position")[:, 2], color=COLOURS[side], lw=0.9, label=side
         )
-    axes[0].set_ylabel("ground force [N]\n(thin: sum of taxels)")
+    axes[0].set_ylabel("ground force [N]\n(thin: as the taxels measure it)")
     axes[1].set_ylabel("sole height [mm]")
     axes[1].set_xlabel("time [s]")
     for axis in axes:

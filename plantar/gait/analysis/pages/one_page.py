@@ -37,7 +37,7 @@ _ROWS = (
 _APART = 0.1  # Distance in m at which insoles are drawn, which measure no step width
 _MOST_WARNINGS = 4
 _STYLE = """
-.band { width: 6rem; height: .8rem; } td:last-child, th:last-child { white-space: nowrap; }
+.band { width: 6rem; height: .8rem; margin-right: .4rem; } td:last-child, th:last-child { white-space: nowrap; }
 @media print { @page { size: A4; margin: 9mm; } body { font-size: 7.5pt; line-height: 1.2; }
   main, section, header { margin: 0; padding: 0; }
   h1 { font-size: 12pt; margin: 0; } h2 { font-size: 9pt; margin: .4rem 0 .1rem; } p, ul, dl { margin: .1rem 0; }
@@ -69,26 +69,30 @@ def one_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], ti
 def _table(metrics: Mapping[str, Any]) -> str:
     """Main measures of both feet with a step's error, and norm if any."""
     feet, gait, raw = metrics["feet"], metrics["gait"], bool(metrics.get("raw"))
+    norms = metrics["kind"] != "robot"
     rows = []
     cadence = gait.get("steady_cadence_steps_per_min")
     if cadence is not None:
         both = [f"{number(cadence)} (both feet)", *[""] * (len(feet) - 1)]
-        rows.append(row("Cadence (steps/min)", [*both, "", _band("cadence_steps_per_min", {"both": cadence}, 1.0)]))
+        band = [_band("cadence_steps_per_min", {"both": cadence}, 1.0)] if norms else []
+        rows.append(row("Cadence (steps/min)", [*both, "", *band]))
     for plain in _ROWS:
         key, title, factor = shown_as(plain, MEASURES[plain], raw)
         spreads = {side: foot["measures"].get(key) for side, foot in feet.items()}
         means = {side: s["mean"] for side, s in spreads.items() if s and s["mean"] is not None}
         if means:
             cells = [_with_error(spreads[side], factor) for side in feet]
-            rows.append(row(title, [*cells, number(gait["symmetry_percent"].get(key), 2), _band(plain, means, factor)]))
+            band = [_band(plain, means, factor)] if norms else []
+            rows.append(row(title, [*cells, number(gait["symmetry_percent"].get(key), 2), *band]))
     if not rows:
         return "<p>The recording holds no complete step.</p>"
-    caption = (
-        "Means ± standard error of one step. Bands: 95 % of women and men of 18 to 49 years who walk freely (after "
-        "Whittle 2007, <i>Gait Analysis</i>; not yet compared with the book); left blue, right red. Symmetry: 0 is "
-        "symmetric."
-    )
-    head = ("Measure", *(f"{side} foot" for side in feet), "Symmetry (%)", "Norm")
+    caption = "Means ± standard error of one step. Symmetry: 0 is symmetric."
+    if norms:
+        caption += (
+            " Bands: 95 % of women and men of 18 to 49 years who walk freely (after Whittle 2007, <i>Gait Analysis</i>; "
+            "not yet compared with the book); left blue, right red."
+        )
+    head = ("Measure", *(f"{side} foot" for side in feet), "Symmetry (%)", *(["Norm"] if norms else []))
     return table("Main measures", caption, head, rows)
 
 

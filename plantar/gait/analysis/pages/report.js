@@ -67,15 +67,18 @@
   function css(name) { return getComputedStyle(document.documentElement).getPropertyValue(name).trim(); }
 
   function draw() {
-    const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
+    const pad = 26, gap = 30, ink = css("--ink"), soft = css("--soft"), line = css("--line");
+    const wide = boxes.reduce((sum, b) => sum + b.x1 - b.x0, 0);
+    const tall = boxes.reduce((most, b) => Math.max(most, b.y1 - b.y0), 1);
+    const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth;
+    const widest = (width - 2 * pad - gap * (boxes.length - 1)) / wide;
+    canvas.style.maxHeight = `${Math.ceil(widest * tall + 2 * pad)}px`;  // a narrow page has no empty band above the soles
+    const height = canvas.clientHeight;
     canvas.width = Math.round(width * ratio);
     canvas.height = Math.round(height * ratio);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, width, height);
-    const pad = 26, gap = 30, ink = css("--ink"), soft = css("--soft"), line = css("--line");
-    const wide = boxes.reduce((sum, b) => sum + b.x1 - b.x0, 0);
-    const tall = boxes.reduce((most, b) => Math.max(most, b.y1 - b.y0), 1);
-    const scale = Math.min((width - 2 * pad - gap * (boxes.length - 1)) / wide, (height - 2 * pad) / tall);
+    const scale = Math.min(widest, (height - 2 * pad) / tall);
     let left = (width - scale * wide - gap * (boxes.length - 1)) / 2;
     data.feet.forEach((foot, f) => {
       const box = boxes[f], shift = left;

@@ -50,7 +50,7 @@ def _shown(gait: FootGait, platform: bool) -> _Cells:
 def _panels(shown: Mapping[Side, _Cells], extra: float) -> tuple[Any, Any]:
     extents = [np.ptp(cells.layout.outline, axis=0) for cells in shown.values()]
     slender = max(float(length / width) for length, width in extents)
-    size = 2.7 * len(shown) + extra, min(6.4, 1.8 + 2.5 * slender)
+    size = 2.7 * len(shown) + extra, min(6.4, 1.6 + 2.0 * slender)
     figure, axes = new_figure(*size, columns=len(shown), squeeze=False)
     figure.set_layout_engine("compressed")  # panels of one aspect stand next to each other without a gap
     return figure, axes

@@ -90,14 +90,18 @@ def region_measures(
     return [{name: dict(zip(out, row, strict=True)) for name, row in zip(own, rows, strict=True)} for rows in table]
 
 
+_WRENCH = {0: "fx_peak_N", 1: "fy_peak_N", 3: "tx_peak_Nm", 4: "ty_peak_Nm", 5: "tz_peak_Nm"}  # by component
+
+
 def robot_measures(load: StepLoad, layout: SoleLayout) -> dict[str, float]:
     """Returns largest wrench components about the sole origin, and CoP margins to the support polygon.
 
-    Of the loaded cells of a robot's layout in a contact's load, frame by frame.
+    Of the loaded cells of a robot's layout in a contact's load, frame by frame; without components that its cells
+    cannot measure, such as the shear on a flat sole.
     """
-    wrench = np.abs(load.force @ layout.wrench_map.T)
-    fx, fy, _, tx, ty, tz = wrench.max(axis=0)
-    out = {"fx_peak_N": fx, "fy_peak_N": fy, "tx_peak_Nm": tx, "ty_peak_Nm": ty, "tz_peak_Nm": tz}
+    largest = np.abs(load.force @ layout.wrench_map.T).max(axis=0)
+    measured = (np.abs(layout.wrench_map) > 1e-9).any(axis=1)
+    out = {name: float(largest[i]) for i, name in _WRENCH.items() if measured[i]}
     every = -(-len(load.time) // _MOST_FRAMES)
     force = np.where(load.loaded, load.force, 0.0)[::every]
     normal = force * layout.rotations[:, 2, 2]

@@ -177,9 +177,8 @@ class Lean(StandingExperiment):
         for i, (name, colour) in enumerate(zip(names, ("left", "right", "polygon"), strict=True)):
             upper.plot(trace[:, 0], trace[:, 2 + i] / self.weight, color=COLOURS.get(colour), label=name)
         upper.set(xlabel="time [s]", ylabel="true load [body weight]")
-        upper.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-        lower.plot(trace[:, 0], 1e3 * trace[:, 1], label="beyond the feet's polygon")
+        upper.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, fontsize=8)
+        lower.plot(trace[:, 0], 1e3 * trace[:, 1])
         lower.axhline(0.0, linewidth=0.8, color="0.5")
-        lower.set(xlabel="time [s]", ylabel="true centre of mass [mm]")
-        lower.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+        lower.set(xlabel="time [s]", ylabel="true centre of mass\nbeyond the feet's polygon [mm]")
         return [save_figure(figure, folder / "lean.png")]
