@@ -30,7 +30,7 @@ def unit_of_values(
     """
     text = options.unit or stated
     if not text:
-        warnings.append(f"{what} states no unit: the values are kept as raw counts (--unit says what they are)")
+        warnings.append(f"{what} states no unit: the values are kept as raw counts (--unit names their unit)")
         return Unit("raw", 1.0, "raw")
     unit = find_unit(text)
     if unit is None or (pressures and unit.kind == "force"):
@@ -133,7 +133,7 @@ def halves(
         return [("left", values[:, : k // 2]), ("right", values[:, k // 2 :])]
     if side is None:
         side = "left" if options.layout is None else options.layout.side
-        warnings.append(f"the file does not say which foot it is: taken as the {side} one (--side overrides)")
+        warnings.append(f"the file does not state which foot it is: taken as the {side} one (--side overrides)")
     return [(side, values)]
 
 

@@ -258,10 +258,10 @@ def _sides(text: str, columns: list[int], options: ReadOptions, warnings: list[s
             )
         if listed or re.search(r"\dl.*\dr(?![a-z])", _sensor_type(text)):
             if options.side is not None:
-                warnings.append("--side is not used: the file says which of its two insoles is which")
+                warnings.append("--side is not used: the file states which of its two insoles is which")
         elif options.side is None:
             warnings.append(
-                "nothing says which of the two insoles is which: the first columns are taken as the left one's (--side "
+                "the file does not state which insole is which: the first columns are taken as the left one's (--side "
                 "right, if they are the right one's)"
             )
         elif options.side == "right":
@@ -278,7 +278,7 @@ def _sides(text: str, columns: list[int], options: ReadOptions, warnings: list[s
     marks = set(re.findall(r"\d([lr])(?![a-z])", _sensor_type(text)))
     if len(marks) == 1:
         return [("left" if marks == {"l"} else "right", range(len(columns)))]
-    warnings.append("the file does not say which foot it is: taken as the left one (--side overrides)")
+    warnings.append("the file does not state which foot it is: taken as the left one (--side overrides)")
     return [("left", range(len(columns)))]
 
 
@@ -333,7 +333,7 @@ def _size(text: str, given: str | None) -> tuple[str, str]:
     sizes, used = [float(areas.mean()) for areas in CELL_AREAS.values()], float(CELL_AREAS[DEFAULT_SIZE].mean())
     return DEFAULT_SIZE, (
         f" (assumed, the file names no known size: by the true one of {', '.join(CELL_AREAS)}, forces may be "
-        f"{min(sizes) / used:.2f} to {max(sizes) / used:.2f} times these; say it by --insole-size)"
+        f"{min(sizes) / used:.2f} to {max(sizes) / used:.2f} times these; give it by --insole-size)"
     )
 
 

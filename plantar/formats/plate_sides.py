@@ -137,13 +137,13 @@ def sides_of_contacts(
         return out
     if len(plates) == 1:
         text = "taken as the left one (--side or --plates overrides)"
-        warnings.append(f"the file does not say which foot steps on the plate: {text}")
+        warnings.append(f"the file does not state which foot steps on the plate: {text}")
         return ["left"] * len(contacts)
     order = sorted(range(len(contacts)), key=lambda i: contacts[i].begin)
     turn: dict[int, Side] = {i: SIDES[k % 2] for k, i in enumerate(order)}
     if treadmill:
         warnings.append(
-            "the file does not say whose belt is whose: the first is taken as the left foot's (--plates R,L)"
+            "the file does not state which belt is which: the first is taken as the left foot's (--plates R,L)"
         )
         return [SIDES[c.plate % 2] for c in contacts]
     warnings.append("the plates lie in one line: taken as stepped on by left and right in turns (--plates overrides)")

@@ -91,7 +91,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         kind = "platform"
     side = options.side or side_of(header.get("FILENAME", ""), header.get("COMMENTS", ""), path.stem)
     if side is None and kind == "insole":
-        warnings.append("the file does not say which foot it is: taken as the left one (--side overrides)")
+        warnings.append("the file does not state which foot it is: taken as the left one (--side overrides)")
     if options.layout is None and kind == "insole":
         warnings.append("the first row of the matrix is taken as the toes, its columns as seen from above")
     name = f"{header.get('SENSOR_TYPE', 'Tekscan sensor')} of {rows} x {columns}".strip()

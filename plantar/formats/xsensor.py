@@ -304,11 +304,11 @@ def _sides(
     if len(named) == 2 and {n for n, _ in named} == {"left", "right"}:
         return [(side, s) for side, s in named if side is not None]
     if len(named) == 2:
-        warnings.append("the sensors' names do not say which foot they are: taken as left and right in their order")
+        warnings.append("the sensors' names do not state which foot they are: taken as left and right in their order")
         return [("left", named[0][1]), ("right", named[1][1])]
     side = options.side or named[0][0]
     if side is None:
-        warnings.append("the sensor's name does not say which foot it is: taken as the left one (--side overrides)")
+        warnings.append("the sensor's name does not state which foot it is: taken as the left one (--side overrides)")
     return [(side or "left", named[0][1])]
 
 

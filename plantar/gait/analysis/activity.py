@@ -146,7 +146,7 @@ def _without_heel_strike(feet: Mapping[Side, FootGait], landing: float) -> Activ
         more = f"stands for {stance:.0f} % of its stride and pushes off with {humps:.2g} times its first peak"
         return Activity("walking up stairs", f"{why}, {more}, as on stairs up")
     return Activity(
-        "walking without heel strike", f"{why}: stairs up, a slope or a forefoot gait; pressure does not tell which"
+        "walking without heel strike", f"{why}: stairs up, a slope or a forefoot gait; pressure does not show which"
     )
 
 

@@ -228,7 +228,7 @@ def _doubts(recording: PressureRecording, gait: FootGait) -> list[str]:
         return out
     if gait.footprint is not None and gait.footprint.toe_line is None:
         out.append(
-            f"no valley of pressure tells the {side} foot's toes from its forefoot: its toe regions begin at 82 % "
+            f"no valley of pressure parts the {side} foot's toes from its forefoot: its toe regions begin at 82 % "
             "of the "
             "sole's length"
         )

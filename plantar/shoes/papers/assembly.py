@@ -233,7 +233,7 @@ def _wires(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
         ],
         views.of_wires(),
         "From below: the wires in their pockets, through the ports, and the cable in its channel",
-        table("wires", "In this order: to which taxels a wire leads, with its length", ("Taxel", "to"), rows, words=("to",))
+        table("wires", "To which taxels a wire leads, in order, with its length", ("Taxel", "to"), rows, words=("to",))
         if rows else "",
     )  # fmt: skip
 

@@ -106,7 +106,7 @@ def test_markers_show_that_both_contacts_are_of_one_foot(tmp_path):
 def test_one_plate_is_of_one_foot(tmp_path):
     path = tmp_path / "walk.c3d"
     write(path, WALK[:1], change=without_sides)
-    assert any("does not say which foot" in w for w in read_recording(path).warnings)
+    assert any("does not state which foot" in w for w in read_recording(path).warnings)
     assert list(read_recording(path, options=ReadOptions(side="right")).feet) == ["right"]
 
 

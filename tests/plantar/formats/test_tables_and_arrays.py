@@ -96,7 +96,7 @@ def test_what_is_not_stated_is_raw_or_assumed_aloud(tmp_path, layout, values):
     write_csv(path, {str(i): values[:, k] for k, i in enumerate(layout.ids)}, header=False)
     bare = read_recording(path, options=ReadOptions(layout=layout, unit="N"))
     text = " ".join(bare.warnings)
-    for word in ("no row of names", "states no rate", "does not say which foot"):
+    for word in ("no row of names", "states no rate", "does not state which foot"):
         assert word in text
     with pytest.raises(FormatError, match="give a layout with --layout"):
         read_recording(path, options=ReadOptions(unit="kPa"))

@@ -105,7 +105,7 @@ def test_other_sizes_sides_and_a_platform(tmp_path, frames):
     assert list(recording.feet) == ["right"]
     assert recording.feet["right"].layout.areas == pytest.approx(5.08e-3**2)
     export(path, frames, name="walk.fsx")
-    assert any("does not say which foot" in w for w in read_recording(path).warnings)
+    assert any("does not state which foot" in w for w in read_recording(path).warnings)
     assert list(read_recording(path, options=ReadOptions(side="right")).feet) == ["right"]
     export(path, np.zeros((3, 90, 88)) + 5.0, name="mat.fsx", end="\n")
     assert read_recording(path).kind == "platform"

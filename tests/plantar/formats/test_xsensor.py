@@ -130,7 +130,7 @@ def test_one_foot_other_names_and_missing_fields(tmp_path, feet):
     export(path, feet[1:], names=NAMES[1:])
     assert list(read_recording(path).feet) == ["right"]
     export(path, feet[:1], names=("mat",))
-    assert any("does not say which foot" in w for w in read_recording(path).warnings)
+    assert any("does not state which foot" in w for w in read_recording(path).warnings)
     assert list(read_recording(path, options=ReadOptions(side="right")).feet) == ["right"]
     export(path, feet, names=("one", "two"), clock=False, size=None, loads=False)
     recording = read_recording(path)

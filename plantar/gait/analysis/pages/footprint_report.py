@@ -47,7 +47,7 @@ def analyse_image(
     sides, assumed = _sides(image, pixel, side)
     prints = {s: footprint_in_image(p, pixel, s) for s, p in zip(sides, image.prints, strict=True)}
     toeless = [
-        f"no gap tells the {s} foot's toes from its forefoot: its arch index is that of the whole print"
+        f"no gap parts the {s} foot's toes from its forefoot: its arch index is that of the whole print"
         for s, print_ in prints.items()
         if print_.toe_line is None
     ]
@@ -113,7 +113,7 @@ def _sides(image: FootprintImage, pixel: float, stated: Side | None) -> tuple[li
     if stated is not None:
         return [stated], []
     side = _side_by_shape(footprint_in_image(image.prints[0], pixel, "right"))
-    note = f"the image does not say which foot it is: taken as the {side} one from its arch (--side overrides)"
+    note = f"the image does not state which foot it is: taken as the {side} one from its arch (--side overrides)"
     return [side], [note]
 
 

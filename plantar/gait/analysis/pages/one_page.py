@@ -89,8 +89,8 @@ def _table(metrics: Mapping[str, Any]) -> str:
     caption = "Means ± standard error of one step. Symmetry: 0 is symmetric."
     if norms:
         caption += (
-            " Bands: 95 % of women and men of 18 to 49 years who walk freely (after Whittle 2007, <i>Gait Analysis</i>; "
-            "not yet compared with the book); left blue, right red."
+            " Bands: 95 % of women and men of 18 to 49 years who walk freely (after Whittle 2007, <i>Gait "
+            "Analysis</i>; not yet compared with the book); left blue, right red."
         )
     head = ("Measure", *(f"{side} foot" for side in feet), "Symmetry (%)", *(["Norm"] if norms else []))
     return table("Main measures", caption, head, rows)

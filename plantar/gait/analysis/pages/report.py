@@ -189,7 +189,7 @@ def facts_of(metrics: Mapping[str, Any], file: str) -> str:
         ("Device", _device(metrics["device"])),
         ("Size", _size(metrics["device"]["feet"])),
         ("Recorded", f"{metrics['duration_s']:.4g} s, {metrics['frames']} frames at {metrics['rate_hz']:.6g} Hz"),
-        ("Values", "raw counts: nothing says what force they are" if metrics.get("raw") else ""),
+        ("Values", "raw counts of unknown unit" if metrics.get("raw") else ""),
         ("File", file),
         ("Analysed by", f"Plantar {__version__}"),
     ]

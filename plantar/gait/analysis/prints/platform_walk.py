@@ -236,7 +236,7 @@ def sides_of_walk(
         return [stated] * count
     first = _side_by_shape(walk.load, walk.prints[0], forward)
     notes.append(
-        f"the file does not say which foot it is: taken as the {first} one from the footprint's shape "
+        f"the file does not state which foot it is: taken as the {first} one from the footprint's shape "
         "(--side overrides)"
     )
     return [first if k % 2 == 0 else other_side(first) for k in range(count)]
