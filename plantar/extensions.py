@@ -16,15 +16,12 @@ T = TypeVar("T")
 
 @cache
 def extensions(group: str, kind: type[T], taken: tuple[str, ...] = ()) -> dict[str, T]:
-    """Parts of a group.
+    """Returns parts of a group by names of their entry points.
 
     Args:
-        group: Group, e.g. "plantar.terrain".
-        kind: Class that each part is an instance of or extends.
+        group: Such as "plantar.terrain".
+        kind: Class of each part.
         taken: Names of built-in parts.
-
-    Returns:
-        Parts by names of their entry points.
 
     Raises:
         InputError: If one cannot be loaded, is of another class or has a taken name.

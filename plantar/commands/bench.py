@@ -13,7 +13,7 @@ __all__ = ["COMMAND", "bench"]
 
 
 def bench(
-    what: Annotated[str, Argument(help="kernels, contact, scenes, skip, stress, footholds or all.")] = "all",
+    what: Annotated[str, Argument(help="kernels, contact, scenes, skip, stress, footholds or all.")] = "",
     layout: Annotated[
         Path | None, Option(help="contact: layout file of the sole. Default: 250 x 155 mm with taxels of 691 mm^2.")
     ] = None,
@@ -38,8 +38,8 @@ def bench(
 ) -> None:
     """Measure run time against error, and write tables, figures and bench.json.
 
-    kernels: the perception's kernels next to scipy, shapely, cv2 and approximations, with the error against exact
-    references; under 2 minutes.
+    kernels: perception next to scipy, shapely, cv2 and approximations, with errors against exact references; under 2
+    minutes.
 
     contact: ways to simulate a sole's contact and its taxels, against MuJoCo's exact contact wrench. Exit code 1 if the
     chosen model is not as right as it must be (centre of pressure within 2 mm, tip-over edge within 1 mm).
@@ -48,17 +48,15 @@ def bench(
     control rate, taxel size), next to a fine reference of the same walk: half an hour; --quick 3 minutes.
     scene_runs.csv goes on where it was left.
 
-    skip: short walks with what a scene needs and with everything, to the same last bit: what was skipped, the time it
-    saves, the time by room, and everything but the physics over the physics alone; 5 minutes. Exit code 1 if a motion
-    is not the same.
+    skip: short walks with what a scene needs and with everything: what was skipped, the time it saves, the time by
+    room; 5 minutes. Exit code 1 if a motion is not the same to the last bit.
 
-    stress: the whole loop in random short scenarios (noise, lost packets, jitter, dead and stuck taxels, silent
-    sensors, saturation, edges, masses and gains anywhere in their ranges, 1 km from the origin, float32): exit code 1
-    if one raises or commands nonsense. A second or two each; stress.csv goes on where it was left. Not part of all.
+    stress: the whole loop in random short scenarios (noise, lost packets, dead and stuck taxels, silent sensors, masses
+    and gains anywhere in their ranges): exit code 1 if one raises or commands what no robot can follow. A second or two
+    each; stress.csv goes on where it was left. Not part of all.
 
-    footholds: a controller or policy of your own, or the built-in one, on beams, stones, slopes, steps and under pushes
-    that it does not know of, in units of the robot; a second or two a run. footholds.csv goes on where it was left, and
-    a second policy adds its rows. The page "Footholds for any policy" of the documentation shows how.
+    footholds: the built-in controller or a policy of your own on beams, stones, slopes, steps and under pushes that it
+    does not know of; a second or two a run. footholds.csv goes on where it was left, and a second policy adds its rows.
 
     all: kernels, contact, skip, quick scenes on flat ground and the papers' experiments, and bench.html, one page that
     shows them; about 12 minutes of one core, --quick 4.

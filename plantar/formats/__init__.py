@@ -1,7 +1,4 @@
-"""Formats of plantar pressure recordings, one a module.
-
-A format is each module here with a `FORMAT`, and each entry point of the group "plantar.formats".
-"""
+"""Formats of plantar pressure recordings: modules here with a `FORMAT`, and entry points "plantar.formats"."""
 
 from __future__ import annotations
 

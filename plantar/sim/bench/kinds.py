@@ -62,7 +62,8 @@ def measure(what: str, options: BenchOptions, output: Path) -> Measured:
     """
     allowed = (*_PARTS, *_TABLES, "all")
     if what not in allowed:
-        raise InputError(f"cannot measure '{what}'; allowed: {', '.join(allowed)}")
+        wrong = f"cannot measure '{what}'" if what else "give what to measure: plantar bench kernels"
+        raise InputError(f"{wrong}; allowed: {', '.join(allowed)}")
     _check(what, options)
     with progress_bar() as progress:
         if what in _TABLES:

@@ -196,7 +196,8 @@ def open_results(
             write_text(plan, json.dumps({**identity, "inputs": {**known, **inputs}}, indent=1) + "\n")
             results = stack.enter_context(closing(Results(path, axes, columns)))
         except (OSError, ValueError) as error:
-            raise InputError(f"sweep folder {folder} cannot be used ({error}); choose another one with -o") from None
+            why = getattr(error, "strerror", None) or error
+            raise InputError(f"sweep folder {folder} cannot be used ({why}); choose another one with -o") from None
         yield results
 
 

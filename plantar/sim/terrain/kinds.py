@@ -17,8 +17,6 @@ __all__ = ["terrain_kinds"]
 def terrain_kinds() -> dict[str, type[Terrain]]:
     """Kinds of ground by lower-case class name; "flat", the default, first.
 
-    A kind is a `Terrain` of this folder or of an entry point `plantar.terrain`.
-
     Example:
         >>> list(terrain_kinds())[:3]
         ['flat', 'beam', 'block']

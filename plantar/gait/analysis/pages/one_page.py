@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import html
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from plantar.gait.analysis.measures import MEASURES
+from plantar.gait.analysis.measures import MEASURES, full_title
 from plantar.gait.analysis.pages.force_figures import STANCE, draw_sd, force_label, stance_curves
 from plantar.gait.analysis.pages.report import facts_of, summary_text
 from plantar.gait.analysis.pages.tables import shown_as
@@ -77,7 +78,7 @@ def _table(metrics: Mapping[str, Any]) -> str:
         band = [_band("cadence_steps_per_min", {"both": cadence}, 1.0)] if norms else []
         rows.append(row("Cadence (steps/min)", [*both, "", *band]))
     for plain in _ROWS:
-        key, title, factor = shown_as(plain, MEASURES[plain], raw)
+        key, title, factor = shown_as(plain, replace(MEASURES[plain], title=full_title(plain)), raw)
         spreads = {side: foot["measures"].get(key) for side, foot in feet.items()}
         means = {side: s["mean"] for side, s in spreads.items() if s and s["mean"] is not None}
         if means:

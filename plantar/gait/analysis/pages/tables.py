@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import html
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any, NamedTuple
 
-from plantar.gait.analysis.measures import MEASURES, REGION_MEASURES, Measure, raw_name
+from plantar.gait.analysis.measures import MEASURES, REGION_MEASURES, Measure, full_title, raw_name
 from plantar.gait.analysis.prints.regions import REGIONS
 from plantar.gravity import GRAVITY
 from plantar.pages.page import group_row, number, row, scaled, table, titled
@@ -156,7 +157,7 @@ def _mean(values: Mapping[str, Any], key: str) -> float | None:
 def comparison_table(comparison: Mapping[str, Any]) -> str:
     """HTML table of measures that both recordings have."""
     raw = bool(comparison["a"].get("raw") or comparison["b"].get("raw"))
-    shown = [shown_as(key, measure, raw) for key, measure in MEASURES.items()]
+    shown = [shown_as(key, replace(measure, title=full_title(key)), raw) for key, measure in MEASURES.items()]
     rows: list[str] = []
     for side, measures in comparison["difference"].items():
         rows.append(group_row(f"{side.capitalize()} foot", 6))

@@ -12,7 +12,7 @@ import numpy as np
 from plantar.errors import InputError
 from plantar.gravity import GRAVITY
 from plantar.robots.controller import JointTargets
-from plantar.sim.bench.footholds.policy import WalkTask
+from plantar.sim.bench.footholds.policy import Action, WalkTask
 from plantar.sim.model.world import check_stable
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import Scene, scene_of
@@ -109,6 +109,8 @@ def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) 
     period = run.settings.period
     task = WalkTask(robot, names, period, stance, run.feet, run.steps, run.end, trial.tables["walk"])
     policy = _called(make_policy, task)
+    if not callable(getattr(policy, "step", None)):
+        raise InputError(f"make_policy(task) returned {policy!r}; allowed: an object with a method step(sensors)")
     tick_every, look_every = round(period / world.period), round(_LOOK / world.period)
     last = round(_PATIENCE * run.end / world.period)
     k, taken_all = 0, None
@@ -116,12 +118,8 @@ def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) 
         if k % run.sensors.skin_every == 0:
             run.sensors.read_skins()
         if k % tick_every == 0:
-            action = _called(policy.step, run.sensors.read_body())
-            angles = np.asarray(action[0], dtype=np.float64)
-            torques = np.zeros(len(names)) if action[1] is None else np.asarray(action[1], dtype=np.float64)
-            if angles.shape != stance.angles.shape or not np.isfinite(angles).all() or not np.isfinite(torques).all():
-                raise InputError(f"policy returned angles of shape {angles.shape}; expected {len(names)} finite ones")
-            run.servos.follow(angles, torques)
+            action = _checked(_called(policy.step, run.sensors.read_body()), stance.angles.shape)
+            run.servos.follow(action.angles, action.torques)
         run.servos.drive()
         run.pusher.apply(world)
         if world.moving_ground:
@@ -130,7 +128,7 @@ def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) 
         if judge.step():
             check_stable(data.warning.number)
         if k % tick_every == 0:
-            judge.update(data.time, data.subtree_com[world.torso], None, action[2], run.pusher.pushing)
+            judge.update(data.time, data.subtree_com[world.torso], None, action.moved, run.pusher.pushing)
         if k % look_every == 0 and taken_all is None and judge.steps.count().taken == len(run.steps):
             taken_all = float(data.time)
         k += 1
@@ -149,6 +147,19 @@ def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) 
         speed**2 / (GRAVITY * run.body.leg),
         float(data.time),
     )
+
+
+def _checked(given: Any, shape: tuple[int, ...]) -> Action:
+    """A policy's action with angles and torques (k,); InputError if it is none."""
+    try:
+        action = Action(*given)
+        angles = np.asarray(action.angles, dtype=np.float64)
+        torques = np.zeros(shape) if action.torques is None else np.asarray(action.torques, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(f"policy returned {given!r:.80}; allowed: Action(angles, torques)") from None
+    if not angles.shape == torques.shape == shape or not (np.isfinite(angles).all() and np.isfinite(torques).all()):
+        raise InputError(f"policy returned angles of shape {angles.shape}; expected {shape[0]} finite ones")
+    return Action(angles, torques, action.moved)
 
 
 def _called(function: Any, argument: Any) -> Any:

@@ -49,6 +49,8 @@ def test_a_policy_that_falls_is_seen():
         (lambda s: (np.zeros(3), None, ()), "expected 12 finite ones"),
         (lambda s: (np.full(12, np.nan), None, ()), "finite"),
         (lambda s: 1 / 0, "policy raised ZeroDivisionError"),
+        (lambda s: 3, "returned 3; allowed: Action"),
+        (None, "allowed: an object with a method step"),
     ],
 )
 def test_what_a_policy_does_wrong_is_named(step, words):
