@@ -58,11 +58,10 @@ def subject_of(recording: PressureRecording, given: Subject | None) -> Subject:
     if recording.kind != "robot":
         return subject
     name, mass = recording.metadata.get("robot"), recording.metadata.get("mass_kg")
-    believed = type(mass) in (int, float) and BODY_MASSES[0] <= mass <= BODY_MASSES[1]
+    if not (isinstance(mass, int | float) and BODY_MASSES[0] <= mass <= BODY_MASSES[1]):
+        mass = None
     return replace(
-        subject,
-        name=subject.name or (name if isinstance(name, str) else ""),
-        mass_kg=subject.mass_kg or (float(mass) if believed else None),
+        subject, name=subject.name or (name if isinstance(name, str) else ""), mass_kg=subject.mass_kg or mass
     )
 
 
