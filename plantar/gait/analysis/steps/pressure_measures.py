@@ -100,8 +100,8 @@ def robot_measures(load: StepLoad, layout: SoleLayout) -> dict[str, float]:
     cannot measure, such as the shear on a flat sole.
     """
     largest = np.abs(load.force @ layout.wrench_map.T).max(axis=0)
-    measured = (np.abs(layout.wrench_map) > 1e-9).any(axis=1)
-    out = {name: float(largest[i]) for i, name in _WRENCH.items() if measured[i]}
+    reach = np.abs(layout.wrench_map).max(axis=1)
+    out = {name: float(largest[i]) for i, name in _WRENCH.items() if reach[i] > 1e-9}
     every = -(-len(load.time) // _MOST_FRAMES)
     force = np.where(load.loaded, load.force, 0.0)[::every]
     normal = force * layout.rotations[:, 2, 2]
