@@ -53,7 +53,7 @@ class Subject:
 
 
 def subject_of(recording: PressureRecording, given: Subject | None) -> Subject:
-    """Given subject, completed by the name and mass that a robot's recording holds."""
+    """Returns the `given` subject, completed by the name and mass that a robot's `recording` holds."""
     subject = given or Subject()
     if recording.kind != "robot":
         return subject

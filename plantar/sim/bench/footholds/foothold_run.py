@@ -118,8 +118,8 @@ def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) 
         if k % run.sensors.skin_every == 0:
             run.sensors.read_skins()
         if k % tick_every == 0:
-            action = _checked(_called(policy.step, run.sensors.read_body()), stance.angles.shape)
-            run.servos.follow(action.angles, action.torques)
+            angles, torques, moved = _checked(_called(policy.step, run.sensors.read_body()), stance.angles.shape)
+            run.servos.follow(angles, torques)
         run.servos.drive()
         run.pusher.apply(world)
         if world.moving_ground:
@@ -128,7 +128,7 @@ def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) 
         if judge.step():
             check_stable(data.warning.number)
         if k % tick_every == 0:
-            judge.update(data.time, data.subtree_com[world.torso], None, action.moved, run.pusher.pushing)
+            judge.update(data.time, data.subtree_com[world.torso], None, moved, run.pusher.pushing)
         if k % look_every == 0 and taken_all is None and judge.steps.count().taken == len(run.steps):
             taken_all = float(data.time)
         k += 1
@@ -149,8 +149,8 @@ def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) 
     )
 
 
-def _checked(given: Any, shape: tuple[int, ...]) -> Action:
-    """A policy's action with angles and torques (k,); InputError if it is none."""
+def _checked(given: Any, shape: tuple[int, ...]) -> tuple[Any, Any, Any]:
+    """Angles and torques (k,) and moved steps of a policy's action; InputError if it is none."""
     try:
         action = Action(*given)
         angles = np.asarray(action.angles, dtype=np.float64)
@@ -159,7 +159,7 @@ def _checked(given: Any, shape: tuple[int, ...]) -> Action:
         raise InputError(f"policy returned {given!r:.80}; allowed: Action(angles, torques)") from None
     if not angles.shape == torques.shape == shape or not (np.isfinite(angles).all() and np.isfinite(torques).all()):
         raise InputError(f"policy returned angles of shape {angles.shape}; expected {shape[0]} finite ones")
-    return Action(angles, torques, action.moved)
+    return angles, torques, action.moved
 
 
 def _called(function: Any, argument: Any) -> Any:
