@@ -34,7 +34,7 @@ def plugin(tmp_path):
         (package / f"{name}.py").write_text(text)
     (tmp_path / "make.py").write_text(make)
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: mine\nVersion: 1.0\n")
-    (project,) = blocks("part.md", "toml")
+    (project,) = blocks("part.md", 'toml title="pyproject.toml"')
     groups = tomllib.loads(project)["project"]["entry-points"] | {"plantar.formats": {"mysole": "mine.mysole:FORMAT"}}
     write_entries(tmp_path, groups)
     return tmp_path
