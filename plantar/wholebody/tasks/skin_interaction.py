@@ -22,7 +22,7 @@ __all__ = [
 
 
 class SkinInteraction(Task):
-    """Yields to taxel forces: tau = sum J^T E w over links with active ones (T 3.22-3.24, 3.28, 3.38).
+    """Yields to taxel forces: tau = sum J^T E w over links with active ones (T 3.22-3.24, 3.28, 3.33, 3.38).
 
     Args:
         patches: Names that count; None for all; InputError if unknown.
