@@ -50,6 +50,7 @@ def start_of_walk(
             first=first,
             height=height,
             closing=walk.pattern == "closing",
+            climb=walk.climb,
         )
     if velocities is None:
         return Start(feet, plan, walk.begin)

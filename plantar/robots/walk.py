@@ -40,6 +40,7 @@ class Walk(Settings):
         pattern: "straight"; "closing", whose every second step closes the feet; or a "box" of six steps a round whose
             side is `length`.
         length: Lead of a step over the other foot.
+        climb: Planned height of each place ahead over the last, up to the middle of the walk, then down.
         sideways: Lateral lead of each opening step, positive to the left.
         stance_width: Distance of the ankles with feet together; 0 for the robot's own.
         wider: Additional distance of the ankles.
@@ -71,6 +72,7 @@ class Walk(Settings):
     steps: int = whole(20, "steps", 0, 100000)
     pattern: str = choice("straight", "closing", "box")
     length: float = share(1 / 3, "leg", -0.5, 0.5)
+    climb: float = share(0.0, "leg", -0.5, 0.5)
     sideways: float = number(0.0, "m", -0.3, 0.3)
     stance_width: float = number(0.0, "m", 0, 0.6)
     wider: float = share(0.0, "leg", 0, 0.5)

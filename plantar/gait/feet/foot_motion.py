@@ -125,7 +125,7 @@ class FootMotion:
         self._tilts: dict[Side, NDArray[np.float64]] = {s: np.eye(3) for s in SIDES}
         self._rotations: dict[Side, tuple[float, NDArray[np.float64], NDArray[np.float64]]] = {}
         self._lifted_tilt = np.zeros(3)
-        self._expected = float(np.mean([feet[s].z for s in SIDES]))
+        self._expected = self._planned = float(np.mean([feet[s].z for s in SIDES]))
         self._swing: Swing | None = None
         self._side: Side = "left"
         self._target: Footstep | None = None
@@ -313,6 +313,8 @@ class FootMotion:
             # Where the other foot found the ground is the best guess of where this one will.
             landed = float(self.footholds[other_side(side)][0][2])
             self._expected += self._landing.ground_share * (landed - self._expected)
+        # By the plan it is as much higher or lower as that has its steps.
+        self._expected, self._planned = self._expected + target.z - self._planned, target.z
         position, yaw = self.footholds[side]
         place = np.array([*frame.to_command(target.position[:2]), self._expected - self._landing.depth])
         sees = self._compliance is not None

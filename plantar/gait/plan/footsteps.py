@@ -54,6 +54,7 @@ def straight_plan(
     start: tuple[float, float, float] = (0.0, 0.0, 0.0),
     height: float = 0.0,
     closing: bool = False,
+    climb: float = 0.0,
 ) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
     """Straight walk in any direction or in place; the last step closes the feet.
 
@@ -66,6 +67,7 @@ def straight_plan(
         start: Initial midpoint (x, y, yaw) of the feet in m, m, rad.
         height: Of the ground in m.
         closing: Whether each second step closes the feet.
+        climb: Of each place ahead over the last in m, up to the middle of the walk, then down.
 
     Returns:
         Initial feet, and steps in order.
@@ -80,28 +82,32 @@ def straight_plan(
     """
     if steps < 0:
         raise InputError(f"steps is {steps}; allowed: 0 or more")
-    if not all(math.isfinite(v) for v in (length, sideways, width, height, *start)) or width <= 0.0:
+    if not all(math.isfinite(v) for v in (length, sideways, width, height, climb, *start)) or width <= 0.0:
         raise InputError("a footstep plan needs finite numbers and a width above 0")
     x0, y0, yaw = start
     c, s = math.cos(yaw), math.sin(yaw)
 
-    def place(side: Side, forward: float, left: float) -> Footstep:
-        lateral = left + (0.5 if side == "left" else -0.5) * width
-        return Footstep(side, x0 + c * forward - s * lateral, y0 + s * forward + c * lateral, yaw, height)
+    last = max(0, steps - 1)  # places ahead, of which two feet share the last
+    places = (last + 1) // 2 if closing else last
 
-    feet: dict[Side, Footstep] = {"left": place("left", 0.0, 0.0), "right": place("right", 0.0, 0.0)}
+    def place(side: Side, ahead: int, left: float) -> Footstep:
+        forward, lateral = ahead * length, left + (0.5 if side == "left" else -0.5) * width
+        z = height + climb * min(ahead, places + places % 2 - ahead)
+        return Footstep(side, x0 + c * forward - s * lateral, y0 + s * forward + c * lateral, yaw, z)
+
+    feet: dict[Side, Footstep] = {"left": place("left", 0, 0.0), "right": place("right", 0, 0.0)}
     if sideways != 0.0:
         first = "left" if sideways > 0.0 else "right"
     plan: list[Footstep] = []
     side: Side = first
-    forward = 0.0
+    ahead = 0
     shift = {"left": 0.0, "right": 0.0}
     for k in range(steps):
         leads = side == first
         if k < steps - 1 and (leads or not closing):
-            forward += length
+            ahead += 1
         # Sideways: the leading foot opens by one step, the other one closes up to it.
         shift[side] = shift[other_side(side)] + (sideways if leads and k < steps - 1 else 0.0)
-        plan.append(place(side, forward, shift[side]))
+        plan.append(place(side, ahead, shift[side]))
         side = other_side(side)
     return feet, tuple(plan)

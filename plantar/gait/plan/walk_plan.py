@@ -263,7 +263,7 @@ class WalkPlan:
             steps = steps[: k + 1] + [self._planned(step) for step in change.following]
             schedule = schedule.followed_by(change.step, [step.side for step in change.following], time)
         if change.foothold is not None:
-            steps[k] = self._planned(change.foothold)
+            steps[k] = self._planned(replace(change.foothold, z=steps[k].foothold.z))
         if change.vrp is not None:
             steps[k] = PlannedStep(steps[k].foothold, np.array(change.vrp))
         vrp_shift = change.shift if change.vrp_shift is None else change.vrp_shift

@@ -25,9 +25,9 @@ def planned_feet(
         center, half = robot.sole_rectangle(foot.side)
         place = vrp_of_step(foot, center)
         if step is None:
-            return Footprint(foot.side, place, foot.yaw, half, foot.position[:2])
+            return Footprint(foot.side, place, foot.yaw, half, foot.position[:2], z=foot.z)
         swing = swings[step]
-        return Footprint(foot.side, place, foot.yaw, half, foot.position[:2], swing.start, swing.end)
+        return Footprint(foot.side, place, foot.yaw, half, foot.position[:2], swing.start, swing.end, foot.z)
 
     return PlannedFeet(
         {side: footprint(feet[side], None) for side in SIDES},

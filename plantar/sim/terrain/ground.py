@@ -38,6 +38,7 @@ class Footprint:
         ankle: Sole frame's origin (2,) in the world in m.
         lift_off: Planned in s; -inf for a foot that stands at the start.
         touchdown: Planned in s.
+        z: Planned height in m.
     """
 
     side: Side
@@ -47,6 +48,7 @@ class Footprint:
     ankle: NDArray[np.float64]
     lift_off: float = -math.inf
     touchdown: float = -math.inf
+    z: float = 0.0
 
     def place(self, along: float, across: float) -> NDArray[np.float64]:
         """Returns the point (2,) in the world, `along` forward and `across` left of the centre in m."""

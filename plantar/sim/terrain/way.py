@@ -61,14 +61,15 @@ def way_of(feet: PlannedFeet) -> Way:
     return Way(begin, math.atan2(way[1], way[0]) if length > 1e-6 else feet.standing["left"].yaw, length)
 
 
-def _edges(way: Way, feet: PlannedFeet) -> list[float]:
-    """Distances in m half way between places of steps along a way."""
-    places = [0.0]
+def _places(way: Way, feet: PlannedFeet) -> tuple[list[float], NDArray[np.float64]]:
+    """Edges half way between places of steps along a way, and planned rises at them, in m."""
+    places = [(0.0, feet.standing["left"].z)]
     for foot in feet.steps:
         place = float((foot.center - way.begin) @ way.along)
-        if place > places[-1] + 1e-3:
-            places.append(place)
-    return [0.5 * (a + b) for a, b in pairwise(places)]
+        if place > places[-1][0] + 1e-3:
+            places.append((place, foot.z))
+    edges = [0.5 * (a + b) for (a, _), (b, _) in pairwise(places)]
+    return edges, np.diff([z for _, z in places])
 
 
 def _across(terrain: Terrain, way: Way, pieces: Sequence[tuple[_Place, _Place]]) -> Ground:
@@ -79,19 +80,19 @@ def _across(terrain: Terrain, way: Way, pieces: Sequence[tuple[_Place, _Place]])
 
 
 class Stairs(Terrain):
-    """A tread under each place of a step: up to the middle of the walk, then down.
+    """A tread under each place of a step, as high as planned (`walk.climb`), or otherwise.
 
     Attributes:
-        rise: Of a tread over the one before in m; negative: first down, then up.
+        rise: Of each tread, unplanned, in m, up to the middle of the walk, then down; negative: first down.
         spread: Largest seeded change of each rise in m, either way.
     """
 
-    rise: float = share(0.2, "leg", -0.5, 0.5)
+    rise: float = share(0.0, "leg", -0.5, 0.5)
     spread: float = share(0.0, "leg", 0, 0.1)
 
     def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         way = way_of(feet)
-        edges = _edges(way, feet)
+        edges, planned = _places(way, feet)
         sole = max((2.0 * foot.half[0] for foot in feet.steps), default=0.0)
         tread = min((b - a for a, b in pairwise(edges)), default=math.inf)
         if tread <= sole:
@@ -100,7 +101,7 @@ class Stairs(Terrain):
                 'walk.length, and walk.pattern="closing" for both feet on each tread'
             )
         ways = np.where(2 * np.arange(len(edges)) < len(edges), 1.0, -1.0)
-        rises = self.rise * ways + self.spread * rng.uniform(-1.0, 1.0, len(ways))
+        rises = planned + self.rise * ways + self.spread * rng.uniform(-1.0, 1.0, len(ways))
         ends, heights = pairwise([-_BEYOND, *edges, way.length + _BEYOND]), np.cumsum([self.height, *rises]).tolist()
         return _across(self, way, [((a, z), (b, z)) for (a, b), z in zip(ends, heights, strict=True)])
 
@@ -116,7 +117,7 @@ class Slopes(Terrain):
 
     def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         way = way_of(feet)
-        edges = _edges(way, feet)
+        edges, _ = _places(way, feet)
         if len(edges) < 6:
             raise SceneError(f"slopes have {len(edges)} places of steps; allowed: 6 or more, by more walk.steps")
         up = (len(edges) - 4) // 2

@@ -25,9 +25,9 @@ def taken(steps: Sequence[Footstep], phase: Phase) -> Footstep | None:
     return steps[phase.step] if phase.swing is not None else None
 
 
-def walked(ground, until, fit=None):
+def walked(ground, until, fit=None, climb=0.0):
     """The first step over ground at a height; the foot feels a stiff spring. Times and commanded sole heights."""
-    feet, steps = straight_plan(2)
+    feet, steps = straight_plan(2, climb=climb)
     schedule = WalkSchedule.of([step.side for step in steps], Timing())
     motion = FootMotion(feet, PERIOD, 0.05, LANDING, swing=fit)
     frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
@@ -75,6 +75,14 @@ def test_a_fitted_swing_follows_a_plan_that_changes_without_a_jump():
     assert places[-1][1] == pytest.approx(steps[0].y + 0.05, abs=1e-3)
     fastest = float(np.abs(np.diff(places, axis=0)).max()) / PERIOD
     assert fastest < 2.5 * 0.2 / (phase.end - phase.start)  # a minimum-jerk motion over the step's length has 1.9
+
+
+@pytest.mark.parametrize("climb", [0.05, -0.05])
+def test_a_step_that_is_planned_higher_or_lower_is_swung_there(climb):
+    motion, track = walked(climb, 2.3, climb=climb)
+    assert max(z for _, z in track) == pytest.approx(max(0.0, climb) + 0.05, abs=1e-3)
+    assert motion.footholds["left"][0][2] == pytest.approx(climb, abs=2e-3)
+    assert motion.surprise == pytest.approx(0.0, abs=2e-3)
 
 
 def test_an_early_contact_stops_the_swing():

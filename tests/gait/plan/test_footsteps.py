@@ -26,6 +26,21 @@ def test_each_second_step_of_a_closing_walk_closes_the_feet():
         assert [s.x for s in plan] == pytest.approx([0.3 * k for k in places])
 
 
+@pytest.mark.parametrize(
+    ("steps", "closing", "levels"),
+    [
+        (6, True, [1, 1, 2, 2, 1, 1]),
+        (4, True, [1, 1, 0, 0]),
+        (6, False, [1, 2, 3, 2, 1, 1]),
+        (5, False, [1, 2, 1, 0, 0]),
+    ],
+)
+def test_a_climb_goes_up_to_the_middle_and_down(steps: int, closing: bool, levels: list[int]) -> None:
+    feet, plan = straight_plan(steps, length=0.3, height=0.5, closing=closing, climb=0.1)
+    assert [s.z for s in plan] == pytest.approx([0.5 + 0.1 * k for k in levels])
+    assert {foot.z for foot in feet.values()} == {0.5}
+
+
 def test_sideways_walk_opens_and_closes():
     _, plan = straight_plan(6, length=0.0, sideways=0.08, width=0.17)
     left = [s.y for s in plan if s.side == "left"]

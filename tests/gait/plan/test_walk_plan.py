@@ -284,3 +284,12 @@ def test_what_the_plan_hands_out_cannot_be_changed():
     for array in (*arrays, *plan.view.standing.values()):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0.0
+
+
+def test_a_moved_foothold_keeps_the_height_that_was_planned():
+    feet, steps = straight_plan(6, length=0.2, climb=0.05)
+    plan = WalkPlan(feet, steps, Timing(), CENTER, OMEGA, 1.0)
+    there = Footstep(steps[2].side, steps[2].x + 0.03, steps[2].y)
+    plan.apply(PlanChange("farther", 2, foothold=there), 1.5, np.empty((0, 2)))
+    assert plan.view.foothold(2) == replace(there, z=steps[2].z)
+    assert plan.view.foothold(2).z > 0.1

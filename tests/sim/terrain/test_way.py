@@ -35,6 +35,15 @@ def test_each_sole_is_on_one_tread_up_to_the_middle_and_down(rise, heading):
         assert height(foot.center) == pytest.approx(0.5, abs=1e-9)
 
 
+def test_treads_are_as_high_as_planned_and_higher_by_what_is_not() -> None:
+    planned = placed(6, 0.3)
+    for foot, level in zip(planned.steps, (0.1, 0.2, 0.3, 0.2, 0.1, 0.1), strict=True):
+        object.__setattr__(foot, "z", level)
+    height = height_of(Stairs(rise=0.02), planned)
+    for foot, extra in zip(planned.steps, (1, 2, 3, 2, 1, 0), strict=True):
+        assert height(foot.center) == pytest.approx(foot.z + 0.02 * extra, abs=1e-9)
+
+
 def test_a_spread_changes_each_rise_by_its_seed():
     planned = placed(6, 0.3)
     tops = []
@@ -72,7 +81,7 @@ def test_a_walk_that_does_not_fit_is_refused(terrain, steps, words):
 
 
 def test_stairs_are_walked_with_both_feet_on_each_tread():
-    simulation = Simulation(load_scene("stairs", ["steps=4", "rise=0.02", "settle=0.5"]), 1)
+    simulation = Simulation(load_scene("stairs", ["steps=4", "climb=0.02", "settle=0.5"]), 1)
     places = [round(step.x, 6) for step in simulation.steps]
     assert places[0] == places[1] < places[2] == places[3]
     summary = simulation.run()
