@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from plantar.gait.contact.ground_map import GroundView
 from plantar.gait.estimate.command_frame import CommandFrame
-from plantar.gait.feet.swing_compliance import SwingCompliance, turned_to_ground
+from plantar.gait.feet.swing_compliance import SwingCompliance
 from plantar.gait.feet.swing_flight import PolynomialSwing
 from plantar.gait.feet.swing_kind import Swing, SwingKind, SwingStart
 from plantar.gait.plan.feet_view import FeetView
@@ -400,8 +400,9 @@ class FootMotion:
                 drop = compliance.descent(view, falling, remaining, time_left, period)
             if view is not None and remaining < _NEARLY_THERE * self._leg:
                 self.surprise = float(sense.position[2] - frame.offset[2]) - view.middle - self._expected
-            if view is not None and remaining < _CLOSE_BY * self._leg:
-                self._turn(compliance, side, view)
+            turn = compliance.turn(self._tilts[side], view if remaining < _CLOSE_BY * self._leg else None, period)
+            if turn.any():
+                self._tilts[side] = self._tilts[side].dot(rotation_from_vector(turn))
             # A leg that is stretched leaves its foot behind; commanded further down, it would slam where it gets there.
             lowest = float(sense.position[2] - frame.offset[2]) - _AHEAD * self._leg
             height = max(position[2] - drop, min(position[2], lowest))
@@ -429,16 +430,6 @@ class FootMotion:
         far = (view.distance - there) / (touching - there)
         least = compliance.touchdown.contact_force
         return far <= 0.0 or compliance.force > least + far * (blind - least)
-
-    def _turn(self, compliance: SwingCompliance, side: Side, view: GroundView) -> None:
-        """Turn the sole to the ground's slope, or level if too little is seen."""
-        gains = compliance.gains
-        share = min(1.0, self._period / gains.turning)
-        if view.slope is None:
-            self._tilts[side] = rotation_from_vector((1.0 - share) * vector_from_rotation(self._tilts[side]))
-        elif view.distance < 0.8 * compliance.ground.settings.sensing_range:
-            largest = compliance.turn_rate(view.distance, view.slope) * self._period
-            self._tilts[side] = turned_to_ground(self._tilts[side], view.slope, share, largest)
 
     def _press(self, side: Side, load: float) -> None:
         """Press down less the more the foot carries; a switch would make it tap."""

@@ -17,6 +17,7 @@ __all__ = ["PostureCompensation"]
 
 _TIME_CONSTANT = 0.121  # beat: 0.03 s on a leg of 0.6 m
 _LARGEST_SHIFT = 0.1  # leg
+_ROUNDED = 0.4  # share of its coming, at the end, in which it slows down: an even rate that stops would jerk the foot
 
 
 @dataclass
@@ -94,7 +95,8 @@ class PostureCompensation:
         """
         step = self.period / self.fade
         # Fades: at lift-off and touchdown the foot is on the ground, and a jump of its target would push it.
-        self._weight = min(1.0, self._weight + step) if swings else max(0.0, self._weight - step)
+        rest = 1.0 - self._weight
+        self._weight = self._weight + step * min(1.0, rest / _ROUNDED) if swings else max(0.0, self._weight - step)
         correct(
             *(position, position_in_world, com_command, com_estimated, rotation_command, rotation_estimated),
             *(self._kept, self.largest_shift, self.largest_turn, self._weight),

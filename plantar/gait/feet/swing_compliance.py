@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from plantar.gait.contact.ground_map import GroundMap, GroundMapSettings, GroundView
 from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from plantar.layouts.layout import SoleLayout
-from plantar.mechanics.rotation import rotation_from_vector
+from plantar.mechanics.rotation import vector_from_rotation
 from plantar.percepts.percept_options import PROXIMITY_GAIN
 from plantar.sensing.virtual_wrench import SoleWrenchSwitch, early_stop, virtual_ground_reaction_wrench
 
-__all__ = ["SwingCompliance", "turned_to_ground"]
+__all__ = ["SwingCompliance"]
 
 
 _DOUBT = 1 / 600  # leg past the ground that it sees at which a sole that has not touched goes down twice as fast
@@ -27,6 +27,8 @@ _KEPT = 1 / 150  # leg from the ground that a sole keeps until then, and more th
 _LARGEST_RISE = 0.0412  # leg/beat at which a sole goes up that is too near to the ground
 _LARGEST_DRIFT = 0.00206  # leg/beat that a body moves up or down above a foot that has touched
 _LARGEST_YIELD = 0.00824  # leg/beat at which a foot that has touched gives way
+_LARGEST_CHANGE = 2.0  # leg/beat^2 by which the speed of a sole in the air changes: sight comes in steps
+_LARGEST_TURN_CHANGE = 2.75  # rad/beat^2 of its turn, likewise
 _SLOPE_OF_NOISE = 0.015  # tangent of the slope that level ground may seem to have
 
 
@@ -56,8 +58,11 @@ class SwingCompliance:
         self.switch = SoleWrenchSwitch(touchdown.contact_force)
         self.force = 0.0
         self._leg, self._speed_unit = gains.body.in_si("leg"), gains.body.in_si("leg/beat")
+        self._change = _LARGEST_CHANGE * gains.body.in_si("leg/beat^2")
+        self._turn_change = _LARGEST_TURN_CHANGE * gains.body.in_si("rad/beat^2")
         self._arm = 0.5 * float(np.linalg.norm(np.ptp(layout.outline, axis=0)))  # m from the middle to an edge
-        self._speed = self._drift = 0.0
+        self._speed = self._drift = self._rate = 0.0
+        self._turn = (0.0, 0.0)
         self._aim: float | None = None
         self.by_wrench = gains.law == "wrench"
         self.stopped = False
@@ -67,7 +72,8 @@ class SwingCompliance:
     def begin(self) -> None:
         """A swing begins."""
         self.ground.begin()
-        self._speed = self._drift = 0.0
+        self._speed = self._drift = self._rate = 0.0
+        self._turn = (0.0, 0.0)
         self._aim = None
         self.switch.reset()
         self.force = 0.0
@@ -107,7 +113,7 @@ class SwingCompliance:
             wanted = max(wanted, gap / g.damping)
         wanted += g.touch_speed * (g.late_speed_ratio if late else 1.0)
         self._speed = min(wanted, g.top_speed, self._speed + g.acceleration * period)
-        return self._speed * period
+        return self._moved(self._speed, period)
 
     def descent(
         self, view: GroundView | None, planned: float, remaining: float, time_left: float, period: float
@@ -128,7 +134,7 @@ class SwingCompliance:
         if view is None:
             self._aim = None
             self._speed = min(planned, self._speed + g.acceleration * period)
-            return self._speed * period
+            return self._moved(self._speed, period)
         if self._aim is None:
             self._aim = view.distance
         above = remaining < _THERE * self._leg
@@ -144,7 +150,38 @@ class SwingCompliance:
         self._speed = min(wanted, g.top_speed, self._speed + g.acceleration * period)
         behind = view.distance - self._aim
         self._aim -= self._speed * period
-        return period * min(g.top_speed, max(rise, self._speed + behind / g.correction))
+        return self._moved(min(g.top_speed, max(rise, self._speed + behind / g.correction)), period)
+
+    def _moved(self, wanted: float, period: float) -> float:
+        """Descent in m in a tick at about a `wanted` speed in m/s."""
+        most = self._change * period
+        self._rate = min(self._rate + most, max(self._rate - most, wanted))
+        return self._rate * period
+
+    def turn(self, rotation: NDArray[np.float64], view: GroundView | None, period: float) -> NDArray[np.float64]:
+        """Turn of a tick, to the ground's slope, or level if too little is seen.
+
+        Args:
+            rotation: Sole's (3, 3), less its heading.
+            view: Of the sole; None comes to rest.
+            period: Of control in s.
+
+        Returns:
+            The turn (3,) in rad, sole frame.
+        """
+        x = y = 0.0
+        if view is not None and view.slope is None:
+            x, y, _ = (vector_from_rotation(rotation) / -self.gains.turning).tolist()
+        elif view is not None and view.slope is not None and view.distance < 0.8 * self.ground.settings.sensing_range:
+            x, y = view.slope[1] / self.gains.turning, -view.slope[0] / self.gains.turning
+            size, largest = math.hypot(x, y), self.turn_rate(view.distance, view.slope)
+            if size > largest:
+                x, y = x * largest / size, y * largest / size
+        was_x, was_y = self._turn
+        change = math.hypot(x - was_x, y - was_y)
+        share = min(1.0, self._turn_change * period / change) if change > 0.0 else 1.0
+        x, y = self._turn = was_x + share * (x - was_x), was_y + share * (y - was_y)
+        return np.array([x * period, y * period, 0.0])
 
     def turn_rate(self, distance: float, slope: tuple[float, float]) -> float:
         """Largest turning rate in rad/s: an edge descends no faster than the sole, unless slope exceeds noise.
@@ -187,24 +224,3 @@ class SwingCompliance:
         fastest = _LARGEST_YIELD * self._speed_unit
         self._speed = min(fastest, max(-fastest, wanted))
         return self._speed * period
-
-
-def turned_to_ground(
-    rotation: NDArray[np.float64], slope: tuple[float, float], share: float, largest: float
-) -> NDArray[np.float64]:
-    """Rotation (3, 3) of a sole turned partly to the ground's slope.
-
-    Args:
-        rotation: Sole's (3, 3).
-        slope: Ground's rise along the sole's x, y (tangents).
-        share: Of the way, 0..1.
-        largest: Turn in rad.
-
-    Returns:
-        The turned sole.
-    """
-    turn = np.array([share * slope[1], -share * slope[0], 0.0])
-    size = math.hypot(float(turn[0]), float(turn[1]))
-    if size > largest:
-        turn *= largest / size
-    return np.asarray(rotation.dot(rotation_from_vector(turn)))

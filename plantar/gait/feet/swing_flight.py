@@ -19,7 +19,11 @@ from plantar.mechanics.same_time import SAME_TIME
 
 __all__ = ["PolynomialSwing", "SwingFlight"]
 
-_EARLY = {"lift_share": 0.28, "lateral_end": 0.25, "spare": 0.12}  # of a swing that should be near to the ground early
+_EARLY = {"lateral_end": 0.25, "spare": 0.12}  # of a swing that should be near to the ground early
+_EARLY_LIFT = 0.28  # share of such a swing spent rising,
+_LIFT = 0.45  # and of others
+_QUICKEST = 0.26  # leg/beat at most of a rise, which the knee's speed bounds, unless it would last as long as others'
+_PEAK = 1.875  # largest speed of a minimum-jerk motion over its mean
 _RAMP = 0.2  # share of the time left in which the clock comes to its new rate
 _STEP = 1e-4  # s of the differences that velocity and acceleration are taken from
 _LATE = 0.85  # of the time left in which a foot that is above its old place already goes to the new one
@@ -176,6 +180,8 @@ class PolynomialSwing(SwingKind):
 
     def begin(self, start: SwingStart) -> SwingFlight:
         """Flight at its begin."""
+        rise = start.height + max(0.0, (start.end - start.position).item(2))
+        lasts = _PEAK * rise / (_QUICKEST * self.body.in_si("leg/beat") * start.duration)
         path = SwingTrajectory(
             start.position,
             start.end,
@@ -184,6 +190,7 @@ class PolynomialSwing(SwingKind):
             start.height,
             start.duration,
             **_EARLY if start.sees_ground else {},
+            lift_share=min(_LIFT, max(_EARLY_LIFT, lasts)) if start.sees_ground else _LIFT,
             approach_height=start.approach_height,
             approach_speed=start.approach_speed,
             rises_first=start.rises_first,

@@ -8,8 +8,8 @@ import pytest
 from plantar import hex_layout
 from plantar.gait.contact.ground_map import GroundMapSettings, GroundView
 from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
-from plantar.gait.feet.swing_compliance import SwingCompliance, turned_to_ground
-from plantar.mechanics.rotation import vector_from_rotation
+from plantar.gait.feet.swing_compliance import SwingCompliance
+from plantar.mechanics.rotation import rotation_from_vector
 
 LAYOUT = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
 PERIOD = 0.005
@@ -120,17 +120,45 @@ def test_a_foot_that_lost_the_ground_comes_back() -> None:
     assert 0.0 < near < far
 
 
-def test_turning_goes_to_the_slope_at_a_limited_rate() -> None:
-    rotation = np.eye(3)
+@pytest.mark.parametrize("seen", [True, False])
+def test_turning_goes_to_the_slope_or_level_at_a_limited_rate(seen: bool) -> None:
+    gains = ComplianceGains()
+    compliance = swing(gains)
+    compliance.begin()
+    rotation, rates = rotation_from_vector(np.array([0.1, 0.0, 0.0]) * (not seen)), [np.zeros(3)]
     for _ in range(200):
         normal = rotation.T @ np.array([-0.1, 0.05, 1.0])
-        slope = (-normal[0] / normal[2], -normal[1] / normal[2])
-        turned = turned_to_ground(rotation, slope, 0.2, 0.01)
-        step = np.linalg.norm(vector_from_rotation(rotation.T @ turned))
-        assert step <= 0.01 + 1e-9
-        rotation = turned
+        slope = (-normal[0] / normal[2], -normal[1] / normal[2]) if seen else None
+        turn = compliance.turn(rotation, GroundView(0.02, 0.02, slope), PERIOD)
+        rates.append(turn / PERIOD)
+        rotation = rotation @ rotation_from_vector(turn)
+    for _ in range(20):
+        rates.append(compliance.turn(rotation, None, PERIOD) / PERIOD)
+    assert not rates[-1].any()  # at rest once it sees no ground
+    assert np.linalg.norm(rates, axis=1).max() <= (gains.turn_rate if seen else 0.1 / gains.turning) + 1e-9
+    assert np.linalg.norm(np.diff(rates, axis=0), axis=1).max() < 50.0 * PERIOD  # rad/s^2 of H1's ankle
     up = rotation[:, 2] / rotation[2, 2]
-    assert up[:2] == pytest.approx([-0.1, 0.05], abs=1e-3)
+    assert up[:2] == pytest.approx([-0.1, 0.05] if seen else [0.0, 0.0], abs=1e-3)
+
+
+@pytest.mark.parametrize("by_law", ["plane", "wrench"])
+def test_ground_that_comes_into_sight_does_not_make_the_foot_jump(by_law: str) -> None:
+    compliance = swing(ComplianceGains(law=by_law))
+    compliance.begin()
+    speeds, heights = [], [None] * 60 + [0.04] * 2 + [0.01] * 10 + [None] * 5 + [0.03] * 20
+    for height in heights:
+        seen = None if height is None else GroundView(height, height, None)
+        compliance.ground._distance[:] = np.inf if height is None else height
+        compliance.update_load(0.0)
+        drop = (
+            compliance.damped(0.3, 0.5, PERIOD)
+            if compliance.by_wrench
+            else compliance.descent(seen, 0.3, 0.1, 0.5, PERIOD)
+        )
+        speeds.append(drop / PERIOD)
+    assert max(speeds) > 0.25
+    assert min(speeds[60:]) < 0.05  # it brakes, and soon
+    assert np.abs(np.diff(speeds)).max() < 20.0 * PERIOD  # m/s^2
 
 
 def by_wrench(compliance: SwingCompliance, height: float, plan: float, left: float) -> tuple[float, float, float]:
