@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -17,6 +17,7 @@ from plantar.shoes.fit.cell_fit import fit_cells
 from plantar.shoes.fit.fine_rim import BLIND_MOST, fit_fine_rim
 from plantar.shoes.fit.taxels import TaxelFit, fit_taxels
 from plantar.shoes.foot.foot import Foot
+from plantar.shoes.geometry.outline import CORNER
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import Block, Step, mirrored_step
 from plantar.shoes.plan.cell_room import cell_parameters, led_parameters
@@ -40,6 +41,7 @@ Rim = Literal["whole", "fine"]  # cells along the edge of the face: whole ones o
 RIMS: tuple[Rim, ...] = ("whole", "fine")  # all kinds of rim
 
 _SMALLER, _LEAST_AREA = 0.72, 100.0  # of a cell that sees too little, and mm^2
+_FARTHER = 2.0  # mm that stated cells, of one size, reach farther beyond the sole where they see too little
 _ACTIVE = 0.146  # of the mean load of a taxel: 0.15 kg of the papers' 86 kg over two soles of 42
 
 Progress = Callable[[float, str], None]  # receives the fraction done, 0..1, and what is being done
@@ -117,7 +119,8 @@ def build_shoe(
         side: "left", "right" or "both"; right mirrors left.
         cell_area: Taxel in mm^2.
         taxels: Their number; None takes as many whole cells as fit.
-        overhang: Allowed taxel reach beyond the sole in mm; with `taxels` up to overhang_max.
+        overhang: Allowed taxel reach beyond the sole in mm; up to overhang_max with `taxels`, or where a `cell` would
+            not see the center of pressure both ways.
         rim: "whole" cells, or "fine": smaller ones along the edge.
         cell: Other cells than skin hexagons, see `read_cell`, in place of `rim` and `cell_area`.
         parameters: Dimensions.
@@ -154,9 +157,10 @@ def build_shoe(
     # The plate under the wall meets the ground, too; the load case may ask for a thicker wall.
     wall = strengthened(foot, foot.sole, p)[0].rim_thickness
     face, reach = foot.passing(p.rim_height), max(overhang, p.clearance + wall - p.border)
-    options = {"overhang": reach if taxels is None else overhang, "overhang_max": p.overhang_max, "border": p.border}
 
-    def placed(area: float) -> tuple[TaxelFit, ShoePlan]:
+    def placed(area: float, reach: float) -> tuple[TaxelFit, ShoePlan]:
+        over = reach if taxels is None else overhang
+        options = {"overhang": over, "overhang_max": p.overhang_max, "border": p.border}
         if cell is not None:
             found = fit_cells(face, cell, rib=p.rib, taxels=taxels, **options)
         elif rim == "fine":
@@ -165,7 +169,13 @@ def build_shoe(
             found = fit_taxels(face, cell_area=area, taxels=taxels, **options)
         return found, plan_shoe(foot, found, replace(p, border=found.border), name=name)
 
-    fit, left, smaller = _observed(placed, cell_area, fixed=taxels is not None or cell is not None or rim == "fine")
+    tries = [(cell_area, reach)]
+    if taxels is None and cell is not None:
+        most = p.overhang_max - CORNER * p.border
+        tries += [(cell_area, float(r)) for r in np.arange(reach + _FARTHER, most, _FARTHER)]
+    elif taxels is None and rim == "whole":
+        tries = [(area, reach) for area in _areas(cell_area)]
+    fit, left, chosen = _observed(placed, tries)
     p = replace(p, border=fit.border)
     p, raised = strengthened(foot, left.contact, p)
     if raised:
@@ -177,7 +187,7 @@ def build_shoe(
     notes = (
         foot.notes
         + of_cell
-        + smaller
+        + chosen
         + fit.notes
         + gentle
         + raised
@@ -198,33 +208,45 @@ def build_shoe(
     return ShoeBuild(foot, fit, p, shoes, share, retention, (*notes, retention.note), touching=touching)
 
 
+def _areas(first: float) -> Iterator[float]:
+    yield first
+    while first > _LEAST_AREA:
+        first = max(_LEAST_AREA, round(first * _SMALLER))
+        yield first
+
+
 def _observed(
-    placed: Callable[[float], tuple[TaxelFit, ShoePlan]], cell_area: float, *, fixed: bool
+    placed: Callable[[float, float], tuple[TaxelFit, ShoePlan]], tries: list[tuple[float, float]]
 ) -> tuple[TaxelFit, ShoePlan, tuple[str, ...]]:
-    """Cells and plan of a cell area, or of a smaller one that observes the CoP both ways."""
-    area, problem, last = cell_area, None, None
-    while True:
+    """Cells and plan of the first cell area and reach that observe the CoP both ways; those of the only area if none
+    does.
+    """
+    problem, kept = None, None
+    (first, least), (last, _) = tries[0], tries[-1]
+    for area, reach in tries:
         try:
-            last = placed(area)
-            if fixed or observability(last[1]).holds:
-                break
+            found = placed(area, reach)
         except FootError as error:
             problem = problem or error
-            if fixed:
-                raise
-        if area <= _LEAST_AREA:
-            break
-        area = max(_LEAST_AREA, round(area * _SMALLER))
-    if last is None or not (fixed or observability(last[1]).holds):
+            continue
+        if observability(found[1]).holds:
+            if area != first:
+                text = f"cells of {area:g} instead of {first:g} mm2: larger ones would not see the center of pressure"
+                return *found, (f"{text} both ways",)
+            if reach != least:
+                text = f"the cells reach up to {reach:.1f} mm beyond the sole: within {least:.1f} mm they would not"
+                return *found, (f"{text} see the center of pressure both ways",)
+            return *found, ()
+        kept = kept or found
+    if last != first:
         reason = "" if problem is None else f" ({problem})"
         raise FootError(
-            f"no cells of {_LEAST_AREA:g} to {cell_area:g} mm^2 see the center of pressure along and across "
-            f"this sole{reason}"
+            f"no cells of {last:g} to {first:g} mm^2 see the center of pressure along and across this sole{reason}"
         )
-    if area == cell_area:
-        return *last, ()
-    text = f"cells of {area:g} instead of {cell_area:g} mm2: larger ones would not see the center of pressure both ways"
-    return *last, (text,)
+    if kept is None:
+        assert problem is not None
+        raise problem
+    return *kept, ()
 
 
 def _sensitive(left: ShoePlan, mass: float) -> tuple[ShoePlan, tuple[str, ...]]:

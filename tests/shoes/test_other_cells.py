@@ -42,6 +42,13 @@ def test_the_witness_finds_nothing_wrong(name, small_foot, tmp_path):
         assert len(list(csv.DictReader(file))) == len(layout)
 
 
+def test_squares_reach_beyond_a_sole_on_which_they_would_not_see_the_center_of_pressure(small_foot):
+    build = build_shoe(small_foot, side="left", cell=read_cell("square"), layout_only=True)
+    assert any("the cells reach up to" in note for note in build.notes)
+    assert 0.0 < build.shoes[0].plan.overhang <= build.parameters.overhang_max
+    assert np.ptp(build.shoes[0].layout.positions[:, 1]) > 0.5 * 0.07
+
+
 def test_the_command_writes_a_layout_of_the_stated_cell(monkeypatch, capfd, stl, box, tmp_path):
     own, out = tmp_path / "own.toml", tmp_path / "shoe"
     own.write_text(OWN)
