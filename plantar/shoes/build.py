@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -40,7 +40,7 @@ Rim = Literal["whole", "fine"]  # cells along the edge of the face: whole ones o
 
 RIMS: tuple[Rim, ...] = ("whole", "fine")  # all kinds of rim
 
-_SMALLER, _LEAST_AREA = 0.72, 100.0  # of a cell that sees too little, and mm^2
+_AREAS = (498.0, 359.0, 258.0, 186.0, 134.0, 100.0)  # mm^2 of skin cells where larger ones see too little
 _FARTHER = 2.0  # mm that stated cells, of one size, reach farther beyond the sole where they see too little
 _ACTIVE = 0.146  # of the mean load of a taxel: 0.15 kg of the papers' 86 kg over two soles of 42
 
@@ -174,7 +174,7 @@ def build_shoe(
         most = p.overhang_max - CORNER * p.border
         tries += [(cell_area, float(r)) for r in np.arange(reach + _FARTHER, most, _FARTHER)]
     elif taxels is None and rim == "whole":
-        tries = [(area, reach) for area in _areas(cell_area)]
+        tries += [(area, reach) for area in _AREAS if area < cell_area]
     fit, left, chosen = _observed(placed, tries)
     p = replace(p, border=fit.border)
     p, raised = strengthened(foot, left.contact, p)
@@ -208,13 +208,6 @@ def build_shoe(
     return ShoeBuild(foot, fit, p, shoes, share, retention, (*notes, retention.note), touching=touching)
 
 
-def _areas(first: float) -> Iterator[float]:
-    yield first
-    while first > _LEAST_AREA:
-        first = max(_LEAST_AREA, round(first * _SMALLER))
-        yield first
-
-
 def _observed(
     placed: Callable[[float, float], tuple[TaxelFit, ShoePlan]], tries: list[tuple[float, float]]
 ) -> tuple[TaxelFit, ShoePlan, tuple[str, ...]]:
@@ -230,23 +223,20 @@ def _observed(
             problem = problem or error
             continue
         if observability(found[1]).holds:
-            if area != first:
-                text = f"cells of {area:g} instead of {first:g} mm2: larger ones would not see the center of pressure"
-                return *found, (f"{text} both ways",)
+            text = f"cells of {area:g} instead of {first:g} mm2: larger ones"
             if reach != least:
-                text = f"the cells reach up to {reach:.1f} mm beyond the sole: within {least:.1f} mm they would not"
-                return *found, (f"{text} see the center of pressure both ways",)
-            return *found, ()
+                text = f"the cells reach up to {reach:.1f} mm beyond the sole: within {least:.1f} mm they"
+            text += " would not see the center of pressure both ways"
+            return *found, () if (area, reach) == tries[0] else (text,)
         kept = kept or found
     if last != first:
         reason = "" if problem is None else f" ({problem})"
         raise FootError(
             f"no cells of {last:g} to {first:g} mm^2 see the center of pressure along and across this sole{reason}"
         )
-    if kept is None:
-        assert problem is not None
-        raise problem
-    return *kept, ()
+    if kept is not None:
+        return *kept, ()
+    raise problem or FootError("no cells fit")
 
 
 def _sensitive(left: ShoePlan, mass: float) -> tuple[ShoePlan, tuple[str, ...]]:

@@ -275,19 +275,14 @@ def _route(
 
 
 def _passable(layout: SoleLayout) -> tuple[tuple[int, ...], ...]:
-    long: list[tuple[int, ...]] = []
-    for i, own in enumerate(layout.neighbours):
-        corners = layout.corners[i]
-        edges = set(map(frozenset, zip(corners, (*corners[1:], corners[0]), strict=True)))
-        kept = []
-        for j in own:
-            theirs = layout.corners[j]
-            common = edges & set(map(frozenset, zip(theirs, (*theirs[1:], theirs[0]), strict=True)))
-            ends = [layout.vertices[list(edge)] for edge in common]
-            if to_mm(sum(float(np.hypot(*(b - a)[:2])) for a, b in ends)) >= _PASSABLE:
-                kept.append(j)
-        long.append(tuple(kept))
-    return tuple(long) if _groups(long) == _groups(layout.neighbours) else layout.neighbours
+    edges = [set(map(frozenset, pairwise((*c, c[0])))) for c in layout.corners]
+
+    def shared(i: int, j: int) -> float:
+        ends = [layout.vertices[list(edge)] for edge in edges[i] & edges[j]]
+        return to_mm(sum(float(np.hypot(*(b - a)[:2])) for a, b in ends))
+
+    long = tuple(tuple(j for j in own if shared(i, j) >= _PASSABLE) for i, own in enumerate(layout.neighbours))
+    return long if _groups(long) == _groups(layout.neighbours) else layout.neighbours
 
 
 def _groups(neighbours: Sequence[Sequence[int]]) -> int:
