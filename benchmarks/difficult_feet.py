@@ -1,4 +1,4 @@
-"""Shoes for twelve difficult feet, each in small rotations: the table of difficult_feet.md.
+"""Shoes for difficult feet, each in small rotations: the table of difficult_feet.md.
 
 `python benchmarks/difficult_feet.py [TURNS] [FOOT...]` builds what is missing in difficult_feet.csv, the left shoe of
 each foot (tests/shoes/foot_family.py) in so many rotations (the first is none), and writes the table; 0 only writes it.
