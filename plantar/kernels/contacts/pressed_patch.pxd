@@ -14,6 +14,10 @@ cpdef bint spread_part(
     const Py_ssize_t[::1] cells, double[::1] out
 ) noexcept
 
+cdef (double, double, double, double) solved(
+    double m00, double m01, double m02, double m11, double m12, double m22, double x, double y, double z
+) noexcept
+
 @cython.locals(x=double, y=double)
 cpdef tuple patch_key(points, double grid)
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from ..geometry import clean, convex
 
-__all__ = ["PressedPatch", "patch_key", "spread_part", "spread_whole"]
+__all__ = ["PressedPatch", "patch_key", "solved", "spread_part", "spread_whole"]
 
 
 def spread_whole(u, area, inverse, x, y, force, cells, out):
@@ -55,17 +55,9 @@ def spread_part(u, area, x, y, force, active, cells, out):
                 m12 += w * p * q
                 m22 += w * q * q
         ridge = 1e-12 * (m00 + m11 + m22) + 1e-300
-        m00 += ridge
-        m11 += ridge
-        m22 += ridge
-        i00, i01, i02 = m11 * m22 - m12 * m12, m02 * m12 - m01 * m22, m01 * m12 - m02 * m11
-        i11, i12, i22 = m00 * m22 - m02 * m02, m01 * m02 - m00 * m12, m00 * m11 - m01 * m01
-        determinant = m00 * i00 + m01 * i01 + m02 * i02
+        determinant, a, b, c = solved(m00 + ridge, m01, m02, m11 + ridge, m12, m22 + ridge, 1.0, x, y)
         if determinant == 0.0:
             return False
-        a = (i00 + i01 * x + i02 * y) / determinant
-        b = (i01 + i11 * x + i12 * y) / determinant
-        c = (i02 + i12 * x + i22 * y) / determinant
         same = True
         some = False
         total = 0.0
@@ -86,6 +78,19 @@ def spread_part(u, area, x, y, force, active, cells, out):
         if not some:
             break
     return False
+
+
+def solved(m00, m01, m02, m11, m12, m22, x, y, z):
+    """Determinant of a symmetric matrix (3, 3) and its solution of a right side (x, y, z); zeros where it is 0."""
+    i00, i01, i02 = m11 * m22 - m12 * m12, m02 * m12 - m01 * m22, m01 * m12 - m02 * m11
+    i11, i12, i22 = m00 * m22 - m02 * m02, m01 * m02 - m00 * m12, m00 * m11 - m01 * m01
+    determinant = m00 * i00 + m01 * i01 + m02 * i02
+    if determinant == 0.0:
+        return 0.0, 0.0, 0.0, 0.0
+    a = (i00 * x + i01 * y + i02 * z) / determinant
+    b = (i01 * x + i11 * y + i12 * z) / determinant
+    c = (i02 * x + i12 * y + i22 * z) / determinant
+    return determinant, a, b, c
 
 
 def patch_key(points, grid):

@@ -1,6 +1,7 @@
 cimport cython
 from .foot_contacts cimport ContactsInSole
 from .foot_contacts cimport FootContacts
+from . cimport pressed_patch
 
 cdef double _SPREAD, _FAINT, _EXACT
 

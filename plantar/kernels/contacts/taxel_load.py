@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 
+from . import pressed_patch
+
 __all__ = ["TaxelLoad"]
 
 _SPREAD = 1e-3  # of the load: what cells next to the contact may carry where those in it cannot hold its moment
@@ -274,17 +276,11 @@ class TaxelLoad:
                 continue
             value = energy
             ridge = 1e-14 * (m00 + m11 + m22) + 1e-300
-            m00 += ridge
-            m11 += ridge
-            m22 += ridge
-            i00, i01, i02 = m11 * m22 - m12 * m12, m02 * m12 - m01 * m22, m01 * m12 - m02 * m11
-            i11, i12, i22 = m00 * m22 - m02 * m02, m01 * m02 - m00 * m12, m00 * m11 - m01 * m01
-            determinant = m00 * i00 + m01 * i01 + m02 * i02
+            determinant, step_a, step_b, step_c = pressed_patch.solved(
+                m00 + ridge, m01, m02, m11 + ridge, m12, m22 + ridge, r0, r1, r2
+            )
             if not determinant > 0.0:
                 return False
-            step_a = (i00 * r0 + i01 * r1 + i02 * r2) / determinant
-            step_b = (i01 * r0 + i11 * r1 + i12 * r2) / determinant
-            step_c = (i02 * r0 + i12 * r1 + i22 * r2) / determinant
             if max(abs(step_a), abs(step_b), abs(step_c)) > 1e6 * (1.0 + abs(a) + abs(b) + abs(c)):
                 return False  # no pressure of these cells has this moment: the field grows without end
             slope = r0 * step_a + r1 * step_b + r2 * step_c

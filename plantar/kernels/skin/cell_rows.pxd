@@ -1,0 +1,1 @@
+cpdef ordered_rows(vertices, rings, starts, double tolerance)
