@@ -23,8 +23,20 @@ _Value = TypeVar("_Value")
 def number(
     value: object, name: str, error: type[PlantarError] = InputError, *, finite: bool = False, nan: bool = False
 ) -> float:
-    """Returns `value` as a float, or raises `error` with its `name`: inf and what is beyond `LARGEST` unless not
-    `finite`, NaN unless `nan`.
+    """One real number as a float.
+
+    Args:
+        value: Argument.
+        name: Name in errors.
+        error: Error class.
+        finite: Refuse inf, and what is beyond `LARGEST`.
+        nan: Allow NaN.
+
+    Returns:
+        Float.
+
+    Raises:
+        PlantarError: Not a number.
 
     Example:
         >>> number(np.float32(0.5), "threshold"), number(np.array(2), "threshold")
@@ -41,7 +53,20 @@ def number(
 
 
 def integer(value: object, name: str, low: int, high: int | None = None, error: type[PlantarError] = InputError) -> int:
-    """Returns whole number `value` from `low` to `high` (None: no limit), or raises `error` with its `name`.
+    """One whole number in a range.
+
+    Args:
+        value: Argument.
+        name: Name in errors.
+        low: Smallest allowed.
+        high: Largest allowed; None: no limit.
+        error: Error class.
+
+    Returns:
+        Int.
+
+    Raises:
+        PlantarError: No whole number in range.
 
     Example:
         >>> integer(np.int64(3), "frame", 0, 9)
@@ -58,7 +83,19 @@ def integer(value: object, name: str, low: int, high: int | None = None, error: 
 
 
 def instance(value: _Kind, kind: type, name: str, error: type[PlantarError] = InputError) -> _Kind:
-    """Returns `value` of class `kind`, or raises `error` with its `name`.
+    """Object of a class.
+
+    Args:
+        value: Argument.
+        kind: Class.
+        name: Name in errors.
+        error: Error class.
+
+    Returns:
+        Object.
+
+    Raises:
+        PlantarError: Another type.
 
     Example:
         >>> instance(3, str, "name")
@@ -71,7 +108,18 @@ def instance(value: _Kind, kind: type, name: str, error: type[PlantarError] = In
 
 
 def items(value: Iterable[_Value], name: str, error: type[PlantarError] = InputError) -> tuple[_Value, ...]:
-    """Returns several objects, `value`, as a tuple, or raises `error` with its `name`.
+    """Several objects as a tuple.
+
+    Args:
+        value: Argument.
+        name: Name in errors.
+        error: Error class.
+
+    Returns:
+        Tuple.
+
+    Raises:
+        PlantarError: Not a list.
 
     Example:
         >>> items(range(2), "poses")
@@ -84,7 +132,14 @@ def items(value: Iterable[_Value], name: str, error: type[PlantarError] = InputE
 
 
 def does(name: str, verb: str) -> str:
-    """Returns `name` and `verb` ("are", "have" or "hold") in agreement: plural if it, or what precedes "of", ends in s.
+    """Subject and verb of an error, in agreement.
+
+    Args:
+        name: Name of argument; a plural if it, or what precedes "of", ends in s.
+        verb: "are", "have" or "hold".
+
+    Returns:
+        Both.
 
     Example:
         >>> does("forces", "are"), does("polygon", "have"), does("mask of taxels", "hold")

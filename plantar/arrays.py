@@ -36,7 +36,18 @@ _Value = TypeVar("_Value")
 
 
 def numbers(value: object, name: str, error: type[PlantarError] = InputError) -> NDArray[np.float64]:
-    """Returns real numbers `value` as float64 of any shape, itself if it is one; raises `error` with its `name`.
+    """Real numbers as float64, any shape.
+
+    Args:
+        value: Argument.
+        name: Name in errors; a plural ends in s.
+        error: Error class.
+
+    Returns:
+        Array itself if float64, else a converted one.
+
+    Raises:
+        PlantarError: If invalid.
 
     Example:
         >>> numbers([1, 2.5], "forces").tolist()
@@ -53,8 +64,18 @@ def numbers(value: object, name: str, error: type[PlantarError] = InputError) ->
 
 
 def held_numbers(value: object, name: str, error: type[PlantarError] = InputError) -> NDArray[Any]:
-    """Returns real numbers `value`, too many to convert, in their own type, such as memory-mapped ones; raises `error`
-    with its `name`.
+    """Real numbers in their own type, too many to convert.
+
+    Args:
+        value: Argument, e.g. memory-mapped.
+        name: Name in errors.
+        error: Error class.
+
+    Returns:
+        Array itself, or one of value.
+
+    Raises:
+        PlantarError: As `numbers`.
 
     Example:
         >>> held_numbers(np.zeros(2, dtype=np.float32), "forces").dtype
@@ -75,10 +96,20 @@ def array(
     *,
     finite: bool = False,
 ) -> NDArray[np.float64]:
-    """Returns real numbers `value` of a `shape` as float64, itself if it is one; raises `error` with its `name`.
+    """Real numbers of a given shape.
 
-    `shape` has the length of each axis, text for any, `...` in front for any number of axes; `finite` refuses NaN, inf
-    and what is beyond `LARGEST`.
+    Args:
+        value: Argument.
+        name: Name in errors.
+        shape: Length of each axis; text for any, `...` in front for any number of axes.
+        error: Error class.
+        finite: Refuse NaN, inf, and what is beyond `LARGEST`.
+
+    Returns:
+        Array itself if float64, else a converted one.
+
+    Raises:
+        PlantarError: If invalid.
 
     Example:
         >>> array([[1, 2], [3, 4]], "points", (..., 2)).shape
@@ -100,7 +131,17 @@ def own_array(
     *,
     finite: bool = False,
 ) -> NDArray[np.float64]:
-    """Returns a read-only copy of `value`; `name`, `shape`, `error` and `finite` as of `array`.
+    """`array`, copied and read-only.
+
+    Args:
+        value: Argument.
+        name: Name in errors.
+        shape: As in `array`.
+        error: Error class.
+        finite: As in `array`.
+
+    Returns:
+        Copy.
 
     Example:
         >>> given = np.zeros(2)
@@ -112,7 +153,13 @@ def own_array(
 
 
 def own(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Read-only copy of an array.
+    """Read-only copy.
+
+    Args:
+        values: Array of any shape.
+
+    Returns:
+        Copy.
 
     Example:
         >>> own(np.zeros(2)).flags.writeable
@@ -126,8 +173,19 @@ def own(values: NDArray[np.float64]) -> NDArray[np.float64]:
 def integers(
     value: object, name: str, shape: tuple[object, ...], error: type[PlantarError] = InputError
 ) -> NDArray[np.int64]:
-    """Returns whole numbers `value` of a `shape` as int64, an empty list as one without rows; raises `error` with its
-    `name`.
+    """Whole numbers of a given shape.
+
+    Args:
+        value: Argument.
+        name: Name in errors.
+        shape: As in `array`.
+        error: Error class.
+
+    Returns:
+        Array as int64; an empty list is one without rows.
+
+    Raises:
+        PlantarError: If invalid.
 
     Example:
         >>> integers([[0, 1]], "cells", ("m", 2)).dtype
@@ -146,9 +204,19 @@ def integers(
 def mask(
     value: object, name: str, shape: tuple[object, ...], error: type[PlantarError] = InputError
 ) -> NDArray[np.bool_]:
-    """Returns truth values `value`, bools or whole numbers 0 or 1, of a `shape`, itself if bool.
+    """Truth values of a given shape.
 
-    Raises `error` with its `name`.
+    Args:
+        value: Bools, or whole numbers 0 or 1.
+        name: Name in errors.
+        shape: As in `array`.
+        error: Error class.
+
+    Returns:
+        Array itself if bool, else a converted one.
+
+    Raises:
+        PlantarError: If invalid.
 
     Example:
         >>> mask([1, 0], "mask", ("n",)).tolist()
@@ -165,7 +233,13 @@ def mask(
 
 
 def is_finite(values: NDArray[np.float64]) -> bool:
-    """Whether all numbers of an array are finite and not beyond `LARGEST`; True if empty.
+    """Whether all numbers are finite and not beyond `LARGEST`.
+
+    Args:
+        values: Array of any shape.
+
+    Returns:
+        True where it is empty.
 
     Example:
         >>> is_finite(np.array([1.0, np.nan])), is_finite(np.empty(0))
@@ -179,7 +253,13 @@ def is_finite(values: NDArray[np.float64]) -> bool:
 
 
 def read_only(value: _Value) -> _Value:
-    """Close an object's arrays, also in nested tuples, to writing; returns the object.
+    """Close an object's arrays to writing.
+
+    Args:
+        value: Array, or nested tuples of some; else unchanged.
+
+    Returns:
+        Same object.
 
     Example:
         >>> read_only(np.zeros(2)).flags.writeable
@@ -190,7 +270,15 @@ def read_only(value: _Value) -> _Value:
 
 
 def not_finite(values: NDArray[np.float64], name: str, error: type[PlantarError] = InputError) -> PlantarError:
-    """Returns the `error` to raise for `values` of a `name` that are not all finite.
+    """Error for numbers not all finite.
+
+    Args:
+        values: Array of any shape.
+        name: Name in errors.
+        error: Error class.
+
+    Returns:
+        Error, to be raised.
 
     Example:
         >>> not_finite(np.array([np.nan]), "positions")

@@ -15,10 +15,17 @@ _GUARD = "'"
 
 
 def csv_text(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
-    """Returns CSV text with column heads `names` and cells of `rows`.
+    """A table as CSV.
 
     Text that a spreadsheet would run (=, +, -, @, tab, line end) follows an apostrophe. None, NaN and infinities are
     empty.
+
+    Args:
+        names: Heads of columns.
+        rows: Cells of each row.
+
+    Returns:
+        Text.
 
     Example:
         >>> csv_text(["file", "N"], [["=1+1.csv", -0.5], ["-2e3", None]])
@@ -30,7 +37,11 @@ def csv_text(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
 
 
 def write_csv_rows(stream: TextIO, rows: Iterable[Sequence[Any]]) -> None:
-    """Write cells of `rows` as `csv_text` to a `stream`, opened with newline="".
+    """Write a table's rows, as `csv_text`.
+
+    Args:
+        stream: Where to; opened with newline="".
+        rows: Cells of each row.
 
     Example:
         >>> import sys
@@ -42,7 +53,13 @@ def write_csv_rows(stream: TextIO, rows: Iterable[Sequence[Any]]) -> None:
 
 
 def csv_row(cells: Sequence[Any]) -> str:
-    """One row of cells as `csv_text` writes it, with its line end.
+    """One row as `csv_text` writes it.
+
+    Args:
+        cells: Its cells.
+
+    Returns:
+        Row with its line end.
 
     Example:
         >>> csv_row([1, None, "a,b"])
@@ -54,7 +71,14 @@ def csv_row(cells: Sequence[Any]) -> str:
 
 
 def mapping_rows(names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> Iterable[list[Any]]:
-    """Returns cells of `rows`, mappings by name, in the order of `names`; None if absent.
+    """Cells of rows that are mappings.
+
+    Args:
+        names: Heads of columns.
+        rows: Cells of each row by name.
+
+    Returns:
+        Cells of each row in order of names; None if absent.
 
     Example:
         >>> list(mapping_rows(["a", "b"], [{"b": 2}]))
@@ -65,6 +89,12 @@ def mapping_rows(names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> Ite
 
 def original_cell(text: str) -> str:
     """Cell without its added apostrophe.
+
+    Args:
+        text: Cell as it was read.
+
+    Returns:
+        Text.
 
     Example:
         >>> original_cell("'=1"), original_cell("'quoted'")

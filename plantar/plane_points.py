@@ -16,9 +16,18 @@ _FLOAT = np.dtype(np.float64)
 
 
 def plane_points(value: object, name: str = "polygon", *, finite: bool = True) -> NDArray[np.float64]:
-    """Returns points (k, 2) of `value`, itself if float64; an InputError with its `name` for others.
+    """Points of the plane; an empty list is none.
 
-    An empty list is none; `finite` refuses NaN, inf and what is beyond `LARGEST`.
+    Args:
+        value: Argument.
+        name: Name in errors.
+        finite: Refuse NaN, inf, and what is beyond `LARGEST`.
+
+    Returns:
+        Points (k, 2), not copied if float64.
+
+    Raises:
+        InputError: Not (k, 2).
 
     Example:
         >>> plane_points([]).shape
@@ -37,7 +46,17 @@ def plane_points(value: object, name: str = "polygon", *, finite: bool = True) -
 
 
 def plane_point(value: object, name: str = "point") -> tuple[float, float]:
-    """Returns x and y of one point `value`, NaN or not; an InputError with its `name` unless two numbers.
+    """One point of the plane, NaN or not.
+
+    Args:
+        value: Argument.
+        name: Name in errors.
+
+    Returns:
+        Its x and y.
+
+    Raises:
+        InputError: Not two numbers.
 
     Example:
         >>> plane_point([1, 2])

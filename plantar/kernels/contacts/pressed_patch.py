@@ -4,7 +4,7 @@ import numpy as np
 
 from ..geometry import clean, convex
 
-__all__ = ["PressedPatch", "patch_key", "solved", "spread_part", "spread_whole"]
+__all__ = ["PressedPatch", "patch_key", "spread_part", "spread_whole"]
 
 
 def spread_whole(u, area, inverse, x, y, force, cells, out):
