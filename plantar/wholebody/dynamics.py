@@ -11,7 +11,7 @@ __all__ = ["RobotDynamics"]
 
 
 class RobotDynamics(Protocol):
-    """Equations of motion M q'' + bias = S^T tau + J^T f (T 3.1, 3.12, A 1), and link kinematics.
+    """Equations of motion M q'' + bias = S^T tau + J^T f, and link kinematics.
 
     Jacobians map generalized velocity (n,) to the world. Joints: actuated velocity coordinates, model order.
 

@@ -17,7 +17,7 @@ _NAMED = 5  # links in an error where none has a similar name
 
 
 class MujocoDynamics:
-    """`plantar.wholebody.dynamics.RobotDynamics` from a MuJoCo model of the robot alone.
+    """`plantar.wholebody.dynamics.RobotDynamics` from a MuJoCo model of the robot alone (T 3.1, 3.12, A 1).
 
     MuJoCo's stages run when results are read. A free base's angular velocity and its Jacobians are in its own frame.
 
