@@ -14,7 +14,7 @@ cpdef bint spread_part(
     const Py_ssize_t[::1] cells, double[::1] out
 ) noexcept
 
-cdef (double, double, double, double) solved(
+cdef (double, double, double, double) _solved(
     double m00, double m01, double m02, double m11, double m12, double m22, double x, double y, double z
 ) noexcept
 

@@ -55,7 +55,7 @@ def spread_part(u, area, x, y, force, active, cells, out):
                 m12 += w * p * q
                 m22 += w * q * q
         ridge = 1e-12 * (m00 + m11 + m22) + 1e-300
-        determinant, a, b, c = solved(m00 + ridge, m01, m02, m11 + ridge, m12, m22 + ridge, 1.0, x, y)
+        determinant, a, b, c = _solved(m00 + ridge, m01, m02, m11 + ridge, m12, m22 + ridge, 1.0, x, y)
         if determinant == 0.0:
             return False
         same = True
@@ -80,7 +80,7 @@ def spread_part(u, area, x, y, force, active, cells, out):
     return False
 
 
-def solved(m00, m01, m02, m11, m12, m22, x, y, z):
+def _solved(m00, m01, m02, m11, m12, m22, x, y, z):
     """Determinant of a symmetric matrix (3, 3) and its solution of a right side (x, y, z); zeros where it is 0."""
     i00, i01, i02 = m11 * m22 - m12 * m12, m02 * m12 - m01 * m22, m01 * m12 - m02 * m11
     i11, i12, i22 = m00 * m22 - m02 * m02, m01 * m02 - m00 * m12, m00 * m11 - m01 * m01

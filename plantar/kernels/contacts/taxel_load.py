@@ -276,7 +276,7 @@ class TaxelLoad:
                 continue
             value = energy
             ridge = 1e-14 * (m00 + m11 + m22) + 1e-300
-            determinant, step_a, step_b, step_c = pressed_patch.solved(
+            determinant, step_a, step_b, step_c = pressed_patch._solved(
                 m00 + ridge, m01, m02, m11 + ridge, m12, m22 + ridge, r0, r1, r2
             )
             if not determinant > 0.0:
