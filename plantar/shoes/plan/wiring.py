@@ -46,10 +46,8 @@ def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
             corners = shapely.multipoints(shapely.get_coordinates(list(plan.pockets)))
             openings = shapely.snap(openings, corners, _STEP)  # and the pockets' corners stay where they are
     joined = shapely.transform(openings, lambda points: _gathered(points, shapely.get_coordinates(list(plan.pockets))))
-    parts = shapely.get_parts(shapely.set_precision(joined.buffer(0.0), 1e-4))
-    # What is left between two cuts is a post that hangs from the ceiling.
-    rings = [[r for r in q.interiors if shapely.Polygon(r).area > 2.0 * wall**2] for q in parts]
-    return sorted(map(shapely.Polygon, shapely.get_exterior_ring(parts), rings), key=lambda g: g.bounds)
+    joined = shapely.set_precision(joined.buffer(0.0), 1e-4)
+    return sorted(getattr(joined, "geoms", [joined]), key=lambda g: g.bounds)
 
 
 def _gathered(points: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[np.float64]:
