@@ -44,8 +44,8 @@ def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
         slivers = _slivers(openings, ways.buffer(near), thin, least)
         if slivers:  # where they end, steps of some thousandths would be walls of no width
             openings = shapely.remove_repeated_points(shapely.union_all([openings, *slivers]), _STEP)
-            corners = shapely.multipoints(shapely.get_coordinates(list(plan.pockets)))
-            openings = shapely.snap(openings, corners, _STEP)  # and the pockets' corners stay where they are
+            # and the pockets' corners stay where they are
+            openings = shapely.snap(openings, shapely.multipoints(shapely.get_coordinates(list(plan.pockets))), _STEP)
     joined = shapely.transform(openings, lambda points: _gathered(points, shapely.get_coordinates(list(plan.pockets))))
     joined = shapely.set_precision(joined.buffer(0.0), 1e-4)
     return sorted(getattr(joined, "geoms", [joined]), key=lambda g: g.bounds)
