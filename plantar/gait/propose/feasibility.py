@@ -63,9 +63,8 @@ class FeasibilityRules(
     probe_force: float = share(0.154, "weight", 1, 10000)
     impact_force: float = fixed(0.083, "weight")  # Force in N that is an impact: 70 N on a robot of 86 kg (T 4.4.5)
     probe_time: float = fixed(0.485, "beat")  # For how long in s it is probed, once it is there
-    impact_time: float = fixed(
-        0.2, "beat"
-    )  # For how long in s the touch is read at an impact: taxels' noise averages out
+    # For how long in s the touch is read at an impact: taxels' noise averages out
+    impact_time: float = fixed(0.2, "beat")
     probe_limit: float = fixed(1.01, "beat")  # For how long in s it may take to come
     reserve: float = share(2.02, "beat", 0, 5)
     active_force: float = share(0.00154, "weight", 0, 10000)

@@ -57,7 +57,11 @@ _TOPPLE, _STILL = "skin walks around, ankles fall", ("step_adjustment=false",)
 _SLAB = "impact on the slab"
 EXPERIMENTS = (
     PaperExperiment(
-        *("balance", "T 4.3.1", "balance", "ZMPs differ by 10 mm", "largest difference"),
+        "balance",
+        "T 4.3.1",
+        "balance",
+        "ZMPs differ by 10 mm",
+        "largest difference",
         printed={"largest difference": 10.0},
         long=True,
     ),
@@ -66,43 +70,58 @@ EXPERIMENTS = (
         for n, paper in enumerate(("both step on", "both walk around", _TOPPLE, _TOPPLE), 1)
     ),
     PaperExperiment(
-        *(
-            "level ground, HRP-2Kai",
-            "T 4.4.1.2",
-            "flat",
-            "58 N, without 340",
-            "mean impact",
-            _NO_PFC,
-            "hrp2kai",
-            _LEVEL,
-        ),
+        "level ground, HRP-2Kai",
+        "T 4.4.1.2",
+        "flat",
+        "58 N, without 340",
+        "mean impact",
+        _NO_PFC,
+        "hrp2kai",
+        _LEVEL,
         printed=_impacts(58.0, 200.0),
         printed_without=_impacts(340.0, 430.0),
     ),
     PaperExperiment(
-        *("level ground, H1", "T 4.4.1.3", "flat", "109 N, without 486", "mean impact", _NO_PFC, "h1", _LEVEL),
+        "level ground, H1",
+        "T 4.4.1.3",
+        "flat",
+        "109 N, without 486",
+        "mean impact",
+        _NO_PFC,
+        "h1",
+        _LEVEL,
         printed=_impacts(109.0, 261.0),
         printed_without=_impacts(486.0, 615.0),
     ),
     PaperExperiment(
-        *("slab of 3 cm", "T 4.4.1.4", "obstacle", "370 N, without 1100 and falls", _SLAB, _NO_PFC),
+        "slab of 3 cm",
+        "T 4.4.1.4",
+        "obstacle",
+        "370 N, without 1100 and falls",
+        _SLAB,
+        _NO_PFC,
         printed={_SLAB: 370.0},
         printed_without={_SLAB: 1100.0},
         fell_without=True,
     ),
     PaperExperiment("half a foothold, rear", "T Fig. 61", "partial-rear", "walks on", "steps", _BLIND),
     PaperExperiment(
-        *("30 % of the sole", "T Fig. 62", "partial-third", "walks on", "steps", _BLIND), printed={"steps": 6.0}
+        "30 % of the sole", "T Fig. 62", "partial-third", "walks on", "steps", _BLIND, printed={"steps": 6.0}
     ),
     PaperExperiment(
-        *("beam of 12 cm", "T Fig. 63", "beam", "50 steps", "steps", _BLIND), printed={"steps": 50.0}, long=True
+        "beam of 12 cm", "T Fig. 63", "beam", "50 steps", "steps", _BLIND, printed={"steps": 50.0}, long=True
     ),
     PaperExperiment("beam, turned", "T Fig. 64", "beam-yaw", "50 steps", "steps", _BLIND),
     PaperExperiment(
-        *("pushed in place", "K 5.1", "push-step", "small push keeps the step, large moves it", "steps", _STILL)
+        "pushed in place", "K 5.1", "push-step", "small push keeps the step, large moves it", "steps", _STILL
     ),
     PaperExperiment(
-        *("follower", "K 5.2", "leader-follower", "steps back once, walks on", "steps", _STILL),
+        "follower",
+        "K 5.2",
+        "leader-follower",
+        "steps back once, walks on",
+        "steps",
+        _STILL,
         settings=("walk.length=0", "walk.confidence=0", "partner.role=leader"),
     ),
     PaperExperiment("box step", "K 5.3", "box-step", "12 of 16 strides", "strides", _STILL),

@@ -33,9 +33,8 @@ _SWINGING = 0.1  # of what a swinging foot misses counts
 _LANDING = 0.1  # of a swing, at its end, in which all of it counts
 _HOPELESS = 0.05  # m or rad by which the legs miss what is asked of them: the rest of the plan is not looked at
 _FRICTION = 0.8  # of the built-in scenes
-_ARM = (
-    0.26  # mean distance of a rectangle's points from its middle, over its diagonal: 0.25 of a line, 0.27 of a square
-)
+# Mean distance of a rectangle's points from its middle, over its diagonal: 0.25 of a line, 0.27 of a square
+_ARM = 0.26
 _STEP = 0.15  # rad: largest change in a Newton step, see plantar.robots.kinematics.inverse_kinematics
 
 Array = NDArray[np.float64]
@@ -230,8 +229,15 @@ class _Pass:
         shift = about_y / (weight * min(high[0] - place, place - low[0]))
         turn = about_z / (_FRICTION * weight * _ARM * math.hypot(*(high - low)))
         return PlanReach(
-            *(self.missed, self.knee, self.straightest, self.spare, torque, carrying),
-            *(float(shift), float(turn), self.roll),
+            self.missed,
+            self.knee,
+            self.straightest,
+            self.spare,
+            torque,
+            carrying,
+            float(shift),
+            float(turn),
+            self.roll,
         )
 
 
