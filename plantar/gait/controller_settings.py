@@ -38,7 +38,7 @@ from plantar.gait.propose.step_adjustment import StepAdjustmentRules
 from plantar.gait.propose.step_timing import StepTimingRules
 from plantar.sensing.link_skin import BodySkin
 from plantar.sensing.net_wrench import NetWrenchRules
-from plantar.settings.schema import Settings, choice, number, share, switch
+from plantar.settings.schema import Settings, choice, fixed, number, share, switch
 from plantar.sides import Side
 
 __all__ = ["ControllerSettings"]
@@ -61,8 +61,6 @@ class ControllerSettings(Settings):
         ankle_reach: Distance in m along the sole from its origin, below the ankle, at which an ankle bears the robot;
             none farther is loaded.
         trunk_lean: Torso roll in rad per metre of the CoM from the feet's middle.
-        lean_reach: Distance in m beyond which the lean stays.
-        alignment_time: Time constant in s of the command frame following real footholds.
         balance: Gains; their class decides the law.
         feedback: False walks in open loop, for comparison.
         zmp_source: Source of loads and ZMP: "skin", or "force_torque" at the ankles.
@@ -91,8 +89,8 @@ class ControllerSettings(Settings):
     feasibility: FeasibilityRules | None = None
     conformity: ConformityGains | None = None
     trunk_lean: float = number(0.0, "rad/m", 0.0, 10.0)
-    lean_reach: float = share(53 / 600, "leg", 0.0, 1.0)
-    alignment_time: float = share(1.21, "beat", 0.01, 100.0)
+    lean_reach: float = fixed(53 / 600, "leg")  # Distance in m beyond which the lean stays
+    alignment_time: float = fixed(1.21, "beat")  # Time constant in s of the command frame following real footholds
     balance: BalanceGains | WrenchBalanceGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
     dcm_filter: DcmFilterRules | None = None

@@ -68,7 +68,7 @@ def test_targets_are_the_callers_own(walker):
         ({"walk": {"step": 2}}, "steps"),
         ({"estimator": {"gravity": -1}}, "gravity"),
         ({"walk": {"pattern": "box", "steps": 5}}, "whole rounds of 6"),
-        ({"conformity": {"firm": 0.289}, "control": {"conform": True, "pfc": False}}, "pfc = true"),
+        ({"conformity": {"gap": 0.002}, "control": {"conform": True, "pfc": False}}, "pfc = true"),
     ],
 )
 def test_a_wrong_table_is_named(tables, words):

@@ -94,7 +94,7 @@ def test_a_setting_that_a_scene_gives_elsewhere_is_pointed_to(tmp_path):
     [
         ("[estimator]\ngravity = -1", r"\[estimator\] 'gravity' is -1"),
         ("[estimator]\ngravty = 1", "nearest: gravity"),
-        ("[ground_map]\nreadings = 2.5", "a whole number"),
+        ("[feasibility]\nattempts = 2.5", "a whole number"),
     ],
 )
 def test_a_robot_file_is_checked_when_it_is_read(lines, words, tmp_path):

@@ -31,13 +31,12 @@ class BalanceGains(Part, table="balance"):
         dcm_gain: k_xi of T 4.28 in 1/s.
         zmp_gain: k_f of T 4.29 in 1/s: the CoM reference yields to ZMP error.
         com_gain: k_x of T 4.29 in 1/s: the CoM reference returns to the plan.
-        zmp_filter: Low-pass time constant in s of the ZMP error.
     """
 
     dcm_gain: float = share(0.371, "1/beat", 0, 50)
     zmp_gain: float = share(0.124, "1/beat", 0, 50)
     com_gain: float = share(0.247, "1/beat", 0, 50)
-    zmp_filter: float = share(0.0809, "beat", 0, 1)
+    zmp_filter: float = fixed(0.0809, "beat")  # Low-pass time constant in s of the ZMP error
     # Inner offset in m that the desired ZMP keeps from the support polygon's edge
     zmp_offset: float = fixed(0.065, "sole")
 

@@ -6,12 +6,13 @@ Soles turn with the moment error; the more loaded foot goes up, the other down.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.kernels.gait.sole_admittance import SoleAdmittance
-from plantar.settings.schema import Settings, fixed, number, share
+from plantar.settings.schema import Settings, fixed, share
 from plantar.sides import SIDES, Side
 
 __all__ = ["AdmittanceGains", "FootAdmittance"]
@@ -24,18 +25,15 @@ class AdmittanceGains(Settings):
         foot_turn_gain: Sole's rate in rad/s per N m of moment error.
         foot_lift_gain: Height difference's rate in m/s per N of force difference error.
         foot_return: Decay in 1/s of a standing foot's corrections.
-        foot_filter: Low-pass time constant in s of the measured wrench.
-        largest_turn: About an axis in rad.
-        largest_lift: In m.
     """
 
     foot_turn_gain: float = share(0.0481, "rad/beat/weight/sole", 0, 1)
     foot_lift_gain: float = share(0.00695, "leg/beat/weight", 0, 0.1)
     foot_return: float = share(0.247, "1/beat", 0, 100)
     foot_release: float = fixed(1.98, "1/beat")  # Rate in 1/s at which they do in the air
-    foot_filter: float = share(0.0809, "beat", 0, 1)
-    largest_turn: float = number(0.08, "rad", 0, 0.5)
-    largest_lift: float = share(1 / 30, "leg", 0, 0.2)
+    foot_filter: float = fixed(0.0809, "beat")  # Low-pass time constant in s of the measured wrench
+    largest_turn: ClassVar[float] = 0.08  # Largest turn about an axis in rad
+    largest_lift: float = fixed(1 / 30, "leg")  # Largest shift in m
 
 
 class FootAdmittance:

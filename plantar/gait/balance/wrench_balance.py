@@ -39,25 +39,21 @@ class WrenchBalanceGains(Part, table="balance"):
     Attributes:
         dcm_gain: k_xi of T 4.18 in 1/s.
         dcm_integral: In 1/s, of the DCM error's integral on the desired ZMP.
-        dcm_forgetting: Integral's decay in 1/s.
-        largest_integral: Its largest share of the desired ZMP in m.
         zmp_gain: CoM reference's yield to ZMP error in 1/s (T 4.29).
         com_gain: Its return to the plan in 1/s (T 4.29).
-        zmp_filter: Low-pass time constant in s of the ZMP error.
-        minimum_force: Standing foot's, normal, in N.
         feet: Admittance of the feet.
     """
 
     dcm_gain: float = share(0.742, "1/beat", 0, 50)
     dcm_integral: float = number(0.0, "1/s", 0, 50)
-    dcm_forgetting: float = share(0.0247, "1/beat", 0, 50)
-    largest_integral: float = share(0.13, "sole", 0, 0.2)
+    dcm_forgetting: float = fixed(0.0247, "1/beat")  # Decay of the integral in 1/s
+    largest_integral: float = fixed(0.13, "sole")  # Largest part of the desired ZMP in m by the integral
     zmp_gain: float = number(0.0, "1/s", 0, 50)
     com_gain: float = share(0.247, "1/beat", 0, 50)
-    zmp_filter: float = share(0.0809, "beat", 0, 1)
+    zmp_filter: float = fixed(0.0809, "beat")  # Low-pass time constant in s of the ZMP error
     # Inner offset in m that the desired ZMP keeps from the support polygon's edge
     zmp_offset: float = fixed(0.065, "sole")
-    minimum_force: float = share(0.0178, "weight", 0, 10000)
+    minimum_force: float = fixed(0.0178, "weight")  # Normal force in N of a standing foot
     feet: AdmittanceGains = field(default_factory=AdmittanceGains)
 
     @classmethod

@@ -19,7 +19,7 @@ from plantar.percepts.percept import Percept
 from plantar.percepts.percept_options import PROXIMITY_GAIN
 from plantar.sensing.virtual_wrench import virtual_ground_reaction_wrench
 from plantar.settings.part import Part
-from plantar.settings.schema import choice, number, share, whole
+from plantar.settings.schema import choice, share
 
 __all__ = ["GroundMap", "GroundMapSettings", "GroundView"]
 
@@ -43,19 +43,17 @@ class GroundMapSettings(
     Attributes:
         orientation: How the sole turns: "plane" fitted to the distances, or virtual "moment".
         sensing_range: Of proximity, in m.
-        readings: Number averaged while the sole stands still.
         still: Move in m a control tick that halves it.
-        jump: Difference from the map, in standard deviations, that shows moved ground.
     """
 
     orientation: str = choice("plane", "moment")
     sensing_range: float = share(1 / 12, "leg", 0.005, 0.5)
     largest_slope: ClassVar[float] = 0.25  # Slope in rad beyond which the sole does not follow the ground
     follow_taxels: ClassVar[int] = 10  # Number of taxels that must lie on a slope for the sole to follow it
-    readings: int = whole(60, "readings", 1, 10000)
+    readings: ClassVar[int] = 60  # Number averaged while the sole stands still
     readings_moving: ClassVar[int] = 5  # The same while it moves fast
     still: float = share(1 / 6000, "leg", 1e-06, 0.01)
-    jump: float = number(6.0, "1", 0.1, 100)
+    jump: ClassVar[float] = 6.0  # Difference from the map, in standard deviations, that shows moved ground
     jump_of_all: ClassVar[float] = 1.5  # The same for the mean of all taxels, which is less noisy
 
 

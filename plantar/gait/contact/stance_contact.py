@@ -18,7 +18,7 @@ from plantar.sensing.partial_contact import PartialContact
 from plantar.sensing.proximity import cells_polygon
 from plantar.sensing.reading import Reading
 from plantar.settings.part import Part
-from plantar.settings.schema import fixed, number, share, switch
+from plantar.settings.schema import fixed, number, switch
 
 __all__ = ["ContactSettings", "StanceContact"]
 
@@ -31,20 +31,14 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
     """Finding a foot's contact polygon by taxels.
 
     Attributes:
-        minimum_load: Vertical force in N from which taxels count.
-        deep: Depth in m for all deeper or out of range.
         level: Slope in rad of the sole against the ground above noise: then silent taxels on the rising side show
             nothing.
-        least_force: Running mean in N of a taxel that carried.
-        least_beside: Share of the strongest neighbor's force that its cover can cause; 10 % crosstalk makes a twentieth
-            at a straight edge.
         model_error: Allowed force misfit, as a share of the largest force.
         subcell: Whether edges are finer than a cell; else cell corners count (T 4.24).
         remember: Whether a foot without sight presumes the last foothold's edges.
-        watch: Time in s into single support until which it is refined.
     """
 
-    minimum_load: float = share(0.107, "weight", 0, 10000)
+    minimum_load: float = fixed(0.107, "weight")  # Vertical force in N from which taxels count
     settle_readings: ClassVar[int] = 3  # Readings with that load before the contact polygon counts
     taxel_noise: float = fixed(0.00178, "weight")  # Standard deviation of a taxel's noise in N
     # Share of a new reading in the running mean that decides whether a taxel has carried
@@ -55,7 +49,7 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
     least_share: ClassVar[float] = 0.3  # Share of that force below which a taxel is silent
     # Depth in m below the nearest ground from which a taxel has no ground to stand on
     step_down: float = fixed(0.02, "leg")
-    deep: float = share(1 / 12, "leg", 0.002, 0.5)
+    deep: float = fixed(1 / 12, "leg")  # Depth in m for all deeper or out of range
     sight: ClassVar[float] = 0.3  # Share of a new reading in the running mean of what is seen
     least_seen: ClassVar[int] = 4  # Number of taxels that have to see ground
     # Distance in m of the load from the believed polygon's edge, from which silence counts
@@ -63,8 +57,10 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
     # Share of the load that silent taxels should carry, from which the belief is wrong
     least_wrong: ClassVar[float] = 0.1
     level: float = number(1.5e-4, "rad", 0, 0.5)
-    least_force: float = share(0.00415, "weight", 0, 10000)
-    least_beside: float = number(0.08, "1", 0, 1)
+    least_force: float = fixed(0.00415, "weight")  # Running mean in N of a taxel that carried
+    # Share of the strongest neighbor's force that its cover can cause; 10 % crosstalk makes a twentieth at a straight
+    # edge
+    least_beside: ClassVar[float] = 0.08
     model_error: float = number(0.1, "1", 0, 1)
     full_ratio: ClassVar[float] = 0.93  # Share of the sole from which on the contact polygon counts as the whole sole
     subcell: bool = switch(True)
@@ -77,7 +73,7 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
     # Time in s before the planned touchdown from which it is too late for that
     foresee_least: float = fixed(0.283, "beat")
     remember: bool = switch(True)
-    watch: float = share(0.607, "beat", 0, 5)
+    watch: float = fixed(0.607, "beat")  # Time in s into single support until which it is refined
 
 
 class StanceContact:

@@ -17,7 +17,7 @@ from plantar.arguments import number
 from plantar.arrays import array
 from plantar.errors import InputError
 from plantar.settings.part import Part
-from plantar.settings.schema import share
+from plantar.settings.schema import fixed, share
 
 __all__ = ["DcmFilter", "DcmFilterRules", "PushedPendulum"]
 
@@ -26,15 +26,12 @@ class DcmFilterRules(Part, table="dcm_filter", needs={"control.dcm_estimate": ("
     """Standard deviations at a tick.
 
     Attributes:
-        com_noise: Kinematic CoM's in m.
-        velocity_noise: CoM velocity's in m/s, where measured.
-        zmp_noise: ZMP's, less the measured offset, in m.
         unfelt_rate: Change in m/s of an unmeasured push's offset; 0 counts it as ZMP noise.
     """
 
-    com_noise: float = share(0.00333, "leg", 1e-6, 0.1)
-    velocity_noise: float = share(0.0206, "leg/beat", 1e-6, 10)
-    zmp_noise: float = share(0.0433, "sole", 1e-6, 0.5)
+    com_noise: float = fixed(0.00333, "leg")  # Of the kinematic CoM in m
+    velocity_noise: float = fixed(0.0206, "leg/beat")  # Of its velocity in m/s, where measured
+    zmp_noise: float = fixed(0.0433, "sole")  # Of the ZMP, less the measured offset, in m
     unfelt_rate: float = share(0.536, "sole/beat", 0, 100)
 
 

@@ -27,7 +27,7 @@ from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.lip import GRAVITY
 from plantar.record import Record
 from plantar.settings.part import Part
-from plantar.settings.schema import share
+from plantar.settings.schema import fixed, share
 from plantar.sides import SIDES
 
 __all__ = [
@@ -105,20 +105,18 @@ class EstimatorGains(Part, table="estimator"):
 
     Attributes:
         gravity: Roll and pitch by the accelerometer in 1/s.
-        averaging: Initial time in s of standing still and averaging gravity.
         yaw: Heading by the loaded feet in 1/s.
         observer: CoM velocity observer's bandwidth in rad/s, above the pendulum's.
-        tare: Time constant in s of the zero of a foot in the air.
-        minimum_load: Vertical force in N of a loaded foot, above the summed noise of unloaded taxels; feet are weighted
-            by load beyond it.
     """
 
     gravity: float = share(0.0495, "1/beat", 0, 50)
-    averaging: float = share(2.02, "beat", 0.01, 10)
+    averaging: float = fixed(2.02, "beat")  # Initial time in s of standing still and averaging gravity
     yaw: float = share(0.495, "1/beat", 0, 50)
     observer: float = share(4.95, "rad/beat", 0.1, 100)
-    tare: float = share(0.202, "beat", 0.005, 10)
-    minimum_load: float = share(0.083, "weight", 0, 10000)
+    tare: float = fixed(0.202, "beat")  # Time constant in s of the zero of a foot in the air
+    # Vertical force in N of a loaded foot, above the summed noise of unloaded taxels; feet are weighted by load beyond
+    # it
+    minimum_load: float = fixed(0.083, "weight")
 
 
 @dataclass

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from plantar.settings.part import Part
-from plantar.settings.schema import fixed, number, share, switch
+from plantar.settings.schema import fixed, share, switch
 
 __all__ = ["IdentificationRules"]
 
@@ -16,12 +16,9 @@ class IdentificationRules(Part, table="identification", needs={"control.identify
     Attributes:
         gyro: Whether gyro bias is, by carrying feet.
         encoders: Whether encoder zeros are, in the opening stand.
-        encoder_largest: Largest accepted joint offset in rad.
         com: Whether the CoM offset is, by the opening stand's ZMP.
-        com_largest: Its largest accepted in m.
         lean: Torso roll in rad per metre between CoM and feet's middle, for each tenth that mass and CoM load the hips
             more than in the model, up to two tenths; 0 uses the walk's lean.
-        fade: Time in s in which commands approach the identified values.
     """
 
     gyro: bool = switch(True)
@@ -42,13 +39,13 @@ class IdentificationRules(Part, table="identification", needs={"control.identify
     # Root mean square in rad of the joints' offsets up to which they count as none: noise of the accelerometer alone
     # makes half of that
     encoder_least: ClassVar[float] = 0.001
-    encoder_largest: float = number(0.03, "rad", 0.0, 0.2)
+    encoder_largest: ClassVar[float] = 0.03  # Largest accepted joint offset in rad
     com: bool = switch(True)
     com_least: float = fixed(0.005, "leg")  # Offset in m up to which it counts as none
-    com_largest: float = share(1 / 12, "leg", 0.0, 0.5)
+    com_largest: float = fixed(1 / 12, "leg")  # Largest accepted offset in m
     lean: float = share(0.48, "rad/leg", 0.0, 10.0)
     # How well it is known where the feet stand at the start, as a standard deviation in m
     place_error: float = fixed(0.001, "leg")
     # How well soles are known to lie flat, and the accelerometer to show gravity on average, in rad
     turn_error: ClassVar[float] = 0.001
-    fade: float = share(1.6, "beat", 0.01, 10.0)
+    fade: float = fixed(1.6, "beat")  # Time in s in which commands approach the identified values

@@ -24,7 +24,7 @@ from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.percepts.percept import Percept
 from plantar.settings.part import Part
-from plantar.settings.schema import fixed, share, whole
+from plantar.settings.schema import fixed, share
 from plantar.sides import SIDES, Side
 
 __all__ = ["ConformityGains", "FootTurn", "GroundConformity", "SoleTurn"]
@@ -36,27 +36,20 @@ class ConformityGains(Part, table="conformity", needs={"control.pfc": (True,), "
     """Gains of ground conformity.
 
     Attributes:
-        firm: k on firm ground, in rad/s per m for each newton carried.
-        rolling: k of a foot rolling over an edge in rad/s per m.
-        nearly: Distance in m from its target within which an incoming foot is not turned.
-        largest_rate: Turn's largest in rad/s.
-        press: Force in N of a landed foot before it takes weight over.
-        watch: Control ticks over which rolling is judged.
-        carries: Running mean in N of a touching cell.
         gap: Rise in m of a lifted cell.
     """
 
-    firm: float = share(0.289, "rad/beat/sole/weight", 0, 1)
-    rolling: float = share(0.285, "rad/beat/sole", 0, 100)
-    nearly: float = share(0.0433, "sole", 0, 0.1)
-    largest_rate: float = share(0.148, "rad/beat", 0, 10)
+    firm: float = fixed(0.289, "rad/beat/sole/weight")  # k on firm ground, in rad/s per m for each newton carried
+    rolling: float = fixed(0.285, "rad/beat/sole")  # k of a foot rolling over an edge in rad/s per m
+    nearly: float = fixed(0.0433, "sole")  # Distance in m from its target within which an incoming foot is not turned
+    largest_rate: float = fixed(0.148, "rad/beat")  # Largest rate of a turn in rad/s
     least_load: float = fixed(0.0178, "weight")  # Vertical force in N from which a centre of pressure means something
-    press: float = share(0.0948, "weight", 0, 10000)
+    press: float = fixed(0.0948, "weight")  # Force in N of a landed foot before it takes weight over
     # Distance in m that a centre of pressure goes at least for each rad of a turn on firm ground
     follows: float = fixed(4.33, "sole/rad")
-    watch: int = whole(16, "ticks", 1, 1000)
+    watch: ClassVar[int] = 16  # Control ticks over which rolling is judged
     least_turn: ClassVar[float] = 0.0016  # Turn in rad, in the first half of them, from which it is
-    carries: float = share(0.00948, "weight", 0, 1000)
+    carries: float = fixed(0.00948, "weight")  # Mean force in N from which a cell touches
     gap: float = share(1 / 300, "leg", 0, 0.05)
 
 

@@ -9,29 +9,24 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.settings.schema import Settings, number, share
+from plantar.settings.schema import Settings, fixed
 
 __all__ = ["DampingGains", "LandingCompliance"]
 
 
 class DampingGains(Settings):
-    """Foot damping at touchdown.
+    """Foot damping at touchdown."""
 
-    Attributes:
-        admittance: A in rad/s per N m.
-        largest_rate: In rad/s.
-        largest_turn: In rad, the error of a levelled sole.
-        largest_force: Vertical force in N of a foot that carries the body and no longer yields.
-    """
-
-    admittance: float = share(0.241, "rad/beat/weight/sole", 0, 10)
-    largest_rate: float = share(0.0247, "rad/beat", 0, 10)
-    largest_turn: float = number(0.004, "rad", 0, 0.5)
-    largest_force: float = share(0.415, "weight", 0, 100000)
+    admittance: float = fixed(0.241, "rad/beat/weight/sole")  # A in rad/s per N m
+    largest_rate: float = fixed(0.0247, "rad/beat")  # Largest rate of a turn
+    largest_turn: ClassVar[float] = 0.004  # Largest turn in rad: the error of a levelled sole
+    # Vertical force in N of a foot that carries the body and no longer yields
+    largest_force: float = fixed(0.415, "weight")
 
 
 @dataclass

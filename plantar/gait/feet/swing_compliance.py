@@ -139,7 +139,7 @@ class SwingCompliance:
             self._aim = view.distance
         above = remaining < _THERE * self._leg
         left = self._aim - (g.margin if above else min(g.clearance, _KEPT * self._leg + g.clearance_slope * remaining))
-        hurry = min(1.0, max(0.0, 2.0 - time_left / g.reserve)) if g.reserve > 0.0 else float(time_left <= 0.0)
+        hurry = min(1.0, max(0.0, 2.0 - time_left / g.reserve))
         doubt = max(0.0, -view.distance) / (_DOUBT * self._leg)  # it should have touched already
         crawl = g.touch_speed * (1.0 + (g.late_speed_ratio - 1.0) * hurry + doubt)
         damping = max(g.damping, (time_left - g.crawl_time) / g.steepness)

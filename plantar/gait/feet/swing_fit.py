@@ -7,6 +7,7 @@ swing, the reference kept monotone (K 2.4).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,15 +34,14 @@ class SwingFitRules(SwingKind, table="swing_fit", needs={"control.swing_shape": 
         damping: lambda on the coefficients' squares; the paper's 0.01 lands at 0.15 m/s.
         position: sigma_pos on position; on velocity and acceleration times the control period, counted in swings, and
             its square.
-        observation: sigma_obs on measurements of the foot.
-        height_share: gamma: share of the swing after which, and before whose end, it is that high.
     """
 
     order: int = whole(6, "1", 5, 9)
     damping: float = number(1e-6, "1", 1e-9, 1e3)
     position: float = number(1.0, "1", 1e-9, 1e3)
-    observation: float = number(1e-4, "1", 0, 1e3)
-    height_share: float = number(1.0 / 3.0, "1", 0.01, 0.5)
+    observation: ClassVar[float] = 1e-4  # sigma_obs on measurements of the foot
+    # gamma: share of the swing after which, and before whose end, it is that high
+    height_share: ClassVar[float] = 1.0 / 3.0
 
     def begin(self, start: SwingStart) -> Swing:
         """Fitted swing, or polynomials if it has to rise first."""

@@ -16,7 +16,7 @@ from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.dsp_opt import DspProblem, DspWeights, solve_dsp
 from plantar.gait.propose.proposer import Pendulum, Priority, Tick
 from plantar.settings.part import Part
-from plantar.settings.schema import share
+from plantar.settings.schema import fixed, share
 
 __all__ = ["DoubleSupportTiming", "DoubleSupportTimingRules"]
 
@@ -30,12 +30,11 @@ class DoubleSupportTimingRules(
 
     Attributes:
         least_error: DCM error in m below which the timing stays.
-        least_left: Time in s before its end from which it stays; none ends sooner.
         pause: Between two changes in s.
     """
 
     least_error: float = share(0.0867, "sole", 0, 0.2)
-    least_left: float = share(0.202, "beat", 0, 5)
+    least_left: float = fixed(0.202, "beat")  # Time in s before its end from which it stays; none ends sooner
     pause: float = share(0.202, "beat", 0, 5)
 
 

@@ -10,7 +10,7 @@ The cost need not be convex: it is sampled, and its derivative's zero bracketed.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -39,7 +39,6 @@ class DspWeights(
         nominal: w_n of the difference from nominal, times confidence.
         smooth: w_s of the difference from the last tick, times 1 - confidence.
         longer: Factor w_+ on longer durations.
-        shorter: Factor w_- on shorter ones.
         least: gamma_min, share of the nominal duration.
         most: gamma_max, share of the nominal duration.
     """
@@ -48,7 +47,7 @@ class DspWeights(
     nominal: float = number(1.0, "1", 1e-3, 1e6)
     smooth: float = number(1.0, "1", 1e-3, 1e6)
     longer: float = number(1.0, "1", 1e-3, 1e6)
-    shorter: float = number(5.0, "1", 1e-3, 1e6)
+    shorter: ClassVar[float] = 5.0  # Factor w_- on shorter durations
     least: float = number(0.5, "1", 0.0, 1.0)
     most: float = number(5.0, "1", 1.0, 100.0)
 

@@ -37,16 +37,12 @@ class FeasibilityRules(
         rule: "skin" or "force_torque".
         at: "probe" presses before deciding; "impact" decides by the touch's first readings (T Table 3).
         area_ratio: epsilon_A: footholds of no larger share are refused; above 1 all are.
-        surprise: Height in m above expected ground from which it is checked.
         hold: Single support's extension in s for that.
-        probe_force: Pressing force in N.
-        reserve: Least single support after that in s.
         active_force: Mean force in N of a carrying taxel, above noise.
         near: Taxel's distance in m at touchdown that counts as supported.
         clearance: Between sole and obstacle in m.
         swing_time: Of the swing around it in s.
         outward: Largest move in m.
-        inward: Largest move inwards.
         forward: Largest move forward.
         sideways_cost: Length factor of sideways moves, which load the stance hip most.
         backward: Largest move backward.
@@ -58,22 +54,22 @@ class FeasibilityRules(
     area_ratio: float = number(0.8, "1", 0, 2)
     # epsilon_t in N m: a foothold that makes this moment at the ankle is refused
     ankle_moment: float = fixed(0.0411, "weight sole")
-    surprise: float = share(1 / 30, "leg", 0.001, 0.1)
+    surprise: float = fixed(1 / 30, "leg")  # Height in m above expected ground from which it is checked
     hold: float = share(2.83, "beat", 0.01, 10)
-    probe_force: float = share(0.154, "weight", 1, 10000)
+    probe_force: float = fixed(0.154, "weight")  # Pressing force in N
     impact_force: float = fixed(0.083, "weight")  # Force in N that is an impact: 70 N on a robot of 86 kg (T 4.4.5)
     probe_time: float = fixed(0.485, "beat")  # For how long in s it is probed, once it is there
     # For how long in s the touch is read at an impact: taxels' noise averages out
     impact_time: float = fixed(0.2, "beat")
     probe_limit: float = fixed(1.01, "beat")  # For how long in s it may take to come
-    reserve: float = share(2.02, "beat", 0, 5)
+    reserve: float = fixed(2.02, "beat")  # Least single support in s after the check
     active_force: float = share(0.00154, "weight", 0, 10000)
     near: float = share(0.005, "leg", 0, 0.05)
     clearance: float = share(1 / 24, "leg", 0, 0.2)
     swing_time: float = share(5.66, "beat", 0.2, 10)
     return_time: float = fixed(8.9, "beat")  # Duration in s of the swing back next to the other foot
     outward: float = share(1 / 3, "leg", 0, 1)
-    inward: float = share(0.025, "leg", 0, 1)
+    inward: float = fixed(0.025, "leg")  # Largest move inwards in m
     forward: float = share(2 / 15, "leg", 0, 1)
     sideways_cost: float = number(2.0, "1", 0.01, 100)
     backward: float = share(0.4, "leg", 0, 1)

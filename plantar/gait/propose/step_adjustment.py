@@ -54,9 +54,7 @@ class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_ad
         sideways: Its share sideways; all of it makes h1's hips sink.
         shortest: Largest shortening, share of a single support's rest.
         longest: Largest extension, share of a single support.
-        least_left: Time in s before touchdown from which a foot is not aimed.
         pause: Between two changes in s.
-        price_time: Cost of a second earlier in m/s of DCM error.
         price_place: Cost of a metre of footstep in metres of DCM error, with confidence 1; a tenth without.
     """
 
@@ -69,9 +67,9 @@ class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_ad
     sideways: float = number(0.5, "1", 0.01, 1)
     shortest: float = number(0.45, "1", 0, 0.9)
     longest: float = number(0.3, "1", 0, 5)
-    least_left: float = share(0.404, "beat", 0, 5)
+    least_left: float = fixed(0.404, "beat")  # Time in s before touchdown from which a foot is not aimed
     pause: float = share(0.081, "beat", 0, 5)
-    price_time: float = share(0.0206, "leg/beat", 0, 10)
+    price_time: float = fixed(0.0206, "leg/beat")  # Cost of a second earlier in m/s of DCM error
     # The same in m/s of a second later, in which an error in the expected DCM of 20 to 35 mm grows on
     price_later: float = fixed(0.165, "leg/beat")
     price_place: float = number(0.5, "1", 0, 10)

@@ -11,7 +11,7 @@ import math
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Pendulum, Priority, Tick
 from plantar.settings.part import Part
-from plantar.settings.schema import number, share
+from plantar.settings.schema import fixed, number, share
 
 __all__ = ["StepTiming", "StepTimingRules"]
 
@@ -24,7 +24,6 @@ class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (
         price: Of a second in m/s of DCM error.
         longest: Largest extension, share of a single support; with half, h1 withstands less.
         shortest: Largest shortening, the same share.
-        least_left: Time in s before touchdown from which a foot is not hurried.
         pause: Between two changes in s.
     """
 
@@ -32,7 +31,7 @@ class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (
     price: float = share(0.0206, "leg/beat", 0, 10)
     longest: float = number(0.15, "1", 0, 5)
     shortest: float = number(0.1, "1", 0, 0.9)
-    least_left: float = share(0.809, "beat", 0, 5)
+    least_left: float = fixed(0.809, "beat")  # Time in s before touchdown from which a foot is not hurried
     pause: float = share(0.162, "beat", 0, 5)
 
 

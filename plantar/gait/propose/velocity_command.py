@@ -18,6 +18,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 from plantar.errors import InputError
 from plantar.gait.plan.footsteps import Footstep
@@ -89,16 +90,13 @@ class Stride(Settings):
     """Largest step; larger commands are walked slower.
 
     Attributes:
-        lead: Lead over the other foot, share of the CoM height.
-        opening: Sideways, share of the CoM height.
         turn: Angle in rad of a foot outwards from the other, shared by both hips.
-        turn_in: Angle in rad of a foot inwards.
     """
 
-    lead: float = number(0.25, "1", 0.01, 0.6)
-    opening: float = number(0.22, "1", 0.01, 0.6)
+    lead: ClassVar[float] = 0.25  # Largest lead over the other foot, share of the CoM height
+    opening: ClassVar[float] = 0.22  # Largest step sideways, share of the CoM height
     turn: float = number(0.5, "rad", 0.01, 1.2)
-    turn_in: float = number(0.2, "rad", 0, 0.5)
+    turn_in: ClassVar[float] = 0.2  # Largest angle in rad of a foot inwards
 
 
 @dataclass(frozen=True)

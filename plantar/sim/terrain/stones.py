@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import SceneError
 from plantar.mechanics.rotation import rotation_from_angles
-from plantar.settings.schema import choice, number, whole
+from plantar.settings.schema import choice, fixed, number, whole
 from plantar.settings.schema import share as share_of_body
 from plantar.sides import SIDES
 from plantar.sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
@@ -143,14 +143,13 @@ class Pebbles(Laid):
     Attributes:
         bump_min: Smallest height in m.
         bump_max: Largest height.
-        bump_radius: Sphere radius in m of its cap.
         bumps: Number on a stone.
         slope_range: Largest in degrees, any direction.
     """
 
     bump_min: float = share_of_body(1 / 120, "leg", 0, 0.05)
     bump_max: float = share_of_body(0.025, "leg", 0, 0.05)
-    bump_radius: float = share_of_body(0.05, "leg", 0.005, 0.2)
+    bump_radius: float = fixed(0.05, "leg")  # Radius in m of the sphere whose cap it is
     bumps: int = whole(8, "bumps", 0, 200)
     slope_range: float = number(8.0, "deg", 0, 20)
 

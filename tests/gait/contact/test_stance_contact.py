@@ -133,8 +133,8 @@ def test_the_polygon_of_cell_corners_is_the_larger_one():
 
 
 def test_bad_settings_are_refused():
-    with pytest.raises(InputError, match="minimum_load"):
-        ContactSettings(minimum_load=-1.0)
+    with pytest.raises(InputError, match="model_error"):
+        ContactSettings(model_error=-1.0)
 
 
 def test_a_foothold_is_foreseen_where_the_sole_will_land():
@@ -218,7 +218,7 @@ def test_a_line_that_cuts_nothing_off_or_leaves_nothing_is_not_expected(line):
     assert foot.contact.lines.shape == (0, 3)
 
 
-def test_what_a_cover_carries_along_is_no_ground():
+def test_what_a_cover_carries_along_is_no_ground(monkeypatch):
     """A crosstalk of a tenth gives the row beside an edge more than the least force of a taxel that carries."""
     cells = len(SOLE)
     spread = 0.9 * np.eye(cells)
@@ -228,8 +228,9 @@ def test_what_a_cover_carries_along_is_no_ground():
     forces = spread @ FIT.expected(1200.0, (0.0, 0.0), strip)
     assert forces[FIT.cover(strip)[:, 0] == 0.0].max() > ContactSettings().least_force
     found = []
-    for share in (ContactSettings().least_beside, 0.0):
-        contact = StanceContact(SOLE, ContactSettings(least_beside=share))
+    for share in (ContactSettings.least_beside, 0.0):
+        monkeypatch.setattr(ContactSettings, "least_beside", share)
+        contact = StanceContact(SOLE, ContactSettings())
         for k in range(20):
             contact.update(Reading(0.004 * (k + 1), forces), 1200.0)
         found.append(contact.area_ratio)

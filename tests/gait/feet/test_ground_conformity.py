@@ -84,8 +84,8 @@ def test_a_standing_sole_turns_about_what_carries_it():
 
 
 def test_a_gain_below_zero_is_refused():
-    with pytest.raises(InputError, match="setting 'firm'"):
-        ConformityGains(firm=-1.0)
+    with pytest.raises(InputError, match="setting 'gap'"):
+        ConformityGains(gap=-1.0)
 
 
 def _turned(swing, cop, zmp, landed, parts):

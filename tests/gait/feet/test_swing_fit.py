@@ -60,7 +60,7 @@ class Written:
         return a
 
 
-@pytest.mark.parametrize("rules", [SwingFitRules(), SwingFitRules(damping=0.01, order=7, observation=0.3)])
+@pytest.mark.parametrize("rules", [SwingFitRules(), SwingFitRules(damping=0.01, order=7)])
 def test_each_tick_is_the_best_polynomial_through_both_ends(rules):
     rng, start = np.random.default_rng(0), np.array([0.1, -0.2, 0.05])
     fit, before, seen_before = SwingFit(rules, start, PERIOD, HEIGHT), (start, np.zeros(3), np.zeros(3)), None

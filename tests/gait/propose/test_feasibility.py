@@ -85,7 +85,7 @@ def test_the_way_around_clears_the_obstacle_by_the_clearance(side, seed):
 
 def test_a_foot_does_not_go_where_the_other_one_stands_and_gives_up_where_nothing_is_allowed():
     obstacle = np.array([[-0.09, 0.0], [0.09, 0.065]])
-    rules = FeasibilityRules(sideways_cost=1.0, outward=0.2, inward=0.02, forward=0.02, backward=0.02)
+    rules = FeasibilityRules(sideways_cost=1.0, outward=0.2, forward=0.02, backward=0.02)
     left = way_around(obstacle, OUTLINE, "left", rules)
     assert left[1] > 0.1
     assert way_around(obstacle, OUTLINE, "right", rules) is not None  # its outward is to the right

@@ -190,5 +190,5 @@ def test_bad_tables_are_refused():
         VelocityTable((2.0,), ())
     with pytest.raises(InputError, match="velocity 'turn' is nan"):
         Velocity(turn=math.nan)
-    with pytest.raises(InputError, match="'lead' is 5"):
-        Stride(lead=5.0)
+    with pytest.raises(InputError, match="'turn' is 5"):
+        Stride(turn=5.0)

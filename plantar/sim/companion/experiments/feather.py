@@ -33,15 +33,13 @@ class FeatherSettings(Settings):
 
     Attributes:
         speed: Mean speed; each seed has its own.
-        beyond: How far they go beyond the hand's first place.
         moved: Least way of the repelled hand.
-        early: Largest way of the hand before a visitor is in range.
     """
 
     speed: float = number(0.05, "m/s", 0.001, 1.0)
-    beyond: float = number(0.06, "m", 0.0, 0.5)
+    beyond: ClassVar[float] = 0.06  # How far they go beyond the hand's first place
     moved: float = number(0.04, "m", 0.0, 0.5)
-    early: float = number(0.005, "m", 0.0, 0.5)
+    early: ClassVar[float] = 0.005  # Largest way of the hand before a visitor is in range
 
 
 class FeatherControl(StandingControl):

@@ -33,7 +33,6 @@ class LeanSettings(Settings):
     """Reach of the leaning robot.
 
     Attributes:
-        beyond: Distance of the centre of mass beyond the front of the ground under the soles.
         reach: Forward distance of the left hand's target from the middle of the feet.
     """
 
@@ -42,7 +41,8 @@ class LeanSettings(Settings):
     # Distance of the table's edge from the middle of the feet; the seed moves it by up to 2 cm
     table_edge: ClassVar[float] = 0.32
     sole_share: ClassVar[float] = 0.3  # Share of the right sole that stands on ground; the seed draws which side of it
-    beyond: float = number(0.06, "m", -0.2, 0.2)
+    # Distance of the centre of mass beyond the front of the ground under the soles, in m
+    beyond: ClassVar[float] = 0.06
     reach: float = number(0.55, "m", 0.3, 1.5)
 
     @property

@@ -44,14 +44,12 @@ class NociceptionSettings(Settings):
 
     Attributes:
         tolerance: Largest deviation of threshold force ratio from area ratio.
-        jump: Largest change of a joint's torque in one period while priorities change, as a share of its limit; noise
-            makes 8 %.
-        retreat: How far the hand has to give way.
     """
 
     tolerance: float = number(0.1, "1", 0.0, 1.0)
-    jump: float = number(0.06, "1", 0.0, 1.0)
-    retreat: float = number(0.03, "m", 0.0, 1.0)
+    # Largest change of a joint's torque in one period while priorities change, as a share of its limit; noise makes 8 %
+    jump: ClassVar[float] = 0.06
+    retreat: ClassVar[float] = 0.03  # How far the hand has to give way, in m
 
 
 class NociceptionControl(StandingControl):

@@ -44,13 +44,12 @@ class StoveSettings(PlateSettings):
     Attributes:
         limit: Temperature that no taxel may reach.
         height: Mean working height of the palm over the plate; each seed has its own.
-        retreat: How far above its work the hand has to draw back.
         duration: Simulated time.
     """
 
     limit: float = number(45.0, "degC", 0.0, 1000.0)
     height: float = number(0.07, "m", 0.02, 0.5)
-    retreat: float = number(0.04, "m", 0.0, 1.0)
+    retreat: ClassVar[float] = 0.04  # How far above its work the hand has to draw back, in m
     duration: float = number(20.0, "s", 1.0, 1000.0)
 
 

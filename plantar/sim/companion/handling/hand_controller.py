@@ -41,7 +41,6 @@ class HandControl(CompanionControl):
 
     Attributes:
         approach_speed: Speed of the hand towards the surface.
-        free_damping: D_1 / Lambda_1 while the hand measures zero.
         guidance_stiffness: Keeps the hand's place before contact while the arm is not touched; critical, D_3^2 / (4
             Lambda_3). At 0 it drifts with errors of the arm's weight.
         base_stiffness: K_c of the base along x and y, and in N m/rad about z.
@@ -58,7 +57,7 @@ class HandControl(CompanionControl):
     # m/s: speed at which it comes to the surface in the contact phase, until it measures it
     landing_speed: ClassVar[float] = 0.01
     force_damping: ClassVar[float] = 12.0  # 1/s: D_1 / Lambda_1
-    free_damping: float = number(100.0, "1/s", 0, 1e4)
+    free_damping: ClassVar[float] = 100.0  # D_1 / Lambda_1 while the hand measures zero, in 1/s
     # 1/s: rate at which a lasting error is taken back, as a share of the proportional part
     force_integral: ClassVar[float] = 50.0
     distance_rate: ClassVar[float] = 6.0  # 1/s: rate at which an error of the distance decays

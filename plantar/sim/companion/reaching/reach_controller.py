@@ -45,7 +45,6 @@ class ReachControl(CompanionControl):
         yielding: Gain on contact forces, tau_c of T 3.41.
         slow: epsilon_v of T Table 1.
         stuck: How long it is slow before it approaches.
-        transition: Time in which priorities change.
         acceleration: Largest of a joint, for things on two sides.
         joint_speed: Largest of a joint, against striking unseen things.
         upright: Whether the tip's orientation is held, on the last level.
@@ -64,7 +63,7 @@ class ReachControl(CompanionControl):
     limit_share: ClassVar[float] = 0.75
     slow: float = number(0.02, "m/s", 0.0, 1.0)
     stuck: float = number(0.3, "s", 0.0, 10.0)
-    transition: float = number(0.05, "s", 0.0, 2.0)
+    transition: ClassVar[float] = 0.05  # s: time in which priorities change
     acceleration: float = number(40.0, "rad/s^2", 1.0, 1e6)
     joint_speed: float = number(0.8, "rad/s", 0.01, 100.0)
     upright: bool = switch(False)

@@ -8,6 +8,7 @@ radiation to the room.
 from __future__ import annotations
 
 import math
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,21 +27,16 @@ class PlateSettings(Settings):
 
     Attributes:
         temperature: Of the plate; 180 in T.
-        room: Of the room.
-        radius: Of the plate: a cooker's small plate.
-        emissivity: Of plate and skin: oxidised iron and dark silicone rubber.
-        capacity: Heat capacity of a taxel's area: 0.5 mm of silicone rubber (1100 kg/m^3, 1460 J/(kg K)) and substrate.
-        loss: Heat transfer to the air: natural convection and radiation to the room.
-        plume: Height above the plate at which the air's excess temperature has fallen to 37 %.
     """
 
     temperature: float = number(180.0, "degC", 20.0, 1000.0)
-    room: float = number(25.0, "degC", -50.0, 60.0)
-    radius: float = number(0.09, "m", 0.01, 1.0)
-    emissivity: float = number(0.9, "1", 0.0, 1.0)
-    capacity: float = number(1200.0, "J/(m^2 K)", 1.0, 1e6)
-    loss: float = number(12.0, "W/(m^2 K)", 0.0, 1e4)
-    plume: float = number(0.05, "m", 1e-3, 1.0)
+    room: ClassVar[float] = 25.0  # degC
+    radius: ClassVar[float] = 0.09  # m: a cooker's small plate
+    emissivity: ClassVar[float] = 0.9  # Of plate and skin: oxidised iron and dark silicone rubber
+    # Heat capacity of a taxel's area: 0.5 mm of silicone rubber (1100 kg/m^3, 1460 J/(kg K)) and substrate
+    capacity: ClassVar[float] = 1200.0
+    loss: ClassVar[float] = 12.0  # Heat transfer to the air: natural convection and radiation to the room, in W/(m^2 K)
+    plume: ClassVar[float] = 0.05  # Height above the plate at which the air's excess temperature has fallen to 37 %
 
 
 class HotPlate:

@@ -52,14 +52,13 @@ class PressedSettings(Settings):
         strength: Factor on single contacts' force; 1 presses with up to 3 % of body weight on an upper arm and 4 % on
             the torso.
         moment: Of all common contacts about the middle of the feet, as the centre of pressure's shift without leaning.
-        yield_median: Median yield of limbs over that of the posture's springs alone: half of the skin forces' gain.
-        yield_least: Least yield of every limb, likewise.
     """
 
     strength: float = number(1.0, "1", 0.0, 10.0)
     moment: float = number(0.13, "m", 0.0, 0.5)
-    yield_median: float = number(4.5, "1", 0.0, 100.0)
-    yield_least: float = number(2.0, "1", 0.0, 100.0)
+    # Median yield of limbs over that of the posture's springs alone: half of the skin forces' gain
+    yield_median: ClassVar[float] = 4.5
+    yield_least: ClassVar[float] = 2.0  # Least yield of every limb, likewise
 
 
 class PressedExperiment(StandingExperiment):

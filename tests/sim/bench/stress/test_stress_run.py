@@ -74,9 +74,9 @@ def test_what_a_tick_raises_is_reported_with_its_place(monkeypatch):
 
 
 def test_settings_that_a_scene_does_not_take_are_no_failure():
-    outcome = run_scenario(Scenario(0, "flat", "h1", ("dcm_filter.zmp_noise=0.01",)))
+    outcome = run_scenario(Scenario(0, "flat", "h1", ("dcm_filter.unfelt_rate=0.01",)))
     assert outcome.kind == "refused"
-    assert "sets dcm_filter.zmp_noise, which does nothing" in outcome.detail
+    assert "sets dcm_filter.unfelt_rate, which does nothing" in outcome.detail
 
 
 def test_faults_do_what_they_say():

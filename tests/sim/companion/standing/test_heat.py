@@ -22,8 +22,9 @@ def test_what_faces_away_or_is_below_sees_nothing():
     assert plate.view_factors(points, np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 1.0]])).tolist() == [0.0, 0.0]
 
 
-def test_it_starts_at_the_rate_of_the_heat_flux_and_ends_where_gain_is_loss():
-    s = PlateSettings(plume=0.001)
+def test_it_starts_at_the_rate_of_the_heat_flux_and_ends_where_gain_is_loss(monkeypatch):
+    monkeypatch.setattr(PlateSettings, "plume", 0.001)
+    s = PlateSettings()
     plate = HotPlate(np.zeros(3), s, 1)
     place = np.array([[0.0, 0.0, 0.1]])
     share = plate.view_factors(place, DOWN)[0]
