@@ -21,10 +21,7 @@ from plantar.arrays import array, integers
 from plantar.errors import InputError
 from plantar.plane_points import plane_point
 
-__all__ = ["AXIAL_NEIGHBOURS", "HexLattice", "hexagon_side"]
-
-AXIAL_NEIGHBOURS: tuple[tuple[int, int], ...] = ((1, 0), (0, 1), (-1, 1), (-1, 0), (0, -1), (1, -1))
-"""Axial offsets of the six neighbours, counter-clockwise from +x."""
+__all__ = ["HexLattice", "hexagon_side"]
 
 _WIDEST = 3000  # sides: 14 million cells
 _FARTHEST = 10**9  # cells from the origin: their keys fit 64 bits, their positions have digits left

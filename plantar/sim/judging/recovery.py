@@ -20,12 +20,11 @@ _CALM = 2.02  # beats for which it has to stay: half a second
 
 
 class Recovery:
-    """Follows true ZMP and CoM of a robot of size `body` through `shoves`, until `end` in s."""
+    """Follows true ZMP and CoM of a robot of size `body` through `shoves`."""
 
-    def __init__(self, shoves: Sequence[Shove], end: float, body: BodyScale = REFERENCE_BODY) -> None:
+    def __init__(self, shoves: Sequence[Shove], body: BodyScale = REFERENCE_BODY) -> None:
         self._body = body
         self.shoves = tuple(shoves)
-        self._until = [s.start for s in self.shoves[1:]] + [end]
         self._now = -1
         self._off: list[float | None] = [None] * len(self.shoves)
         self._last_off = [s.start for s in self.shoves]  # last time at which it was not back yet

@@ -152,7 +152,7 @@ class Simulation(Run):
 
     def _add_judges(self) -> None:
         scene, robot, ground = self.scene, self.robot, self.ground
-        self.recovery = Recovery(self.pusher.shoves, self.controller.end, self.body) if scene.push.count else None
+        self.recovery = Recovery(self.pusher.shoves, self.body) if scene.push.count else None
         self.zmps: ZmpComparison | None = None
         if scene.sensing.force_torque:
             self.zmps = ZmpComparison(robot.layouts, scene.sensing.force_noise, self.settings.period)

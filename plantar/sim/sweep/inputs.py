@@ -18,7 +18,6 @@ from plantar.sim.run.scene import scene_file
 
 __all__ = ["changes", "inputs_of"]
 
-_VERSIONS = ("plantar", "mujoco")
 _NAMED = re.compile(rb"""\b(?:file|filename)\s*=\s*["']([^"']+)["']""")
 _FOLDERS = re.compile(rb"""\b(?:meshdir|texturedir|assetdir)\s*=\s*["']([^"']+)["']""")
 

@@ -14,7 +14,7 @@ ORIGIN = np.zeros(2)
 
 
 def run(zmp_at, com_at, end: float = 9.0) -> dict:
-    recovery = Recovery(SHOVES, end)
+    recovery = Recovery(SHOVES)
     for time in np.arange(0.0, end, 0.005):
         recovery.update(time, zmp_at(time), com_at(time), ORIGIN, ORIGIN)
     return recovery.summary([s.impulse for s in SHOVES])
@@ -42,7 +42,7 @@ def test_a_robot_that_stays_off_sways_on_or_falls_has_not_recovered():
     air = run(lambda time: None if time > 5.2 else ORIGIN, lambda time: ORIGIN)
     assert air["recovered"] == 1
     # A run that ends in the fall never saw the robot at rest.
-    recovery = Recovery(SHOVES, 9.0)
+    recovery = Recovery(SHOVES)
     recovery.update(1.1, ORIGIN, ORIGIN, ORIGIN, ORIGIN)
     cut = recovery.summary([0.5 * SHOVES[0].impulse])
     assert cut["recovered"] == 0

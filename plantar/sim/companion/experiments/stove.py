@@ -96,7 +96,6 @@ class Stove(StandingExperiment):
         self._hottest = settings.room
         self._first = float("inf")
         self._retreat = 0.0
-        self._height_max = 0.0
         self._arrived = False
         self._trace: list[tuple[float, ...]] = []
         self._hand = CartesianPose(_LINK, self._palm, PoseGains(speed=0.2))

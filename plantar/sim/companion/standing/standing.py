@@ -74,7 +74,6 @@ class StandingExperiment(Experiment):
         self.tilt_max = 0.0
         self.com_off_max = 0.0
         self.cop_margin_min = math.inf
-        self.touched_max = 0
         self._steps = 0
         self._borne: deque[tuple[float, ...]] = deque(maxlen=_CARRIED)
         self._forces: dict[str, float] = {}
