@@ -69,7 +69,7 @@ def ours(robot, commands, start, iterations):
         positions = {s: c.feet[s].position for s in SIDES}
         rotations = {s: c.feet[s].rotation for s in SIDES}
         begin = time.perf_counter()
-        legs.solve(c.com, torso, positions, rotations, iterations)
+        legs.follow(c.com, torso, positions, rotations, iterations)
         times.append(1e6 * (time.perf_counter() - begin))
         errors.append(task_error(legs.model, probe, legs.configuration, c))
     return times, errors

@@ -63,6 +63,7 @@ HELPERS: Mapping[str, Helper] = {
     "ply": Helper(f"{_TRIMESH}:triangles_of_trimesh", "a PLY mesh", (330e6, 20.0), (2.5, 2.5e-7), "trimesh"),
     "off": Helper(f"{_TRIMESH}:triangles_of_trimesh", "a OFF mesh", (330e6, 20.0), (2.5, 2.5e-7), "trimesh"),
     "dae": Helper(f"{_TRIMESH}:triangles_of_trimesh", "a DAE mesh", (330e6, 20.0), (30.0, 2e-6), "pycollada"),
+    "meshes": Helper(f"{_TRIMESH}:triangles_of_listed", "meshes", (330e6, 20.0), (30.0, 2e-6), "trimesh"),
     "iges": Helper(f"{_MESHES}:triangles_of_step", "a IGES mesh", (330e6, 30.0), (3.0, 1e-6), "OpenCascade"),
     "step": Helper(f"{_MESHES}:triangles_of_step", "a STEP mesh", (330e6, 30.0), (3.0, 1e-6), "OpenCascade"),
 }

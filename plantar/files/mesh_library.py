@@ -1,16 +1,37 @@
-"""Meshes that trimesh reads, in Plantar's process or apart (`plantar.files.gate`)."""
+"""Meshes that trimesh reads, in a separate process (`plantar.files.gate`)."""
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.errors import DependencyError, PlantarError
+from plantar.files.xml_file import parse_xml
 from plantar.optional_library import optional_library
 
-__all__ = ["triangles_of_trimesh"]
+__all__ = ["triangles_of_listed", "triangles_of_trimesh"]
+
+
+def triangles_of_listed(path: Path) -> dict[str, NDArray[Any]]:
+    """Triangles (n, 3, 3) in file units of each mesh file that a JSON list at a path names, by its number there; none
+    of one that cannot be read.
+
+    Raises:
+        DependencyError: If trimesh is missing.
+    """
+    found = {}
+    for i, name in enumerate(json.loads(path.read_bytes())):
+        try:
+            found[str(i)] = triangles_of_trimesh(Path(name))["triangles"]
+        except DependencyError:
+            raise
+        except Exception:  # of every kind on a damaged file
+            found[str(i)] = np.empty((0, 3, 3))
+    return found
 
 
 def triangles_of_trimesh(path: Path) -> dict[str, NDArray[Any]]:
@@ -19,7 +40,10 @@ def triangles_of_trimesh(path: Path) -> dict[str, NDArray[Any]]:
 
     Raises:
         DependencyError: If trimesh is missing.
+        PlantarError: If COLLADA declares entities, or has more elements than a mesh.
     """
+    if path.suffix.lower() == ".dae":
+        parse_xml(path.read_bytes(), PlantarError, str(path))
     with optional_library("trimesh", "shoes"):
         import trimesh
     with np.errstate(all="ignore"):  # coordinates that are not finite are refused later

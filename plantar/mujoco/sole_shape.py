@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import RobotError
+from plantar.mujoco.mesh_surface import mesh_surface
 
 __all__ = ["SoleShape", "rigid_geoms", "sole_shape"]
 
@@ -112,9 +113,7 @@ def _surface(model: Any, data: Any, geom: int, place: NDArray[np.float64], turn:
     kinds = mujoco.mjtGeom
     centres = None
     if kind == kinds.mjGEOM_MESH or kind == kinds.mjGEOM_SDF:
-        mesh = int(model.geom_dataid[geom])
-        start, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
-        local = np.array(model.mesh_vert[start : start + count], dtype=np.float64)
+        local = mesh_surface(model, int(model.geom_dataid[geom]))[0]
     elif kind == kinds.mjGEOM_BOX:
         local = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * size
     elif kind == kinds.mjGEOM_CYLINDER:

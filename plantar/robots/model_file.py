@@ -150,14 +150,9 @@ def _check_leg(spec: Any, robot: Robot, side: str, leg: LegNames) -> None:
             raise RobotError(f"{where} joint '{name}' is no hinge; allowed: hinges")
     site = spec.site(robot.imu_site)
     for field, body in (("body", spec.body(robot.torso_body)), ("imu_site", None if site is None else site.parent)):
-        moved = next((name for name in _joints_above(body) if name in leg.joints), None)
+        moved = next((j.name for part in _upwards(body) for j in part.joints if j.name in leg.joints), None)
         if moved is not None:
             raise RobotError(f"robot '{robot.name}': [torso] {field} hangs on a leg: joint '{moved}' moves it")
-
-
-def _joints_above(body: Any) -> list[str]:
-    """Names of joints that move a body, upwards; none for None."""
-    return [joint.name for part in _upwards(body) for joint in part.joints]
 
 
 def _upwards(body: Any) -> list[Any]:

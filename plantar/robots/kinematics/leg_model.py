@@ -114,7 +114,7 @@ class LegModel:
     def set_configuration(
         self, position: NDArray[np.float64], quaternion: NDArray[np.float64], joints: NDArray[np.float64]
     ) -> None:
-        """Set start and reference posture of the next `solve`.
+        """Set start and reference posture of the next `follow`.
 
         Args:
             position: Base position (3,) in the world in m.
@@ -142,7 +142,7 @@ class LegModel:
         """Configuration (nq,) of the last solution."""
         return np.array(self._data.qpos)
 
-    def solve(
+    def follow(
         self,
         com: NDArray[np.float64],
         rotation_torso: NDArray[np.float64],
@@ -151,8 +151,8 @@ class LegModel:
         iterations: int = 1,
         yielding: Collection[Side] = (),
         largest_step: float = 0.5,
-    ) -> tuple[NDArray[np.float64], float]:
-        """Joint angles for CoM, torso orientation and soles, from the last solution.
+    ) -> float:
+        """Solve for the `joints` of CoM, torso orientation and soles, from the last solution, within limits.
 
         The 18 task rows (CoM 3, torso 3, two soles 6 each) meet the 18 unknowns of a 12-joint biped; legs of five
         joints leave the soles' roll to the ground.
@@ -166,26 +166,7 @@ class LegModel:
             largest_step: Largest change in rad or units of length in a step.
 
         Returns:
-            Joint angles (k,) in rad within limits, and the largest task error before the last step (units of length or
-            rad), NaN if a target is.
-        """
-        missed = self.follow(com, rotation_torso, positions, rotations, iterations, yielding, largest_step)
-        return self.joints.copy(), missed
-
-    def follow(
-        self,
-        com: NDArray[np.float64],
-        rotation_torso: NDArray[np.float64],
-        positions: Mapping[Side, NDArray[np.float64]],
-        rotations: Mapping[Side, NDArray[np.float64]],
-        iterations: int = 1,
-        yielding: Collection[Side] = (),
-        largest_step: float = 0.5,
-    ) -> float:
-        """`solve` without a copy: read `joints` at once.
-
-        Takes `com`, `rotation_torso`, `positions`, `rotations`, `iterations`, `yielding` and `largest_step`; returns
-        the error.
+            Largest task error before the last step in units of length or rad, NaN if a target is.
         """
         targets = com, rotation_torso, positions["left"], rotations["left"], positions["right"], rotations["right"]
         try:
@@ -200,25 +181,12 @@ class LegModel:
         self._angle_entries.take()
         return missed
 
-    def static_torques(
-        self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]
-    ) -> NDArray[np.float64]:
-        """Joint torques (k,) in N m of the last solution: tau = g(q) - sum J^T f.
+    def carry(self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]) -> None:
+        """Compute the joint `torques` of the last solution: tau = g(q) - sum J^T f.
 
         Args:
             forces: Ground force (3,) in N on each sole, world frame.
             points: Point (3,) in m where it acts, world frame.
-
-        Returns:
-            The torques.
-        """
-        self.carry(forces, points)
-        return self.torques.copy()
-
-    def carry(self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]) -> None:
-        """`static_torques` without a copy: read `torques` at once.
-
-        Takes `forces` and `points`.
         """
         self.inverse.place()
         load = self._load

@@ -52,7 +52,7 @@ def solve_standing(
     com = np.array([middle[0], middle[1], ground + com_height])
     yaw = feet["left"].yaw
     legs.set_configuration(com, np.array([np.cos(0.5 * yaw), 0.0, 0.0, np.sin(0.5 * yaw)]), posture)
-    joints, error = legs.solve(
+    error = legs.follow(
         com,
         level_rotation(yaw),
         {s: feet[s].position for s in SIDES},
@@ -66,5 +66,5 @@ def solve_standing(
             "allowed: what the legs reach from [posture] (degrees), within their joints' limits"
         )
     half = np.array([0.0, 0.0, 0.5 * legs.mass * GRAVITY])
-    torques = legs.static_torques(dict.fromkeys(SIDES, half), {s: np.array([*centers[s], ground]) for s in SIDES})
-    return joints, torques
+    legs.carry(dict.fromkeys(SIDES, half), {s: np.array([*centers[s], ground]) for s in SIDES})
+    return legs.joints.copy(), legs.torques.copy()

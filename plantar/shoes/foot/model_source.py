@@ -19,6 +19,7 @@ from plantar.files.input_file import check_input
 from plantar.files.model_files import check_model, folders_of_model, mesh_of_urdf, named_file, parsed_model
 from plantar.files.model_limits import check_model_size
 from plantar.files.xml_file import XML_MOST
+from plantar.mujoco.mesh_surface import mesh_surface
 from plantar.optional_library import optional_library, unheard
 from plantar.shoes.foot.mesh_file import MOST_TRIANGLES, read_mesh
 from plantar.shoes.geometry.surface import primitive
@@ -392,11 +393,8 @@ def _surface(model: Any, geom: int, where: str) -> Array:
     if not (np.abs(model.geom_size[geom]) < FARTHEST).all():
         raise FootError(f"{where} reaches farther than {FARTHEST:g} m")
     if kind in (mujoco.mjtGeom.mjGEOM_MESH, mujoco.mjtGeom.mjGEOM_SDF):
-        mesh = int(model.geom_dataid[geom])
-        start, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
-        first, faces = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
-        points = model.mesh_vert[start : start + count].astype(np.float64)
-        return np.asarray(points[model.mesh_face[first : first + faces]])
+        corners, faces = mesh_surface(model, int(model.geom_dataid[geom]))
+        return corners[faces]
     return primitive(kind.name.removeprefix("mjGEOM_").lower(), model.geom_size[geom], where)
 
 

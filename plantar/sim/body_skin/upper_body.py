@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import RobotError
 from plantar.layouts.hex_lattice import HexLattice
+from plantar.mujoco.mesh_surface import mesh_surface
 from plantar.sensing.link_skin import BodySkin, SkinPatch
 
 __all__ = ["FACES", "upper_body_skin"]
@@ -85,9 +86,7 @@ def _extent(model: Any, base: int) -> tuple[NDArray[np.float64], NDArray[np.floa
 def _corners(model: Any, data: Any, geom: int) -> NDArray[np.float64]:
     rotation, place = data.geom_xmat[geom].reshape(3, 3), data.geom_xpos[geom]
     if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH:
-        mesh = int(model.geom_dataid[geom])
-        first = int(model.mesh_vertadr[mesh])
-        local = model.mesh_vert[first : first + int(model.mesh_vertnum[mesh])].astype(float)
+        local = mesh_surface(model, int(model.geom_dataid[geom]))[0]
     else:
         box = model.geom_aabb[geom]
         local = box[:3] + _SIGNS * box[3:]

@@ -20,11 +20,9 @@ from plantar.robots.robot import Robot
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 from plantar.sim.model.world import World
-from plantar.sim.terrain import Ground, Motion, Solid
+from plantar.sim.terrain import Ground, Motion, Solid, Terrain
 
 __all__ = ["TASKS", "Board", "Simulated", "Stand", "Step", "Task", "Walk"]
-
-_FRICTION = 0.8
 
 
 class Simulated(Protocol):
@@ -64,7 +62,7 @@ class Task:
 
     def ground(self) -> Ground:
         """The ground to compile."""
-        return Ground((), 0.0, _FRICTION)
+        return Ground((), 0.0, Terrain.friction)
 
     def reset(self, rng: np.random.Generator) -> None:
         """Draw an episode."""
@@ -185,7 +183,7 @@ class Walk(Task):
                 centre = np.array([i * side, j * side, -0.1])
                 solids.append(Solid("box", (0.5 * side, 0.5 * side, 0.1), centre))
         self._level = np.array([np.hypot(*s.position[:2]) < self.leg for s in solids])  # where the robot stands up
-        return Ground(tuple(solids), -0.04 * self.leg, _FRICTION)
+        return Ground(tuple(solids), -0.04 * self.leg, Terrain.friction)
 
     def reset(self, rng: np.random.Generator) -> None:
         model, world = self.env.model, self.env.world
@@ -221,7 +219,9 @@ class Board(Task):
     def ground(self) -> Ground:
         half = (1.5 * self.leg, 1.5 * self.leg, 0.05)
         centre = np.array([0.0, 0.0, -0.05])
-        return Ground((Solid("box", half, centre, motions=(Motion(math.inf, 0.0, centre),)),), -self.leg, _FRICTION)
+        return Ground(
+            (Solid("box", half, centre, motions=(Motion(math.inf, 0.0, centre),)),), -self.leg, Terrain.friction
+        )
 
     def reset(self, rng: np.random.Generator) -> None:
         self._size = self.env.difficulty * math.radians(5.0) * rng.uniform(0.5, 1.0, 2)

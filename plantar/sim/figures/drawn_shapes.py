@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.mujoco.mesh_surface import mesh_surface
 from plantar.recordings.foxglove import Message, cube, cylinder, entity, pose, sphere, triangles
 
 __all__ = ["body_entity", "coarse_mesh", "drawn_bodies", "frame_name"]
@@ -96,14 +97,10 @@ def _rotation(quaternion: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _mesh(model: Any, geom: int, colour: tuple[float, ...]) -> Message:
-    mesh = int(model.geom_dataid[geom])
-    first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
-    start, number = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
-    vertices = np.asarray(model.mesh_vert[first : first + count], dtype=float)
-    faces = np.asarray(model.mesh_face[start : start + number], dtype=np.int64)
+    vertices, faces = mesh_surface(model, int(model.geom_dataid[geom]))
     share = _FACES / model.nmeshface
     if share < 1.0:
-        vertices, faces = coarse_mesh(vertices, faces, max(4, int(share * number)))
+        vertices, faces = coarse_mesh(vertices, faces, max(4, int(share * len(faces))))
     placed = vertices @ _rotation(model.geom_quat[geom]).T + model.geom_pos[geom]
     return triangles(np.round(placed, 5).tolist(), faces, colour)
 

@@ -53,13 +53,6 @@ class JointLimits:
         """Longest time in s in a row for which each joint (k,) was too fast."""
         return np.asarray(self.extremes.longest) * self._period
 
-    def first_held(self, since: float, lasting: float = 0.015) -> str | None:
-        """Returns the first joint at its torque limit for `lasting` s, from `since` s on, or None."""
-        first, steps = 1 + round(since / self._period), round(lasting / self._period)
-        stays = [(max(begin, first), end, joint) for joint, begin, end in self.extremes.all_stays()]
-        long = [(begin, joint) for begin, end, joint in stays if end - begin + 1 >= steps]
-        return self.names[min(long)[1]] if long else None
-
     def summary(self) -> dict[str, Any]:
         """Fastest joint, and how often joints were at their torque limits."""
         fastest = self.fastest

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from typing import Any
 
 import mujoco
@@ -11,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
-__all__ = ["convex_surface", "geom_triangles", "resting_plane", "shapes_of"]
+from plantar.mujoco.mesh_surface import mesh_surface
+
+__all__ = ["SHAPES", "convex_surface", "geom_triangles", "resting_plane", "shapes_of"]
 
 _AROUND, _ALONG = 32, 8  # of a round shape
 _MARKER, _BALL = 0.02, 0.5  # of the largest shape's size: smaller drawn shapes, and smaller balls, mark a place
@@ -19,6 +21,15 @@ _PLANE, _SPHERE = mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_SPHERE
 _STEEPEST = math.cos(math.radians(45.0))  # of a plane to rest on
 _SAME_PLANE = math.cos(math.radians(1.0))
 _BOX = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
+
+SHAPES: Mapping[Any, tuple[str, int]] = {
+    mujoco.mjtGeom.mjGEOM_SPHERE: ("sphere", 1),
+    mujoco.mjtGeom.mjGEOM_CAPSULE: ("capsule", 2),
+    mujoco.mjtGeom.mjGEOM_ELLIPSOID: ("ellipsoid", 3),
+    mujoco.mjtGeom.mjGEOM_CYLINDER: ("cylinder", 2),
+    mujoco.mjtGeom.mjGEOM_BOX: ("box", 3),
+}
+"""Word in MJCF of each of MuJoCo's simple shapes, and how many numbers its size has."""
 
 Triangles = NDArray[np.float64]
 
@@ -42,10 +53,8 @@ def geom_triangles(model: Any, data: Any, geom: int) -> Triangles:
     """Returns triangles (n, 3, 3) of a `geom` in the world in m, of `model` and `data`."""
     kind, size = int(model.geom_type[geom]), model.geom_size[geom]
     if kind == mujoco.mjtGeom.mjGEOM_MESH:
-        mesh = int(model.geom_dataid[geom])
-        first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
-        face, faces = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
-        local = model.mesh_vert[first : first + count][model.mesh_face[face : face + faces]].astype(float)
+        corners, faces = mesh_surface(model, int(model.geom_dataid[geom]))
+        local = corners[faces]
     else:
         local = convex_surface(_points_of(kind, size))
     rotation = data.geom_xmat[geom].reshape(3, 3)

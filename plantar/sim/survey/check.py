@@ -22,11 +22,12 @@ from plantar.robots.walk import CONTROL_PERIOD
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 from plantar.sim.run.scene import Scene, load_scene
-from plantar.sim.survey.fitted_gait import HELD, ROLL_MOST
+from plantar.sim.survey.fitted_gait import ROLL_MOST
 from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled
 from plantar.sim.survey.robot_text import roll_pitch_yaw
 from plantar.sim.survey.servo_gains import LEAST_STIFFNESS, joint_inertia, servo_gains
-from plantar.sim.survey.sole_frame import rested
+from plantar.sim.survey.sole_frame import level_axes, rested
+from plantar.sim.survey.step_search import HELD
 
 __all__ = ["Finding", "RobotCheck", "check_robot"]
 
@@ -158,33 +159,21 @@ class _Checked:
         spare = min(float(reach.spare.min()), math.pi)
         joint = self.names[int(reach.spare.argmin())]
         held = spare >= _SPARE or not holds
-        range_text = f"{joint} comes within {math.degrees(spare):.1f} degrees of its limit"
-        if not held:
-            range_text += (
-                f"; allowed: {math.degrees(_SPARE):.1f} or more: another com_height or stance_width, or a wider range"
-            )
-        most = self._roll_most()
+        range_text = f"{joint} comes within {math.degrees(spare):.1f} degrees of its limit" + _unless(
+            held, f"; allowed: {math.degrees(_SPARE):.1f} or more: another com_height or stance_width, or a wider range"
+        )
+        # Rocking legs lean with their soles until the CoM is over the sole's middle.
+        half = 0.5 * (self.walked.feet["left"].y - self.walked.feet["right"].y)
+        most = math.atan(half / self.walked.com_height) if self.robot.rocks else ROLL_MOST
         roll, level = math.degrees(reach.roll), reach.roll <= most or not holds
-        roll_text = f"a sole that carries alone is off level by {roll:.1f} degrees"
-        if not level:
-            roll_text += (
-                f"; allowed: {math.degrees(most):.3g}; legs with an ankle that rolls work, or a scene that stands"
-            )
+        roll_text = f"a sole that carries alone is off level by {roll:.1f} degrees" + _unless(
+            level, f"; allowed: {math.degrees(most):.3g}; legs with an ankle that rolls work, or a scene that stands"
+        )
         return [
             Finding("level soles", round(roll, 2), round(math.degrees(most), 2), "degrees", level, roll_text),
             Finding("reach", round(bend, 2), math.degrees(_BENT), "degrees", holds, text),
             Finding("joint range", round(math.degrees(spare), 2), math.degrees(_SPARE), "degrees", held, range_text),
         ]
-
-    def _roll_most(self) -> float:
-        """How far in rad a sole that carries alone may be off level.
-
-        Rocking legs lean with their soles until the CoM is over the sole's middle.
-        """
-        if not self.robot.rocks:
-            return ROLL_MOST
-        feet = self.walked.feet
-        return math.atan(0.5 * (feet["left"].y - feet["right"].y) / self.walked.com_height)
 
     def _working_height(self) -> float | None:
         low = self.walked.com_height
@@ -225,26 +214,27 @@ class _Checked:
         quick = np.where(stiffness <= 1.05 * works, 0.0, swing)
         j = int(quick.argmax() if quick.any() else swing.argmax())
         holds = bool(quick[j] <= allowed[j])
-        text = f"{self.names[j]} swings by {swing[j]:.2f} rad in a control period of {1e3 * CONTROL_PERIOD:g} ms"
-        if not holds:
-            text += (
+        text = (
+            f"{self.names[j]} swings by {swing[j]:.2f} rad in a control period of {1e3 * CONTROL_PERIOD:g} ms"
+            + _unless(
+                holds,
                 f" ({stiffness[j]:g} N m/rad on {inertia.swing[j]:.3g} kg m^2): it chatters; allowed: "
-                f"{_CHATTERS:g} rad; stiffness = {works[j]:g} and damping = {damped[j]:g} work"
+                f"{_CHATTERS:g} rad; stiffness = {works[j]:g} and damping = {damped[j]:g} work",
             )
+        )
         least = LEAST_STIFFNESS * body.weight * robot.com_height
         k = int(stiffness.argmin())
         held = bool(stiffness[k] >= 0.95 * least)
-        soft_text = f"{self.names[k]} has {stiffness[k]:g} N m/rad"
-        if not held:
-            soft_text += (
-                f": too soft to stand on; allowed: {LEAST_STIFFNESS:g} m g h = {least:.3g} or more; {works[k]:g} works"
-            )
+        soft_text = f"{self.names[k]} has {stiffness[k]:g} N m/rad" + _unless(
+            held,
+            f": too soft to stand on; allowed: {LEAST_STIFFNESS:g} m g h = {least:.3g} or more; {works[k]:g} works",
+        )
         ratio = (damping + inertia.damping) / (2.0 * np.sqrt(stiffness * inertia.swing))
         d = int(ratio.argmin())
         calm = bool(ratio[d] >= _DAMPED)
-        damping_text = f"{self.names[d]} is damped by {ratio[d]:.2f} of critical while it swings"
-        if not calm:
-            damping_text += f"; allowed: {_DAMPED:g} or more; damping = {damped[d]:g} works"
+        damping_text = f"{self.names[d]} is damped by {ratio[d]:.2f} of critical while it swings" + _unless(
+            calm, f"; allowed: {_DAMPED:g} or more; damping = {damped[d]:g} works"
+        )
         return [
             Finding("stiff servos", round(float(swing[j]), 3), _CHATTERS, "rad", holds, text),
             Finding("soft servos", float(stiffness[k]), round(least, 2), "N m/rad", held, soft_text),
@@ -268,7 +258,7 @@ class _Checked:
             tilt = math.acos(min(1.0, -float(foot.normal[2]))) if foot.share >= 0.25 else 0.0
             text = f"it is tilted by {math.degrees(tilt):.1f} degrees against the foot"
             if tilt > _TILT:
-                turn = np.array(self.robot.sole_rotations[side]) @ _levelled(foot.normal)
+                turn = np.array(self.robot.sole_rotations[side]) @ level_axes(foot.normal)
                 field = "rotation" if side == "left" else "rotation_right"
                 text += f"; allowed: {math.degrees(_TILT):g}; {field} = {roll_pitch_yaw(turn)} works"
             found.append(
@@ -319,11 +309,11 @@ class _Checked:
             found.append(Finding(f"torque {name}", value, float(limits[j]), "N m", holds, text))
         moving = reach.torque / limits
         m = int(moving.argmax())
-        text = f"{self.names[m]} needs {reach.torque[m]:.3g} N m of {limits[m]:.3g} with what moving takes"
         most = _ROCKING if self.robot.rocks else _MOVING
         fits = bool(moving[m] <= most)
-        if not fits:
-            text += f"; allowed: {100.0 * most:.0f} % for moments; longer single_support or lower com_height helps"
+        text = f"{self.names[m]} needs {reach.torque[m]:.3g} N m of {limits[m]:.3g} with what moving takes" + _unless(
+            fits, f"; allowed: {100.0 * most:.0f} % for moments; longer single_support or lower com_height helps"
+        )
         found.append(Finding("torque moving", round(float(reach.torque[m]), 3), float(limits[m]), "N m", fits, text))
         return found
 
@@ -339,15 +329,11 @@ class _Checked:
         return f"no other height or lean needs less than the limit; a motor of {needed:.3g} N m works"
 
 
+def _unless(holds: bool, remedy: str) -> str:
+    return "" if holds else remedy
+
+
 def _foot_parts(model: Any, name: str, site: str) -> set[int]:
     foot, shoe = model.body(name).id, int(model.site(site).bodyid[0])
     top = int(model.body_weldid[foot])
     return {b for b in range(model.nbody) if int(model.body_weldid[b]) == top and b != shoe}
-
-
-def _levelled(normal: Any) -> Any:
-    """Rotation (3, 3) from a frame on the plane with an outward normal (3,) to the sole frame."""
-    up = -np.asarray(normal)
-    forward = np.array([1.0, 0.0, 0.0]) - up[0] * up
-    forward /= float(np.linalg.norm(forward))
-    return np.stack([forward, np.cross(up, forward), up], axis=1)

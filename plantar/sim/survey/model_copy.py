@@ -14,6 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.atomic import write_text
+from plantar.mujoco.mesh_surface import mesh_surface
+from plantar.sim.survey.body_surface import SHAPES
 from plantar.sim.survey.leg_chains import Legs
 from plantar.sim.survey.surface_file import simplified, stl_bytes
 
@@ -26,13 +28,6 @@ UPRIGHT = "upright"
 """Body that is put above one whose own axes are turned: x forward, y left, z up in the robot's posture."""
 
 _CELLS = 40  # along the longest side of a mesh that is only looked at
-_TYPES = {
-    mujoco.mjtGeom.mjGEOM_SPHERE: ("sphere", 1),
-    mujoco.mjtGeom.mjGEOM_CAPSULE: ("capsule", 2),
-    mujoco.mjtGeom.mjGEOM_ELLIPSOID: ("ellipsoid", 3),
-    mujoco.mjtGeom.mjGEOM_CYLINDER: ("cylinder", 2),
-    mujoco.mjtGeom.mjGEOM_BOX: ("box", 3),
-}
 
 
 def write_model_copy(
@@ -171,8 +166,8 @@ class _Copy:
                 "type": "mesh",
                 "mesh": Path(self._mesh(int(model.geom_dataid[geom]), body in self.feet)).stem,
             }
-        elif kind in _TYPES:
-            name, sizes = _TYPES[mujoco.mjtGeom(kind)]
+        elif kind in SHAPES:
+            name, sizes = SHAPES[mujoco.mjtGeom(kind)]
             attributes |= {"type": name, "size": _text(model.geom_size[geom][:sizes])}
         else:
             return
@@ -187,11 +182,8 @@ class _Copy:
 
     def _mesh(self, mesh: int, whole: bool) -> str:
         if mesh not in self.meshes:
-            model = self.model
-            first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
-            face, faces = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
-            corners = model.mesh_vert[first : first + count].astype(float)
-            triangles = corners[model.mesh_face[face : face + faces]]
+            corners, faces = mesh_surface(self.model, mesh)
+            triangles = corners[faces]
             fewer = triangles if whole else simplified(triangles, _CELLS)
             triangles = fewer if len(fewer) >= 4 else triangles
             (self.folder / MESH_FOLDER).mkdir(exist_ok=True)

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from plantar.errors import RobotError
 from plantar.files.model_files import check_model, mesh_of_urdf, parsed_model
 from plantar.robots.model_file import forget_own_simulation
-from plantar.sim.survey.surface_file import mesh_for_mujoco
+from plantar.sim.survey.body_surface import SHAPES
+from plantar.sim.survey.surface_file import meshes_for_mujoco
 
 __all__ = ["ModelSource", "read_model"]
 
@@ -29,15 +30,6 @@ _URDF_COMPILER = {
     "boundinertia": "1e-12",
 }
 """How MuJoCo must read a URDF: with what is drawn, link by link, and with links that have no mass."""
-
-_SIZES = {
-    mujoco.mjtGeom.mjGEOM_SPHERE: 1,
-    mujoco.mjtGeom.mjGEOM_CAPSULE: 2,
-    mujoco.mjtGeom.mjGEOM_CYLINDER: 2,
-    mujoco.mjtGeom.mjGEOM_ELLIPSOID: 3,
-    mujoco.mjtGeom.mjGEOM_BOX: 3,
-}
-"""Numbers that the size of a shape has."""
 
 _LOOPS = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
 
@@ -131,18 +123,20 @@ def read_model(file: Path, folder: Path) -> ModelSource:
 
 
 def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, stated: _Stated) -> str:
-    for link in root.iter("link"):
-        for shape in [*link.findall("visual"), *link.findall("collision")]:
-            mesh = shape.find("geometry/mesh")
-            if mesh is None:
-                continue
-            path = mesh_of_urdf(file, mesh.get("filename", ""), RobotError, f"{file}: <{shape.tag}>")
-            found = mesh_for_mujoco(path, folder)
-            if found is None:
-                stated.notes.append(f"{shape.tag} mesh {path.name} of link {link.get('name')} cannot be read; left out")
-                link.remove(shape)
-            else:
-                mesh.set("filename", str(found.resolve()))
+    drawn = [
+        (link, shape, mesh, mesh_of_urdf(file, mesh.get("filename", ""), RobotError, f"{file}: <{shape.tag}>"))
+        for link in root.iter("link")
+        for shape in [*link.findall("visual"), *link.findall("collision")]
+        for mesh in shape.findall("geometry/mesh")[:1]
+    ]
+    meshes = meshes_for_mujoco((path for *_, path in drawn), folder, file)
+    for link, shape, mesh, path in drawn:
+        found = meshes[path]
+        if found is None:
+            stated.notes.append(f"{shape.tag} mesh {path.name} of link {link.get('name')} cannot be read; left out")
+            link.remove(shape)
+        else:
+            mesh.set("filename", str(found.resolve()))
     for own in root.findall("mujoco"):
         root.remove(own)
     locked = [name for joint in root.findall("joint") if (name := _locked(joint, file))]
@@ -233,24 +227,23 @@ def _drop_unreadable(spec: Any, file: Path, folder: Path, notes: list[str]) -> N
     for mesh in list(spec.meshes):
         if mesh.inertia == mujoco.mjtMeshInertia.mjMESH_INERTIA_LEGACY:  # holds for open surfaces, too
             mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX
-        if not mesh.file:
-            continue
-        place = Path(mesh.file)
-        path = place if place.is_absolute() else file.parent / spec.meshdir / place
-        found = mesh_for_mujoco(path, folder)
+    drawn = [(mesh, file.parent / spec.meshdir / mesh.file) for mesh in spec.meshes if mesh.file]
+    meshes = meshes_for_mujoco((path for _, path in drawn), folder, file)
+    for mesh, path in drawn:
+        found = meshes[path]
         if found is not None:
             if found != path:
                 mesh.file = str(found.resolve())
             continue
         users = [g for g in spec.geoms if g.meshname == mesh.name]
-        notes.append(f"mesh {place.name} cannot be read; the {len(users)} shape(s) made of it are left out")
+        notes.append(f"mesh {path.name} cannot be read; the {len(users)} shape(s) made of it are left out")
         for geom in users:
             spec.delete(geom)
         spec.delete(mesh)
 
 
 def _is_empty(geom: Any) -> bool:
-    sizes = _SIZES.get(mujoco.mjtGeom(geom.type), 0)
+    sizes = SHAPES.get(mujoco.mjtGeom(geom.type), ("", 0))[1]
     if sizes == 2 and math.isfinite(geom.fromto[0]):
         sizes = 1
     return not geom.meshname and not bool((geom.size[:sizes] > 0.0).all())

@@ -22,8 +22,9 @@ from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
 from plantar.sides import SIDES, Side
 from plantar.sim.survey.servo_gains import floating_inertia
+from plantar.sim.terrain.ground import Terrain
 
-__all__ = ["PlanReach", "Walked", "plan_reach", "settled", "standing_feet"]
+__all__ = ["PlanReach", "Walked", "plan_reach", "settled"]
 
 _INSTANTS = 24  # that are looked at in a single support; a swing foot moves by a twelfth of a step meanwhile at most
 _FIRST = 40  # Newton steps for the standing posture
@@ -32,7 +33,6 @@ _BEGIN = 0.5  # s: standing time before the walk
 _SWINGING = 0.1  # of what a swinging foot misses counts
 _LANDING = 0.1  # of a swing, at its end, in which all of it counts
 _HOPELESS = 0.05  # m or rad by which the legs miss what is asked of them: the rest of the plan is not looked at
-_FRICTION = 0.8  # of the built-in scenes
 # Mean distance of a rectangle's points from its middle, over its diagonal: 0.25 of a line, 0.27 of a square
 _ARM = 0.26
 _STEP = 0.15  # rad: largest change in a Newton step, see plantar.robots.kinematics.inverse_kinematics
@@ -93,18 +93,13 @@ class PlanReach:
     roll: float
 
 
-def standing_feet(width: float) -> dict[Side, Footstep]:
-    """Feet side by side, so far apart in m."""
-    return {s: Footstep(s, 0.0, (0.5 if s == "left" else -0.5) * width, 0.0) for s in SIDES}
-
-
 def settled(robot: Robot, legs: LegModel, feet: Mapping[Side, Footstep], com_height: float) -> float:
     """Stand the `legs` of a `robot` on `feet`, CoM at `com_height` in m; returns the error in m or rad."""
     middle = np.mean([vrp_of_step(feet[s], middle_of_sole(robot.layouts[s], robot.ankle_reach)) for s in SIDES], axis=0)
     com = np.array([middle[0], middle[1], feet["left"].z + com_height])
     posture = np.array([*robot.posture["left"], *robot.posture["right"]])
     legs.set_configuration(com, np.array([1.0, 0.0, 0.0, 0.0]), posture)
-    _, missed = legs.solve(
+    return legs.follow(
         com,
         np.eye(3),
         {s: feet[s].position for s in SIDES},
@@ -112,7 +107,6 @@ def settled(robot: Robot, legs: LegModel, feet: Mapping[Side, Footstep], com_hei
         iterations=_FIRST,
         largest_step=_STEP,
     )
-    return missed
 
 
 def plan_reach(
@@ -178,7 +172,7 @@ class _Pass:
         torso = rotation_from_angles(0.0, roll=-walked.lean * (float(reference.com[1]) - self.centre))
         carrying = [s for s in SIDES if share[s] > 0.0]
         yielding = [s for s in SIDES if share[s] == 0.0]
-        legs.solve(com, torso, positions, rotations, iterations=_EACH, yielding=yielding, largest_step=_STEP)
+        legs.follow(com, torso, positions, rotations, iterations=_EACH, yielding=yielding, largest_step=_STEP)
         bend = self.probe.knees(legs)
         if bend < self.knee:
             self.knee, self.straightest = bend, time - _BEGIN
@@ -194,7 +188,8 @@ class _Pass:
             points[s] = np.array([*reference.vrp, feet[s].z])
             self.roll = max(self.roll, self.probe.tilt(s))
         force = legs.mass * np.array([*push, GRAVITY])
-        self.static.append(legs.static_torques({s: share[s] * force for s in SIDES}, points))
+        legs.carry({s: share[s] * force for s in SIDES}, points)
+        self.static.append(legs.torques.copy())
         self.configurations.append(legs.configuration.copy())
         self.alone.append(np.repeat([float(alone == [s]) for s in SIDES], len(self.spare)))
         self.axes.append(self.probe.axes())
@@ -227,7 +222,7 @@ class _Pass:
         low, high = self.outline.min(axis=0), self.outline.max(axis=0)
         weight, place = self.legs.mass * GRAVITY, self.middles["left"][0]
         shift = about_y / (weight * min(high[0] - place, place - low[0]))
-        turn = about_z / (_FRICTION * weight * _ARM * math.hypot(*(high - low)))
+        turn = about_z / (Terrain.friction * weight * _ARM * math.hypot(*(high - low)))
         return PlanReach(
             self.missed,
             self.knee,

@@ -8,13 +8,14 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from plantar.gait.plan.footsteps import straight_plan
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.robot import Robot
 from plantar.sides import SIDES
 from plantar.sim.figures.render import Camera, Line, View, save_picture
 from plantar.sim.model.world import World, build_world
-from plantar.sim.survey.plan_reach import settled, standing_feet
-from plantar.sim.terrain import Ground
+from plantar.sim.survey.plan_reach import settled
+from plantar.sim.terrain import Ground, Terrain
 
 __all__ = ["draw_robot"]
 
@@ -31,8 +32,8 @@ def draw_robot(robot: Robot, path: Path) -> Path:
         InputError: If no renderer works; the message names the cause.
     """
     legs = build_leg_model(robot)
-    settled(robot, legs, standing_feet(robot.stance_width), robot.com_height)
-    world = build_world(robot, Ground((), 0.0, 0.8))
+    settled(robot, legs, straight_plan(0, width=robot.stance_width)[0], robot.com_height)
+    world = build_world(robot, Ground((), 0.0, Terrain.friction))
     data = world.data
     data.qpos[:] = legs.configuration
     mujoco.mj_forward(world.model, data)

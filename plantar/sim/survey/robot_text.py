@@ -14,8 +14,9 @@ from plantar.mechanics.rotation import vector_from_rotation
 from plantar.robots.robot import Robot
 from plantar.robots.walk import CONTROL_PERIOD
 from plantar.sides import SIDES, Side
-from plantar.sim.survey.fitted_gait import KNEE_LEAST, QUICK_HELD, STEP_SHARE, FittedGait
+from plantar.sim.survey.fitted_gait import QUICK_HELD, FittedGait
 from plantar.sim.survey.servo_gains import SAMPLED, STIFFNESS
+from plantar.sim.survey.step_search import KNEE_LEAST, STEP_SHARE
 from plantar.sim.survey.step_time import LEAN_MOST
 from plantar.sim.survey.survey import Survey
 

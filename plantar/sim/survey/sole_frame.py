@@ -15,7 +15,7 @@ from plantar.errors import RobotError
 from plantar.sim.survey.body_surface import convex_surface, geom_triangles, resting_plane, shapes_of
 from plantar.sim.survey.leg_chains import Leg
 
-__all__ = ["Rested", "Sole", "find_sole", "rested"]
+__all__ = ["Rested", "Sole", "find_sole", "level_axes", "rested"]
 
 _RESTS = 0.25  # share of the silhouette that a plane must have to be what the foot rests on
 _LEVEL = math.radians(0.2)  # a sole that is tilted by less is taken as level: rounding of the model's numbers
@@ -154,12 +154,16 @@ def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> S
     )
 
 
+def level_axes(normal: Array) -> Array:
+    """Returns axes (3, 3), as columns, on a plane with an outward `normal` (3,): forward, left and up."""
+    forward = np.array([1.0, 0.0, 0.0]) - normal[0] * normal
+    forward /= float(np.linalg.norm(forward))
+    return np.stack([forward, np.cross(forward, normal), -normal], axis=1)
+
+
 def _axes(surface: Array, normal: Array) -> tuple[Array, float]:
     """Rotation (3, 3) from sole axes to the robot's, and long side's turn in rad."""
-    up = -normal
-    forward = np.array([1.0, 0.0, 0.0]) - up[0] * up
-    forward /= float(np.linalg.norm(forward))
-    level = np.stack([forward, np.cross(up, forward), up], axis=1)
+    level = level_axes(normal)
     points = surface.reshape(-1, 3) @ level
     flat = points[points[:, 2] <= points[:, 2].min() + _BAND][:, :2]
     angle = _long_side(flat)

@@ -3,51 +3,56 @@
 from __future__ import annotations
 
 import hashlib
+import json
+from collections.abc import Iterable
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import DependencyError, RobotError
-from plantar.files.input_file import open_input, read_input
-from plantar.files.mesh_library import triangles_of_trimesh
-from plantar.files.xml_file import parse_xml
+from plantar.files.gate import read_apart
+from plantar.files.input_file import check_input, open_input
 
-__all__ = ["mesh_for_mujoco", "simplified", "stl_bytes"]
+__all__ = ["meshes_for_mujoco", "simplified", "stl_bytes"]
 
-_READ_BY_MUJOCO = (".obj", ".msh")
+_READ_BY_MUJOCO, _CONVERTED = (".obj", ".msh"), (".dae", ".stl")
 _MOST_BYTES = 400_000_000
 _LARGEST = 200_000  # faces of an STL file that MuJoCo reads
 
 Triangles = NDArray[np.float64]
 
 
-def mesh_for_mujoco(path: Path, folder: Path) -> Path | None:
-    """Returns file `path`, one converted into `folder`, or None if unreadable."""
-    kind = path.suffix.lower()
-    if not path.is_file():
-        return None
-    if kind in _READ_BY_MUJOCO:
-        return path
+def meshes_for_mujoco(paths: Iterable[Path], folder: Path, model: Path) -> dict[Path, Path | None]:
+    """Returns for each of `paths` itself, a file converted into `folder`, or None if unreadable.
+
+    Raises:
+        DependencyError: If trimesh is missing.
+        RobotError: If converting all meshes of the `model` takes more time or memory than is allowed.
+    """
+    found = {path: path if _is_read_by_mujoco(path) else None for path in paths}
+    sizes = {path: _size(path) for path, own in found.items() if own is None}
+    foreign = [path for path, size in sizes.items() if size]
+    if not foreign:
+        return found
+    if find_spec("trimesh") is None:
+        raise DependencyError("trimesh", "sim")
+    listed = folder / "meshes.json"
+    listed.write_text(json.dumps([str(path.absolute()) for path in foreign]), encoding="utf-8")
     try:
-        if kind == ".stl" and _is_read_by_mujoco(path):
-            return path
-        if kind == ".dae":  # refuses entities, and more elements than a mesh has
-            parse_xml(read_input(path, RobotError, _MOST_BYTES), RobotError, str(path))
-        elif kind != ".stl":
-            return None
-        triangles = triangles_of_trimesh(path)["triangles"]
-    except DependencyError:
-        raise
-    except Exception:  # of every kind on a damaged file
-        return None
-    if len(triangles) > _LARGEST:
-        triangles = simplified(triangles, 256)
-    if not len(triangles):
-        return None
-    name = f"{path.stem}-{hashlib.sha1(str(path).encode(), usedforsecurity=False).hexdigest()[:8]}.stl"
-    (folder / name).write_bytes(stl_bytes(triangles))
-    return folder / name
+        held = read_apart("meshes", listed, RobotError, sum(sizes.values()))
+    except RobotError as error:
+        raise RobotError(str(error).replace(str(listed), str(model))) from None
+    for i, path in enumerate(foreign):
+        triangles = held[str(i)]
+        if len(triangles):
+            name = f"{path.stem}-{hashlib.sha1(str(path).encode(), usedforsecurity=False).hexdigest()[:8]}.stl"
+            found[path] = folder / name
+            (folder / name).write_bytes(
+                stl_bytes(simplified(triangles, 256) if len(triangles) > _LARGEST else triangles)
+            )
+    return found
 
 
 def stl_bytes(triangles: Triangles) -> bytes:
@@ -76,8 +81,22 @@ def simplified(triangles: Triangles, cells: int) -> Triangles:
     return np.asarray(points[first][faces[np.sort(kept)]])
 
 
+def _size(path: Path) -> int:
+    """In bytes, 0 of a file that is not converted."""
+    try:
+        return check_input(path, RobotError, _MOST_BYTES) if path.suffix.lower() in _CONVERTED else 0
+    except RobotError:
+        return 0
+
+
 def _is_read_by_mujoco(path: Path) -> bool:
-    """Whether an STL file is a binary one of a number of faces that MuJoCo takes."""
-    with open_input(path, RobotError, _MOST_BYTES) as stream:
-        count = int.from_bytes(stream.read(84)[80:], "little")
+    """Whether MuJoCo reads a file: of STL a binary one of not too many faces."""
+    kind = path.suffix.lower()
+    if kind != ".stl" or not path.is_file():
+        return kind in _READ_BY_MUJOCO and path.is_file()
+    try:
+        with open_input(path, RobotError, _MOST_BYTES) as stream:
+            count = int.from_bytes(stream.read(84)[80:], "little")
+    except RobotError:
+        return False
     return 0 < count <= _LARGEST and 84 + 50 * count <= path.stat().st_size

@@ -30,6 +30,11 @@ def legs(h1):
     return model
 
 
+def solved(legs, *targets, **options):
+    missed = legs.follow(*targets, **options)
+    return legs.joints.copy(), missed
+
+
 def random_targets(seed):
     rng = np.random.default_rng(seed)
     com = np.array([0.05, 0.0, 0.79]) + rng.uniform(-0.02, 0.02, 3)
@@ -44,7 +49,7 @@ def random_targets(seed):
 @pytest.mark.parametrize("seed", range(6))
 def test_converges_to_every_target(legs, seed):
     com, torso, positions, rotations = random_targets(seed)
-    joints, error = legs.solve(com, torso, positions, rotations, iterations=12)
+    joints, error = solved(legs, com, torso, positions, rotations, iterations=12)
     assert error < 1e-9
     data = mujoco.MjData(legs.model)
     data.qpos[:] = legs.configuration
@@ -77,24 +82,18 @@ def test_a_live_posture_is_the_same_in_arrays_that_stay(legs):
         assert all(np.array_equal(a, b) for a, b in pairs)
 
 
-def test_targets_may_have_any_strides_and_results_stay(legs):
+def test_targets_may_have_any_strides(legs):
     com, torso, positions, rotations = random_targets(0)
-    joints, _ = legs.solve(com, torso, positions, rotations, iterations=20)
-    torques = legs.static_torques(dict.fromkeys(SIDES, np.array([0.0, 0.0, 250.0])), positions)
-    kept, held = joints.copy(), torques.copy()
-    legs.solve(com, np.asfortranarray(torso), positions, {s: np.asfortranarray(r) for s, r in rotations.items()})
-    assert legs.joints == pytest.approx(kept, abs=1e-9)
-    legs.solve(com + 0.01, torso, positions, rotations)
-    legs.static_torques(dict.fromkeys(SIDES, np.zeros(3)), positions)
-    assert np.array_equal(joints, kept)
-    assert np.array_equal(torques, held)
+    joints, _ = solved(legs, com, torso, positions, rotations, iterations=20)
+    legs.follow(com, np.asfortranarray(torso), positions, {s: np.asfortranarray(r) for s, r in rotations.items()})
+    assert legs.joints == pytest.approx(joints, abs=1e-9)
 
 
 def test_agrees_with_mink(h1, legs):
     mink = pytest.importorskip("mink")
     model = robot_spec(h1).compile()
     com, torso, positions, rotations = random_targets(1)
-    joints, _ = legs.solve(com, torso, positions, rotations, iterations=12)
+    joints, _ = solved(legs, com, torso, positions, rotations, iterations=12)
 
     configuration = mink.Configuration(model)
     start = configuration.data.qpos.copy()
@@ -117,7 +116,7 @@ def test_agrees_with_mink(h1, legs):
 
 
 def test_joint_limits_hold_and_unreachable_targets_stay_finite(legs):
-    joints, error = legs.solve(np.array([0.05, 0.0, 1.5]), np.eye(3), STANCE, LEVEL, iterations=50)
+    joints, error = solved(legs, np.array([0.05, 0.0, 1.5]), np.eye(3), STANCE, LEVEL, iterations=50)
     assert np.isfinite(joints).all()
     assert error > 0.1
     assert joints[3] >= 0.0  # the knee does not bend backward
@@ -125,7 +124,7 @@ def test_joint_limits_hold_and_unreachable_targets_stay_finite(legs):
 
 
 def test_torques_balance_gravity_and_ground_forces(legs):
-    legs.solve(np.array([0.05, 0.0, 0.79]), np.eye(3), STANCE, LEVEL, iterations=12)
+    solved(legs, np.array([0.05, 0.0, 0.79]), np.eye(3), STANCE, LEVEL, iterations=12)
     weight = legs.mass * 9.81
     forces: dict[Side, NDArray[np.float64]] = {
         "left": np.array([10.0, -5.0, 0.3 * weight]),
@@ -135,7 +134,8 @@ def test_torques_balance_gravity_and_ground_forces(legs):
         "left": np.array([0.03, 0.09, 0.0]),
         "right": np.array([0.08, -0.1, 0.0]),
     }
-    torques = legs.static_torques(forces, points)
+    legs.carry(forces, points)
+    torques = legs.torques
     # Independent: MuJoCo's inverse dynamics at rest with the same forces applied to the feet.
     model = legs.model
     data = mujoco.MjData(model)
@@ -176,7 +176,7 @@ def test_a_swing_out_of_reach_does_not_move_the_stance(robot, case):
     legs.set_configuration(np.array([0.0, 0.0, 0.84]), np.array([1.0, 0.0, 0.0, 0.0]), posture)
     half, com = 0.5 * biped.stance_width, np.array([0.04, -0.03, biped.com_height])
     stand: dict[Side, NDArray[np.float64]] = {"left": np.array([0.0, half, 0.0]), "right": np.array([0.0, -half, 0.0])}
-    joints, _ = legs.solve(com, np.eye(3), stand, LEVEL, iterations=50)
+    joints, _ = solved(legs, com, np.eye(3), stand, LEVEL, iterations=50)
     data = mujoco.MjData(legs.model)
     stance = legs.model.site(biped.legs["right"].sole_site).id
     steps, missed = [], []
@@ -186,7 +186,7 @@ def test_a_swing_out_of_reach_does_not_move_the_stance(robot, case):
         rotations = {**LEVEL, "left": np.asarray(Rotation.from_rotvec(turn).as_matrix())}
         # The robot goes on to balance meanwhile.
         sway = com + np.array([0.01 * math.sin(0.05 * k), 0.01 * math.sin(0.03 * k), 0.0])
-        before, (joints, _) = joints, legs.solve(sway, np.eye(3), positions, rotations, 1, ["left"], 0.1)
+        before, (joints, _) = joints, solved(legs, sway, np.eye(3), positions, rotations, 1, ["left"], 0.1)
         steps.append(np.abs(joints - before))
         data.qpos[:] = legs.configuration
         mujoco.mj_kinematics(legs.model, data)
@@ -201,11 +201,11 @@ def test_a_swing_out_of_reach_does_not_move_the_stance(robot, case):
 
 @pytest.mark.parametrize("height", [1.0, 1.5])
 def test_a_stance_out_of_reach_stretches_and_stays_calm(legs, height):
-    joints, _ = legs.solve(np.array([0.05, 0.0, 0.79]), np.eye(3), STANCE, LEVEL, iterations=12)
+    joints, _ = solved(legs, np.array([0.05, 0.0, 0.79]), np.eye(3), STANCE, LEVEL, iterations=12)
     start, steps = joints, []
     for k in range(400):
         com = np.array([0.05, 0.0, 0.79 + (height - 0.79) * min(1.0, k / 100)])
-        before, (joints, _) = joints, legs.solve(com, np.eye(3), STANCE, LEVEL, largest_step=0.1)
+        before, (joints, _) = joints, solved(legs, com, np.eye(3), STANCE, LEVEL, largest_step=0.1)
         steps.append(float(np.abs(joints - before).max()))
     assert max(steps) <= 0.1 + 1e-12
     assert max(steps[-100:]) < 0.01
@@ -224,7 +224,7 @@ def test_legs_without_ankle_roll_leave_the_roll_of_their_soles(h1, seed):
     posture = np.array([*h1.posture["left"][:5], *h1.posture["right"][:5]])
     legs.set_configuration(np.array([0.0, 0.0, 0.84]), np.array([1.0, 0.0, 0.0, 0.0]), posture)
     com, torso, positions, rotations = random_targets(seed)
-    _, error = legs.solve(com, torso, positions, rotations, iterations=20)
+    _, error = solved(legs, com, torso, positions, rotations, iterations=20)
     assert error < 1e-9
     data = mujoco.MjData(model)
     data.qpos[:] = legs.configuration

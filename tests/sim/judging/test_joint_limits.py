@@ -83,22 +83,3 @@ def test_a_joint_that_moves_alone_is_seen_at_its_own_limit(world):
             world.data.qvel[world.joint_qvel[i]] = share * limit
             judge.extremes.step()
             assert (judge.longest > 0.0).tolist() == [j == i and abs(share) > 1.0 for j in range(len(limits))]
-
-
-def test_the_joint_that_stays_at_its_torque_limit_first_is_named(world):
-    judge = JointLimits(world)
-    limits = world.model.actuator_forcerange[world.servos, 1]
-    force = world.data.actuator_force
-    knee, hip = judge.names.index("left_knee"), judge.names.index("right_hip_roll")
-    for step in range(1, 151):
-        force[world.servos] = 0.0
-        if 10 < step <= 24 or 60 < step <= 70 or step > 120:
-            force[world.servos[knee]] = -limits[knee]
-        if 95 < step <= 115:
-            force[world.servos[hip]] = limits[hip]
-        judge.extremes.step()
-    assert judge.first_held(since=0.0) == "right_hip_roll"  # the knee's short ones are no stay
-    assert judge.first_held(since=0.0, lasting=0.014) == "left_knee"
-    assert judge.first_held(since=0.101) == "left_knee"  # 14 ms are left of the hip's
-    assert judge.first_held(since=0.0, lasting=0.031) is None
-    assert JointLimits(world).first_held(since=0.0) is None

@@ -100,16 +100,14 @@ def test_setpoints_keep_the_joints_speed_limits_and_the_pose_between_them(standi
     start = servos.command(command)
     lower = command.changed(com=command.com + np.array([0.0, 0.0, -0.03]))
     limits = np.array([*robot.velocity_limits] * 2)
-    before, end = (
-        start,
-        standing.legs.solve(
-            lower.com,
-            lower.rotation_torso,
-            {s: lower.feet[s].position for s in lower.feet},
-            {s: lower.feet[s].rotation for s in lower.feet},
-            20,
-        )[0],
+    standing.legs.follow(
+        lower.com,
+        lower.rotation_torso,
+        {s: lower.feet[s].position for s in lower.feet},
+        {s: lower.feet[s].rotation for s in lower.feet},
+        20,
     )
+    before, end = start, standing.legs.joints.copy()
     shares = []
     for _ in range(60):
         joints = servos.command(lower)

@@ -17,12 +17,11 @@ from plantar.sim.survey.fitted_gait import (
     QUICK_DOUBLE,
     QUICK_SINGLE,
     QUICK_STEP,
-    STEP_SHARE,
     FittedGait,
     fit_gait,
-    straight_walk,
 )
 from plantar.sim.survey.plan_reach import plan_reach
+from plantar.sim.survey.step_search import STEP_SHARE, straight_walk
 
 SLOW = BodyScale(mass=3.5, leg=0.22, sole=0.13, sole_width=0.09, pace_beats=1.6)
 

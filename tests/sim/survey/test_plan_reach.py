@@ -13,8 +13,9 @@ from plantar.gravity import GRAVITY
 from plantar.robots import builtin_robots, load_robot
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.robot_model import build_leg_model
-from plantar.sim.survey.fitted_gait import SHIFT, TURN, fit_gait, straight_walk
+from plantar.sim.survey.fitted_gait import fit_gait
 from plantar.sim.survey.plan_reach import _Pass, plan_reach
+from plantar.sim.survey.step_search import SHIFT, TURN, straight_walk
 
 
 def reach_of(name, slower):

@@ -5,8 +5,10 @@ import re
 import numpy as np
 import pytest
 
+from plantar.errors import RobotError
+from plantar.files import gate
 from plantar.sim.survey import surface_file
-from plantar.sim.survey.surface_file import mesh_for_mujoco, stl_bytes
+from plantar.sim.survey.surface_file import meshes_for_mujoco, stl_bytes
 
 trimesh = pytest.importorskip("trimesh")
 BOX = trimesh.creation.box((0.2, 0.1, 0.04))
@@ -16,6 +18,10 @@ BOX = trimesh.creation.box((0.2, 0.1, 0.04))
 def folder(tmp_path):
     (tmp_path / "converted").mkdir()
     return tmp_path / "converted"
+
+
+def mesh_for_mujoco(path, folder):
+    return meshes_for_mujoco([path], folder, folder / "robot.urdf")[path]
 
 
 def read(path):
@@ -56,3 +62,24 @@ def test_what_cannot_be_read_is_left_out(tmp_path, folder, kind, data):
     path.write_bytes(data)
     assert mesh_for_mujoco(path, folder) is None
     assert mesh_for_mujoco(tmp_path / "none.stl", folder) is None
+
+
+def test_all_meshes_of_a_model_are_read_in_one_process(tmp_path, folder, monkeypatch):
+    paths = [tmp_path / f"{i}.dae" for i in range(3)]
+    for path, size in zip(paths, (0.1, 0.2, 0.3), strict=True):
+        trimesh.creation.box((size, 0.1, 0.1)).export(path)
+    paths[1].write_text("<COLLADA/>")
+    asked = []
+    monkeypatch.setattr(surface_file, "read_apart", lambda *words: asked.append(words) or gate.read_apart(*words))
+    found = meshes_for_mujoco(paths, folder, tmp_path / "robot.urdf")
+    assert len(asked) == 1
+    assert found[paths[1]] is None
+    assert [np.ptp(read(found[path])[..., 0]) for path in (paths[0], paths[2])] == pytest.approx([0.1, 0.3])
+
+
+def test_meshes_that_end_their_reader_are_refused_in_the_models_name(tmp_path, folder, monkeypatch):
+    path = tmp_path / "foot.dae"
+    BOX.export(path)
+    monkeypatch.setitem(gate.HELPERS, "meshes", gate.HELPERS["meshes"]._replace(function="os:abort"))
+    with pytest.raises(RobotError, match=r"robot\.urdf: not meshes that can be read"):
+        meshes_for_mujoco([path], folder, tmp_path / "robot.urdf")
