@@ -104,7 +104,8 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
     body = body_of(robot, legs.model)
     notes: list[str] = []
     robot = replace(robot, stance_width=stance_width(robot, legs))
-    ankle = _ankle(robot, legs)
+    pitching = pitching_joints(robot, "left", legs.model, stood(robot, legs.model))
+    ankle = [legs.model.joint(name).id for name in robot.legs["left"].joints].index(pitching[-1])
     bears = ankle_reach(robot, body.weight, ankle)
     if bears is not None:
         robot = replace(robot, ankle_reach=bears)
@@ -224,11 +225,6 @@ def _approach_support(robot: Robot, legs: LegModel, body: BodyScale) -> float:
         if not bool((asked.torque > QUICK_HELD * limits).any()):
             break
     return round(slow.single_support, 2) if longer > 1.0 else 0.0
-
-
-def _ankle(robot: Robot, legs: LegModel) -> int:
-    pitching = pitching_joints(robot, "left", legs.model, stood(robot, legs.model))
-    return [legs.model.joint(name).id for name in robot.legs["left"].joints].index(pitching[-1])
 
 
 def _crouch(robot: Robot, legs: LegModel, body: BodyScale, asked: float) -> float:
