@@ -12,8 +12,8 @@ from plantar.geometry.polygon import area, centroid, closest_point, inner_offset
 
 __all__ = ["AnkleLimits"]
 
+# Share of the torque limit that the weight may take; the rest is for the foot's own motion and the feedback
 _SHARE = 0.95
-"""Share of the torque limit that the weight may take; the rest is for the foot's own motion and the feedback."""
 
 
 class AnkleLimits:

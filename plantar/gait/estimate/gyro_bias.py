@@ -16,12 +16,12 @@ from plantar.sides import Side
 __all__ = ["GyroBias"]
 
 
+# What a tick counts in which one foot carries, of one in which both do: in a second of single support a foot turns by
+# 0.3 mrad by chance, while in one of standing the gyro's noise of 2 mrad/s leaves 0.1 mrad
 _ONE_FOOT = 0.1
-"""What a tick counts in which one foot carries, of one in which both do: in a second of single support a foot turns by
-0.3 mrad by chance, while in one of standing the gyro's noise of 2 mrad/s leaves 0.1 mrad."""
 
+# Pieces of standing before a slip can be told from a bias
 _FIRST_PIECES = 2
-"""Pieces of standing before a slip can be told from a bias."""
 
 
 class GyroBias:

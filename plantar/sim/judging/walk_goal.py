@@ -24,21 +24,21 @@ __all__ = ["NEAR_YAW", "WalkGoal", "Way"]
 Way = tuple[float, float, float]
 """From one foothold to the next: forward and left in m, in the frame of the first, and the turn in rad."""
 
+# Distance in leg lengths within which a foot has reached a place: 50 mm for H1
 _NEAR = 1 / 12
-"""Distance in leg lengths within which a foot has reached a place: 50 mm for H1."""
 
 NEAR_YAW = math.radians(5.0)
 """Angle in rad within which it has the place's heading."""
 
+# Distance in leg lengths by which a footstep may be moved against the one before it: twice around an obstacle (0.4
+# each)
 _DETOUR = 5 / 6
-"""Distance in leg lengths by which a footstep may be moved against the one before it: twice around an obstacle (0.4
-each)."""
 
 _DETOUR_YAW = math.radians(30.0)
+# Distance in leg lengths by which it may be moved in all, and share of the way walked so far by which further: a detour
+# of 0.4 legs early in a walk, two of them later, a strip that turns away by 10 degrees; no walk that ends where it
+# began
 _AWAY, _DRIFT = 0.5, 0.25
-"""Distance in leg lengths by which it may be moved in all, and share of the way walked so far by which further: a
-detour of 0.4 legs early in a walk, two of them later, a strip that turns away by 10 degrees; no walk that ends where it
-began."""
 
 
 @dataclass(frozen=True)

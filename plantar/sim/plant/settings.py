@@ -16,15 +16,15 @@ RANDOM = "random"
 EVERYTHING = "everything"
 """What draws all items, those of wear and of poor ground, too."""
 
+# The last of the items that a robot has that was built and calibrated with care; wear and poor ground follow
 _LAST_OF_CARE = "actuation_delay"
-"""The last of the items that a robot has that was built and calibrated with care; wear and poor ground follow."""
 
 STATED = ("joint_damping", "corner_speed", "load", "load_place")
 """Items that no seed draws."""
 
 _WORDS = (RANDOM,)
+# Unit and largest size of a component of each list of three
 _LARGEST = {"gyro_bias": ("rad/s", 1.0), "com_offset": ("m", 0.5), "load_place": ("m", 1.0)}
-"""Unit and largest size of a component of each list of three."""
 
 
 class Plant(Settings):

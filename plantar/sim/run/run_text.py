@@ -14,11 +14,11 @@ __all__ = ["demo_text", "run_text"]
 
 Summary = Mapping[str, Any]
 
+# Settings whose numbers people want to know of a run; the JSON lists all of them
 _SHOWN = ("terrain.", "push.", "walk.length", "walk.sideways", "walk.swing_height")
-"""Settings whose numbers people want to know of a run; the JSON lists all of them."""
 
+# Units of values by the ends of their names in the JSON
 _UNITS = {"_rad_s": "rad/s", "_Nm": "N m", "_mm_N": "mm/N", "_mm": "mm", "_m": "m", "_N": "N", "_deg": "deg", "_s": "s"}
-"""Units of values by the ends of their names in the JSON."""
 
 _COMMON = {"scene", "robot", "seed", "completed", "reasons", "fell", "sim_time_s", "wall_time_s", "real_time_factor"}
 _COMMON |= {"control_us", "control_us_by_active", "skipped", "figures"}
