@@ -123,6 +123,7 @@ __all__ = [
     "write_layout",
 ]
 
+# Module below plantar of each name that is not an error, and what it is called there where that differs
 _PLACES = {
     "FeetPercept": "percepts.feet",
     "FootTick": "percepts.foot_tick",
@@ -155,7 +156,6 @@ _PLACES = {
     "mujoco": "",
     "polygon": "geometry",
 }
-"""Module below plantar of each name that is not an error, and what it is called there where that differs."""
 
 if not TYPE_CHECKING:  # a type checker reads the imports above, and reports a name that does not exist
 

@@ -1,5 +1,7 @@
 """`python -m plantar` and the console script; Ctrl-C ends it from its first moment."""
 
+import os
+
 from plantar.console.ending import leave_at_interrupt
 
 __all__ = ["main"]
@@ -12,6 +14,8 @@ def main() -> None:
         >>> main()  # doctest: +SKIP
     """
     leave_at_interrupt()
+    # Matrices here are small: threads of one solve wait for each other, ten times as long beside other work.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from plantar import cli
 
     cli.main()

@@ -42,8 +42,7 @@ BLOCK = 4096
 
 _Done = TypeVar("_Done")
 
-_LEAST = 512
-"""Frames that are worth a hand-over to another thread."""
+_LEAST = 512  # Frames that are worth a hand-over to another thread
 
 
 @dataclass(frozen=True, eq=False)

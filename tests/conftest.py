@@ -1,6 +1,10 @@
 """What all tests share: soles to test on, and the switch to the real data."""
 
 import os
+
+# Before numpy loads: threads of one small solve wait for each other, ten times as long beside another worker.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 import re
 import signal
 import time

@@ -4,12 +4,19 @@ import json
 import math
 import os
 import re
+import socket
 import subprocess
 import sys
+import threading
 import tomllib
+from itertools import count
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+from plantar import hex_layout, write_layout
+from plantar.formats import read_recording
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -28,7 +35,7 @@ def plugin(tmp_path):
     package, info = tmp_path / "mine", tmp_path / "mine-1.0.dist-info"
     package.mkdir()
     info.mkdir()
-    files = dict(zip(("ditch", "high_swing", "weigh", "hold"), blocks("part.md", "python"), strict=True))
+    files = dict(zip(("ditch", "high_swing", "weigh", "hold", "udp"), blocks("part.md", "python"), strict=True))
     make, files["mysole"], *_ = blocks("format.md", "python")
     for name, text in ({"__init__": ""} | files).items():
         (package / f"{name}.py").write_text(text)
@@ -114,6 +121,36 @@ def test_an_experiment_of_a_users_package(plugin):
     assert "the tip moved by" in pushed.stdout
 
 
+def test_a_live_source_of_a_users_package(plugin):
+    sole = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
+    write_layout(sole, plugin / "layout.json")
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    over = threading.Event()
+
+    def send() -> None:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as device:
+            for k in count():
+                packet = np.array([0.01 * k, *np.full(len(sole), 2.0)]).tobytes()
+                device.sendto(b"" if over.wait(0.01) else packet, ("127.0.0.1", port))
+                if over.is_set():
+                    return
+
+    sender = threading.Thread(target=send)
+    sender.start()
+    options = ("--layout", "layout.json", "--seconds", "0.2", "-o", "run.mcap", "--json")
+    done = plantar(plugin, "live", f"udp:{port}", *options)
+    over.set()
+    sender.join()
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["feet"]["left"]["frames"] > 2
+    assert read_recording(plugin / "run.mcap").feet["left"].vertical_force[1] == pytest.approx(2.0 * len(sole))
+    assert "udp" in plantar(plugin, "list", "sources").stdout
+    refused = plantar(plugin, "live", "udp")
+    assert (refused.returncode, "allowed: udp:PORT" in refused.stderr) == (2, True)
+
+
 @pytest.mark.parametrize(
     ("group", "name", "value", "words"),
     [
@@ -121,11 +158,13 @@ def test_an_experiment_of_a_users_package(plugin):
         ("plantar.terrain", "flat", "mine.ditch:Ditch", ("flat = mine.ditch:Ditch", "taken name")),
         ("plantar.formats", "csv", "mine.mysole:FORMAT", ("csv = mine.mysole:FORMAT", "taken name")),
         ("plantar.swings", "low", "mine.gone:Low", ("mine.gone:Low", "No module named")),
+        ("plantar.live", "replay", "mine.udp:SOURCE", ("replay = mine.udp:SOURCE", "taken name")),
     ],
 )
 def test_a_part_that_cannot_be_used_is_named(plugin, group, name, value, words):
     write_entries(plugin, {group: {name: value}})
-    done = plantar(plugin, "list", *(["formats"] if group == "plantar.formats" else ["settings", "terrain"]))
+    listed = {"plantar.formats": ["formats"], "plantar.live": ["sources"]}.get(group, ["settings", "terrain"])
+    done = plantar(plugin, "list", *listed)
     assert done.returncode == 2
     assert all(word in done.stderr for word in words)
     assert len(done.stderr.strip().splitlines()) == 1

@@ -47,7 +47,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
             "doctor",
         ),
         *("files", "settings", "mechanics", "layouts", "plotting", "pages", "geometry", "sensing"),
-        *("percepts", "batch", "mujoco", "recordings", "formats", "viewer", "bench"),
+        *("percepts", "batch", "mujoco", "recordings", "formats", "live", "viewer", "bench"),
     ),
     "plantar.gait": (
         *("analysis", "plan", "estimate", "contact", "balance", "feet", "propose", "command", "safety"),

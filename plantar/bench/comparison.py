@@ -12,17 +12,19 @@ from numpy.typing import ArrayLike
 
 __all__ = ["Reference", "Result", "Route", "Time", "compare", "time_routes"]
 
-_ONE_MEASUREMENT = 1.5e-3
-"""Least time in s of one measurement: a call that is shorter is repeated."""
+_ONE_MEASUREMENT = 1.5e-3  # Least time in s of one measurement: a call that is shorter is repeated
 
 
 class Time(NamedTuple):
-    """Time of one call."""
+    """Time of one call.
+
+    Attributes:
+        median: Median over the rounds in s.
+        spread: Interquartile range over the rounds, as a share of the median.
+    """
 
     median: float
-    """Median over the rounds in s."""
     spread: float
-    """Interquartile range over the rounds, as a share of the median."""
 
 
 def time_routes(
@@ -68,25 +70,31 @@ def _seconds(route: Callable[[Any], object], cases: Sequence[Any], repeats: int)
 
 
 class Route(NamedTuple):
-    """One way to a result."""
+    """One way to a result.
+
+    Attributes:
+        call: What is timed: a function of one case.
+        value: What is compared, from what `call` returns; not timed.
+        approximate: Whether the route is one by nature, not by rounding.
+    """
 
     name: str
     call: Callable[[Any], object]
-    """What is timed: a function of one case."""
     cases: Sequence[Any]
     value: Callable[[Any], ArrayLike] = lambda result: result
-    """What is compared, from what `call` returns; not timed."""
     ours: bool = False
     approximate: bool = False
-    """Whether the route is one by nature, not by rounding."""
 
 
 class Reference(NamedTuple):
-    """Right results for each case, and an error's unit."""
+    """Right results for each case, and an error's unit.
+
+    Attributes:
+        scales: Size by which an error is divided; the reference's largest component where None.
+    """
 
     values: Sequence[ArrayLike]
     scales: Sequence[float] | None = None
-    """Size by which an error is divided; the reference's largest component where None."""
 
 
 @dataclass(frozen=True)

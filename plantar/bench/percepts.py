@@ -35,8 +35,7 @@ FRAMES = 100_000
 TAXELS = 102
 """Taxels of a frame: two soles of 51, side by side."""
 
-_AIM = np.array([0.09, 0.06])
-"""Point in m that a tick clamps to the offset polygon."""
+_AIM = np.array([0.09, 0.06])  # Point in m that a tick clamps to the offset polygon
 
 
 def compare_percepts(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
@@ -137,8 +136,8 @@ def _flat(results: Any) -> Array:
     )
 
 
+# Sizes that errors of a tick's results are measured by: mask, CoP in m, wrench in N and N m, areas in m^2, points
 _SIZES = (1.0, 0.1, 1e3, 1e-2, 0.1, 1e-2, 0.1)
-"""Sizes that errors of a tick's results are measured by: mask, CoP in m, wrench in N and N m, areas in m^2, points."""
 
 
 def _ticks_exact(feet: tuple[SoleLayout, ...], pairs: list[tuple[Array, Array]]) -> Reference:
@@ -236,8 +235,7 @@ def compare_recordings(frames: int = FRAMES, rounds: int = 5) -> Iterator[tuple[
     )
 
 
-_FEW = 50
-"""Frames whose wrench is compared with the reference."""
+_FEW = 50  # Frames whose wrench is compared with the reference
 
 
 def _few(wrenches: Array) -> Array:

@@ -70,6 +70,7 @@ def measure_kernels(folder: Path, progress: Callable[[float, str], None], rounds
     }
 
 
+# Kernel, how many times faster than the fastest library it should be, and the route of ours
 _FASTER: tuple[tuple[str, float, str], ...] = (
     ("hull + area", 50.0, "plantar, from active taxels"),
     ("hull + area", 30.0, "plantar, through a Percept"),
@@ -81,7 +82,6 @@ _FASTER: tuple[tuple[str, float, str], ...] = (
     ("walking tick", 20.0, "plantar, percepts"),
     ("hull + area of a recording", 100.0, "plantar"),
 )
-"""Kernel, how many times faster than the fastest library it should be, and the route of ours."""
 
 _RASTER = "largestinteriorrectangle's method, 1 mm"
 

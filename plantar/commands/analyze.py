@@ -16,8 +16,7 @@ from plantar.errors import InputError
 __all__ = ["COMMAND", "AnalysisOrder", "FileOrder", "analyze"]
 
 
-_NOTES = 3
-"""Warnings that are printed of each recording; the files hold all."""
+_NOTES = 3  # Warnings that are printed of each recording; the files hold all
 
 
 def _option(default: Any, text: str, *names: str, metavar: str | None = None) -> Any:
@@ -243,4 +242,3 @@ def _analyze_study(
 
 
 COMMAND = Command(analyze, "Measure the steps of a recording, or a study of many.", 20)
-"""What `plantar.cli` registers."""

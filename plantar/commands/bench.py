@@ -77,4 +77,3 @@ def bench(
 
 
 COMMAND = Command(bench, "Measure run time against error, and show it on a page.", 90)
-"""What `plantar.cli` registers."""

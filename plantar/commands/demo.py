@@ -60,4 +60,3 @@ def demo(
 
 
 COMMAND = Command(demo, "The main job in one go: shoe, walk on a beam, analysis.", 70)
-"""What `plantar.cli` registers."""

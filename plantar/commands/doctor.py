@@ -22,4 +22,3 @@ def doctor(as_json: Json = False) -> None:
 
 
 COMMAND = Command(doctor, "List what is installed, what is missing and how to get it.", 100)
-"""What `plantar.cli` registers."""

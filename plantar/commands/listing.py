@@ -1,4 +1,4 @@
-"""`plantar list`: list robots, scenes, papers, formats and settings."""
+"""`plantar list`: list robots, scenes, papers, formats, live sources and settings."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ __all__ = ["COMMAND", "list_"]
 
 def list_(
     what: Annotated[
-        str | None, Argument(metavar="WHAT", help="robots, scenes, papers, formats or settings.", show_default=False)
+        str | None,
+        Argument(metavar="WHAT", help="robots, scenes, papers, formats, sources or settings.", show_default=False),
     ] = None,
     name: Annotated[
         str | None,
@@ -45,6 +46,7 @@ def list_(
             "scenes": "scenes to run: plantar sim",
             "papers": "papers whose methods and parameters --set paper=NAME switches on",
             "formats": "formats of recordings to analyse",
+            "sources": "live sources of sole readings: plantar live",
             "settings": "settings to change with --set, of robots and scenes",
         }
         _print_names("kinds", kinds, as_json)
@@ -76,5 +78,4 @@ def _print_names(kind: str, found: dict[str, str], as_json: bool) -> None:
     end_command({kind: [{"name": name, "description": text} for name, text in found.items()]}, as_json, text)
 
 
-COMMAND = Command(list_, "List robots, scenes, papers, recording formats or settings.", 80, name="list")
-"""What `plantar.cli` registers."""
+COMMAND = Command(list_, "List robots, scenes, papers, formats, sources or settings.", 80, name="list")

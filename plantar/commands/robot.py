@@ -74,4 +74,3 @@ def _refuse_other(output: Path, description: str) -> None:
 
 
 COMMAND = Command(robot, "Make a robot of an MJCF or URDF, ready to walk, and check it.", 30)
-"""What `plantar.cli` registers."""

@@ -91,4 +91,3 @@ def shoe(
 
 
 COMMAND = Command(shoe, "Build a printable tactile shoe for a foot, and its taxel layout.", 10)
-"""What `plantar.cli` registers."""

@@ -76,4 +76,3 @@ def sim(
 
 
 COMMAND = Command(sim, "Run one scenario in MuJoCo, judged by the true contacts.", 40)
-"""What `plantar.cli` registers."""

@@ -80,4 +80,3 @@ def sweep(
 
 
 COMMAND = Command(sweep, "Run a scene over settings and seeds, or search where it breaks.", 60)
-"""What `plantar.cli` registers."""

@@ -40,4 +40,3 @@ def view(
 
 
 COMMAND = Command(view, "Write a page that plays one or two recordings in 3D.", 50)
-"""What `plantar.cli` registers."""

@@ -27,8 +27,7 @@ Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on std
 """The option for what a program reads."""
 
 
-_WIDEST_HELP = 120
-"""Columns that the help takes where the terminal has them; typer's own 80 break the examples in two."""
+_WIDEST_HELP = 120  # Columns that the help takes where the terminal has them; typer's own 80 break the examples in two
 
 
 class Command(NamedTuple):

@@ -266,4 +266,3 @@ FORMAT = Format(
     read=_read,
     order=60,
 )
-"""The entry of the registry."""

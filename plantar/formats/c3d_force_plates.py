@@ -235,4 +235,3 @@ def _load(
 FORMAT = Format(
     name="c3d", title="force plates in a C3D file", suffixes=(".c3d",), recognises=_recognises, read=_read, order=17
 )
-"""The entry of the registry."""

@@ -90,4 +90,3 @@ FORMAT = Format(
     read=_read,
     order=99,
 )
-"""The entry of the registry."""

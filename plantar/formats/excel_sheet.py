@@ -214,4 +214,3 @@ FORMAT = Format(
     read=_read,
     order=30,
 )
-"""The entry of the registry."""

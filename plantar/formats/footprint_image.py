@@ -254,4 +254,3 @@ FORMAT = Format(
     read=None,
     order=19,
 )
-"""The entry of the registry."""

@@ -140,4 +140,3 @@ FORMAT = Format(
     read=_read,
     order=16,
 )
-"""The entry of the registry."""

@@ -98,4 +98,3 @@ def _other_bag(path: Path, options: ReadOptions, topics: str) -> PressureRecordi
 FORMAT = Format(
     name="mcap", title="Plantar recording", suffixes=(".mcap",), recognises=_recognises, read=_read, order=10
 )
-"""The entry of the registry."""

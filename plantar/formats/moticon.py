@@ -212,4 +212,3 @@ def _device_cop(
 FORMAT = Format(
     name="moticon", title="Moticon OpenGo export", suffixes=(".txt",), recognises=_recognises, read=_read, order=15
 )
-"""The entry of the registry."""

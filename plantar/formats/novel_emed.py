@@ -311,4 +311,3 @@ def _rate(facts: dict[str, str], warnings: list[str]) -> float:
 FORMAT = Format(
     name="emed", title="Novel emed export", suffixes=(".lst",), recognises=_recognises, read=_read, order=12
 )
-"""The entry of the registry."""

@@ -350,4 +350,3 @@ FORMAT = Format(
     read=_read,
     order=11,
 )
-"""The entry of the registry."""

@@ -192,4 +192,3 @@ FORMAT = Format(
     folders=_FOLDERS,
     order=18,
 )
-"""The entry of the registry."""

@@ -290,4 +290,3 @@ def _rate(header: dict[str, str], warnings: list[str]) -> float:
 FORMAT = Format(
     name="tekscan", title="Tekscan export", suffixes=(".asf", ".csv"), recognises=_recognises, read=_read, order=13
 )
-"""The entry of the registry."""

@@ -368,4 +368,3 @@ def _check_load(
 FORMAT = Format(
     name="xsensor", title="XSENSOR export", suffixes=(".csv",), recognises=_recognises, read=_read, order=14
 )
-"""The entry of the registry."""

@@ -18,8 +18,7 @@ __all__ = ["Surface", "laid_over", "rotations_to_normals"]
 Surface = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
 """Height z (...) of the sole's outer face in m over positions x (...) and y (...) in m, in the sole frame."""
 
-_STEP = 1e-5
-"""Half width in m of the differences that give the slope."""
+_STEP = 1e-5  # Half width in m of the differences that give the slope
 
 
 def laid_over(layout: SoleLayout, surface: Surface) -> SoleLayout:

@@ -20,7 +20,7 @@ from plantar.arrays import array
 from plantar.errors import InputError
 from plantar.gravity import GRAVITY
 
-__all__ = ["external_acceleration", "push_of_dcm", "vrp_offset"]
+__all__ = ["external_acceleration", "vrp_offset"]
 
 
 def vrp_offset(wrench: ArrayLike, mass: float, omega: float, virtual_mass: float = 1.0) -> NDArray[np.float64]:
@@ -73,28 +73,6 @@ def external_acceleration(
         Acceleration.
     """
     return np.asarray(vrp_offset(wrench, mass, omega, virtual_mass) * float(omega) ** 2)
-
-
-def push_of_dcm(impulse: ArrayLike, mass: float, omega: float, height: float = 0.0) -> NDArray[np.float64]:
-    """Displacement of the DCM by a short push: J (1 + w^2 height / g) / (m w).
-
-    Args:
-        impulse: Horizontal impulse (..., 2) on robot in N s.
-        mass: Mass of robot in kg, above 0.
-        omega: Pendulum frequency in rad/s, above 0.
-        height: Height of push above CoM in m.
-
-    Returns:
-        Displacement (..., 2) in m.
-
-    Raises:
-        InputError: Impulse not (..., 2).
-    """
-    given = array(impulse, "impulse", (..., 2))
-    rate, carried = _positive(omega, "pendulum frequency", "rad/s"), _positive(mass, "mass", "kg")
-    lever = 1.0 + rate * rate * number(height, "height of the push", finite=True) / GRAVITY
-    with np.errstate(over="ignore", invalid="ignore"):
-        return np.asarray(given * (lever / (carried * rate)))
 
 
 def _positive(value: float, name: str, unit: str) -> float:

@@ -25,8 +25,8 @@ __all__ = [
 ]
 
 _THREE_HALVES = 1.5 * np.eye(3)
+# Cosine below which the axis is taken from the rotation's symmetric part: its antisymmetric part vanishes there
 _NEAR_HALF_TURN = -0.9
-"""Cosine below which the axis is taken from the rotation's symmetric part: its antisymmetric part vanishes there."""
 
 
 def rotation_from_vector(vector: NDArray[np.float64]) -> NDArray[np.float64]:

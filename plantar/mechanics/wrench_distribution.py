@@ -38,19 +38,22 @@ _TRACKED = 0.005  # of the body weight (or times the unit of length): a net wren
 
 
 class DistributionState(StrEnum):
-    """How a distribution ended."""
+    """How a distribution ended.
+
+    Attributes:
+        TRACKED: The contacts give the wanted net wrench.
+        SATURATED: No wrenches inside the cones give it; the share comes nearest.
+        INFEASIBLE: The constraints contradict each other; the share violates them least.
+        INVALID: The request holds a number that is not finite, or no share above 0; the contacts take the body's weight
+            where they prefer it.
+        AIRBORNE: No contact, no wrench.
+    """
 
     TRACKED = "tracked"
-    """The contacts give the wanted net wrench."""
     SATURATED = "saturated"
-    """No wrenches inside the cones give it; the share comes nearest."""
     INFEASIBLE = "infeasible"
-    """The constraints contradict each other; the share violates them least."""
     INVALID = "invalid"
-    """The request holds a number that is not finite, or no share above 0; the contacts take the body's weight where
-    they prefer it."""
     AIRBORNE = "airborne"
-    """No contact, no wrench."""
 
 
 @dataclass(frozen=True)

@@ -28,8 +28,7 @@ __all__ = [
 ]
 
 
-_WIDE = 1000
-"""Width in pixels from which a telephone scrolls a figure sideways: fitted, it would be too small to read."""
+_WIDE = 1000  # Width in pixels from which a telephone scrolls a figure sideways: fitted, it would be too small to read
 
 
 class Section(NamedTuple):

@@ -21,6 +21,19 @@ _FLOAT = np.dtype(np.float64)
 class FootTick(NamedTuple):
     """One foot at one tick, in sole frame; as a `Percept`, computed together.
 
+    Attributes:
+        active: Active taxels (n,) (T 4.22).
+        wrench: Ground reaction wrench (6,) about the sole frame's origin in N and N m (T 4.23).
+        contact_area: Area of the active cells in m^2 (T 4.22).
+        position_cop: Centre of pressure (2,) in m, or None without load (T 4.21).
+        support_polygon: Convex support polygon (k, 2) in m, counter-clockwise; empty without contact (T 4.24).
+        support_area: Its area in m^2.
+        centroid: Its centroid (2,) in m, or None without contact (T 4.4.2).
+        safe_polygon: The polygon with its edges moved inwards (m, 2) in m; its deepest point (1, 2) where nothing is
+            left.
+        clamped: Point (2,) in m of the safe polygon that is closest to the aim (T Algorithm 1), or None without
+            contact.
+
     Example:
         >>> from plantar import grid_layout
         >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.05, 0.05))
@@ -30,23 +43,14 @@ class FootTick(NamedTuple):
     """
 
     active: NDArray[np.bool_]
-    """Active taxels (n,) (T 4.22)."""
     wrench: NDArray[np.float64]
-    """Ground reaction wrench (6,) about the sole frame's origin in N and N m (T 4.23)."""
     contact_area: float
-    """Area of the active cells in m^2 (T 4.22)."""
     position_cop: NDArray[np.float64] | None
-    """Centre of pressure (2,) in m, or None without load (T 4.21)."""
     support_polygon: NDArray[np.float64]
-    """Convex support polygon (k, 2) in m, counter-clockwise; empty without contact (T 4.24)."""
     support_area: float
-    """Its area in m^2."""
     centroid: NDArray[np.float64] | None
-    """Its centroid (2,) in m, or None without contact (T 4.4.2)."""
     safe_polygon: NDArray[np.float64]
-    """The polygon with its edges moved inwards (m, 2) in m; its deepest point (1, 2) where nothing is left."""
     clamped: NDArray[np.float64] | None
-    """Point (2,) in m of the safe polygon that is closest to the aim (T Algorithm 1), or None without contact."""
 
 
 def walking_tick(

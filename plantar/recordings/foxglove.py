@@ -55,8 +55,8 @@ _LINE_LOOP, _ALL = 1, 1
 _SLOT = b"plant\x44"  # last six bytes of a double that no quantity has, about 1e22; its first two number the slot
 _LONG = 5  # bytes of a varint that always has the same length: 35 bits
 _SHIFTS = 7 * np.arange(_LONG, dtype=np.uint64)
+# Time to be filled in: both whole numbers take `_LONG` bytes
 _TIME = {"seconds": 2**34 + 0x2B5A3C1, "nanos": 2**30 + 0x1A2B3C5}
-"""Time to be filled in: both whole numbers take `_LONG` bytes."""
 
 
 def descriptor(schema: str) -> bytes:

@@ -84,6 +84,7 @@ class BipedParameters:
             object.__setattr__(self, key, _dimension(getattr(self, key), key))
 
 
+# How many numbers a dimension has that is not a single one
 _COUNTS: Mapping[str, int] = {
     "hip_offset": 3,
     "ankle_offset": 2,
@@ -94,7 +95,6 @@ _COUNTS: Mapping[str, int] = {
     "velocity_limits": 6,
     "chest_size": 3,
 }
-"""How many numbers a dimension has that is not a single one."""
 
 
 def _dimension(value: Any, key: str) -> float | tuple[float, ...]:

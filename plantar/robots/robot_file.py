@@ -32,6 +32,7 @@ _FOLDER = Path(__file__).parent
 _LEAST_JOINTS = 4  # of a leg: hip roll and pitch, knee, ankle pitch; the ground chooses the sole's roll
 _LARGEST_ANGLE = 360.0  # degrees, of a posture
 
+# What each table of a robot file may hold; `biped` and `balance` check their own
 _KEYS: Mapping[str, tuple[str, ...]] = {
     "model": ("kind", "file"),
     "foot": ("foot_length", "foot_width", "sole_center", "corner_radius", "taxels"),
@@ -66,7 +67,6 @@ _KEYS: Mapping[str, tuple[str, ...]] = {
     "servo": ("stiffness", "damping", "own_stiffness", "own_damping", "effort_limits", "velocity_limits"),
     "arms": ("machine", "chest", *SIDES),
 }
-"""What each table of a robot file may hold; `biped` and `balance` check their own."""
 
 
 def builtin_robots() -> tuple[str, ...]:

@@ -62,8 +62,8 @@ def start_of_walk(
 STEPS_A_ROUND = 6
 """Footsteps after which both feet stand where they began."""
 
+# Where each step puts its foot, in strides forward and away from the foot that moves first
 _CORNERS = ((1.0, 0.0), (1.0, 1.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0), (0.0, 0.0))
-"""Where each step puts its foot, in strides forward and away from the foot that moves first."""
 
 
 def box_plan(

@@ -25,11 +25,9 @@ _SINGLE_SUPPORT, _DOUBLE_SUPPORT = 3.64, 1.21
 _QUICK_SINGLE, _QUICK_DOUBLE = 2.02, 0.404
 """Paces that they last where a velocity is commanded, which quick steps follow soon: 0.5 and 0.1 s on h1."""
 
-_LEAST_START = 0.2
-"""Least time in s of the first shift of the weight."""
+_LEAST_START = 0.2  # Least time in s of the first shift of the weight
 
-_VELOCITY_UNITS = ("s", "m/s", "m/s", "rad/s")
-"""Units of a row of a velocity command."""
+_VELOCITY_UNITS = ("s", "m/s", "m/s", "rad/s")  # Units of a row of a velocity command
 
 
 class Walk(Settings):

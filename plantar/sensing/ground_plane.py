@@ -9,59 +9,38 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import number
-from plantar.arrays import array, read_only
+from plantar.arrays import read_only
 from plantar.errors import InputError
 from plantar.kernels.skin.ground import GroundFit
 from plantar.layouts.layout import SoleLayout
-from plantar.layouts.taxel_values import taxel_frames, taxel_values
+from plantar.layouts.taxel_values import taxel_values
 
-__all__ = ["GroundPlane", "checked_range", "fit_ground_plane", "ground_fit", "ground_points"]
+__all__ = ["GroundPlane", "checked_range", "fit_ground_plane", "ground_fit"]
 
 
 class GroundPlane(NamedTuple):
-    """Ground z = -height + slope . (x, y) in sole frame."""
+    """Ground z = -height + slope . (x, y) in sole frame.
+
+    Attributes:
+        height: Height in m of the sole frame's origin above the ground, along the sole's z; negative below it.
+        slope: Rise of the ground along the sole's x and y, as a ratio (tangent).
+        residual: Root mean square distance in m, along z, of the points used.
+        inliers: Taxels (n,) whose points were used.
+        directions: Directions in which the points determine a slope: 2, or 1 for points in a row, 0 for one point. The
+            slope along the others is taken as 0.
+    """
 
     height: float
-    """Height in m of the sole frame's origin above the ground, along the sole's z; negative below it."""
     slope: tuple[float, float]
-    """Rise of the ground along the sole's x and y, as a ratio (tangent)."""
     residual: float
-    """Root mean square distance in m, along z, of the points used."""
     inliers: NDArray[np.bool_]
-    """Taxels (n,) whose points were used."""
     directions: int
-    """Directions in which the points determine a slope: 2, or 1 for points in a row, 0 for one point. The slope along
-    the others is taken as 0."""
 
     @property
     def normal(self) -> NDArray[np.float64]:
         """Unit normal (3,) of the ground in sole frame, upwards."""
         vector = np.array([-self.slope[0], -self.slope[1], 1.0])
         return np.asarray(vector / np.linalg.norm(vector))
-
-    def height_at(self, points: ArrayLike) -> NDArray[np.float64]:
-        """Height (...) in m above ground of points (..., 2) of the sole plane, along z."""
-        places = array(points, "points", (..., 2))
-        with np.errstate(over="ignore", invalid="ignore"):  # of points that are not finite
-            return np.asarray(self.height - places @ np.array(self.slope))
-
-
-def ground_points(layout: SoleLayout, distance: ArrayLike) -> NDArray[np.float64]:
-    """Points of the ground under the taxels: r_i - d_i z_i.
-
-    Args:
-        layout: Sole, n taxels.
-        distance: Distances (n,) or (frames, n) in m; inf out of range, NaN if dead.
-
-    Returns:
-        Points (n, 3) or (frames, n, 3) in sole frame in m; NaN without ground.
-
-    Raises:
-        ReadingError: Distances not (..., taxels).
-    """
-    reach = taxel_frames(layout, distance, "distances")
-    reach = np.where(np.isfinite(reach), reach, np.nan)
-    return np.asarray(layout.positions - reach[..., None] * layout.rotations[:, :, 2])
 
 
 def fit_ground_plane(

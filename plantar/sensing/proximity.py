@@ -30,14 +30,18 @@ __all__ = [
 
 
 class HeightContour(NamedTuple):
-    """Ground nearer to the sole than a height."""
+    """Ground nearer to the sole than a height.
+
+    Attributes:
+        height: Height in m.
+        taxels: Taxels (n,) nearer than the height.
+        polygon_in_sole: Convex polygon (k, 2) of their cells in the sole frame in m, counter-clockwise; empty where
+            there is none.
+    """
 
     height: float
-    """Height in m."""
     taxels: NDArray[np.bool_]
-    """Taxels (n,) nearer than the height."""
     polygon_in_sole: NDArray[np.float64]
-    """Convex polygon (k, 2) of their cells in the sole frame in m, counter-clockwise; empty where there is none."""
 
 
 def proximity_measure(distance: ArrayLike, sensing_range: float) -> NDArray[np.float64]:

@@ -17,8 +17,7 @@ from plantar.sensing.proximity import proximity_measure
 
 __all__ = ["SoleWrenchSwitch", "early_stop", "sole_wrenches", "virtual_ground_reaction_wrench"]
 
-_CHUNK = 1024
-"""Frames that are worked on at once."""
+_CHUNK = 1024  # Frames that are worked on at once
 
 
 def virtual_ground_reaction_wrench(

@@ -25,7 +25,7 @@ from plantar.pages.policy import with_policy
 from plantar.viewer.messages import Entity, Shape
 from plantar.viewer.walk import Walk, read_walk
 
-__all__ = ["page_of", "view_text", "write_page"]
+__all__ = ["view_text", "write_page"]
 
 _MOST = 2  # walks side by side
 _NOT_MEASURED = 0xFFFF
@@ -77,11 +77,6 @@ def view_text(written: Mapping[str, Any]) -> str:
     """Summary of a written page."""
     walks = "\n".join(f"  {walk['name']}: {walk['duration_s']:.1f} s" for walk in written["walks"])
     return f"{walks}\n  {written['file']} ({written['bytes'] / 1e6:.1f} MB)"
-
-
-def page_of(walks: Sequence[Walk]) -> str:
-    """Page of walks."""
-    return "".join(_pieces(walks))
 
 
 def _pieces(walks: Sequence[Walk]) -> Iterator[str]:

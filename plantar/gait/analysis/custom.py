@@ -20,7 +20,7 @@ from plantar.gait.analysis.steps.pressure_measures import region_measures
 from plantar.gait.analysis.steps.step_load import StepLoad, StepLoads
 from plantar.sides import Side
 
-__all__ = ["StepView", "custom_measures", "mask_cells", "mask_measures"]
+__all__ = ["StepView", "custom_measures", "mask_measures"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,23 +80,6 @@ def mask_measures(analysis: Analysis, masks: Mapping[str, ArrayLike]) -> dict[Si
             rows.append(row)
         out[side] = rows
     return out
-
-
-def mask_cells(analysis: Analysis, side: Side, corners: ArrayLike) -> NDArray[np.int64]:
-    """Returns indices of cells with their centre in a mask.
-
-    Args:
-        analysis: Of insoles or soles.
-        side: Foot.
-        corners: Mask (n, 2) in foot coordinates.
-
-    Raises:
-        InputError: Without geometry, or no polygon.
-    """
-    places = _places(analysis, analysis.feet[side], None)
-    if places is None:
-        raise InputError(f"the {side} foot has no geometry: give a layout")
-    return np.flatnonzero(_inside(places, _ring("the mask", corners)))
 
 
 def _ring(name: str, corners: ArrayLike) -> NDArray[np.float64]:

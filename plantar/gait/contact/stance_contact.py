@@ -15,7 +15,6 @@ from plantar.geometry.polygon import area, centroid, signed_margin
 from plantar.kernels.gait.carried_load import mark_carried, take_in
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.partial_contact import PartialContact
-from plantar.sensing.proximity import cells_polygon
 from plantar.sensing.reading import Reading
 from plantar.settings.part import Part
 from plantar.settings.schema import fixed, number, switch
@@ -34,7 +33,6 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
         level: Slope in rad of the sole against the ground above noise: then silent taxels on the rising side show
             nothing.
         model_error: Allowed force misfit, as a share of the largest force.
-        subcell: Whether edges are finer than a cell; else cell corners count (T 4.24).
         remember: Whether a foot without sight presumes the last foothold's edges.
     """
 
@@ -63,7 +61,6 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
     least_beside: ClassVar[float] = 0.08
     model_error: float = number(0.1, "1", 0, 1)
     full_ratio: ClassVar[float] = 0.93  # Share of the sole from which on the contact polygon counts as the whole sole
-    subcell: bool = switch(True)
     fit_every: ClassVar[int] = 8  # Readings between two fits of a contact polygon that has settled
     # Vertical force in N from which the foot stands and its loads show the edges
     standing_load: float = fixed(0.533, "weight")
@@ -232,15 +229,13 @@ class StanceContact:
         lines = self._from_loads(mean) if self._believed is None else self._believed
         polygon = self._fit.polygon(lines)
         # A foot that still settles presses on a corner or a line; once it stands, the loads show the edges.
-        if len(lines) and s.subcell and self._believed is None and float(mean.sum()) > s.standing_load:
+        if len(lines) and self._believed is None and float(mean.sum()) > s.standing_load:
             largest = float(mean.max())
             # Noise shrinks with the readings summed, what the model of the sole leaves out does not.
             noise = math.hypot(s.taxel_noise / self._weight**0.5, s.model_error * largest)
             found = self._fit.update(mean, self._carried, noise, start=lines)
             if found.residual < s.model_error * largest:
                 polygon, lines = found.polygon, found.lines
-        elif len(lines) and not s.subcell and self._carried.any():
-            polygon = cells_polygon(self.layout, self._carried)
         if len(polygon) < 3:
             return first
         ratio = area(polygon) / self._whole_area

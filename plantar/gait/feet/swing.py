@@ -13,11 +13,9 @@ from plantar.mechanics.easing import minimum_jerk
 
 __all__ = ["SwingTrajectory"]
 
-# Share of a swing, at its end, that a slow approach takes
-_APPROACH_SHARE = 0.44
+_APPROACH_SHARE = 0.44  # Share of a swing, at its end, that a slow approach takes
 
-# Share of such a swing after which the foot moves only downwards
-_ARRIVED_SHARE = 0.61
+_ARRIVED_SHARE = 0.61  # Share of such a swing after which the foot moves only downwards
 
 # Largest share of such a swing spent rising: the next stone may be 30 mm higher, and the toe is soon above it
 _RISE_SHARE = 0.28
@@ -25,11 +23,9 @@ _RISE_SHARE = 0.28
 # Share of such a swing after which it comes down: what moves under the foot meanwhile has to pass below it
 _HIGH_SHARE = 0.34
 
-# Share of a swing after which one that rises first moves horizontally: half of its height
-_FIRST_SHARE = 0.14
+_FIRST_SHARE = 0.14  # Share of a swing after which one that rises first moves horizontally: half of its height
 
-# Exponent below 1 that moves the horizontal motion of such a swing forward, so that it brakes gently
-_SKEW = 0.8
+_SKEW = 0.8  # Exponent below 1 that moves the horizontal motion of such a swing forward, so that it brakes gently
 
 
 @dataclass(frozen=True)

@@ -18,15 +18,7 @@ __all__ = ["EdgeBeside"]
 # Share of the taxels that see nothing, of an edge: half of the row along a side. Fewer are a hole, or have failed.
 _LEAST_OVER = 0.08
 
-# Share beyond which it is no foothold with an edge any more
-_MOST_OVER = 0.5
-
-# Landings in a row of one foot, alike, by which a walk that bears partial footholds has drifted off its way: one such
-# foothold is a stone's shape
-_DRIFT = 3
-
-# Of a sole's width, by which the moves for them differ at most: half a row of taxels, and noise
-_ALIKE = 0.08
+_MOST_OVER = 0.5  # Share beyond which it is no foothold with an edge any more
 
 
 class EdgeBeside:
@@ -38,20 +30,16 @@ class EdgeBeside:
         layouts: Of each side.
         drop: Distance in m from the sole of absent ground.
         largest: Largest move in m by one landing.
-        drift: Whether only a drift moves steps: one foot over alike edges at each of its last landings, the other over
-            none.
     """
 
     priority = Priority.FOOTHOLD
 
-    def __init__(self, layouts: Mapping[Side, SoleLayout], drop: float, largest: float, *, drift: bool = False) -> None:
+    def __init__(self, layouts: Mapping[Side, SoleLayout], drop: float, largest: float) -> None:
         self._places = {side: layout.positions[:, :2] for side, layout in layouts.items()}
         self._drop = drop
         self._largest = largest
         self._proposed: PlanChange | None = None
         self._moved = (-1, 0.0)
-        self._seen: list[float] | None = [] if drift else None  # moves for the last landings, of both feet in turn
-        self._alike = _ALIKE * max(float(np.ptp(places[:, 1])) for places in self._places.values())
 
     def propose(self, tick: Tick) -> PlanChange | None:
         """Later steps, moved across, at touchdown."""
@@ -72,8 +60,6 @@ class EdgeBeside:
             return None
         step = phase.step if phase.swing is not None else phase.step - 1
         across = self._across(side, distance)
-        if self._seen is not None:
-            across = self._drifted(self._seen, across)
         if not across or step + 1 >= tick.plan.count or self._begun(step, tick):
             return None
         last, way = self._moved
@@ -82,17 +68,6 @@ class EdgeBeside:
             return None  # the ground of the other foot ends on its other side: there is no way between both
         dx, dy = (across * tick.place(side).rotation_sole_to_world[:2, 1]).tolist()
         return PlanChange("an edge beside", step, shift=(dx, dy), because="off the edge beside")
-
-    def _drifted(self, seen: list[float], across: float) -> float:
-        """Least move of the same foot's last landings, where they and the other foot's between them mean a drift."""
-        seen.append(across)
-        del seen[: -(2 * _DRIFT - 1)]
-        own, other = seen[::-2], seen[-2::-2]
-        alike = len(own) == _DRIFT and min(own) * max(own) > 0.0 and max(own) - min(own) <= self._alike
-        if not alike or any(other):
-            return 0.0
-        seen.clear()
-        return min(own, key=abs)
 
     def _across(self, side: Side, distance: NDArray[np.float64]) -> float:
         """Middle of its ground in m to the sole's left; 0 without an edge along a side."""

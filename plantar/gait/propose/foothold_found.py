@@ -20,12 +20,11 @@ from plantar.sides import Side
 
 __all__ = ["FootholdCarries"]
 
-# Share of the sole across the walk below which the ground is narrow. The widest that counts as a strip, half a sole, is
-# seen with an error of a taxel at either edge, a fourteenth of a sole of 42 taxels.
+# Share of the sole across the walk below which the ground is narrow. The widest that counts as a strip, half a sole,
+# is seen with an error of a taxel at either edge, a fourteenth of a sole of 42 taxels.
 _NARROW = 0.75
 
-# Share of what an ankle bears up to which the load may lie from it without the footsteps being moved
-_NEAR = 0.5
+_NEAR = 0.5  # Share of what an ankle bears up to which the load may lie from it without the footsteps being moved
 
 # Share of what an ankle bears on which a foot is loaded that is still to come; the rest is to balance with
 _BORNE = 0.75

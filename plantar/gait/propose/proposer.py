@@ -32,16 +32,19 @@ __all__ = ["Pendulum", "Priority", "Proposer", "Tick", "nearest_place", "was_app
 
 
 class Priority(IntEnum):
-    """Rank of proposed changes, the first applied."""
+    """Rank of proposed changes, the first applied.
+
+    Attributes:
+        SAFETY: A foothold that is not trusted: nothing may put weight on it.
+        FOOTHOLD: What a foot stands on, or will: the VRP has to lie over it.
+        TIMING: When the swing foot comes down, by where the DCM is.
+        COMMAND: What a user wants: it can wait for a tick.
+    """
 
     SAFETY = 0
-    """A foothold that is not trusted: nothing may put weight on it."""
     FOOTHOLD = 1
-    """What a foot stands on, or will: the VRP has to lie over it."""
     TIMING = 2
-    """When the swing foot comes down, by where the DCM is."""
     COMMAND = 3
-    """What a user wants: it can wait for a tick."""
 
 
 class Pendulum(Record, frozen=True):

@@ -18,13 +18,13 @@ SLOW = 0.0247
 """Rate in rad/beat from which a joint moves against its friction: 0.1 rad/s on a leg of 0.6 m."""
 
 _LARGEST_STEP = 0.1  # rad of a joint in a control period: 20 rad/s at 200 Hz, three times what the robots' knees can
+# Feet that miss their targets first, by whether the left and the right one carry no load
 _YIELDING: dict[tuple[bool, bool], tuple[Side, ...]] = {
     (False, False): (),
     (True, False): ("left",),
     (False, True): ("right",),
     (True, True): ("left", "right"),
 }
-"""Feet that miss their targets first, by whether the left and the right one carry no load."""
 
 
 def follow_command(legs: LegModel, command: Command) -> float:

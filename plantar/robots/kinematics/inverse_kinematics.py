@@ -41,9 +41,9 @@ _ROUNDING = 1e-8  # on the diagonal of the normal equations
 # The largest step L must not carry a limb across the damped zone: c L / 2 <= _EPSILON; c is 0.13 m for a leg of 0.8 m.
 # A level's residual counts with at most 1 (m and rad).
 _EPSILON = 0.01  # singular value in m/rad below which damping sets in; walks stay above 0.019
+# Pivot of the Cholesky factor from which on singular values are looked at. The least pivot is above the least
+# singular value: 3.0 to 3.4 times in walks, so this is the pivot of 0.012, and walks stay above 0.052.
 _SUSPECT = 0.04
-"""Pivot of the Cholesky factor from which on singular values are looked at. The least pivot is above the least singular
-value: 3.0 to 3.4 times in walks, so this is the pivot of 0.012, and walks stay above 0.052."""
 _POSTURE_SHARE = 0.01  # of the way to the reference posture in a step: 0.5 s at 200 steps a second
 _INSIDE = 1e-12  # rad or m inside its limit at which a joint stops: rounding does not carry it out
 _NULL = 1e-9  # singular value over the largest below which a direction is in the null space

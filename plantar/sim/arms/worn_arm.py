@@ -20,8 +20,7 @@ from plantar.sim.companion.machine import JointTable, load_machine
 
 __all__ = ["WornArm"]
 
-_PREFIX = "arm/"
-"""What the names of its links and joints begin with: a robot may have some of these names already."""
+_PREFIX = "arm/"  # What the names of its links and joints begin with: a robot may have some of these names already
 
 
 class WornArm:

@@ -117,12 +117,12 @@ def _footholds(output: Path, options: BenchOptions, progress: Progress) -> Measu
     return Measured(result, footholds_text(result) + "\n" + file_lines(str(output / name) for name in result["files"]))
 
 
+# Kinds whose tables grow in the folder itself and are gone on with
 _TABLES: Mapping[str, Callable[[Path, BenchOptions, Progress], Measured]] = {
     "scenes": _scenes,
     "stress": _stress,
     "footholds": _footholds,
 }
-"""Kinds whose tables grow in the folder itself and are gone on with."""
 
 
 def _kernels(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
@@ -152,12 +152,12 @@ def _skip(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
     return Measured(result, skip_text(result), () if result["same_motion"] else (same,))
 
 
+# Kinds that write all their files at their end, in the order of `all`
 _PARTS: Mapping[str, Callable[[Path, BenchOptions, Progress], Measured]] = {
     "kernels": _kernels,
     "contact": _contact,
     "skip": _skip,
 }
-"""Kinds that write all their files at their end, in the order of `all`."""
 
 
 def _measure_parts(what: str, options: BenchOptions, output: Path, progress: Progress) -> Measured:

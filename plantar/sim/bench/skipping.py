@@ -73,14 +73,9 @@ class WatchedSimulation(Simulation):
         """Hash of all positions of all physics steps."""
         return self._motion.hexdigest()
 
-    @property
-    def replays(self) -> bool:
-        """Whether controls alone repeat the motion: no pushes or moving ground."""
-        return self.touch is None and not self.pusher.shoves and not self.world.moving_ground
-
 
 def replay_physics(run: WatchedSimulation) -> tuple[float, str]:
-    """Physics alone of a run that `replays`: CPU time in s, motion hash."""
+    """Physics alone of a run without pushes or moving ground: CPU time in s, motion hash."""
     model = run.world.model
     data = mujoco.MjData(model)
     mujoco.mj_copyData(data, model, run._began)

@@ -148,18 +148,18 @@ class Experiment:
         duration: Simulated time in s.
         fell: Whether the machine fell, which ends the run.
         done: Whether all is finished, likewise.
+        settings_type: Class of the scene's table `[experiment]`.
+        control_type: Class of the scene's table `[control]`: the controller's gains and switches.
+        columns: Names of those figures that a sweep writes into columns.
+        uses_lidar: Whether the base has distance sensors; then the controller is a `LidarController`.
+        view: Body that a video follows (the base where empty), and from where.
     """
 
     settings_type: ClassVar[type[Settings]] = Settings
-    """Class of the scene's table `[experiment]`."""
     control_type: ClassVar[type[CompanionControl]] = CompanionControl
-    """Class of the scene's table `[control]`: the controller's gains and switches."""
     columns: ClassVar[tuple[str, ...]] = ()
-    """Names of those figures that a sweep writes into columns."""
     uses_lidar: ClassVar[bool] = False
-    """Whether the base has distance sensors; then the controller is a `LidarController`."""
     view: ClassVar[tuple[str, View]] = ("", View())
-    """Body that a video follows (the base where empty), and from where."""
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
         self.machine, self.settings, self.control, self.seed = machine, settings, control, seed

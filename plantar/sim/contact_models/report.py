@@ -23,8 +23,8 @@ COP_LIMIT_MM, EDGE_LIMIT_MM = 2.0, 1.0
 """What is required of the chosen model: largest error of the centre of pressure in full-sole stance, and largest
 distance of the tip-over edge from the sole's edge."""
 
+# The sole that is measured where none is given: 250 x 155 mm, in m
 _SOLE = ((-0.125, -0.0775), (0.125, -0.0775), (0.125, 0.0775), (-0.125, 0.0775))
-"""The sole that is measured where none is given: 250 x 155 mm, in m."""
 
 _LEAST, _MOST = 1e-2, 150.0
 """Errors in mm that are drawn: smaller and larger ones are drawn there."""

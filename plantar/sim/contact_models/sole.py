@@ -19,8 +19,7 @@ __all__ = ["Sole", "build_sole"]
 Reader = Callable[[Any], NDArray[np.float64]]
 """Taxel forces (n,) in N from the MjData."""
 
-_ROUNDS = 8
-"""How often cells that would pull are left out of the fit to the wrench."""
+_ROUNDS = 8  # How often cells that would pull are left out of the fit to the wrench
 
 
 class Sole(NamedTuple):

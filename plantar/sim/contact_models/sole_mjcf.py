@@ -138,13 +138,13 @@ def _square(layout: SoleLayout, i: int, attributes: str) -> str:
     return f'<geom name="taxel{i}_0" type="box" size="{half} {half} {depth}" pos="{x} {y} {depth}" {attributes}/>'
 
 
+# What makes the MJCF of a candidate, by its kind and reading
 _MAKERS: dict[tuple[str, str], Callable[[Candidate, SoleLayout, str], SoleMjcf]] = {
     ("box", "patches"): _box,
     ("box", "tactile"): _box_with_tactile_sensor,
     ("spheres", "contacts"): _spheres,
     ("prisms", "contacts"): _prisms,
 }
-"""What makes the MJCF of a candidate, by its kind and reading."""
 
 
 def support_points(ring: NDArray[np.float64], count: int) -> NDArray[np.float64]:

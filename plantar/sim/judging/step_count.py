@@ -17,8 +17,8 @@ __all__ = ["Count", "Stand", "StepCount"]
 # Share of the weight that makes a touch a stand: probes, taps and bounces carry less, or are followed by one
 _CARRIES = 0.25
 
-# Share of the way by which steps may add up to another place than planned: feet slip and legs give way. 300 steps of H1
-# on the flat come to 0.002 of their 60 m.
+# Share of the way by which steps may add up to another place than planned: feet slip and legs give way. 300 steps of
+# H1 on the flat come to 0.002 of their 60 m.
 _LOST = 0.02
 
 # Heading in rad for each leg length of the way by which they may turn off their course: 0.5 degrees a metre for H1,

@@ -24,8 +24,7 @@ __all__ = ["NEAR_YAW", "WalkGoal", "Way"]
 Way = tuple[float, float, float]
 """From one foothold to the next: forward and left in m, in the frame of the first, and the turn in rad."""
 
-# Distance in leg lengths within which a foot has reached a place: 50 mm for H1
-_NEAR = 1 / 12
+_NEAR = 1 / 12  # Distance in leg lengths within which a foot has reached a place: 50 mm for H1
 
 NEAR_YAW = math.radians(5.0)
 """Angle in rad within which it has the place's heading."""
@@ -35,10 +34,10 @@ NEAR_YAW = math.radians(5.0)
 _DETOUR = 5 / 6
 
 _DETOUR_YAW = math.radians(30.0)
-# Distance in leg lengths by which it may be moved in all, and share of the way walked so far by which further: a detour
-# of 0.4 legs early in a walk, two of them later, a strip that turns away by 10 degrees; no walk that ends where it
-# began
 _AWAY, _DRIFT = 0.5, 0.25
+"""Distance in leg lengths by which it may be moved in all, and share of the way walked so far by which further: a
+detour of 0.4 legs early in a walk, two of them later, a strip that turns away by 10 degrees; no walk that ends where it
+began."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Names of robots, machines, scenes, papers and formats, without a simulator."""
+"""Names of robots, machines, scenes, papers, formats and live sources, without a simulator."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ def listed(what: str) -> dict[str, str]:
     """Names with a line on each.
 
     Args:
-        what: "robots", "scenes", "papers" or "formats".
+        what: "robots", "scenes", "papers", "formats" or "sources".
 
     Returns:
         Descriptions by name.
@@ -29,6 +29,10 @@ def listed(what: str) -> dict[str, str]:
         from plantar.formats import formats
 
         return {f.name: f"{f.title} ({', '.join(f.suffixes)})" for f in formats().values()}
+    if what == "sources":
+        from plantar.live.source import live_sources
+
+        return {source.name: source.title for source in live_sources().values()}
     if what == "robots":
         files = packaged_files("plantar.robots", "*/robot.toml")
         files += packaged_files("plantar.sim", "companion/machines/*/machine.toml")
@@ -40,4 +44,4 @@ def listed(what: str) -> dict[str, str]:
     if what == "papers":
         found = paper_files()
         return dict(zip(found, described_files(found.values()).values(), strict=True))
-    raise InputError(f"cannot list '{what}'; allowed: robots, scenes, papers, formats, settings")
+    raise InputError(f"cannot list '{what}'; allowed: robots, scenes, papers, formats, sources, settings")

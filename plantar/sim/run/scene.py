@@ -97,8 +97,7 @@ SECTIONS: dict[str, type[Settings]] = {
 }
 """Settings class of each table of a scene; `terrain` has the one of its kind."""
 
-# Sections of which a scene file has one at least: an empty or foreign file is no scene
-_LEAST = ("terrain", "walk")
+_LEAST = ("terrain", "walk")  # Sections of which a scene file has one at least: an empty or foreign file is no scene
 
 _ALIASES: Mapping[str, str] = {
     "sideways": "walk.sideways",

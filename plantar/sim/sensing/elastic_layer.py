@@ -25,15 +25,12 @@ from scipy.linalg.lapack import dposv, dpotrf, dpotri
 
 __all__ = ["Contact", "LayerContact", "influence"]
 
-_FAR = 12.0
-"""Thicknesses from which a square moves nothing: the layer's surface gives way locally."""
+_FAR = 12.0  # Thicknesses from which a square moves nothing: the layer's surface gives way locally
+# Sides from which a square counts as a point: off by half a per cent there, and less with the distance's square
 _NEAR = 3.0
-"""Sides from which a square counts as a point: off by half a per cent there, and less with the distance's square."""
 _ROUNDS, _TOGETHER = 80, 12
-_FEW = 12
-"""Squares about the load that a search begins with where one from all squares fails."""
-_LEAST = 1e-7
-"""Of the load: a square that pulls less, or is penetrated by less than this would press it, is right."""
+_FEW = 12  # Squares about the load that a search begins with where one from all squares fails
+_LEAST = 1e-7  # Of the load: a square that pulls less, or is penetrated by less than this would press it, is right
 
 
 def influence(points: ArrayLike, sides: ArrayLike, thickness: float, poisson: float = 0.4) -> NDArray[np.float64]:

@@ -21,6 +21,7 @@ from plantar.sim.survey.surface_file import meshes_for_mujoco
 
 __all__ = ["ModelSource", "read_model"]
 
+# How MuJoCo must read a URDF: with what is drawn, link by link, and with links that have no mass
 _URDF_COMPILER = {
     "strippath": "false",
     "discardvisual": "false",
@@ -29,7 +30,6 @@ _URDF_COMPILER = {
     "boundmass": "1e-9",
     "boundinertia": "1e-12",
 }
-"""How MuJoCo must read a URDF: with what is drawn, link by link, and with links that have no mass."""
 
 _LOOPS = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
 

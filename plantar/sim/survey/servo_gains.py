@@ -103,8 +103,8 @@ SAMPLED = 1.5
 _LEAD = 0.076  # damping over stiffness, in beats of the leg; h1 has 0.01875 s
 
 
+# Error in rad at which a servo may reach its torque limit: with 0.003 Romeo's hips turned it by 4 degrees each way
 _SATURATED = 7e-3
-"""Error in rad at which a servo may reach its torque limit: with 0.003 Romeo's hips turned it by 4 degrees each way."""
 
 
 def servo_gains(

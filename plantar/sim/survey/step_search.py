@@ -68,8 +68,8 @@ _TRIED_STANCES = (0.3, 0.24)  # of the leg
 _HIGHEST, _LOWEST, _LOWER = 0.15, 0.45, 0.04  # of the leg, above and below the posture with knees of 40 degrees
 _WORSE = 3  # heights in a row that cost more, below which no others are looked at
 _LEAST_KNEE = math.radians(10.0)
+# Cost of a walk from which no other one is looked for: level steps at h1's pace with 75 % of the torque have 0.15
 _GOOD = 0.3
-"""Cost of a walk from which no other one is looked for: level steps at h1's pace with 75 % of the torque have 0.15."""
 _OTHER_SPEED, _OTHER_LEAN, _OTHER_STANCE = 0.6, 0.1, 0.15
 """Cost of steps half as long, or of twice or half the pace; of each further lean, and stance."""
 

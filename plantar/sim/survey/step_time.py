@@ -24,10 +24,10 @@ __all__ = ["LEAN_MOST", "ankle_reach", "has_ankle_roll", "rocking"]
 LEAN_MOST = math.radians(2.5)
 """Lean of a leg in the orbit. What a sole that stands flat does not lean, the body does."""
 
+# Share of the way to a foot that the CoM sways at most. On an edge a sole carries further outside than planned, and
+# throws the CoM back earlier: of three drawn bipeds whose soles' edges are half as far out as their middles none
+# walked at a third of the way, and all at a fifth.
 _NEAR = 0.2
-"""Share of the way to a foot that the CoM sways at most. On an edge a sole carries further outside than planned, and
-throws the CoM back earlier: of three drawn bipeds whose soles' edges are half as far out as their middles none walked
-at a third of the way, and all at a fifth."""
 
 _SINGLE = 0.62  # of the time of a step; with more, feet that land on an edge have no time to come down flat
 _SHORTEST = 0.2  # s: the least that the timing of a walk allows

@@ -17,13 +17,13 @@ __all__ = ["bars_of", "figures_of"]
 
 _WIDEST = 40.0  # inches of a figure
 _GROUPS = 8  # of runs along a setting
+# Columns whose distributions are drawn, where a table has them
 _SHOWN = {
     "tilt_max_deg": "largest tilt [deg]",
     "zmp_margin_min_m": "smallest ZMP margin [m]",
     "impact_max_N": "largest impact [N]",
     "position_error_m": "position error [m]",
 }
-"""Columns whose distributions are drawn, where a table has them."""
 
 
 def figures_of(plan: Plan, found: Mapping[str, Any], rows: Rows) -> dict[str, Any]:

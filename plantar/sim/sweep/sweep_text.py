@@ -7,8 +7,7 @@ from typing import Any
 
 __all__ = ["sweep_errors", "sweep_text"]
 
-_ODD = 1e-3
-"""Agreement of the runs with one curve below which it is doubted: once in a thousand searches by chance."""
+_ODD = 1e-3  # Agreement of the runs with one curve below which it is doubted: once in a thousand searches by chance
 
 
 def sweep_text(result: Mapping[str, Any], scene: str) -> str:

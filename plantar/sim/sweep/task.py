@@ -47,8 +47,8 @@ COLUMNS = (
 )
 """Columns of a walk's row, after the settings and the seed."""
 
+# Those of an experiment of the companion; its own figures stand before the reasons
 _COMPANION = ("completed", "fell", "sim_time_s", "real_time_factor", "control_p99_us", "reasons", "error")
-"""Those of an experiment of the companion; its own figures stand before the reasons."""
 
 
 @dataclass(frozen=True)

@@ -145,7 +145,7 @@ def test_bad_input_is_one_line_and_exit_code_2(tmp_path):
         (["analyze", str(tmp_path / "bad.asc")], "known: mcap"),
         (["analyze", str(tmp_path / "none.asc")], "cannot be read"),
         (["analyze", str(tmp_path / "bad.asc"), "--format", "x"], "allowed: mcap, pedar"),
-        (["list", "feet"], "allowed: robots, scenes, papers, formats, settings"),
+        (["list", "feet"], "allowed: robots, scenes, papers, formats, sources, settings"),
     ):
         extra = ["-o", str(tmp_path / "out")] if arguments[0] == "analyze" else []
         done = plantar(*arguments, *extra)

@@ -5,7 +5,7 @@ import pytest
 
 from plantar import InputError
 from plantar.gait.analysis.analyse import Analysis
-from plantar.gait.analysis.custom import custom_measures, mask_cells, mask_measures
+from plantar.gait.analysis.custom import custom_measures, mask_measures
 from plantar.gait.analysis.pages.sole_figures import axis_is_inside
 from plantar.gait.analysis.parameters import analyse_feet
 
@@ -31,15 +31,14 @@ def test_a_mask_of_everything_measures_the_foot(analysis):
 def test_a_mask_is_the_same_part_of_both_feet(analysis):
     """The medial half of the forefoot; a mask with a notch leaves out what lies in the notch."""
     medial = [[0.7, 0.55], [1.0, 0.55], [1.0, 1.0], [0.7, 1.0]]
-    left, right = (mask_cells(analysis, side, medial) for side in ("left", "right"))
-    assert left.tolist() == right.tolist()
-    assert len(left) > 5
-    layout = analysis.recording.feet["left"].layout
-    assert (layout.positions[left, 1] < layout.positions[:, 1].mean()).all()
     notch = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.5, 0.5], [0.0, 1.0]]
-    kept = set(mask_cells(analysis, "left", notch).tolist())
-    assert 0 < len(kept) < 99
-    assert kept == set(mask_cells(analysis, "left", notch[::-1]).tolist())
+    found = mask_measures(analysis, {"all": WHOLE, "medial": medial, "notch": notch, "turned": notch[::-1]})
+    for left, right in zip(found["left"], found["right"], strict=False):
+        assert left["medial"]["contact_area_m2"] == pytest.approx(right["medial"]["contact_area_m2"])
+        assert (
+            0.0 < left["medial"]["contact_area_m2"] < left["notch"]["contact_area_m2"] < left["all"]["contact_area_m2"]
+        )
+        assert left["notch"] == left["turned"]
 
 
 def test_a_measure_of_ones_own(analysis):

@@ -122,16 +122,6 @@ def test_dead_taxels_neither_see_nor_feel():
     assert foot.contact.area_ratio == pytest.approx(0.5, abs=0.08)
 
 
-def test_the_polygon_of_cell_corners_is_the_larger_one():
-    ratios = []
-    for subcell in (True, False):
-        foot = Foot(REAR, subcell=subcell)
-        foot.descend()
-        foot.load(force=600.0)
-        ratios.append(area(foot.contact.polygon_in_sole) / area(SOLE.outline))
-    assert ratios[1] > ratios[0]
-
-
 def test_bad_settings_are_refused():
     with pytest.raises(InputError, match="model_error"):
         ContactSettings(model_error=-1.0)

@@ -10,9 +10,51 @@ from plantar.errors import InputError
 from plantar.gait.command import Sensors
 from plantar.kernels.safety.plausible import SoleCheck
 from plantar.sim.bench.stress.fault_run import run_with_fault
-from plantar.sim.bench.stress.faults import FAULTS, WALKED_THROUGH
+from plantar.sim.bench.stress.faults import FAULTS
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
+
+WALKED_THROUGH = (
+    "time +5 s",
+    "time -5 s",
+    "time back by 1 s for 0.5 s",
+    "time jitter of 10 ms",
+    "time frozen",
+    "time frozen for 0.1 s",
+    "time NaN for 0.1 s",
+    "time twice as fast",
+    "no sensors for 0.03 s",
+    "IMU frozen for 0.1 s",
+    "IMU NaN for 0.03 s",
+    "gyro with noise of 0.05 rad/s",
+    "gyro at 35 rad/s for a tick",
+    "one encoder off by 0.24 rad",
+    "one encoder off by 0.1 rad",
+    "one encoder off by -0.1 rad",
+    "one encoder off by 0.05 rad",
+    "an ankle's encoder off by 0.15 rad",
+    "an ankle's encoder off by -0.15 rad",
+    "a hip's encoder off by 0.1 rad",
+    "one encoder off by 0.1 rad for 0.3 s",
+    "one encoder off by 0.1 rad for a tick",
+    "one encoder stuck for 0.05 s",
+    "encoders NaN for 0.03 s",
+    "encoders frozen for 0.1 s",
+    "encoders with noise of 1 mrad",
+    "soles swapped",
+    "left sole missing",
+    "left skin NaN",
+    "left skin zeros",
+    "right sole missing",
+    "right skin NaN",
+    "right skin zeros",
+    "left skin of another size",
+    "left skin reports 80 %",
+    "right skin reports 120 %",
+    "soles NaN for 0.03 s",
+    "no soles for 0.03 s",
+)
+"""Faults after which the robot walks on."""
 
 SLOW = ("a knee's encoder drifts by 0.2 rad/s", "an ankle's encoder drifts by -0.2 rad/s", "a hip's encoder stuck")
 """What shows by the turn of the sole that stands, once it is large, or when the leg comes to stand."""

@@ -342,10 +342,6 @@ def _of_mechanics() -> list[Call]:
             for f in (external_wrench.vrp_offset, external_wrench.external_acceleration)
         ),
         _call(
-            partial(external_wrench.push_of_dcm, mass=50.0, omega=3.5),
-            impulse=Argument(np.array([[10.0, -5.0]]), (..., 2), "impulse", nan=True),
-        ),
-        _call(
             partial(lip.divergent_component, omega=4.0),
             com=Argument(com.value, (...,), "com", nan=True),
             com_velocity=Argument(com.value, (...,), "velocity com", nan=True),
@@ -450,12 +446,6 @@ def _of_fields(sole: SoleLayout) -> list[Call]:
         _call(partial(proximity.height_contours, sole, heights=[0.02, 0.03]), distance=far),
         _call(partial(proximity.cells_polygon, sole), taxels=_mask(sole)),
         _call(partial(ground_plane.fit_ground_plane, sole), distance=far),
-        _call(partial(ground_plane.ground_points, sole), distance=_far(sole, frames=True)),
-        Call(
-            "ground_plane.GroundPlane.height_at",
-            lambda points: _plane(sole).height_at(points),
-            {"points": Argument(_RING, (..., 2), "points", nan=True)},
-        ),
         _call(partial(temperature.warm_taxels, threshold=4.0), temperature=warm),
         _call(partial(temperature.temperature_measure, threshold=4.0), temperature=warm),
         _call(partial(temperature.temperature_footprint, sole, threshold=4.0), temperature=one),

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from plantar.errors import InputError
 from plantar.gravity import GRAVITY
-from plantar.mechanics.external_wrench import external_acceleration, push_of_dcm, vrp_offset
+from plantar.mechanics.external_wrench import external_acceleration, vrp_offset
 from plantar.mechanics.wrench import wrench_at
 
 MASS, HEIGHT = 86.0, 0.83
@@ -59,14 +59,6 @@ def test_a_smaller_virtual_mass_gives_way_more():
     assert vrp_offset(wrench, MASS, OMEGA, 0.5) == pytest.approx(2.0 * vrp_offset(wrench, MASS, OMEGA))
 
 
-def test_a_short_push_moves_the_dcm_by_the_offset_it_lasts():
-    impulse, above, lasts = np.array([12.0, -30.0]), 0.3, 1e-7
-    force = impulse / lasts
-    offset = vrp_offset([*force, 0.0, -above * force[1], above * force[0], 0.0], MASS, OMEGA)
-    assert push_of_dcm(impulse, MASS, OMEGA, above) == pytest.approx(OMEGA * offset * lasts, rel=1e-12)
-    assert push_of_dcm(impulse, MASS, OMEGA) == pytest.approx(impulse / MASS / OMEGA, rel=1e-12)
-
-
 def test_many_wrenches_at_once_and_those_that_are_not_finite():
     wrenches = np.array([[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [1e4, 0, 0, 0, 1e4, 0], [math.nan, 0, 0, 0, 0, 0]])
     found = vrp_offset(wrenches, MASS, OMEGA)
@@ -85,5 +77,3 @@ def test_what_is_no_body_is_refused(wrong):
         external_acceleration(wrench, MASS, wrong)
     with pytest.raises(InputError, match="share of the mass is"):
         vrp_offset(wrench, MASS, OMEGA, wrong)
-    with pytest.raises(InputError, match="mass is"):
-        push_of_dcm([1.0, 0.0], wrong, OMEGA)

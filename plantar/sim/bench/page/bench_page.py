@@ -15,6 +15,7 @@ __all__ = ["bench_page"]
 
 Row = Mapping[str, Any]
 
+# Kernels that are shown first, in this order
 _HEADLINES = (
     "hull + area",
     "concave outline",
@@ -25,7 +26,6 @@ _HEADLINES = (
     "rectangle in the outline",
     "hull + area of a recording",
 )
-"""Kernels that are shown first, in this order."""
 
 
 def bench_page(result: Mapping[str, Any], figures: Mapping[str, bytes] | None = None) -> str:

@@ -12,8 +12,8 @@ from plantar.sim.run.scene import load_scene
 
 __all__ = ["FaultRun", "run_with_fault"]
 
+# m that a foot's target and the CoM move in a tick of an undisturbed walk, at most
 _USUAL = {"h1": (4.65e-3, 1.84e-3), "hrp2kai": (3.02e-3, 1.64e-3)}
-"""m that a foot's target and the CoM move in a tick of an undisturbed walk, at most."""
 
 _BEGIN, _LASTS = 4.0, 1.4  # s at which the fault begins, and for which it is watched
 

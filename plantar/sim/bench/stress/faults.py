@@ -13,7 +13,7 @@ from plantar.gait.command import Sensors
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side
 
-__all__ = ["FAULTS", "WALKED_THROUGH", "Fault", "Faults", "FaultySensors"]
+__all__ = ["FAULTS", "Fault", "Faults", "FaultySensors"]
 
 Fault: TypeAlias = Callable[[Sensors, float], Sensors]
 """What arrives of a reading, some time in s after the fault began."""
@@ -177,48 +177,6 @@ FAULTS: Mapping[str, Callable[[], Fault]] = {
     "no soles": _soles(lambda r: None),
 }
 """What makes each fault."""
-
-WALKED_THROUGH = (
-    "time +5 s",
-    "time -5 s",
-    "time back by 1 s for 0.5 s",
-    "time jitter of 10 ms",
-    "time frozen",
-    "time frozen for 0.1 s",
-    "time NaN for 0.1 s",
-    "time twice as fast",
-    "no sensors for 0.03 s",
-    "IMU frozen for 0.1 s",
-    "IMU NaN for 0.03 s",
-    "gyro with noise of 0.05 rad/s",
-    "gyro at 35 rad/s for a tick",
-    "one encoder off by 0.24 rad",
-    "one encoder off by 0.1 rad",
-    "one encoder off by -0.1 rad",
-    "one encoder off by 0.05 rad",
-    "an ankle's encoder off by 0.15 rad",
-    "an ankle's encoder off by -0.15 rad",
-    "a hip's encoder off by 0.1 rad",
-    "one encoder off by 0.1 rad for 0.3 s",
-    "one encoder off by 0.1 rad for a tick",
-    "one encoder stuck for 0.05 s",
-    "encoders NaN for 0.03 s",
-    "encoders frozen for 0.1 s",
-    "encoders with noise of 1 mrad",
-    "soles swapped",
-    "left sole missing",
-    "left skin NaN",
-    "left skin zeros",
-    "right sole missing",
-    "right skin NaN",
-    "right skin zeros",
-    "left skin of another size",
-    "left skin reports 80 %",
-    "right skin reports 120 %",
-    "soles NaN for 0.03 s",
-    "no soles for 0.03 s",
-)
-"""Faults after which the robot walks on."""
 
 
 @dataclass(frozen=True)

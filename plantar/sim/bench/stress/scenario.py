@@ -44,8 +44,7 @@ SCENES: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 """Scenes that are drawn from, with what makes them short and the controller's tables that count in them: level ground,
 edges, steps down to nothing, stones that tip a foot, and pushes."""
 
-_ANYWHERE = ("flat", "push")
-"""Scenes on an endless plane: they may be put anywhere, under any heading."""
+_ANYWHERE = ("flat", "push")  # Scenes on an endless plane: they may be put anywhere, under any heading
 
 _SHORT = ("walk.start=0.4", "walk.end=0.3", "walk.settle=0.2")
 _PLANT = {"mass_ratio": (0.5, 2.0), "stiffness_ratio": (0.3, 3.0), "friction_ratio": (0.1, 2.0), "softness": (0.0, 0.1)}

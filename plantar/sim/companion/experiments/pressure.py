@@ -27,12 +27,10 @@ __all__ = ["Pressure", "PressureControl", "PressureSettings"]
 
 _PATCH, _JOINTS = "torso_front", ("waist_yaw", "waist_pitch")  # the joints that carry the torso
 _FACES = {"one": 0.010, "hundred": 0.148}  # m: radius; a taxel's inner radius is 14 mm
+# When a probe is measured, in s from its full force on. Noise of the gyro, 2 mrad/s in each tick, is damped like
+# motion and lets torso and pelvis drift: by up to 6 % of the slow speed in 14.4 s, and, as a random walk, by 0.7 of
+# that in twice the time.
 _WINDOWS = {"one": (0.35, 0.55), "hundred": (0.8, 30.2)}
-"""When a probe is measured, in s from its full force on.
-
-Noise of the gyro, 2 mrad/s in each tick, is damped like motion and lets torso and pelvis drift: by up to 6 % of the
-slow speed in 14.4 s, and, as a random walk, by 0.7 of that in twice the time.
-"""
 _PRESS = {"one": 4.0, "hundred": 32.5}  # s
 _REST = 1.6  # s
 

@@ -62,7 +62,11 @@ class PressedSettings(Settings):
 
 
 class PressedExperiment(StandingExperiment):
-    """Pads press on the instances of a skin task."""
+    """Pads press on the instances of a skin task.
+
+    Attributes:
+        instances: Instances of direct interaction and their patches.
+    """
 
     settings_type: ClassVar = PressedSettings
     columns: ClassVar = (
@@ -74,7 +78,6 @@ class PressedExperiment(StandingExperiment):
         "most_active",
     )
     instances: ClassVar[Mapping[str, tuple[str, ...]]] = UPPER_BODY
-    """Instances of direct interaction and their patches."""
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
         super().__init__(machine, settings, control, seed)

@@ -44,22 +44,22 @@ class StandingExperiment(Experiment):
     Attributes:
         weight: In N.
         pads: Pads that press on it.
+        sides: Feet that it stands on.
+        com_height: Wanted height in m of the centre of mass above the feet; None for what the posture gives.
+        roll: Roll of the base in degrees; towards the only foot it stands on it relieves that hip.
+        cop_margin_least: Least distance in mm of the true centre of pressure to the edge of the soles.
+        posture: Joints in degrees that stand in another posture than the machine's.
+        lift: Height in m to which a foot that does not stand is lifted.
     """
 
     control_type: ClassVar = StandingControl
     view: ClassVar = ("", View(2.7, 145.0, -10.0, 0.08))
     sides: ClassVar[tuple[str, ...]] = ("left", "right")
-    """Feet that it stands on."""
     com_height: ClassVar[float | None] = None
-    """Wanted height in m of the centre of mass above the feet; None for what the posture gives."""
     roll: ClassVar[float] = 0.0
-    """Roll of the base in degrees; towards the only foot it stands on it relieves that hip."""
     cop_margin_least: ClassVar[float] = 5.0
-    """Least distance in mm of the true centre of pressure to the edge of the soles."""
     posture: ClassVar[Mapping[str, float]] = {}
-    """Joints in degrees that stand in another posture than the machine's."""
     lift: ClassVar[float] = 0.06
-    """Height in m to which a foot that does not stand is lifted."""
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
         super().__init__(machine, settings, control, seed)

@@ -1,0 +1,44 @@
+"""`plantar live`: record soles as their readings come."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from typer import Argument, Option
+
+from plantar.console.command import Command, Json, end_command
+from plantar.console.progress import progress_bar
+
+__all__ = ["COMMAND", "live"]
+
+
+def live(
+    source: Annotated[str, Argument(help="Source, and its address after a colon; plantar list sources lists them.")],
+    layout: Annotated[Path | None, Option(help="Sole layout (.json); mirrored for the other foot.")] = None,
+    seconds: Annotated[float, Option(help="How long; without it until the source ends, or Ctrl-C.")] = float("inf"),
+    output: Annotated[Path, Option("-o", "--output", help="The recording to write.")] = Path("out/live.mcap"),
+    as_json: Json = False,
+) -> None:
+    """Record soles as their readings come, and show load and center of pressure.
+
+    The recording opens in plantar analyze, plantar view and Foxglove.
+
+    Example: my_insole | plantar live lines --layout layout_left.json -o walk.mcap
+
+    Example: plantar live replay:run.mcap --seconds 5
+    """
+    from plantar.atomic import parent_folder
+    from plantar.layouts.layout_file import read_layout
+    from plantar.live.record import record
+    from plantar.live.source import open_live
+
+    stream = open_live(source, None if layout is None else read_layout(layout))
+    with parent_folder(output), progress_bar() as progress:
+        found = {"file": str(output), **record(stream, output, seconds, progress)}
+    rates = [(side, foot["frames"], foot["rate_hz"], foot["gap_max_s"]) for side, foot in found["feet"].items()]
+    feet = "\n".join(f"  {s}: {n} readings, {hz or 0.0:.0f} Hz, gap up to {gap or 0.0:g} s" for s, n, hz, gap in rates)
+    end_command(found, as_json, f"{found['seconds']:.1f} s recorded\n{feet}\n  {output}")
+
+
+COMMAND = Command(live, "Record soles as their readings come.", 45)

@@ -1,0 +1,1 @@
+"""Readings of soles as they are sampled."""

@@ -1,0 +1,86 @@
+"""Record a live source, and show what comes."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable
+from itertools import chain
+from typing import Any
+
+import numpy as np
+
+from plantar.errors import InputError
+from plantar.live.source import LiveStream
+from plantar.percepts.percept import Percept
+from plantar.recordings.recorder import Recorder
+from plantar.sensing.reading import Reading
+from plantar.sides import Side
+
+__all__ = ["record"]
+
+_SHOWN = 0.2  # s of the source's time between two lines of what comes
+
+
+def record(
+    stream: LiveStream,
+    path: str | os.PathLike[str],
+    seconds: float = math.inf,
+    show: Callable[[float, str], object] | None = None,
+) -> dict[str, Any]:
+    """Record what comes into a file that reads up to its last half second at any time, until the stream ends,
+    `seconds` of it have passed, or Ctrl-C.
+
+    Args:
+        stream: From `plantar.live.source.open_live`.
+        path: The MCAP recording, replaced once a reading has come.
+        seconds: Above 0.
+        show: Receives the share of `seconds`, and load and center of pressure of each sole as text.
+
+    Returns:
+        `seconds` recorded, and the `frames`, `rate_hz` and largest gap `gap_max_s` of each of the `feet`.
+
+    Raises:
+        InputError: If no reading comes, or time does not go on.
+        RecordingError: If the file cannot be written.
+    """
+    if not seconds > 0.0:
+        raise InputError(f"cannot record {seconds} s; allowed: above 0")
+    first = next(stream.readings, None)
+    if first is None:
+        raise InputError("no reading came from the source")
+    start, shown, latest = first[1].time, -math.inf, 0.0
+    times: dict[Side, list[float]] = {side: [] for side in stream.soles}
+    seen: dict[Side, Reading] = {}
+    with Recorder(path, {"source": "live"}, {str(s): sole for s, sole in stream.soles.items()}) as recorder:
+        skins = {side: recorder.channel(f"/skin/{side}", [("force", len(s))]) for side, s in stream.soles.items()}
+        try:
+            for side, reading in chain([first], stream.readings):
+                now, before = reading.time - start, times[side]
+                if before and now <= before[-1]:
+                    last = f"{reading.time:g} s after {start + before[-1]:g} s"
+                    raise InputError(f"the {side} sole got {last}; allowed: times that go on")
+                if now > seconds:
+                    break
+                skins[side].write(max(now, 0.0), reading.force)
+                before.append(now)
+                seen[side], latest = reading, max(latest, now)
+                if show is not None and now >= shown + _SHOWN:
+                    show(now / seconds, "  ".join([f"{now:.1f} s", *(_text(s, stream, seen[s]) for s in seen)]))
+                    shown = now
+        except KeyboardInterrupt:
+            pass  # the usual end of a recording
+    return {"seconds": round(latest, 3), "feet": {side: _summary(when) for side, when in times.items() if when}}
+
+
+def _text(side: Side, stream: LiveStream, reading: Reading) -> str:
+    percept = Percept(stream.soles[side], reading)
+    place = percept.position_cop_in_sole
+    at = "" if place is None else f" at {round(1e3 * place[0])}, {round(1e3 * place[1])} mm"
+    return f"{side} {percept.vertical_force:.0f} N{at}"
+
+
+def _summary(times: list[float]) -> dict[str, float | None]:
+    steps = np.diff(times)
+    rate, gap = (round(1.0 / steps.mean(), 3), round(steps.max(), 4)) if len(steps) else (None, None)
+    return {"frames": len(times), "rate_hz": rate, "gap_max_s": gap}

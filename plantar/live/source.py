@@ -1,0 +1,69 @@
+"""Live sources, which read soles as they are sampled: modules here with a `SOURCE`, and entry points "plantar.live"."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from importlib import import_module
+from pathlib import Path
+from pkgutil import iter_modules
+from typing import NamedTuple
+
+from plantar.errors import InputError
+from plantar.extensions import extensions
+from plantar.layouts.layout import SoleLayout
+from plantar.sensing.reading import Reading
+from plantar.sides import Side
+
+__all__ = ["LiveSource", "LiveStream", "live_sources", "open_live"]
+
+
+class LiveStream(NamedTuple):
+    """Readings as they come.
+
+    Attributes:
+        soles: Layout of each side that comes.
+        readings: A side and its reading each, in order of time; ends with the device, closed when no longer read.
+    """
+
+    soles: Mapping[Side, SoleLayout]
+    readings: Iterator[tuple[Side, Reading]]
+
+
+@dataclass(frozen=True)
+class LiveSource:
+    """One kind of source.
+
+    Attributes:
+        name: Name on the command line, before a colon and the address.
+        title: Few words, for the list.
+        open: Opens an address, empty if none is given, with a sole layout or None; an InputError if it cannot.
+    """
+
+    name: str
+    title: str
+    open: Callable[[str, SoleLayout | None], LiveStream]
+
+
+def live_sources() -> dict[str, LiveSource]:
+    """All sources by name; InputError if an entry point is none.
+
+    Example:
+        >>> list(live_sources())[:2]
+        ['lines', 'replay']
+    """
+    modules = (import_module(f"plantar.live.{module.name}") for module in iter_modules([str(Path(__file__).parent)]))
+    found = {s.name: s for module in modules if isinstance(s := getattr(module, "SOURCE", None), LiveSource)}
+    others = extensions("plantar.live", LiveSource, tuple(found))
+    return {**found, **{name: replace(source, name=name) for name, source in others.items()}}
+
+
+def open_live(text: str, layout: SoleLayout | None = None) -> LiveStream:
+    """Returns the stream of a source by its `text`, such as "replay:run.mcap"; its soles have a `layout`, mirrored for
+    the other foot, or their own. InputError if it is unknown or cannot be opened.
+    """
+    name, _, address = text.partition(":")
+    known = live_sources()
+    if name not in known:
+        raise InputError(f"unknown live source {name!r}; allowed: {', '.join(known)}")
+    return known[name].open(address, layout)

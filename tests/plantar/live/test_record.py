@@ -1,0 +1,100 @@
+"""Live sources: what comes is what is recorded, and what cannot be is refused in one line."""
+
+import io
+import math
+import time
+
+import numpy as np
+import pytest
+
+from plantar import InputError, PlantarError, grid_layout
+from plantar.formats import read_recording
+from plantar.live.record import record
+from plantar.live.source import LiveStream, open_live
+from plantar.sensing.reading import Reading
+
+SOLE = grid_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]], pitch=(0.05, 0.05), side="left")
+
+
+def readings(times, force=2.0):
+    for at in times:
+        yield "left", Reading(at, np.full(len(SOLE), force))
+
+
+def lines(monkeypatch, text: str) -> LiveStream:
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(text.encode())))
+    return open_live("lines", SOLE)
+
+
+def test_what_comes_is_recorded_and_shown(tmp_path):
+    path, shown = tmp_path / "run.mcap", []
+    stream = LiveStream({"left": SOLE}, readings(np.arange(1000.0, 1004.0, 1 / 64)))
+    found = record(stream, path, 2.0, lambda share, text: shown.append((share, text)))
+    assert found == {"seconds": 2.0, "feet": {"left": {"frames": 129, "rate_hz": 64.0, "gap_max_s": 0.0156}}}
+    foot = read_recording(path).feet["left"]
+    assert foot.vertical_force == pytest.approx(np.full(129, 2.0 * len(SOLE)))
+    assert foot.layout.positions == pytest.approx(SOLE.positions)
+    assert len(shown) == 10
+    assert shown[0] == (0.0, f"0.0 s  left {2 * len(SOLE)} N at 0, 0 mm")
+
+
+def test_lines_of_both_soles_with_missing_taxels(tmp_path, monkeypatch):
+    row = ",".join(["1.5"] * (len(SOLE) - 1))
+    text = "".join(f"{side},{0.1 * k},{row},{'' if k else 7.0}\n" for k in range(5) for side in ("left", "right"))
+    found = record(lines(monkeypatch, text), tmp_path / "run.mcap")
+    assert {side: foot["frames"] for side, foot in found["feet"].items()} == {"left": 5, "right": 5}
+    force = read_recording(tmp_path / "run.mcap").feet["right"].force
+    assert force[0, -1] == 7.0
+    assert np.isnan(force[1:, -1]).all()
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "no reading came"),
+        ("left,0.1,1\n", "line 1 holds 1 forces; allowed: 8"),
+        ("middle,0.1,1\n", "line 1 begins with 'middle'; allowed: left, right"),
+        ("left,now,1\n", "line 1 holds no time and forces"),
+        ("left\n", "line 1 holds no time and forces"),
+        ("left,,1,1,1,1,1,1,1,1\n", "'time' is NaN"),
+        ("left,0.2,1,1,1,1,1,1,1,1\nleft,0.1,1,1,1,1,1,1,1,1\n", "0.1 s after 0.2 s; allowed: times that go on"),
+        ("\0\xff" * 1000, "line 1 holds no time"),
+    ],
+)
+def test_lines_that_cannot_be_meant_are_refused(text, words, tmp_path, monkeypatch):
+    with pytest.raises(PlantarError, match=words):
+        record(lines(monkeypatch, text), tmp_path / "run.mcap")
+    assert (tmp_path / "run.mcap").exists() == text.startswith("left,0.2")
+
+
+@pytest.mark.parametrize(
+    ("source", "words"),
+    [("hearsay:x", "allowed: lines, replay"), ("replay", "replay:FILE"), ("lines", "--layout"), ("lines:x", "stdin")],
+)
+def test_a_source_that_cannot_be_opened_is_named(source, words):
+    with pytest.raises(InputError, match=words):
+        open_live(source)
+
+
+def test_no_time_to_record_is_refused(tmp_path):
+    for seconds in (0.0, -1.0, math.nan):
+        with pytest.raises(InputError, match="allowed: above 0"):
+            record(LiveStream({"left": SOLE}, readings([0.0])), tmp_path / "run.mcap", seconds)
+
+
+def test_a_recording_is_replayed_at_its_pace(tmp_path):
+    record(LiveStream({"left": SOLE}, readings([0.0, 0.1, 0.2, 0.3])), tmp_path / "run.mcap")
+    began = time.monotonic()
+    for k, (side, reading) in enumerate(open_live(f"replay:{tmp_path / 'run.mcap'}").readings):
+        assert (side, reading.time) == ("left", pytest.approx(0.1 * k))
+        assert time.monotonic() - began >= 0.1 * k
+
+
+def test_ctrl_c_ends_a_recording(tmp_path):
+    def stopped():
+        yield from readings([0.0, 0.25])
+        raise KeyboardInterrupt
+
+    found = record(LiveStream({"left": SOLE}, stopped()), tmp_path / "cut.mcap")
+    assert found["feet"] == {"left": {"frames": 2, "rate_hz": 4.0, "gap_max_s": 0.25}}
+    assert len(read_recording(tmp_path / "cut.mcap").time) == 2
