@@ -6,7 +6,7 @@ from plantar.sim.run.runner import run_scene
 from plantar.sim.run.scene import load_scene
 
 
-@pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
+@pytest.mark.parametrize("robot", ["h1", pytest.param("hrp2kai", marks=pytest.mark.long)])
 def test_a_level_foot_finds_the_rear_half_that_carries(robot):
     """In two walks of the first three: one in ten falls, and which one depends on the processor's last bits."""
     scene = load_scene("partial-rear", ["footholds=force", "sensing.taxels=elastic"], robot)
@@ -36,6 +36,7 @@ def test_a_foot_that_comes_as_it_does_stays_on_the_edge_that_it_met():
 BEAM = ("footholds=force", "sensing.taxels=elastic", "terrain.width=0.34 sole", "offset_range=0.174 sole")
 
 
+@pytest.mark.long
 @pytest.mark.xfail(strict=True, reason="step 4 is on the platform's edge, and probing is for feet without pfc alone")
 def test_a_foot_looks_for_the_rest_of_a_beam_that_it_met_the_edge_of():
     """Before the weight comes; a foot that does not takes a part of what carries it for all of it."""

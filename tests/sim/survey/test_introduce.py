@@ -95,6 +95,7 @@ def test_it_walks(made):
     assert summary["final"]["tilt_deg"] < 0.5
 
 
+@pytest.mark.long
 def test_its_soles_rattle_and_slip_no_more_than_with_critical_damping(made, tmp_path):
     """On a beam's edges, by what the force on both soles does above 20 Hz, and by how far a standing sole slips.
 

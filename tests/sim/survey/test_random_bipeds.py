@@ -7,7 +7,7 @@ from plantar.sim.survey.survey import survey_model
 
 from .random_biped import X, Y, random_biped
 
-SEEDS = range(60)
+SEEDS = [s if s < 20 else pytest.param(s, marks=pytest.mark.long) for s in range(60)]
 
 
 @pytest.mark.parametrize("seed", SEEDS)
