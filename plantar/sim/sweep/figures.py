@@ -163,7 +163,7 @@ def _distributions(points: Sequence[Mapping[str, Any]], rows: Rows, scene: str) 
                 continue
             values = np.array([float(row[column]) for row in here])
             good = np.array([row["completed"] == "True" for row in here])
-            spread = i + 0.3 * (np.arange(len(values)) / max(len(values) - 1, 1) - 0.5)
+            spread = i + 0.3 * ((np.arange(len(values)) + 0.5) / len(values) - 0.5)
             axis.plot(spread[good], values[good], ".", color=COLOURS["polygon"], markersize=4)
             axis.plot(spread[~good], values[~good], "x", color=COLOURS["right"], markersize=4)
             axis.hlines(np.median(values), i - 0.3, i + 0.3, color=COLOURS["truth"], linewidth=1.2)
