@@ -37,7 +37,8 @@ def draw_robot(robot: Robot, path: Path) -> Path:
     data = world.data
     data.qpos[:] = legs.configuration
     mujoco.mj_forward(world.model, data)
-    tall = float(data.subtree_com[world.torso, 2]) * 2.0
+    own = world.model.geom_bodyid > 0
+    tall = float((data.geom_xpos[:, 2] + world.model.geom_rbound)[own].max())
     length = 1.3 * float(robot.layouts["left"].outline[:, 0].max())  # ahead of the toes
     lines = _bones(robot, world)
     for side in SIDES:
@@ -45,7 +46,7 @@ def draw_robot(robot: Robot, path: Path) -> Path:
     pictures = []
     for azimuth, elevation in _VIEWS:
         above = float(data.xpos[world.torso, 2])
-        view = View(1.35 * tall, azimuth, elevation, above - 0.45 * tall)
+        view = View(1.5 * tall, azimuth, elevation, above - 0.5 * tall)
         if elevation < -20.0:
             view = View(0.75 * tall, azimuth, elevation, above - 0.1 * tall)
         camera = Camera(world.model, world.torso, _WIDTH, _HEIGHT, view)
