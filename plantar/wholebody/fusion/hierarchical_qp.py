@@ -12,7 +12,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
 
 from plantar.errors import InputError
 from plantar.mechanics.within_limits import Box, nearest_within
@@ -104,10 +103,11 @@ class HierarchicalQP:
             base = np.delete(np.arange(len(factor)), robot.joints)
             shared = np.linalg.lstsq(support.jacobian[:, base].T, factor[base], rcond=None)[0]
             columns = columns - support.jacobian[:, robot.joints].T @ shared
-        moves = np.asarray(solve_triangular(factor, np.eye(len(factor)), lower=True).T)[robot.joints]
+        inverse = np.linalg.inv(factor)  # once: BLAS threads wait for each other in every triangular solve
+        moves = inverse.T[robot.joints]
         box = Box.of(columns, -self.limits.torque - still, self.limits.torque - still, moves, low, high)
-        y = _descend(factor, box, levels, support)
-        acceleration = np.asarray(solve_triangular(factor, y, lower=True, trans=1))
+        y = _descend(inverse, box, levels, support)
+        acceleration = y @ inverse
         torque, force = joint_torques(robot, factor @ y + robot.bias - outer, support)
         return Fused(np.clip(torque, -self.limits.torque, self.limits.torque), acceleration, force)
 
@@ -128,13 +128,13 @@ def _sublevels(
 
 
 def _descend(
-    factor: NDArray[np.float64], box: Box, levels: Sequence[Sequence[Demand | None]], support: Demand | None
+    inverse: NDArray[np.float64], box: Box, levels: Sequence[Sequence[Demand | None]], support: Demand | None
 ) -> NDArray[np.float64]:
     """Meet levels in order, the support unlimited; the rest moves least."""
-    y, left = np.zeros(len(factor)), np.eye(len(factor))  # and an orthonormal basis of what is left
+    y, left = np.zeros(len(inverse)), np.eye(len(inverse))  # and an orthonormal basis of what is left
     limited = support is None
     for jacobian, wanted, force in _sublevels(levels, support):
-        rows = np.asarray(solve_triangular(factor, jacobian.T, lower=True).T)
+        rows = jacobian @ inverse.T
         sizes = np.sqrt(np.einsum("ij,ij->i", rows, rows))
         counted = sizes > RANK * sizes.max()
         if not counted.any() or not left.shape[1]:
@@ -148,9 +148,9 @@ def _descend(
             lengths = np.linalg.norm(jacobian[counted], axis=1)
             damped = DAMPED * float((sizes[counted] / lengths).min() * np.linalg.norm(jacobian, axis=1).max())
             weights = strengths**2 + np.maximum(0.0, 1.0 - (strengths / damped) ** 2) * (damped / 2.0) ** 2
-            target = strengths / weights * (across.T[:rank] @ (wanted - jacobian @ _back(factor, y))[counted])
+            target = strengths / weights * (across.T[:rank] @ (wanted - rows @ y)[counted])
         else:
-            target = own @ (left.T @ np.asarray(solve_triangular(factor, force, lower=True)))
+            target = own @ (left.T @ (inverse @ force))
         if limited:
             box, target = nearest_within(box, y, left, own, target, weights)
         limited = True
@@ -158,7 +158,3 @@ def _descend(
         left = left @ along[rank:].T
     rest = left.shape[1]
     return y + left @ nearest_within(box, y, left, np.eye(rest), np.zeros(rest), np.ones(rest))[1] if rest else y
-
-
-def _back(factor: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.asarray(solve_triangular(factor, y, lower=True, trans=1))
