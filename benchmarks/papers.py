@@ -56,7 +56,7 @@ def cell(rows: Sequence[Mapping[str, str]]) -> str:
 def report() -> None:
     """Write the page's table."""
     rows, lines = rows_of(TABLE), []
-    units = {"mean impact": " [N]", "impact on the slab": " [N]", "largest difference": " [mm]", "RMS": " [N]"}
+    units = {"mean impact": " [N]", "impact on the slab": " [N]", "largest difference": " [mm]"}
     for one in EXPERIMENTS:
         mine = [r for r in rows if r["experiment"] == one.name]
         cells = [cell([r for r in mine if r["variant"] == v]) for v in ("as written", "ours", "without")]

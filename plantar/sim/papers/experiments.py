@@ -54,8 +54,23 @@ def _impacts(mean: float, largest: float) -> dict[str, float]:
 _LEVEL, _BLIND, _NO_PFC = ("walk.steps=6",), ("pfc=false", "footholds=off"), ("pfc=false",)
 _ANKLES = ("control.feasibility=force_torque", "sensing.force_torque=true")
 _TOPPLE, _STILL = "skin walks around, ankles fall", ("step_adjustment=false",)
+_TOLERABLE, _AVOID = "pushes with at most 15 N", ("control.policy=avoid", "experiment.duration=10")
+_ON_LEG = "balance on one leg kept"
 _SLAB = "impact on the slab"
 EXPERIMENTS = (
+    *(
+        PaperExperiment(name, source, scene, paper, figure, tuple(without))
+        for name, source, scene, paper, figure, *without in (
+            ("many hands", "T 3.2.3.1", "hug", "balance kept", "cop_margin_min_mm", "control.skin=false"),
+            ("26 tasks", "T 3.2.4.1, 5.1", "multi-contact", _ON_LEG, "cop_margin_min_mm", "control.skin=false"),
+            ("pressure", "T 3.2.5.1", "pressure", "by the area", "speed_ratio", "control.by_pressure=false"),
+            ("feather", "T 3.3.1.1", "feather", "repelled, untouched", "distance_min_mm", "control.proximity=false"),
+            ("stove", "T 3.3.2.1", "stove", "retracts at 31 degrees", "temperature_max", "control.temperature=false"),
+            ("nociception", "T 3.4.1.1", "nociception", "reflex", "threshold_ratio", "control.reflex=false"),
+            ("planar arm", "T 3.4.2.1", "intentional-contact", _TOLERABLE, "force_max_N", *_AVOID),
+            ("arm over a table", "T 3.4.2.2", "table-contact", _TOLERABLE, "force_max_N", *_AVOID),
+        )
+    ),
     PaperExperiment(
         "balance",
         "T 4.3.1",
@@ -126,8 +141,13 @@ EXPERIMENTS = (
     ),
     PaperExperiment("box step", "K 5.3", "box-step", "12 of 16 strides", "strides", _STILL),
     *(
-        PaperExperiment(f"force tracking {n}", f"A 4.3.{n}", f"force-tracking-{n}", f"RMS {rms} N", "RMS")
-        for n, rms in ((1, "0.37"), (3, "0.58"), (4, "0.80"))
+        PaperExperiment(f"force tracking {n}", f"A 4.3.{n}", f"force-tracking-{n}", paper, figure, (without,))
+        for n, paper, figure, without in (
+            (1, "RMS 0.37 N", "force_rms_disturbed_N", "control.priority=sum"),
+            (2, "guided", "distance_error_max_mm", "control.guidance_stiffness=0"),
+            (3, "RMS 0.58 N", "force_rms_disturbed_N", "control.wrist=false"),
+            (4, "RMS 0.80 N", "force_rms_disturbed_N", "control.avoidance=false"),
+        )
     ),
 )
 """In the order of the page."""
@@ -137,11 +157,11 @@ def figure_of(name: str, summary: Mapping[str, Any]) -> float | None:
     """A figure of a run.
 
     Args:
-        name: As an experiment's `figure` or `printed`.
+        name: As an experiment's `figure` or `printed`, or a number of the summary.
         summary: The run's.
 
     Returns:
-        Impact or RMS force in N, steps, longer strides, ZMPs' difference in mm; None where the run has none.
+        Impact in N, steps, longer strides, ZMPs' difference in mm, or the number; None where the run has none.
 
     Raises:
         PlantarError: If no figure has that name.
@@ -160,6 +180,6 @@ def figure_of(name: str, summary: Mapping[str, Any]) -> float | None:
             return float(sum(change > _LONGER for change in summary["push"]["step_changes_m"][_PUSHED]))
         case "largest difference":
             return round(1e3 * float(summary["balance"]["skin_against_force_torque"]["max_m"]), 2)
-        case "RMS":
-            return float(summary["force_rms_disturbed_N"])
+    if name in summary:
+        return None if summary[name] is None else float(summary[name])
     raise PlantarError(f"no figure is called '{name}'")

@@ -15,8 +15,8 @@ from plantar.settings.schema import Settings, number
 
 __all__ = ["PriorityTransition", "TransitionSettings", "smooth_share"]
 
+# delta_t of T 3.46 times half of the duration: tanh of it is 0.96, so little has to be stretched.
 STEEPNESS = 2.0
-"""delta_t of T 3.46 times half of the duration: tanh of it is 0.96, so little has to be stretched."""
 
 
 class TransitionSettings(Settings):

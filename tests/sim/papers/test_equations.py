@@ -26,7 +26,7 @@ RUNS = (
     ("flat", ("paper=T", "walk.steps=2", *QUICK), "h1", 9.0),
     ("flat", ("walk.steps=2", *QUICK), "hrp2kai", 9.0),
     ("leader-follower", ("paper=K", *QUICK), None, 4.0),
-    ("force-tracking-1", ("paper=A", "control.servo=velocity"), None, 6.0),
+    ("force-tracking-1", ("paper=A",), None, 6.0),
     ("guide", ("walk.steps=2", *QUICK), None, 4.0),
     ("stove", (), None, 10.0),
     ("pressure", (), None, 4.0),
@@ -34,7 +34,7 @@ RUNS = (
 )
 """Scenes with settings and robot, and for how many seconds each is run at most."""
 
-SECTIONS = {"A 3.4", "K 2.4", "K 2.5", "K 4.3", "K 6.1", "T 3.2", "T 4.1"}
+SECTIONS = {"A 3.4", "K 2.4", "K 2.5", "K 4.3", "K 6.1", "T 3.2", "T 4.1", "T 5.1"}
 """Numbers of two parts that are sections where docstrings name them."""
 
 

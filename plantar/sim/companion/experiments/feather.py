@@ -13,7 +13,6 @@ from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number, switch
 from plantar.sim.body_skin.sensing import SkinSensor
-from plantar.sim.body_skin.surface import skin_from_tables
 from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.controller import StandingControl, StandingController
@@ -71,11 +70,10 @@ class Feather(StandingExperiment):
             Visitor("visiting hand", box, (0.03, 0.045, 0.015), 0.015),
             Visitor("feather", sphere, (0.015, 0.0, 0.0), 0.015),
         ]
-        skin = skin_from_tables(self.robot.model, machine.patches, machine.name)
         self.side = str(self.rng.choice(["left", "right"]))
         end = 0.5
         for visitor in self.visitors:
-            patch = skin.patch(f"{self.side}_hand_{self.rng.choice(['palm', 'back'])}")
+            patch = self.skin.patch(f"{self.side}_hand_{self.rng.choice(['palm', 'back'])}")
             taxel = int(self.rng.choice(patch.from_middle[:4]))
             origin, rotation = self.robot.pose(patch.link)
             way = rotation @ patch.rotations[taxel, :, 2] + self.rng.normal(0.0, 0.06, 3)

@@ -11,12 +11,15 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.errors import SceneError
 from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, choice, number, tables, text
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.companion.experiment import Experiment, Verdict, World, unmet
+from plantar.sim.companion.handling.actors import come_and_go
 from plantar.sim.companion.machine import Machine
-from plantar.sim.companion.reaching.layout import KINDS, random_layout
+from plantar.sim.companion.reaching.free_way import Tip, free_way
+from plantar.sim.companion.reaching.layout import KINDS, Layout, random_layout
 from plantar.sim.companion.reaching.reach_controller import ReachControl, ReachController
 from plantar.sim.companion.reaching.reach_record import ReachRecord
 from plantar.sim.figures.render import View
@@ -25,6 +28,11 @@ from plantar.sim.model.contact_truth import feet_contacts
 __all__ = ["IntentionalContactExperiment", "ReachSettings"]
 
 _EVERY = 0.02  # s between two records
+_DRAWS = 100  # of a layout
+_CLEAR = 0.08  # m from its posts to the links' ends and middles at first
+_TOUCHED = 1.0  # N on an obstacle, from which it counts as touched
+_SHOVED_AFTER = (0.2, 1.0)  # s after the first touch
+_SHOVING, _SHOVE_RAMP = 1.5, 0.3  # s: how long, and how long it takes to come and go
 _MARGIN = 1.1  # of the tolerable force: what a run may have at most
 
 
@@ -35,7 +43,7 @@ class ReachSettings(Settings):
         duration: Longest simulated time.
         tip_link: Link of the tip.
         tip: The tip in its frame in m.
-        layout: Kind of layout; "any" takes them in turn by the seed.
+        layout: Kind of layout; "any" takes them in turn by the seed, a ring only if the tip cannot be lifted into it.
         force_limit: epsilon_c of T Table 1: tolerable force on what is touched.
         near: Least distance of the goal.
         far: Largest.
@@ -43,6 +51,7 @@ class ReachSettings(Settings):
         largest_angle: Largest.
         half_height: Of the obstacles, whose middle is at the tip's height.
         tolerance: Distance at which the goal is reached.
+        shove: Force on the first movable obstacle that is touched, back towards the arm (T Fig. 24d); 0 for none.
     """
 
     duration: float = number(40.0, "s", 1.0, 600.0)
@@ -58,10 +67,17 @@ class ReachSettings(Settings):
     largest_friction: ClassVar[float] = 5.0  # N: largest
     half_height: float = number(0.12, "m", 0.01, 1.0)
     tolerance: float = number(0.015, "m", 1e-3, 1.0)
+    shove: float = number(20.0, "N", 0.0, 1e3)
+    shove_speed: ClassVar[float] = 0.1  # m/s: speed from which it pushes no more, as a hand does
 
 
 class IntentionalContactExperiment(Experiment):
-    """A layout drawn by the seed; done after half a second at the goal."""
+    """A layout drawn by the seed; done after half a second at the goal.
+
+    Attributes:
+        start_tip: The tip in its first place.
+        layout: Goal and obstacles.
+    """
 
     settings_type = ReachSettings
     control_type = ReachControl
@@ -78,13 +94,9 @@ class IntentionalContactExperiment(Experiment):
         data = mujoco.MjData(model)
         data.qpos[-len(machine.posture) :] = machine.posture
         mujoco.mj_kinematics(model, data)
-        body = data.body(s.tip_link)
-        start = body.xpos + body.xmat.reshape(3, 3) @ point
-        self._height = float(start[2])
-        kind = s.layout if s.layout != "any" else KINDS[seed % len(KINDS)]
-        angles = (math.radians(s.least_angle), math.radians(s.largest_angle))
-        friction = (s.least_friction, s.largest_friction)
-        self.layout = random_layout(self.rng, kind, start[:2], ((s.near, s.far), angles), friction)
+        self.start_tip = Tip.of(model, data, s.tip_link, point)
+        self._height = float(self.start_tip.place[2])
+        self.layout = self._draw_layout(np.vstack([data.xpos, data.xipos]))
         self._goal = np.array([*self.layout.goal, self._height])
         self.record = ReachRecord(machine, self.layout, s.force_limit)
         self._highest = 0.0
@@ -93,7 +105,22 @@ class IntentionalContactExperiment(Experiment):
         self._due = 0.0
         self._pressed: dict[str, NDArray[np.float64]] = {}
         self._posts: dict[str, int] = {}
+        self._shove: tuple[str, float, NDArray[np.float64]] | None = None  # which post, from when, and direction
         self._hand: ReachController
+
+    def _draw_layout(self, arm: NDArray[np.float64]) -> Layout:
+        """Layouts are drawn until one has no way without contact, and is clear of places (n, 3) of the arm."""
+        s, tip = self.settings, self.start_tip
+        kinds = KINDS[:-1] if tip.lifts else KINDS
+        kind = s.layout if s.layout != "any" else kinds[self.seed % len(kinds)]
+        reach = (s.near, s.far), (math.radians(s.least_angle), math.radians(s.largest_angle))
+        for _ in range(_DRAWS):
+            layout = random_layout(self.rng, kind, tip.place[:2], reach, (s.least_friction, s.largest_friction))
+            clear = min(post.distance(arm, self._height, s.half_height).min() for post in layout.posts) > _CLEAR
+            goal = np.array([*layout.goal, self._height])
+            if clear and not free_way(tip, goal, s.tolerance, layout.posts, s.half_height):
+                return layout
+        raise SceneError(f"{_DRAWS} layouts '{kind}' can be solved without contact or touch the arm at first")
 
     def add_to(self, spec: Any) -> None:
         spec.worldbody.add_light(pos=[0.5, 0.3, 4.0])
@@ -111,18 +138,32 @@ class IntentionalContactExperiment(Experiment):
         return self._hand
 
     def act(self, world: World, time: float) -> None:
-        """Note forces of parts without skin on posts in the `world` at `time` in s."""
+        """Note forces of parts without skin on posts in the `world`, and shove one, at `time` in s."""
+        self._pressed = dict.fromkeys(self._posts, np.zeros(3))
         posts = list(self._posts.values())
-        found = feet_contacts(world.model, world.data, [{geom} for geom in posts])
-        for name, contacts in zip(self._posts, found, strict=True):
+        found = feet_contacts(world.model, world.data, [{geom} for geom in posts]) if world.data.ncon else ()
+        for name, contacts in zip(self._posts, found, strict=False):
             others = ~np.isin(contacts.other_geoms, posts)  # posts lean on each other too
             self._pressed[name] = contacts.forces[others].sum(axis=0)
+        if self._shove is not None:
+            name, begin, way = self._shove
+            slides = [world.data.joint(f"{name}_{axis}") for axis in "xy"]
+            speed = float(way @ [slide.qvel[0] for slide in slides])
+            left = min(max(1.0 - speed / self.settings.shove_speed, 0.0), 1.0)
+            size = self.settings.shove * left * come_and_go(time, begin, begin + _SHOVING, _SHOVE_RAMP)
+            for slide, part in zip(slides, size * way, strict=True):
+                slide.qfrc_applied[0] = part
 
     def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
         origin, rotation = world.pose(self._tip[0])
         tip = origin + rotation @ self._tip[1]
-        pushes = (w[:3] + self._pressed[name] for name, w in sensor.on_obstacles.items())
-        force = max(float(np.sqrt(push @ push)) for push in pushes)
+        pushes = {name: w[:3] + self._pressed[name] for name, w in sensor.on_obstacles.items()}
+        sizes = {name: float(np.sqrt(push @ push)) for name, push in pushes.items()}
+        force = max(sizes.values())
+        touched = [post.name for post in self.layout.posts if post.friction and sizes[post.name] > _TOUCHED]
+        if self._shove is None and touched and self.settings.shove:
+            way = -pushes[touched[0]][:2]
+            self._shove = (touched[0], time + self.rng.uniform(*_SHOVED_AFTER), way / np.linalg.norm(way))
         self._highest = max(self._highest, force)
         self._error = float(np.linalg.norm(tip - self._goal))
         if self._error > self.settings.tolerance:

@@ -1,11 +1,15 @@
-"""Thirteen contacts on a robot on its left leg: it yields and keeps its balance (T 3.2.4.1)."""
+"""Thirteen contacts on a robot on its left leg: it avoids, yields and keeps its balance (T 3.2.4.1)."""
 
 from __future__ import annotations
 
 from typing import Any, ClassVar
 
+from plantar.sensing.link_skin import BodySkin
+from plantar.sim.companion.experiments.feather import FeatherControl
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.pressed import UPPER_BODY, PressedExperiment
+from plantar.wholebody.tasks.skin_interaction import ProximityInteraction
+from plantar.wholebody.tasks.task import Task
 
 __all__ = ["MultiContact"]
 
@@ -13,12 +17,13 @@ _LEG = {f"right {part.replace('_', ' ')}": (f"right_{part}",) for part in ("uppe
 
 
 class MultiContact(PressedExperiment):
-    """Pads press on thirteen instances in turn, then on all.
+    """Pads press on thirteen instances in turn, then on all; 13 tasks of contact and 13 of proximity run (T 5.1).
 
     T 3.2.4.1 has the center of mass below the skin, which leaves no direction for it. Here it shares the support's
     level.
     """
 
+    control_type: ClassVar = FeatherControl
     sides: ClassVar = ("left",)
     com_height: ClassVar = 0.8
     roll: ClassVar = -12.0
@@ -28,3 +33,11 @@ class MultiContact(PressedExperiment):
         super().__init__(machine, settings, control, seed)
         self.press_each()
         self.press_together(list(self.instances))
+
+    def levels(self, skin: BodySkin) -> list[list[Task]]:
+        *above, yielding = super().levels(skin)
+        c = self.control
+        near = [ProximityInteraction(skin, c.stiffness, c.range, patches) for patches in self.instances.values()]
+        for task in near:
+            task.damping = (c.repelled_damping, 0.02 * c.repelled_damping)
+        return [*above, [*near, *yielding] if c.proximity else yielding]

@@ -17,7 +17,6 @@ from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import Settings, number, switch
 from plantar.sim.body_skin.sensing import SkinSensor
-from plantar.sim.body_skin.surface import skin_from_tables
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
 from plantar.sim.companion.machine import Machine
@@ -88,8 +87,7 @@ class Nociception(StandingExperiment):
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
         super().__init__(machine, settings, control, seed)
-        skin = skin_from_tables(self.robot.model, machine.patches, machine.name)
-        patch = skin.patch(_PATCH)
+        patch = self.skin.patch(_PATCH)
         middle = int(patch.from_middle[0])
         self.rate = _RATE * self.rng.uniform(0.7, 1.3)
         self.probes: dict[str, _Probe] = {}
@@ -100,7 +98,7 @@ class Nociception(StandingExperiment):
             self.probes[name] = _Probe(pad, count, 0.5 + i * (_PHASE + _REST) + self.rng.uniform(0.0, 0.3))
         self.duration = 0.5 + 2 * (_PHASE + _REST)
         self._rest = self.robot.pose(_LINK)[0]
-        self._control: StandingController | None = None
+        self._control: StandingController
         self._virtual = 0.0
         self._last: Any = None
         self._jump, self._changed = 0.0, -np.inf
@@ -122,12 +120,10 @@ class Nociception(StandingExperiment):
         return self._control
 
     def _before(self, robot: MujocoDynamics, measured: SkinReading) -> None:
-        control = self._control
-        assert control is not None
         strongest = [float(np.linalg.norm(w.wrench[:3])) for w in self._pressure.wrenches(measured)]
         before, self._virtual = self._virtual, max(strongest, default=0.0)
         if self.control.reflex and self.reflex.update(self._virtual, robot.time):
-            control.stack.levels = [list(level) for level in self.reflex.levels]
+            self._control.stack.levels = [list(level) for level in self.reflex.levels]
         elif (before > 0.0) == (self._virtual > 0.0):
             return
         self._changed = robot.time

@@ -14,7 +14,6 @@ from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number, switch
 from plantar.sim.body_skin.sensing import SkinSensor
-from plantar.sim.body_skin.surface import skin_from_tables
 from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.controller import StandingControl, StandingController
@@ -94,8 +93,7 @@ class Pressure(StandingExperiment):
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
         super().__init__(machine, settings, control, seed)
-        skin = skin_from_tables(self.robot.model, machine.patches, machine.name)
-        patch = skin.patch(_PATCH)
+        patch = self.skin.patch(_PATCH)
         taxel = int(self.rng.choice(patch.from_middle[:5]))
         self.force = settings.force * self.weight * self.rng.uniform(0.85, 1.15)
         order = list(_FACES)[:: int(self.rng.choice([-1, 1]))]
@@ -107,8 +105,7 @@ class Pressure(StandingExperiment):
             self._pushes[name] = _Push(pad, begin, begin + _PRESS[name], window=_WINDOWS[name])
             begin += _PRESS[name] + _REST
         self.duration = begin
-        self._slice = skin.slices[_PATCH]
-        self._control: StandingController | None = None
+        self._slice = self.skin.slices[_PATCH]
         self._trace: list[tuple[float, float, float]] = []
 
     def controller(self, machine: Machine, skin: BodySkin) -> Controller:
@@ -120,8 +117,7 @@ class Pressure(StandingExperiment):
             task = DirectInteraction(skin)
         task.damping = (c.yield_damping, 0.1 * c.yield_damping)
         levels: list[list[Task]] = [[self.base_task()], [task], [self.posture_task()]]
-        self._control = StandingController(self.stance, levels, None, skin, c)
-        return self._control
+        return StandingController(self.stance, levels, None, skin, c)
 
     def act(self, world: World, time: float) -> None:
         for push in self._pushes.values():

@@ -18,7 +18,7 @@ from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import number, switch
 from plantar.sim.body_skin.sensing import SkinSensor
-from plantar.sim.body_skin.surface import OBSTACLE_GROUP, skin_from_tables
+from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
 from plantar.sim.companion.machine import Machine
@@ -78,12 +78,11 @@ class Stove(StandingExperiment):
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
         super().__init__(machine, settings, control, seed)
         self.duration = settings.duration
-        skin = skin_from_tables(self.robot.model, machine.patches, machine.name)
+        skin = self.skin
         self._taxels = np.concatenate([np.arange(len(skin))[skin.slices[name]] for name in _PATCHES])
         self._points, self._normals = skin.positions[self._taxels], skin.normals[self._taxels]
         origin, rotation = self.robot.pose(_LINK)
-        palm = np.arange(len(skin.positions))[skin.slices["right_hand_palm"]]
-        self._palm = skin.positions[palm].mean(0)
+        self._palm = skin.positions[skin.slices["right_hand_palm"]].mean(0)
         place = origin + rotation @ self._palm
         self.height = settings.height * self.rng.uniform(0.8, 1.2)
         self._radius = self.rng.uniform(0.0, 0.04)
@@ -94,7 +93,6 @@ class Stove(StandingExperiment):
         self._warmth = np.full(len(skin), settings.room)
         self._start = place
         self._hottest = settings.room
-        self._first = float("inf")
         self._retreat = 0.0
         self._arrived = False
         self._trace: list[tuple[float, ...]] = []

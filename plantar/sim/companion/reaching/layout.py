@@ -1,4 +1,4 @@
-"""Random layouts of obstacles between a tip and its goal, each solvable by pushing."""
+"""Random layouts of obstacles between a tip and its goal."""
 
 from __future__ import annotations
 
@@ -15,10 +15,11 @@ from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 
 __all__ = ["KINDS", "Layout", "Post", "random_layout"]
 
-KINDS = ("movable", "goal", "beside")
-"""Movable things on the way, one where the goal is, and a fixed one next to movable ones (T Figures 24-27)."""
+KINDS = ("movable", "goal", "beside", "ring")
+"""One where the goal is, also behind three on the way, of which one may be fixed (T Figures 24-27); in a closed ring."""
 
 _SPACING = 0.155  # m between the middles of neighbours in the bow, along it
+_RING = 9  # posts about the goal, three of which, on the tip's side, can be moved
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,12 @@ class Post:
     place: NDArray[np.float64]
     radius: float
     friction: float = 0.0
+
+    def distance(self, points: NDArray[np.float64], height: float, half: float) -> NDArray[np.float64]:
+        """Distances (...) in m of points (..., 3), 0 inside; middle and half height as in `add_to`."""
+        away = points - [*self.place, height]
+        beside = np.hypot(away[..., 0], away[..., 1]) - self.radius
+        return np.hypot(np.maximum(beside, 0.0), np.maximum(np.abs(away[..., 2]) - half, 0.0))
 
     def add_to(self, spec: Any, height: float, half: float) -> None:
         """Add it to a `mujoco.MjSpec` `spec`, middle at `height`, half height `half`, in m."""
@@ -70,7 +77,7 @@ def random_layout(
 ) -> Layout:
     """A layout whose fixed posts leave the straight way free.
 
-    Three posts in a bow are a pocket in which a potential field has its minimum. An outer one is fixed in the second
+    Three posts in a bow are a pocket in which a potential field has its minimum; an outer one is fixed in the third
     kind.
 
     Args:
@@ -89,17 +96,21 @@ def random_layout(
     side = np.array([-way[1], way[0]]) * rng.choice([-1.0, 1.0])
     goal = tip + length * way
 
-    def post(name: str, along: float, beside: float, fixed: bool = False) -> Post:
+    def post(number: int, along: float, beside: float, fixed: bool = False) -> Post:
         force = 0.0 if fixed else rng.uniform(*friction)
+        name = f"{'fixed' if fixed else 'movable'}{number}"
         return Post(name, tip + along * way + beside * side, rng.uniform(0.055, 0.065), force)
 
+    if kind == "ring":
+        size = rng.uniform(0.225, 0.24)
+        turns = 2.0 * math.pi / _RING * np.arange(_RING)
+        places = [(length - size * math.cos(turn), size * math.sin(turn)) for turn in turns]
+        return Layout(kind, goal, [post(i, *place, 1 < i < _RING - 1) for i, place in enumerate(places)])
+    posts = [post(0, length + rng.uniform(-0.02, 0.02), rng.uniform(-0.02, 0.02))]
     if kind == "goal":
-        return Layout(kind, goal, [post("movable1", length + rng.uniform(-0.02, 0.02), rng.uniform(-0.02, 0.02))])
-    middle, bow = rng.uniform(0.5, 0.65) * length, rng.uniform(0.16, 0.22)
-    posts = []
-    for i, angle in enumerate((-_SPACING / bow, 0.0, _SPACING / bow)):
-        fixed = kind == "beside" and i == 2
-        name = "fixed" if fixed else f"movable{i + 1}"
+        return Layout(kind, goal, posts)
+    middle, bow = rng.uniform(0.5, 0.6) * length, rng.uniform(0.16, 0.22)
+    for i, angle in enumerate((-_SPACING / bow, 0.0, _SPACING / bow), 1):
         along = middle - bow * (1.0 - math.cos(angle)) + rng.uniform(-0.005, 0.005)
-        posts.append(post(name, along, bow * math.sin(angle) + rng.uniform(-0.005, 0.005), fixed))
+        posts.append(post(i, along, bow * math.sin(angle) + rng.uniform(-0.005, 0.005), kind == "beside" and i == 3))
     return Layout(kind, goal, posts)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.sensing.link_skin import BodySkin, SkinReading
-from plantar.settings.schema import choice, number, switch
+from plantar.settings.schema import choice, number
 from plantar.sim.companion.experiment import CompanionControl
 from plantar.sim.companion.machine import Machine
 from plantar.wholebody.behaviours.intentional_contact import ContactSettings, ContactSigns, IntentionalContact
@@ -47,7 +47,8 @@ class ReachControl(CompanionControl):
         stuck: How long it is slow before it approaches.
         acceleration: Largest of a joint, for things on two sides.
         joint_speed: Largest of a joint, against striking unseen things.
-        upright: Whether the tip's orientation is held, on the last level.
+        upright: Whether the tip's orientation is held, on the last level as in T or on the first: a light tip turns
+            before the arm yields, and parts without skin come near.
     """
 
     policy: str = choice("intentional", "avoid", "fields")
@@ -66,7 +67,7 @@ class ReachControl(CompanionControl):
     transition: ClassVar[float] = 0.05  # s: time in which priorities change
     acceleration: float = number(40.0, "rad/s^2", 1.0, 1e6)
     joint_speed: float = number(0.8, "rad/s", 0.01, 100.0)
-    upright: bool = switch(False)
+    upright: str = choice("no", "last", "first")
 
 
 class ReachController:
@@ -102,9 +103,10 @@ class ReachController:
         base = 3 if machine.base.kind == "mobile" else 0
         joints = len(machine.posture)
         self._held: list[list[Task]] = [[Posture(machine.posture, 400.0, joints=range(base))]] if base else []
-        upright: list[Task] = [CartesianPose(*tip, rows="orientation")] if s.upright else []
+        upright: list[list[Task]] = [[CartesianPose(*tip, rows="orientation")]]
+        self._held += upright if s.upright == "first" else []
         relaxed: list[Task] = [Posture(machine.posture, 6.0, 12.0, joints=range(base, joints))]
-        self._rest: list[list[Task]] = [upright, relaxed]
+        self._rest = [*(upright if s.upright == "last" else []), relaxed]
         limits = ContactSettings(slow=s.slow, force_limit=s.limit_share * force_limit, stuck=s.stuck)
         avoidance = AlongForce(self._near, s.brake)
         contact = AlongForce(self._yielding, s.brake)

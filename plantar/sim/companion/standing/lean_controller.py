@@ -30,12 +30,12 @@ ARM = "right_lower_arm"
 PATCH = "right_lower_arm"
 """Patch whose skin measures the table."""
 UNDERSIDE = np.array([-0.045, 0.0, -0.12])
+# Rotation of a forearm that points forward, its underside down.
 LEVEL = np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
-"""Rotation of a forearm that points forward, its underside down."""
 HAND = np.array([0.0, 0.0, -0.09])
 """Point of the left hand that reaches, in its frame in m."""
+# How the load is shared where there is a choice: little on the foot that stands on an edge.
 SHARES = {"left_foot": 0.55, "right_foot": 0.3, ARM: 0.15}
-"""How the load is shared where there is a choice: little on the foot that stands on an edge."""
 
 _NEAR = 0.02  # m: a taxel that sees ground nearer than this stands on it
 _CATCHING_UP = 1.0  # s in which what is aimed at makes up for what is missing: slower than a lean and its load

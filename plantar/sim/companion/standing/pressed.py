@@ -14,7 +14,6 @@ from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number
 from plantar.sim.body_skin.sensing import SkinSensor
-from plantar.sim.body_skin.surface import skin_from_tables
 from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.controller import StandingController
@@ -77,13 +76,13 @@ class PressedExperiment(StandingExperiment):
         "yield_median",
         "most_active",
     )
+    # Instances of direct interaction and their patches.
     instances: ClassVar[Mapping[str, tuple[str, ...]]] = UPPER_BODY
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
         super().__init__(machine, settings, control, seed)
-        self.skin = skin_from_tables(self.robot.model, machine.patches, machine.name)
         self.contacts: list[PlannedContact] = []
-        self._control: StandingController | None = None
+        self._control: StandingController
         self._trace: list[tuple[float, ...]] = []
 
     def press_each(self) -> None:
@@ -186,7 +185,6 @@ class PressedExperiment(StandingExperiment):
             (least >= s.yield_least, "yields", least, s.yield_least, found),
             (middle >= s.yield_median, "yields_median", middle, s.yield_median, median),
         )
-        assert self._control is not None
         figures = {
             **self.balance_figures(),
             "yield_least": round(least, 2),
@@ -199,7 +197,6 @@ class PressedExperiment(StandingExperiment):
         return Verdict(reasons, figures)
 
     def plot(self, folder: Path) -> Sequence[Path]:
-        assert self._control is not None
         trace = np.array(self._trace)
         figure, (upper, lower) = new_figure(9.0, 7.0, rows=2)
         for i, contact in enumerate(self.contacts):

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.sim.body_skin.sensing import SkinSensor
+from plantar.sim.body_skin.surface import skin_from_tables
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.experiment import Experiment, World, unmet
 from plantar.sim.companion.machine import Machine
@@ -42,6 +43,7 @@ class StandingExperiment(Experiment):
     """A machine on one foot or two, judged by the true contacts.
 
     Attributes:
+        skin: The machine's.
         weight: In N.
         pads: Pads that press on it.
         sides: Feet that it stands on.
@@ -66,6 +68,7 @@ class StandingExperiment(Experiment):
         alone = machine.spec().compile()
         self.robot = MujocoDynamics(alone)
         self.stance = Stance(alone, self.sides)
+        self.skin = skin_from_tables(alone, machine.patches, machine.name)
         self.weight = GRAVITY * float(alone.body_subtreemass[0])
         self.first = self._first_posture()
         self.robot.update(self.first, np.zeros(alone.nv), 0.0)

@@ -1,7 +1,11 @@
 """Reaching among obstacles: what is in the way is pushed, with no more than the tolerable force."""
 
+import numpy as np
 import pytest
 
+from plantar.errors import SceneError
+from plantar.sim.companion.machine import load_machine
+from plantar.sim.companion.reaching.free_way import free_way
 from plantar.sim.companion.runner import Companion
 from plantar.sim.run.scene_kind import open_scene
 
@@ -12,13 +16,36 @@ def run(seed, *settings):
 
 
 @pytest.mark.long
-def test_the_arm_pushes_what_stands_at_its_goal_and_stays_under_the_force(tmp_path):
+def test_the_arm_pushes_retreats_when_shoved_and_stays_under_the_force(tmp_path):
     companion, summary = run(1)
     assert summary["completed"], summary["reasons"]
     assert summary["layout"] == "goal"
     assert summary["contacts"] >= 1
+    assert summary["retreats"] >= 1
     assert 1.0 < summary["force_max_N"] < 16.5
     assert [p.name for p in companion.experiment.plot(tmp_path)] == ["reach.png"]
+
+
+@pytest.mark.long
+def test_without_a_shove_it_need_not_retreat():
+    assert run(1, "shove=0")[1]["retreats"] == 0
+
+
+@pytest.mark.parametrize("scene", ["intentional-contact", "table-contact"])
+def test_no_layout_can_be_solved_without_contact(scene):
+    for seed in range(4):
+        opened = open_scene(scene)
+        machine = load_machine(opened.robot)
+        one = opened.experiment_type(machine, opened.experiment, opened.control, seed)
+        s, goal = one.settings, np.array([*one.layout.goal, one.start_tip.place[2]])
+        assert not free_way(one.start_tip, goal, s.tolerance, one.layout.posts, s.half_height)
+        kept = [post for post in one.layout.posts if not post.friction]
+        assert not kept or free_way(one.start_tip, goal, s.tolerance, kept, s.half_height)  # by pushing it can
+
+
+def test_a_ring_about_a_tip_that_lifts_is_refused():
+    with pytest.raises(SceneError, match="100 layouts 'ring' can be solved without contact"):
+        Companion(open_scene("table-contact", ["layout=ring", "half_height=0.01"]), 0)
 
 
 @pytest.mark.long
