@@ -36,7 +36,7 @@ class Tip(NamedTuple):
 
     @classmethod
     def of(cls, model: Any, data: Any, link: str, point: NDArray[np.float64]) -> Tip:
-        """The tip at a `point` (3,) of a `link`, whose first shape is a capsule (else the ball is a point)."""
+        """Returns the tip at a `point` (3,) of a `link` of `model` and `data`, a capsule at first (else a ball of 0 m)."""
         body = data.body(link)
         place = body.xpos + body.xmat.reshape(3, 3) @ point
         lifts = bool((np.abs(data.xaxis[:, 2]) < _UPRIGHT).any())

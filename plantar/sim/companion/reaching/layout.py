@@ -16,7 +16,7 @@ from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 __all__ = ["KINDS", "Layout", "Post", "random_layout"]
 
 KINDS = ("movable", "goal", "beside", "ring")
-"""One where the goal is, also behind three on the way, of which one may be fixed (T Figures 24-27); in a closed ring."""
+"""One where the goal is, also behind three on the way, of which one may be fixed (T Figures 24-27); a closed ring."""
 
 _SPACING = 0.155  # m between the middles of neighbours in the bow, along it
 _RING = 9  # posts about the goal, three of which, on the tip's side, can be moved
