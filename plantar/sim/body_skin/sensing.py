@@ -166,7 +166,7 @@ class SkinSensor:
         pressed: NDArray[np.int64],
         contact: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
     ) -> None:
-        """Normal and friction forces at points (m, 3) by inward normals (m, 3) and depths (m,)."""
+        # Normal and friction forces at points (m, 3) by inward normals (m, 3) and depths (m,).
         points, normals, depths = contact
         obstacle = self._obstacles[index]
         now, before = (tuple(part[index] for part in where) for where in (self._now, self._before))
@@ -199,7 +199,6 @@ class _BroadPhase:
         self.everything = [(i, list(range(len(geoms)))) for i in range(len(patches))]
         self._geoms = np.array(geoms, dtype=np.int64)
         self._bodies = np.array([p.body for p in patches])
-        self._rows = np.arange(len(patches))
         middles = np.array([0.5 * (p.starts.min(0) + p.starts.max(0)) for p in patches])
         spans = [np.linalg.norm(p.starts - m, axis=1).max() + p.reach for p, m in zip(patches, middles, strict=True)]
         self._middles = np.ascontiguousarray(middles[:, :, None])

@@ -104,7 +104,7 @@ def _patch(model: Any, data: Any, shape: PatchShape, where: str) -> SkinPatch:
 
 
 def _rays(shape: PatchShape, where: str) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Starts (n, 3) and directions (n, 3) in the link's frame, and the patch's rotation (3, 3)."""
+    # Starts (n, 3) and directions (n, 3) in the link's frame, and the patch's rotation (3, 3).
     origin = _vector(shape.position, "position", 3, where)
     roll, pitch, yaw = np.radians(_vector(shape.rotation, "rotation", 3, where)).tolist()
     turn = rotation_from_angles(yaw, pitch, roll)
@@ -136,7 +136,7 @@ def _rays(shape: PatchShape, where: str) -> tuple[NDArray[np.float64], NDArray[n
 def _meet(
     model: Any, data: Any, body: int, starts: NDArray[np.float64], ways: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Lengths (n,) of rays in a body's frame, -1 for misses, and surface normals (n, 3)."""
+    # Lengths (n,) of rays in a body's frame, -1 for misses, and surface normals (n, 3).
     place, turn = data.xpos[body], data.xmat[body].reshape(3, 3)
     begin = model.body_geomadr[body]
     geoms = [g for g in range(begin, begin + model.body_geomnum[body]) if model.geom_group[g] != OBSTACLE_GROUP]
@@ -155,7 +155,7 @@ def _meet(
 
 
 def _frames(inward: NDArray[np.float64], forward: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rotations (n, 3, 3) with z along `inward` (n, 3) and x near `forward` (3,)."""
+    # Rotations (n, 3, 3) with z along `inward` (n, 3) and x near `forward` (3,).
     x = forward - (inward @ forward)[:, None] * inward
     lost = np.linalg.norm(x, axis=1) < 1e-6
     x[lost] = np.cross(inward[lost], [[0.3, 0.5, 0.8]])

@@ -68,7 +68,7 @@ def upper_body_skin(model: Any, base: int, *, leg: float, weight: float) -> Body
 
 
 def _extent(model: Any, base: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Lowest and highest coordinates (3,) in the base frame of welded shapes, or inertial boxes."""
+    # Lowest and highest coordinates (3,) in the base frame of welded shapes, or inertial boxes.
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     turn, origin = data.xmat[base].reshape(3, 3), data.xpos[base]
@@ -94,7 +94,7 @@ def _corners(model: Any, data: Any, geom: int) -> NDArray[np.float64]:
 
 
 def _inertial_box(model: Any, data: Any, body: int) -> NDArray[np.float64]:
-    """Corners (8, 3) in the world of the solid box with a link's mass and inertia."""
+    # Corners (8, 3) in the world of the solid box with a link's mass and inertia.
     inertia, mass = model.body_inertia[body], float(model.body_mass[body])
     half = np.sqrt(np.maximum(1.5 / mass * (inertia.sum() - 2.0 * inertia), 0.0))
     return np.asarray(_SIGNS * half @ data.ximat[body].reshape(3, 3).T + data.xipos[body])

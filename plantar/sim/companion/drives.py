@@ -60,7 +60,7 @@ class Drives:
             self._hold_speeds_implicitly()
 
     def _hold_speeds_implicitly(self) -> None:
-        """Apply servo damping implicitly: explicit, it shakes a light wrist."""
+        # Apply servo damping implicitly: explicit, it shakes a light wrist.
         model, motors = self._world.model, self._world.motors
         model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
         model.actuator_biastype[motors] = mujoco.mjtBias.mjBIAS_AFFINE

@@ -46,8 +46,7 @@ class Lidar:
         angles = np.arange(settings.rays) * (2.0 * math.pi / settings.rays)
         self._ways = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(settings.rays)])
         root = model.body_rootid[self._base]
-        own = np.isin(model.geom_bodyid, np.flatnonzero(model.body_rootid == root))
-        self._own = own
+        self._own = np.isin(model.geom_bodyid, np.flatnonzero(model.body_rootid == root))
 
     def scan(self, data: Any) -> NDArray[np.float64]:
         """Nearest point (m, 2) of each thing, base frame, in m."""
@@ -63,7 +62,7 @@ class Lidar:
         return np.array([self._ways[i, :2] * distances[i] for i in nearest if distances[i] < _NO_ECHO]).reshape(-1, 2)
 
     def _distances(self, data: Any, origin: NDArray[np.float64], ways: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Distance (rays,) along each ray; inf for a miss."""
+        # Distance (rays,) along each ray; inf for a miss.
         found = np.full(len(ways), np.inf)
         for geom in np.flatnonzero(~self._own).tolist():
             center = data.geom_xpos[geom] - origin

@@ -4,21 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from plantar.settings.schema import Settings, number
 from plantar.wholebody.fusion.priority_transition import smooth_share
 from plantar.wholebody.tasks.task import Task
 
-__all__ = ["ContactPhases", "PhaseSettings"]
-
-
-class PhaseSettings(Settings):
-    """Speed of the weight.
-
-    Attributes:
-        duration: Sigmoid of w (A 6) from 0 to 1 in s.
-    """
-
-    duration: float = number(2.0, "s", 0.0, 60.0)
+__all__ = ["ContactPhases"]
 
 
 class ContactPhases:
@@ -27,7 +16,7 @@ class ContactPhases:
     Args:
         precontact: Levels before: distance, compliant wrist, tactile guidance, base avoidance and posture.
         contact: Levels in contact: force, compliant wrist, position, and compliance with base avoidance and posture.
-        settings: Speed of the weight.
+        duration: Of the sigmoid of w (A 6) from 0 to 1 in s; 0 jumps.
 
     Attributes:
         in_contact: Whether in the contact phase.
@@ -38,13 +27,11 @@ class ContactPhases:
         self,
         precontact: Sequence[Sequence[Task]],
         contact: Sequence[Sequence[Task]],
-        settings: PhaseSettings | None = None,
+        duration: float = 2.0,
     ) -> None:
-        self.settings = settings or PhaseSettings()
-        self.in_contact = False
+        self.duration, self.in_contact = duration, False
         self._arrangements = (precontact, contact)
-        self._since = float("-inf")
-        self._from = 0.0
+        self._since, self._from = float("-inf"), 0.0
 
     @property
     def levels(self) -> Sequence[Sequence[Task]]:
@@ -68,5 +55,5 @@ class ContactPhases:
 
     def weight(self, time: float) -> float:
         """w of A 6 at a time in s: 0 for proximity alone, 1 for force alone."""
-        share = smooth_share(time - self._since, self.settings.duration)
+        share = smooth_share(time - self._since, self.duration)
         return self._from + share * (float(self.in_contact) - self._from)

@@ -120,7 +120,7 @@ class IntentionalContact:
         return self.arrangement != before
 
     def _way_on(self, signs: ContactSigns) -> tuple[bool, float, Arrangement]:
-        """Whether the arrangement's end condition holds, its time, and the next one."""
+        # Whether the arrangement's end condition holds, its time, and the next one.
         s, near = self.settings, signs.near > 0.0
         touched = signs.contact > 0.0
         if self.arrangement == "avoid":

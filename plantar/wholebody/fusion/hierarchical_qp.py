@@ -103,7 +103,9 @@ class HierarchicalQP:
             base = np.delete(np.arange(len(factor)), robot.joints)
             shared = np.linalg.lstsq(support.jacobian[:, base].T, factor[base], rcond=None)[0]
             columns = columns - support.jacobian[:, robot.joints].T @ shared
-        inverse = np.linalg.inv(factor)  # once: BLAS threads wait for each other in every triangular solve
+        inverse = np.asarray(
+            np.linalg.inv(factor), dtype=float
+        )  # once: BLAS threads wait for each other in every triangular solve
         moves = inverse.T[robot.joints]
         box = Box.of(columns, -self.limits.torque - still, self.limits.torque - still, moves, low, high)
         y = _descend(inverse, box, levels, support)
@@ -115,7 +117,7 @@ class HierarchicalQP:
 def _sublevels(
     levels: Sequence[Sequence[Demand | None]], support: Demand | None
 ) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64] | None, NDArray[np.float64] | None]]:
-    """Rows met together, with their acceleration or generalized force."""
+    # Rows met together, with their acceleration or generalized force.
     for level in ([support], *levels):
         meant = [d for d in level if d is not None and d.acceleration is not None]
         pushing = [d for d in level if d is not None and d.acceleration is None and d.force is not None]
@@ -130,7 +132,7 @@ def _sublevels(
 def _descend(
     inverse: NDArray[np.float64], box: Box, levels: Sequence[Sequence[Demand | None]], support: Demand | None
 ) -> NDArray[np.float64]:
-    """Meet levels in order, the support unlimited; the rest moves least."""
+    # Meet levels in order, the support unlimited; the rest moves least.
     y, left = np.zeros(len(inverse)), np.eye(len(inverse))  # and an orthonormal basis of what is left
     limited = support is None
     for jacobian, wanted, force in _sublevels(levels, support):
@@ -150,7 +152,7 @@ def _descend(
             weights = strengths**2 + np.maximum(0.0, 1.0 - (strengths / damped) ** 2) * (damped / 2.0) ** 2
             target = strengths / weights * (across.T[:rank] @ (wanted - rows @ y)[counted])
         else:
-            target = own @ (left.T @ (inverse @ force))
+            target = own @ (left.T @ (inverse @ np.asarray(force, dtype=float)))
         if limited:
             box, target = nearest_within(box, y, left, own, target, weights)
         limited = True

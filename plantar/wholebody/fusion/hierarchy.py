@@ -132,7 +132,7 @@ def joint_torques(
 
 
 def _least_norm(matrix: NDArray[np.float64], wanted: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Shortest x with matrix x = wanted, or nearest, by QR or singular values."""
+    # Shortest x with matrix x = wanted, or nearest, by QR or singular values.
     rows, columns = matrix.shape
     if rows <= columns:
         factored, scales, _, info = lapack.dgeqrf(matrix.T)
@@ -146,7 +146,7 @@ def _least_norm(matrix: NDArray[np.float64], wanted: NDArray[np.float64]) -> NDA
 
 
 def _add(space: TaskSpace, level: Sequence[Demand], last: bool) -> None:
-    """Meet a level in free directions, owning its rows unless last."""
+    # Meet a level in free directions, owning its rows unless last.
     meant = [d for d in level if d.acceleration is not None]
     pushing = [d for d in level if d.acceleration is None]
     if meant and space.used < space.size:
@@ -172,7 +172,7 @@ def _stacked(demands: Sequence[Demand], size: int) -> NDArray[np.float64]:
 
 
 def _meet(space: TaskSpace, rows: NDArray[np.float64], wanted: NDArray[np.float64]) -> None:
-    """Own rows and meet their demand, damped below `DAMPED`."""
+    # Own rows and meet their demand, damped below `DAMPED`.
     if wanted.shape != (len(rows),):
         raise InputError(f"a task asks for an acceleration of shape {wanted.shape}; expected one a row, ({len(rows)},)")
     rank, bound = space.own(rows, np.ascontiguousarray(wanted), True, RANK)
@@ -198,5 +198,5 @@ def _meet(space: TaskSpace, rows: NDArray[np.float64], wanted: NDArray[np.float6
 
 @lru_cache(maxsize=8)
 def _space(size: int) -> TaskSpace:
-    """Work arrays for a number of coordinates, made once."""
+    # Work arrays for a number of coordinates, made once.
     return TaskSpace(size)

@@ -144,7 +144,7 @@ def weighted_sum(
 def _fused(
     robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None, external: NDArray[np.float64] | None
 ) -> Fused:
-    """Result of a generalized force (n,) without bias."""
+    # Result of a generalized force (n,) without bias.
     acceleration = np.asarray(np.linalg.solve(robot.mass_matrix, force))
     total = force + robot.bias if external is None else force + robot.bias - external
     torque, support_force = joint_torques(robot, total, support)

@@ -11,22 +11,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.settings.schema import Settings, number
-
-__all__ = ["PriorityTransition", "TransitionSettings", "smooth_share"]
+__all__ = ["PriorityTransition", "smooth_share"]
 
 # delta_t of T 3.46 times half of the duration: tanh of it is 0.96, so little has to be stretched.
 STEEPNESS = 2.0
-
-
-class TransitionSettings(Settings):
-    """Priority change.
-
-    Attributes:
-        duration: From trigger to the new arrangement alone in s.
-    """
-
-    duration: float = number(0.2, "s", 0.0, 10.0)
 
 
 def smooth_share(elapsed: float, duration: float) -> float:
@@ -55,11 +43,11 @@ class PriorityTransition:
     """Blends torques in priority changes; continuous even for overlapping ones.
 
     Args:
-        settings: A change's duration.
+        duration: From trigger to the new arrangement alone in s; 0 jumps.
     """
 
-    def __init__(self, settings: TransitionSettings | None = None) -> None:
-        self.settings = settings or TransitionSettings()
+    def __init__(self, duration: float = 0.2) -> None:
+        self.duration = duration
         self._last: NDArray[np.float64] | None = None
         self._held: NDArray[np.float64] | None = None
         self._began = -math.inf
@@ -79,7 +67,7 @@ class PriorityTransition:
         Returns:
             Output (k,): the argument itself without a change.
         """
-        share = smooth_share(time - self._began, self.settings.duration)
+        share = smooth_share(time - self._began, self.duration)
         if self._held is None or share >= 1.0:
             self._held = None
             self._last = torque

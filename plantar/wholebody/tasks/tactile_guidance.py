@@ -85,7 +85,7 @@ class TactileGuidance(Task):
         return Demand(jacobian, acceleration=wanted, drift=robot.drift(self._link, self._point)[:3])
 
     def _within_reach(self, robot: RobotDynamics, force: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Force (3,) without the part that stretches a straight arm."""
+        # Force (3,) without the part that stretches a straight arm.
         if self._arm is None:
             return force
         joints = [robot.pose(link)[0] for link in self._arm]
@@ -100,7 +100,7 @@ class TactileGuidance(Task):
         return force - (1.0 - share) * outward / apart**2 * along
 
     def _kept(self, robot: RobotDynamics, touched: bool) -> NDArray[np.float64]:
-        """Stretch (3,) in m from hand to resting place."""
+        # Stretch (3,) in m from hand to resting place.
         origin, rotation = robot.pose(self._link)
         place = origin + rotation @ self._point
         if self._last is not None and not touched:

@@ -1,10 +1,10 @@
 import numpy as np
 
-from plantar.wholebody.behaviours.contact_phases import ContactPhases, PhaseSettings
+from plantar.wholebody.behaviours.contact_phases import ContactPhases
 
 
 def test_the_weight_goes_from_nearness_to_force_along_a_sigmoid():
-    phases = ContactPhases([["a"]], [["b"]], PhaseSettings(duration=2.0))
+    phases = ContactPhases([["a"]], [["b"]], 2.0)
     assert phases.weight(5.0) == 0.0
     assert phases.levels == [["a"]]
     assert phases.enter(True, 5.0)
@@ -14,7 +14,7 @@ def test_the_weight_goes_from_nearness_to_force_along_a_sigmoid():
 
 
 def test_the_weight_is_continuous_when_a_phase_is_left_midway():
-    phases = ContactPhases([], [], PhaseSettings(duration=2.0))
+    phases = ContactPhases([], [], 2.0)
     times, weights = np.arange(0.0, 6.0, 1e-3), []
     for t in times:
         if 1.0 <= t < 1.0005:

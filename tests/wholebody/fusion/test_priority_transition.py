@@ -1,10 +1,8 @@
 import math
 
 import numpy as np
-import pytest
 
-from plantar.errors import InputError
-from plantar.wholebody.fusion.priority_transition import PriorityTransition, TransitionSettings, smooth_share
+from plantar.wholebody.fusion.priority_transition import PriorityTransition, smooth_share
 
 
 def largest_jump(transition, switches, step=1e-4, end=1.0):
@@ -21,9 +19,8 @@ def largest_jump(transition, switches, step=1e-4, end=1.0):
 
 
 def test_a_change_is_continuous_also_when_another_begins_within_it():
-    settings = TransitionSettings(duration=0.2)
     for step in (1e-3, 5e-4):
-        jump, last = largest_jump(PriorityTransition(settings), [(0.1, 10.0), (0.2, -30.0), (0.23, 40.0)], step)
+        jump, last = largest_jump(PriorityTransition(0.2), [(0.1, 10.0), (0.2, -30.0), (0.23, 40.0)], step)
         assert jump < 80.0 * 2.5 / 0.2 * step  # steepest slope of the sigmoid times the largest change
         assert last == 40.0
 
@@ -53,9 +50,7 @@ def test_without_a_change_torques_pass_through_and_the_first_has_nothing_to_fade
 
 
 def test_no_duration_is_a_jump():
-    transition = PriorityTransition(TransitionSettings(duration=0.0))
+    transition = PriorityTransition(0.0)
     transition.blend(np.zeros(1), 0.0)
     transition.begin(0.0)
     assert transition.blend(np.ones(1), 0.0)[0] == 1.0
-    with pytest.raises(InputError, match="duration"):
-        TransitionSettings(duration=-1.0)

@@ -82,11 +82,10 @@ class Feather(StandingExperiment):
             end = visitor.plan(target, way, end, speed, 0.06, settings.beyond) + 1.0
         self.duration = end
         self._link = f"{self.side}_hand"
-        self._rest, self._turn = self.robot.pose(self._link)
+        self._rest = self.robot.pose(self._link)[0]
         self._closest = {v.name: _FARTHEST for v in self.visitors}
         self._moved = {v.name: 0.0 for v in self.visitors}
-        self._early = 0.0
-        self._measured = 0.0
+        self._early = self._measured = 0.0
         self._trace: list[tuple[float, float, float]] = []
 
     def add_to(self, spec: Any) -> None:

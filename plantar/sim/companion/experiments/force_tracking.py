@@ -129,16 +129,15 @@ class ForceTracking(Experiment):
         self._visitor = Visitor(self._visits())
         self._hand: HandController
         self.record = ForceRecord()
-        self._measured = 0.0
         self._errors: dict[str, list[float]] = {"free": [], "disturbed": [], "distance": []}
-        self._lost = self._highest = self._tilt = self._moved = 0.0
+        self._measured = self._lost = self._highest = self._tilt = self._moved = 0.0
         self._nearest, self._bumped = math.inf, 0.0
         self._guided, self._steps = 0.0, 0
         self._base = np.zeros(3)
         self._places: dict[str, NDArray[np.float64]] = {}
 
     def _pushes(self) -> list[Push]:
-        """Touches in pairs that cancel."""
+        # Touches in pairs that cancel.
         found: list[Push] = []
         for begin, end in self.settings.touch:
             time = begin
@@ -252,7 +251,7 @@ class ForceTracking(Experiment):
             self._tilt = max(self._tilt, tilt)
         elif not in_contact and time >= _SETTLING:
             self._errors["distance"].append(distance - self.settings.distance)
-        if time <= _first(self.settings.touch):
+        if not self.settings.touch or time <= self.settings.touch[0][0]:
             self._places["guided from"] = hand
         elif not in_contact:
             self._guided = max(self._guided, float(np.linalg.norm(hand - self._places["guided from"])))
@@ -274,7 +273,7 @@ class ForceTracking(Experiment):
         return any(begin <= time < end + _AFTER for begin, end in spans)
 
     def _clearance(self, world: World) -> float:
-        """Distance in m of person and base footprint, negative inside."""
+        # Distance in m of person and base footprint, negative inside.
         place = world.data.body("person").xpos[:2]
         base, rotation = world.pose(self.machine.base.link)
         local = rotation[:2, :2].T @ (place - base[:2])
@@ -319,10 +318,6 @@ class ForceTracking(Experiment):
     def plot(self, folder: Path) -> Sequence[Path]:
         windows = self.settings.windows()
         return [self.record.plot(folder / "force.png", f"seed {self.seed}", windows, bool(self.settings.contact))]
-
-
-def _first(windows: Sequence[tuple[float, float]]) -> float:
-    return windows[0][0] if windows else math.inf
 
 
 def _rms(errors: list[float]) -> float:

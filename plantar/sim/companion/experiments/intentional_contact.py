@@ -28,8 +28,7 @@ from plantar.sim.model.contact_truth import feet_contacts
 __all__ = ["IntentionalContactExperiment", "ReachSettings"]
 
 _EVERY = 0.02  # s between two records
-_DRAWS = 100  # of a layout
-_CLEAR = 0.08  # m from its posts to the links' ends and middles at first
+_DRAWS, _CLEAR = 100, 0.08  # of a layout; m from its posts to the links' ends and middles at first
 _TOUCHED = 1.0  # N on an obstacle, from which it counts as touched
 _SHOVED_AFTER = (0.2, 1.0)  # s after the first touch
 _SHOVING, _SHOVE_RAMP = 1.5, 0.3  # s: how long, and how long it takes to come and go
@@ -99,17 +98,15 @@ class IntentionalContactExperiment(Experiment):
         self.layout = self._draw_layout(np.vstack([data.xpos, data.xipos]))
         self._goal = np.array([*self.layout.goal, self._height])
         self.record = ReachRecord(machine, self.layout, s.force_limit)
-        self._highest = 0.0
-        self._since = self._reached = math.inf
-        self._error = math.inf
-        self._due = 0.0
+        self._since = self._reached = self._error = math.inf
+        self._highest = self._due = 0.0
         self._pressed: dict[str, NDArray[np.float64]] = {}
         self._posts: dict[str, int] = {}
         self._shove: tuple[str, float, NDArray[np.float64]] | None = None  # which post, from when, and direction
         self._hand: ReachController
 
     def _draw_layout(self, arm: NDArray[np.float64]) -> Layout:
-        """Layouts are drawn until one has no way without contact, and is clear of places (n, 3) of the arm."""
+        # Layouts are drawn until one has no way without contact, and is clear of places (n, 3) of the arm.
         s, tip = self.settings, self.start_tip
         kinds = KINDS[:-1] if tip.lifts else KINDS
         kind = s.layout if s.layout != "any" else kinds[self.seed % len(kinds)]

@@ -85,20 +85,17 @@ class Stove(StandingExperiment):
         self._palm = skin.positions[skin.slices["right_hand_palm"]].mean(0)
         place = origin + rotation @ self._palm
         self.height = settings.height * self.rng.uniform(0.8, 1.2)
-        self._radius = self.rng.uniform(0.0, 0.04)
-        self._phase = self.rng.uniform(0.0, 2.0 * math.pi)
+        self._radius, self._phase = self.rng.uniform(0.0, 0.04), self.rng.uniform(0.0, 2.0 * math.pi)
         away = np.array([0.10, -0.16, 0.0]) * self.rng.uniform(0.8, 1.0)
         self.middle = place + away - [0.0, 0.0, self.height]
         self.plate = HotPlate(self.middle, settings, len(self._taxels))
         self._warmth = np.full(len(skin), settings.room)
         self._start = place
         self._hottest = settings.room
-        self._retreat = 0.0
-        self._arrived = False
+        self._retreat, self._arrived, self._silent = 0.0, False, True
         self._trace: list[tuple[float, ...]] = []
         self._hand = CartesianPose(_LINK, self._palm, PoseGains(speed=0.2))
         self._transition = PriorityTransition()
-        self._silent = True
         self._control: StandingController
 
     def add_to(self, spec: Any) -> None:
@@ -127,7 +124,7 @@ class Stove(StandingExperiment):
         self._silent = silent
 
     def _target(self, time: float) -> Any:
-        """Wanted place (3,) of the palm."""
+        # Wanted place (3,) of the palm.
         share = min(1.0, max(0.0, (time - _BEGIN) / _WAY))
         angle = self._phase + 2.0 * math.pi * time / _CIRCLE
         circle = np.array([self._radius * math.cos(angle), self._radius * math.sin(angle), self.height])

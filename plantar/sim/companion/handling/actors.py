@@ -70,7 +70,6 @@ class Fist:
     def __init__(self, pushes: list[Push]) -> None:
         self.pushes = pushes
         self._depth = -_AWAY
-        self._number = 0
 
     def add_to(self, spec: Any) -> None:
         """Put it into a world, far away."""

@@ -11,7 +11,7 @@ from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import choice, number, switch
 from plantar.sim.companion.experiment import CompanionControl
 from plantar.sim.companion.machine import Machine
-from plantar.wholebody.behaviours.contact_phases import ContactPhases, PhaseSettings
+from plantar.wholebody.behaviours.contact_phases import ContactPhases
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.fusion.hierarchy import fuse
 from plantar.wholebody.fusion.null_space import weighted_sum
@@ -140,17 +140,16 @@ class HandController:
                 [BodyCompliance(self.posture, *away)],
             ],
             [*first, [self._place], [BodyCompliance(self.posture, self._touch, *away)]],
-            PhaseSettings(s.sigmoid),
+            s.sigmoid,
         )
         self._stack = TaskStack(self.phases.levels, fusion=weighted_sum if s.priority == "sum" else fuse)
         self._change = PriorityTransition()
         servo = machine.servo.kind if s.servo == "machine" else s.servo
         self._feeds_forward = s.feed_forward and servo == "torque"  # a resolver's virtual robot is pushed by nothing
-        self._taken = 0.0
-        self.wanted_force = 0.0
+        self._taken = self.wanted_force = 0.0
 
     def _distance_stiffness(self) -> float:
-        """In N/m, for the distance error's decay rate."""
+        # In N/m, for the distance error's decay rate.
         s = self.settings
         return s.distance_rate * s.force_damping / s.force_gain
 
@@ -175,7 +174,7 @@ class HandController:
         return self._change.blend(torque, robot.time)
 
     def _known(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64] | None:
-        """Generalized force (n,) of wanted force and arm skin."""
+        # Generalized force (n,) of wanted force and arm skin.
         if not self._feeds_forward:
             return None
         step = self.settings.period / _TAKEN_OVER

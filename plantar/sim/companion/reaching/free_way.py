@@ -14,8 +14,7 @@ from plantar.sim.companion.reaching.layout import Post
 
 __all__ = ["Tip", "free_way"]
 
-_CELL = 0.01  # m
-_AROUND = 0.3  # m beyond start, goal and obstacles that is searched
+_CELL, _AROUND = 0.01, 0.3  # m: of the grid, and how far beyond start, goal and obstacles it reaches
 _UPRIGHT = 0.999  # of an axis, from which it counts as vertical
 
 
@@ -36,7 +35,7 @@ class Tip(NamedTuple):
 
     @classmethod
     def of(cls, model: Any, data: Any, link: str, point: NDArray[np.float64]) -> Tip:
-        """Returns the tip at a `point` (3,) of a `link` of `model` and `data`, a capsule at first (else a ball of 0 m)."""
+        """Returns the tip at a `point` (3,) of a `link` of `model` and `data`; its ball is 0 m without a capsule."""
         body = data.body(link)
         place = body.xpos + body.xmat.reshape(3, 3) @ point
         lifts = bool((np.abs(data.xaxis[:, 2]) < _UPRIGHT).any())

@@ -42,7 +42,7 @@ class Post:
         """Distances (...) in m of points (..., 3), 0 inside; middle and half height as in `add_to`."""
         away = points - [*self.place, height]
         beside = np.hypot(away[..., 0], away[..., 1]) - self.radius
-        return np.hypot(np.maximum(beside, 0.0), np.maximum(np.abs(away[..., 2]) - half, 0.0))
+        return np.asarray(np.hypot(np.maximum(beside, 0.0), np.maximum(np.abs(away[..., 2]) - half, 0.0)))
 
     def add_to(self, spec: Any, height: float, half: float) -> None:
         """Add it to a `mujoco.MjSpec` `spec`, middle at `height`, half height `half`, in m."""

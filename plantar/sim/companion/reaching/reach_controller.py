@@ -16,7 +16,7 @@ from plantar.wholebody.behaviours.intentional_contact import ContactSettings, Co
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.fusion.hierarchical_qp import HierarchicalQP, JointLimits
 from plantar.wholebody.fusion.null_space import weighted_sum
-from plantar.wholebody.fusion.priority_transition import PriorityTransition, TransitionSettings
+from plantar.wholebody.fusion.priority_transition import PriorityTransition
 from plantar.wholebody.stack import TaskStack
 from plantar.wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
 from plantar.wholebody.tasks.point_force import AlongForce
@@ -97,28 +97,26 @@ class ReachController:
         self.goal = CartesianPose(*tip, gains=self._free, rows="position")
         self._near = ProximityInteraction(skin, s.proximity, s.range)
         self._watch = ProximityInteraction(skin, s.proximity, s.range)  # sees the whole range always
-        touch = DirectInteraction(skin)
-        self._measured = touch
+        self._measured = DirectInteraction(skin)
         self._yielding = DirectInteraction(skin, s.yielding)
         base = 3 if machine.base.kind == "mobile" else 0
-        joints = len(machine.posture)
         self._held: list[list[Task]] = [[Posture(machine.posture, 400.0, joints=range(base))]] if base else []
         upright: list[list[Task]] = [[CartesianPose(*tip, rows="orientation")]]
         self._held += upright if s.upright == "first" else []
-        relaxed: list[Task] = [Posture(machine.posture, 6.0, 12.0, joints=range(base, joints))]
+        relaxed: list[Task] = [Posture(machine.posture, 6.0, 12.0, joints=range(base, len(machine.posture)))]
         self._rest = [*(upright if s.upright == "last" else []), relaxed]
         limits = ContactSettings(slow=s.slow, force_limit=s.limit_share * force_limit, stuck=s.stuck)
-        avoidance = AlongForce(self._near, s.brake)
-        contact = AlongForce(self._yielding, s.brake)
+        contact, avoidance = AlongForce(self._yielding, s.brake), AlongForce(self._near, s.brake)
         self.policy = IntentionalContact([self.goal], [contact], [avoidance], limits)
         self.signs = ContactSigns(np.inf, 0.0, 0.0)
         self._velocity, self._seen, self._time = np.zeros(3), 0.0, np.inf
-        self._blend = PriorityTransition(TransitionSettings(duration=s.transition))
+        self._blend = PriorityTransition(s.transition)
         speeds = np.minimum(machine.velocities, s.joint_speed)
         low, high = machine.ranges(machine.spec().compile())
         inside = np.where(np.isfinite(high - low), _OFF_STOPS * (high - low), 0.0)
-        limits_of_joints = 0.98 * machine.efforts, speeds, low + inside, high - inside
-        within = HierarchicalQP(JointLimits(*limits_of_joints, acceleration=s.acceleration))
+        within = HierarchicalQP(
+            JointLimits(0.98 * machine.efforts, speeds, low + inside, high - inside, acceleration=s.acceleration)
+        )
         self._stack = TaskStack([], fusion=weighted_sum if s.policy == "fields" else within)
 
     def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
@@ -134,7 +132,7 @@ class ReachController:
         return self._blend.blend(self._stack.step(robot, reading).torque, robot.time)
 
     def _look(self, robot: RobotDynamics, reading: SkinReading) -> ContactSigns:
-        """Signs of skin and tip (T Table 1), smoothed against flicker."""
+        # Signs of skin and tip (T Table 1), smoothed against flicker.
         period = robot.time - self._time if np.isfinite(self._time) else 0.0
         self._time = robot.time
         share = period / (_SMOOTHED + period)

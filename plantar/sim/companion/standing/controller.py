@@ -108,7 +108,7 @@ class StandingController:
         return self.torque
 
     def _filtered(self, reading: SkinReading) -> SkinReading:
-        """The reading with low-passed forces, against beating."""
+        # The reading with low-passed forces, against beating.
         force = reading.force
         if np.isnan(force.sum()):
             force = np.nan_to_num(force)
@@ -123,7 +123,7 @@ class StandingController:
     def _external(
         self, robot: MujocoDynamics, measured: SkinReading
     ) -> tuple[NDArray[np.float64] | None, NDArray[np.float64]]:
-        """Generalized force (n,) on the skin, or None; moments (2,) at the feet."""
+        # Generalized force (n,) on the skin, or None; moments (2,) at the feet.
         wrenches = link_wrenches(self.skin, measured.force, measured.force >= self.skin.thresholds)
         self.active.append(len(wrenches))
         if not wrenches:
@@ -141,7 +141,7 @@ class StandingController:
         return total, np.array([mx, my])
 
     def _lean(self, balance: CenterOfMass, moment: NDArray[np.float64]) -> None:
-        """Shift the centre of mass against moments (2,) at the feet (K 9 corrected)."""
+        # Shift the centre of mass against moments (2,) at the feet (K 9 corrected).
         s = self.settings
         wanted = s.lean / self._weight * np.array([-moment[1], moment[0]])
         wanted *= min(1.0, s.lean_limit / max(float(np.hypot(*wanted)), 1e-9))

@@ -210,7 +210,7 @@ class LeanController:
         return places / total
 
     def _see_ground(self, reading: SkinReading) -> None:
-        """Find each sole's supported part, and limit its load."""
+        # Find each sole's supported part, and limit its load.
         for link, middle in self.stance.feet.items():
             own = self.skin.slices[f"{link}_sole"]
             places = self.skin.positions[own][reading.distance[own] < _NEAR] - middle
@@ -226,7 +226,7 @@ class LeanController:
 
 
 def _foremost(polygon: NDArray[np.float64], y: float) -> float:
-    """Largest x of a convex polygon (m, 2) at some y, or overall."""
+    # Largest x of a convex polygon (m, 2) at some y, or overall.
     found = []
     for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
         if min(a[1], b[1]) <= y <= max(a[1], b[1]) and a[1] != b[1]:

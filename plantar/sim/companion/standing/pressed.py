@@ -131,7 +131,7 @@ class PressedExperiment(StandingExperiment):
             contact.force *= min(factor, _STRONGEST)
 
     def _moment(self, contacts: Sequence[PlannedContact]) -> NDArray[np.float64]:
-        """Centre of pressure's shift (2,) in m by contacts in the first posture."""
+        # Centre of pressure's shift (2,) in m by contacts in the first posture.
         middle = np.mean(list(self.stance.places.values()), axis=0)
         moment = np.zeros(3)
         for contact in contacts:
@@ -140,7 +140,7 @@ class PressedExperiment(StandingExperiment):
         return np.array([moment[1], -moment[0]]) / self.weight
 
     def _on_springs(self, contact: PlannedContact) -> float:
-        """Posture springs' compliance in mm/N along a pad's normal."""
+        # Posture springs' compliance in mm/N along a pad's normal.
         robot, pad = self.robot, contact.pad
         place = pad.touching(robot)[0]
         origin, rotation = robot.pose(contact.against)
@@ -217,6 +217,6 @@ class PressedExperiment(StandingExperiment):
 
 
 def _reaching(fixed: NDArray[np.float64], scaled: NDArray[np.float64], length: float) -> float:
-    """Factor k at which |fixed + k scaled| is a length; 0 where longer."""
+    # Factor k at which |fixed + k scaled| is a length; 0 where longer.
     a, b, c = float(scaled @ scaled), float(fixed @ scaled), float(fixed @ fixed) - length**2
     return max(0.0, (-b + math.sqrt(max(0.0, b * b - a * c))) / a)

@@ -74,15 +74,14 @@ class StandingExperiment(Experiment):
         self.robot.update(self.first, np.zeros(alone.nv), 0.0)
         self.com = self.robot.com()[0]
         self.pads: list[Pad] = []
-        self.tilt_max = 0.0
-        self.com_off_max = 0.0
+        self.tilt_max = self.com_off_max = 0.0
         self.cop_margin_min = math.inf
         self._steps = 0
         self._borne: deque[tuple[float, ...]] = deque(maxlen=_CARRIED)
         self._forces: dict[str, float] = {}
 
     def _first_posture(self) -> NDArray[np.float64]:
-        """Positions (nq,), centre of mass over the feet."""
+        # Positions (nq,), centre of mass over the feet.
         robot, model = self.robot, self.robot.model
         qpos = model.qpos0.copy()
         qpos[7:] = self.machine.posture
@@ -190,7 +189,7 @@ class StandingExperiment(Experiment):
             pad.act(world, self.pressing(pad), world.model.opt.timestep)
 
     def _cop_margin(self, world: World) -> float:
-        """Distance in m of true centre of pressure, over 20 ms, to the soles' rectangle; negative outside."""
+        # Distance in m of true centre of pressure, over 20 ms, to the soles' rectangle; negative outside.
         model, data = world.model, world.data
         floor = model.geom("floor").id
         pressed = foot_contacts(model, data, {floor})
