@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Protocol
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,22 +10,13 @@ from numpy.typing import NDArray
 from plantar.sensing.link_skin import SkinReading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.fusion.hierarchy import Fused, fuse
-from plantar.wholebody.tasks.task import Demand, Task
+from plantar.wholebody.tasks.task import Task
 
 __all__ = ["Fusion", "TaskStack"]
 
 
-class Fusion(Protocol):
-    """Demands to one torque, as `plantar.wholebody.fusion.hierarchy.fuse`."""
-
-    def __call__(
-        self,
-        robot: RobotDynamics,
-        levels: Sequence[Sequence[Demand | None]],
-        support: Demand | None = None,
-        external: NDArray[np.float64] | None = None,
-    ) -> Fused:
-        """See `plantar.wholebody.fusion.hierarchy.fuse`."""
+Fusion = Callable[..., Fused]
+"""Demands to one torque, called as `plantar.wholebody.fusion.hierarchy.fuse`."""
 
 
 class TaskStack:

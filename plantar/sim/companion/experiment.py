@@ -11,7 +11,6 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, ClassVar, NamedTuple, Protocol, cast
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -33,7 +32,6 @@ __all__ = [
     "CompanionScene",
     "Controller",
     "Experiment",
-    "LidarController",
     "Verdict",
     "World",
     "companion_scene",
@@ -73,13 +71,6 @@ class Controller(Protocol):
 
         `robot` is at the measured state, `reading` that of the skin.
         """
-
-
-class LidarController(Controller, Protocol):
-    """A controller with distance sensors in the base."""
-
-    def scan(self, points: NDArray[np.float64]) -> None:
-        """Take nearest points (m, 2) of things, base frame, in m."""
 
 
 class Verdict(NamedTuple):
@@ -133,13 +124,6 @@ class World:
         found = self.data.body(body)
         return found.xpos.copy(), found.xmat.reshape(3, 3).copy()
 
-    def velocity(self, body: str) -> NDArray[np.float64]:
-        """True world velocity (6,) of a body's origin: linear in m/s, angular in rad/s."""
-        found = np.zeros(6)
-        number = self.model.body(body).id
-        mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, number, found, 0)
-        return np.concatenate([found[3:], found[:3]])
-
 
 class Experiment:
     """Base of experiments; the `seed` draws places, times, forces, directions.
@@ -151,7 +135,8 @@ class Experiment:
         settings_type: Class of the scene's table `[experiment]`.
         control_type: Class of the scene's table `[control]`: the controller's gains and switches.
         columns: Names of those figures that a sweep writes into columns.
-        uses_lidar: Whether the base has distance sensors; then the controller is a `LidarController`.
+        uses_lidar: Whether the base has distance sensors, whose nearest points (m, 2) of things, base frame, in m, the
+            controller's `scan` takes.
         view: Body that a video follows (the base where empty), and from where.
     """
 

@@ -50,8 +50,7 @@ class ForceRecord:
             top = axis.pop(0)
             top.plot(t, wanted, color=COLOURS["reference"], label="wanted")
             top.plot(t, true, color=COLOURS["left"], linewidth=0.8, label="true")
-            top.set_ylabel("force [N]")
-            top.set_ylim(0.0, max(8.0, 1.6 * float(np.nanmax(wanted, initial=0.0))))
+            top.set(ylabel="force [N]", ylim=(0.0, max(8.0, 1.6 * float(np.nanmax(wanted, initial=0.0)))))
             top.legend(loc="upper right", ncols=2, fontsize=8)
         axis[0].plot(t, 1e3 * distance, color=COLOURS["left"])
         axis[0].set_ylabel("distance [mm]")
@@ -59,13 +58,11 @@ class ForceRecord:
         _lines(axis[2], t, [values - values[0] for values in hand], "xyz", "hand moved [m]")
         _lines(axis[3], t, base, ("x", "y", "yaw"), "base [m, rad]")
         axis[4].plot(t, tilt, color=COLOURS["left"])
-        axis[4].set_ylabel("hand to\nsurface [deg]")
-        axis[4].set_xlabel("time [s]")
+        axis[4].set(xlabel="time [s]", ylabel="hand to\nsurface [deg]", xlim=(t[0], t[-1]))
         for ax in axes:
             for name, spans in windows.items():
                 for i, (begin, end) in enumerate(spans):
                     ax.axvspan(begin, end, color=_SHADES[name], alpha=0.35, label=name if i == 0 else None, linewidth=0)
-        axis[4].set_xlim(t[0], t[-1])
         axes[0].set_title(title)
         handles, labels = axis[0].get_legend_handles_labels()
         if handles:

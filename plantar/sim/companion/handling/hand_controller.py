@@ -108,9 +108,8 @@ class HandController:
         middle, normal = taxels.mean(axis=0), np.array([0.0, 0.0, 1.0])  # level with a surface all feel it alike
         arm_skin = [p.name for p in skin.patches if p.name != "hand"]
         self._touch = DirectInteraction(skin, patches=arm_skin)
-        gains = ContactGains(
-            1.0, s.force_damping, s.force_gain, s.force_integral, self._distance_stiffness(), s.free_damping
-        )
+        stiffness = s.distance_rate * s.force_damping / s.force_gain  # for the distance error's decay rate
+        gains = ContactGains(1.0, s.force_damping, s.force_gain, s.force_integral, stiffness, s.free_damping)
         self.force = ContactForce(skin, "hand", middle, normal, gains)
         self.wrist = CompliantWrist(
             skin, "hand", middle, WristGains(1.0, s.wrist_damping, s.wrist_gain, s.wrist_stiffness)
@@ -147,11 +146,6 @@ class HandController:
         servo = machine.servo.kind if s.servo == "machine" else s.servo
         self._feeds_forward = s.feed_forward and servo == "torque"  # a resolver's virtual robot is pushed by nothing
         self._taken = self.wanted_force = 0.0
-
-    def _distance_stiffness(self) -> float:
-        # In N/m, for the distance error's decay rate.
-        s = self.settings
-        return s.distance_rate * s.force_damping / s.force_gain
 
     def enter_contact(self, time: float) -> None:
         """Activate the contact phase at a time in s (A 4.2.2)."""

@@ -94,6 +94,4 @@ class ReachRecord:
             axis.plot(*(post.place + post.radius * circle).T, "--", color=colour, linewidth=0.8)
             axis.fill(*(self._posts[-1][k] + post.radius * circle).T, color=colour, alpha=0.5)
         axis.plot(*self._layout.goal, "*", color="green", markersize=14)
-        axis.set_aspect("equal")
-        axis.set_xlabel("x [m]")
-        axis.set_ylabel("y [m]")
+        axis.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
