@@ -39,7 +39,7 @@ class Post:
     friction: float = 0.0
 
     def distance(self, points: NDArray[np.float64], height: float, half: float) -> NDArray[np.float64]:
-        """Distances (...) in m of points (..., 3), 0 inside; middle and half height as in `add_to`."""
+        """Returns distances (...) in m of `points` (..., 3), 0 inside; `height` and `half` as of `add_to`."""
         away = points - [*self.place, height]
         beside = np.hypot(away[..., 0], away[..., 1]) - self.radius
         return np.asarray(np.hypot(np.maximum(beside, 0.0), np.maximum(np.abs(away[..., 2]) - half, 0.0)))
