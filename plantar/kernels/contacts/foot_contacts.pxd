@@ -34,7 +34,12 @@ cdef class FootContacts:
     cpdef int add_to_ground(
         self, double reach, const unsigned char[::1] ground, double[::1] sums, FewPoints points
     ) except -1
+    @cython.locals(points="double[:, ::1]", force=double, about_x=double, about_y=double)
     cpdef list pair_loads(self, const double[:, ::1] vectors, double reach)
+    @cython.locals(force=double, about_x=double, about_y=double)
+    cdef (Py_ssize_t, double, double, double) _pair_load(
+        self, const double[:, ::1] vectors, double reach, Py_ssize_t k, double[:, ::1] points
+    ) noexcept
 
 @cython.locals(value=double)
 cdef double _along(ContactList listed, const double[:] forces, Py_ssize_t i, Py_ssize_t m) noexcept

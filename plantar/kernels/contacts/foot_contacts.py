@@ -165,22 +165,39 @@ class FootContacts:
             vectors: As attribute, in plane's frame.
             reach: Largest gap in m of contact without load.
         """
-        pairs = {}
+        loads = []
+        points = np.zeros((self.size, 3))
         for k in range(self.size):
-            row = 3 * k
+            size, force, about_x, about_y = self._pair_load(vectors, reach, k, points)
+            if size:
+                loads.append([force, about_x, about_y, [(p[0], p[1]) for p in np.asarray(points)[:size].tolist()]])
+        return loads
+
+    def _pair_load(self, vectors, reach, k, points):
+        """Number of points, force and torques as of `pair_loads` of the pair that contact `k` is the first of, else 0.
+
+        Writes place and overlap of each to `points` (at least k, 3).
+        """
+        size = 0
+        force = about_x = about_y = 0.0
+        for j in range(self.size):
+            row = 3 * j
             x, y, z = vectors[row, 0], vectors[row, 1], vectors[row, 2]
             fx, fy, fz = vectors[row + 1, 0], vectors[row + 1, 1], vectors[row + 1, 2]
-            if self.gaps[k] > reach and fz == 0.0:
+            if self.gaps[j] > reach and fz == 0.0:
+                if j == k:
+                    break
                 continue
-            key = (int(self.ids[k, 0]), int(self.ids[k, 1]))
-            pair = pairs.get(key)
-            if pair is None:
-                pair = pairs[key] = [0.0, 0.0, 0.0, []]
-            pair[0] += float(fz)
-            pair[1] += float(vectors[row + 2, 0] + y * fz - z * fy)
-            pair[2] += float(vectors[row + 2, 1] + z * fx - x * fz)
-            pair[3].append((float(x), float(y)))
-        return list(pairs.values())
+            if self.ids[j, 0] != self.ids[k, 0] or self.ids[j, 1] != self.ids[k, 1]:
+                continue
+            if j < k:
+                break
+            force += fz
+            about_x += vectors[row + 2, 0] + y * fz - z * fy
+            about_y += vectors[row + 2, 1] + z * fx - x * fz
+            points[size, 0], points[size, 1], points[size, 2] = x, y, -self.gaps[j]
+            size += 1
+        return size, force, about_x, about_y
 
 
 def _along(listed, forces, i, m):

@@ -18,6 +18,14 @@ cdef (double, double, double, double) _solved(
     double m00, double m01, double m02, double m11, double m12, double m22, double x, double y, double z
 ) noexcept
 
+cdef double _EXACT
+
+@cython.locals(
+    a=double, b=double, c=double, step_a=double, step_b=double, step_c=double, slope=double, value=double, rate=double,
+    m00=double, m01=double, m02=double, m11=double, m12=double, m22=double, determinant=double, ridge=double
+)
+cdef (bint, double, double, double) _tilted(double[:, ::1] rows, Py_ssize_t cells, double x, double y) noexcept
+
 @cython.locals(x=double, y=double)
 cpdef tuple patch_key(points, double grid)
 
@@ -34,3 +42,7 @@ cdef class PressedPatch:
     @cython.locals(nearest="double[::1]")
     cdef int _to_reach(self) except -1
     cpdef bint part(self, double force, double[::1] out) noexcept
+    @cython.locals(a=double, b=double, c=double, total=double, pressure=double, rows="double[:, ::1]")
+    cpdef int settle(self, double force, double[::1] out) except -1
+    @cython.locals(total=double, pressure=double)
+    cdef double _press(self, double a, double b, double c) noexcept

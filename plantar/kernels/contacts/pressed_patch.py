@@ -6,6 +6,8 @@ from ..geometry import clean, convex
 
 __all__ = ["PressedPatch", "patch_key", "spread_part", "spread_whole"]
 
+_EXACT = 1e-12  # of the load and of the cells' extent: how exactly a pressure has the moment that is asked for
+
 
 def spread_whole(u, area, inverse, x, y, force, cells, out):
     """Spread a normal load over cells that all carry: pressure a + b x + c y, never negative.
@@ -93,6 +95,63 @@ def _solved(m00, m01, m02, m11, m12, m22, x, y, z):
     return determinant, a, b, c
 
 
+def _tilted(rows, cells, x, y):
+    """Pressure max(0, a + b x + c y) of a unit load at (x, y): whether found, a, b, c.
+
+    Damped Newton steps on 1/2 sum w max(0, p)^2 - load . field. Rows (at least cells, 3) are weight, in sum 1, and
+    scaled place of cells.
+    """
+    a, b, c = 1.0, 0.0, 0.0
+    step_a = step_b = step_c = slope = value = 0.0
+    rate = 1.0
+    for turn in range(60):
+        m00 = m01 = m02 = m11 = m12 = m22 = 0.0
+        for i in range(cells):
+            p, q = rows[i, 1], rows[i, 2]
+            if a + b * p + c * q > 0.0:
+                w = rows[i, 0]
+                m00 += w
+                m01 += w * p
+                m02 += w * q
+                m11 += w * p * p
+                m12 += w * p * q
+                m22 += w * q * q
+        r0 = m00 * a + m01 * b + m02 * c
+        r1 = m01 * a + m11 * b + m12 * c
+        r2 = m02 * a + m12 * b + m22 * c
+        energy = 0.5 * (a * r0 + b * r1 + c * r2) - a - b * x - c * y
+        r0 -= 1.0
+        r1 -= x
+        r2 -= y
+        if max(abs(r0), abs(r1), abs(r2)) <= _EXACT:
+            return True, a, b, c
+        if turn and energy > value - 1e-4 * rate * slope + 1e-15 and rate > 1e-3:
+            rate *= 0.5  # too far: cells came on or off
+            a += rate * step_a
+            b += rate * step_b
+            c += rate * step_c
+            continue
+        value = energy
+        ridge = 1e-14 * (m00 + m11 + m22) + 1e-300
+        for _ in range(3):
+            determinant, step_a, step_b, step_c = _solved(
+                m00 + ridge, m01, m02, m11 + ridge, m12, m22 + ridge, r0, r1, r2
+            )
+            if determinant > 0.0 and max(abs(step_a), abs(step_b), abs(step_c)) <= 1e3 * (
+                1.0 + abs(a) + abs(b) + abs(c)
+            ):
+                break
+            ridge *= 3e4  # the cells that carry are in a row
+        else:
+            return False, a, b, c  # no pressure of these cells has this moment: the field grows without end
+        slope = r0 * step_a + r1 * step_b + r2 * step_c
+        rate = 1.0
+        a -= step_a
+        b -= step_b
+        c -= step_c
+    return False, a, b, c
+
+
 def patch_key(points, grid):
     """Points (x, y) in m on a grid, unique and sorted: equal for the same patch."""
     places = set()
@@ -162,3 +221,39 @@ class PressedPatch:
     def part(self, force, out):
         """Spread the last load, `force` in N, from `carried` cells into `out`; whether found."""
         return spread_part(self.u, self.area, self.x, self.y, force, self.carried, self.cells, out)
+
+    def settle(self, force, out):
+        """As `part` where `spread` found no carrying cells: from those that would press if all could pull, else by
+        `_tilted`.
+        """
+        inverse, some = self.inverse, False
+        for i in range(self.carried.shape[0]):
+            if self.carried[i]:
+                some = True
+        if not some:
+            a = inverse[0, 0] + inverse[0, 1] * self.x + inverse[0, 2] * self.y
+            b = inverse[1, 0] + inverse[1, 1] * self.x + inverse[1, 2] * self.y
+            c = inverse[2, 0] + inverse[2, 1] * self.x + inverse[2, 2] * self.y
+            self._press(a, b, c)
+            if self.part(force, out):
+                return 0
+        rows = np.array(self.u)
+        for i in range(self.area.shape[0]):
+            rows[i, 0] = self.area[i]
+        _found, a, b, c = _tilted(rows, self.area.shape[0], self.x, self.y)
+        total = self._press(a, b, c)
+        if not (total > 0.0 and self.part(force, out)):
+            for i in range(self.area.shape[0]):
+                pressure = max(a + b * self.u[i, 1] + c * self.u[i, 2], 0.0) / total if total > 0.0 else 1.0
+                out[self.cells[i]] = force * pressure * self.area[i]
+        return 0
+
+    def _press(self, a, b, c):
+        """Let those cells carry on which pressure a + b x + c y is above 0; its sum over the area."""
+        total = 0.0
+        for i in range(self.area.shape[0]):
+            pressure = a + b * self.u[i, 1] + c * self.u[i, 2]
+            self.carried[i] = pressure > 0.0
+            if pressure > 0.0:
+                total += pressure * self.area[i]
+        return total

@@ -11,11 +11,10 @@ cdef class PressedSole:
     cdef const double[::1] gains
     cdef double grid
     cdef Py_ssize_t most
-    cdef object make, settle
+    cdef object make
     cdef readonly dict made
     cdef object carried
     cdef readonly double[::1] forces
-    cdef object one_part
     cdef double[::1] part
     cdef list recent
     cdef Py_ssize_t[::1] recent_counts
@@ -34,6 +33,3 @@ cdef class PressedSole:
     cdef int _spread(self, Py_ssize_t count, double force, double x, double y) except -1
     cdef PressedPatch _patch(self, Py_ssize_t count)
     cdef bint _is_recent(self, Py_ssize_t slot, Py_ssize_t count) noexcept
-
-cdef bint _counts(FootContacts contacts, const double[:, ::1] vectors, double reach, Py_ssize_t k) noexcept
-cdef bint _is_pair(FootContacts contacts, Py_ssize_t j, Py_ssize_t k) noexcept

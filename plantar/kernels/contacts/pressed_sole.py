@@ -17,23 +17,20 @@ class PressedSole:
         grid: Distance in m within which contact points span the same patch.
         most: Number of patches to keep.
         make: Makes patch of contact points (k, 2) in m.
-        settle: Spreads other loads in N over an array (n,).
 
     Attributes:
         forces: Last forces (n,) of taxels in N.
     """
 
-    def __init__(self, gains, grid, most, make, settle):
+    def __init__(self, gains, grid, most, make):
         self.gains = gains
         self.grid = grid
         self.most = most
         self.make = make
-        self.settle = settle
         self.made = {}
         self.carried = np.zeros(len(gains))
         self.forces = self.carried
-        self.one_part = np.zeros(len(gains))
-        self.part = self.one_part
+        self.part = np.zeros(len(gains))
         self.recent = [None] * _RECENT  # the patches that were pressed lately
         self.recent_counts = np.zeros(_RECENT, dtype=np.intp)  # how many points each has; 0 for none
         self.slot = 0  # of the one that was pressed last
@@ -41,7 +38,7 @@ class PressedSole:
 
     def _make_room(self, room):
         self.room = room
-        self.points = np.zeros((room, 2))
+        self.points = np.zeros((room, 3))  # x, y and overlap
         self.places = np.zeros((_RECENT, room, 2))
         for slot in range(_RECENT):
             self.recent_counts[slot] = 0
@@ -74,27 +71,7 @@ class PressedSole:
         if contacts.size > self.room:
             self._make_room(2 * contacts.size)
         for k in range(contacts.size):
-            if not _counts(contacts, vectors, reach, k):
-                continue
-            known = False
-            for j in range(k):
-                if _is_pair(contacts, j, k) and _counts(contacts, vectors, reach, j):
-                    known = True
-            if known:
-                continue
-            force = about_x = about_y = 0.0
-            count = 0
-            for j in range(k, contacts.size):
-                if not (_is_pair(contacts, j, k) and _counts(contacts, vectors, reach, j)):
-                    continue
-                row = 3 * j
-                x, y, z = vectors[row, 0], vectors[row, 1], vectors[row, 2]
-                fx, fy, fz = vectors[row + 1, 0], vectors[row + 1, 1], vectors[row + 1, 2]
-                force += fz
-                about_x += vectors[row + 2, 0] + y * fz - z * fy
-                about_y += vectors[row + 2, 1] + z * fx - x * fz
-                self.points[count, 0], self.points[count, 1] = x, y
-                count += 1
+            count, force, about_x, about_y = contacts._pair_load(vectors, reach, k, self.points)
             if force > 0.0:
                 self._spread(count, force, -about_y / force, about_x / force)
 
@@ -119,7 +96,7 @@ class PressedSole:
         for i in range(self.part.shape[0]):
             self.part[i] = 0.0
         if not patch.spread(force, x, y, self.part):
-            self.settle(patch, force, self.one_part)
+            patch.settle(force, self.part)
         for i in range(self.part.shape[0]):
             self.forces[i] = self.forces[i] + self.part[i] * self.gains[i]
 
@@ -130,7 +107,7 @@ class PressedSole:
             if self._is_recent(slot, count):
                 self.slot = slot
                 return self.recent[slot]
-        key = pressed_patch.patch_key(np.asarray(self.points)[:count].tolist(), self.grid)
+        key = pressed_patch.patch_key(np.asarray(self.points)[:count, :2].tolist(), self.grid)
         patch = self.made.get(key)
         if patch is None:
             if len(self.made) >= self.most:
@@ -153,11 +130,3 @@ class PressedSole:
             if not (-0.5 < x < 0.5 and -0.5 < y < 0.5):
                 return False
         return True
-
-
-def _counts(contacts, vectors, reach, k):
-    return not (contacts.gaps[k] > reach and vectors[3 * k + 1, 2] == 0.0)
-
-
-def _is_pair(contacts, j, k):
-    return contacts.ids[j, 0] == contacts.ids[k, 0] and contacts.ids[j, 1] == contacts.ids[k, 1]

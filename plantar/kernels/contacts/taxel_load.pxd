@@ -28,9 +28,8 @@ cdef class TaxelLoad:
     cdef void _press_deep(self, Py_ssize_t size) noexcept
     cdef Py_ssize_t _hull_of(self, Py_ssize_t size) noexcept
     @cython.locals(
-        total=double, cx=double, cy=double, spread=double, scale=double, a=double, b=double, c=double, step_a=double,
-        step_b=double, step_c=double, slope=double, value=double, rate=double, m00=double, m01=double, m02=double,
-        m11=double, m12=double, m22=double, pressure=double
+        total=double, cx=double, cy=double, spread=double, scale=double, found=bint, a=double, b=double, c=double,
+        pressure=double
     )
     cdef bint _tilt(self, double[::1] weights, double force, double x, double y) noexcept
     @cython.locals(about_x=double, about_y=double, off_x=double, off_y=double)
@@ -40,7 +39,6 @@ cdef class TaxelLoad:
     @cython.locals(cx=double, cy=double, spread=double, turn=double)
     cdef void _shear(self, double force) noexcept
 
-cdef bint _is_pair(FootContacts contacts, Py_ssize_t j, Py_ssize_t k) noexcept
 cdef Py_ssize_t _join(double[:, ::1] ring, Py_ssize_t corners, Py_ssize_t floor, double x, double y) noexcept
 @cython.locals(deepest=double, nearest=double, px=double, py=double, along=double, gap=double)
 cdef double _distance(double[:, ::1] ring, double[:, ::1] edges, Py_ssize_t corners, double x, double y) noexcept

@@ -10,7 +10,7 @@ __all__ = ["TaxelLoad"]
 
 _SPREAD = 1e-3  # of the load: what cells next to the contact may carry where those in it cannot hold its moment
 _FAINT = 0.02  # of a cell's area: how much the next row counts, so that the load is always between taxels
-_EXACT = 1e-12  # of the load and of the cells' extent: how exactly a pressure has the moment that is asked for
+_EXACT = 1e-12  # of the load: how exactly a curved sole has the moments of all contacts
 
 
 class TaxelLoad:
@@ -21,7 +21,7 @@ class TaxelLoad:
     - Each pair's normal load is spread as on springs that cannot pull: f = w max(0, a + b x + c y).
     - The sum is corrected likewise, with itself as weight, to the exact load and moments; if impossible, with
       neighbouring cells, then all.
-    - Tangential forces follow the normal oneswith the rest of the wrench.
+    - Tangential forces follow the normal ones, with the rest of the wrench.
 
     Args:
         positions: Taxels (n, 3) in sole frame in m.
@@ -114,27 +114,7 @@ class TaxelLoad:
     def _spread_pairs(self, contacts, vectors, reach):
         count = self.areas.shape[0]
         for k in range(contacts.size):
-            if contacts.gaps[k] > reach and vectors[3 * k + 1, 2] == 0.0:
-                continue
-            known = False
-            for j in range(k):
-                if _is_pair(contacts, j, k) and not (contacts.gaps[j] > reach and vectors[3 * j + 1, 2] == 0.0):
-                    known = True
-                    break
-            if known:
-                continue
-            force = about_x = about_y = 0.0
-            size = 0
-            for j in range(k, contacts.size):
-                if not _is_pair(contacts, j, k) or (contacts.gaps[j] > reach and vectors[3 * j + 1, 2] == 0.0):
-                    continue
-                row = 3 * j
-                x, y, z = vectors[row, 0], vectors[row, 1], vectors[row, 2]
-                force += vectors[row + 1, 2]
-                about_x += vectors[row + 2, 0] + y * vectors[row + 1, 2] - z * vectors[row + 1, 1]
-                about_y += vectors[row + 2, 1] + z * vectors[row + 1, 0] - x * vectors[row + 1, 2]
-                self.points[size, 0], self.points[size, 1], self.points[size, 2] = x, y, -contacts.gaps[j]
-                size += 1
+            size, force, about_x, about_y = contacts._pair_load(vectors, reach, k, self.points)
             if force > 0.0:
                 self._cover(size)
                 self._press_deep(size)
@@ -205,10 +185,8 @@ class TaxelLoad:
         return corners - 1 if corners > 1 else corners
 
     def _tilt(self, weights, force, x, y):
-        """Set `normal` to weights (n,) times max(0, a + b x + c y), with a load in N at (x, y) in m.
-
-        Newton's method on 1/2 sum w max(0, p)^2 - load . field, scaled; False, with `normal` unchanged, without
-        solution.
+        """Set `normal` to weights (n,) times max(0, a + b x + c y), with a load in N at (x, y) in m; False, with
+        `normal` unchanged, without solution.
         """
         cells, rows = 0, self.rows
         total = cx = cy = 0.0
@@ -236,59 +214,17 @@ class TaxelLoad:
             rows[i, 1] = (rows[i, 1] - cx) / scale
             rows[i, 2] = (rows[i, 2] - cy) / scale
         at_x, at_y = (x - cx) / scale, (y - cy) / scale
-        a, b, c = 1.0, 0.0, 0.0
-        step_a = step_b = step_c = slope = value = 0.0
-        rate = 1.0
-        for turn in range(60):
-            m00 = m01 = m02 = m11 = m12 = m22 = 0.0
-            for i in range(cells):
-                p, q = rows[i, 1], rows[i, 2]
-                if a + b * p + c * q > 0.0:
-                    w = rows[i, 0]
-                    m00 += w
-                    m01 += w * p
-                    m02 += w * q
-                    m11 += w * p * p
-                    m12 += w * p * q
-                    m22 += w * q * q
-            r0 = m00 * a + m01 * b + m02 * c
-            r1 = m01 * a + m11 * b + m12 * c
-            r2 = m02 * a + m12 * b + m22 * c
-            energy = 0.5 * (a * r0 + b * r1 + c * r2) - a - b * at_x - c * at_y
-            r0 -= 1.0
-            r1 -= at_x
-            r2 -= at_y
-            if max(abs(r0), abs(r1), abs(r2)) <= _EXACT:
-                cells = 0
-                for i in range(self.areas.shape[0]):
-                    pressure = 0.0
-                    if weights[i] > 0.0:
-                        pressure = a + b * rows[cells, 1] + c * rows[cells, 2]
-                        w = rows[cells, 0]
-                        cells += 1
-                    self.normal[i] = force * w * pressure if pressure > 0.0 else 0.0
-                return True
-            if turn and energy > value - 1e-4 * rate * slope + 1e-15 and rate > 1e-3:
-                rate *= 0.5  # too far: cells came on or off
-                a += rate * step_a
-                b += rate * step_b
-                c += rate * step_c
-                continue
-            value = energy
-            ridge = 1e-14 * (m00 + m11 + m22) + 1e-300
-            determinant, step_a, step_b, step_c = pressed_patch._solved(
-                m00 + ridge, m01, m02, m11 + ridge, m12, m22 + ridge, r0, r1, r2
-            )
-            if not determinant > 0.0:
-                return False
-            if max(abs(step_a), abs(step_b), abs(step_c)) > 1e6 * (1.0 + abs(a) + abs(b) + abs(c)):
-                return False  # no pressure of these cells has this moment: the field grows without end
-            slope = r0 * step_a + r1 * step_b + r2 * step_c
-            rate = 1.0
-            a -= step_a
-            b -= step_b
-            c -= step_c
-        return False
+        found, a, b, c = pressed_patch._tilted(rows, cells, at_x, at_y)
+        if found:
+            cells = 0
+            for i in range(self.areas.shape[0]):
+                pressure = 0.0
+                if weights[i] > 0.0:
+                    pressure = a + b * rows[cells, 1] + c * rows[cells, 2]
+                    w = rows[cells, 0]
+                    cells += 1
+                self.normal[i] = force * w * pressure if pressure > 0.0 else 0.0
+        return found
 
     def _balance(self, force):
         count = self.areas.shape[0]
@@ -382,10 +318,6 @@ class TaxelLoad:
             self._vectors[i, 0] = share * self._wrench[0] - turn * self.normal[i] * q
             self._vectors[i, 1] = share * self._wrench[1] + turn * self.normal[i] * p
             self._vectors[i, 2] = self.normal[i]
-
-
-def _is_pair(contacts, j, k):
-    return contacts.ids[j, 0] == contacts.ids[k, 0] and contacts.ids[j, 1] == contacts.ids[k, 1]
 
 
 def _join(ring, corners, floor, x, y):

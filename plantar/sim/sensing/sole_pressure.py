@@ -77,7 +77,7 @@ class SolePressure:
         self._cutter = CellCutter(layout)
         self._gain = None if (facing == 1.0).all() else 1.0 / facing
         gains = np.ones(len(layout)) if self._gain is None else self._gain
-        self.springs = PressedSole(gains, _GRID, _MOST_PATCHES, self._make_patch, _spread_slowly)
+        self.springs = PressedSole(gains, _GRID, _MOST_PATCHES, self._make_patch)
 
     def spread(
         self, patch: Sequence[tuple[float, float]], force: float, center_of_pressure: tuple[float, float]
@@ -166,61 +166,6 @@ class SolePressure:
         return cells, share, np.column_stack([np.bincount(nearest, v)[cells] for v in rim.T]) / share[:, None]
 
 
-def _spread_slowly(shape: PressedPatch, force: float, out: NDArray[np.float64]) -> None:
-    """Spread a load over `out` (n,) by all cells, else by `_damped`."""
-    u, area, carried = np.asarray(shape.u), np.asarray(shape.area), np.asarray(shape.carried)
-    inverse, load = np.asarray(shape.inverse), np.array([1.0, shape.x, shape.y])
-    if not carried.any():
-        carried[:] = u @ (inverse @ load) > 0.0
-        if shape.part(force, out):
-            return
-    pressure = _damped(u, area, inverse, load)
-    carried[:] = pressure > 0.0
-    if not shape.part(force, out):
-        share = pressure * area
-        out[np.asarray(shape.cells)] = force * share / share.sum()
-
-
-def _damped(
-    u: NDArray[np.float64], area: NDArray[np.float64], inverse: NDArray[np.float64], load: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Pressures (m,) of a unit load by damped Newton on the convex problem
-
-        minimise  1/2 sum_i A_i max(0, u_i . field)^2 - load . field
-
-    whose gradient is the pressure's wrench minus the load.
-    """
-    weighted = area[:, None] * u
-    products = np.column_stack([weighted, weighted[:, 1:2] * u[:, 1:], weighted[:, 2] * u[:, 2]])
-    field = inverse @ load
-    pressure = np.maximum(u @ field, 0.0)
-    residual = pressure @ weighted - load
-    error = _largest(residual)
-    ridge = 1e-9
-    for _ in range(40):
-        if error < 1e-10:
-            break
-        step = _solve_symmetric(((pressure > 0.0) @ products).tolist(), residual.tolist(), ridge)
-        start, value, slope, rate = field, math.nan, float(residual @ step), 1.0
-        for _ in range(12):
-            field = start - rate * step
-            previous, pressure = pressure, np.maximum(u @ field, 0.0)
-            residual = pressure @ weighted - load
-            largest = _largest(residual)
-            if largest < 0.9 * error:
-                break
-            # A full step may overshoot where cells come on or off: then the objective itself must go down enough.
-            if math.isnan(value):
-                value = 0.5 * float(previous**2 @ area) - float(load @ start)
-            if 0.5 * float(pressure**2 @ area) - float(load @ field) <= value - 1e-4 * rate * slope:
-                break
-            rate *= 0.5
-        else:
-            ridge *= 100.0  # the active cells are nearly in a row: steps are too long, not just too bold
-        error = largest
-    return np.asarray(pressure)
-
-
 def _pseudo_inverse(matrix: NDArray[np.float64], least: float) -> NDArray[np.float64]:
     """Pseudo-inverse of a symmetric semidefinite matrix (n, n), faster than `np.linalg.pinv`."""
     values, vectors = np.linalg.eigh(matrix)
@@ -228,24 +173,3 @@ def _pseudo_inverse(matrix: NDArray[np.float64], least: float) -> NDArray[np.flo
     limit = least * values[0]
     inverse = np.array([1.0 / value if value > limit else 0.0 for value in values.tolist()])
     return np.asarray(vectors @ (inverse[:, None] * vectors.T))
-
-
-def _largest(residual: NDArray[np.float64]) -> float:
-    return max(abs(float(v)) for v in residual.tolist())
-
-
-def _solve_symmetric(m: list[float], b: list[float], share: float) -> NDArray[np.float64]:
-    """Solve a regularised symmetric 3 x 3 system (11, 12, 13, 22, 23, 33)."""
-    ridge = share * (m[0] + m[3] + m[5]) + 1e-300
-    a, d, f = m[0] + ridge, m[3] + ridge, m[5] + ridge
-    c, e, g = m[1], m[2], m[4]  # [[a, c, e], [c, d, g], [e, g, f]]
-    i00, i01, i02 = d * f - g * g, e * g - c * f, c * g - d * e
-    i11, i12, i22 = a * f - e * e, c * e - a * g, a * d - c * c
-    determinant = a * i00 + c * i01 + e * i02
-    return np.array(
-        [
-            (i00 * b[0] + i01 * b[1] + i02 * b[2]) / determinant,
-            (i01 * b[0] + i11 * b[1] + i12 * b[2]) / determinant,
-            (i02 * b[0] + i12 * b[1] + i22 * b[2]) / determinant,
-        ]
-    )

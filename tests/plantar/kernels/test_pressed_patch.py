@@ -70,6 +70,25 @@ def test_a_patch_of_which_nothing_carried_yet_says_so():
         assert out == pytest.approx([0.0, 0.5, 4.5])
 
 
+@settings(max_examples=60)
+@given(seeds)
+def test_a_load_that_few_cells_carry_is_settled(seed):
+    found = []
+    for module in FORMS:
+        rng = np.random.default_rng(seed)
+        u, area, inverse, *_ = patch(seed)
+        reach = inner_offset(convex_hull(u[:, 1:]), 1e-4)
+        pressed = module.PressedPatch(np.arange(len(u)), (0.0, 0.0), 1.0, area, u, inverse, reach)
+        out, force = np.zeros(len(u)), float(rng.uniform(1.0, 900.0))
+        if not pressed.spread(force, *(3.0 * rng.normal(size=2)).tolist(), out):
+            np.asarray(pressed.carried)[:] = rng.random(len(u)) < 0.2 * rng.integers(2)
+            pressed.settle(force, out)
+        assert out.min() >= 0.0
+        assert out @ u == pytest.approx(force * np.array([1.0, pressed.x, pressed.y]), abs=1e-7 * force)
+        found.append(out.tolist())
+    assert found[0] == found[1]
+
+
 def patch(seed: int):
     """Cells of a patch and a load on it: u (m, 3), area (m,), inverse (3, 3), x, y, force."""
     rng = np.random.default_rng(seed)

@@ -57,7 +57,7 @@ def test_all_contacts_at_once_carry_what_each_pair_carries_alone(seed):
 def test_the_two_forms_agree_to_the_last_bit(seed):
     compiled, other = SolePressure(LAYOUT), SolePressure(LAYOUT)
     source, lists, patches = (python_form(name) for name in ("pressed_sole", "foot_contacts", "pressed_patch"))
-    python = source.PressedSole(np.ones(len(LAYOUT)), 1e-4, 256, other._make_patch, sole_pressure._spread_slowly)
+    python = source.PressedSole(np.ones(len(LAYOUT)), 1e-4, 256, other._make_patch)
     for case in contacts(seed):
         one = compiled.press(foot_of(*case), case[1], REACH)
         with pytest.MonkeyPatch.context() as context:
@@ -91,7 +91,7 @@ def test_patches_that_were_not_pressed_for_long_are_forgotten():
         made.append(len(points))
         return pressure._make_patch(points)
 
-    sole = PressedSole(np.ones(len(LAYOUT)), 1e-4, 3, make, sole_pressure._spread_slowly)
+    sole = PressedSole(np.ones(len(LAYOUT)), 1e-4, 3, make)
     corners = [(-0.05, -0.03), (0.05, -0.03), (0.05, 0.03), (-0.05, 0.03)]
     for far in (0.0, 0.0, 2e-5, 0.01, 0.02, 0.03, 0.04, 0.05, 0.0):  # those that agree within the grid are one
         sole.spread([(x + far, y) for x, y in corners], 100.0, 0.0, 0.0)
