@@ -23,6 +23,8 @@ def _as_it_is(function: Any) -> Any:
 _func: Any = _as_it_is if wp is None else wp.func
 _kernel: Any = _as_it_is if wp is None else wp.kernel
 _struct: Any = _as_it_is if wp is None else wp.struct
+if wp is not None:
+    wp.set_module_options({"enable_backward": False})  # half of the time to compile
 
 
 @_struct
@@ -63,7 +65,10 @@ class Contacts:
 
 @_struct
 class Work:
-    """Each world's contacts in the sole frame, and work arrays."""
+    """Each world's contacts in the sole frame (k, world), and work arrays (i, slot).
+
+    A GPU has a slot a world, next to each other in memory; a CPU one, which its caches hold.
+    """
 
     size: wp.array(dtype=wp.int32)
     pair: wp.array2d(dtype=wp.vec2i)
@@ -96,7 +101,7 @@ def gather(sole: Sole, contacts: Contacts, work: Work):
         return
     world = contacts.world[i]
     k = wp.atomic_add(work.size, world, 1)
-    if k >= work.gap.shape[1]:
+    if k >= work.gap.shape[0]:
         return
     local = wp.vec3d()
     twist = wp.vec3d()
@@ -126,107 +131,107 @@ def gather(sole: Sole, contacts: Contacts, work: Work):
     to_sole = wp.transpose(turn @ sole.turn)
     origin = wp.vec3d(contacts.xpos[world, sole.body]) + turn @ sole.place
     axes = wp.transpose(wp.mat33d(contacts.frame[i])) * sign
-    work.pair[world, k] = geoms
-    work.gap[world, k] = wp.float64(contacts.dist[i])
-    work.at[world, k] = to_sole @ (wp.vec3d(contacts.pos[i]) - origin)
-    work.force[world, k] = to_sole @ (axes @ local)
-    work.torque[world, k] = to_sole @ (axes @ twist)
+    work.pair[k, world] = geoms
+    work.gap[k, world] = wp.float64(contacts.dist[i])
+    work.at[k, world] = to_sole @ (wp.vec3d(contacts.pos[i]) - origin)
+    work.force[k, world] = to_sole @ (axes @ local)
+    work.torque[k, world] = to_sole @ (axes @ twist)
 
 
 @_func
 def _counts(sole: Sole, work: Work, w: wp.int32, k: wp.int32) -> wp.bool:
-    return work.gap[w, k] <= sole.reach or work.force[w, k][2] != wp.float64(0.0)
+    return work.gap[k, w] <= sole.reach or work.force[k, w][2] != wp.float64(0.0)
 
 
 @_func
-def _join(work: Work, w: wp.int32, corners: wp.int32, floor: wp.int32, p: wp.vec2d) -> wp.int32:
+def _join(work: Work, s: wp.int32, corners: wp.int32, floor: wp.int32, p: wp.vec2d) -> wp.int32:
     while corners - floor >= 2:
-        a = work.ring[w, corners - 1] - work.ring[w, corners - 2]
-        b = p - work.ring[w, corners - 2]
+        a = work.ring[corners - 1, s] - work.ring[corners - 2, s]
+        b = p - work.ring[corners - 2, s]
         if a[0] * b[1] - a[1] * b[0] > wp.float64(0.0):
             break
         corners -= 1
-    if corners > 0 and work.ring[w, corners - 1] == p:
+    if corners > 0 and work.ring[corners - 1, s] == p:
         return corners
-    work.ring[w, corners] = p
+    work.ring[corners, s] = p
     return corners + 1
 
 
 @_func
-def _hull_of(work: Work, w: wp.int32, size: wp.int32) -> wp.int32:
+def _hull_of(work: Work, s: wp.int32, size: wp.int32) -> wp.int32:
     for k in range(1, size):
-        p = work.points[w, k] + wp.vec3d()  # a copy, not a reference
+        p = work.points[k, s] + wp.vec3d()  # a copy, not a reference
         j = k
         while j > 0:
-            q = work.points[w, j - 1]
+            q = work.points[j - 1, s]
             if not (q[0] > p[0] or (q[0] == p[0] and q[1] > p[1])):
                 break
-            work.points[w, j] = q
+            work.points[j, s] = q
             j -= 1
-        work.points[w, j] = p
+        work.points[j, s] = p
     corners = wp.int32(0)
     for k in range(size):
-        corners = _join(work, w, corners, 0, wp.vec2d(work.points[w, k][0], work.points[w, k][1]))
+        corners = _join(work, s, corners, 0, wp.vec2d(work.points[k, s][0], work.points[k, s][1]))
     floor = corners - 1
     for i in range(size - 1):
-        p = work.points[w, size - 2 - i]
-        corners = _join(work, w, corners, floor, wp.vec2d(p[0], p[1]))
+        p = work.points[size - 2 - i, s]
+        corners = _join(work, s, corners, floor, wp.vec2d(p[0], p[1]))
     if corners > 1:
         corners -= 1
     return corners
 
 
 @_func
-def _distance(work: Work, w: wp.int32, corners: wp.int32, p: wp.vec2d) -> wp.float64:
+def _distance(work: Work, s: wp.int32, corners: wp.int32, p: wp.vec2d) -> wp.float64:
     deepest = wp.float64(-1e300)
     for k in range(corners):
-        e = work.edges[w, k]
-        off = p - work.ring[w, k]
+        e = work.edges[k, s]
+        off = p - work.ring[k, s]
         deepest = wp.max(deepest, e[1] * off[0] - e[0] * off[1])
     if corners >= 3 and deepest <= wp.float64(0.0):
         return deepest
     nearest = wp.float64(1e300)
     for k in range(corners):
-        edge = work.edges[w, k]
+        edge = work.edges[k, s]
         way = wp.vec2d(edge[0], edge[1])
-        away = p - work.ring[w, k]
+        away = p - work.ring[k, s]
         away -= wp.clamp(wp.dot(way, away), wp.float64(0.0), edge[2]) * way
         nearest = wp.min(nearest, wp.dot(away, away))
     return wp.sqrt(nearest)
 
 
 @_func
-def _cover(sole: Sole, work: Work, w: wp.int32, size: wp.int32):
-    corners = _hull_of(work, w, size)
+def _cover(sole: Sole, work: Work, s: wp.int32, size: wp.int32):
+    corners = _hull_of(work, s, size)
     for k in range(corners):
         j = k + 1
         if j == corners:
             j = 0
-        way = work.ring[w, j] - work.ring[w, k]
+        way = work.ring[j, s] - work.ring[k, s]
         length = wp.length(way)
         if corners > 1:
             way /= length
         else:
             way = wp.vec2d(wp.float64(1.0), wp.float64(0.0))
-        work.edges[w, k] = wp.vec3d(way[0], way[1], length)
+        work.edges[k, s] = wp.vec3d(way[0], way[1], length)
     half = wp.float64(0.5)
     least = wp.float64(1e300)
     for i in range(sole.areas.shape[0]):
-        gap = _distance(work, w, corners, wp.vec2d(sole.positions[i][0], sole.positions[i][1]))
-        work.gaps[w, i] = gap
+        gap = _distance(work, s, corners, wp.vec2d(sole.positions[i][0], sole.positions[i][1]))
+        work.gaps[i, s] = gap
         least = wp.min(least, gap - half * sole.widths[i])
     shift = wp.max(least, wp.float64(0.0))
     for i in range(sole.areas.shape[0]):
-        gap = (work.gaps[w, i] - shift) / sole.widths[i]
+        gap = (work.gaps[i, s] - shift) / sole.widths[i]
         share = wp.clamp(half - half * gap, wp.float64(0.0), wp.float64(1.0))
         if gap < wp.float64(2.0):
             share += wp.float64(0.02) * (wp.float64(1.0) - half * wp.max(gap, wp.float64(0.0)))
-        work.weights[w, i] = sole.areas[i] * share
+        work.weights[i, s] = sole.areas[i] * share
 
 
 @_func
 def _tilt(
-    sole: Sole, work: Work, weights: wp.array2d(dtype=wp.float64), w: wp.int32, force: wp.float64, at: wp.vec2d
+    sole: Sole, work: Work, weights: wp.array2d(dtype=wp.float64), s: wp.int32, force: wp.float64, at: wp.vec2d
 ) -> wp.bool:
     zero = wp.float64(0.0)
     one = wp.float64(1.0)
@@ -234,19 +239,19 @@ def _tilt(
     middle = wp.vec2d()
     for i in range(sole.areas.shape[0]):
         p = wp.vec2d(sole.positions[i][0], sole.positions[i][1])
-        total += weights[w, i]
-        middle += weights[w, i] * p
+        total += weights[i, s]
+        middle += weights[i, s] * p
     if total <= zero:
         return False
     middle /= total
     spread = wp.float64(0.0)
     for i in range(sole.areas.shape[0]):
         off = wp.vec2d(sole.positions[i][0], sole.positions[i][1]) - middle
-        spread += weights[w, i] * wp.dot(off, off)
+        spread += weights[i, s] * wp.dot(off, off)
     scale = wp.max(wp.sqrt(spread / total), wp.float64(1e-4))
     for i in range(sole.areas.shape[0]):
         off = (wp.vec2d(sole.positions[i][0], sole.positions[i][1]) - middle) / scale
-        work.rows[w, i] = wp.vec3d(one, off[0], off[1])
+        work.rows[i, s] = wp.vec3d(one, off[0], off[1])
     off = (at - middle) / scale
     load = wp.vec3d(one, off[0], off[1])
     field = wp.vec3d(one, zero, zero)
@@ -257,16 +262,16 @@ def _tilt(
     for turn in range(60):
         matrix = wp.mat33d()
         for i in range(sole.areas.shape[0]):
-            row = work.rows[w, i]
-            if weights[w, i] > zero and wp.dot(field, row) > zero:
-                matrix += (weights[w, i] / total) * wp.outer(row, row)
+            row = work.rows[i, s]
+            if weights[i, s] > zero and wp.dot(field, row) > zero:
+                matrix += (weights[i, s] / total) * wp.outer(row, row)
         rest = matrix @ field
         energy = wp.float64(0.5) * wp.dot(field, rest) - wp.dot(field, load)
         rest -= load
         if wp.max(wp.max(wp.abs(rest[0]), wp.abs(rest[1])), wp.abs(rest[2])) <= wp.float64(1e-12):
             for i in range(sole.areas.shape[0]):
-                pressure = wp.max(wp.dot(field, work.rows[w, i]), zero)
-                work.normal[w, i] = force * weights[w, i] / total * pressure
+                pressure = wp.max(wp.dot(field, work.rows[i, s]), zero)
+                work.normal[i, s] = force * weights[i, s] / total * pressure
             return True
         too_far = energy > value - wp.float64(1e-4) * rate * slope + wp.float64(1e-15)
         if turn > 0 and too_far and rate > wp.float64(1e-3):
@@ -275,12 +280,15 @@ def _tilt(
             continue
         value = energy
         ridge = wp.float64(1e-14) * wp.trace(matrix) + wp.float64(1e-300)
-        for j in range(3):
-            matrix[j, j] += ridge
-        if not wp.determinant(matrix) > zero:
-            return False
-        step = wp.inverse(matrix) @ rest
-        if wp.length(step) > wp.float64(1e6) * (one + wp.length(field)):
+        solved = False
+        for _attempt in range(3):
+            if not solved:
+                raised = matrix + ridge * wp.identity(n=3, dtype=wp.float64)
+                step = wp.inverse(raised) @ rest
+                largest = wp.float64(1e3) * (one + wp.abs(field[0]) + wp.abs(field[1]) + wp.abs(field[2]))
+                solved = wp.determinant(raised) > zero and wp.max(wp.abs(step)) <= largest
+                ridge *= wp.float64(3e4)
+        if not solved:
             return False
         slope = wp.dot(rest, step)
         rate = wp.float64(1.0)
@@ -289,36 +297,36 @@ def _tilt(
 
 
 @_func
-def _spread_pairs(sole: Sole, work: Work, w: wp.int32, count: wp.int32):
+def _spread_pairs(sole: Sole, work: Work, w: wp.int32, s: wp.int32, count: wp.int32):
     zero = wp.float64(0.0)
     for k in range(count):
         known = not _counts(sole, work, w, k)
         for j in range(k):
-            if work.pair[w, j] == work.pair[w, k] and _counts(sole, work, w, j):
+            if work.pair[j, w] == work.pair[k, w] and _counts(sole, work, w, j):
                 known = True
         if not known:
             force = wp.float64(0.0)
             about = wp.vec2d()
             size = wp.int32(0)
             for j in range(k, count):
-                if work.pair[w, j] == work.pair[w, k] and _counts(sole, work, w, j):
-                    at, f = work.at[w, j], work.force[w, j]
-                    moment = work.torque[w, j] + wp.cross(at, f)
+                if work.pair[j, w] == work.pair[k, w] and _counts(sole, work, w, j):
+                    at, f = work.at[j, w], work.force[j, w]
+                    moment = work.torque[j, w] + wp.cross(at, f)
                     force += f[2]
                     about += wp.vec2d(moment[0], moment[1])
-                    work.points[w, size] = wp.vec3d(at[0], at[1], -work.gap[w, j])
+                    work.points[size, s] = wp.vec3d(at[0], at[1], -work.gap[j, w])
                     size += 1
             if force > zero:
-                _cover(sole, work, w, size)
+                _cover(sole, work, s, size)
                 place = wp.vec2d(-about[1] / force, about[0] / force)
-                if not _tilt(sole, work, work.weights, w, force, place):
+                if not _tilt(sole, work, work.weights, s, force, place):
                     total = wp.float64(0.0)
                     for i in range(sole.areas.shape[0]):
-                        total += work.weights[w, i]
+                        total += work.weights[i, s]
                     for i in range(sole.areas.shape[0]):
-                        work.normal[w, i] = force * work.weights[w, i] / total
+                        work.normal[i, s] = force * work.weights[i, s] / total
                 for i in range(sole.areas.shape[0]):
-                    work.prior[w, i] += work.normal[w, i]
+                    work.prior[i, s] += work.normal[i, s]
 
 
 @_func
@@ -341,10 +349,10 @@ def _nearest(sole: Sole, p: wp.vec2d) -> wp.vec2d:
 
 
 @_func
-def _carry(sole: Sole, work: Work, w: wp.int32, force: wp.float64, at: wp.vec2d) -> wp.bool:
+def _carry(sole: Sole, work: Work, s: wp.int32, force: wp.float64, at: wp.vec2d) -> wp.bool:
     zero = wp.float64(0.0)
     count = sole.areas.shape[0]
-    if _tilt(sole, work, work.prior, w, force, at):
+    if _tilt(sole, work, work.prior, s, force, at):
         return True
     for stage in range(2):
         area = wp.float64(0.0)
@@ -353,15 +361,15 @@ def _carry(sole: Sole, work: Work, w: wp.int32, force: wp.float64, at: wp.vec2d)
             for j in range(count):
                 off = sole.positions[i] - sole.positions[j]
                 reach = wp.float64(4.0) * sole.widths[j] * sole.widths[j]
-                if work.prior[w, j] > zero and off[0] * off[0] + off[1] * off[1] < reach:
+                if work.prior[j, s] > zero and off[0] * off[0] + off[1] * off[1] < reach:
                     near = True
-            work.gaps[w, i] = zero
+            work.gaps[i, s] = zero
             if near:
-                work.gaps[w, i] = sole.areas[i]
-            area += work.gaps[w, i]
+                work.gaps[i, s] = sole.areas[i]
+            area += work.gaps[i, s]
         for i in range(count):
-            work.weights[w, i] = work.prior[w, i] + wp.float64(1e-3) * force * work.gaps[w, i] / area
-        if _tilt(sole, work, work.weights, w, force, at):
+            work.weights[i, s] = work.prior[i, s] + wp.float64(1e-3) * force * work.gaps[i, s] / area
+        if _tilt(sole, work, work.weights, s, force, at):
             return True
     inside = wp.vec2d()
     for k in range(sole.hull.shape[0]):
@@ -369,26 +377,26 @@ def _carry(sole: Sole, work: Work, w: wp.int32, force: wp.float64, at: wp.vec2d)
     place = _nearest(sole, at)
     for _ in range(20):
         place += wp.float64(1e-3) * (inside - place)
-        if _tilt(sole, work, work.weights, w, force, place):
+        if _tilt(sole, work, work.weights, s, force, place):
             return False
     total = wp.float64(0.0)
     for i in range(count):
-        total += work.weights[w, i]
+        total += work.weights[i, s]
     for i in range(count):
-        work.normal[w, i] = force * work.weights[w, i] / total
+        work.normal[i, s] = force * work.weights[i, s] / total
     return False
 
 
 @_func
-def _shear(sole: Sole, work: Work, w: wp.int32, force: wp.vec3d, about_z: wp.float64) -> wp.bool:
+def _shear(sole: Sole, work: Work, w: wp.int32, s: wp.int32, force: wp.vec3d, about_z: wp.float64) -> wp.bool:
     middle = wp.vec2d()
     spread = wp.float64(0.0)
     turn = wp.float64(0.0)
     for i in range(sole.areas.shape[0]):
-        middle += work.normal[w, i] / force[2] * wp.vec2d(sole.positions[i][0], sole.positions[i][1])
+        middle += work.normal[i, s] / force[2] * wp.vec2d(sole.positions[i][0], sole.positions[i][1])
     for i in range(sole.areas.shape[0]):
         off = wp.vec2d(sole.positions[i][0], sole.positions[i][1]) - middle
-        spread += work.normal[w, i] * wp.dot(off, off)
+        spread += work.normal[i, s] * wp.dot(off, off)
     twist = about_z - (middle[0] * force[1] - middle[1] * force[0])
     holds = True
     if spread > wp.float64(1e-12) * force[2]:
@@ -396,7 +404,7 @@ def _shear(sole: Sole, work: Work, w: wp.int32, force: wp.vec3d, about_z: wp.flo
     elif wp.abs(twist) > wp.float64(1e-12) * force[2]:
         holds = False
     for i in range(sole.areas.shape[0]):
-        n, share = work.normal[w, i], work.normal[w, i] / force[2]
+        n, share = work.normal[i, s], work.normal[i, s] / force[2]
         off = wp.vec2d(sole.positions[i][0], sole.positions[i][1]) - middle
         work.vectors[w, i] = wp.vec3d(share * force[0] - turn * n * off[1], share * force[1] + turn * n * off[0], n)
     return holds
@@ -409,29 +417,30 @@ def press(sole: Sole, work: Work):
     `work` has the lists of `gather` for the `sole` and receives forces, wrench and whether it is carried.
     """
     w = wp.tid()
-    count = wp.min(work.size[w], work.gap.shape[1])
+    s = w % work.prior.shape[1]
+    count = wp.min(work.size[w], work.gap.shape[0])
     force = wp.vec3d()
     moment = wp.vec3d()
     for k in range(count):
-        force += work.force[w, k]
-        moment += work.torque[w, k] + wp.cross(work.at[w, k], work.force[w, k])
+        force += work.force[k, w]
+        moment += work.torque[k, w] + wp.cross(work.at[k, w], work.force[k, w])
     for j in range(3):
         work.wrench[w, j] = force[j]
         work.wrench[w, 3 + j] = moment[j]
     for i in range(sole.areas.shape[0]):
-        work.prior[w, i] = wp.float64(0.0)
+        work.prior[i, s] = wp.float64(0.0)
         work.vectors[w, i] = wp.vec3d()
-    work.carried[w] = 1
+    work.carried[w] = wp.where(work.size[w] > count, 0, 1)
     if not force[2] > wp.float64(0.0):
         if wp.length(force) + wp.length(moment) > wp.float64(0.0):
             work.carried[w] = 0
         return
-    _spread_pairs(sole, work, w, count)
+    _spread_pairs(sole, work, w, s, count)
     about = wp.vec2d(moment[0], moment[1])
     for _ in range(60):
-        if not _carry(sole, work, w, force[2], wp.vec2d(-about[1] / force[2], about[0] / force[2])):
+        if not _carry(sole, work, s, force[2], wp.vec2d(-about[1] / force[2], about[0] / force[2])):
             work.carried[w] = 0
-        if not _shear(sole, work, w, force, moment[2]):
+        if not _shear(sole, work, w, s, force, moment[2]):
             work.carried[w] = 0
         if sole.level:
             break

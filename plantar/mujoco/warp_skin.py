@@ -24,13 +24,14 @@ class WarpSkin:
     Args:
         skin: The skin, bound to the worlds' MjModel.
         worlds: Their number.
-        contacts: Most contacts of sole in one world.
+        contacts: Most contacts of sole in one world; more are left out.
         elliptic: Whether friction cones are elliptic; None as the MjModel.
 
     Attributes:
         vectors: Force (worlds, n) of vec3d on each taxel in N, sole frame; the same Warp array at each reading.
         wrench: (worlds, 6) about sole origin in N and N m, likewise.
-        carried: 1 for each world (worlds,) whose taxels have the whole wrench, else 0.
+        carried: 1 for each world (worlds,) whose taxels have the whole wrench, else 0; 0, too, where some of more than
+            `contacts` contacts are left out.
 
     Raises:
         DependencyError, InputError: If an argument is invalid.
@@ -59,16 +60,18 @@ class WarpSkin:
 
     def _room(self, count: int, room: int) -> Any:
         wp, b = self._wp, self._worlds
+        slots = 1 if wp.get_device().is_cpu else b  # a CPU takes one world after the other
         work: Any = warp_kernels.Work()
         work.size, work.carried = wp.zeros(b, dtype=wp.int32), wp.zeros(b, dtype=wp.int32)
-        work.pair, work.gap = wp.zeros((b, room), dtype=wp.vec2i), wp.zeros((b, room), dtype=wp.float64)
-        for name in ("at", "force", "torque", "points"):
-            setattr(work, name, wp.zeros((b, room), dtype=wp.vec3d))
-        work.ring, work.edges = (wp.zeros((b, 2 * room + 2), dtype=kind) for kind in (wp.vec2d, wp.vec3d))
+        work.pair, work.gap = wp.zeros((room, b), dtype=wp.vec2i), wp.zeros((room, b), dtype=wp.float64)
+        for name in ("at", "force", "torque"):
+            setattr(work, name, wp.zeros((room, b), dtype=wp.vec3d))
+        work.points = wp.zeros((room, slots), dtype=wp.vec3d)
+        work.ring, work.edges = (wp.zeros((2 * room + 2, slots), dtype=kind) for kind in (wp.vec2d, wp.vec3d))
         for name in ("weights", "prior", "normal", "gaps"):
-            setattr(work, name, wp.zeros((b, count), dtype=wp.float64))
-        work.rows, work.vectors = (wp.zeros((b, count), dtype=wp.vec3d) for _ in range(2))
-        work.wrench = wp.zeros((b, 6), dtype=wp.float64)
+            setattr(work, name, wp.zeros((count, slots), dtype=wp.float64))
+        work.rows = wp.zeros((count, slots), dtype=wp.vec3d)
+        work.vectors, work.wrench = wp.zeros((b, count), dtype=wp.vec3d), wp.zeros((b, 6), dtype=wp.float64)
         return work
 
     def read(self, data: Any) -> None:
@@ -93,7 +96,7 @@ class WarpSkin:
         contacts.xpos, contacts.xmat, contacts.elliptic = data.xpos, data.xmat, self._elliptic
         self._work.size.zero_()
         wp.launch(warp_kernels.gather, dim=listed.dist.shape[0], inputs=[self._sole, contacts, self._work])
-        wp.launch(warp_kernels.press, dim=self._worlds, inputs=[self._sole, self._work])
+        wp.launch(warp_kernels.press, dim=self._worlds, inputs=[self._sole, self._work], block_dim=32)
 
     def numpy(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
         """The last force (worlds, n, 3), wrench (worlds, 6), and carried or not (worlds,)."""

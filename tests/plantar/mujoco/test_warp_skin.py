@@ -50,5 +50,8 @@ def test_worlds_are_read_apart_and_their_number_is_checked():
     many.read(worlds)
     loads = many.numpy()[1][:, 2]
     assert loads == pytest.approx(feel(data).wrench[2] * np.array([1.0, 2.0, 1.0]), rel=1e-5)
+    few = WarpSkin(feel, 3, contacts=2)
+    few.read(worlds)
+    assert not few.numpy()[2].any()
     with pytest.raises(InputError, match="3 worlds; the skin was made for 2"):
         WarpSkin(feel, 2).read(worlds)
