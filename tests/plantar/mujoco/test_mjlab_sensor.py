@@ -1,0 +1,89 @@
+"""The skin as a sensor in an mjlab scene, on the CPU, against `BoundSkin` and MuJoCo Warp's contacts."""
+
+import warnings
+
+import mujoco
+import numpy as np
+import pytest
+
+from plantar.errors import RobotError
+
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore")
+    pytest.importorskip("mjlab.scene")
+pytestmark = [pytest.mark.long, pytest.mark.filterwarnings("ignore")]  # compiles for minutes
+
+import mujoco_warp  # noqa: E402
+from mjlab.entity import EntityCfg  # noqa: E402
+from mjlab.scene import Scene, SceneCfg  # noqa: E402
+from mjlab.sim import MujocoCfg, Simulation, SimulationCfg  # noqa: E402
+
+from plantar.mujoco.mjlab_sensor import SkinSensorCfg  # noqa: E402
+
+FEET = """<mujoco><worldbody><body name="trunk" pos="0 0 .3"><freejoint name="base"/>
+  <geom type="box" size=".1 .15 .1" mass="20"/>
+  <body name="left_foot" pos="0 .1 -.28">
+    <joint name="left" type="slide" axis="0 0 1" stiffness="20000" damping="600"/>
+    <geom type="box" size=".1 .05 .02" mass="2"/></body>
+  <body name="right_foot" pos="0 -.1 -.28">
+    <joint name="right" type="slide" axis="0 0 1" stiffness="20000" damping="600"/>
+    <geom type="sphere" size=".01" pos=".08 .03 -.01" mass=".5"/><geom type="sphere" size=".01" pos=".08 -.03 -.01"/>
+    <geom type="sphere" size=".01" pos="-.08 0 -.01" mass=".5"/></body></body></worldbody></mujoco>"""
+FLOOR = '<mujoco><worldbody><geom type="plane" size="5 5 1"/></worldbody></mujoco>'
+
+
+def make_scene(worlds, bodies=("left_foot", "right_foot"), cone="pyramidal"):
+    entities = {
+        "floor": EntityCfg(spec_fn=lambda: mujoco.MjSpec.from_string(FLOOR)),
+        "robot": EntityCfg(spec_fn=lambda: mujoco.MjSpec.from_string(FEET)),
+    }
+    sensors = tuple(SkinSensorCfg(name=body, entity="robot", body=body) for body in bodies)
+    scene = Scene(SceneCfg(num_envs=worlds, entities=entities, sensors=sensors), device="cpu")
+    sim = Simulation(worlds, SimulationCfg(mujoco=MujocoCfg(cone=cone)), scene.compile(), device="cpu")
+    scene.initialize(sim.mj_model, sim.model, sim.data)
+    return scene, sim
+
+
+@pytest.mark.parametrize("cone", ["pyramidal", "elliptic"])
+def test_an_mjlab_scene_has_the_skins_data(cone):
+    scene, sim = make_scene(3, cone=cone)
+    for _ in range(300):
+        sim.step()
+        scene.update(sim.mj_model.opt.timestep)
+    weight = 9.81 * sim.mj_model.body_mass.sum()
+    total = np.zeros(3)
+    for name in ("left_foot", "right_foot"):
+        sensor = scene[name]
+        assert tuple(sensor.data.shape) == (3, len(sensor.skin.layout), 3)
+        sums = sensor.data.sum(dim=1).numpy()
+        assert np.allclose(sums, sensor.wrench.numpy()[:, :3], atol=1e-5 * weight)
+        assert sensor.carried.all()
+        total += sums[:, 2]
+    assert np.allclose(total, weight, rtol=0.02)
+    before = scene["left_foot"].data.clone()
+    sim.data.qvel[1, 2] = -1.0  # world 1 is hit
+    sim.step()
+    assert np.array_equal(scene["left_foot"].data, before)  # until the scene's update
+    scene.update(sim.mj_model.opt.timestep)
+    after = scene["left_foot"].data[:, :, 2].sum(dim=1)
+    assert after[1] > 1.5 * after[0]
+
+
+def test_its_forces_are_those_of_the_skin_in_mujoco():
+    scene, sim = make_scene(2)
+    model, data = sim.mj_model, mujoco.MjData(sim.mj_model)
+    mujoco.mj_step(model, data, 200)
+    mujoco.mj_forward(model, data)
+    worlds = mujoco_warp.put_data(model, data, nworld=2)
+    for name in ("left_foot", "right_foot"):
+        sensor = scene[name]
+        sensor.initialize(model, sim.model, worlds, "cpu")
+        sensor.reset()
+        reading = sensor.skin(data)
+        assert np.abs(sensor.data.numpy() - reading.vectors).max() < 1e-5 * reading.wrench[2]
+        assert np.abs(sensor.wrench.numpy() - reading.wrench).max() < 1e-5 * reading.wrench[2]
+
+
+def test_a_body_that_is_missing_is_named():
+    with pytest.raises(RobotError, match="no body named 'robot/left_fot'; did you mean robot/left_foot"):
+        make_scene(1, ("left_fot",))
