@@ -151,11 +151,12 @@ class Skin:
         """The sole with a site as its frame, on the face, facing the same way."""
         site = _found(model, "site", str(self.site))
         owner = int(model.site_bodyid[site])
-        if owner != body:
+        if model.body_weldid[owner] != model.body_weldid[body]:
             raise RobotError(f"site '{self.site}' is on body '{model.body(owner).name}'; the skin's is '{self.body}'")
-        turn = np.empty(9)
-        mujoco.mju_quat2Mat(turn, model.site_quat[site])
-        rotation, position = turn.reshape(3, 3), np.array(model.site_pos[site])
+        data = mujoco.MjData(model)
+        mujoco.mj_kinematics(model, data)
+        turn = data.xmat[body].reshape(3, 3).T
+        rotation, position = turn @ data.site_xmat[site].reshape(3, 3), turn @ (data.site_xpos[site] - data.xpos[body])
         up = float(rotation[:, 2] @ shape.rotation[:, 2])
         if up < -_LEVEL:
             raise RobotError(

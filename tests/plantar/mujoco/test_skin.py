@@ -158,11 +158,15 @@ def test_outward_takes_another_face():
 
 def test_bodies_that_are_fixed_to_it_belong_to_it():
     model = mujoco.MjModel.from_xml_string("""<mujoco><worldbody><body name="foot"><freejoint/>
-      <geom type="box" size=".1 .05 .03" mass="1"/><body name="toe" pos=".15 0 0">
-      <geom type="box" size=".05 .05 .03" mass="1"/></body></body></worldbody></mujoco>""")
+      <geom type="box" size=".1 .05 .03" mass="1"/><body name="toe" pos=".15 0 0" euler="0 0 90">
+      <geom type="box" size=".05 .05 .03" mass="1"/><site name="sole" pos="0 .05 -.03" euler="0 0 -90"/></body></body>
+      </worldbody></mujoco>""")
     feel = Skin(body="foot").bind(model)
     assert len(feel.geom_ids) == 2
     assert np.isclose(np.ptp(feel.layout.outline[:, 0]), 0.3)
+    of_toe = Skin(body="foot", site="sole").bind(model)
+    assert np.allclose(of_toe.position_in_body, [0.1, 0.0, -0.03])
+    assert np.allclose(of_toe.rotation_to_body, np.eye(3))
 
 
 def test_a_model_without_a_body_that_collides_is_refused():
