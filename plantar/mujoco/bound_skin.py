@@ -106,7 +106,7 @@ class BoundSkin:
         return len(self.layout)
 
     def __call__(self, data: Any) -> SkinReading:
-        """Read the skin after `mj_step` or `mj_forward`; InputError for another model's MjData."""
+        """Read the skin after a step or `mj_forward`; InputError for another model's MjData."""
         view = self._views.get(id(data))
         if view is None:
             view = self._look_in(data)
@@ -135,7 +135,7 @@ class BoundSkin:
         """Read the skin in many simulations.
 
         Args:
-            datas: MjData of model, each after `mj_step` or `mj_forward`.
+            datas: MjData of model, after `mj_step` or `mj_forward`.
             threads: Number of threads.
 
         Returns:
@@ -159,8 +159,8 @@ class BoundSkin:
 
         Args:
             states: Full physics states (..., nstate), of `mujoco.mjtState.mjSTATE_FULLPHYSICS`.
-            controls: Controls (..., nu) at these states; None for the defaults.
-            threads: Number of threads, for MuJoCo's part.
+            controls: Controls (..., nu); None for the defaults.
+            threads: Number of threads.
 
         Returns:
             Force (..., n, 3) on each taxel in N and wrench (..., 6), sole frame.

@@ -1,4 +1,4 @@
-"""Plantar skin as a sensor of mjlab, which trains policies in many worlds of MuJoCo Warp. Needs `pip install mjlab`."""
+"""Plantar skin as a sensor of mjlab (`pip install mjlab`)."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class SkinSensorCfg(SensorCfg):
         entity: Name of entity in scene, for example "robot".
         body: Name of body in it, for example "left_ankle_roll_link".
         layout: Layout, or path of its file; None fits hexagons to the body.
-        options: Further arguments of `Skin`; names of geoms and site as in the scene, after the entity's prefix.
+        options: Further arguments of `Skin`; names as in the scene.
         contacts: Most contacts of sole in one world.
     """
 
@@ -62,7 +62,7 @@ class SkinSensor(_Sensor):
     `data` is the force (B, N, 3) on each taxel in N, sole frame, float32.
 
     Attributes:
-        skin: The skin in the scene's model, with its layout, after `initialize`.
+        skin: In the scene's model, after `initialize`.
     """
 
     skin: BoundSkin
@@ -73,15 +73,11 @@ class SkinSensor(_Sensor):
         self._skin = Skin(cfg.layout, f"{cfg.entity}/{cfg.body}", **cfg.options)
 
     def edit_spec(self, scene_spec: mujoco.MjSpec, entities: dict[str, Any]) -> None:
-        """Add a site at the sole frame to `scene_spec`, which holds the `entities`; RobotError as `Skin.edit`."""
+        """Add a sole frame to `scene_spec` of `entities`; RobotError as `Skin.edit`."""
         self._skin.edit(scene_spec)
 
     def initialize(self, mj_model: mujoco.MjModel, model: Any, data: Any, device: str) -> None:
-        """Place the skin in a compiled `mj_model` with its Warp `model` and `data` on a `device`.
-
-        Raises:
-            RobotError: As `Skin.bind`.
-        """
+        """Bind to `mj_model`, and Warp's `model` and `data` on a `device`; RobotError as `Skin.bind`."""
         self.skin, self._worlds = self._skin.bind(mj_model), getattr(data, "struct", data)
         self._device = wp.device_from_torch(torch.device(device))
         cone = bool(getattr(model, "struct", model).opt.cone)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import os
 import re
@@ -20,6 +19,7 @@ from plantar.layouts.layout_file import read_layout
 from plantar.layouts.tiling import hex_layout
 from plantar.mujoco.bound_skin import BoundSkin
 from plantar.mujoco.contacts import REACH
+from plantar.mujoco.named_id import named_id
 from plantar.mujoco.sole_shape import SoleShape, rigid_geoms, sole_shape
 from plantar.sides import other_side
 
@@ -38,16 +38,16 @@ _NEAR = 0.004  # m: how far a site may be from the face
 class Skin:
     """A plantar skin for a body of any MuJoCo model.
 
-    The sole's face is the lowest of the body's collision shapes in the reference pose (first keyframe, or `qpos0`); its
-    origin is below the body's, x is the world's. Contradicting set-ups are refused.
+    The sole's face is the lowest of the body's collision shapes in the reference pose (first keyframe, or `qpos0`), its
+    origin below the body's, x the world's.
 
     Args:
         layout: Layout, or path of its file; None fits hexagons to the body.
         body: Name of body, for example "left_ankle_roll_link".
-        geoms: Names of geoms that can touch; None for all colliding ones of body and parts fixed to it.
+        geoms: Names of geoms that can touch; None for all colliding ones of body and fixed parts.
         site: Site that is the sole frame; checked against shapes.
         outward: Direction (3,) of sole, body frame; None for down in reference pose.
-        forward: Forward (3,), body frame; None for the world's x in reference pose.
+        forward: Forward (3,), body frame; None for the world's x.
         cell_area: Of a fitted cell in m^2; None for 691 mm^2, or a thirtieth of a small sole.
         partial: Whether a layout may cover a small part.
         proximity: Range in m of proximity sensors; None for none.
@@ -120,7 +120,7 @@ class Skin:
         layout = self.layout or self._fitted(shape)
         if self.layout is not None:
             self._check(layout, shape)
-        body = int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, self.body))
+        body = named_id(model, "body", self.body)
         return BoundSkin(
             model, layout, body, geoms, shape.position, shape.rotation, reach=self.reach, proximity=self.proximity
         )
@@ -128,12 +128,12 @@ class Skin:
     def _place(self, model: Any) -> tuple[list[int], SoleShape]:
         if not isinstance(model, mujoco.MjModel):
             raise InputError(f"a skin is bound to a mujoco.MjModel; got a {type(model).__name__}")
-        body = _found(model, "body", self.body)
+        body = named_id(model, "body", self.body)
         if body == 0 or (int(model.body_weldid[body]) == 0 and model.body_mocapid[body] < 0):
             raise RobotError(f"body '{self.body}' is fixed to the world; a skin needs a body that moves")
         geoms = rigid_geoms(model, body)
         if self.geoms is not None:
-            named = [_found(model, "geom", name) for name in self.geoms]
+            named = [named_id(model, "geom", name) for name in self.geoms]
             for name, geom in zip(self.geoms, named, strict=True):
                 if geom not in geoms:
                     owner = model.body(int(model.geom_bodyid[geom])).name
@@ -149,7 +149,7 @@ class Skin:
 
     def _at_site(self, model: Any, body: int, shape: SoleShape) -> SoleShape:
         """The sole with a site as its frame, on the face, facing the same way."""
-        site = _found(model, "site", str(self.site))
+        site = named_id(model, "site", str(self.site))
         owner = int(model.site_bodyid[site])
         if model.body_weldid[owner] != model.body_weldid[body]:
             raise RobotError(f"site '{self.site}' is on body '{model.body(owner).name}'; the skin's is '{self.body}'")
@@ -254,15 +254,3 @@ def _side_in(name: str) -> str | None:
     words = re.split(r"[^a-z]+", re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower())
     sides = {"left" for w in words if w in ("left", "l")} | {"right" for w in words if w in ("right", "r")}
     return sides.pop() if len(sides) == 1 else None
-
-
-def _found(model: Any, kind: str, name: str) -> int:
-    what = {"body": mujoco.mjtObj.mjOBJ_BODY, "geom": mujoco.mjtObj.mjOBJ_GEOM, "site": mujoco.mjtObj.mjOBJ_SITE}[kind]
-    found = int(mujoco.mj_name2id(model, what, name))
-    if found < 0:
-        count = {"body": model.nbody, "geom": model.ngeom, "site": model.nsite}[kind]
-        names = [n for i in range(count) if (n := mujoco.mj_id2name(model, what, i))]
-        close = difflib.get_close_matches(name, names, 3, 0.5)
-        hint = f"did you mean {' or '.join(close)}?" if close else f"it has: {', '.join(names[:20]) or 'none'}"
-        raise RobotError(f"the model has no {kind} named '{name}'; {hint}")
-    return found

@@ -24,14 +24,13 @@ class WarpSkin:
     Args:
         skin: The skin, bound to the worlds' MjModel.
         worlds: Their number.
-        contacts: Most contacts of sole in one world; more are left out.
+        contacts: Most contacts of sole in one world.
         elliptic: Whether friction cones are elliptic; None as the MjModel.
 
     Attributes:
         vectors: Force (worlds, n) of vec3d on each taxel in N, sole frame; the same Warp array at each reading.
         wrench: (worlds, 6) about sole origin in N and N m, likewise.
-        carried: 1 for each world (worlds,) whose taxels have the whole wrench, else 0; 0, too, where some of more than
-            `contacts` contacts are left out.
+        carried: 1 for each world (worlds,) whose taxels have the whole wrench of at most `contacts` contacts, else 0.
 
     Raises:
         DependencyError, InputError: If an argument is invalid.

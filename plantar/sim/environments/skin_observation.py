@@ -20,8 +20,7 @@ __all__ = ["SkinObservation"]
 class SkinObservation(ObservationWrapper[Any, Any, Any]):
     """Adds the forces on skins to the observation, which becomes a Dict.
 
-    Other observations keep their keys, or "observation" if not a Dict; each skin's name has the force (n,) in N,
-    float32.
+    Others keep their keys, or "observation" if not a Dict; each skin's name has the force (n,) in N.
 
     Args:
         env: Its `unwrapped` has `model` and `data`.
@@ -57,7 +56,7 @@ class SkinObservation(ObservationWrapper[Any, Any, Any]):
         self.observation_space = spaces.Dict(boxes)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Reset with `seed`, also of taxel faults, and `options`; returns observation and info."""
+        """Reset with `seed`, also of faults, and `options`; returns observation and info."""
         observation, info = self.env.reset(seed=seed, options=options)
         if self._faults is not None:
             rng = self.env.unwrapped.np_random

@@ -106,9 +106,8 @@ class Stand(Task):
 class Step(Task):
     """Step onto targets: each 3 beats one foot, left first, up to a sixth of a leg ahead.
 
-    Observed: swing foot (1 left, -1 right), passed share of its time, and target (2,) in the torso's heading, from the
-    swing sole, in legs. Reward: 0.2 unloaded swing foot, 0.4 upright, 0.4 sole near its target at the end. `info` has
-    "steps": landings within 0.1 leg.
+    Observed: swing foot (1 left, -1 right), share of its time, target (2,) from its sole in the torso's heading. `info`
+    has "steps": landings within 0.1 leg.
     """
 
     size = 4

@@ -41,26 +41,25 @@ _FALLEN_HEIGHT = 0.7  # of the height of the torso when standing
 class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
     """A robot with skin under its soles, and a task.
 
-    An action (k,) of -1 to 1 moves the leg joints' set-points from standing by `scale` rad. An observation is a Dict of
-    float32, SI:
+    An action (k,) of -1 to 1 moves the leg joints' set-points from standing by `scale` rad. Observed, in float32:
 
-    - joints (2 k,): angles from standing in rad, then velocities in rad/s;
-    - imu (9,): gyro in rad/s, accelerometer in m/s^2 in the sensor's, gravity's direction in the torso's frame;
-    - skin_left, skin_right (n,): force on each taxel in body weights, with skin;
+    - joints (2 k,): angles from standing in rad, velocities in rad/s;
+    - imu (9,): gyro in rad/s, accelerometer in m/s^2, gravity's direction in the torso's frame;
+    - skin_left, skin_right (n,): force on each taxel in body weights;
     - task (m,): see `plantar.sim.environments.tasks`.
 
-    An episode ends where the torso tilts by 40 degrees or sinks by 30 %. `info` has "time" in s, "velocity" (2,) in m/s
-    in the torso's heading, "load" of both soles in body weights, and the task's figures.
+    An episode ends where the torso tilts by 40 degrees or sinks by 30 %. `info`: "time" in s, "velocity" (2,) in m/s in
+    the torso's heading, "load" of both soles in body weights, and the task's.
 
     Args:
-        task: "stand" (pushed), "step" (onto targets), "walk" (at a velocity, on uneven tiles) or "board" (it tilts).
+        task: "stand", "step", "walk" or "board".
         robot: Built-in name or robot file.
         period: Of a step in s.
         physics_period: Physics step in s.
         skin: Whether it is observed.
         faults: Of taxels, drawn at each reset, or None.
         scale: Angle in rad of an action of 1.
-        difficulty: Scales pushes, ground and commands; 1 as described.
+        difficulty: Scales pushes, ground and commands.
         render_mode: "rgb_array" or None.
 
     Raises:
@@ -131,10 +130,7 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, NDArray[np.float32]], dict[str, Any]]:
-        """Returns observation and info of the robot standing on newly drawn ground, joints off by 0.01 rad.
-
-        `seed` is of all later draws; `options` are unused.
-        """
+        """Returns observation and info on ground drawn by `seed`, joints off by 0.01 rad; `options` are unused."""
         super().reset(seed=seed)
         data, world = self.data, self.world
         mujoco.mj_resetData(self.model, data)

@@ -13,9 +13,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import InputError, RobotError
+from plantar.errors import InputError
 from plantar.kernels.sensors.sole_rays import SoleRays
 from plantar.layouts.layout import SoleLayout
+from plantar.mujoco.named_id import named_id
 from plantar.sim.plant.ground import GroundColours
 from plantar.sim.sensing.white_noise import white_noise
 from plantar.sim.terrain import GROUND_GROUP
@@ -59,9 +60,7 @@ class SoleProximity:
         self.layout = layout
         self.range = sensing_range
         self._model = model
-        self._site = int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, site))
-        if self._site < 0:
-            raise RobotError(f"the model has no site named {site!r}")
+        self._site = named_id(model, "site", site)
         axes = layout.rotations[:, :, 2]
         self._start = np.ascontiguousarray(layout.positions + _LIFT * axes)
         self._way = np.ascontiguousarray(-axes)

@@ -12,7 +12,6 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,8 +22,9 @@ from plantar.kernels.sensors.noise_rows import NoiseRows, TaxelSample
 from plantar.layouts.layout import DEFAULT_RANGES, SoleLayout
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.same_time import SAME_TIME
+from plantar.mujoco.named_id import named_id
 from plantar.sensing.reading import Reading
-from plantar.sim.model.contact_truth import REACH, ContactSet, FootContacts, foot_contacts
+from plantar.sim.model.contact_truth import REACH, ContactReader, FootContacts
 from plantar.sim.plant.taxels import TaxelErrors
 from plantar.sim.sensing.blind_rim import BlindRim
 from plantar.sim.sensing.elastic_pressure import ElasticPressure
@@ -67,8 +67,8 @@ class SoleSkin:
     ) -> None:
         self.model = model
         self.layout = layout
-        self.site_id = _id_of(model, mujoco.mjtObj.mjOBJ_SITE, "site", site)
-        self.geom_ids = frozenset(_id_of(model, mujoco.mjtObj.mjOBJ_GEOM, "geom", g) for g in geoms)
+        self.site_id = named_id(model, "site", site)
+        self.geom_ids = frozenset(named_id(model, "geom", g) for g in geoms)
         if not self.geom_ids:
             raise RobotError("the sole has no collision geom; name at least one")
         self.pressure: SolePressure | ElasticPressure = (
@@ -77,9 +77,8 @@ class SoleSkin:
             else ElasticPressure(layout, thickness=layer, rubber=rubber)
         )
         self._rim = BlindRim(layout, rim_stiffness, rubber) if rim_stiffness > 0.0 else None
-        self.springs: PressedSole | None = None
-        if isinstance(self.pressure, SolePressure) and self._rim is None:
-            self.springs = self.pressure.springs
+        springs = self.pressure.springs if isinstance(self.pressure, SolePressure) else None
+        self.springs: PressedSole | None = None if self._rim is not None else springs
         self._reach = reach
         self._data: Any = None  # in which contacts are seen from the sole
         self._in_sole = ContactsInSole()
@@ -97,10 +96,6 @@ class SoleSkin:
         """How often the sole carried no load."""
         return int(self._in_sole.in_air)
 
-    def contacts(self, data: Any) -> ContactSet:
-        """The sole's contacts with the world, see `foot_contacts`."""
-        return foot_contacts(self.model, data, self.geom_ids)
-
     def taxel_forces(self, data: Any, contacts: FootContacts | None = None) -> NDArray[np.float64]:
         """Normal taxel forces without noise.
 
@@ -111,10 +106,7 @@ class SoleSkin:
         Returns:
             (n,) in N, none negative.
         """
-        if data is not self._data:
-            self._look_in(data)
-        if contacts is None:
-            contacts = self.contacts(data).gathered()
+        contacts = self._seen_in(data, contacts)
         if self.springs is not None:
             self.springs.stand(contacts, self._in_sole, self._reach)
             return np.array(self.springs.forces)
@@ -137,16 +129,17 @@ class SoleSkin:
         Returns:
             Readings (n,) in N.
         """
-        if data is not self._data:
-            self._look_in(data)
-        if contacts is None:
-            contacts = self.contacts(data).gathered()
+        contacts = self._seen_in(data, contacts)
         read: NDArray[np.float64] = sample.of_contacts(self.springs, contacts, self._in_sole, self._reach)
         return read
 
-    def _look_in(self, data: Any) -> None:
-        self._data = data
-        self._in_sole.look_from(data.site_xpos[self.site_id], data.site_xmat[self.site_id].reshape(3, 3))
+    def _seen_in(self, data: Any, contacts: FootContacts | None) -> FootContacts:
+        """The sole's contacts, looked at from the sole."""
+        if data is not self._data:
+            self._data = data
+            self._reader = ContactReader(self.model, data, (self.geom_ids,))
+            self._in_sole.look_from(data.site_xpos[self.site_id], data.site_xmat[self.site_id].reshape(3, 3))
+        return self._reader.read()[0] if contacts is None else contacts
 
 
 @dataclass(frozen=True)
@@ -269,13 +262,3 @@ class SkinSensor:
         if self._errors is not None:
             self._errors.silence(now, sample, distance)
         return sample
-
-
-def _id_of(model: Any, kind: Any, word: str, name: str) -> int:
-    found = int(mujoco.mj_name2id(model, kind, name))
-    if found < 0:
-        count = model.nsite if word == "site" else model.ngeom
-        names = [mujoco.mj_id2name(model, kind, i) for i in range(count)]
-        known = ", ".join(n for n in names if n) or "none"
-        raise RobotError(f"the model has no {word} named {name!r}; it has: {known}")
-    return found

@@ -22,7 +22,6 @@ from plantar.errors import InputError, LayoutError
 from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.polygon import area as polygon_area
 from plantar.geometry.polygon import convex_hull
-from plantar.kernels.contacts.foot_contacts import FootContacts
 from plantar.kernels.contacts.pressed_patch import PressedPatch
 from plantar.kernels.contacts.pressed_sole import PressedSole
 from plantar.layouts.layout import SoleLayout
@@ -95,20 +94,6 @@ class SolePressure:
         if not (0.0 < force < math.inf) or not len(patch):
             return np.zeros(len(self.layout))
         out: NDArray[np.float64] = self.springs.spread(patch, force, *center_of_pressure)
-        return out
-
-    def press(self, contacts: FootContacts, vectors: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
-        """Taxel forces of a foot's contacts, one patch a geom pair.
-
-        Args:
-            contacts: Of the foot.
-            vectors: Positions, forces, torques in turn in the sole frame (at least 3 k, 3).
-            reach: Gap in m beyond which unloaded contacts are left out.
-
-        Returns:
-            (n,) in N, none negative.
-        """
-        out: NDArray[np.float64] = self.springs.press(contacts, vectors, reach)
         return out
 
     def along_taxels(self, force: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -48,7 +48,7 @@ def test_all_contacts_at_once_carry_what_each_pair_carries_alone(seed):
         for force, about_x, about_y, points in foot.pair_loads(vectors, REACH):
             if force > 0.0:
                 wanted += alone.spread(points, force, (-about_y / force, about_x / force))
-        assert np.array_equal(together.press(foot, vectors, REACH), wanted)
+        assert np.array_equal(together.springs.press(foot, vectors, REACH), wanted)
 
 
 @pytest.mark.skipif(not is_compiled("pressed_sole"), reason="without a compiler there is one form only")
@@ -59,7 +59,7 @@ def test_the_two_forms_agree_to_the_last_bit(seed):
     source, lists, patches = (python_form(name) for name in ("pressed_sole", "foot_contacts", "pressed_patch"))
     python = source.PressedSole(np.ones(len(LAYOUT)), 1e-4, 256, other._make_patch)
     for case in contacts(seed):
-        one = compiled.press(foot_of(*case), case[1], REACH)
+        one = compiled.springs.press(foot_of(*case), case[1], REACH)
         with pytest.MonkeyPatch.context() as context:
             context.setattr(sole_pressure, "PressedPatch", patches.PressedPatch)
             assert np.array_equal(one, python.press(foot_of(*case, lists), case[1], REACH))
@@ -78,7 +78,7 @@ def test_contacts_in_the_world_press_where_the_sole_sees_them(seed):
         foot = foot_of(ids, vectors @ rotation.T, gaps, carries)
         pressure.springs.stand(foot, seen, REACH)
         stood = np.array(pressure.springs.forces)
-        assert np.array_equal(stood, pressure.press(foot, np.asarray(seen.vectors), REACH))
+        assert np.array_equal(stood, pressure.springs.press(foot, np.asarray(seen.vectors), REACH))
         pressure.springs.stand(foot_of(ids[:0], vectors[:0], gaps[:0], carries[:0]), seen, REACH)
         assert not np.any(pressure.springs.forces)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -40,27 +40,40 @@ class Trial(NamedTuple):
     tables: Mapping[str, Mapping[str, Any]]
 
 
-def _trials() -> list[Trial]:
-    found = [Trial("flat", 0.0, "", {"terrain": {"kind": "flat"}, "walk": _FORWARD})]
-    for share in (0.8, 0.5, 0.33, 0.25):
-        beam = {"kind": "beam", "width": f"{share} sole", "length": "13/6 leg", "offset_range": f"{share / 3} sole"}
-        found.append(Trial("beam", share, "foot's extent across it", {"terrain": beam, "walk": _SIDEWAYS}))
-    for share in (0.8, 0.6, 0.4, 0.2):
-        stones = {"kind": "stones", "share_min": share, "share_max": min(1.0, share + 0.2)}
-        found.append(Trial("stones", share, "sole, smallest stone", {"terrain": stones, "walk": _FORWARD}))
-    for degrees in (2.0, 5.0, 8.0):
-        slopes = {"kind": "uneven", "height_range": 0.0, "slope_range": degrees}
-        found.append(Trial("slopes", degrees, "deg", {"terrain": slopes, "walk": _FORWARD}))
-    for height in (0.0125, 0.025, 0.05):
-        uneven = {"kind": "uneven", "height_range": f"{height} leg"}
-        found.append(Trial("steps", height, "leg, up or down", {"terrain": uneven, "walk": _FORWARD}))
-    for speed in (0.05, 0.1, 0.15):
-        push = {"dv": f"{speed} leg/beat"}
-        found.append(Trial("push", speed, "sqrt(g l)", {"terrain": {"kind": "flat"}, "walk": _FORWARD, "push": push}))
-    return found
+def _on(walk: Mapping[str, Any], **terrain: Any) -> dict[str, Mapping[str, Any]]:
+    return {"terrain": terrain, "walk": walk}
 
 
-TRIALS = tuple(_trials())
+_KINDS: tuple[tuple[str, tuple[float, ...], str, Callable[[float], dict[str, Mapping[str, Any]]]], ...] = (
+    ("flat", (0.0,), "", lambda _: _on(_FORWARD, kind="flat")),
+    (
+        "beam",
+        (0.8, 0.5, 0.33, 0.25),
+        "foot's extent across it",
+        lambda v: _on(_SIDEWAYS, kind="beam", width=f"{v} sole", length="13/6 leg", offset_range=f"{v / 3} sole"),
+    ),
+    (
+        "stones",
+        (0.8, 0.6, 0.4, 0.2),
+        "sole, smallest stone",
+        lambda v: _on(_FORWARD, kind="stones", share_min=v, share_max=min(1.0, v + 0.2)),
+    ),
+    ("slopes", (2.0, 5.0, 8.0), "deg", lambda v: _on(_FORWARD, kind="uneven", height_range=0.0, slope_range=v)),
+    (
+        "steps",
+        (0.0125, 0.025, 0.05),
+        "leg, up or down",
+        lambda v: _on(_FORWARD, kind="uneven", height_range=f"{v} leg"),
+    ),
+    (
+        "push",
+        (0.05, 0.1, 0.15),
+        "sqrt(g l)",
+        lambda v: _on(_FORWARD, kind="flat") | {"push": {"dv": f"{v} leg/beat"}},
+    ),
+)
+
+TRIALS = tuple(Trial(kind, v, unit, tables(v)) for kind, values, unit, tables in _KINDS for v in values)
 """All trials, each kind from easy to hard. The first is flat ground."""
 
 
@@ -96,11 +109,9 @@ class FootholdResult(NamedTuple):
 
 
 def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) -> FootholdResult:
-    """Returns the result of a policy, which `make_policy` makes of a `WalkTask`, on a `trial` with a `robot` (name or
-    file).
+    """Returns the result of `make_policy`'s policy on a `trial` with a `robot` (name or file).
 
-    `seed` draws ground, push and sensor noise. An InputError if the policy fails, a SceneError if the physics become
-    unstable.
+    `seed` draws ground, push and noise. InputError if the policy fails, SceneError if physics become unstable.
     """
     run = Simulation(scene_of_trial(trial, robot), seed)
     world, data, judge = run.world, run.world.data, run.judge

@@ -30,8 +30,8 @@ def measure_footholds(
     """Run a policy on all trials that footholds.csv in a `folder` lacks.
 
     `policy` is a Python file with `make_policy(task)`, None the built-in controller; `robots` are names or files, h1
-    where empty, `seeds` the runs of each trial, `kinds` those of trials, all where empty. `progress` gets fraction
-    done and text. Returns a row for each policy, robot and trial, and the files' names; an InputError if invalid.
+    where empty; `seeds` are runs a trial; `kinds` are all where empty. `progress` gets fraction and text. Returns rows
+    and names of files; InputError if invalid.
     """
     known = list(dict.fromkeys(t.kind for t in TRIALS))
     if seeds < 1 or set(kinds) - set(known):

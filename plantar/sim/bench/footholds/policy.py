@@ -33,7 +33,7 @@ class WalkTask:
         stance: Joint angles (k,) in rad and torques (k,) in N m at time 0.
         feet: At the start.
         steps: Footsteps to take, in order, world frame.
-        end: Time in s at which the built-in controller ends the walk; a run is cut off at 1.5 times that.
+        end: Time in s the built-in controller needs; a run has 1.5 times that.
         walk: A scene's [walk] table.
     """
 
@@ -65,11 +65,7 @@ class Policy(Protocol):
     """A controller, made for each trial by its file's `make_policy(task)`."""
 
     def step(self, sensors: Sensors) -> Action:
-        """The action of a control tick.
-
-        `sensors` holds time in s, joint angles (k,) in rad, gyro (3,) in rad/s, accelerometer (3,) in m/s^2, and a
-        `Reading` of each sole.
-        """
+        """The action of a control tick, from `sensors`."""
 
 
 class OwnController:
