@@ -24,6 +24,10 @@ __all__ = ["Format", "ReadOptions", "detect_format", "formats", "is_study_folder
 # How many bytes of a file are looked at, and how many where those do not decide: a platform's table has a row of
 # names of a hundred kilobytes.
 _HEADS = (1 << 16, 1 << 22)
+_UNDESCRIBED = (
+    "GAITRite",
+    "zebris",
+)  # Makers of exports without a public description: a table of theirs may be anything
 
 
 def formats() -> dict[str, Format]:
@@ -77,9 +81,15 @@ def detect_format(path: str | os.PathLike[str]) -> Format:
             if not more:
                 break
             head += more
+            maker = next((m for m in _UNDESCRIBED if m.lower().encode() in head.lower()), None)
             for candidate in known.values():
-                if candidate.recognises(head):
+                if candidate.recognises(head) and not (maker and candidate.name == "csv"):
                     return candidate
+            if maker:
+                raise FormatError(
+                    f"{path}: an export of {maker}, whose format has no public description; allowed: a table of forces "
+                    "or pressures with named columns (--format csv reads this file as one)"
+                )
     raise FormatError(f"{path}: not a recording of a known format; known: {names}")
 
 

@@ -176,13 +176,9 @@ def _arrays(path: Path) -> Iterator[dict[str, _Array]]:
     with open_archive(path, FormatError, _LARGEST) as (archive, _):
         parts = {p.filename: p for p in archive.infolist() if p.filename.endswith(".npy")}
         yield {
-            name.removesuffix(".npy"): _array(path, name, partial(_opened, archive, name), part.file_size)
+            name.removesuffix(".npy"): _array(path, name, partial(archive.open, name), part.file_size)
             for name, part in parts.items()
         }
-
-
-def _opened(archive: zipfile.ZipFile, name: str) -> IO[bytes]:
-    return archive.open(name)
 
 
 def _array(path: Path, name: str, opened: Callable[[], IO[bytes]], size: int) -> _Array:

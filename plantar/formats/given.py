@@ -60,7 +60,8 @@ def _array(given: Any) -> np.ndarray[Any, Any]:
 
 def _columns(frame: Any) -> tuple[np.ndarray[Any, Any], list[str]]:
     """Numbers (n, k) and column names of a data frame; an index of times becomes the first column."""
-    names, columns = [str(name) for name in frame.columns], [np.asarray(frame[name]) for name in frame.columns]
+    names, at = [str(name) for name in frame.columns], getattr(frame, "iloc", None)  # pandas has columns of one name
+    columns = [np.asarray(frame[n] if at is None else at[:, i]) for i, n in enumerate(frame.columns)]
     index = getattr(frame, "index", None)
     values = None if index is None else np.asarray(index)
     if values is not None and values.ndim == 1 and (values.dtype.kind in "mM" or getattr(index, "name", None)):

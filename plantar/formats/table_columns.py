@@ -18,7 +18,7 @@ from plantar.formats.side import is_side_column, on_one_time, rows_of_sides, sid
 from plantar.formats.table_forces import feet_of_forces, is_force_table
 from plantar.formats.table_text import time_unit
 from plantar.formats.text import number_in
-from plantar.formats.units import find_unit
+from plantar.formats.units import find_unit, plain
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, possible_rate, sampling
 from plantar.sides import SIDES, Side
 
@@ -66,8 +66,9 @@ def recording_of_columns(
     headings = [heading_of(name) for name in names]
     _refuse_curves(headings, at)
     time, rate, notes = _times(table, names, at, facts, options, warnings)
-    copies = _copies(table, names, warnings)
-    columns = [i for i in range(table.shape[1]) if i != at and i not in clocks and i not in copies]
+    columns = [i for i in range(table.shape[1]) if i != at and i not in clocks]
+    copies, both = _repeated(table, names, columns, warnings) if names else (set[int](), dict[Side, list[int]]())
+    columns = [i for i in columns if i not in copies]
     kind, every, raw = "insole", True, False
     if names and is_force_table([headings[i] for i in columns]):
         named = {i: headings[i] for i in columns}
@@ -77,7 +78,7 @@ def recording_of_columns(
         used = {i for i in columns if headings[i].quantity in ("force", "cop", "moment", "place")}
         _report_left_out([names[i] for i in columns if i not in used], warnings, "load")
     else:
-        feet, raw = _cells(table, names, headings, columns, facts, options, warnings)
+        feet, raw = _cells(table, names, headings, columns, both, facts, options, warnings)
     if len(feet) == 1 and side_of(*names) is not None:
         warnings.append(f"the file holds the {next(iter(feet))} foot only")
     return PressureRecording(
@@ -93,18 +94,39 @@ def recording_of_columns(
     )
 
 
-def _copies(table: NDArray[np.float64], names: list[str], warnings: list[str]) -> set[int]:
-    """Columns that repeat the name and values of an earlier one."""
+def _repeated(
+    table: NDArray[np.float64], names: list[str], columns: Sequence[int], warnings: list[str]
+) -> tuple[set[int], dict[Side, list[int]]]:
+    """Load columns that copy an earlier one, and each foot's cells where all names begin again halfway.
+
+    FormatError where one name has different values, which would be summed.
+    """
+    keys = {
+        i: (h.quantity, h.axis, h.side, h.number, plain(h.unit), "" if h.axis else h.words)
+        for i in columns
+        if names[i] and (h := heading_of(names[i])).quantity in ("force", "pressure", "cell", "number")
+    }
+    loads, half = list(keys), len(keys) // 2
+    one, other = loads[:half], loads[half:]
+    axes_or_sides = any(axis or side for _, axis, side, *_ in keys.values())
+    again = half >= 2 and not axes_or_sides and [keys[i] for i in one] == [keys[i] for i in other]
+    if again and not np.array_equal(table[:, one], table[:, other], equal_nan=True):
+        warnings.append("the cells' names begin again: the first ones are taken as the left foot's, then the right's")
+        return set(), {"left": one, "right": other}
     copies: set[int] = set()
-    firsts: dict[str, int] = {}
-    for i, name in enumerate(names):
-        first = firsts.setdefault(name, i)
-        if not name or first == i or not np.nan_to_num(table[:, i]).any():
+    firsts: dict[tuple[object, ...], int] = {}
+    for i, key in keys.items():
+        first = firsts.setdefault(key, i)
+        if first == i or not np.nan_to_num(table[:, i]).any():
             continue
-        if np.array_equal(table[:, first], table[:, i], equal_nan=True):
-            copies.add(i)
-            warnings.append(f"column {name!r} is there twice with the same values: it counts once")
-    return copies
+        if not np.array_equal(table[:, first], table[:, i], equal_nan=True):
+            raise FormatError(
+                f"columns {first + 1} and {i + 1} have one name, {names[i]!r}, and different values; allowed: a name "
+                "for each, such as left 1, left 2 or FP1 Fz, FP2 Fz"
+            )
+        copies.add(i)
+        warnings.append(f"column {names[i]!r} is there twice with the same values: it counts once")
+    return copies, {}
 
 
 def _refuse_curves(headings: Sequence[Heading], at: int | None) -> None:
@@ -209,11 +231,11 @@ def _chosen_cells(headings: Sequence[Heading], columns: Sequence[int]) -> list[i
 
 
 def _without_totals(
-    table: NDArray[np.float64], columns: list[int], named: bool, warnings: list[str]
+    table: NDArray[np.float64], columns: list[int], warnings: list[str]
 ) -> tuple[list[int], dict[Side, list[int]]]:
     """Columns without sums of others; of two such, each foot's columns."""
     n = len(columns)
-    if named or n < 5:
+    if n < 5:
         return columns, {}
     values = table[:: max(1, len(table) // 2000)][:, columns]
     values = values[np.isfinite(values).all(axis=1)]
@@ -241,6 +263,7 @@ def _cells(
     names: list[str],
     headings: Sequence[Heading],
     columns: list[int],
+    both: dict[Side, list[int]],
     facts: dict[str, str],
     options: ReadOptions,
     warnings: list[str],
@@ -248,15 +271,15 @@ def _cells(
     chosen = _chosen_cells(headings, columns) if names else columns
     if names:
         _report_left_out([names[i] for i in columns if i not in chosen], warnings, "cell")
-    chosen, both = _without_totals(table, chosen, bool(names), warnings)
+    else:
+        chosen, both = _without_totals(table, chosen, warnings)
     found = [headings[i].unit for i in chosen if headings[i].unit] if names else []
     if len({find_unit(u) for u in found}) > 1:
         raise FormatError(f"the columns are in different units: {', '.join(sorted(set(found)))}")
     stated = facts.get("unit", facts.get("units")) or (max(set(found), key=found.count) if found else None)
-    if both and not stated and not options.unit:
+    if both and not names and not stated and not options.unit:
         stated = "N"
     unit = unit_of_values(stated, options, warnings, "the table")
-    raw = unit.kind == "raw"
     if not chosen:
         raise FormatError(
             f"no column of the table is a load; its columns are {', '.join(map(repr, names[:8]))}; allowed: names of "
@@ -264,31 +287,19 @@ def _cells(
         )
     by_side: dict[Side | None, list[int]] = {}
     for i in chosen:
-        side = headings[i].side if names else next((s for s, own in both.items() if i in own), None)
+        side = next((s for s, own in both.items() if i in own), headings[i].side if names else None)
         by_side.setdefault(side, []).append(i)
-    feet: dict[Side, FootRecording] = {}
-    if list(by_side) == [None]:
-        own_side = options.side or side_of(facts.get("side", ""), facts.get("foot", ""))
-        indices = by_side[None]
-        values = _taken(table, indices)
-        split: list[tuple[Side, NDArray[np.float64]]] = (
-            [(own_side, values)] if own_side else halves(values, options, warnings)
-        )
-        for side, part in split:
-            ids = _ids([headings[i] for i in indices]) if names else None
-            feet[side] = cells_of_foot(
-                side, part, unit, options, warnings, ids if ids and len(ids) == part.shape[1] else None
-            )
-        return feet, raw
-    if None in by_side:
-        _report_left_out([names[i] for i in by_side[None]], warnings, "named foot's cell")
-    for side in SIDES:
-        if side in by_side:
-            ids = _ids([headings[i] for i in by_side[side]]) if names else None
-            feet[side] = cells_of_foot(side, _taken(table, by_side[side]), unit, options, warnings, ids)
-    return feet, raw
-
-
-def _ids(headings: Sequence[Heading]) -> list[int] | None:
-    ids = [h.number for h in headings if h.number is not None]
-    return ids if len(ids) == len(headings) else None
+    nameless = by_side.get(None, [])
+    if len(by_side) > 1 and nameless:
+        _report_left_out([names[i] for i in nameless], warnings, "named foot's cell")
+    parts: list[tuple[Side, NDArray[np.float64]]]
+    parts = [(side, _taken(table, by_side[side])) for side in SIDES if side in by_side]
+    if not parts:
+        stated_side = options.side or side_of(facts.get("side", ""), facts.get("foot", ""))
+        values = _taken(table, nameless)
+        parts = [(stated_side, values)] if stated_side else halves(values, options, warnings)
+    feet = {}
+    for side, part in parts:
+        ids = [n for i in by_side.get(side, nameless) if names and (n := headings[i].number) is not None]
+        feet[side] = cells_of_foot(side, part, unit, options, warnings, ids if len(ids) == part.shape[1] else None)
+    return feet, unit.kind == "raw"

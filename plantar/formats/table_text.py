@@ -83,7 +83,13 @@ def head_of_table(lines: Sequence[str]) -> TableHead | None:
             return TableHead(named[0], named[1], len(named[0]), first, _facts(lines[: first - 1], named[1]))
         good = [_is_row(x, delimiter, width) for x in rows]
         after_names = first > 0 and _names_columns(names_of_row(lines[first - 1], delimiter), width)
-        if width < 2 or not (good[0] or (after_names and _numbers(rows[0], delimiter))) or sum(good) < 0.8 * len(good):
+        numbered = _are_numbered(names_of_row(lines[first], delimiter))
+        if (
+            width < 2
+            or numbered
+            or not (good[0] or (after_names and _numbers(rows[0], delimiter)))
+            or sum(good) < 0.8 * len(good)
+        ):
             continue
         if rows and first == 0 and len(rows) > 1 and all(c.strip().isdigit() for c in rows[0].split(delimiter)):
             numbered = not all(c.strip().isdigit() for c in rows[1].split(delimiter))
@@ -189,7 +195,12 @@ def _names(above: Sequence[str], delimiter: str | None, width: int) -> tuple[lis
 
 def _names_columns(cells: Sequence[str], width: int) -> bool:
     words = sum(bool(re.search(r"[^\W\d_]", c)) for c in cells)
-    return 0.6 * width <= len(cells) <= width and words >= max(1, 0.25 * len(cells))
+    return 0.6 * width <= len(cells) <= width and (_are_numbered(cells) or words >= max(1, 0.25 * len(cells)))
+
+
+def _are_numbered(cells: Sequence[str]) -> bool:
+    """Whether names are a time and the cells' numbers."""
+    return len(cells) > 2 and time_unit(cells[0]) is not None and all(c.isdigit() for c in cells[1:])
 
 
 def _facts(lines: Sequence[str], delimiter: str | None) -> dict[str, str]:

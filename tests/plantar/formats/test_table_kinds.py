@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from plantar import FormatError
+from plantar.formats.format import ReadOptions
 from plantar.gait.analysis.analyse import Analysis, analyse
 
 TIME = np.arange(0.0, 8.0, 0.01)
@@ -220,3 +221,38 @@ def test_a_column_that_is_there_twice_counts_once(tmp_path):
     found = analyse(path)
     assert found.metrics["feet"]["left"]["measures"]["peak_force_N"]["mean"] == pytest.approx(800.0, rel=0.01)
     assert any("twice" in line for line in found.warnings)
+
+
+@pytest.mark.parametrize(
+    ("names", "columns"),
+    [
+        ("Left Fz (N),Left Fz (N),Right Fz (N)", (LEFT, 0.5 * LEFT, RIGHT)),
+        ("Left Fz (N),left_fz [N],Right Fz (N)", (LEFT, 0.5 * LEFT, RIGHT)),
+        ("left 1 [N],left 2 [N],L_2 [N],right 1 [N]", (0.3 * LEFT, 0.7 * LEFT, 0.2 * LEFT, RIGHT)),
+        ("heel,heel,toe", (0.3 * LEFT, 0.7 * LEFT, 0.2 * LEFT)),
+        ("Fx,Fy,Fz,Fx,Fy,Fz", (NONE, NONE, LEFT, NONE, NONE, RIGHT)),
+    ],
+)
+def test_one_name_of_different_loads_is_refused(tmp_path, names, columns):
+    path = tmp_path / "walk.csv"
+    path.write_text(f"time (s),{names}\n" + rows([TIME, *columns], ","))
+    with pytest.raises(FormatError, match=r"columns \d and \d have one name, .* allowed: a name for each"):
+        analyse(path)
+
+
+def test_cells_whose_numbers_begin_again_are_two_feet(tmp_path):
+    path = tmp_path / "walk.csv"
+    numbers = ",".join(str(i) for i in (*range(1, 9), *range(1, 9)))
+    path.write_text(f"time (s),{numbers}\n" + rows([TIME, *[LEFT / 8.0] * 8, *[RIGHT / 8.0] * 8], ","))
+    walk = analyse(path, options=ReadOptions(unit="N"))
+    check(walk)
+    assert any("names begin again" in line for line in walk.warnings)
+
+
+@pytest.mark.parametrize("maker", ["GAITRite", "zebris"])
+def test_exports_without_a_public_description_are_refused_by_name(tmp_path, maker):
+    path = tmp_path / "walk.csv"
+    path.write_text(f"{maker} export\ntime (s),Left (N),Right (N)\n" + rows([TIME, LEFT, RIGHT], ","))
+    with pytest.raises(FormatError, match=rf"an export of {maker}, whose format has no public description"):
+        analyse(path)
+    check(analyse(path, format="csv"))
