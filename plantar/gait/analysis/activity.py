@@ -23,6 +23,7 @@ _RUNNING_STANCE = 45.0
 # Stance in % of the stride of both feet above which they cannot both be in the air, with 2 % for what events err.
 _HALF = 52.0
 _STEADY = 0.5  # Share of the usual load that a standing body keeps on the ground
+_STRIDE = 1.0  # Time in s of a stride: less does not show whether a foot is lifted
 # Part of a contact that is its landing, or its lift-off; then shares of the sole's length: the CoP lands in front of
 # 0.6 on the forefoot (the heads of the metatarsals are at 0.7; a heel strike is below 0.33), stays in front of 0.55
 # where the heel never carries, and comes back by 0.15 where it does; from toes to heel it goes by 0.3 or more.
@@ -177,7 +178,8 @@ def _by_times(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Ac
     usual = float(np.median(load)) if len(load) else 0.0
     if any(_is_lifted(gait.foot.vertical_force, usual) for gait in feet.values()):
         return Activity("unknown", "feet are lifted and set down again, but no step is complete")
-    if usual > 0.0 and float(np.percentile(load, 2.0)) > _STEADY * usual:
+    lasts = float(np.ptp(recording.time)) if len(recording.time) else 0.0
+    if lasts >= _STRIDE and usual > 0.0 and float(np.percentile(load, 2.0)) > _STEADY * usual:
         return Activity("standing", "the load stays on the ground and no foot is lifted")
     return Activity("unknown", "no foot is lifted and set down again")
 
