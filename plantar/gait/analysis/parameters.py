@@ -27,7 +27,7 @@ from plantar.gait.analysis.steps.step_load import StepLoad, StepLoads, cell_thre
 from plantar.gait.analysis.steps.step_measures import step_measures
 from plantar.gait.analysis.steps.step_times import OtherFoot, longest_stride, stride_times, time_measures
 from plantar.gait.analysis.steps.walk_geometry import Place, step_geometry
-from plantar.recordings.pressure_recording import Kind, PressureRecording
+from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side, other_side
 
 __all__ = ["analyse_feet", "analyse_foot"]
@@ -232,7 +232,8 @@ def _doubts(recording: PressureRecording, gait: FootGait) -> list[str]:
             "of the "
             "sole's length"
         )
-    if gait.levels is not None and _raised_by_noise(gait.levels, recording.kind):
+    noisy = _RAISED * EVENT_LEVELS[recording.kind].strike
+    if gait.levels is not None and _release_share(gait.levels) > noisy:
         out.append(
             f"the {side} foot's force scatters by {gait.levels.noise:.3g} N in swing: heel strikes are found at "
             f"{100.0 * _release_share(gait.levels):.0f} % of its range and so later than usual, toe offs sooner"
@@ -257,10 +258,6 @@ def _doubts(recording: PressureRecording, gait: FootGait) -> list[str]:
 def _release_share(levels: Levels) -> float:
     """Heel strike level as a share of the force range."""
     return (levels.release - levels.rest) / (levels.peak - levels.rest)
-
-
-def _raised_by_noise(levels: Levels, kind: Kind) -> bool:
-    return _release_share(levels) > _RAISED * EVENT_LEVELS[kind].strike
 
 
 def _travel_of_steps(gait: FootGait) -> list[float]:

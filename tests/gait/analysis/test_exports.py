@@ -139,4 +139,4 @@ def test_opensim_reads_the_motion_file(tmp_path, analysis):
         force = gait.foot.vertical_force
         read = table.getDependentColumn(f"ground_force_{side}_vy").to_numpy()
         assert np.abs(read - force).max() < 1e-6 * force.max()
-    assert opensim.ExternalLoads(str(loads), False).getSize() == len(analysis.feet)
+    assert opensim.ExternalLoads(str(loads), True).getSize() == len(analysis.feet)

@@ -186,7 +186,7 @@ def facts_of(metrics: Mapping[str, Any], file: str) -> str:
         ("Robot" if robot else "Participant", _participant(metrics)),
         ("Body mass", _mass(metrics)),
         ("Foot length", "" if length is None else f"{1e3 * length:.0f} mm"),
-        ("Device", _device(metrics["device"])),
+        ("Device", ", ".join(str(part) for part in map(metrics["device"].get, ("name", "sensor")) if part)),
         ("Size", _size(metrics["device"]["feet"])),
         ("Recorded", f"{metrics['duration_s']:.4g} s, {metrics['frames']} frames at {metrics['rate_hz']:.6g} Hz"),
         ("Values", "raw counts of unknown unit" if metrics.get("raw") else ""),
@@ -224,10 +224,6 @@ def _mass(metrics: Mapping[str, Any]) -> str:
     if implied is not None:
         parts.append(f"the forces imply {number(implied / GRAVITY)} kg")
     return "; ".join(parts) if stated is not None or not parts else f"not stated; {parts[0]}"
-
-
-def _device(device: Mapping[str, Any]) -> str:
-    return ", ".join(str(part) for part in (device["name"], device["sensor"]) if part)
 
 
 def _size(feet: Mapping[str, Mapping[str, Any]]) -> str:

@@ -205,7 +205,8 @@ def direction_of_walk(walk: PlatformWalk, notes: list[str]) -> NDArray[np.float6
         return np.asarray(ahead / np.hypot(*ahead))
     path = np.array([_path(walk.load, p) for p in walk.prints]).sum(axis=0)
     if np.hypot(*path) < _STANDING:
-        path = _longer_side(walk.load.layout.positions[walk.prints[0].cells, :2])
+        long, wide = np.ptp(walk.load.layout.positions[walk.prints[0].cells, :2], axis=0)
+        path = np.array([1.0, 0.0] if long >= wide else [0.0, 1.0])
         notes.append("the centre of pressure hardly moves: the direction of walking is assumed along the platform")
     along = int(np.argmax(np.abs(path)))
     forward = np.zeros(2)
@@ -255,10 +256,6 @@ def _path(load: PlatformLoad, cells: PrintCells) -> NDArray[np.float64]:
     path = (part @ load.layout.positions[cells.cells, :2]) / total[:, None]
     few = max(1, len(path) // 8)
     return np.asarray(path[-few:].mean(axis=0) - path[:few].mean(axis=0))
-
-
-def _longer_side(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.array([1.0, 0.0]) if np.ptp(points[:, 0]) >= np.ptp(points[:, 1]) else np.array([0.0, 1.0])
 
 
 def _line_of_walking(along: NDArray[np.float64], offset: NDArray[np.float64]) -> NDArray[np.float64]:

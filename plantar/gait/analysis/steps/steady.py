@@ -51,10 +51,12 @@ def with_used_steps(
         if ends.any():
             used &= ~ends
             reason = "starts or stops the walk"
+            numbers = np.array([step.number for step in steps])
+            steady, verbs = numbers[~ends], ("starts or stops", "is") if ends.sum() == 1 else ("start or stop", "are")
             notes.append(
-                f"steady walking of the {side} foot is steps {_range(steps, ~ends)}: {_names(steps, ends)} "
-                f"start{'s' if ends.sum() == 1 else ''} or stop{'s' if ends.sum() == 1 else ''} the walk and "
-                f"{'is' if ends.sum() == 1 else 'are'} left out of the means (--steps all keeps them)"
+                f"steady walking of the {side} foot is steps {steady[0]}-{steady[-1]}: "
+                f"{', '.join(map(str, numbers[ends]))} {verbs[0]} the walk and {verbs[1]} left out of the means "
+                "(--steps all keeps them)"
             )
     elif options.steps != "all":
         first, last = options.steps
@@ -62,7 +64,7 @@ def with_used_steps(
         reason = f"not one of the steps {first}-{last}"
     within = np.array([_within(step, options) for step in steps])
     out = [
-        replace(step, used=bool(u and w), unused=_unused(bool(u), bool(w), reason), odd=o)
+        replace(step, used=bool(u and w), unused=reason if not u else "" if w else "outside --from and --to", odd=o)
         for step, u, w, o in zip(steps, used, within, odd, strict=True)
     ]
     for step in out:
@@ -107,10 +109,6 @@ def in_one_window(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
     return out
 
 
-def _unused(chosen: bool, within: bool, reason: str) -> str:
-    return reason if not chosen else "" if within else "outside --from and --to"
-
-
 def _within(step: Step, options: AnalysisOptions) -> bool:
     begin, end = options.begin, options.end
     return (begin is None or step.heel_strike_s >= begin) and (end is None or step.toe_off_s <= end)
@@ -137,12 +135,3 @@ def _ends(odd: Sequence[str]) -> NDArray[np.bool_]:
     bad = np.array([bool(text) for text in odd])
     ends = np.logical_and.accumulate(bad) | np.logical_and.accumulate(bad[::-1])[::-1]
     return ends if ends.sum() <= 0.5 * len(ends) else np.zeros(len(ends), dtype=bool)
-
-
-def _range(steps: Sequence[Step], kept: NDArray[np.bool_]) -> str:
-    numbers = [step.number for step, keep in zip(steps, kept, strict=True) if keep]
-    return f"{numbers[0]}-{numbers[-1]}"
-
-
-def _names(steps: Sequence[Step], chosen: NDArray[np.bool_]) -> str:
-    return ", ".join(str(step.number) for step, keep in zip(steps, chosen, strict=True) if keep)

@@ -130,7 +130,9 @@ def run_study(
     report = progress or (lambda fraction, text: None)
     root, target, chosen = Path(folder), Path(out), choices or AnalysisOptions()
     chosen.of_several("a study has")
-    listed = [_as_named(root, who) for who in read_participants(participants)] if participants is not None else []
+    listed = [] if participants is None else read_participants(participants)
+    # A file's own name may begin or end with blanks.
+    listed = [who if (root / who.file).is_file() else replace(who, file=who.file.strip()) for who in listed]
     everything = [*listed, *_others(root, target, participants, {p.file for p in listed})]
     if not everything:
         raise InputError(
@@ -147,11 +149,6 @@ def run_study(
     files = _write(study, target, root)
     report(1.0, "done")
     return Study(study.results, study.comparisons, chosen, files)
-
-
-def _as_named(root: Path, who: Participation) -> Participation:
-    """Participation whose file name has exactly the file's surrounding blanks."""
-    return who if (root / who.file).is_file() else replace(who, file=who.file.strip())
 
 
 def _others(
