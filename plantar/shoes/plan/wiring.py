@@ -25,13 +25,12 @@ __all__ = [
     "wiring_steps",
 ]
 
-_SLIVER = 0.02  # mm^2
-_BARB, _BARB_AREA = 0.1, 1e-3  # mm, mm^2
+_BARB = 0.1  # mm
 _SHORT = 0.25  # mm
 _STEP = 0.01  # mm between two corners that are one
 _WIDER = 0.3  # mm
 _WITHIN = 1.0  # mm
-_SQUARE_ENDS = 1.45  # ends of ribs at a right angle stay, sharper ones are cut off
+_SHARP = 0.14  # of a width squared: what its bevel takes of a corner of 87 degrees, so ends at a right angle stay
 
 
 def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
@@ -40,8 +39,8 @@ def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
     openings = shapely.union_all([*plan.pockets, *cable])
     ways, wall = shapely.union_all(cable), parameters.wall_min
     # A wedge is cut off square, so far as it is near; where that ends, a barb of some hundredths may be left.
-    for near, thin, least in ((wall, 1.1 * wall, _SLIVER), (2.0 * wall, _BARB, _BARB_AREA)):
-        slivers = _slivers(openings, ways.buffer(near), thin, least)
+    for near, thin in ((1.3 * wall, 1.1 * wall), (2.0 * wall, _BARB)):
+        slivers = _slivers(openings, ways.buffer(near), thin)
         if slivers:  # where they end, steps of some thousandths would be walls of no width
             openings = shapely.remove_repeated_points(shapely.union_all([openings, *slivers]), _STEP)
             # and the pockets' corners stay where they are
@@ -59,11 +58,11 @@ def _gathered(points: NDArray[np.float64], corners: NDArray[np.float64]) -> NDAr
     return np.where((gaps < _SHORT)[:, None], corners[nearest], points)
 
 
-def _slivers(openings: Any, near: Any, thin: float, least: float) -> list[Any]:
-    closed = openings.buffer(0.5 * thin, join_style="mitre")
-    closed = closed.buffer(-0.5 * thin, join_style="mitre", mitre_limit=_SQUARE_ENDS)
-    left = closed.difference(openings.buffer(1e-4)).intersection(near)
-    return [g.buffer(2e-3, join_style="mitre") for g in getattr(left, "geoms", [left]) if g.area > least]
+def _slivers(openings: Any, near: Any, thin: float) -> list[Any]:
+    # With bevels, which end a wedge where it is wide enough; a mitre, even a limited one, reaches far into it.
+    closed = openings.buffer(0.5 * thin, join_style="mitre").buffer(-0.5 * thin, join_style="bevel")
+    left = shapely.get_parts(closed.difference(openings.buffer(1e-4)) & near)
+    return [g.buffer(2e-3, join_style="mitre") for g in left if g.area > _SHARP * thin**2]
 
 
 def cable_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:

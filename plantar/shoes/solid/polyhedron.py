@@ -14,6 +14,7 @@ __all__ = ["Polyhedron", "volume_of", "without_short_edges"]
 
 _FLAT = 1e-6  # mm
 _SLIVER = 1e-3  # mm^2
+_STEEP, _LEVEL = 0.7072, 0.999  # of a unit normal downwards: at 45 degrees, and of a ceiling
 
 Array = NDArray[np.float64]
 # Corner numbers around a face, counter-clockwise from outside; the outer loop first, holes clockwise
@@ -111,7 +112,7 @@ def without_short_edges(body: Polyhedron, least: float) -> Polyhedron:
         least: Shortest kept edge in mm; no corner moves farther.
 
     Returns:
-        Solid; edges stay whose loss would make it touch itself.
+        Solid; edges stay whose loss would make it touch itself, or a bent face fold or hang over.
     """
     faces = [[list(loop) for loop in face] for face in body.faces]
     normals = body.normals
@@ -133,9 +134,11 @@ def without_short_edges(body: Polyhedron, least: float) -> Polyhedron:
         )
         for off, kept, lost in moves:
             changed = {i: _contracted(faces[i], lost, kept) for i in at[lost]}
+            now_bent = {i for i in changed if off > _FLAT and i not in at[kept]}
             good = all(_sound(corners, face) for face in changed.values() if face)
+            good = good and not any(_is_twisted(corners, changed[i], normals[i]) for i in now_bent if changed[i])
             if good and _closed(faces, changed, at[kept] | at[lost]):
-                bent.update(i for i in changed if off > _FLAT and i not in at[kept])
+                bent |= now_bent
                 for i, face in changed.items():
                     faces[i] = face
                 at[kept] |= at.pop(lost)
@@ -169,6 +172,15 @@ def _sound(corners: Array, face: list[list[int]]) -> bool:
     flat, _ = _flattened(corners, face)
     polygon = shapely.Polygon(flat[0], flat[1:])
     return bool(polygon.is_valid and polygon.area > _SLIVER)
+
+
+def _is_twisted(corners: Array, face: list[list[int]], normal: Array) -> bool:
+    """Whether triangles of a bent face turn by 45 degrees from its normal (3,), as folds do, or hang over by more."""
+    a, b, c = np.moveaxis(corners[_triangles(corners, tuple(map(tuple, face)))], 1, 0)
+    own = np.cross(b - a, c - a)
+    own /= np.maximum(np.linalg.norm(own, axis=1), 1e-300)[:, None]
+    down = -own[:, 2]
+    return bool(((down > _STEEP) & (down < _LEVEL) | (own @ normal < _STEEP)).any())
 
 
 def _contracted(face: list[list[int]], lost: int, kept: int) -> list[list[int]]:

@@ -7,7 +7,11 @@ import shapely
 from plantar.shoes import build_shoe
 from plantar.shoes.cells.cell import read_cell
 from plantar.shoes.foot.foot import foot_from_dimensions
+from plantar.shoes.foot.foot_mesh import foot_from_triangles
+from plantar.shoes.geometry.section import wall_thickness
 from plantar.shoes.plan.wiring import pocket_outlines
+
+from ..foot_family import FAMILY
 
 
 @pytest.mark.parametrize("cell", ["fsr_402", "square"])
@@ -18,3 +22,15 @@ def test_outlines_have_no_edge_of_some_thousandths(length, width, cell):
     for outline in pocket_outlines(build.shoes[0].plan, build.parameters):
         for ring in (outline.exterior, *outline.interiors):
             assert np.hypot(*np.diff(shapely.get_coordinates(ring), axis=0).T).min() > 0.005
+
+
+def test_no_wedge_next_to_a_slanting_channel_is_thinner_than_a_wall():
+    build = build_shoe(foot_from_triangles("a", FAMILY["of_65_mm"](), where="a"), side="left", layout_only=True)
+    openings = pocket_outlines(build.shoes[0].plan, build.parameters)
+    rings = [shapely.segmentize(r, 0.2) for q in openings for r in (q.exterior, *q.interiors)]
+    segments = np.concatenate([np.stack([c[:-1], c[1:]], axis=1) for c in map(shapely.get_coordinates, rings)])
+    along = segments[:, 1] - segments[:, 0]
+    outwards = np.column_stack([along[:, 1], -along[:, 0], 0.0 * along[:, 0]]) / np.hypot(*along.T)[:, None]
+    middles = segments.mean(axis=1) + 1e-3 * outwards[:, :2]
+    outwards *= np.where(shapely.contains_xy(shapely.union_all(openings), *middles.T), 1.0, -1.0)[:, None]
+    assert wall_thickness(segments, outwards) > build.parameters.wall_min

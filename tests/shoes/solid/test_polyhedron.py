@@ -1,0 +1,38 @@
+"""Short edges are contracted without folds and overhangs: the surface stays closed."""
+
+import numpy as np
+
+from plantar.shoes import build_shoe
+from plantar.shoes.foot.foot_mesh import foot_from_triangles
+from plantar.shoes.geometry.surface import is_closed
+from plantar.shoes.solid.polyhedron import Polyhedron, without_short_edges
+
+from ..foot_family import FAMILY, small_turns, turned
+
+
+def _beam(off: float) -> Polyhedron:
+    """Prism along y whose lower edge is cut at 45 degrees, with an end corner that is off by so much in y."""
+    front = [[0.4, 0.0, 0.0], [5.0, 0.0, 0.0], [5.0, 0.0, 3.0], [0.0, 0.0, 3.0], [0.0, 0.0, 0.4]]
+    back = [[x, 5.0, z] for x, _, z in front]
+    corners = np.array([*front, *back, [0.0, off, 0.4]])
+    sides = [(1, 0, 5, 6), (2, 1, 6, 7), (3, 2, 7, 8)]
+    faces = [(0, 1, 2, 3, 4), (9, 8, 7, 6, 5), *sides, (4, 3, 8, 9, 10), (0, 4, 10, 9, 5)]
+    return Polyhedron(corners, tuple((loop,) for loop in faces))
+
+
+def test_a_short_edge_is_contracted():
+    body = _beam(0.1)
+    assert is_closed(body.surface)
+    short = without_short_edges(body, 0.2)
+    assert len(short.corners) == len(body.corners) - 1
+    assert is_closed(short.surface)
+    assert abs(short.volume - body.volume) < 1e-3 * body.volume
+
+
+def test_the_surface_of_a_shoe_has_no_fold():
+    triangles = turned(FAMILY["of_65_mm"](), *small_turns("of_65_mm")[1])
+    shoe = build_shoe(foot_from_triangles("a", triangles, where="a"), side="left").shoes[0]
+    assert is_closed(shoe.surface)
+    cross = np.cross(shoe.surface[:, 1] - shoe.surface[:, 0], shoe.surface[:, 2] - shoe.surface[:, 0])
+    down = -cross[:, 2] / np.linalg.norm(cross, axis=1)
+    assert not ((down > 0.7082) & (down < 0.999)).any()
