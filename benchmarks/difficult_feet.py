@@ -4,6 +4,9 @@
 each foot (tests/shoes/foot_family.py) in so many rotations (the first is none), and writes the table; 0 only writes it.
 A shoe that passes its own checks is checked by tests/shoes/shoe_witness.py, which shares no code with it.
 
+`python benchmarks/difficult_feet.py plans [TURNS] [FOOT...]` makes plans alone, for each printing process, and prints
+the taxels that are active at half the weight with seats that scatter as the process's do, and the checks that fail.
+
 An outcome is `holds`; `refused`, not a foot; `reported`, a shoe whose checks do not hold (exit code 1); `hidden`, one
 whose checks hold and the witness finds a fault; or `crashed`, any other exception.
 """
@@ -22,11 +25,15 @@ from resumable import append_row, commit, write_table
 
 from plantar.errors import PlantarError
 from plantar.shoes import ShoeParameters, build_shoe, export_shoe
+from plantar.shoes.checks.check import check_plan
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
+from plantar.shoes.materials import PROCESSES
+from plantar.shoes.plan.strength import load_case
+from plantar.shoes.plan.touching import check_touching
 
 FOLDER = Path(__file__).parent
 sys.path.insert(0, str(FOLDER.parent / "tests" / "shoes"))
-from foot_family import FAMILY, TURNS, small_turns, turned  # noqa: E402
+from foot_family import FAMILY, REFUSED, TURNS, small_turns, turned  # noqa: E402
 from shoe_witness import Witness  # noqa: E402
 
 TABLE = FOLDER / "difficult_feet.csv"
@@ -82,6 +89,33 @@ def run(turns: int, names: list[str]) -> None:
             print(*(row[c] for c in ("foot", "turn", "outcome", "seconds", "reason")), flush=True)
 
 
+def plans(turns: int, names: list[str]) -> None:
+    """Prints a row a process: plans, refused, whose checks hold; least active and area, largest CoP error."""
+    print("| process | scatter mm | plans | refused | hold | active % | area % | CoP mm | fails |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    for process in PROCESSES:
+        found, failed = [], Counter[str]()
+        refused = hold = 0
+        for name, turn in product(names or sorted(set(FAMILY) - REFUSED), range(turns)):
+            parameters = ShoeParameters(process=process, **LONG_BED.get(name, {}))
+            try:
+                foot = foot_from_triangles(name, turned(FAMILY[name](), *small_turns(name)[turn]), where=name)
+                build = build_shoe(foot, side="left", parameters=parameters, layout_only=True)
+            except PlantarError:
+                refused += 1
+                continue
+            plan = build.shoes[0].plan
+            found.append(check_touching(plan, load_case(foot, build.parameters), build.parameters))
+            bad = [check.name for check in check_plan(plan, build) if not check.holds]
+            hold += not bad
+            failed.update(f"{name}: {check}" for check in bad)
+        shares = [100.0 * min(share) for share in ([t.active for t in found], [t.area for t in found])]
+        fails = "; ".join(f"{text} ({count})" for text, count in failed.items())
+        cells = [process, f"{found[0].scatter:g}", len(found) + refused, refused, hold]
+        cells += [f"{shares[0]:.1f}", f"{shares[1]:.1f}", f"{max(t.cop_error for t in found):.2f}", fails]
+        print("|", " | ".join(map(str, cells)), "|", flush=True)
+
+
 def report() -> None:
     lines = ["| foot | turns | holds | refused | reported | hidden | crashed | taxels / bound | flat, half % | s |"]
     lines.append("|---|---|---|---|---|---|---|---|---|---|")
@@ -102,5 +136,7 @@ def report() -> None:
 
 
 if __name__ == "__main__":
+    if sys.argv[1:2] == ["plans"]:
+        sys.exit(plans(int(sys.argv[2]) if len(sys.argv) > 2 else 1, sys.argv[3:]))
     run(int(sys.argv[1]) if len(sys.argv) > 1 else TURNS, sys.argv[2:])
     report()

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from plantar.geometry.polygon import convex_hull
 from plantar.shoes.foot.foot import Foot
 from plantar.shoes.geometry.surface import convex_outline, surface_points
 
@@ -71,20 +71,8 @@ def strap_path(surface: Array | None, x: float, width: float, lugs: tuple[float,
     ends = np.array([[lugs[0], slot], [lugs[1], slot]])
     below = np.empty((0, 2)) if surface is None else surface[np.abs(surface[:, 0] - x) < 0.5 * width, 1:]
     inside = (below[:, 0] > lugs[0]) & (below[:, 0] < lugs[1])
-    return _upper_hull(np.concatenate([below[inside], ends]))
-
-
-def _upper_hull(points: Array) -> Array:
-    hull: list[Any] = []
-    for point in points[np.lexsort((points[:, 1], points[:, 0]))]:
-        while len(hull) > 1 and _turns_left(hull[-2], hull[-1], point):
-            hull.pop()
-        hull.append(point)
-    return np.array(hull)
-
-
-def _turns_left(a: Array, b: Array, c: Array) -> bool:
-    return bool((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) >= 0.0)
+    hull = convex_hull(np.concatenate([below[inside], ends]))  # from the right lug below, then back above
+    return np.concatenate([hull[int(hull[:, 0].argmax()) :], hull[:1]])[::-1]
 
 
 def keep_out(foot: Foot) -> KeepOut:
