@@ -62,7 +62,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         if delimiter == "," and any(map(has_quoted_commas, first)):
             rows = without_quotes(rows)
         clock = next((i for i, n in enumerate(names) if time_unit(n) is not None), None if names else 0)
-        if clock is not None and any(seconds_of_time(c) is not None for c in _column(first, delimiter, clock)):
+        cells = (line.split(delimiter) for line in first)
+        if clock is not None and any(seconds_of_time(c[clock]) is not None for c in cells if clock < len(c)):
             rows = with_seconds(rows, delimiter, clock)
             names[clock : clock + 1] = ["time [s]"] if names else []
         of_side = next((i for i, n in enumerate(names) if is_side_column(n)), None)
@@ -72,10 +73,6 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
             raise FormatError(f"{path}: a table of {head.width} columns cannot be read; allowed: up to {_MOST_COLUMNS}")
         table = table_of_lines(path, rows, delimiter, head.width, warnings)
     return recording_of_columns(table, names, options, path, dict(head.facts), warnings)
-
-
-def _column(lines: list[str], delimiter: str | None, column: int) -> Iterator[str]:
-    return (cells[column] for cells in (line.split(delimiter) for line in lines) if column < len(cells))
 
 
 def _content(stream: TextIO) -> Iterator[str]:

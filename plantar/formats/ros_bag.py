@@ -85,7 +85,7 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
                 own, values = series[by_side[side]]
                 if len(own) != len(stamps) or np.abs(own - stamps).max() > 1e-6:
                     warnings.append(f"the {side} foot has its own times: interpolated to those of the other")
-                    values = _resampled(stamps, own, values)
+                    values = np.column_stack([np.interp(stamps, own, v, left=np.nan, right=np.nan) for v in values.T])
                 feet[side] = cells_of_foot(side, values, unit, options, warnings)
     else:
         for side, values in halves(first, options, warnings):
@@ -176,11 +176,6 @@ def _arrays(message: Any, depth: int) -> Iterator[tuple[str, NDArray[np.float64]
         elif depth and name not in ("layout", "header") and hasattr(value, "__dataclass_fields__"):
             for inner, array in _arrays(value, depth - 1):
                 yield f"{name}/{inner}", array
-
-
-def _resampled(time: NDArray[np.float64], own: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Values at other times, NaN outside their own."""
-    return np.column_stack([np.interp(time, own, column, left=np.nan, right=np.nan) for column in values.T])
 
 
 FORMAT = Format(

@@ -85,7 +85,7 @@ def feet_of_forces(
         warnings.append("one force a foot: no cells, so no pressures, areas and centres of pressure")
         return feet, True, "insole", relative
     if all(p.side for p in made) and len({p.side for p in made}) < len(made):
-        made = _numbered_sides(made, names)
+        made = [replace(p, name=f"{p.name} {number}") for p, (_, number) in zip(made, names, strict=True)]
     feet, every = feet_of_plates(made, rate, options, warnings)
     if relative:
         feet = {s: _scaled(f, scale) for s, f in feet.items()}
@@ -104,10 +104,6 @@ def _scaled(foot: FootRecording, scale: float) -> FootRecording:
     total = None if foot.total is None else foot.total * scale
     wrench = None if foot.wrench is None else foot.wrench * scale
     return replace(foot, force=foot.force * scale, total=total, wrench=wrench)
-
-
-def _numbered_sides(plates: list[Plate], names: Sequence[_Key]) -> list[Plate]:
-    return [replace(p, name=f"{p.name} {names[i][1]}") for i, p in enumerate(plates)]
 
 
 def _up(axes: Mapping[str, int], up: str) -> str | None:

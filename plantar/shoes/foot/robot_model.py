@@ -95,7 +95,10 @@ def _names_shown(bodies: dict[str, BodyPlace], wanted: str) -> str:
 def _like_feet(bodies: dict[str, BodyPlace], wanted: str) -> list[str]:
     shaped = [name for name, body in bodies.items() if body.shaped and name]
     alike = get_close_matches(wanted, shaped, 4, 0.75)
-    called = {name: _called_foot(name) for name in shaped}
+    called = {
+        name: next((i for i, words in enumerate(_WORDS) if re.search(words, name, re.IGNORECASE)), len(_WORDS))
+        for name in shaped
+    }
     named = [name for name in shaped if called[name] < len(_WORDS)]
 
     def rank(name: str) -> tuple[int, bool, float, int]:
@@ -103,10 +106,6 @@ def _like_feet(bodies: dict[str, BodyPlace], wanted: str) -> list[str]:
         return called[name], body.carries, round(body.height, 2), -body.depth
 
     return [*alike, *(name for name in sorted(named or shaped, key=rank) if name not in alike)]
-
-
-def _called_foot(name: str) -> int:
-    return next((i for i, words in enumerate(_WORDS) if re.search(words, name, re.IGNORECASE)), len(_WORDS))
 
 
 def _together(shapes: list[Array], where: str) -> Array:

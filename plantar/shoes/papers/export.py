@@ -73,7 +73,9 @@ class ShoeReport:
             "covered_area_ratio": round(fit.covered_area_ratio, 4),
             "sole_area_mm2": round(build.foot.sole.area, 1),
             "contact_area_mm2": round(first.plan.contact.area, 1),
-            "contact_size_mm": [round(float(v), 3) for v in _extent(first)],
+            "contact_size_mm": [
+                round(float(v), 3) for v in np.ptp(np.reshape(first.plan.contact.bounds, (2, 2)), axis=0)
+            ],
             "overhang_mm": round(max(s.plan.overhang for s in build.shoes), 2),
             "blind_rim_mm": round(first.plan.blind_rim, 2),
             "taxel_overhang_mm": round(fit.overhang, 3),
@@ -103,11 +105,6 @@ class ShoeReport:
                 "sides": {s: {"checks": _plain([asdict(c) for c in checks])} for s, checks in self.plan_checks.items()},
             }
         return out | {"parameters": build.parameters.as_dict(), "files": list(self.files)}
-
-
-def _extent(shoe: Shoe) -> NDArray[np.float64]:
-    low_x, low_y, high_x, high_y = shoe.plan.contact.bounds
-    return np.array([high_x - low_x, high_y - low_y])
 
 
 def _plain(value: Any) -> Any:

@@ -14,6 +14,7 @@ __all__ = ["Polyhedron", "volume_of", "without_short_edges"]
 
 _FLAT = 1e-6  # mm
 _SLIVER = 1e-3  # mm^2
+_TWIST = 0.01  # mm by which a face bends, from which it may fold
 _STEEP, _LEVEL = 0.7072, 0.999  # of a unit normal downwards: at 45 degrees, and of a ceiling
 
 Array = NDArray[np.float64]
@@ -129,20 +130,21 @@ def without_short_edges(body: Polyhedron, least: float) -> Polyhedron:
         a, b = (_stand_in(stands, int(n)) for n in ends[k])
         if a == b or np.linalg.norm(corners[a] - corners[b]) >= least:
             continue
-        moves = sorted(
-            (_bend(corners, normals, at[lost] - at[kept], lost, kept), kept, lost) for kept, lost in ((a, b), (b, a))
-        )
-        for off, kept, lost in moves:
-            changed = {i: _contracted(faces[i], lost, kept) for i in at[lost]}
+        for kept, lost, off in _moves(corners, normals, faces, at, (a, b), least):
+            changed = {i: faces[i] for n in lost for i in at[n]}
+            for n in lost:
+                changed = {i: _contracted(face, n, kept) for i, face in changed.items()}
             now_bent = {i for i in changed if off > _FLAT and i not in at[kept]}
-            good = all(_sound(corners, face) for face in changed.values() if face)
-            good = good and not any(_is_twisted(corners, changed[i], normals[i]) for i in now_bent if changed[i])
-            if good and _closed(faces, changed, at[kept] | at[lost]):
+            # A face that was too narrow before goes by its edges one after the other.
+            good = all(_sound(corners, f) or not _sound(corners, faces[i]) for i, f in changed.items() if f)
+            twists = (_is_twisted(corners, changed[i], normals[i]) for i in now_bent if changed[i] and off > _TWIST)
+            if good and not any(twists) and _closed(faces, changed, at[kept].union(*(at[n] for n in lost))):
                 bent |= now_bent
                 for i, face in changed.items():
                     faces[i] = face
-                at[kept] |= at.pop(lost)
-                stands[lost] = kept
+                for n in lost:
+                    at[kept] |= at.pop(n)
+                    stands[n] = kept
                 break
     kept_faces: list[Loops] = []
     for i, face in enumerate(faces):
@@ -161,6 +163,29 @@ def _stand_in(stands: dict[int, int], corner: int) -> int:
     while corner in stands:
         corner = stands[corner]
     return corner
+
+
+def _moves(
+    corners: Array,
+    normals: Array,
+    faces: list[list[list[int]]],
+    at: dict[int, set[int]],
+    edge: tuple[int, int],
+    most: float,
+) -> list[tuple[int, tuple[int, ...], float]]:
+    """Ways to contract an edge, by less than a length: corner that is kept, those that are lost to it, and by how much
+    that bends faces, least first. One end goes, or, if that cannot be, two corners of a small triangle.
+    """
+    a, b = edge
+    ways: list[tuple[int, tuple[int, ...]]] = [(a, (b,)), (b, (a,))]
+    for loop in (loop for i in at[a] & at[b] for loop in faces[i] if len(loop) == 3):
+        ways += [(n, tuple(q for q in loop if q != n)) for n in loop]
+    found = [
+        (kept, lost, max(_bend(corners, normals, at[n] - at[kept], n, kept) for n in lost))
+        for kept, lost in ways
+        if max(float(np.linalg.norm(corners[n] - corners[kept])) for n in lost) < most
+    ]
+    return sorted(found, key=lambda way: (len(way[1]), way[2], way[0]))
 
 
 def _bend(corners: Array, normals: Array, faces: set[int], lost: int, kept: int) -> float:

@@ -57,7 +57,7 @@ class StepSolid:
         corners: Points (n, 3).
         circles: Arc centre and radius (m, 4).
         shortest: Shortest edge.
-        flat: Area in mm^2 of bent walls' flat facets, within `BULGE` of an arc.
+        flat: Area in mm^2 of bent walls' flat facets, bent at both ends, within `BULGE` of an arc.
         round: Area of cylinders and cones.
     """
 
@@ -220,7 +220,7 @@ def read_step(path: str | os.PathLike[str]) -> StepSolid:
 def _bent_walls(shape: Any) -> tuple[float, float]:
     faces = [ocp.TopoDS.TopoDS.Face_s(f) for f in parts_of(shape, ocp.TopAbs.TopAbs_FACE)]
     surfaces = [ocp.BRepAdaptor.BRepAdaptor_Surface(f) for f in faces]
-    flat, normals = np.zeros(len(faces), dtype=bool), np.zeros((len(faces), 3))
+    bends, normals = np.zeros(len(faces), dtype=int), np.zeros((len(faces), 3))
     long = np.zeros(len(faces))
     edges = ocp.TopTools.TopTools_IndexedMapOfShape()
     ocp.TopExp.TopExp.MapShapes_s(shape, ocp.TopAbs.TopAbs_EDGE, edges)
@@ -235,7 +235,7 @@ def _bent_walls(shape: Any) -> tuple[float, float]:
     for pair in (p for p in owners if len(p) == 2):
         bend = math.acos(min(1.0, abs(float(normals[pair[0]] @ normals[pair[1]]))))
         if math.radians(1.0) < bend < math.radians(20.0):
-            flat[[i for i in pair if long[i] * bend < 8.0 * BULGE]] = True
+            bends[[i for i in pair if long[i] * bend < 8.0 * BULGE]] += 1
 
     def area(numbers: Any) -> float:
         total = 0.0
@@ -248,7 +248,7 @@ def _bent_walls(shape: Any) -> tuple[float, float]:
     bent = [
         i for i, s in enumerate(surfaces) if s.GetType() in (ocp.GeomAbs.GeomAbs_Cylinder, ocp.GeomAbs.GeomAbs_Cone)
     ]
-    return area(np.flatnonzero(flat).tolist()), area(bent)
+    return area(np.flatnonzero(bends > 1).tolist()), area(bent)  # bent at one end alone: a corner of a polygon
 
 
 _REFERENCE = re.compile(r"('[^']*')|#(\d+)")
