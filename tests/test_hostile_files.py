@@ -18,41 +18,53 @@ from .hostile_files import COMMANDS, DEFECTS_OF_ANY, FAMILIES, Content
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="pipes, devices and memory as on Linux")
 
-PLANTAR = str(Path(sys.executable).parent / "plantar")
 MOST_SECONDS, MOST_MEGABYTES = 5.0, 500.0
 
-# A process counts what its parent held when it was started: hence a small one between the tests and the command.
-_MEASURE = """
-import json, resource, subprocess, sys
-command, folder = sys.argv[2:], sys.argv[1]
-with open(folder + "/stdout", "wb") as out, open(folder + "/stderr", "wb") as err:
-    try:
-        code = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=out, stderr=err, timeout=60).returncode
-    except subprocess.TimeoutExpired:
-        code = None
-used = resource.getrusage(resource.RUSAGE_CHILDREN)
-print(json.dumps([code, used.ru_utime + used.ru_stime, used.ru_maxrss / 1e3]))
+# One process loads the command line, and forks for each command: what that takes is the child's, and its children's.
+_FORKS = """
+import json, os, signal, sys
+from plantar import __main__, cli
+for line in sys.stdin:
+    folder, *arguments = json.loads(line)
+    if not (child := os.fork()):
+        os.chdir(folder)
+        for number, name in ((0, os.devnull), (1, "logs/stdout"), (2, "logs/stderr")):
+            os.dup2(os.open(name, os.O_RDWR | os.O_CREAT), number)
+        sys.argv = ["plantar", *arguments]
+        signal.alarm(60)
+        __main__.main()
+    _, status, used = os.wait4(child, 0)
+    code, seconds = os.waitstatus_to_exitcode(status), used.ru_utime + used.ru_stime
+    print(json.dumps([code, seconds, used.ru_maxrss / 1e3]), flush=True)
 """
+
+
+@pytest.fixture(scope="module")
+def forks():
+    """The process that runs commands."""
+    command = [sys.executable, "-c", _FORKS]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        yield process
 
 
 @dataclass
 class Ended:
     """How a command ended."""
 
-    code: int | None
+    code: int
     seconds: float
     megabytes: float
     out: str
     err: str
 
 
-def measured(folder: Path, *arguments: str) -> Ended:
+def measured(forks: Any, folder: Path, *arguments: str) -> Ended:
     """Run the command line in a folder."""
     logs = folder / "logs"
     logs.mkdir()
-    command = [sys.executable, "-I", "-S", "-c", _MEASURE, str(logs), PLANTAR, *arguments]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True)
-    code, seconds, megabytes = json.loads(done.stdout)
+    forks.stdin.write(json.dumps([str(folder), *arguments]) + "\n")
+    forks.stdin.flush()
+    code, seconds, megabytes = json.loads(forks.stdout.readline())
     texts = [(logs / name).read_text(errors="replace") for name in ("stdout", "stderr")]
     return Ended(code, seconds, megabytes, *texts)
 
@@ -67,7 +79,7 @@ def write(path: Path, content: Content) -> None:
         path.write_bytes(content)
 
 
-def refused(folder: Path, kind: str, content: Content) -> None:
+def refused(forks: Any, folder: Path, kind: str, content: Content) -> None:
     """A file of a kind is refused by the command that reads it, in one line and in time, and nothing is left."""
     path = folder / f"foot.{kind}"
     good = folder / "good.csv"
@@ -76,7 +88,7 @@ def refused(folder: Path, kind: str, content: Content) -> None:
     before = {p.name for p in folder.iterdir()}
     places = {"file": path, "out": folder / "out", "good": good, "folder": folder}
     arguments = [a.format(**places) for a in COMMANDS[kind]]
-    ended = measured(folder, *arguments)
+    ended = measured(forks, folder, *arguments)
     left = {p.name for p in folder.iterdir()} - before
     if path.is_file() and not path.is_symlink():
         path.unlink()  # some are large
@@ -102,10 +114,10 @@ EACH_DEFECT = {f"{kind}: {defect}" for kind, defect in zip(list(COMMANDS)[::3], 
 
 
 @pytest.mark.parametrize("name", _quick_or_long(list(FAMILIES), FIRST_OF_KIND))
-def test_a_hostile_file_is_refused_in_one_line_at_once(name, tmp_path):
-    refused(tmp_path, *FAMILIES[name])
+def test_a_hostile_file_is_refused_in_one_line_at_once(name, forks, tmp_path):
+    refused(forks, tmp_path, *FAMILIES[name])
 
 
 @pytest.mark.parametrize("name", _quick_or_long(list(ANY), EACH_DEFECT))
-def test_what_may_stand_behind_any_name_is_refused(name, tmp_path):
-    refused(tmp_path, *ANY[name])
+def test_what_may_stand_behind_any_name_is_refused(name, forks, tmp_path):
+    refused(forks, tmp_path, *ANY[name])
