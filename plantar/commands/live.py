@@ -36,9 +36,11 @@ def live(
     stream = open_live(source, None if layout is None else read_layout(layout))
     with parent_folder(output), progress_bar() as progress:
         found = {"file": str(output), **record(stream, output, seconds, progress)}
-    rates = [(side, foot["frames"], foot["rate_hz"], foot["gap_max_s"]) for side, foot in found["feet"].items()]
-    feet = "\n".join(f"  {s}: {n} readings, {hz or 0.0:.0f} Hz, gap up to {gap or 0.0:g} s" for s, n, hz, gap in rates)
-    end_command(found, as_json, f"{found['seconds']:.1f} s recorded\n{feet}\n  {output}")
+    feet = "".join(
+        f"\n  {side}: {one['frames']} readings, {one['rate_hz'] or 0:.0f} Hz, gap up to {one['gap_max_s'] or 0:g} s"
+        for side, one in found["feet"].items()
+    )
+    end_command(found, as_json, f"{found['seconds']:.1f} s recorded{feet}\n  {output}")
 
 
 COMMAND = Command(live, "Record soles as their readings come.", 45)

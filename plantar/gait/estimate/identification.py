@@ -14,13 +14,15 @@ class IdentificationRules(Part, table="identification", needs={"control.identify
     """What is identified standing and walking, and how fast.
 
     Attributes:
+        gyro: Whether gyro bias is, by carrying feet.
         encoders: Whether encoder zeros are, in the opening stand.
         com: Whether the CoM offset is, by the opening stand's ZMP.
         lean: Torso roll in rad per metre between CoM and feet's middle, for each tenth that mass and CoM load the hips
             more than in the model, up to two tenths; 0 uses the walk's lean.
     """
 
-    # Time constant in s with which the gyro's bias is followed, by carrying feet, once as much time has been averaged
+    gyro: bool = switch(True)
+    # Time constant in s with which it is followed once as much time has been averaged
     gyro_time: float = fixed(160.0, "beat")
     gyro_largest: ClassVar[float] = 0.05  # Largest bias in rad/s of an axis that is believed
     gyro_piece: float = fixed(1.0, "beat")  # Duration in s of the pieces in which gyro and legs are compared

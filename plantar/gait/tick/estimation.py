@@ -73,8 +73,9 @@ class Estimation:
         rules = settings.identification
         if rules is not None:
             self.body = IdentifiedBody(kinematics, settings.mass * GRAVITY, places, rules, period)
-            bias = GyroBias(period, rules.gyro_time, rules.gyro_largest, rules.gyro_piece, rules.gyro_slip)
-            steady = SteadyLoad(period, rules.steady_share, rules.steady_time, rules.steady_band)
+            if rules.gyro:
+                bias = GyroBias(period, rules.gyro_time, rules.gyro_largest, rules.gyro_piece, rules.gyro_slip)
+                steady = SteadyLoad(period, rules.steady_share, rules.steady_time, rules.steady_band)
         self.estimator = FloatingBaseEstimator(
             kinematics if self.body is None else self.body,
             self.omega,
