@@ -1,15 +1,18 @@
 """Skin on models of many kinds next to MuJoCo's own sensors: error of the sum and of the centre of pressure, and time.
 
     python benchmarks/skin_models.py
+    python benchmarks/skin_models.py robot.xml:BODY       and a body of your own model, on a floor
 
-Truth is the sum of MuJoCo's contact forces (`mj_contactForce`). Compared are `plantar.mujoco.Skin`; a grid of MuJoCo's
-touch sensors, a box-shaped site a taxel; and the lit taxels of MuJoCo's tactile sensor, which measures depths, on a
-flat mesh with a vertex a taxel.
+Truth is the sum of MuJoCo's contact forces (`mj_contactForce`). Compared are `plantar.mujoco.Skin`; a grid of as many
+of MuJoCo's touch sensors over the sole's outline, boxes side by side from 1 mm outside it, 20 mm high; and the lit
+taxels of MuJoCo's tactile sensor, which measures depths, on a flat mesh with a vertex a taxel.
 """
 
 import argparse
 import runpy
 import time
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,24 +22,30 @@ import numpy as np
 from plantar.mujoco import Skin
 
 ROOT = Path(__file__).resolve().parents[1]
-STEPS = 300
+STEPS = 200
 
 
-def with_sensors(text: str, touch: bool, tactile: bool) -> tuple[Any, Any, int]:
-    """The model with a skin's sites and sensors, the skin on it, and the number of taxels."""
-    spec = mujoco.MjSpec.from_string(text)
-    plain = Skin(body="foot").bind(spec.copy().compile())
-    body = next(b for b in spec.bodies if b.name == "foot")
-    places = plain.layout.positions @ plain.rotation_to_body.T + plain.position_in_body
+def with_sensors(spec: Any, skin: Skin, touch: bool, tactile: bool) -> tuple[Any, Any, int]:
+    """The model with a skin's sites and sensors, the skin on it, and the number of touch sensors."""
+    plain = skin.bind(spec.copy().compile())
+    body = next(b for b in spec.bodies if b.name == skin.body)
     quat = np.empty(4)
     mujoco.mju_mat2Quat(quat, np.ascontiguousarray(plain.rotation_to_body).ravel())
-    half = 0.5 * float(np.sqrt(plain.layout.areas.mean()))
+    count = 0
     if touch:
-        for i, place in enumerate(places):
-            body.add_site(name=f"t{i}", type=mujoco.mjtGeom.mjGEOM_BOX, pos=place, quat=quat, size=[half, half, 0.01])
+        low, high = plain.layout.outline[:, :2].min(axis=0) - 1e-3, plain.layout.outline[:, :2].max(axis=0) + 1e-3
+        rows = max(1, round(float(np.sqrt(len(plain) * (high - low)[0] / (high - low)[1]))))
+        cells = np.array([rows, max(1, round(len(plain) / rows))])
+        half = 0.5 * (high - low) / cells
+        for i in np.ndindex(*cells):
+            place = plain.rotation_to_body @ [*(low + (2 * np.array(i) + 1) * half), 0.0] + plain.position_in_body
+            size = [half[0], half[1], 0.01]
+            body.add_site(name=f"t{count}", type=mujoco.mjtGeom.mjGEOM_BOX, pos=place, quat=quat, size=size)
             spec.add_sensor(
-                name=f"t{i}", type=mujoco.mjtSensor.mjSENS_TOUCH, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=f"t{i}"
-            )
+                name=f"t{count}", type=mujoco.mjtSensor.mjSENS_TOUCH, objtype=mujoco.mjtObj.mjOBJ_SITE,
+                objname=f"t{count}",
+            )  # fmt: skip
+            count += 1
     if tactile:
         from scipy.spatial import Delaunay
 
@@ -54,7 +63,14 @@ def with_sensors(text: str, touch: bool, tactile: bool) -> tuple[Any, Any, int]:
             reftype=mujoco.mjtObj.mjOBJ_GEOM, refname=geom.name,
         )  # fmt: skip
     model = spec.compile()
-    return model, Skin(body="foot").bind(model), len(plain)
+    return model, skin.bind(model), count
+
+
+def on_floor(path: str) -> Any:
+    """A model of a file on a floor."""
+    spec = mujoco.MjSpec.from_file(path)
+    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[5.0, 5.0, 1.0])
+    return spec
 
 
 def microseconds(call: Any) -> float:
@@ -68,47 +84,54 @@ def microseconds(call: Any) -> float:
     return 1e6 * min(rounds)
 
 
-def row(name: str, text: str, truth: Any) -> list[str]:
-    model, bound, count = with_sensors(text, True, False)
+def row(name: str, spec_of: Callable[[], Any], skin: Skin, truth: Any) -> list[str]:
+    model, bound, count = with_sensors(spec_of(), skin, True, False)
     data = mujoco.MjData(model)
+    if model.nkey:
+        mujoco.mj_resetDataKeyframe(model, data, 0)
     mujoco.mj_step(model, data, STEPS)
     mujoco.mj_forward(model, data)
     wrench, reading = truth(bound, data), bound(data)
-    load = np.linalg.norm(wrench[:3])
+    load = max(np.linalg.norm(wrench[:3]), 1e-9)
     cop = np.array([-wrench[4], wrench[3]]) / wrench[2] if wrench[2] > 0.0 else np.full(2, np.nan)
-    places = bound.layout.positions[:, :2]
+    boxes = [model.site(f"t{i}").pos for i in range(count)]
+    grid = ((np.array(boxes) - bound.position_in_body) @ bound.rotation_to_body)[:, :2]
 
-    def center(force: np.ndarray) -> float:
+    def center(force: np.ndarray, places: np.ndarray) -> float:
         return float(np.hypot(*(force @ places / force.sum() - cop))) if force.sum() > 0.0 else np.nan
 
-    touched = np.array(data.sensordata[:count])
-    ours = [np.linalg.norm(reading.vectors.sum(axis=0) - wrench[:3]) / load, center(reading.vectors[:, 2])]
-    theirs = [abs(touched.sum() - wrench[2]) / load, center(touched)]
-    bare, _, _ = with_sensors(text, False, False)
+    first = int(model.sensor("t0").adr[0])
+    touched = np.array(data.sensordata[first : first + count])
+    total = reading.vectors.sum(axis=0) - wrench[:3]
+    ours = [np.linalg.norm(total) / load, center(reading.vectors[:, 2], bound.layout.positions[:, :2])]
+    theirs = [abs(touched.sum() - wrench[2]) / load, center(touched, grid)]
+    bare, _, _ = with_sensors(spec_of(), skin, False, False)
     plain = mujoco.MjData(bare)
     mujoco.mj_step(bare, plain, STEPS)
-    step, skin = microseconds(lambda: mujoco.mj_forward(bare, plain)), microseconds(lambda: bound(data))
-    grid = microseconds(lambda: mujoco.mj_forward(model, data)) - step
+    step, read = microseconds(lambda: mujoco.mj_forward(bare, plain)), microseconds(lambda: bound(data))
+    sensors = microseconds(lambda: mujoco.mj_forward(model, data)) - step
     lit, tactile = "-", "-"
     try:
-        third, _, _ = with_sensors(text, False, True)
+        third, _, _ = with_sensors(spec_of(), skin, False, True)
         own = mujoco.MjData(third)
         mujoco.mj_step(third, own, STEPS)
         mujoco.mj_forward(third, own)
-        lit = f"{int((own.sensordata[:count] > 0.0).sum())} of {count}"
+        first = int(third.sensor("tactile").adr[0])
+        lit = f"{int((own.sensordata[first : first + len(bound)] > 0.0).sum())} of {len(bound)}"
         tactile = f"{microseconds(lambda: mujoco.mj_forward(third, own)) - step:.1f}"
     except (ValueError, mujoco.FatalError) as problem:
         lit = str(problem).splitlines()[0][:60]
     return [
-        name, str(count), f"{ours[0]:.0e}", f"{1e3 * ours[1]:.4f}", "yes" if reading.carried else "no", f"{skin:.1f}",
-        f"{100 * theirs[0]:.1f} %", f"{1e3 * theirs[1]:.2f}", f"{grid:.1f}", f"{int((reading.depth > 0).sum())}", lit,
-        tactile, f"{step:.1f}",
+        name, str(len(bound)), f"{ours[0]:.0e}", f"{1e3 * ours[1]:.4f}", "yes" if reading.carried else "no",
+        f"{read:.1f}", f"{100 * theirs[0]:.1f} %", f"{1e3 * theirs[1]:.2f}", f"{sensors:.1f}",
+        f"{int((reading.depth > 0).sum())}", lit, tactile, f"{step:.1f}",
     ]  # fmt: skip
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=Path, default=Path(__file__).with_suffix(".md"))
+    parser.add_argument("own", nargs="*", help="FILE:BODY or FILE:BODY:GEOM of your own models")
     options = parser.parse_args()
     models = runpy.run_path(str(ROOT / "tests/plantar/mujoco/conftest.py"))
     truth = models["contact_wrench"].__wrapped__ if hasattr(models["contact_wrench"], "__wrapped__") else None
@@ -118,13 +141,19 @@ def main() -> None:
         "touch grid: CoP mm", "touch grid us", "skin: deep taxels", "tactile: lit", "tactile us", "mj_forward us",
     ]  # fmt: skip
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    for name, text in models["KINDS"].items():
-        lines.append("| " + " | ".join(row(name, text, truth)) + " |")
+    cases: dict[str, tuple[Callable[[], Any], Skin]] = {
+        name: (partial(mujoco.MjSpec.from_string, text), Skin(body="foot")) for name, text in models["KINDS"].items()
+    }
+    for path, body, *geoms in [own.split(":") for own in options.own]:
+        cases[f"{Path(path).stem}, {body}"] = partial(on_floor, path), Skin(body=body, geoms=geoms or None)
+    for name, (spec_of, skin) in cases.items():
+        lines.append("| " + " | ".join(row(name, spec_of, skin, truth)) + " |")
         print(lines[-1], flush=True)
     text = "# Skin next to MuJoCo's own sensors\n\nMade by `python benchmarks/skin_models.py`.\n\n"
     text += (
-        "After 300 steps of each model. Times are the least of 60 rounds; a sensor's is what it adds to `mj_forward`. "
-        + ("Where `carried` is no, the centre of pressure lies beyond the outermost taxels.\n\n")
+        f"After {STEPS} steps of each model. Times are the least of 60 rounds; a sensor's is what it adds to "
+        "`mj_forward`. Where `carried` is no, the centre of pressure lies beyond the outermost taxels. The touch "
+        "grid's cells are as large as taxels, so its centre of pressure is off by a part of a cell.\n\n"
     )
     options.output.write_text(text + "\n".join(lines) + "\n")
 

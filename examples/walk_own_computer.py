@@ -21,6 +21,7 @@ robot, steps = (*sys.argv[1:], *("h1", "4")[len(sys.argv) - 1 :])
 walker = plantar.load_controller(robot, {"walk": {"steps": int(steps), "length": "1/4 leg"}})
 spec = robot_spec(walker.robot)
 spec.option.timestep = 0.001
+spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST  # joints are stiff and damped
 spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], friction=[0.8, 0.005, 0.0001])
 model = spec.compile()
 data = mujoco.MjData(model)

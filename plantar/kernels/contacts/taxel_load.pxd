@@ -34,7 +34,7 @@ cdef class TaxelLoad:
     cdef bint _tilt(self, double[::1] weights, double force, double x, double y) noexcept
     @cython.locals(about_x=double, about_y=double, off_x=double, off_y=double)
     cdef void _balance(self, double force) noexcept
-    @cython.locals(area=double, near=bint, inside_x=double, inside_y=double, total=double)
+    @cython.locals(beyond=bint, p=double, q=double, area=double, near=bint, inside_x=double, inside_y=double, total=double)
     cdef bint _carry(self, double force, double x, double y) noexcept
     @cython.locals(cx=double, cy=double, spread=double, turn=double)
     cdef void _shear(self, double force) noexcept

@@ -255,9 +255,16 @@ class TaxelLoad:
     def _carry(self, force, x, y):
         """Set `normal` to all contacts' load; whether the cells can carry it."""
         count = self.areas.shape[0]
-        if self._tilt(self.prior, force, x, y):
+        beyond = False  # of the outermost taxels: no pressure of theirs has this moment
+        corners = self.hull.shape[0]
+        for k in range(corners):
+            j = k + 1 if k + 1 < corners else 0
+            p, q = self.hull[j, 0] - self.hull[k, 0], self.hull[j, 1] - self.hull[k, 1]
+            if p * (y - self.hull[k, 1]) - q * (x - self.hull[k, 0]) < 0.0:
+                beyond = True
+        if not beyond and self._tilt(self.prior, force, x, y):
             return True
-        for stage in range(2):
+        for stage in range(1 if beyond else 0, 2):
             area = 0.0
             for i in range(count):
                 near = stage == 1
@@ -272,11 +279,10 @@ class TaxelLoad:
                 area += self.gaps[i]
             for i in range(count):
                 self.weights[i] = self.prior[i] + _SPREAD * force * self.gaps[i] / area
-            if self._tilt(self.weights, force, x, y):
+            if not beyond and self._tilt(self.weights, force, x, y):
                 return True
-        # Beyond the outermost taxels: from the nearest place among them, a little inside.
+        # From the nearest place among the outermost taxels, a little inside.
         inside_x = inside_y = 0.0
-        corners = self.hull.shape[0]
         for k in range(corners):
             inside_x += self.hull[k, 0] / corners
             inside_y += self.hull[k, 1] / corners

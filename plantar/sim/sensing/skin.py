@@ -129,9 +129,8 @@ class SoleSkin:
         Returns:
             Readings (n,) in N.
         """
-        contacts = self._seen_in(data, contacts)
-        read: NDArray[np.float64] = sample.of_contacts(self.springs, contacts, self._in_sole, self._reach)
-        return read
+        seen = self._seen_in(data, contacts)
+        return np.asarray(sample.of_contacts(self.springs, seen, self._in_sole, self._reach))
 
     def _seen_in(self, data: Any, contacts: FootContacts | None) -> FootContacts:
         """The sole's contacts, looked at from the sole."""

@@ -93,8 +93,7 @@ class SolePressure:
         """
         if not (0.0 < force < math.inf) or not len(patch):
             return np.zeros(len(self.layout))
-        out: NDArray[np.float64] = self.springs.spread(patch, force, *center_of_pressure)
-        return out
+        return np.asarray(self.springs.spread(patch, force, *center_of_pressure))
 
     def along_taxels(self, force: NDArray[np.float64]) -> NDArray[np.float64]:
         """Forces (n,) in N along taxel axes of vertical ones (n,)."""
