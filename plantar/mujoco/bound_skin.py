@@ -52,8 +52,7 @@ class SkinReading(Reading):
         return np.array([-self.wrench[4] / fz, self.wrench[3] / fz]) if fz > 0.0 else None
 
     def __reduce__(self) -> tuple[Any, ...]:
-        kept = (self.time, self.force, self.proximity, self.vectors, self.wrench, self.depth, self.carried)
-        return _made, kept
+        return _made, (self.time, self.force, self.proximity, self.vectors, self.wrench, self.depth, self.carried)
 
 
 class BoundSkin:

@@ -10,7 +10,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from plantar.arguments import instance, number
 from plantar.errors import InputError, LayoutError, RobotError
@@ -198,8 +198,7 @@ class Skin:
             )
         sole = shapely.Polygon(shape.outline)
         wide = sole.buffer(_RIM)
-        span, extent = _diameter(layout.positions), _diameter(shape.outline)
-        ratio = span / extent
+        span, extent = (float(np.hypot(*np.ptp(p[:, :2], axis=0))) for p in (layout.positions, shape.outline))
         best, fit = "", _fit(_cells(layout), sole)
         for turn in range(4):
             for name, other in (("", layout), ("mirrored", mirrored(layout))):
@@ -214,7 +213,7 @@ class Skin:
         outside = 1.0 - cells.intersection(wide).area / cells.area
         covered = cells.intersection(sole).area / sole.area
         where = f"layout '{layout.name}' on body '{self.body}'"
-        if ratio > 3.0 or ratio < 0.15:
+        if not 0.15 <= span / extent <= 3.0:
             raise RobotError(f"{where}: it is {span:.3g} m long and the sole {extent:.3g} m; is its unit right?")
         if best:
             raise RobotError(
@@ -243,10 +242,6 @@ def _cells(layout: SoleLayout) -> Any:
 def _fit(cells: Any, sole: Any) -> float:
     """Intersection of cells and sole over their union."""
     return float(cells.intersection(sole).area / cells.union(sole).area)
-
-
-def _diameter(points: NDArray[np.float64]) -> float:
-    return float(np.hypot(*np.ptp(points[:, :2], axis=0)))
 
 
 def _side_in(name: str) -> str | None:
