@@ -38,7 +38,7 @@ _CORNER = re.compile(r"\s*[xy]\[[0-3]\]\s")
 _MOST_CORNERS = 64
 _LARGEST_HEADER, _LONGEST_FACT = 400, 10_000
 _WRITTEN = ("kpa", "n/cm2", "psi", "mmhg", "kg/cm2", "mpa")  # Units that the exporting programs write
-_BLOCK, _BLOCK_VALUES, _CHARACTERS = 2048, 4_000_000, 250_000
+_BLOCK, _BLOCK_VALUES, _CHARACTERS = 2048, 4_000_000, 60_000  # what a processor's cache holds as text and numbers
 _LATEST = 1e9  # Time in s from which a line is damaged
 
 

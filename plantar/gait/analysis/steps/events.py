@@ -182,8 +182,9 @@ def _peak_above_noise(measured: NDArray[np.float64], smooth: NDArray[np.float64]
 def _peak_of_contacts(smooth: NDArray[np.float64], floor: float) -> float:
     """Median contact peak in N, independent of standing before a walk."""
     least = _LIGHT * float(np.median(smooth[smooth >= floor]))  # chatter about the floor is no contact
-    loads = [smooth[a:b] for a, b in true_runs(smooth >= floor)]
-    return float(np.median([np.percentile(load, 90.0) for load in loads if load.max() >= least]))
+    loads = [np.sort(smooth[a:b]) for a, b in true_runs(smooth >= floor)]
+    # Median of their 90th percentiles, for which numpy's own function takes ten times as long.
+    return float(np.median([np.interp(0.9 * (len(q) - 1), np.arange(len(q)), q) for q in loads if q[-1] >= least]))
 
 
 def _rest_and_noise(
