@@ -11,7 +11,7 @@ from plantar.sim.run.scene import load_scene
 SHORT = ["push.count=2", "settle=8"]
 
 
-@pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
+@pytest.mark.parametrize("robot", ["h1", pytest.param("hrp2kai", marks=pytest.mark.long)])
 def test_skin_and_ankles_agree_and_the_robot_recovers(robot, tmp_path):
     summary = run_scene(load_scene("balance", SHORT, robot), 0, record=tmp_path / "run.mcap")
     assert summary["completed"]

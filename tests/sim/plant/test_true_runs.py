@@ -41,7 +41,7 @@ def test_a_plant_that_differs_is_reported_and_moves_otherwise(short_run):
     assert max(map(len, text.splitlines()[:4])) <= 120
 
 
-@pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
+@pytest.mark.parametrize("robot", ["h1", pytest.param("hrp2kai", marks=pytest.mark.long)])
 def test_a_plant_that_is_drawn_whole_is_simulated_and_the_seed_repeats_it(robot):
     scene = load_scene("flat", ["steps=1", "settle=0.1", "plant=everything", "plant.level=3"], robot)
     first, again = run_scene(scene, 4), run_scene(scene, 4)
