@@ -220,7 +220,8 @@ def read_step(path: str | os.PathLike[str]) -> StepSolid:
 def _bent_walls(shape: Any) -> tuple[float, float]:
     faces = [ocp.TopoDS.TopoDS.Face_s(f) for f in parts_of(shape, ocp.TopAbs.TopAbs_FACE)]
     surfaces = [ocp.BRepAdaptor.BRepAdaptor_Surface(f) for f in faces]
-    bends, normals = np.zeros(len(faces), dtype=int), np.zeros((len(faces), 3))
+    bends: list[set[tuple[float, ...]]] = [set() for _ in faces]  # where, in plan: a facet has two ends
+    normals = np.zeros((len(faces), 3))
     long = np.zeros(len(faces))
     edges = ocp.TopTools.TopTools_IndexedMapOfShape()
     ocp.TopExp.TopExp.MapShapes_s(shape, ocp.TopAbs.TopAbs_EDGE, edges)
@@ -232,10 +233,11 @@ def _bent_walls(shape: Any) -> tuple[float, float]:
                 long[i] = math.hypot(*np.ptp(points_of(face)[:, :2], axis=0))
                 for edge in parts_of(face, ocp.TopAbs.TopAbs_EDGE):
                     owners[edges.FindIndex(edge) - 1].append(i)
-    for pair in (p for p in owners if len(p) == 2):
+    for k, pair in ((k, p) for k, p in enumerate(owners, start=1) if len(p) == 2):
         bend = math.acos(min(1.0, abs(float(normals[pair[0]] @ normals[pair[1]]))))
         if math.radians(1.0) < bend < math.radians(20.0):
-            bends[[i for i in pair if long[i] * bend < 8.0 * BULGE]] += 1
+            for i in (i for i in pair if long[i] * bend < 8.0 * BULGE):
+                bends[i].add(tuple(points_of(edges.FindKey(k))[0, :2].round(3).tolist()))
 
     def area(numbers: Any) -> float:
         total = 0.0
@@ -248,7 +250,9 @@ def _bent_walls(shape: Any) -> tuple[float, float]:
     bent = [
         i for i, s in enumerate(surfaces) if s.GetType() in (ocp.GeomAbs.GeomAbs_Cylinder, ocp.GeomAbs.GeomAbs_Cone)
     ]
-    return area(np.flatnonzero(bends > 1).tolist()), area(bent)  # bent at one end alone: a corner of a polygon
+    return area([i for i, places in enumerate(bends) if len(places) > 1]), area(
+        bent
+    )  # bent at one end alone: a corner of a polygon
 
 
 _REFERENCE = re.compile(r"('[^']*')|#(\d+)")

@@ -8,7 +8,8 @@ import pytest
 import shapely
 
 from plantar.shoes.plan.block import Block, Step, box_block, tapered
-from plantar.shoes.solid.arcs import with_arcs
+from plantar.shoes.solid import step_model
+from plantar.shoes.solid.arcs import CurvedSolid, with_arcs
 from plantar.shoes.solid.kernel import build_solid
 from plantar.shoes.solid.polyhedron import Polyhedron, without_short_edges
 from plantar.shoes.solid.step_model import StepPart, read_step, write_step
@@ -101,3 +102,13 @@ def test_short_edges_vanish_and_the_solid_stays_closed(step):
     solid = without_short_edges(of_blocks(Block(outline, 0.0, 5.0)), 0.2)
     assert all((b, a) in solid.neighbours for a, b in solid.neighbours)
     assert solid.volume == pytest.approx(outline.area * 5.0, abs=60.0 * step)
+
+
+def test_a_bent_wall_that_stays_flat_is_counted_and_a_corner_is_not(tmp_path, monkeypatch):
+    disc = of_blocks(Block(shapely.Point(0.0, 0.0).buffer(30.0, quad_segs=16), 0.0, 8.0))
+    chamfered = of_blocks(Block(shapely.Polygon([(0, 0), (40, 0), (40, 30), (38, 30.5), (0, 30.5)]), 0.0, 8.0))
+    monkeypatch.setattr(step_model, "with_arcs", lambda body: CurvedSolid(body, {}, frozenset()))
+    for body, flat in ((disc, 8.0 * 64 * 60.0 * math.sin(math.pi / 64)), (chamfered, 0.0)):
+        write_step([StepPart("a", body, {})], tmp_path / "a.step", "a")
+        step = read_step(tmp_path / "a.step")
+        assert (step.flat, step.round) == (pytest.approx(flat, rel=1e-3), 0.0)
