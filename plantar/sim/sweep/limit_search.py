@@ -142,7 +142,7 @@ class LimitSearch:
         keys = self.tried(point, rows)
         curve = self.curve(keys, rows)
         inside = curve.inside(self.limit.low, self.limit.high)
-        there = inside > 1.0 - _SURE
+        there = inside > 1.0 - _SURE and any(not rows[key]["error"] for key in keys)
         ran = [rows[key] for key in keys]
         return {
             "settings": settings_of(point),

@@ -132,6 +132,9 @@ def test_runs_that_could_not_be_count_for_nothing():
     (told,) = plan.found(rows)["limits"]
     assert told["interval"][0] < 30.0 < told["interval"][1]
     assert len(told["errors"]) == sum(seed % 4 == 1 for _, seed in rows)
+    few = search(seeds=8)
+    (none,) = few.found(finished(few, lambda run: broken, 2))["limits"]
+    assert (none["limit"], none["interval"], none["reached"]) == (None, None, False)
 
 
 def test_seeds_end_a_search_that_is_not_sure_yet_and_that_is_reported():
