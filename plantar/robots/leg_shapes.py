@@ -68,7 +68,6 @@ def _add_capsule(body: Any, end: NDArray[np.float64], side: Side, least: float) 
 
 
 def _add_foot(spec: Any, side: Side, height: float) -> None:
-    """A box from the sole's lower face to a height in m above the shoe."""
     sole = spec.geom(f"{side}_sole_box")
     half = np.array(sole.size)
     half[2] += 0.5 * height

@@ -37,7 +37,7 @@ def spec_from_file(robot: Robot) -> Any:
     _free_base(spec, robot)
     _weld_upper_body(spec, robot)
     colliding = _without_collisions(spec)
-    _make_room(spec, robot)
+    _make_room_for_shoes(spec, robot)
     for i, geom in enumerate(colliding):
         geom.name = geom.name or f"shape {i} of the model"
     for side in SIDES:
@@ -164,8 +164,7 @@ def _upwards(body: Any) -> list[Any]:
     return chain
 
 
-def _make_room(spec: Any, robot: Robot) -> None:
-    """Rename elements that have names of the shoes' parts."""
+def _make_room_for_shoes(spec: Any, robot: Robot) -> None:
     for side in SIDES:
         for element in (
             spec.site(robot.legs[side].sole_site),
@@ -178,7 +177,6 @@ def _make_room(spec: Any, robot: Robot) -> None:
 
 
 def _put_on_shoe(spec: Any, robot: Robot, side: Any) -> None:
-    """A shoe as a body: mass, sole frame's site, contact box."""
     foot = _body(spec, robot, robot.legs[side].foot_body, f"[legs.{side}] foot_body")
     center, half = robot.sole_rectangle(side)
     ankle = f"{side}_ankle_force_torque"

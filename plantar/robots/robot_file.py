@@ -246,7 +246,6 @@ class _RobotFile(RobotTables):
         )
 
     def _legs(self) -> dict[Side, LegNames]:
-        """Joint names of both legs, as many each, none shared."""
         legs = {side: self._leg(side) for side in SIDES}
         shared = set(legs["left"].joints) & set(legs["right"].joints)
         if shared:
@@ -271,12 +270,10 @@ class _RobotFile(RobotTables):
         return LegNames(tuple(joints), self.text("foot_body", "legs", side), site)
 
     def _angles(self, side: Side, joints: int) -> tuple[float, ...]:
-        """Joint angles in rad of one leg when standing."""
         degrees = self.numbers(side, "posture", joints, -_LARGEST_ANGLE, _LARGEST_ANGLE)
         return tuple(math.radians(v) for v in degrees)
 
     def _shoe(self, kind: str) -> dict[str, Any]:
-        """Layouts, mass, thickness and place of the shoe."""
         exported = _exported_shoe(self._layout_file("left"))
         places = self._sole_frames(kind)
         return {
@@ -295,19 +292,18 @@ class _RobotFile(RobotTables):
             return {side: (np.zeros(3), np.eye(3)) for side in SIDES}
         given = self.table("shoe")
         origin = np.array(self.numbers("origin", "shoe", 3, -1.0, 1.0))
-        angles = np.array(self._turn("rotation")) if "rotation" in given else np.zeros(3)
-        right = origin * (1.0, -1.0, 1.0)
-        if "origin_right" in given:
-            right = np.array(self.numbers("origin_right", "shoe", 3, -1.0, 1.0))
-        turned = np.array(self._turn("rotation_right")) if "rotation_right" in given else angles * (-1.0, 1.0, -1.0)
+
+        def three(field: str, most: float, otherwise: NDArray[np.float64]) -> NDArray[np.float64]:
+            return np.array(self.numbers(field, "shoe", 3, -most, most)) if field in given else otherwise
+
+        angles = three("rotation", _LARGEST_ANGLE, np.zeros(3))
+        right = three("origin_right", 1.0, origin * (1.0, -1.0, 1.0))
+        turned = three("rotation_right", _LARGEST_ANGLE, angles * (-1.0, 1.0, -1.0))
 
         def rotation(roll: float, pitch: float, yaw: float) -> NDArray[np.float64]:
             return rotation_from_angles(math.radians(yaw), math.radians(pitch), math.radians(roll))
 
         return {"left": (origin, rotation(*angles)), "right": (right, rotation(*turned))}
-
-    def _turn(self, field: str) -> tuple[float, ...]:
-        return self.numbers(field, "shoe", 3, -_LARGEST_ANGLE, _LARGEST_ANGLE)
 
     def _layout_file(self, side: Side) -> Path:
         path = self.path.parent / self.text("layout", "shoe").replace("{side}", side)

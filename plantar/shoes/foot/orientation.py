@@ -10,6 +10,7 @@ import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
+from plantar.geometry.hull_plane import hull_plane
 from plantar.optional_library import optional_library
 from plantar.shoes.geometry.surface import convex_outline, corner_numbers, thinned
 
@@ -32,6 +33,7 @@ AXES: tuple[Axis, ...] = ("x", "-x", "y", "-y", "z", "-z")  # all axes
 _TILT_LEAST = math.radians(1.0)
 _TILT_MOST = math.radians(25.0)
 _SAME_PLANE = math.cos(math.radians(0.5))
+_FACES = 12  # of the hull that are looked at for its largest plane
 _NEAR = 1.0  # mm
 _MANY = 100_000  # points, above which the lowest in each column are looked at
 _COLUMN = 1.0  # mm
@@ -84,30 +86,10 @@ def _thinned(points: Array) -> Array:
     return np.asarray(order[first])
 
 
-def _plane(points: Array, highest: float) -> tuple[Array, float]:
-    """Normal and area in mm^2 of the convex hull's largest plane whose normal rises by a share at most."""
-    with optional_library("scipy", "shoes"):
-        from scipy.spatial import ConvexHull, QhullError
-    down = np.array([0.0, 0.0, -1.0])
-    try:
-        hull = ConvexHull(points)
-    except (QhullError, ValueError):
-        return down, 0.0
-    corners, normal = points[hull.simplices], hull.equations[:, :3]
-    area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    area[normal[:, 2] > highest] = 0.0
-    same = [normal @ normal[i] > _SAME_PLANE for i in np.argsort(-area, kind="stable")[:12]]
-    best = max(same, key=lambda plane: float(area[plane].sum()))
-    if not area[best].any():
-        return down, 0.0
-    mean = (area[best, None] * normal[best]).sum(axis=0)
-    return mean / np.linalg.norm(mean), float(area[best].sum())
-
-
 def _resting_plane(triangles: Array) -> tuple[Array, float]:
     """Normal of the largest plane on the hull's lower side, and its silhouette share."""
     points = _thinned(triangles.reshape(-1, 3))
-    normal, area = _plane(points, -math.cos(_TILT_MOST))
+    normal, area = hull_plane(points, -math.cos(_TILT_MOST), _SAME_PLANE, _FACES)
     return normal, area / convex_outline(points[:, :2]).area if area > 0.0 else 0.0
 
 
@@ -161,7 +143,7 @@ def check_upright(triangles: Array, where: str) -> list[str]:
     points = points if len(points) <= _MANY else thinned(points, _COLUMN)
     below = _face_area(points, _direction("-z"), _BAND)
     sides = [(_face_area(points, -_direction(axis), _DEEP), f"{axis} up") for axis in AXES[:4]]
-    normal, found = _plane(points, _UPWARD)
+    normal, found = hull_plane(points, _UPWARD, _SAME_PLANE, _FACES)
     slanted = _face_area(points, normal, _DEEP) if found > 0.0 else 0.0
     if _area_in_plane(triangles, normal) > _RESTS * slanted:  # over what juts out there are no faces
         sides.append((slanted, _SLANTED))

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
+from plantar.geometry.hull_plane import hull_plane
 from plantar.mujoco.mesh_surface import mesh_surface
 
 __all__ = ["SHAPES", "convex_surface", "geom_triangles", "resting_plane", "shapes_of"]
@@ -19,7 +20,7 @@ _AROUND, _ALONG = 32, 8  # of a round shape
 _MARKER, _BALL = 0.02, 0.5  # of the largest shape's size: smaller drawn shapes, and smaller balls, mark a place
 _PLANE, _SPHERE = mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_SPHERE
 _STEEPEST = math.cos(math.radians(45.0))  # of a plane to rest on
-_SAME_PLANE = math.cos(math.radians(1.0))
+_SAME_PLANE, _FACES = math.cos(math.radians(1.0)), 24  # of the hull that are looked at for it
 _BOX = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
 
 SHAPES: Mapping[Any, tuple[str, int]] = {
@@ -81,27 +82,8 @@ def resting_plane(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], flo
         Outward normal (3,) of the largest lower plane of their convex hull, and its area over the silhouette's from
         above: straight down and 0 without one within 45 degrees.
     """
-    down = np.array([0.0, 0.0, -1.0])
-    try:
-        hull = ConvexHull(points)
-        silhouette = ConvexHull(points[:, :2]).volume
-    except (QhullError, ValueError):
-        return down, 0.0
-    corners = points[hull.simplices]
-    area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    normal = hull.equations[:, :3]
-    below = normal[:, 2] < -_STEEPEST
-    if not below.any():
-        return down, 0.0
-    normal, area = normal[below], area[below]
-    best, largest = down, 0.0
-    for i in np.argsort(-area, kind="stable")[:24]:
-        same = normal @ normal[i] > _SAME_PLANE
-        if float(area[same].sum()) > largest:
-            largest = float(area[same].sum())
-            mean = (area[same, None] * normal[same]).sum(axis=0)
-            best = mean / np.linalg.norm(mean)
-    return best, largest / max(silhouette, 1e-12)
+    normal, area = hull_plane(points, -_STEEPEST, _SAME_PLANE, _FACES)
+    return normal, area / ConvexHull(points[:, :2]).volume if area > 0.0 else 0.0
 
 
 def _points_of(kind: int, size: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -198,10 +198,10 @@ class _Checked:
         feet = self.walked.feet
         gap = float(feet["left"].y + outlines["left"].min() - feet["right"].y - outlines["right"].max())
         least = _APART * self.body.sole_width
-        text = f"the soles stand {1e3 * gap:.0f} mm apart"
-        if gap < least:
-            width = feet["left"].y - feet["right"].y + 0.25 * self.body.sole_width - gap
-            text += f"; allowed: {1e3 * least:.0f} mm or more; stance_width = {width:.3f} works"
+        width = feet["left"].y - feet["right"].y + 0.25 * self.body.sole_width - gap
+        text = f"the soles stand {1e3 * gap:.0f} mm apart" + _unless(
+            gap >= least, f"; allowed: {1e3 * least:.0f} mm or more; stance_width = {width:.3f} works"
+        )
         return Finding("stance", round(1e3 * gap, 1), round(1e3 * least, 1), "mm", gap >= least, text)
 
     def _gains(self, model: Any, configuration: Any) -> list[Finding]:

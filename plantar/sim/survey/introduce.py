@@ -181,9 +181,7 @@ def _fitted(draft: Robot, gains: Sequence[tuple[float, float]]) -> FittedGait:
 
 def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: str) -> Robot:
     joints = {s: tuple(survey.joint_names(s)) for s in SIDES}
-    thickness = shoes.thickness
     layouts = {s: read_layout(folder / f"layout_{s}.json") for s in SIDES}
-    efforts = survey.efforts
     if survey.foot_name("left") == survey.foot_name("right"):
         raise RobotError(f"{survey.source.file}: both feet are called '{survey.foot_name('left')}'")
     return Robot(
@@ -193,17 +191,17 @@ def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: s
         biped=None,
         model_file=folder / "model.xml",
         foot=None,
-        shoe_thickness=thickness,
+        shoe_thickness=shoes.thickness,
         shoe_mass=shoes.mass
         if shoes.mass is not None
         else round(_SHOE_DENSITY * abs(area(layouts["left"].outline)), 4),
         rim_stiffness=0.0,
         contact_damping=_CONTACT_DAMPING,
         sole_origins=MappingProxyType(
-            {s: survey.soles[s].origin - thickness * survey.soles[s].rotation[:, 2] for s in SIDES}
+            {s: survey.soles[s].origin - shoes.thickness * survey.soles[s].rotation[:, 2] for s in SIDES}
         ),
         sole_rotations=MappingProxyType({s: survey.soles[s].rotation for s in SIDES}),
-        effort_limits=tuple(1e5 if e is None else min(e, 1e5) for e in efforts) if any(efforts) else (),
+        effort_limits=tuple(1e5 if e is None else min(e, 1e5) for e in survey.efforts) if any(survey.efforts) else (),
         velocity_limits=survey.speeds,
         layouts=layouts,
         legs={s: LegNames(joints[s], survey.foot_name(s), f"{s}_sole") for s in SIDES},

@@ -100,7 +100,7 @@ def read_model(file: Path, folder: Path) -> ModelSource:
     _name_all(spec)
     _drop_other_things(spec, stated.notes)
     _drop_unreadable(spec, file, folder, stated.notes)
-    keyframe = _first_keyframe(spec)
+    keyframe = next((np.array(key.qpos) for key in spec.keys if len(key.qpos)), None)
     loops = [(e.name1, e.name2) for e in spec.equalities if e.type in _LOOPS]
     stated.coupled += [(e.name1, e.name2) for e in spec.equalities if e.type == mujoco.mjtEq.mjEQ_JOINT and e.name2]
     _collect_motors(spec, stated)
@@ -247,11 +247,6 @@ def _is_empty(geom: Any) -> bool:
     if sizes == 2 and math.isfinite(geom.fromto[0]):
         sizes = 1
     return not geom.meshname and not bool((geom.size[:sizes] > 0.0).all())
-
-
-def _first_keyframe(spec: Any) -> NDArray[np.float64] | None:
-    keys = [key for key in spec.keys if len(key.qpos)]
-    return np.array(keys[0].qpos) if keys else None
 
 
 def _angles_of(model: Any, qpos: NDArray[np.float64] | None) -> dict[str, float]:

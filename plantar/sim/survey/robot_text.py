@@ -32,10 +32,9 @@ def roll_pitch_yaw(rotation: NDArray[np.float64]) -> list[float]:
         >>> roll_pitch_yaw(np.eye(3))
         [0.0, 0.0, 0.0]
     """
-    pitch = math.atan2(-float(rotation[2, 0]), float(np.hypot(rotation[0, 0], rotation[1, 0])))
-    roll = math.atan2(float(rotation[2, 1]), float(rotation[2, 2]))
-    yaw = math.atan2(float(rotation[1, 0]), float(rotation[0, 0]))
-    return [round(math.degrees(v), 4) + 0.0 for v in (roll, pitch, yaw)]
+    (xx, _, _), (yx, _, _), (zx, zy, zz) = rotation.tolist()
+    angles = math.atan2(zy, zz), math.atan2(-zx, math.hypot(xx, yx)), math.atan2(yx, xx)
+    return [round(math.degrees(v), 4) + 0.0 for v in angles]
 
 
 def robot_text(survey: Survey, fitted: FittedGait, shoe_notes: Sequence[str], weighed: bool) -> str:

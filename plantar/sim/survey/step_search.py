@@ -116,7 +116,9 @@ def best_steps(
     """
     best: _Tried | None = None
     heights = seed + body.leg * np.arange(_HIGHEST, -_LOWEST, -_LOWER)
-    for share in (_rocking_share(robot, body, seed),) if robot.rocks else _SHORTER:
+    rocks = rocking(robot, seed)
+    quick = (rocks.single_support + rocks.double_support) / (_H1_STEP * body.beat)  # of the leg, for h1's speed
+    for share in (min(1.0, quick),) if robot.rocks else _SHORTER:
         shorter = replace(body, leg=math.floor(1e4 * share * body.leg) / 1e4 if share < 1.0 else body.leg)
         paid = 0.0 if robot.rocks else _OTHER_SPEED * -math.log2(share)
         for other, changed in _others(robot, body):
@@ -242,12 +244,6 @@ def _nearest(robot: Robot, legs: LegModel, body: BodyScale, seed: float) -> str:
     if reach.knee < _LEAST_KNEE:
         return f"a CoM at {height:.3f} m, where a knee bends by {math.degrees(reach.knee):.0f} degrees; allowed: 10"
     return f"a CoM at {height:.3f} m, where the feet miss their places by {1e3 * reach.missed:.0f} mm or mrad"
-
-
-def _rocking_share(robot: Robot, body: BodyScale, height: float) -> float:
-    """Leg share that scales a rocking robot's steps, for h1's speed."""
-    rocks = rocking(robot, height)
-    return min(1.0, (rocks.single_support + rocks.double_support) / (_H1_STEP * body.beat))
 
 
 def _paced(robot: Robot, height: float, slower: float) -> Robot:

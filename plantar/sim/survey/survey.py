@@ -73,7 +73,9 @@ def survey_model(file: Path, folder: Path) -> Survey:
         legs = find_legs(model, data, str(file))
     except RobotError as error:
         raise RobotError("; ".join([str(error), *(n for n in source.notes if n.startswith("held, "))])) from None
-    _refuse_odd_legs(source, legs)
+    left, right = (len(legs.by_side[s].joints) for s in SIDES)
+    if left != right:
+        raise RobotError(f"{file}: the left leg has {left} hinges, the right {right}; allowed: as many")
     soles = {s: find_sole(model, data, legs.by_side[s], legs.rotation, str(file)) for s in SIDES}
     held, held_notes = _held(source, legs)
     imu = next((i for i in source.imus if _on_body(model, legs, i)), None)
@@ -87,19 +89,10 @@ def survey_model(file: Path, folder: Path) -> Survey:
             notes.append(f"{', '.join(legs.by_side[side].toes)}: below the {side} foot, held (toes)")
     notes += _unlike(soles)
     gains = [source.gains[name] for name in names["left"] if name in source.gains]
-    every = len(names["left"])
     return Survey(
-        *(source, legs, soles, held, imu, efforts, tuple(kept) if len(kept) == every else ()),
-        *(tuple(gains) if len(gains) == every else (), tuple(notes)),
+        *(source, legs, soles, held, imu, efforts, tuple(kept) if len(kept) == left else ()),
+        *(tuple(gains) if len(gains) == left else (), tuple(notes)),
     )
-
-
-def _refuse_odd_legs(source: ModelSource, legs: Legs) -> None:
-    counts = {s: len(legs.by_side[s].joints) for s in SIDES}
-    if counts["left"] != counts["right"]:
-        raise RobotError(
-            f"{source.file}: the left leg has {counts['left']} hinges, the right {counts['right']}; allowed: as many"
-        )
 
 
 def _loop_notes(source: ModelSource, legs: Legs) -> list[str]:
@@ -151,8 +144,7 @@ def _on_body(model: Any, legs: Legs, imu: tuple[str, str]) -> bool:
 
 
 def _lesser(limits: Mapping[str, float], pair: tuple[str, str]) -> float | None:
-    found = [limits[name] for name in pair if name in limits]
-    return min(found) if found else None
+    return min((limits[name] for name in pair if name in limits), default=None)
 
 
 def _coupled_notes(source: ModelSource, names: Mapping[Side, list[str]]) -> list[str]:

@@ -1,0 +1,47 @@
+"""The largest plane of a convex hull, on which it could rest."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.optional_library import optional_library
+
+__all__ = ["hull_plane"]
+
+
+def hull_plane(
+    points: NDArray[np.float64], highest: float, same: float, faces: int
+) -> tuple[NDArray[np.float64], float]:
+    """Largest plane of the convex hull of points (n, 3).
+
+    Args:
+        points: Of a surface.
+        highest: Largest z of its outward normal.
+        same: Cosine between normals of one plane.
+        faces: Number of the hull's largest faces that are looked at.
+
+    Returns:
+        Outward normal (3,) and area; straight down and 0 without one.
+
+    Example:
+        >>> corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 2) for z in (0, 3)], dtype=float)
+        >>> hull_plane(corners, -0.9, 0.99, 12)
+        (array([ 0.,  0., -1.]), 2.0)
+    """
+    with optional_library("scipy", "shoes"):
+        from scipy.spatial import ConvexHull, QhullError
+    down = np.array([0.0, 0.0, -1.0])
+    try:
+        hull = ConvexHull(points)
+    except (QhullError, ValueError):
+        return down, 0.0
+    corners, normal = points[hull.simplices], hull.equations[:, :3]
+    area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    area[normal[:, 2] > highest] = 0.0
+    planes = [normal @ normal[i] > same for i in np.argsort(-area, kind="stable")[:faces]]
+    best = max(planes, key=lambda plane: float(area[plane].sum()))
+    if not area[best].any():
+        return down, 0.0
+    mean = (area[best, None] * normal[best]).sum(axis=0)
+    return mean / np.linalg.norm(mean), float(area[best].sum())
