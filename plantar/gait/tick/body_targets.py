@@ -16,6 +16,7 @@ from plantar.sides import SIDES
 
 __all__ = ["BodyTargets"]
 
+_ROUND = 0.2  # of the way aside over which the lean ends
 _FOLLOWS_GROUND = 1.98  # rad/beat, natural frequency of the CoM's height over ground that goes up and down
 
 
@@ -54,8 +55,11 @@ class BodyTargets:
         c, d = math.cos(torso), math.sin(torso)
         dx, dy = x - 0.5 * (lx + rx), y - 0.5 * (ly + ry)
         left = -d * dx + c * dy
-        reach = settings.lean_reach
-        roll = -max(settings.trunk_lean, lean) * min(reach, max(-reach, left))
+        # Rounded where it ends: a kink would jerk the trunk.
+        reach, aside = settings.lean_reach, abs(left)
+        over = min(max(aside - 0.95 * reach, 0.0), _ROUND * reach)
+        aside = min(aside, (0.95 + _ROUND) * reach) - over * over / (2.0 * _ROUND * reach)
+        roll = -max(settings.trunk_lean, lean) * math.copysign(aside, left)
         e, f = math.cos(roll), math.sin(roll)
         return matrix(c, -d * e, d * f, d, c * e, -c * f, 0.0, f, e)
 
