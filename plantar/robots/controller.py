@@ -21,10 +21,11 @@ from plantar.robots.controller_settings import controller_settings
 from plantar.robots.kinematics.ankle_limits import ankle_limits
 from plantar.robots.kinematics.ankle_sensors import ankle_sensors
 from plantar.robots.kinematics.body import body_of
-from plantar.robots.kinematics.command_joints import carry_command, follow_command
+from plantar.robots.kinematics.command_joints import follow_command
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.kinematics.standing_posture import solve_standing
+from plantar.robots.motors.planned_motion import PlannedMotion
 from plantar.robots.motors.torque_control import command_motors
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
@@ -44,6 +45,7 @@ class RobotController:
         period: Control period in s; call `step` once in each.
         stance: Joint angles and torques before the start.
         base_position: Base position (3,) in m in that stance, world frame.
+        motion: Of the targets.
 
     Example:
         >>> walker = load_controller("h1", {"walk": {"steps": 4}})
@@ -58,20 +60,22 @@ class RobotController:
     period: float
     stance: JointTargets
     base_position: NDArray[np.float64] = field(repr=False)
+    motion: PlannedMotion = field(repr=False)
 
     def step(self, sensors: Sensors) -> Command:
         """One control tick; returns the command: CoM, torso, pose and force of each sole."""
         return self.controller.step(sensors)
 
     def joint_targets(self, command: Command) -> JointTargets:
-        """Inverse kinematics of a command, within joint limits; returns the targets.
+        """Inverse kinematics and dynamics of a command, within joint limits; returns the targets. Call it once a tick.
 
         Those of the command where motors are driven. Out of reach, the unloaded foot misses first.
         """
         if command.joints is not None:
             return command.joints
         follow_command(self.legs, command)
-        carry_command(self.legs, command)
+        self.motion.update()
+        self.motion.carry(command)
         angles = self.legs.joints.copy()
         if command.joint_offsets is not None:
             angles += command.joint_offsets
@@ -115,4 +119,5 @@ def load_controller(
     centers = {s: vrp_of_step(foot, middle_of_sole(own.layouts[s], own.ankle_reach)) for s, foot in start.feet.items()}
     stance = JointTargets(*solve_standing(own, legs, start.feet, centers, settings.com_height))
     names = (*own.legs["left"].joints, *own.legs["right"].joints)
-    return RobotController(own, legs, controller, names, settings.period, stance, legs.configuration[:3])
+    motion = PlannedMotion(legs, settings.period, body.beat)
+    return RobotController(own, legs, controller, names, settings.period, stance, legs.configuration[:3], motion)

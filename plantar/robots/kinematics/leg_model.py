@@ -1,4 +1,4 @@
-"""A robot's legs: forward and inverse kinematics, and static torques."""
+"""A robot's legs: forward and inverse kinematics, and torques."""
 
 from __future__ import annotations
 
@@ -37,7 +37,8 @@ class LegModel:
 
     Attributes:
         joints: Joint angles (k,) in rad of the last `follow`, overwritten by the next.
-        torques: Joint torques (k,) in N m of the last `carry`, likewise.
+        torques: Joint torques (k,) in N m of the last `carry` and `add_motion`, likewise.
+        rows: Places (6 + k,) of the base's and the joints' velocities among the model's.
     """
 
     def __init__(
@@ -77,19 +78,22 @@ class LegModel:
         self._reference = PostureTask(model, self._data, ids)
         self.joints, self.torques = np.zeros(len(ids)), np.zeros(len(ids))
         self._angle_entries = JointEntries(self._data.qpos, self._qpos.astype(np.intp), self.joints)
-        weightless = bool(model.opt.disableflags & int(mujoco.mjtDisableBit.mjDSBL_GRAVITY))
+        no_gravity = int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
+        self._gravity = np.zeros(3) if model.opt.disableflags & no_gravity else model.opt.gravity
         self._load = StaticLoad(
             *(model.body_parentid.astype(np.intp), model.dof_bodyid.astype(np.intp)),
-            *(self._data.cinert, self._data.cdof, np.zeros(3) if weightless else model.opt.gravity),
+            *(self._data.cinert, self._data.cdof, self._gravity),
             *(self._dof.astype(np.intp), self.torques),
         )
         self._levers = [(s, *_lever(model, self._data, int(model.site_bodyid[i]))) for s, i in self._sites.items()]
+        self.rows = np.concatenate([np.arange(6), self._dof])
+        self._axes, self._inertial = np.array(ids), np.zeros(model.nv)
         self.inverse = InverseKinematics(
             model,
             self._data,
             [self._com, self._torso, *self._soles.values()],
             self._reference,
-            np.concatenate([np.arange(6), self._dof]),
+            self.rows,
             unit,
         )
 
@@ -199,6 +203,35 @@ class LegModel:
             lever.write(x, y, z)
             load.less(force.dot(jacobian))
         load.take()
+
+    def add_motion(
+        self,
+        velocity: NDArray[np.float64],
+        acceleration: NDArray[np.float64],
+        shares: Mapping[Side, float],
+        whole: bool = True,
+    ) -> None:
+        """Add to the `torques` of the last `carry` those of the robot's motion: tau = M a + C v - J^T dL/dt.
+
+        The ground changes the angular momentum L about the CoM, mostly of a swinging leg, by a couple on the soles.
+
+        Args:
+            velocity: Of base and joints (6 + k,) in m/s and rad/s.
+            acceleration: In m/s^2 and rad/s^2.
+            shares: Of the weight on each sole.
+            whole: Whether an unloaded leg gets what moves it, too; a stiff servo lands softer without.
+        """
+        model, data, inertial = self.model, self._data, self._inertial
+        data.qvel[self.rows], data.qacc[self.rows] = velocity, acceleration
+        data.qacc[:3] += self._gravity  # as if it fell: the weight is carried already
+        mujoco.mj_comVel(model, data)
+        mujoco.mj_rne(model, data, 1, inertial)
+        (x, y, z), (fx, fy, fz) = (data.subtree_com[self._root] - data.qpos[:3]).tolist(), inertial[:3].tolist()
+        couple = data.xmat[self._root].reshape(3, 3) @ inertial[3:6]
+        couple -= (y * fz - z * fy, z * fx - x * fz, x * fy - y * fx)
+        carried = np.repeat([shares["left"], shares["right"]], len(self.joints) // 2)
+        taken = inertial[self._dof] + model.dof_armature[self._dof] * acceleration[6:]
+        self.torques += (taken if whole else carried * taken) - carried * data.xaxis[self._axes].dot(couple)
 
 
 def _lever(model: mujoco.MjModel, data: mujoco.MjData, body: int) -> tuple[PointRows, NDArray[np.float64]]:

@@ -68,20 +68,3 @@ class BodyDynamics:
             body, point = int(model.site_bodyid[site]), data.site_xpos[site]
             mujoco.mj_jacDot(model, data, self._wide[:3], self._wide[3:], point, body)
             self.drifts[side][:] = self._wide @ data.qvel
-
-    def forces(
-        self, acceleration: NDArray[np.float64], wrenches: Mapping[Side, NDArray[np.float64]]
-    ) -> NDArray[np.float64]:
-        """Inverse dynamics: M a + h - sum J^T w.
-
-        Args:
-            acceleration: a (6 + k,).
-            wrenches: Ground wrench (6,) on each sole in N and N m about its site, world frame.
-
-        Returns:
-            Forces (6 + k,): what the base lacks (0 if the wrenches explain the motion), then joint torques.
-        """
-        found = self.mass @ acceleration + self.bias
-        for side, wrench in wrenches.items():
-            found -= wrench @ self.soles[side]
-        return np.asarray(found)

@@ -1,29 +1,25 @@
 """A walking command as targets, torques and gains of the leg motors.
 
-"own" drives take inverse dynamics along the joint solutions with planned ground forces: tau = M(q*) a* + h(q*, v*) -
-sum J^T w; "torque" drives `plantar.robots.motors.torque_control`.
+"own" drives take the torques of planned ground forces and of the planned motion; "torque" drives
+`plantar.robots.motors.torque_control`.
 """
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.command import Command, JointTargets, Sensors
 from plantar.robots.kinematics.command_joints import REACH_ERROR, SLOW, SPEED_SHARE, follow_command
 from plantar.robots.kinematics.leg_model import LegModel
-from plantar.robots.motors.body_dynamics import BodyDynamics
+from plantar.robots.motors.planned_motion import PlannedMotion
 from plantar.robots.robot import Robot
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 
-__all__ = ["CommandMotors", "MotorGains", "PlannedMotion", "motor_gains", "planned_wrenches"]
-
-_SMOOTH = 0.04  # beat, time constant of the low pass on the acceleration: 10 ms on a leg of 0.6 m
+__all__ = ["CommandMotors", "MotorGains", "motor_gains", "planned_wrenches"]
 
 
 class MotorGains(NamedTuple):
@@ -63,38 +59,6 @@ def planned_wrenches(command: Command) -> dict[Side, NDArray[np.float64]]:
     return wrenches
 
 
-class PlannedMotion:
-    """Velocity and acceleration of solutions a control period apart.
-
-    Args:
-        model: The robot alone.
-        rows: Places (6 + k,) of base's and leg joints' velocities.
-        period: Control period in s.
-        beat: Time scale sqrt(leg / g) in s.
-
-    Attributes:
-        velocity: Of the last solution (6 + k,) in m/s and rad/s; 0 at the first.
-        acceleration: (6 + k,), low-passed.
-    """
-
-    def __init__(self, model: mujoco.MjModel, rows: NDArray[np.int_], period: float, beat: float) -> None:
-        self._model, self._rows, self._period = model, rows, period
-        self._share = -math.expm1(-period / (_SMOOTH * beat))
-        self._last: NDArray[np.float64] | None = None
-        self._moved = np.zeros(model.nv)
-        self.velocity, self.acceleration = np.zeros(len(rows)), np.zeros(len(rows))
-
-    def update(self, configuration: NDArray[np.float64]) -> None:
-        """Take in a solution, a configuration (nq,)."""
-        if self._last is not None:
-            mujoco.mj_differentiatePos(self._model, self._moved, self._period, self._last, configuration)
-            velocity = self._moved[self._rows]
-            change = (velocity - self.velocity) / self._period
-            self.acceleration += self._share * (change - self.acceleration)
-            self.velocity = velocity
-        self._last = configuration
-
-
 class CommandMotors:
     """Solves commands for the motors (`plantar.gait.command.Motors`).
 
@@ -116,22 +80,20 @@ class CommandMotors:
         self.out_of_reach = False
         self._legs = legs
         model = legs.model
-        names = [*robot.legs["left"].joints, *robot.legs["right"].joints]
-        self._dofs = np.array([model.joint(name).dofadr[0] for name in names], dtype=np.intp)
-        sites: dict[Side, int] = {s: model.site(robot.legs[s].sole_site).id for s in SIDES}
-        self.dynamics = BodyDynamics(model, self._dofs, sites)
-        self.motion = PlannedMotion(model, self.dynamics.rows, period, body.beat)
+        dofs = legs.rows[6:]
+        self.motion = PlannedMotion(legs, period, body.beat, whole=True)
         self._period = period
         self._angles: NDArray[np.float64] | None = None
-        self._limits = np.array([*(robot.velocity_limits or (1e3,) * (len(names) // 2))] * 2)
+        self._limits = np.array([*(robot.velocity_limits or (1e3,) * (len(dofs) // 2))] * 2)
         self._farthest = SPEED_SHARE * period * self._limits  # rad in a control period
-        self._friction = model.dof_frictionloss[self._dofs]
+        self._friction = model.dof_frictionloss[dofs]
+        self._damping = model.dof_damping[dofs]
         self._slow = SLOW / body.beat
 
     def targets(self, command: Command, sensors: Sensors) -> JointTargets:
         """Returns targets for the `command` that answers the `sensors` (`plantar.gait.command.Motors`)."""
         self.out_of_reach = not follow_command(self._legs, command) <= REACH_ERROR
-        self.motion.update(self._legs.configuration)
+        self.motion.update()
         torques = self.torques(command, sensors)
         angles, velocity = self.followed()
         torques = torques + self._friction * np.tanh(velocity / self._slow)
@@ -141,9 +103,8 @@ class CommandMotors:
 
     def torques(self, command: Command, sensors: Sensors) -> NDArray[np.float64]:
         """Returns feed-forward torques (k,) in N m for the `command` answering the `sensors`."""
-        self.dynamics.place(self._legs.configuration)
-        self.dynamics.move(self.motion.velocity)
-        return self.dynamics.forces(self.motion.acceleration, planned_wrenches(command))[6:]
+        self.motion.carry(command)
+        return np.asarray(self._legs.torques + self._damping * self.motion.velocity[6:])
 
     def followed(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Angles (k,) in rad and rates (k,) in rad/s that the gains follow.

@@ -17,6 +17,7 @@ from plantar.gait.command import Command, Sensors
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.robots.kinematics.leg_model import LegModel
+from plantar.robots.motors.body_dynamics import BodyDynamics
 from plantar.robots.motors.command_motors import CommandMotors, MotorGains, motor_gains, planned_wrenches
 from plantar.robots.motors.torque_program import Standing, Torques, Wish, torques_of
 from plantar.robots.robot import Robot
@@ -52,6 +53,7 @@ class TorqueControl(CommandMotors):
         super().__init__(robot, legs, body, gains, period)
         model, beat, names = legs.model, body.beat, [*robot.legs["left"].joints, *robot.legs["right"].joints]
         self.unsolved = 0
+        self.dynamics = BodyDynamics(model, legs.rows[6:], {s: model.site(robot.legs[s].sole_site).id for s in SIDES})
         self._beat, self._weight = beat, body.mass * GRAVITY
         self._share = -math.expm1(-period / (_SMOOTH * beat))
         joints = [model.joint(n).id for n in names]
@@ -96,7 +98,6 @@ class TorqueControl(CommandMotors):
         return self._followed[0].copy(), self._followed[1].copy()
 
     def _solved(self, command: Command, gyro: NDArray[np.float64], angles: NDArray[np.float64]) -> Torques | None:
-        """The program's solution at the measured state, or None."""
         state, dynamics, beat = command.state, self.dynamics, self._beat
         configuration = self._legs.configuration
         planned_base = configuration[3:7].copy()

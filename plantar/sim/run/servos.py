@@ -7,8 +7,9 @@ from numpy.typing import NDArray
 
 from plantar.gait.command import Command
 from plantar.kernels.joints.setpoints import Setpoints
-from plantar.robots.kinematics.command_joints import REACH_ERROR, SLOW, SPEED_SHARE, carry_command, follow_command
+from plantar.robots.kinematics.command_joints import REACH_ERROR, SLOW, SPEED_SHARE, follow_command
 from plantar.robots.kinematics.leg_model import LegModel
+from plantar.robots.motors.planned_motion import PlannedMotion
 from plantar.sim.model.world import World
 from plantar.sim.plant.draw import TruePlant
 from plantar.sim.plant.drives import TorqueCurve, TrueDrives
@@ -38,7 +39,7 @@ class LegServos:
 
     def __init__(self, world: World, legs: LegModel, period: float, plant: TruePlant | None = None) -> None:
         self._world = world
-        self._legs = legs
+        self._legs, self._motion = legs, PlannedMotion(legs, period, world.body.beat)
         self._friction = world.joint_friction
         self._rubs = bool(world.joint_friction.any())
         self._slow = SLOW / world.body.beat
@@ -73,7 +74,8 @@ class LegServos:
         missed = follow_command(self._legs, command)
         if not missed <= REACH_ERROR and self.out_of_reach_since is None:
             self.out_of_reach_since = float(self._world.data.time)
-        carry_command(self._legs, command)
+        self._motion.update()
+        self._motion.carry(command)
         self._stiffness = command.stiffness
         self._go_on(command.joint_offsets)
         return self._reference.copy()

@@ -53,7 +53,7 @@ def test_all_constraints_hold_in_random_states(name, feet):
             moved = dynamics.soles[side] @ found.acceleration + dynamics.drifts[side]
             assert moved == pytest.approx(sole.acceleration, abs=1e-8)
             turned[side] = np.concatenate([sole.rotation @ wrench[:3], sole.rotation @ wrench[3:]])
-        forces = dynamics.forces(found.acceleration, turned)
+        forces = dynamics.mass @ found.acceleration + dynamics.bias - sum(turned[s] @ dynamics.soles[s] for s in turned)
         assert np.abs(forces[:6]).max() < 1e-9 * 1000.0
         assert forces[6:] == pytest.approx(found.torques, abs=1e-9)
         assert np.abs(found.torques).max() <= 300.0 + 1e-8
