@@ -58,10 +58,10 @@ SCENES: dict[str, tuple[str, ...]] = {
     "flat": (),
     "turn": (),
     "push": ("push.dv=0.15",),
-    "beam": (),
     "stones": (),
-    "uneven": (),
     "obstacle": (),
+    "beam": (),
+    "uneven": (),
 }
 
 
