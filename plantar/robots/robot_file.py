@@ -394,8 +394,8 @@ class _RobotFile(RobotTables):
 def _exported_shoe(layout: Path) -> dict[str, Any]:
     """Mass in kg, thickness in m and rim stiffness by `plantar shoe`."""
     found = read_json(layout, RobotError, str(layout)).get("shoe", {})
-    names = ("mass", "thickness", "rim_stiffness")
-    return {k: found[k] for k in names if k in found} if isinstance(found, dict) else {}
+    wanted = ("mass", "thickness", "rim_stiffness") if isinstance(found, dict) else ()
+    return {k: found[k] for k in wanted if k in found}
 
 
 def _checked_number(value: Any, field: str, where: str, low: float, high: float) -> float:

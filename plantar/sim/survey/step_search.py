@@ -247,7 +247,6 @@ def _nearest(robot: Robot, legs: LegModel, body: BodyScale, seed: float) -> str:
 
 
 def _paced(robot: Robot, height: float, slower: float) -> Robot:
-    """The robot with a pendulum's pace of its height in m, or slower."""
     if robot.rocks:
         return rocking(robot, height)
     unit = slower * math.sqrt(height / GRAVITY)
