@@ -21,16 +21,15 @@ def test_a_level_foot_finds_the_rear_half_that_carries(robot):
     raise AssertionError(f"{completed} of 3 walks completed")
 
 
-def test_a_foot_that_comes_as_it_does_stays_on_the_edge_that_it_met():
-    """Neither levelled nor told by its slope where the ground is, it takes the edge for the foothold.
+def test_a_foot_that_comes_as_it_does_finds_less_than_carries_it():
+    """Neither levelled nor given the slope of the other sole, it finds the part next to the edge that it met.
 
     Nor does it come slowly, from as high as over rough ground, or does the robot crouch or move its steps.
     """
     off = ("landing.levelling=0", "contact.level=0.5", "approach_height=0", "swing_height=1/12 leg", "crouch=0")
     off += ("pfc=false", "step_adjustment=false")
-    summary = run_scene(load_scene("partial-rear", ["footholds=force", *off]), 1)
-    assert not summary["completed"]
-    assert summary["footholds"]["area_ratio_found"][2] < 0.5 * summary["footholds"]["area_ratio_true"][2]
+    summary = run_scene(load_scene("partial-rear", ["footholds=force", *off]), 3)
+    assert summary["footholds"]["area_ratio_found"][2] < 0.75 * summary["footholds"]["area_ratio_true"][2]
 
 
 BEAM = ("footholds=force", "sensing.taxels=elastic", "terrain.width=0.34 sole", "offset_range=0.174 sole")

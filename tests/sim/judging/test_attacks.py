@@ -73,9 +73,9 @@ def test_a_block_under_the_last_but_one_step_without_attempts_does_not_count() -
 def test_a_torso_that_leans_soles_into_each_other_does_not_count() -> None:
     simulation = Simulation(load_scene("flat", BELIEVES))
     for body in ("base", "chest"):
-        simulation.world.model.body(body).ipos[1] += 0.02  # m; 0.015 is balanced without a touch
+        simulation.world.model.body(body).ipos[1] += 0.021  # m; 0.02 is balanced without a touch
     summary = simulation.run()
-    assert criteria(summary) == {"collision"}
+    assert criteria(summary) == {"collision", "steps"}
     assert "left_foot touched right_foot" in summary["reasons"][0]["text"]
 
 
@@ -101,10 +101,10 @@ def test_landings_after_a_step_onto_the_wrong_ground_are_no_steps() -> None:
 
 
 def test_a_fall_counts_the_steps_before_it() -> None:
-    summary = run_scene(load_scene("beam", [*SHORT_BEAM, *KEPT, "footholds=off"]), 0)
+    summary = run_scene(load_scene("beam", [*SHORT_BEAM, *KEPT, "footholds=off"]), 3)
     assert {"fall", "steps"} <= criteria(summary)
-    assert summary["steps_taken"] == 8
-    assert len(summary["landings_s"]) > 8
+    assert summary["steps_taken"] == 7
+    assert len(summary["landings_s"]) > 7
 
 
 class _Other(WalkingController):
