@@ -32,7 +32,7 @@ Motion = dict[str, NDArray[np.float64]]
 def walked(robot: Path, folder: Path, scene: str, settings: list[str]) -> tuple[dict[str, Any], Motion]:
     """Summary of a walk, and its motion over time: joint angles in rad, true CoM in m."""
     path = folder / f"{robot.parent.name}.mcap"
-    summary = run_scene(load_scene(scene, settings, str(robot)), 1, record=path)
+    summary = run_scene(load_scene(scene, settings, str(robot)), 2, record=path)
     topics = read_mcap(path).topics
     joints = topics["/joints"]
     return summary, {
