@@ -232,6 +232,7 @@ _NAMED = re.compile(
     r"(?:[ _/,.-]*(?:in )?(?:[\[(]\s*)?"
     rf"(?:(?P<unit>{_UNIT})\.?|(?P<clock>[hms:.,f ]{{4,}}))\s*[\])]?)?|(?P<alone>{_UNIT})"
 )
+_LONGEST_NAME = 100  # characters: on a name of 500,000 blanks the expression takes hours
 # Units that are a column's name by themselves; "min" may be the least of something.
 _ALONE = ("sec", "second", "ms", "us", "msec", "millisec", "millisecond", "millis", "micros")
 _DAY = 86400.0
@@ -254,7 +255,8 @@ def time_unit(name: str) -> float | None:
         >>> [time_unit(name) for name in ("Time [ms]", "t_min", "Elapsed time (s)", "Date/Time", "T [°C]", "ms")]
         [0.001, 60.0, 1.0, 0.0, None, 0.001]
     """
-    match = _NAMED.fullmatch(name.strip().strip('"').strip().lower().replace("µ", "u").replace("μ", "u"))
+    text = name.strip().strip('"').strip().lower().replace("µ", "u").replace("μ", "u")
+    match = _NAMED.fullmatch(text) if len(text) <= _LONGEST_NAME else None
     if match is None:
         return None
     unit = match["unit"] or match["alone"] or ""
