@@ -19,11 +19,11 @@ from plantar.settings.schema import Settings, choice, number, share, switch, tab
 
 __all__ = ["CONTROL_PERIOD", "Control", "Walk", "walk_timing"]
 
+# Beats that the phases of a step last where neither scene nor robot states them: 0.9 and 0.3 s on a leg of 0.6 m
 _SINGLE_SUPPORT, _DOUBLE_SUPPORT = 3.64, 1.21
-"""Beats that the phases of a step last where neither scene nor robot states them: 0.9 and 0.3 s on a leg of 0.6 m."""
 
+# Paces that they last where a velocity is commanded, which quick steps follow soon: 0.5 and 0.1 s on h1
 _QUICK_SINGLE, _QUICK_DOUBLE = 2.02, 0.404
-"""Paces that they last where a velocity is commanded, which quick steps follow soon: 0.5 and 0.1 s on h1."""
 
 _LEAST_START = 0.2  # Least time in s of the first shift of the weight
 
