@@ -59,6 +59,8 @@ INNER: frozenset[str] = frozenset(
         "wrench_distribution.Program",
         *("cell_edges.cells_overlap", "taxel_values.without_dead"),
         *("cell_cutting.CellCutter.of_polygons", "polygon.part_inside"),
+        # Takes surfaces that readers of meshes have checked.
+        "hull_plane.hull_plane",
         # What functions return; nobody else makes them.
         *("batch.GroundPlanes", "batch.Loads", "batch.SupportPolygons", "partial_contact.GroundEdges"),
         *(
