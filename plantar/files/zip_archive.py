@@ -91,6 +91,7 @@ def read_part(archive: zipfile.ZipFile, name: str, error: type[PlantarError], wh
     except (
         zipfile.BadZipFile,
         zlib.error,
+        ValueError,
         OSError,
         EOFError,
         RuntimeError,
