@@ -11,7 +11,7 @@ import numpy as np
 from public_robots import MADE
 from resumable import Benchmark, Case, failed, shown
 
-G1 = str(MADE / "Unitree G1" / "robot.toml")
+FILES = {"Unitree G1": str(MADE / "Unitree G1" / "robot.toml")}
 LEGS = {"h1": 0.6, "hrp2kai": 0.6, "Unitree G1": 0.541}
 
 # length of a step in legs, single and double support in beats
@@ -29,13 +29,12 @@ def ten_metres(robot: str, length: float, single: float, double: float) -> Case:
         f'double_support="{double} beat"',
     )
     name = f"10 m, {length / (single + double):.3f} sqrt(g leg), steps of {length:.2g} legs"
-    return Case(name, "flat", robot, settings, 1, plants=("exact",), file=G1 if robot == "Unitree G1" else "")
+    return Case(name, "flat", robot, settings, 1, plants=("exact",), file=FILES.get(robot, ""))
 
 
 def hundred_metres(robot: str) -> Case:
-    steps = math.ceil(100.0 / (LEGS[robot] / 3.0)) + 1
-    file = G1 if robot == "Unitree G1" else ""
-    return Case("100 m, own pace", "long-walk", robot, (f"steps={steps}",), 1, plants=("exact",), file=file, aside=True)
+    steps, file = f"steps={math.ceil(100.0 / (LEGS[robot] / 3.0)) + 1}", FILES.get(robot, "")
+    return Case("100 m, own pace", "long-walk", robot, (steps,), 1, plants=("exact",), file=file, aside=True)
 
 
 BENCHMARK = Benchmark(

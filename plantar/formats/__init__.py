@@ -24,10 +24,8 @@ __all__ = ["Format", "ReadOptions", "detect_format", "formats", "is_study_folder
 # How many bytes of a file are looked at, and how many where those do not decide: a platform's table has a row of
 # names of a hundred kilobytes.
 _HEADS = (1 << 16, 1 << 22)
-_UNDESCRIBED = (
-    "GAITRite",
-    "zebris",
-)  # Makers of exports without a public description: a table of theirs may be anything
+# Makers of exports without a public description: a table of theirs may be anything
+_UNDESCRIBED = ("GAITRite", "zebris")
 
 
 def formats() -> dict[str, Format]:

@@ -83,10 +83,9 @@ def head_of_table(lines: Sequence[str]) -> TableHead | None:
             return TableHead(named[0], named[1], len(named[0]), first, _facts(lines[: first - 1], named[1]))
         good = [_is_row(x, delimiter, width) for x in rows]
         after_names = first > 0 and _names_columns(names_of_row(lines[first - 1], delimiter), width)
-        numbered = _are_numbered(names_of_row(lines[first], delimiter))
         if (
             width < 2
-            or numbered
+            or _are_numbered(names_of_row(lines[first], delimiter))
             or not (good[0] or (after_names and _numbers(rows[0], delimiter)))
             or sum(good) < 0.8 * len(good)
         ):

@@ -11,10 +11,8 @@ from plantar.sides import SIDES, Side
 
 __all__ = ["SafeStop"]
 
-_LOWER, _SINK = (
-    0.15,
-    0.03,
-)  # leg/beat at which a foot in the air is put down, and the CoM moves; thrice as fast H1 falls
+# leg/beat at which a foot in the air is put down, and the CoM moves; thrice as fast H1 falls
+_LOWER, _SINK = 0.15, 0.03
 _DEPTH = 0.08  # leg by which a robot sits lower than it walks; legs that walk crouched by 0.05 reach it
 _SHIFT = 0.3  # weight/beat by which forces of the feet change
 _LIMP = 0.5  # s in which forces and stiffness of a fallen robot go to zero

@@ -250,9 +250,8 @@ def _bent_walls(shape: Any) -> tuple[float, float]:
     bent = [
         i for i, s in enumerate(surfaces) if s.GetType() in (ocp.GeomAbs.GeomAbs_Cylinder, ocp.GeomAbs.GeomAbs_Cone)
     ]
-    return area([i for i, places in enumerate(bends) if len(places) > 1]), area(
-        bent
-    )  # bent at one end alone: a corner of a polygon
+    # A facet that is bent at one end alone is at a corner of a polygon.
+    return area(i for i, places in enumerate(bends) if len(places) > 1), area(bent)
 
 
 _REFERENCE = re.compile(r"('[^']*')|#(\d+)")
