@@ -51,7 +51,7 @@ class FeasibilityRules(
 
     rule: str = choice("skin", "force_torque")
     at: str = choice("probe", "impact")
-    area_ratio: float = number(0.8, "1", 0, 2)
+    area_ratio: float = number(0.6, "1", 0, 2)
     # epsilon_t in N m: a foothold that makes this moment at the ankle is refused
     ankle_moment: float = fixed(0.0411, "weight sole")
     surprise: float = fixed(1 / 30, "leg")  # Height in m above expected ground from which it is checked
