@@ -20,6 +20,13 @@ _LEAST_OVER = 0.08
 
 _MOST_OVER = 0.5  # Share beyond which it is no foothold with an edge any more
 
+_DRIFT = 3
+"""Landings in a row of one foot, alike, by which a walk that bears partial footholds has drifted off its way: one such
+foothold is a stone's shape."""
+
+_ALIKE = 0.08
+"""Of a sole's width, by which the moves for them differ at most: half a row of taxels, and noise."""
+
 
 class EdgeBeside:
     """Proposes footsteps farther on the ground that a landed foot saw.
@@ -30,16 +37,22 @@ class EdgeBeside:
         layouts: Of each side.
         drop: Distance in m from the sole of absent ground.
         largest: Largest move in m by one landing.
+        drift: Whether only a drift moves steps: one foot over alike edges at each of its last landings, the other over
+            none.
     """
 
     priority = Priority.FOOTHOLD
 
-    def __init__(self, layouts: Mapping[Side, SoleLayout], drop: float, largest: float) -> None:
+    def __init__(
+        self, layouts: Mapping[Side, SoleLayout], drop: float, largest: float, *, drift: bool = False
+    ) -> None:
         self._places = {side: layout.positions[:, :2] for side, layout in layouts.items()}
         self._drop = drop
         self._largest = largest
         self._proposed: PlanChange | None = None
         self._moved = (-1, 0.0)
+        self._seen: list[float] | None = [] if drift else None  # moves for the last landings, of both feet in turn
+        self._alike = _ALIKE * max(float(np.ptp(places[:, 1])) for places in self._places.values())
 
     def propose(self, tick: Tick) -> PlanChange | None:
         """Later steps, moved across, at touchdown."""
@@ -60,6 +73,8 @@ class EdgeBeside:
             return None
         step = phase.step if phase.swing is not None else phase.step - 1
         across = self._across(side, distance)
+        if self._seen is not None:
+            across = self._drifted(self._seen, across)
         if not across or step + 1 >= tick.plan.count or self._begun(step, tick):
             return None
         last, way = self._moved
@@ -68,6 +83,17 @@ class EdgeBeside:
             return None  # the ground of the other foot ends on its other side: there is no way between both
         dx, dy = (across * tick.place(side).rotation_sole_to_world[:2, 1]).tolist()
         return PlanChange("an edge beside", step, shift=(dx, dy), because="off the edge beside")
+
+    def _drifted(self, seen: list[float], across: float) -> float:
+        """Least move of the same foot's last landings, where they and the other foot's between them mean a drift."""
+        seen.append(across)
+        del seen[: -(2 * _DRIFT - 1)]
+        own, other = seen[::-2], seen[-2::-2]
+        alike = len(own) == _DRIFT and 0.0 < min(own) * max(own) and max(own) - min(own) <= self._alike
+        if not alike or any(other):
+            return 0.0
+        seen.clear()
+        return min(own, key=abs)
 
     def _across(self, side: Side, distance: NDArray[np.float64]) -> float:
         """Middle of its ground in m to the sole's left; 0 without an edge along a side."""

@@ -64,8 +64,9 @@ def proposers(
         FootholdSeenAhead(s.foothold),
         FootholdCarries(s.foothold, middles, outlines, strip, s.ankle_reach),
     ]
-    if s.compliance is not None and s.footholds == "off":
-        found.append(EdgeBeside(layouts, _NO_GROUND * s.ground_map.sensing_range, s.foothold.largest_shift))
+    if s.compliance is not None:
+        edges = _NO_GROUND * s.ground_map.sensing_range, s.foothold.largest_shift
+        found.append(EdgeBeside(layouts, *edges, drift=s.footholds != "off"))
     timing = None if s.step_timing is None else StepTiming(s.step_timing, s.period)
     if s.step_adjustment is None:
         return found if timing is None else [*found, timing]

@@ -86,3 +86,28 @@ def test_it_asks_again_until_its_change_is_applied(proposer, sole, plan_of, tick
     assert second == first
     plan.apply(second, FIRST + 0.005, NOWHERE)
     assert proposer.propose(tick_at(plan, FIRST + 0.01)) is None
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "moves"),
+    [
+        ((-0.045, -0.045, -0.045), (None, None), True),
+        ((-0.045, -0.04, -0.045), (None, None), True),  # a row of taxels more
+        ((-0.045, -0.045, None), (None, None), False),
+        ((-0.045, 0.0, -0.045), (None, None), False),  # stones of three shapes
+        ((-0.045, -0.045, -0.045), (None, -0.045), False),
+    ],
+)
+def test_a_walk_that_bears_partial_footholds_moves_off_the_edge_that_it_drifts_to(
+    left, right, moves, sole, plan_of, tick_at
+):
+    proposer, plan = EdgeBeside(dict.fromkeys(SIDES, sole), DROP, LARGEST, drift=True), plan_of()
+    swings = [p for p in plan.schedule.phases if p.swing is not None][:5]
+    changes = []
+    for edge, phase in zip([left[0], right[0], left[1], right[1], left[2]], swings, strict=True):
+        seen = np.full(len(sole), 0.001) if edge is None else ground(sole, edge)
+        changes.append(proposer.propose(tick_at(plan, phase.end - 0.01, feet=down(phase.swing, seen))))
+    assert changes[:4] == [None] * 4
+    assert (changes[4] is not None) is moves
+    if moves:
+        assert changes[4].shift == pytest.approx((0.0, 0.5 * 0.025), abs=0.004)

@@ -98,8 +98,8 @@ def test_a_fall_is_seen_and_ends_the_run():
 
 @pytest.mark.parametrize("step", [1, 2])
 def test_feedback_survives_a_push_that_an_open_loop_does_not(step):
-    """30 N s from the front; 25 N s were within what stiff servos, a lean and the next step survive by themselves."""
-    settings = ["steps=4", "settle=1.0", "impulse=30", "direction=backward", f"push.step={step}"]
+    """32 N s from the front; 25 N s were within what stiff servos, a lean and the next step survive by themselves."""
+    settings = ["steps=4", "settle=1.0", "impulse=32", "direction=backward", f"push.step={step}"]
     with_feedback = run_scene(load_scene("push", settings), 0)
     assert with_feedback["completed"], with_feedback["reasons"]
     without = run_scene(load_scene("push", [*settings, "feedback=false"]), 0)
