@@ -43,9 +43,7 @@ class EdgeBeside:
 
     priority = Priority.FOOTHOLD
 
-    def __init__(
-        self, layouts: Mapping[Side, SoleLayout], drop: float, largest: float, *, drift: bool = False
-    ) -> None:
+    def __init__(self, layouts: Mapping[Side, SoleLayout], drop: float, largest: float, *, drift: bool = False) -> None:
         self._places = {side: layout.positions[:, :2] for side, layout in layouts.items()}
         self._drop = drop
         self._largest = largest
@@ -89,7 +87,7 @@ class EdgeBeside:
         seen.append(across)
         del seen[: -(2 * _DRIFT - 1)]
         own, other = seen[::-2], seen[-2::-2]
-        alike = len(own) == _DRIFT and 0.0 < min(own) * max(own) and max(own) - min(own) <= self._alike
+        alike = len(own) == _DRIFT and min(own) * max(own) > 0.0 and max(own) - min(own) <= self._alike
         if not alike or any(other):
             return 0.0
         seen.clear()
