@@ -3,8 +3,6 @@
 `python benchmarks/outcomes.py MINUTES grounds` runs what is missing and writes the table.
 """
 
-from __future__ import annotations
-
 from itertools import product
 
 from resumable import Benchmark, Case, failed, fallen, shown

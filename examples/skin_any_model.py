@@ -6,8 +6,6 @@
 Needs: pip install "plantar[sim]"
 """
 
-from __future__ import annotations
-
 import sys
 
 import mujoco

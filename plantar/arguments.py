@@ -1,7 +1,5 @@
 """Checks of a caller's arguments: numbers, objects, lists."""
 
-from __future__ import annotations
-
 import operator
 from collections.abc import Iterable
 from typing import TypeVar

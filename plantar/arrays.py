@@ -4,8 +4,6 @@ Real numbers of any type, order and stride are allowed; text, objects, complex n
 values are refused.
 """
 
-from __future__ import annotations
-
 from typing import Any, TypeVar
 
 import numpy as np

@@ -3,8 +3,6 @@
 The next process that writes there removes what a killed one left.
 """
 
-from __future__ import annotations
-
 import os
 import platform
 import re

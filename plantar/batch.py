@@ -4,8 +4,6 @@ Memory-mapped arrays may exceed memory: contiguous float64 is read in place, oth
 the frames without the interpreter lock; results are the same to the last bit.
 """
 
-from __future__ import annotations
-
 import math
 import os
 from collections import deque

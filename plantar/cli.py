@@ -1,7 +1,5 @@
 """Command line, `plantar <command>`: modules of `plantar.commands`, and other packages' entry points."""
 
-from __future__ import annotations
-
 import sys
 from importlib import import_module
 from pkgutil import iter_modules

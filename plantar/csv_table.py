@@ -1,7 +1,5 @@
 """CSV tables without formulas for spreadsheets."""
 
-from __future__ import annotations
-
 import csv
 import io
 import math

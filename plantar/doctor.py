@@ -1,7 +1,5 @@
 """Which optional libraries are installed, missing or broken, and the remedy."""
 
-from __future__ import annotations
-
 import platform
 import sys
 from collections.abc import Mapping

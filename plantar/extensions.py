@@ -1,7 +1,5 @@
 """Parts of other packages, from entry points such as `plantar.terrain`."""
 
-from __future__ import annotations
-
 from functools import cache
 from importlib.metadata import entry_points
 from typing import TypeVar

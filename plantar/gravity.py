@@ -1,7 +1,5 @@
 """Acceleration of free fall."""
 
-from __future__ import annotations
-
 __all__ = ["GRAVITY"]
 
 GRAVITY = 9.81

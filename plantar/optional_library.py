@@ -1,7 +1,5 @@
 """Imports of optional libraries: missing, broken or interrupted."""
 
-from __future__ import annotations
-
 import signal
 import threading
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Checks of a caller's points of the plane."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

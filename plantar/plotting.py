@@ -1,7 +1,5 @@
 """Only module that imports matplotlib, at the first figure."""
 
-from __future__ import annotations
-
 import io
 import os
 from collections.abc import Sequence

@@ -3,8 +3,6 @@
 A named tuple takes 0.24 us, a frozen dataclass 0.7 to 0.9, this 0.06.
 """
 
-from __future__ import annotations
-
 import inspect
 from typing import Any, Self, TypeVar
 

@@ -1,7 +1,5 @@
 """Left and right: the names of a foot's side, in order."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 __all__ = ["SIDES", "Side", "other_side"]

@@ -8,8 +8,6 @@ text that makes the page wider than the window. Exit code 1 where there is one, 
 without findings are noted next to the site (FOLDER.checked.json), and opened again when they or what they share change.
 """
 
-from __future__ import annotations
-
 import argparse
 import hashlib
 import json

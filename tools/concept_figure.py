@@ -4,8 +4,6 @@ plantar sim beam --seed 2 --set steps=12 --record beam.mcap
 python tools/concept_figure.py beam.mcap docs/images/concepts.png
 """
 
-from __future__ import annotations
-
 import sys
 
 import numpy as np

@@ -1,7 +1,5 @@
 """For mkdocstrings: docstrings use "Example:", which griffe calls "Examples:"."""
 
-from __future__ import annotations
-
 import re
 from typing import Any
 

@@ -6,8 +6,6 @@ Generated are the settings with units and ranges, the errors, and a page of the 
 files that are no pages of the site become their names.
 """
 
-from __future__ import annotations
-
 import ast
 import html
 import os

@@ -3,8 +3,6 @@
 They come from the package foxglove-schemas-protobuf (MIT licence); the tests compare them with it.
 """
 
-from __future__ import annotations
-
 from importlib import import_module
 from pathlib import Path
 from typing import Any

@@ -6,8 +6,6 @@ for 1.65 m in all; the torso takes the rest of the mass, and its centre of mass 
 the published 0.80 m above the soles in the machine's posture.
 """
 
-from __future__ import annotations
-
 import sys
 import tomllib
 from pathlib import Path

@@ -4,8 +4,6 @@ python tools/licences.py          # writes the page
 python tools/licences.py --check  # exit code 1 where a declared dependency is not on the page
 """
 
-from __future__ import annotations
-
 import re
 import sys
 import tomllib

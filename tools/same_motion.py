@@ -6,8 +6,6 @@ and from when on. A change that only moves code or rounds otherwise stays within
 it and shows here which walks it changes.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 import tempfile

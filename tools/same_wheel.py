@@ -5,8 +5,6 @@ python tools/same_wheel.py [--keep FOLDER]
 Times in the archive are that of the commit (SOURCE_DATE_EPOCH).
 """
 
-from __future__ import annotations
-
 import hashlib
 import os
 import shutil

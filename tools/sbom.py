@@ -3,8 +3,6 @@
 python tools/sbom.py FILE
 """
 
-from __future__ import annotations
-
 import json
 import re
 import sys

@@ -4,8 +4,6 @@ python tools/security_page.py          # writes the page
 python tools/security_page.py --check  # exit code 1 where it is another one
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

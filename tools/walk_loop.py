@@ -6,8 +6,6 @@ Four side steps on the beam (scene beam, h1): two cycles of the walk. The camera
 beginning but for the way that was walked.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 import tempfile

@@ -1,7 +1,5 @@
 """Confidence of a share of runs."""
 
-from __future__ import annotations
-
 import math
 
 __all__ = ["wilson_interval"]

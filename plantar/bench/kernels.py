@@ -1,7 +1,5 @@
 """Run time against error of the perception's kernels and other routes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 

@@ -1,7 +1,5 @@
 """Run time of a tick, a whole percept, wrenches and recordings."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import partial
 from typing import Any

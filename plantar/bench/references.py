@@ -1,7 +1,5 @@
 """Independent slow references: exact integers and fractions where rational, else nested searches."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction

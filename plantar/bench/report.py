@@ -1,7 +1,5 @@
 """The kernels' comparison: measurements, targets, page, table and figure."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path

@@ -3,8 +3,6 @@
 Each takes its best input and returns an area, a radius or a point.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """The measured soles: 51 cells with 5, 20 or all active, 1,000 small cells, random outlines."""
 
-from __future__ import annotations
-
 import math
 from functools import cached_property, lru_cache
 

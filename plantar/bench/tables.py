@@ -1,7 +1,5 @@
 """Tables and figures of every benchmark."""
 
-from __future__ import annotations
-
 import csv
 import io
 import math

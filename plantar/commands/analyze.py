@@ -1,7 +1,5 @@
 """`plantar analyze`: measure the steps of a recording, or a study of many."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any, cast

@@ -1,7 +1,5 @@
 """`plantar bench`: measure run time against error, and write tables, figures and bench.json."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

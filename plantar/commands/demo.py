@@ -1,7 +1,5 @@
 """`plantar demo`: the main job in one go."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Annotated

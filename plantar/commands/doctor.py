@@ -1,7 +1,5 @@
 """`plantar doctor`: list what is installed, missing or broken of what Plantar can use, and how to get it."""
 
-from __future__ import annotations
-
 from plantar.console.command import Command, Json, end_command
 
 __all__ = ["COMMAND", "doctor"]

@@ -1,7 +1,5 @@
 """`plantar list`: list robots, scenes, papers, formats, live sources and settings."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from typer import Argument, Option

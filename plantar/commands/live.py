@@ -1,7 +1,5 @@
 """`plantar live`: record soles as their readings come."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

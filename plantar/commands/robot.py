@@ -1,7 +1,5 @@
 """`plantar robot`: make a walking robot from its model, or check one."""
 
-from __future__ import annotations
-
 import os
 from functools import partial
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`plantar shoe`: build a printable tactile shoe for a robot's foot, and the layout of its taxels."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated

@@ -1,7 +1,5 @@
 """`plantar sim`: run one scenario in MuJoCo and judge it by the true contact forces."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from typing import Annotated

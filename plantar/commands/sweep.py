@@ -1,7 +1,5 @@
 """`plantar sweep`: run a scene over settings and seeds, or search where it breaks."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from typing import Annotated

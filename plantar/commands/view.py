@@ -1,7 +1,5 @@
 """`plantar view`: write a page that plays one or two recordings in 3D."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

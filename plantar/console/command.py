@@ -1,7 +1,5 @@
 """Common parts of commands: running, output options, and printing."""
 
-from __future__ import annotations
-
 import functools
 import inspect
 import json

@@ -9,8 +9,6 @@
 | 141 | no one reads stdout any more, as behind `| head`; recognised by the code alone |
 """
 
-from __future__ import annotations
-
 import os
 import signal
 import sys

@@ -1,7 +1,5 @@
 """Progress of a command, as a bar on stderr."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 

@@ -1,7 +1,5 @@
 """Native code on a foreign file, in a separate process with limits."""
 
-from __future__ import annotations
-
 import io
 import os
 import signal

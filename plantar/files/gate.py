@@ -3,8 +3,6 @@
 SECURITY.md is made of these declarations (`tools/security_page.py`).
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping
 from typing import Any, NamedTuple

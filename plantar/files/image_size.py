@@ -1,7 +1,5 @@
 """Stated size of an image, before decoding."""
 
-from __future__ import annotations
-
 import struct
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Opens foreign files: regular and limited in size, or one line why not."""
 
-from __future__ import annotations
-
 import os
 import stat
 from typing import BinaryIO

@@ -1,7 +1,5 @@
 """Meshes that trimesh reads, in a separate process (`plantar.files.gate`)."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

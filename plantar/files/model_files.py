@@ -9,8 +9,6 @@
 Links are followed before a place is judged.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import tempfile

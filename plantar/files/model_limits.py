@@ -1,7 +1,5 @@
 """Limits of a robot's model (MJCF, URDF), checked in its text."""
 
-from __future__ import annotations
-
 import math
 import re
 from xml.etree.ElementTree import Element

@@ -1,7 +1,5 @@
 """Reads foreign TOML and JSON, limited in size and depth; errors are one line."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

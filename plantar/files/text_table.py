@@ -1,7 +1,5 @@
 """Small text tables (CSV, TSV) in any encoding, limited in size."""
 
-from __future__ import annotations
-
 import csv
 import io
 import os

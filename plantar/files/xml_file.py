@@ -1,7 +1,5 @@
 """Parses foreign XML, limited in size, depth and elements, without entities."""
 
-from __future__ import annotations
-
 from xml.etree import ElementTree
 
 from plantar.errors import PlantarError

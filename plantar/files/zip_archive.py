@@ -1,7 +1,5 @@
 """Opens foreign ZIP archives (NPZ, 3MF, XLSX): unpacked size is checked first."""
 
-from __future__ import annotations
-
 import os
 import struct
 import zipfile

@@ -1,7 +1,5 @@
 """Formats of plantar pressure recordings: modules here with a `FORMAT`, and entry points "plantar.formats"."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import replace
 from functools import cache

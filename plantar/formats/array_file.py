@@ -4,8 +4,6 @@ NPZ arrays are "time" (s), "left" and "right" or one of another name, and option
 ("insole", "platform", "robot") and "layout_left" (JSON of a layout file), as written by `Recording.to_npz`.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import zipfile

@@ -1,7 +1,5 @@
 """C3D contents as plain arrays; ezc3d is native code, so in a separate process."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from pathlib import Path

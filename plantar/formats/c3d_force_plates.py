@@ -3,8 +3,6 @@
 Types 1 to 5 are computed from channels (C3D format user guide, "Force platforms").
 """
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Mapping
 from importlib.util import find_spec

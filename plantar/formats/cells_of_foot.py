@@ -1,7 +1,5 @@
 """Cell columns without geometry, as one foot's recording."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

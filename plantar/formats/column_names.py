@@ -4,8 +4,6 @@ A heading is cut into known words ("FzLeft" is force, z, left; "1_ground_force_v
 word makes it unknown.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from functools import lru_cache

@@ -4,8 +4,6 @@ OpenSim's .mot and .sto, Cortex' .forces, loadsol's text, and nameless tables wh
 gaitpdb) count, too.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import chain, islice
 from pathlib import Path

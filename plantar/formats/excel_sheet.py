@@ -3,8 +3,6 @@
 Sources: [MS-CFB] and [MS-XLS], Microsoft.
 """
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Iterator
 from dataclasses import replace

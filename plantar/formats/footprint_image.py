@@ -1,7 +1,5 @@
 """Footprints in images (PNG, JPEG, TIFF, BMP), found against the background."""
 
-from __future__ import annotations
-
 import struct
 from dataclasses import dataclass
 from pathlib import Path

@@ -3,8 +3,6 @@
 After the R package pressuRe (0.2.4, `load_footscan`): first row hind edge; cells 5.08 mm wide, 7.62 mm long, 64 across.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from itertools import islice

@@ -3,8 +3,6 @@
 Laboratory axes, z up; loads are on the foot.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 

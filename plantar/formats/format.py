@@ -1,7 +1,5 @@
 """Type of a recording format: name, recognition and reading."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Recordings from paths, arrays of cells, or data frames."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping
 from pathlib import Path

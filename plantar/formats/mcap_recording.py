@@ -1,7 +1,5 @@
 """Plantar's own recordings (MCAP) of `plantar.recordings.recorder`."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import cast

@@ -4,8 +4,6 @@
 the device's, as its cells cover a part of the sole.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from itertools import islice

@@ -1,7 +1,5 @@
 """Nominal insole geometry for recordings without cell places: 99 cells, and Moticon's 16."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from importlib.resources import files
 from itertools import pairwise

@@ -4,8 +4,6 @@ A header states sensor, rate and unit, and may list each insole's cells. Column 
 numbers; where they restart, the next foot begins. Pliance exports may end with cell corners.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass

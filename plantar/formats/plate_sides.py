@@ -1,7 +1,5 @@
 """Foot of each plate contact: by names, markers, events, push or place."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Checks of a read recording: missing-value marks, doubts about unit, rate or cell size."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Layouts that a recording describes: matrices, cell corners, and parts."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from dataclasses import replace

@@ -4,8 +4,6 @@ Topics and fields that name a foot are the feet. Units are SI (REP 103): named f
 counts.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator
 from importlib.util import find_spec

@@ -1,7 +1,5 @@
 """Foot of a one-sensor recording, force plate or table row."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 

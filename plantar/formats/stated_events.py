@@ -1,7 +1,5 @@
 """Heel strikes and toe offs of another program."""
 
-from __future__ import annotations
-
 import os
 import re
 import zipfile

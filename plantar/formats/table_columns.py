@@ -1,7 +1,5 @@
 """Number table with named columns as a recording."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Tables of plate, belt or foot forces: columns grouped by plate or foot, axis and quantity."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Table text: head (names, first row, facts), and quoted numbers or times."""
 
-from __future__ import annotations
-
 import csv
 import re
 from collections.abc import Iterator, Sequence

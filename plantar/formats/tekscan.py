@@ -4,8 +4,6 @@ F-Scan insoles, mats and walkways share it. "B" marks places without a cell. UNI
 raw counts.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from itertools import chain, islice

@@ -1,7 +1,5 @@
 """Reading text exports of any encoding, line end and decimal sign."""
 
-from __future__ import annotations
-
 import io
 import re
 from collections.abc import Iterator, Sequence

@@ -1,7 +1,5 @@
 """Units that recordings state: pressure, force, length, and unconverted raw counts."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal

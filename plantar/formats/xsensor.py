@@ -4,8 +4,6 @@ Matrices of cell groups (heel, toes, ...) are skipped. Headers' load and contact
 cells' area; in swing the stated load is 0.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass, field
 from pathlib import Path

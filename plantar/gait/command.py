@@ -1,7 +1,5 @@
 """A walking controller's input and output at a tick."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import NamedTuple, Protocol
 

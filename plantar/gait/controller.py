@@ -5,8 +5,6 @@
 The swing foot comes first, since most proposals follow from its touchdown.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

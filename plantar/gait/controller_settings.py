@@ -1,7 +1,5 @@
 """Settings of a walking controller's parts."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import field

@@ -1,7 +1,5 @@
 """Controller settings by dotted names, such as `estimator.gravity`."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from types import NoneType
 from typing import Any, get_args, get_type_hints

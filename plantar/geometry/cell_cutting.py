@@ -1,7 +1,5 @@
 """Cells of a sole clipped by straight lines."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, Self
 

@@ -3,8 +3,6 @@
 Polygons may turn either way and repeat vertices; corners (4, 2) in m, counter-clockwise, none (0, 2) for an empty one.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 

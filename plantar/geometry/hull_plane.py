@@ -1,7 +1,5 @@
 """The largest plane of a convex hull, on which it could rest."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

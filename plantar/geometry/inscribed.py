@@ -4,8 +4,6 @@ Convex polygons (k, 2) in m may turn either way and repeat vertices. Corners in 
 empty polygon, a shape without area for one without.
 """
 
-from __future__ import annotations
-
 import heapq
 import math
 from collections.abc import Callable

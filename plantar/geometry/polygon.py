@@ -4,8 +4,6 @@ Vertices (k, 2) in m without repeated last point, counter-clockwise where return
 line.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

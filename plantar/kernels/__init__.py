@@ -4,8 +4,6 @@
 Without a compiler the source runs, slower, equal to the last bit. PLANTAR_KERNELS=python always runs the sources.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 import warnings

@@ -1,7 +1,5 @@
 """Shared edges of a sole's cells, also with a corner inside an edge."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """Layouts of cells of any shape and size, or joined from parts."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """A flat layout laid over a curved sole."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

@@ -8,8 +8,6 @@ A cell (q, r), rows along x, has its center at
 Shared corners have one key and identical coordinates.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ The sole frame lies on the outer contact face, x forward, y left, z up. A taxel'
 exerts [0, 0, f] on it, f >= 0.
 """
 
-from __future__ import annotations
-
 import math
 import operator
 from collections.abc import ItemsView, Mapping

@@ -1,7 +1,5 @@
 """The layout file: one JSON per sole, written by `shoes`."""
 
-from __future__ import annotations
-
 import json
 import os
 import sys

@@ -1,7 +1,5 @@
 """Checks of callers' readings and masks; NaN or inf is a dead taxel, left out of sums."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """A lattice of hexagons or rectangles over a sole, clipped or whole."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

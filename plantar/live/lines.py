@@ -3,8 +3,6 @@
 A line is "left,0.01,3.2,0,..."; a force that is missing is empty or nan.
 """
 
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Iterator, Mapping

@@ -1,7 +1,5 @@
 """Record a live source, and show what comes."""
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """A recording as it came: each frame at its time."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator, Mapping
 

@@ -1,7 +1,5 @@
 """Live sources, which read soles as they are sampled: modules here with a `SOURCE`, and entry points "plantar.live"."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from importlib import import_module

@@ -1,7 +1,5 @@
 """Estimated floating base with contacts."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

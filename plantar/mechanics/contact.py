@@ -1,7 +1,5 @@
 """Contacts of a robot with the world, as mappings by name whose order results keep."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Smooth transitions from 0 to 1."""
 
-from __future__ import annotations
-
 __all__ = ["minimum_jerk"]
 
 

@@ -8,8 +8,6 @@ that passes to the ground. Moments about the ZMP give
 so both push the CoM away (printed: u_F - u_tau). The vertical force is left out.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

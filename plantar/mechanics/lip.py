@@ -1,7 +1,5 @@
 """Linear inverted pendulum and its divergent component of motion, DCM (T 4.1)."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -3,8 +3,6 @@
 R_a_to_b (3, 3) takes vectors of frame a into frame b. A rotation vector (3,) is the unit axis times the angle in rad.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

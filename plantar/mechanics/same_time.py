@@ -1,7 +1,5 @@
 """Tolerance of times."""
 
-from __future__ import annotations
-
 __all__ = ["SAME_TIME"]
 
 SAME_TIME = 1e-9

@@ -1,7 +1,5 @@
 """Least squares in some directions within limits on all: a hierarchy's level (Escande et al. 2014)."""
 
-from __future__ import annotations
-
 from typing import NamedTuple, Self
 
 import daqp

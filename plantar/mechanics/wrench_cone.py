@@ -1,7 +1,5 @@
 """Wrenches of a rectangular contact without slipping, tipping or twisting (T 4.32-4.41, corrected)."""
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 from typing import NamedTuple

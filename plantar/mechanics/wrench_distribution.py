@@ -12,8 +12,6 @@ wrench cone, its normal force at or above a minimum.
 
 # By Lagrange's identity the sum over pairs is |s|^2 |fz|^2 - (s . fz)^2.
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields

@@ -3,8 +3,6 @@
 A wrench is [fx, fy, fz, tx, ty, tz] in N and N m about the frame's origin, BY the world ON the robot, z up.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

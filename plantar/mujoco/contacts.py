@@ -1,7 +1,5 @@
 """The contacts of feet, as MuJoCo lists them after a step."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Corners and faces of a MuJoCo model's meshes."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

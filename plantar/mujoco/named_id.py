@@ -1,7 +1,5 @@
 """Ids of named parts of a MuJoCo model."""
 
-from __future__ import annotations
-
 import difflib
 from typing import Any
 

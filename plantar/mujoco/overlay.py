@@ -1,7 +1,5 @@
 """Taxels, center of pressure and support polygon drawn into a MuJoCo scene."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import mujoco

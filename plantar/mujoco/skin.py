@@ -1,7 +1,5 @@
 """A plantar skin for a body of a MuJoCo model, and its checks."""
 
-from __future__ import annotations
-
 import math
 import os
 import re

@@ -1,7 +1,5 @@
 """Face and outline of a body's sole, from its collision geoms."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """Parts of written pages: frame, sections, tables, figures and number format."""
 
-from __future__ import annotations
-
 import base64
 import html
 import math

@@ -1,7 +1,5 @@
 """Content security policy: a page runs its own scripts, and makes no request."""
 
-from __future__ import annotations
-
 import base64
 import hashlib
 import re

@@ -4,8 +4,6 @@ Arrays of the array API standard, and torch's, keep library, device and type; su
 On a CPU `plantar.batch` is faster.
 """
 
-from __future__ import annotations
-
 import sys
 from typing import Any, NamedTuple
 

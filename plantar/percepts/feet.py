@@ -1,7 +1,5 @@
 """Joint percept of two feet in the world frame."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """One foot for a walking controller at every tick, for loops at 1 kHz and faster."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

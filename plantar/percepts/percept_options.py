@@ -1,7 +1,5 @@
 """Options of a percept beyond layout and reading."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from plantar.arguments import number

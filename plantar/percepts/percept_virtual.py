@@ -1,7 +1,5 @@
 """Members of a percept from proximity, temperature and acceleration."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -5,8 +5,6 @@ and sizes in m, rotations quaternions (x, y, z, w), colours red, green, blue and
 `pose`. Messages of one length are encoded once, by a `Template` that fills in numbers and time.
 """
 
-from __future__ import annotations
-
 import re
 import struct
 from collections.abc import Iterable, Sequence

@@ -1,7 +1,5 @@
 """Large tables of frames: blocks in an unnamed file, with pages released after reading."""
 
-from __future__ import annotations
-
 import mmap
 import tempfile
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """MCAP records gathered into tables by chunk, unpacked up to the stated size."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

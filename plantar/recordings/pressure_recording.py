@@ -1,7 +1,5 @@
 """Plantar pressure over time, the type that formats are read into."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property

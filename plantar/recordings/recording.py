@@ -1,7 +1,5 @@
 """`Recorder` files as tables, and their export to NPZ or CSV."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """A robot's walking controller and leg kinematics, for your own control loop, without a simulator."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field

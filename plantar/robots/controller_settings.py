@@ -1,7 +1,5 @@
 """Controller settings of a run: defaults, then the robot's tables, then the scene's."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, Protocol

@@ -1,7 +1,5 @@
 """Collision shapes between the legs: the model's own, or massless capsules along the links."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from itertools import product
 from typing import Any

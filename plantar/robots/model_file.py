@@ -3,8 +3,6 @@
 Other joints, actuators, sensors, keyframes, contacts and options of the file are dropped.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import mujoco

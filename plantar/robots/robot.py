@@ -1,7 +1,5 @@
 """A robot as data: what its TOML states, checked."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path

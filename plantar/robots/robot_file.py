@@ -1,7 +1,5 @@
 """Robots from TOML files; errors name table and field."""
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """Start of a walk: feet, planned footsteps, commanded velocities."""
 
-from __future__ import annotations
-
 import math
 
 from plantar.errors import InputError, SceneError

@@ -1,7 +1,5 @@
 """A walking controller's task: its gait and running parts."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from itertools import chain, repeat

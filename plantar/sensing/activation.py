@@ -1,7 +1,5 @@
 """Active taxels by a threshold, with or without hysteresis."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

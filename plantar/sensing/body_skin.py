@@ -4,8 +4,6 @@ Cells are in the frame of the wrench. A cell's force pushes along its +z, into t
 axis out of it).
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 

@@ -6,8 +6,6 @@ is
     g(f) = f P(f / sigma) + sigma p(f / sigma)
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

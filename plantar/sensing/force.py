@@ -1,7 +1,5 @@
 """Center of pressure and ground reaction wrench of a sole."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 

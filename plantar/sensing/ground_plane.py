@@ -1,7 +1,5 @@
 """Ground under a swinging sole as a plane."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

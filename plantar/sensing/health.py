@@ -1,7 +1,5 @@
 """Dead, saturated and stuck taxels, and their replacement by neighbours."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

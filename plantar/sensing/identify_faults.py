@@ -1,7 +1,5 @@
 """Taxel faults, identified from a recording under known forces."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """Skin on a body's links: taxels, readings, wrenches."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple

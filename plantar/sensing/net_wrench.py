@@ -4,8 +4,6 @@ A taxel counts if it measures force OR proximity (K 2, corrected: printed AND). 
 share of its proximity (K 3), which answers a push before it arrives. K's weight of 99 turns full scale into newtons.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import NamedTuple
 

@@ -9,8 +9,6 @@ given lines the pressure is linear least squares; the lines move by Gauss-Newton
 that moves out by dh adds to each cell its chord times the pressure there (Leibniz).
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

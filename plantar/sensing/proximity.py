@@ -3,8 +3,6 @@
 Distances along a taxel's -z axis in m; inf beyond the range, NaN if dead.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """Virtual wrench away from heat, and the warm footprint."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Virtual wrenches of proximity, to stop a swing and turn a sole."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """`key=value` settings: a key's table, and its text's meaning."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches

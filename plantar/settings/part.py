@@ -1,7 +1,5 @@
 """Settings of a program part that files can switch on."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, ClassVar
 

@@ -4,8 +4,6 @@ A class derives from `Settings`, makes its fields with the functions below and e
 are in SI. `share`, or a text such as "0.5 sole", is a share of the robot's body, the reference body until `for_body`.
 """
 
-from __future__ import annotations
-
 import copy
 import inspect
 import math

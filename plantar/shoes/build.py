@@ -1,7 +1,5 @@
 """A foot's pair of shoes or insoles: fit, plan and solid in one call."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal

@@ -1,7 +1,5 @@
 """Coupons: small prints to try a cell's and a holder's fit. In mm."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import dataclass, replace
 from pathlib import Path

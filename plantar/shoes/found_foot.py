@@ -1,7 +1,5 @@
 """Shoes for a foot found in a robot's model, surface in the sole frame."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path

@@ -5,8 +5,6 @@ Seat scatter, one standard deviation, is a third of that promise, for lack of a 
 printer replaces them: parameters `gap_press`, `gap_slide`, `gap_play` and `seat_scatter`.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 __all__ = ["Material", "Process"]

@@ -1,7 +1,5 @@
 """Options of a shoe; light, so that help needs no geometry."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """An order's shoe or insole, built, or its coupons."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any, cast
 

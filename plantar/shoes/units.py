@@ -1,7 +1,5 @@
 """One boundary between millimetres (inside `shoes`) and SI (everywhere else)."""
 
-from __future__ import annotations
-
 from typing import TypeVar
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The simulator's libraries, which are its extra; none is loaded here."""
 
-from __future__ import annotations
-
 __all__ = ["LIBRARIES"]
 
 LIBRARIES = ("mujoco", "scipy", "daqp")

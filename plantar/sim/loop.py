@@ -1,7 +1,5 @@
 """The loop of every run: sensors, control and physics in turn."""
 
-from __future__ import annotations
-
 import math
 import os
 import time as clock

@@ -1,7 +1,5 @@
 """Foxglove's messages, decoded for the viewer."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field

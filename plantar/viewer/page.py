@@ -3,8 +3,6 @@
 three.js is its npm package's (0.170.0, `build/three.module.min.js`, 692 kB, MIT licence).
 """
 
-from __future__ import annotations
-
 import base64
 import html
 import json

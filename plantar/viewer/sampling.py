@@ -1,7 +1,5 @@
 """Messages reduced to the latest at given times, while reading in pieces."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -4,8 +4,6 @@ Without frames and shapes (topics "/tf" and "/scene/..." of `plantar sim`) soles
 "/truth/left", or side by side.
 """
 
-from __future__ import annotations
-
 import os
 from array import array
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """Interface to a robot model at an instant."""
 
-from __future__ import annotations
-
 from typing import Protocol
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A robot's ordered tasks, and their torques."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 import numpy as np

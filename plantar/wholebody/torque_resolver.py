@@ -3,8 +3,6 @@
 The stack's torques drive M_v q'' + D_v q' = tau - bias, whose motion is the servos' set-points.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

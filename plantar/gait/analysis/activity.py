@@ -1,7 +1,5 @@
 """Activity of a recording, and sway in standing."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

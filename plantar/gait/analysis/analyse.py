@@ -1,7 +1,5 @@
 """Entry point of gait analysis."""
 
-from __future__ import annotations
-
 import dataclasses
 import os
 import tempfile

@@ -1,7 +1,5 @@
 """Analysis of one recording, in memory or from file to report."""
 
-from __future__ import annotations
-
 import dataclasses
 import os
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Two recordings side by side."""
 
-from __future__ import annotations
-
 import json
 import math
 import os

@@ -4,8 +4,6 @@ Foot coordinates are shares: u from heel (0) to toes (1), v from lateral (0) to 
 platform of the footprint.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import cast

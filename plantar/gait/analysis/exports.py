@@ -3,8 +3,6 @@
 OpenSim's ground has y up and z right: its (x, z, -y) is (x, y, z) here.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

@@ -1,7 +1,5 @@
 """Doubts about a recording: silent cells, creeping gain, clocks, mirrored feet, impossible weight."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Standard errors of a step's measures."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Measures of a step (docs/metrics.md): name, title, unit and heading."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

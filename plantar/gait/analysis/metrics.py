@@ -1,7 +1,5 @@
 """Analysis as the plain values of metrics.json."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Options of an analysis: steps in the means, events and baselines."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from typing import Literal

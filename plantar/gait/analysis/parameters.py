@@ -1,7 +1,5 @@
 """Gait parameters: measures of each step (docs/metrics.md)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import cast

@@ -1,7 +1,5 @@
 """Result of an analysis: recording, feet, tables, metrics and report."""
 
-from __future__ import annotations
-
 import json
 import math
 import tempfile

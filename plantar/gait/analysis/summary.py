@@ -1,7 +1,5 @@
 """Means over steps: measures, symmetry, and the walk."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

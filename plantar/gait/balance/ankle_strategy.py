@@ -4,8 +4,6 @@ With a push's offset u_w, xi' = w (xi - u_ref + u_w); the reference VRP moves fr
 support (K 17). Times are at least `SHORTEST_TIME`, growth at most e^`MOST_GROWTH`.
 """
 
-from __future__ import annotations
-
 import math
 from enum import StrEnum
 from typing import NamedTuple

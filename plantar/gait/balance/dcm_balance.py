@@ -1,7 +1,5 @@
 """Balance feedback: DCM error moves the desired ZMP, ZMP error moves the CoM reference (T 4.17-4.20, 4.27-4.29)."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping
 from typing import Any

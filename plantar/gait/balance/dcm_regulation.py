@@ -4,8 +4,6 @@ Tracking feeds back the DCM error at every instant (T 4.28); here a moved footst
 3.3).
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

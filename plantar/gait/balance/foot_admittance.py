@@ -3,8 +3,6 @@
 Soles turn with the moment error; the more loaded foot goes up, the other down.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import ClassVar
 

@@ -1,7 +1,5 @@
 """Balance laws: `update` (CoM, ZMP), then `act` (each foot), each tick."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping
 from typing import Protocol

@@ -1,7 +1,5 @@
 """Load transfer: the desired ZMP shares the pendulum's force between the feet; without feedback, the plan's."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping
 

@@ -4,8 +4,6 @@ The DCM error gives a net wrench; a quadratic program shares it within wrench co
 measure their shares.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import field, replace
 from typing import Any, Self

@@ -3,8 +3,6 @@
 With weight W and ZMP p a joint with axis a through c has the torque a . ((p - c) x W e_z).
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Where an ankle bears the robot: a center of pressure x ahead takes torque m g x."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -5,8 +5,6 @@
 with s the sole's rise along its axes now, s_i when the cell last carried, p the center of pressure.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

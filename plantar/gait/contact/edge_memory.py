@@ -6,8 +6,6 @@ edge is
     d = h + m s, least squares of (d_i - h - m s_i) / spread and (m - m_i) / turn over the footholds i.
 """
 
-from __future__ import annotations
-
 import math
 from collections import deque
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """What feet stand on, or will when they land, by their soles (T 4.4.2-4.4.3)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -3,8 +3,6 @@
 The sensors' bias shows at lift-off, when the distance is the sole's rise.
 """
 
-from __future__ import annotations
-
 import math
 from collections import deque
 from dataclasses import dataclass

@@ -3,8 +3,6 @@
 A taxel that carried counts until lift-off: cells go dark as the ZMP moves away.
 """
 
-from __future__ import annotations
-
 import math
 from typing import ClassVar
 

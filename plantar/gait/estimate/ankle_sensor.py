@@ -1,7 +1,5 @@
 """Ankle force-torque sensor: the ground's wrench on the sole, less foot and shoe weight."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

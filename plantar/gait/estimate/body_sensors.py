@@ -1,7 +1,5 @@
 """Missing encoder and IMU readings: briefly the last ones, then blind."""
 
-from __future__ import annotations
-
 import math
 from typing import TypeAlias
 

@@ -1,7 +1,5 @@
 """CoM height over ground that goes up and down."""
 
-from __future__ import annotations
-
 __all__ = ["CoMHeight"]
 
 

@@ -1,7 +1,5 @@
 """CoM's horizontal offset from the model, by a standing robot's ground forces."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

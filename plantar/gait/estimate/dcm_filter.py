@@ -5,8 +5,6 @@ Each axis, sampled exactly, with d the offset by a push on parts without skin:
     x' = w (xi - x),    xi' = w (xi - p + u_w + d),    d' = 0 + noise.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

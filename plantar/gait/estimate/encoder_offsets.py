@@ -4,8 +4,6 @@ The closed loop through the ground gives six equations, gravity two. The smalles
 rest appears as a CoM offset (`plantar.gait.estimate.com_offset`).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from typing import NamedTuple, Protocol

@@ -5,8 +5,6 @@ point at each loaded sole's center of pressure is at rest, which gives position.
 - p), or `dcm_filter`.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

@@ -3,8 +3,6 @@
 Compared in pieces short enough for a slip to exceed noise.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

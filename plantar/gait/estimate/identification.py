@@ -1,7 +1,5 @@
 """Settings of the robot's identified differences from its model."""
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 from plantar.settings.part import Part

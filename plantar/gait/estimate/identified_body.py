@@ -1,7 +1,5 @@
 """Robot kinematics with identified encoder offsets and CoM."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

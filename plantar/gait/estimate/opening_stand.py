@@ -1,7 +1,5 @@
 """Sensor means of the opening stand."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import NamedTuple, Protocol
 

@@ -1,7 +1,5 @@
 """Push by disagreeing ZMP and acceleration: x'' - w^2 (x - p) = F / m + w^2 u_tau (K 9-12)."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Sole load from noisy taxels, low-passed before clipping makes noise a bias."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

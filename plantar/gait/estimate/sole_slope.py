@@ -3,8 +3,6 @@
 It shows the ground's side under a foot on an edge; level ground is expected under both.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -3,8 +3,6 @@
 Landing and lifting feet always turn the same way, which would add up in heading.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from plantar.kernels.gait.gyro_bias import SteadyLoad as _Kernel

@@ -5,8 +5,6 @@ With u_w(s) = u_w e^(-s / lasts), constant-offset forms over a horizon T use
     mean(T) = u_w a (1 - e^(-a' T)) / (1 - e^(-w T)),    a' = w + 1 / lasts,  a = w / a'.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

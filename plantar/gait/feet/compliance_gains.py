@@ -1,7 +1,5 @@
 """Preemptive foot compliance: a sole's descent, and load after touchdown."""
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 from plantar.settings.part import Part

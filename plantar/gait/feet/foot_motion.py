@@ -1,7 +1,5 @@
 """Commanded feet: footholds, swing and landing."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

@@ -6,8 +6,6 @@ An incoming foot turns until contacts enclose its middle c, the stance foot if t
 partial ground c is that part's middle, and a stance foot does not turn over its edge.
 """
 
-from __future__ import annotations
-
 import math
 from collections import deque
 from collections.abc import Mapping

@@ -5,8 +5,6 @@
 c is the sole's center while a line of cells carries, then the carrying part's centroid.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from typing import ClassVar

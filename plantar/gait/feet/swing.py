@@ -1,7 +1,5 @@
 """Swing: minimum-jerk path from lift-off to touchdown (T 4.1.3, Fig. 33), with slow final approach."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

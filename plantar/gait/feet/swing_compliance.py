@@ -4,8 +4,6 @@ Law "wrench" damps the swing by w_sole's force (T 4.30, corrected), turns by its
 4.31). Law "plane" slows with a fitted plane's distance to a crawl.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Kinds of swing: built in, and entry points `plantar.swings`."""
 
-from __future__ import annotations
-
 from functools import cache
 
 from plantar.extensions import extensions

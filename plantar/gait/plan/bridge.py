@@ -1,7 +1,5 @@
 """Bridges a DCM jump by a VRP shift in the support polygon (T 4.4.2)."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Commanded feet at a tick, as a value."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

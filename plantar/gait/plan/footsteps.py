@@ -1,7 +1,5 @@
 """Footsteps: where and in which order soles are put down (T 4.1.3, step 1)."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

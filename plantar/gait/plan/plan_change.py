@@ -1,7 +1,5 @@
 """Proposed and applied plan changes; only `plantar.gait.plan.walk_plan` applies them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from plantar.gait.plan.footsteps import Footstep

@@ -4,8 +4,6 @@ Only `WalkPlan.apply` changes and records it. DCM jumps are bridged, or double s
 (`plantar.gait.plan.bridge`).
 """
 
-from __future__ import annotations
-
 import math
 from collections import deque
 from collections.abc import Mapping, Sequence

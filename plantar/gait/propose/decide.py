@@ -1,7 +1,5 @@
 """Decide which plan change is applied."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from plantar.gait.plan.plan_change import PlanChange

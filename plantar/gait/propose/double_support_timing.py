@@ -1,7 +1,5 @@
 """End double support sooner or later if no VRP brings the DCM to its goal (K 4.3, `dsp_opt`)."""
 
-from __future__ import annotations
-
 import math
 
 from plantar.gait.balance.ankle_strategy import (

@@ -1,7 +1,5 @@
 """A foot lands over an edge: later steps move away from it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -8,8 +8,6 @@ The foot presses on unexpected ground with part of the weight, and one of two ru
 A refused foothold moves sideways, back or forward, clear of the obstacle's box (Fig. 45).
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """A foothold off the plan: the VRP moves over it, later steps onto its strip (T 4.4.2-4.4.3)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

@@ -6,8 +6,6 @@ walking --(ground higher than expected)--> doubting: the single support is exten
 goes back next to the other one, and the walk ends
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Limits of plan moves by unexpected footholds."""
 
-from __future__ import annotations
-
 from plantar.settings.part import Part
 from plantar.settings.schema import fixed
 

@@ -1,7 +1,5 @@
 """Plan with a foothold seen before touchdown, when the stance foot has most room."""
 
-from __future__ import annotations
-
 import math
 
 from plantar.gait.plan.plan_change import PlanChange

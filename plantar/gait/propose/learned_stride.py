@@ -3,8 +3,6 @@
 Each pushed step changes two factors, along and across the walk, by a share of its excess.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -3,8 +3,6 @@
 Each tick a proposer receives a frozen `Tick` and returns a `PlanChange` or None; `Tick.plan.last` is the applied one.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from enum import IntEnum

@@ -1,7 +1,5 @@
 """On slopes rising outwards beyond the ankle, stand farther inside."""
 
-from __future__ import annotations
-
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Priority, Tick, was_applied
 from plantar.settings.part import Part

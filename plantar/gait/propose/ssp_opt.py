@@ -9,8 +9,6 @@ In closed form: the polygon's closest point in the metric of the cost reduced by
 passes. tau is a share of its upper bound, w t cut at `ankle_strategy.MOST_GROWTH`.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import NamedTuple

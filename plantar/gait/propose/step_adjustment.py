@@ -8,8 +8,6 @@ a) d with the footstep and later ones by d; a is the VRP's share in double suppo
 - "ssp_opt" solves K 31 (`plantar.gait.propose.ssp_opt`), with the place reachable in the planned time.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import NamedTuple

@@ -4,8 +4,6 @@ A wanted DCM xi_e takes the ZMP p(T) = xi + (xi - xi_e) / (e^(w T) - 1) for the 
 the DCM is off by (e^(w T) - 1) d, which another T reduces (T 4.9-4.14).
 """
 
-from __future__ import annotations
-
 import math
 
 from plantar.gait.plan.plan_change import PlanChange

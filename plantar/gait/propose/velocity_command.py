@@ -12,8 +12,6 @@ Each touchdown plans two steps by the command, and one that closes the feet. Of 
 The heading is the feet's mean, half a step behind a command.
 """
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_right
 from collections.abc import Sequence

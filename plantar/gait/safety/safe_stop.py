@@ -1,7 +1,5 @@
 """How a robot stops: hold, sit down, or go limp, by ramps."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

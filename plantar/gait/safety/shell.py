@@ -3,8 +3,6 @@
 Sound input and targets without jumps leave the command unchanged (docs/safety.md).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 

@@ -1,7 +1,5 @@
 """Stand as the walk begins, before the first sound reading."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

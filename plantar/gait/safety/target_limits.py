@@ -1,7 +1,5 @@
 """Limits how far targets move in a tick."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

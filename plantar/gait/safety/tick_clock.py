@@ -1,7 +1,5 @@
 """Monotone, plausible tick times for any reported time."""
 
-from __future__ import annotations
-
 import math
 
 __all__ = ["TickClock"]

@@ -1,7 +1,5 @@
 """Watchdog for late or missing ticks."""
 
-from __future__ import annotations
-
 import math
 import threading
 import time

@@ -1,7 +1,5 @@
 """The body's targets: CoM height, torso heading and lean."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

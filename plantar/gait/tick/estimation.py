@@ -1,7 +1,5 @@
 """From a tick's readings to the body's state."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Feet: loads and yielding, by the balance law."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

@@ -1,7 +1,5 @@
 """Swing and perceive: feet as commanded, landing, and their footholds."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

@@ -1,7 +1,5 @@
 """The controller's proposers and their order."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

@@ -1,7 +1,5 @@
 """How far from its ankle a foot carries the robot, by torque limits."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 from numpy.typing import NDArray

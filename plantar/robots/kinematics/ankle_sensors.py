@@ -1,7 +1,5 @@
 """Force-torque sensors of the ankles in a robot's model."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import mujoco

@@ -1,7 +1,5 @@
 """Size of a robot, for settings that are shares of it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import mujoco

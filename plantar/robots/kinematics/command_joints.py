@@ -1,7 +1,5 @@
 """A walking command as joint angles and torques of the legs."""
 
-from __future__ import annotations
-
 from plantar.gait.command import Command
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.sides import Side

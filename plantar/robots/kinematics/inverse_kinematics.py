@@ -22,8 +22,6 @@ links.
 - **Limits.** Joints that would leave their limits stop there, the farthest first, and the step is solved again.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

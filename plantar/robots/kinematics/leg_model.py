@@ -1,7 +1,5 @@
 """A robot's legs: forward and inverse kinematics, and torques."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
 import mujoco

@@ -1,7 +1,5 @@
 """The robot alone as a MuJoCo model, for its controller."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any, Protocol

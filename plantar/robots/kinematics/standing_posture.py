@@ -1,7 +1,5 @@
 """The posture of a robot before its walk."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Dynamics of a free-floating robot that moves its legs."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import mujoco

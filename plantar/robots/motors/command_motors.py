@@ -4,8 +4,6 @@
 `plantar.robots.motors.torque_control`.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

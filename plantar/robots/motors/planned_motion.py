@@ -1,7 +1,5 @@
 """Torques of a walking command: its ground forces, and its motion."""
 
-from __future__ import annotations
-
 import math
 
 import mujoco

@@ -5,8 +5,6 @@ orientation; swing leg; standing soles with planned wrenches. Without a solution
 torques are those of the planned motion.
 """
 
-from __future__ import annotations
-
 import math
 
 import mujoco

@@ -13,8 +13,6 @@ subject to
   position.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """Checks of a built shoe, measured on exported STL and STEP."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Whether the print has the seats of its bill and assembly, by sections. In mm."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache

@@ -1,7 +1,5 @@
 """Whether the exported shoe goes onto the foot. Lengths in mm."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Whether a part prints: overhangs against 45 degrees, bridges, bed, time; and its weight. In mm."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import asdict, dataclass
 

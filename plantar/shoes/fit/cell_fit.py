@@ -1,7 +1,5 @@
 """Cells of a stated body on the shoe's face: tiles, films, sheet crossings. In mm."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

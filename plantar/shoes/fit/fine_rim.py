@@ -3,8 +3,6 @@
 A strip of one depth is cut across into cells, one for each sharp corner; inside lies the lattice, whole or trimmed.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Any
 

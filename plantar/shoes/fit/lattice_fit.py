@@ -1,7 +1,5 @@
 """Fit of a taxel lattice to a sole: place and turn. In mm."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Taxels of a sole: one lattice, cells whole or rim-cut. In mm."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Foot as the shoe sees it: outline at the sole and up to the rim."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

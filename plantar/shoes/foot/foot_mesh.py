@@ -1,7 +1,5 @@
 """Foot from its surface: unit, upright direction, sole and floor contact."""
 
-from __future__ import annotations
-
 import math
 import os
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Foot files read by libraries in a separate process (`plantar.files.confined`): solids, DXF."""
 
-from __future__ import annotations
-
 import io
 from pathlib import Path
 from typing import Any

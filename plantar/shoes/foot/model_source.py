@@ -1,7 +1,5 @@
 """Robot model through MuJoCo's reader: body shapes, places, mass; only needed parts are compiled."""
 
-from __future__ import annotations
-
 import math
 import re
 import warnings

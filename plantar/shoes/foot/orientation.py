@@ -1,7 +1,5 @@
 """Orientation of a foot: up, tilt and toes. Triangles (n, 3, 3) in mm."""
 
-from __future__ import annotations
-
 import math
 from typing import Any, Literal
 

@@ -1,7 +1,5 @@
 """Robot foot geometry and robot mass from MJCF or URDF."""
 
-from __future__ import annotations
-
 import itertools
 import os
 import re

@@ -1,7 +1,5 @@
 """Foot sources: mesh, robot model, drawing, built-in robot, or dimensions."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast

@@ -1,7 +1,5 @@
 """Sole plane outlines in mm: shapely, counter-clockwise, without holes, on a micrometre grid."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

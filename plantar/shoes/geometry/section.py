@@ -1,7 +1,5 @@
 """Plane sections of a closed surface, and wall thickness in them. In mm."""
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 from typing import Any

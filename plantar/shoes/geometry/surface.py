@@ -1,7 +1,5 @@
 """Surfaces of up to a million triangles on a micrometre grid: closure, cover, hull."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Bill of parts: what is printed, cut and bought, with weights."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import asdict, dataclass
 

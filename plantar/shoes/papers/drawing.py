@@ -3,8 +3,6 @@
 Datum A is the printed lower face, B plane y = 0 and C plane x = 0 below the ankle.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Files of a shoe: STL, STEP, 3MF, layout, pad, papers, and their checks."""
 
-from __future__ import annotations
-
 import json
 import math
 import os

@@ -1,7 +1,5 @@
 """Triangles as STL and 3MF files, byte for byte reproducible."""
 
-from __future__ import annotations
-
 import os
 import zipfile
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Pictures without a display: foot and shoe in shaded parallel projection."""
 
-from __future__ import annotations
-
 import math
 import os
 from pathlib import Path

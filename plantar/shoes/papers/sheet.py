@@ -1,7 +1,5 @@
 """Drawing sheet in mm on paper, as PDF, SVG, PNG and DXF (ISO 128 lines, ISO 129 dimensions)."""
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Iterable

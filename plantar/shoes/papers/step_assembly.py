@@ -1,7 +1,5 @@
 """Shoe parts in place, as named bodies of a STEP assembly. In mm."""
 
-from __future__ import annotations
-
 import numpy as np
 import shapely
 from numpy.typing import NDArray

@@ -3,8 +3,6 @@
 Each taxel, or sheet row and column, has its own line to the heel connector. KiCad's y points down.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

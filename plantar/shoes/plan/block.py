@@ -1,7 +1,5 @@
 """Shoe blocks: outlines at two heights and what is between. In mm."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 

@@ -1,7 +1,5 @@
 """Cell room in the shoe: pocket depth, width for leads or tail. In mm."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 

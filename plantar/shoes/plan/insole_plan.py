@@ -3,8 +3,6 @@
 Foot and shoe are soft: pressure next to cells is not measured, so cells reach the edge.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import fields, replace
 from typing import Any

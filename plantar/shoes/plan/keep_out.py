@@ -4,8 +4,6 @@ Without a robot model a shank is assumed on the block on top of the foot, or on 
 degrees every way.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -11,8 +11,6 @@ Needed are 5 g on the worn mass in swing, and at the toe, dragged by a tenth of 
 g (thickness + rim / 3) about the heel's edge.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Sole from above in mm: contact face, rim, pockets, cable, and layout."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

@@ -11,8 +11,6 @@ Beams of 1 mm width, without ribs and wall, so on the safe side:
 Stress is 6 M / t^2, allowed the material's strength over `safety`.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from typing import Any

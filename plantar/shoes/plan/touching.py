@@ -4,8 +4,6 @@ Print and ground are rigid, each taxel with its pad is a spring. Loads beyond th
 it.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

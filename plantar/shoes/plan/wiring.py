@@ -1,7 +1,5 @@
 """Cable's way through the ribs to the heel, and the board's holder."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

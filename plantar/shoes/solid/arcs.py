@@ -1,7 +1,5 @@
 """Runs of narrow facets replaced by cylinders and cones. In mm."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections import defaultdict

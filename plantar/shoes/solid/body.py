@@ -1,7 +1,5 @@
 """Printed body as added and cut blocks."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Blocks added and cut: the only file running OpenCascade booleans. In mm."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from functools import cache
 from itertools import pairwise

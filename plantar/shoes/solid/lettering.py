@@ -1,7 +1,5 @@
 """Stroke font letters as outlines, equal on every machine. In mm."""
 
-from __future__ import annotations
-
 from importlib.resources import files
 from typing import Any
 

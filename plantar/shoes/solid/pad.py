@@ -1,7 +1,5 @@
 """Replaceable silicone pad: a sheet under the taxels, with a rim. In mm."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any

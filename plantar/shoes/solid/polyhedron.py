@@ -1,7 +1,5 @@
 """Solid of flat faces: corners, face loops and triangles. In mm."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """What holds the shoe on an unchanged robot: clips, strap lugs, or screws."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any, Literal

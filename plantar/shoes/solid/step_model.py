@@ -1,7 +1,5 @@
 """Solids as STEP files with named products, and reading them back. In mm."""
 
-from __future__ import annotations
-
 import math
 import os
 import re

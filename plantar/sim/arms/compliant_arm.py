@@ -1,7 +1,5 @@
 """A walking robot's arm that yields to contact."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A scene's table `[arm]`: the arm that a walking robot moves."""
 
-from __future__ import annotations
-
 from plantar.settings.schema import Settings, choice, number, share, tables
 
 __all__ = ["ArmSettings"]

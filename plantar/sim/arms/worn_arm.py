@@ -1,7 +1,5 @@
 """An arm taken from a machine with the same base and out of the robot's chest."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """The kinds of `plantar bench`, loaded when needed."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields

@@ -1,7 +1,5 @@
 """Share of each room of the program in a run's time."""
 
-from __future__ import annotations
-
 import signal
 import sys
 from collections import Counter

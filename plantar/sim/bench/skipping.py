@@ -1,7 +1,5 @@
 """`plantar bench skip`: scenes with and without skipping, physics alone, time by room."""
 
-from __future__ import annotations
-
 import hashlib
 import time
 from collections import Counter

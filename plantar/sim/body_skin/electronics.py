@@ -1,7 +1,5 @@
 """A skin's electronics: saturation, noise, gain errors, resolution, rate, delay."""
 
-from __future__ import annotations
-
 from collections import deque
 from typing import ClassVar
 

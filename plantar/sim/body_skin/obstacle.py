@@ -1,7 +1,5 @@
 """One obstacle as skin measures it: ray lengths and point velocities."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import mujoco

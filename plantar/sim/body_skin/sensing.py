@@ -4,8 +4,6 @@ An elastic foundation: each taxel's ray measures depth; pressure follows from de
 Both act on link and obstacle, whose MuJoCo contacts are off.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 

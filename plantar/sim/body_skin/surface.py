@@ -4,8 +4,6 @@ A patch's z points into the body. A flat lattice is shot along z, a wrapped one 
 they meet the surface, turned to its normal.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any

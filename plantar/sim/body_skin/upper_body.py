@@ -3,8 +3,6 @@
 Forces act along a face's normal. Taxels have 691 mm^2 on H1, and scale with the robot.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import mujoco

@@ -1,7 +1,5 @@
 """Encoders and drives of a machine's joints: motors or servos."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 from numpy.typing import NDArray

@@ -1,7 +1,5 @@
 """MuJoCo as the model library of `wholebody`."""
 
-from __future__ import annotations
-
 from difflib import get_close_matches
 from typing import Any
 

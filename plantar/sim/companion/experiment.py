@@ -1,7 +1,5 @@
 """An experiment of the companion: surroundings, actors, success, and its scene."""
 
-from __future__ import annotations
-
 import math
 import pkgutil
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """Distance sensors of a mobile base: a level scan (A 3.2.4)."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Machines with skin: an MJCF, and a TOML with base, joints, drives and skin."""
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Mapping

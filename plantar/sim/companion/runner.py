@@ -1,7 +1,5 @@
 """An experiment on a machine with skin that is built and ready to run."""
 
-from __future__ import annotations
-
 import time as clock
 from collections import Counter
 from collections.abc import Callable, Sequence

@@ -3,8 +3,6 @@
 The truth is MuJoCo's contact wrench of the same step.
 """
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Iterable, Sequence

@@ -1,7 +1,5 @@
 """Effects of contact parameters on slip, penetration, landing and run time."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable

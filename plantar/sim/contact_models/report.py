@@ -1,7 +1,5 @@
 """The comparison of contact models as text, page, tables and figure."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A compiled free body with one sole, and its taxel reader."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, NamedTuple
 

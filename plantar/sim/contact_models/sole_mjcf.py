@@ -1,7 +1,5 @@
 """Contact models and parameters, and a sole's MJCF: its outer face is z = 0."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple

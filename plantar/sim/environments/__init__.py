@@ -1,7 +1,5 @@
 """Gymnasium environments with plantar skin: `gymnasium.make("PlantarWalk-v0", robot="my_robot.toml")`."""
 
-from __future__ import annotations
-
 from plantar.optional_library import need_libraries
 
 __all__ = ["ENVIRONMENTS", "register"]

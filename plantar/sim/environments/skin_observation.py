@@ -1,7 +1,5 @@
 """Adds plantar skin to observations of any MuJoCo Gymnasium environment."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -3,8 +3,6 @@
 Velocities are in sqrt(g l), lengths in legs l, times in beats sqrt(l / g). Rewards are at most 1 a step.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any, Protocol

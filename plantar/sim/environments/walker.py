@@ -1,7 +1,5 @@
 """A robot with plantar skin as a Gymnasium environment."""
 
-from __future__ import annotations
-
 import math
 import os
 from typing import Any

@@ -1,7 +1,5 @@
 """A run for a 3D viewer: Foxglove topics in its recording."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 

@@ -1,7 +1,5 @@
 """A model's shapes as 3D viewer primitives in body frames."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import mujoco

@@ -1,7 +1,5 @@
 """Videos of a run: world, forces and taxels."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping
 from types import TracebackType

@@ -1,7 +1,5 @@
 """Figures of pushes and a partner after K's Fig. 7, 8, 10, 13 and 14, and of a guide."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Pictures of a run; without a display set MUJOCO_GL=egl before MuJoCo's import."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Figures of a run, drawn from its recording."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Sole readings in a video's corner: taxels, CoP and forces."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Mapping
 

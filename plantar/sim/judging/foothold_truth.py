@@ -1,7 +1,5 @@
 """Errors of the controller's footholds."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

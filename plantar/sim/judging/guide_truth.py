@@ -1,7 +1,5 @@
 """How arm and feet of a led robot followed the hand."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

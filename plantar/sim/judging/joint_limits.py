@@ -1,7 +1,5 @@
 """Whether joints stay within their true speed and torque limits."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

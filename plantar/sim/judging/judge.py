@@ -3,8 +3,6 @@
 After a physics step MuJoCo's contacts, forces and poses belong to its beginning.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

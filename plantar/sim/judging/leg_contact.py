@@ -1,7 +1,5 @@
 """Whether one leg touches the other."""
 
-from __future__ import annotations
-
 from plantar.robots.leg_shapes import COLLIDES
 from plantar.sides import SIDES
 from plantar.sim.model.world import World

@@ -3,8 +3,6 @@
 Steps count from stance foot to landed foot, without dead reckoning.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """How a standing robot takes pushes: true ZMP motion, and time to rest."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """How steadily the ground carries: flickering contacts do not measure a controller."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from plantar.kernels.contacts.ground_reaction import GroundReaction

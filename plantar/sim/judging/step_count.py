@@ -1,7 +1,5 @@
 """Counts the steps of a walk by side, order and true place."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

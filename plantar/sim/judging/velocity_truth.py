@@ -1,7 +1,5 @@
 """True walking speed against its command, and standing at a stop."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The verdict on a run: each failed criterion, value and limit."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -3,8 +3,6 @@
 A move needs a report before landing, a reason, and a place that a detour explains.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace

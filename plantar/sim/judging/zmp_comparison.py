@@ -3,8 +3,6 @@
 Both share a low pass and the controller's feet; clipped noise is corrected (`plantar.gait.estimate.skin_load`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

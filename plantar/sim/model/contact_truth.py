@@ -3,8 +3,6 @@
 MjData is read after a step; wrenches are [fx, fy, fz, tx, ty, tz] BY the world ON the robot.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Sequence
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """A push on a body over time."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

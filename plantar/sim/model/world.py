@@ -1,7 +1,5 @@
 """The simulated world: robot, ground and others as one MuJoCo model."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

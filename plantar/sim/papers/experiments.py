@@ -1,7 +1,5 @@
 """The papers' experiments that are scenes here: one list, for `plantar bench` and for benchmarks/papers.py."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from types import MappingProxyType

@@ -3,8 +3,6 @@
 Each table `[[settings]]` of this folder's TOML files cites its source.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple

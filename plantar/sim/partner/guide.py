@@ -4,8 +4,6 @@ It has mass but no weight, follows its path by a spring of limited force, else t
 (`plantar.sim.body_skin`).
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any, NamedTuple
 

@@ -3,8 +3,6 @@
 It has mass but no weight, slides along the world's axes and turns about the vertical, and acts through skin alone.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import mujoco

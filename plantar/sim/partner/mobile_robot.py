@@ -4,8 +4,6 @@ It rolls along the robot's initial heading, its arm is a spring, and it follows 
 limited force.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A scene's tables `[partner]` and `[guide]`."""
 
-from __future__ import annotations
-
 from plantar.settings.schema import Settings, choice, number, share
 
 __all__ = ["GuideSettings", "PartnerSettings"]

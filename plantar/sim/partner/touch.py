@@ -1,7 +1,5 @@
 """Skin in the world, partners that press on it, and their physics step."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, Protocol
 

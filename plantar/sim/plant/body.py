@@ -1,7 +1,5 @@
 """The true robot: mass, CoM, servo stiffness, joint friction; the controller's model stays nominal."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

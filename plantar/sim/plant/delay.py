@@ -1,7 +1,5 @@
 """A delay line."""
 
-from __future__ import annotations
-
 from collections import deque
 from typing import Generic, TypeVar
 

@@ -1,7 +1,5 @@
 """The true plant of a run: stated and drawn values."""
 
-from __future__ import annotations
-
 import math
 import zlib
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """True leg drives: encoder zeros, delay, play, ripple, torque-speed curves."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

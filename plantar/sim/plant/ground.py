@@ -1,7 +1,5 @@
 """True ground: friction, softness and colours by place, and foam under soles."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

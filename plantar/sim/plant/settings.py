@@ -1,7 +1,5 @@
 """A scene's `[plant]` table: differences of the true plant from the controller's model."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, Self
 

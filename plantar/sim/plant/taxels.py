@@ -1,7 +1,5 @@
 """True taxels: crosstalk, hysteresis, gains, zeros, loose connectors."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """A scene's pushes by hands, and their times."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any

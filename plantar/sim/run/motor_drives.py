@@ -1,7 +1,5 @@
 """Leg joints driven by motors with gains and feed-forward torques."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """A planned walk's footprints, by which its ground is laid out."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 from plantar.gait.plan.footsteps import Footstep

@@ -1,7 +1,5 @@
 """Pushes on the base, in a step or standing."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

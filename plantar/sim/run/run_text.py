@@ -1,7 +1,5 @@
 """A run's summary in words."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Mapping
 from pathlib import Path

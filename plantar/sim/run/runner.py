@@ -1,7 +1,5 @@
 """A walk ready to run: robot, ground, controller, sensors and judge."""
 
-from __future__ import annotations
-
 import os
 import time as clock
 from collections import Counter

@@ -1,7 +1,5 @@
 """Position servos with velocity and torque feed-forward, interpolated at their own rate."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

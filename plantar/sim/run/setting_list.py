@@ -1,7 +1,5 @@
 """Every dotted setting of scenes, `--set`, sweeps and robot files."""
 
-from __future__ import annotations
-
 from difflib import get_close_matches
 
 from plantar.errors import InputError

@@ -1,7 +1,5 @@
 """Puts a robot on its feet and lets contacts settle."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 
 import mujoco

@@ -1,7 +1,5 @@
 """Hands, guide and partner of a run, their skin and judge."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any

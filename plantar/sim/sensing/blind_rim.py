@@ -1,7 +1,5 @@
 """What an unrelieved pad carries past its taxels (docs/shoes.md)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """The patch of a sole that contact points span."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Generic, TypeVar
 

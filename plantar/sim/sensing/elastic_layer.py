@@ -13,8 +13,6 @@ so the difference to the half-space (M = 1) at a distance r is
 Sources: Johnson, Contact Mechanics (1985), 3.25, 5.8; Love, The stress produced in a semi-infinite solid (1929).
 """
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 from typing import NamedTuple

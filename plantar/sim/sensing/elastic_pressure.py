@@ -4,8 +4,6 @@ Unlike the springs of `SolePressure`, neighbours move each other (`plantar.sim.s
 controller does not assume. Forces are linear in the wrench while the same squares touch; that matrix is kept.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import NamedTuple

@@ -3,8 +3,6 @@
 Rays are costly: none for a sole not asked for or out of range.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection
 from typing import Any

@@ -1,7 +1,5 @@
 """Encoders, IMU, ankles and soles, with their noise."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping
 
 import mujoco

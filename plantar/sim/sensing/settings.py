@@ -1,7 +1,5 @@
 """What sensors do to the truth: a scene's `[sensing]` table."""
 
-from __future__ import annotations
-
 from plantar.settings.schema import Settings, choice, number, share, switch, whole
 
 __all__ = ["Sensing"]

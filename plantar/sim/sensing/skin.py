@@ -4,8 +4,6 @@ A rigid box lifts a corner by micrometres where rubber stays pressed: with a `ga
 and those within REACH belong to the patch.
 """
 
-from __future__ import annotations
-
 import math
 from collections import deque
 from collections.abc import Collection, Sequence

@@ -9,8 +9,6 @@ A_i the covered area of cell i and (x_i, y_i) its centroid. A load beyond the ou
 point among them, one on the bare rim to the nearest cells. Forces add up to the true one.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

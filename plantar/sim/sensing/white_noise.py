@@ -1,7 +1,5 @@
 """White noise of a sensor, drawn in blocks."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

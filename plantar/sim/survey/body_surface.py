@@ -1,7 +1,5 @@
 """The surface of a model's bodies as triangles."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Mapping
 from typing import Any

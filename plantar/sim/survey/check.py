@@ -1,7 +1,5 @@
 """Obstacles to a robot's walk in a scene, measured without physics."""
 
-from __future__ import annotations
-
 import math
 import os
 from dataclasses import asdict, dataclass, replace

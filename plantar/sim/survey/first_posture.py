@@ -1,7 +1,5 @@
 """The posture that a fit begins with: knees bent, soles apart."""
 
-from __future__ import annotations
-
 import math
 
 import mujoco

@@ -1,7 +1,5 @@
 """A walk that fits a robot: posture, stance, pace and gains."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import replace

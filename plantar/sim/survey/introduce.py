@@ -1,7 +1,5 @@
 """From a model file to a robot that walks."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

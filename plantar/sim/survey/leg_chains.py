@@ -1,7 +1,5 @@
 """The legs of a model, found without names: two alike chains of hinges."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

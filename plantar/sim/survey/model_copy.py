@@ -1,7 +1,5 @@
 """A copy of a robot's model as it walks: upright floating base, leg joints, the rest held."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A robot's model as its author left it, MJCF or URDF."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field

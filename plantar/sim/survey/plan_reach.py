@@ -1,7 +1,5 @@
 """Demands of a walk's plan on the legs, without physics."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

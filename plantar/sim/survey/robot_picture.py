@@ -1,7 +1,5 @@
 """A picture of a standing robot with its sole frames."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from pathlib import Path
 

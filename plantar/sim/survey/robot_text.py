@@ -1,7 +1,5 @@
 """The written robot file: every value with its reason."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Iterable, Sequence

@@ -1,7 +1,5 @@
 """Inertia about each leg joint, and servo gains."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

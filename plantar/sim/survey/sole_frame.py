@@ -1,7 +1,5 @@
 """The sole of a foot: the plane it rests on, and its frame."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection
 from dataclasses import dataclass

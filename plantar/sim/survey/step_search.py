@@ -1,7 +1,5 @@
 """Search for the steps that a robot takes best: height, length, pace, stance and lean."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 

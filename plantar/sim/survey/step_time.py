@@ -8,8 +8,6 @@ at p to the side, half the feet's distance, swings to the foot and back in a tim
 (Kajita et al., "The 3D linear inverted pendulum mode", IROS 2001). Quick steps keep that small.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

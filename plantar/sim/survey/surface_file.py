@@ -1,7 +1,5 @@
 """Mesh files that MuJoCo does not read (Collada, text and large STL) as binary STL."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Iterable

@@ -1,7 +1,5 @@
 """Legs, feet, torso and motors of a robot's model."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Workers of a Dask cluster, and allowed scheduler addresses."""
 
-from __future__ import annotations
-
 import ipaddress
 import itertools
 import logging

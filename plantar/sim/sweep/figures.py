@@ -1,7 +1,5 @@
 """Figures of a sweep, drawn from its table alone."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any

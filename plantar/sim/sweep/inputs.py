@@ -1,7 +1,5 @@
 """File contents and versions that sweep rows depend on."""
 
-from __future__ import annotations
-
 import hashlib
 import re
 from collections.abc import Iterator, Mapping

@@ -5,8 +5,6 @@ width and lapse have a probability on a grid, at first flat in the limit, the lo
 (Kontsevich and Tyler, Bayesian adaptive estimation of psychometric slope and threshold, Vision Research 39, 1999).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Search the limit of one setting with the most informative runs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

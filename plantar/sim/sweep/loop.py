@@ -1,7 +1,5 @@
 """Many runs of a scene, each appended to results.csv at once: a stopped sweep continues."""
 
-from __future__ import annotations
-
 import os
 import signal
 import threading

@@ -1,7 +1,5 @@
 """What a sweep runs, from the command line's texts."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from plantar.errors import InputError

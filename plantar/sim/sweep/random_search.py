@@ -1,7 +1,5 @@
 """Runs at random points of settings' ranges, one seed a point."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """The rows of a sweep: a growing table, for one process at a time."""
 
-from __future__ import annotations
-
 import csv
 import json
 import os

@@ -1,7 +1,5 @@
 """A beam between platforms, along the walk (T 4.4.5.3)."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """An obstacle on level ground under a planned step."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

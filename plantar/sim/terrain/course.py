@@ -1,7 +1,5 @@
 """A course of solids listed in the scene."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

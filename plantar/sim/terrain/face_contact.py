@@ -3,8 +3,6 @@
 MuJoCo's own contacts of nearly parallel boxes jump between one and four with a nanometre of motion.
 """
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Callable
 from pathlib import Path

@@ -4,8 +4,6 @@ A kind is a frozen dataclass of a scene's `[terrain]` table that turns footprint
 `Ground`.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field

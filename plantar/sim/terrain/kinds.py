@@ -1,7 +1,5 @@
 """The kinds of ground: this package's, and entry points `plantar.terrain`."""
 
-from __future__ import annotations
-
 import pkgutil
 from functools import cache
 from importlib import import_module

@@ -1,7 +1,5 @@
 """A mixed course: the seed draws the ground under each step."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Stones, one under each planned footprint: partial, uneven or bumpy."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Ground across the whole way of a walk: stairs, slopes, and a height field."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

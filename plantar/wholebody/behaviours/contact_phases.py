@@ -1,7 +1,5 @@
 """A hand's two contact phases, and the weight from proximity to force (A Table 1, 3.1)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from plantar.wholebody.fusion.priority_transition import smooth_share

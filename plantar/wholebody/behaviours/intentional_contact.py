@@ -3,8 +3,6 @@
 The conditions of T Table 1 overlap: an arrangement stays until another's have held a while.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import ClassVar, Literal, NamedTuple

@@ -1,7 +1,5 @@
 """Nociceptive reflex: painful pressure drops tasks (T 3.4.1)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

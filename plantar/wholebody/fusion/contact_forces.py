@@ -1,7 +1,5 @@
 """Contact forces of standing: pressing, within the contact, without slip (T 4.4.4)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

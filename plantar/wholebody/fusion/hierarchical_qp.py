@@ -5,8 +5,6 @@ the hierarchy's motion. Infeasible speed and position limits are widened least, 
 them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 

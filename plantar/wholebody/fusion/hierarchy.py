@@ -7,8 +7,6 @@ A direction with singular value above `RANK` of its rows' size belongs to its le
 it is driven by s / (s^2 + lambda^2), lambda^2 = (1 - (s / s_0)^2) s_0^2 / 4, for bounded, continuous torques.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import NamedTuple

@@ -3,8 +3,6 @@
 For comparison and force tasks: higher tasks do not correct accelerations (A 21). Otherwise use `fusion.hierarchy`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Literal
 

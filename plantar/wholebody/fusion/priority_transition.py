@@ -4,8 +4,6 @@ In T 3.46, chi = (1 - tanh(delta_t (t - t_t))) / 2 jumps by a half at trigger t_
 scaled from 1 to 0.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A mobile base avoids its distance sensors' obstacles (A 15-17)."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """A link's pose, position or orientation (T 3.39, 3.42-3.44, A 4)."""
 
-from __future__ import annotations
-
 import math
 from typing import Literal
 

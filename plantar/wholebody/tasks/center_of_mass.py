@@ -1,7 +1,5 @@
 """Place of the center of mass (T 3.25)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A wrist turns a skin patch to the surface by zeroing its moment (A 10)."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

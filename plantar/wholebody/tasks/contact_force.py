@@ -1,7 +1,5 @@
 """Force on, or distance from, a surface along a skin patch's normal (A 5-9)."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Given force at a point (T 3.4, 3.29)."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Joint posture, for the remaining freedom (T 3.2.5.1, A 18)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

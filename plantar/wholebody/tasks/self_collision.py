@@ -1,7 +1,5 @@
 """Links avoid each other (T 3.2.3.1): repulsive field between spheres."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 

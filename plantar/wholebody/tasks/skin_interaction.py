@@ -1,7 +1,5 @@
 """Skin interactions: force along z of active taxels, summed by link (T 3.14-3.24)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

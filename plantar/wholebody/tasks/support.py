@@ -1,7 +1,5 @@
 """Contacts that support a free base (T 3.12-3.13)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

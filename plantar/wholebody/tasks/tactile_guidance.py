@@ -1,7 +1,5 @@
 """Touches on the arm guide the hand (A 11-12), which stays where the arm is bent."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import pairwise
 

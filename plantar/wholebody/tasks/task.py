@@ -1,7 +1,5 @@
 """Interface of tasks: Jacobian, and force or acceleration along it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple, Protocol
 

@@ -1,7 +1,5 @@
 """How a swinging sole comes down on ground that it sees."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

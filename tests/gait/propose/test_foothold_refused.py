@@ -1,7 +1,5 @@
 """Doubt, probe, step on or walk around, stop: from ticks alone."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

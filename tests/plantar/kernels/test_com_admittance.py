@@ -1,7 +1,5 @@
 """The CoM's offset under large gains and errors."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Runs that must not count, each with the reason it fails for. The judge was fooled by some of them."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from typing import Any

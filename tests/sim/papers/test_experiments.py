@@ -1,7 +1,5 @@
 """The papers' experiments open as written, as ours and without; their figures are those that runs report."""
 
-from __future__ import annotations
-
 import pytest
 
 from plantar.errors import PlantarError

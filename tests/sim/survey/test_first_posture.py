@@ -1,7 +1,5 @@
 """The posture that a fit begins with."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

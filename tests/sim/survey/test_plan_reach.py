@@ -1,7 +1,5 @@
 """What a swinging leg takes of the sole that carries, by the planned motion alone."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Figures of a report, and their files."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Footprint image: analysis, figure and page."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass

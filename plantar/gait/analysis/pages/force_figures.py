@@ -1,7 +1,5 @@
 """Figures of forces, wrenches and symmetry."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

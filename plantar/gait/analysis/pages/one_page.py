@@ -1,7 +1,5 @@
 """One-page summary: main measures, norms, loads and trends."""
 
-from __future__ import annotations
-
 import html
 from collections.abc import Mapping, Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Recording frames packed for the report's player."""
 
-from __future__ import annotations
-
 import base64
 import zlib
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """Report: one HTML page without other files."""
 
-from __future__ import annotations
-
 import html
 import json
 from collections.abc import Iterable, Mapping, Sequence

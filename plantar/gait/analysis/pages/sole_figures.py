@@ -1,7 +1,5 @@
 """Figures of soles from above: maximum pressure, CoP paths, regions."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """Tables of measures: steps, regions, and two recordings."""
 
-from __future__ import annotations
-
 import html
 from collections.abc import Iterator, Mapping
 from dataclasses import replace

@@ -4,8 +4,6 @@ A set of loaded convex cells. Foot frame: origin at the back of the heel, u alon
 medial side.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Platforms and walkways: footprints, their feet, and the walking direction."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import cast

@@ -4,8 +4,6 @@ A piece is loaded cells that touch, or have one cell between them, without a pau
 larger than a foot are one footprint.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property

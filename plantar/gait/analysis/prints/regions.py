@@ -4,8 +4,6 @@ Toes begin at a gap, or pressure valley, in front of the metatarsal heads. The t
 its forefoot into width thirds; the hallux is the medial part of the toes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from itertools import pairwise

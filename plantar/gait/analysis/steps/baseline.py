@@ -4,8 +4,6 @@ In a walk the force keeps returning to a flat level for about half a second; in 
 in a walk are removed, and reported.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Path of the CoP under a foot."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np

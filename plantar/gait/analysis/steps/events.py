@@ -5,8 +5,6 @@ event is where force crosses its level, or midway in a jump of half the range; a
 straightened fall of push-off ends.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise

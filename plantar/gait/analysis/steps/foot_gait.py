@@ -1,7 +1,5 @@
 """Analysis of one foot: events, steps and measures."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property

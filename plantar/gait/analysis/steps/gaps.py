@@ -1,7 +1,5 @@
 """Missing cell values: short gaps are filled, missing values reported."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

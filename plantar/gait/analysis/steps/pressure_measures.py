@@ -1,7 +1,5 @@
 """Pressure of contacts: peaks, integrals, areas, regions, and a robot's wrench."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Parts of a recording with one activity."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Events that a file states: their contacts, and differences from own events."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Which steps are in the means, and which are odd."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 

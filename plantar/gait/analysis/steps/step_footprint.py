@@ -1,7 +1,5 @@
 """Footprint of a step: the foot's own, on a platform the step's."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

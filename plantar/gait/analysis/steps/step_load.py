@@ -1,7 +1,5 @@
 """Load of cells in contacts, and thresholds of loaded cells."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Measures of one step alone: force curve, pressure, CoP, wrench, footprint."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import cast
 

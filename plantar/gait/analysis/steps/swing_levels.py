@@ -4,8 +4,6 @@ A morphological opening (Serra 1982, Image Analysis and Mathematical Morphology,
 level under them; runs of frames at it between quick flanks are swings.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

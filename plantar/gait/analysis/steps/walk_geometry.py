@@ -1,7 +1,5 @@
 """Places of steps: lengths, widths, strides, and foot angles to the walking line."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Conditions of a study compared: participants count once a condition, paired if possible."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations

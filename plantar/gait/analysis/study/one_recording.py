@@ -1,7 +1,5 @@
 """One recording of a study: steps, feet, mean curves and sole maps."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """Table of a study: each file's participant, condition and properties."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections import Counter

@@ -1,7 +1,5 @@
 """Study from a folder of recordings to tables and page."""
 
-from __future__ import annotations
-
 import json
 import math
 import os

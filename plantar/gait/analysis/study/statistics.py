@@ -4,8 +4,6 @@ The largest |t|, and largest cluster beyond a threshold, are compared with those
 permuted signs (Nichols & Holmes 2002, Hum. Brain Mapp. 15:1; Maris & Oostenveld 2007, J. Neurosci. Methods 164:177).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

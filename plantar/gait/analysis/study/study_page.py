@@ -1,7 +1,5 @@
 """Page of a study and its figures."""
 
-from __future__ import annotations
-
 import html
 import math
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """Center of mass at a point."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 from numpy.typing import NDArray

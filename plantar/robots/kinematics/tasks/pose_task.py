@@ -1,7 +1,5 @@
 """A site, for example a sole's frame, at a pose."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 from numpy.typing import NDArray

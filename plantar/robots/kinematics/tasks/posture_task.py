@@ -1,7 +1,5 @@
 """Joints at a reference posture."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import mujoco

@@ -1,7 +1,5 @@
 """Trials in units of the robot, and a policy's run on one, judged by the truth."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """The foothold benchmark: trials with many seeds in a growing table."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any

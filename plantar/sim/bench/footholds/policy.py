@@ -1,7 +1,5 @@
 """A policy of the foothold benchmark: input, output, and loading."""
 
-from __future__ import annotations
-
 import importlib.util
 import os
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """The page of `plantar bench all`, for new readers."""
 
-from __future__ import annotations
-
 import html
 import math
 from collections.abc import Mapping, Sequence

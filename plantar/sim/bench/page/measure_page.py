@@ -1,7 +1,5 @@
 """The end of `plantar bench all`: scenes, papers' experiments, and page."""
 
-from __future__ import annotations
-
 import platform
 import shutil
 import time

@@ -1,7 +1,5 @@
 """A scene with a `SceneSetting`, and its difference from a reference."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace

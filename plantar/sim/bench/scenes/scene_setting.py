@@ -1,7 +1,5 @@
 """What `plantar bench scenes` changes of a scene, one at a time."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 __all__ = ["OWN", "REFERENCE", "SETTINGS", "SceneSetting", "setting_named"]

@@ -1,7 +1,5 @@
 """`plantar bench scenes`: cost and error of walks in many settings."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """One walk or stand on flat ground with a fault."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 

@@ -1,7 +1,5 @@
 """Stress runs, a row each in a growing table."""
 
-from __future__ import annotations
-
 import traceback
 import warnings
 from collections import Counter

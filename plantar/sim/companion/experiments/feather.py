@@ -1,7 +1,5 @@
 """A hand, then an object without mass, come near the robot's hand, which is repelled and never touched (T 3.3.1.1)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, ClassVar

@@ -1,7 +1,5 @@
 """The four experiments of A (4.3): force or distance of a hand on a surface while base, person and object move."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Many hands press on a standing robot, and hug it; it keeps its balance (T 3.2.3.1)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from plantar.sim.companion.machine import Machine

@@ -1,7 +1,5 @@
 """Intentional contact (T 3.4.2): an arm's tip reaches its goal among things that it may push gently."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from pathlib import Path

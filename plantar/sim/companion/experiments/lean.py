@@ -1,7 +1,5 @@
 """A robot leans on a table with one forearm and reaches beyond its feet, one of them on an edge."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, ClassVar

@@ -1,7 +1,5 @@
 """Thirteen contacts on a robot on its left leg: it avoids, yields and keeps its balance (T 3.2.4.1)."""
 
-from __future__ import annotations
-
 from typing import Any, ClassVar
 
 from plantar.sensing.link_skin import BodySkin

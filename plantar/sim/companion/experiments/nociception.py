@@ -4,8 +4,6 @@ Order: support; right hand's position; its orientation; pressure-driven complian
 the hand's tasks are dropped until it is calm.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Probes of one and a hundred taxels press on the torso with the same force: the area decides (T 3.2.5.1)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -4,8 +4,6 @@ Two orders of levels: support, hand, posture where the skin is cool; support, he
 keeps one: support, heat, hand, posture.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from pathlib import Path

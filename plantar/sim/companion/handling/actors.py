@@ -1,7 +1,5 @@
 """Hands that push a machine's links, and a person at its base."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """A hand over time, drawn like A's Figures 5 to 8."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any

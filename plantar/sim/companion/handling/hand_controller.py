@@ -1,7 +1,5 @@
 """The hierarchy of A (Table 1) for a hand with skin on a mobile base, in two phases."""
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 import numpy as np

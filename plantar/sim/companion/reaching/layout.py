@@ -1,7 +1,5 @@
 """Random layouts of obstacles between a tip and its goal."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from typing import Any

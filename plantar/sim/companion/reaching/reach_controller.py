@@ -1,7 +1,5 @@
 """A tip that goes to its goal among unknown things (T 3.4.2)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import ClassVar
 

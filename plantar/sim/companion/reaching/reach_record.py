@@ -1,7 +1,5 @@
 """A tip's way to its goal, and its figure."""
 
-from __future__ import annotations
-
 from itertools import groupby
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The controller of a machine that stands: base, filtered skin, tasks."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from time import perf_counter
 from typing import Any, ClassVar

@@ -5,8 +5,6 @@ summed over areas as cos cos dA / (pi r^2) (Incropera, Fundamentals of heat and 
 radiation to the room.
 """
 
-from __future__ import annotations
-
 import math
 from typing import ClassVar
 

@@ -1,7 +1,5 @@
 """Keeps joints off their range's ends by repulsive fields."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 

@@ -1,7 +1,5 @@
 """The controller of a robot that leans on a table with one forearm."""
 
-from __future__ import annotations
-
 from typing import Any, ClassVar
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Pads that press on a link along its normal and follow it."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from typing import Any

@@ -1,7 +1,5 @@
 """A standing machine under pads: it yields and keeps its balance."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Feet on the ground: support, and the base's place."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What standing experiments share: ground, first posture, balance."""
 
-from __future__ import annotations
-
 import math
 from collections import deque
 from collections.abc import Mapping, Sequence

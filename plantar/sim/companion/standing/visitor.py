@@ -1,7 +1,5 @@
 """A hand or a massless object that comes straight towards a link and goes back."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import mujoco
