@@ -87,10 +87,7 @@ class DcmBalance:
         return BalanceState(*self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region))
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
-        """Returns each foot's load by `balanced`.
-
-        In double support `feet` yield to mutual pressure, at rest to part of the ZMP error, too.
-        """
+        """Returns each foot's load by `balanced`; `feet` at rest yield to mutual pressure and part of the ZMP error."""
         actions = transferred(balanced, self.mass, feet)
         wanted, measured = {}, {}
         if feet.rests and self._zmp is not None:
@@ -100,12 +97,6 @@ class DcmBalance:
                 foot = feet.states[side]
                 if foot.wrench is not None:
                     wanted[side], measured[side] = _wrench_in_sole(action, foot), foot.wrench
-        elif feet.stance is None and all(foot.wrench is not None for foot in feet.states.values()):
-            measured = {side: foot.wrench for side, foot in feet.states.items() if foot.wrench is not None}
-            wanted = {side: _wrench_in_sole(actions[side], foot) for side, foot in feet.states.items()}
-            # The common error is the ZMP's, to which the CoM yields.
-            common = 0.5 * sum(measured[side] - wanted[side] for side in measured)
-            wanted = {side: wrench + common for side, wrench in wanted.items()}
         for side, moved in self.feet.update(wanted, measured, feet.rests).items():
             if moved.roll or moved.pitch or moved.shift:
                 actions[side] = actions[side].changed(roll=moved.roll, pitch=moved.pitch, shift=moved.shift)

@@ -42,7 +42,7 @@ class FootState(Record, frozen=True):
         center: Point (2,) of the sole in m to load.
         contact: Frame in the world, loadable part, desired center of pressure; None in the air or without
             `wants_contacts`.
-        wrench: Measured (6,), sole frame, about its origin, by the world; None in the air.
+        wrench: Measured (6,), sole frame, about its origin, by the world; None in the air, or while walking without it.
     """
 
     position: NDArray[np.float64]

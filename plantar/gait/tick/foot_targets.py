@@ -43,8 +43,8 @@ class FootTargets:
         Args:
             phase: The walk's.
             soles: Each sole's load.
-            contacts: Whether the law needs contacts.
-            rests: Whether the robot stands after a walk.
+            contacts: Whether the law needs contacts and wrenches.
+            rests: Whether the robot stands after a walk; wrenches included.
         """
         states: dict[Side, FootState] = {}
         motion, crept = self._footing.motion, self._crept() if contacts else ()
@@ -54,7 +54,7 @@ class FootTargets:
             if x or y:
                 rotation = turned(level, x, y)
             contact = wrench = None
-            if phase.swing != side or motion.landed:
+            if (contacts or rests) and (phase.swing != side or motion.landed):
                 contact = self._contact(side, crept) if contacts else None
                 wrench = soles[side].wrench_in_sole
             center = self._footing.contacts.center(side)
