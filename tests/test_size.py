@@ -10,7 +10,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 FILES = sorted((ROOT / "plantar").rglob("*.py"))
 
-LIMITS = {"lines": 99_900, "statements": 59_500, "docstring words": 114_400, "lines of a file": 455}
+LIMITS = {"lines": 98_800, "statements": 59_000, "docstring words": 114_400, "lines of a file": 455}
 """What the source has at most; `.pxd` files count as lines. Wanted: 80,000, 48,000, 120,000 and 450."""
 
 

@@ -27,16 +27,15 @@ _ALIKE = 0.08
 
 
 class EdgeBeside:
-    """Proposes footsteps farther on the ground that a landed foot saw.
+    """Moves footsteps onto ground that a landed foot saw.
 
-    An edge cutting off a share f of a sole of width w moves steps by f w / 2.
+    An edge cutting a share f off a sole of width w moves steps by f w / 2.
 
     Args:
         layouts: Of each side.
         drop: Distance in m from the sole of absent ground.
         largest: Largest move in m by one landing.
-        drift: Whether only a drift moves steps: one foot over alike edges at each of its last landings, the other over
-            none.
+        drift: Whether steps move only for a drift: alike edges at a foot's last landings, none at the other's.
     """
 
     priority = Priority.FOOTHOLD
@@ -51,7 +50,7 @@ class EdgeBeside:
         self._alike = _ALIKE * max(float(np.ptp(places[:, 1])) for places in self._places.values())
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """Later steps, moved across, at touchdown."""
+        """Later steps, moved at touchdown."""
         if self._proposed is not None and (was_applied(self._proposed, tick) or self._begun(self._proposed.step, tick)):
             self._proposed = None
         if tick.feet.touchdown:
@@ -81,7 +80,7 @@ class EdgeBeside:
         return PlanChange("an edge beside", step, shift=(dx, dy), because="off the edge beside")
 
     def _drifted(self, seen: list[float], across: float) -> float:
-        """Least move of the same foot's last landings, where they and the other foot's between them mean a drift."""
+        """Least move of a foot's last landings where they mean a drift."""
         seen.append(across)
         del seen[: -(2 * _DRIFT - 1)]
         own, other = seen[::-2], seen[-2::-2]

@@ -34,7 +34,7 @@ class FeasibilityRules(
     Attributes:
         rule: "skin" or "force_torque".
         at: "probe" presses before deciding; "impact" decides by the touch's first readings (T Table 3).
-        area_ratio: epsilon_A: footholds of no larger share are refused; above 1 all are.
+        area_ratio: epsilon_A: no larger share is taken; above 1 none.
         hold: Single support's extension in s for that.
         active_force: Mean force in N of a carrying taxel, above noise.
         near: Taxel's distance in m at touchdown that counts as supported.
@@ -42,9 +42,9 @@ class FeasibilityRules(
         swing_time: Of the swing around it in s.
         outward: Largest move in m.
         forward: Largest move forward.
-        sideways_cost: Length factor of sideways moves, which load the stance hip most.
+        sideways_cost: Length factor of sideways moves, which load the stance hip.
         backward: Largest move backward.
-        attempts: Tries of a step before the robot stops.
+        attempts: Tries of a step before a stop.
     """
 
     rule: str = choice("skin", "force_torque")

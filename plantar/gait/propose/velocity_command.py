@@ -116,7 +116,7 @@ class Legs:
     inner: float = 0.07
 
     def room(self, out: float) -> float:
-        """Extra width in m for a foot turned out, or in, by an angle in rad, so that heel or toe keep clear.
+        """Extra width in m for a foot turned out or in by an angle in rad, so that heel or toe keep clear.
 
         Example:
             >>> legs = Legs(0.17, 0.8, heel=0.09, toe=0.13, inner=0.06)
@@ -131,7 +131,7 @@ class Legs:
 def next_step(
     stance: Footstep, other: Footstep, velocity: Velocity, legs: Legs, stride: Stride, duration: float
 ) -> Footstep:
-    """Returns a foot's next step.
+    """A foot's next step.
 
     Args:
         stance: Standing foot.
