@@ -59,7 +59,7 @@ class EdgeBeside:
 
     @staticmethod
     def _begun(step: int, tick: Tick) -> bool:
-        """Whether the step after one has begun."""
+        """Whether the next step has begun."""
         return tick.phase.step > step and tick.phase.kind == PhaseKind.SINGLE_SUPPORT
 
     def _off_the_edge(self, tick: Tick) -> PlanChange | None:

@@ -79,7 +79,7 @@ class Foothold:
     """What a probe found.
 
     Attributes:
-        feasible: Whether the rule accepts it.
+        feasible: Accepted by the rule.
         area_ratio: A_p / A_s.
         moment: At the ankle in N m while pressing; None without sensor.
         polygon_in_sole: Support (k, 2), sole frame, in m.
@@ -92,7 +92,7 @@ class Foothold:
 
 
 class FootholdProbe:
-    """Measurements of a foot pressing on unexpected ground."""
+    """Measurements of a foot on unexpected ground."""
 
     def __init__(self, layout: SoleLayout, rules: FeasibilityRules) -> None:
         self.layout = layout
@@ -103,7 +103,7 @@ class FootholdProbe:
         self._count = self._moments = 0
 
     def update_view(self, distance: NDArray[np.float64]) -> None:
-        """Store taxels' distances (n,) in m at touchdown; inf or NaN if unseen."""
+        """Store taxels' distances (n,) in m at touchdown; inf or NaN: unseen."""
         with np.errstate(invalid="ignore"):
             self._near = distance < self.rules.near
 
