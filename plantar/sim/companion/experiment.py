@@ -133,8 +133,7 @@ class Experiment:
         settings_type: Class of the scene's table `[experiment]`.
         control_type: Class of the scene's table `[control]`: the controller's gains and switches.
         columns: Names of those figures that a sweep writes into columns.
-        uses_lidar: Whether the base has distance sensors, whose nearest points (m, 2) of things, base frame, in m, the
-            controller's `scan` takes.
+        uses_lidar: Whether the controller's `scan` takes nearest points (m, 2) of things, base frame, in m.
         view: Body that a video follows (the base where empty), and from where.
     """
 

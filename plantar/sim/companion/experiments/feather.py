@@ -152,8 +152,9 @@ class Feather(StandingExperiment):
         time, near, moved = np.array(self._trace).T
         figure, (upper, lower) = new_figure(8.0, 5.0, rows=2, sharex=True)
         upper.plot(time, 1e3 * near, color=COLOURS["truth"])
-        upper.axhline(1e3 * self.control.range, color=COLOURS["reference"], linestyle="--")
-        upper.set(ylabel="distance of hand and visitor [mm]", ylim=(0.0, 80.0))
+        upper.axhline(1e3 * self.control.range, color=COLOURS["reference"], linestyle="--", label="used range")
+        upper.set(ylabel="visitor to hand [mm]", ylim=(0.0, 80.0))
+        upper.legend()
         lower.plot(time, 1e3 * moved, color=COLOURS["left"])
         lower.set(xlabel="time [s]", ylabel="hand moved [mm]")
         return [save_figure(figure, folder / "feather.png")]

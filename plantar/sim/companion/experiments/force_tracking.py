@@ -42,8 +42,8 @@ class ForceTrackingSettings(Settings):
         distance: Wanted distance before contact.
         contact: Start of the contact phase; 0 for never.
         gap: First distance of hand and object.
-        pitch: Range of the object's lean back in degrees, drawn by the seed; below 0 it hangs over.
-        yaw: Range of its first turn about the vertical in degrees, drawn by the seed.
+        pitch: Range of the object's lean back in degrees; below 0 it hangs over.
+        yaw: Range of its first turn about the vertical in degrees.
         circle: When the base is commanded along a circle.
         circle_radius: Its radius.
         swing: When the base is commanded to swing sideways.
@@ -55,7 +55,7 @@ class ForceTrackingSettings(Settings):
         largest_free: Limit of the force's RMS error without interactions; 0 for none.
         largest_disturbed: The same with interactions.
         tolerance: Limit of the distance's error without contact.
-        guided: Least way by which touches before contact guide the hand.
+        guided: Least way of a hand that is guided before contact.
     """
 
     duration: float = number(30.0, "s", 0.5, 600)

@@ -40,7 +40,7 @@ class ReachSettings(Settings):
         duration: Longest simulated time.
         tip_link: Link of the tip.
         tip: The tip in its frame in m.
-        layout: Kind of layout; "any" takes them in turn by the seed, a ring only if the tip cannot be lifted into it.
+        layout: "any" takes them in turn by the seed, a ring only if the tip cannot be lifted into it.
         force_limit: epsilon_c of T Table 1: tolerable force on what is touched.
         near: Least distance of the goal.
         far: Largest.
@@ -48,7 +48,7 @@ class ReachSettings(Settings):
         largest_angle: Largest.
         half_height: Of the obstacles, whose middle is at the tip's height.
         tolerance: Distance at which the goal is reached.
-        shove: Force on the first movable obstacle that is touched, back towards the arm (T Fig. 24d); 0 for none.
+        shove: Force on the first touched post, back towards the arm (T Fig. 24d).
     """
 
     duration: float = number(40.0, "s", 1.0, 600.0)

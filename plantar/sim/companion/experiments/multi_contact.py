@@ -3,25 +3,36 @@
 from typing import Any, ClassVar
 
 from plantar.sensing.link_skin import BodySkin
+from plantar.settings.schema import switch
 from plantar.sim.companion.experiments.feather import FeatherControl
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.pressed import UPPER_BODY, PressedExperiment
 from plantar.wholebody.tasks.skin_interaction import ProximityInteraction
 from plantar.wholebody.tasks.task import Task
 
-__all__ = ["MultiContact"]
+__all__ = ["MultiContact", "MultiContactControl"]
 
 _LEG = {f"right {part.replace('_', ' ')}": (f"right_{part}",) for part in ("upper_leg", "lower_leg", "foot_sole")}
+
+
+class MultiContactControl(FeatherControl):
+    """How the machine yields.
+
+    Attributes:
+        com_below: Whether the center of mass is below the skin.
+    """
+
+    com_below: bool = switch(False)
 
 
 class MultiContact(PressedExperiment):
     """Pads press on thirteen instances in turn, then on all; 13 tasks of contact and 13 of proximity run (T 5.1).
 
-    T 3.2.4.1 has the center of mass below the skin, which leaves no direction for it. Here it shares the support's
-    level.
+    With `com_below`, as T 3.2.4.1 prints it, a touched upper arm takes six directions, of which shoulder and waist have
+    five: the base has to give the sixth, and the robot falls. Otherwise the center of mass shares the support's level.
     """
 
-    control_type: ClassVar = FeatherControl
+    control_type: ClassVar = MultiContactControl
     sides: ClassVar = ("left",)
     com_height: ClassVar = 0.8
     roll: ClassVar = -12.0
@@ -33,9 +44,13 @@ class MultiContact(PressedExperiment):
         self.press_together(list(self.instances))
 
     def levels(self, skin: BodySkin) -> list[list[Task]]:
-        *above, yielding = super().levels(skin)
+        (com, upright), apart, yielding = super().levels(skin)
         c = self.control
         near = [ProximityInteraction(skin, c.stiffness, c.range, patches) for patches in self.instances.values()]
         for task in near:
             task.damping = (c.repelled_damping, 0.02 * c.repelled_damping)
-        return [*above, [*near, *yielding] if c.proximity else yielding]
+        touched: list[Task] = [*near, *yielding] if c.proximity else yielding
+        if c.com_below:
+            *touched, posture = touched
+            return [[upright], apart, touched, [com], [posture]]
+        return [[com, upright], apart, touched]

@@ -183,7 +183,7 @@ class Nociception(StandingExperiment):
         figure, (upper, lower) = new_figure(8.0, 5.0, rows=2, sharex=True)
         upper.plot(time, force, color=COLOURS["truth"], label="probe")
         upper.plot(time, virtual, color=COLOURS["active"], label="virtual force")
-        upper.axhline(self.control.threshold, color=COLOURS["reference"], linestyle="--")
+        upper.axhline(self.control.threshold, color=COLOURS["reference"], linestyle="--", label="threshold")
         upper.fill_between(time, 0.0, 1.1 * max(force.max(), virtual.max()) * active, alpha=0.15, label="reflex")
         upper.set(ylabel="force [N]")
         upper.legend()

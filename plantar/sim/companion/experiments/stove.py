@@ -1,7 +1,7 @@
 """A hand over a hot plate draws back when its skin gets warm (T 3.3.2.1).
 
-Two orders of levels: support, hand, posture where the skin is cool; support, heat with posture where it is warm. T
-keeps one: support, heat, hand, posture.
+Two orders of levels: support, hand, posture where the skin is cool; support, heat with posture where it is warm.
+`keep_hand` keeps that of T: support, heat, hand, posture.
 """
 
 import math
@@ -57,9 +57,11 @@ class StoveControl(StandingControl):
     Attributes:
         temperature: Whether heat repels the machine.
         threshold: kappa_0 of T 3.34: temperature from which it does.
+        keep_hand: Whether the hand's task goes on below heat.
     """
 
     temperature: bool = switch(True)
+    keep_hand: bool = switch(False)
     threshold: float = number(31.0, "degC", -50.0, 1000.0)
     repulsion: ClassVar[float] = 2.0  # N/K: force of one taxel a kelvin above the threshold
     repelled_damping: ClassVar[float] = 80.0  # N s/m: damping of the hand while it is repelled
@@ -108,7 +110,8 @@ class Stove(StandingExperiment):
         self._heat.damping = (c.repelled_damping, 0.02 * c.repelled_damping)
         base, posture = self.balance_tasks(), self.posture_task()
         self._working: list[list[Task]] = [base, [self._hand], [posture]]
-        self._shunning: list[list[Task]] = [base, [self._heat, posture]]
+        kept: list[list[Task]] = [base, [self._heat], [self._hand], [posture]]
+        self._shunning = kept if c.keep_hand else [base, [self._heat, posture]]
         self._control = StandingController(self.stance, self._working, self.balance, skin, c, self._before)
         self._control.after = self._transition.blend
         return self._control
@@ -168,7 +171,7 @@ class Stove(StandingExperiment):
         figure, (upper, lower) = new_figure(8.0, 5.0, rows=2, sharex=True)
         upper.plot(time, hottest, color=COLOURS["right"], label="hottest taxel")
         upper.plot(time, mean, color=COLOURS["left"], label="mean of the hand")
-        upper.axhline(self.control.threshold, color=COLOURS["reference"], linestyle="--")
+        upper.axhline(self.control.threshold, color=COLOURS["reference"], linestyle="--", label="threshold")
         upper.set(ylabel="temperature [degC]")
         upper.legend()
         lower.plot(time, height, color=COLOURS["truth"])

@@ -45,8 +45,7 @@ class HandControl(CompanionControl):
         base_damping: D_c likewise.
         wrist: Whether the wrist complies (ablation).
         avoidance: Whether the base avoids obstacles (ablation).
-        feed_forward: Whether wanted force and arm contact forces are fed forward into the joints (ablation); never
-            where drives take no torques.
+        feed_forward: Whether wanted and touching forces go into the joints (ablation), if drives take torques.
         priority: "strict", or "sum": torques of all tasks added (ablation).
     """
 

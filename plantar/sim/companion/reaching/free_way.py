@@ -48,7 +48,7 @@ class Tip(NamedTuple):
 
 
 def free_way(tip: Tip, goal: NDArray[np.float64], tolerance: float, posts: Sequence[Post], half: float) -> bool:
-    """Whether the ball alone, without the arm that carries it, can bring the tip to its goal and touch nothing.
+    """Whether the ball, without its arm, can bring the tip to its goal and touch nothing.
 
     A cell counts as free if any place in it is: False is a proof for every arm that carries the ball.
 

@@ -35,8 +35,7 @@ class ReachControl(CompanionControl):
     """Gains and switches of reaching.
 
     Attributes:
-        policy: "intentional" for T Table 1; "avoid" for its first arrangement alone; "fields" for attraction plus
-            repulsion.
+        policy: "intentional" for T Table 1; "avoid" for its first arrangement; "fields" for a sum of both.
         speed: V_max of T 3.44 while it avoids.
         range: Used sensing range, d_range of T 3.30.
         proximity: k_prox of T 3.30 of a taxel.
@@ -45,8 +44,7 @@ class ReachControl(CompanionControl):
         stuck: How long it is slow before it approaches.
         acceleration: Largest of a joint, for things on two sides.
         joint_speed: Largest of a joint, against striking unseen things.
-        upright: Whether the tip's orientation is held, on the last level as in T or on the first: a light tip turns
-            before the arm yields, and parts without skin come near.
+        upright: Level that holds the tip's orientation; "last" in T.
     """
 
     policy: str = choice("intentional", "avoid", "fields")

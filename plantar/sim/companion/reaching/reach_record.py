@@ -56,26 +56,29 @@ class ReachRecord:
         over[0].plot(time, force, color=COLOURS["left"], label="true force", linewidth=1.0)
         over[0].plot(time, measured, color=COLOURS["right"], label="measured", linewidth=0.7)
         over[0].axhline(self._limit, color="black", linestyle="--", linewidth=0.8, label="tolerable")
-        over[0].legend(fontsize=7, ncols=3)
         for axis, values, label in (
             (over[0], None, "force [N]"),
-            (over[1], near, "near [N]"),
-            (over[2], speed, "speed [m/s]"),
-            (over[3], share, "share of range"),
+            (over[1], near, "virtual force of\nwhat is near [N]"),
+            (over[2], speed, "speed of the\ntip [m/s]"),
+            (over[3], share, "used share of\nsensing range"),
         ):
             if values is not None:
                 axis.plot(time, values, color=COLOURS["left"], linewidth=1.0)
             axis.set_ylabel(label)
             self._shade(axis, time)
-        over[3].set_xlabel("time [s]  (shaded: approach, retreat)")
+        over[0].legend(fontsize=7, ncols=5, loc="lower center", bbox_to_anchor=(0.5, 1.0))  # hides no peak
+        over[3].set_xlabel("time [s]")
         return save_figure(figure, path)
 
     def _shade(self, axis: Any, time: NDArray[np.float64]) -> None:
-        at = 0
+        at, labels = 0, set(_SHADES)
         for name, run in groupby(self._arrangements):
             length = len(list(run))
             if name in _SHADES:
-                axis.axvspan(time[at], time[min(at + length, len(time) - 1)], color=_SHADES[name], linewidth=0)
+                label = name if name in labels else None
+                labels.discard(name)
+                end = time[min(at + length, len(time) - 1)]
+                axis.axvspan(time[at], end, color=_SHADES[name], linewidth=0, label=label)
             at += length
 
     def _draw_plan(self, axis: Any) -> None:
@@ -84,12 +87,14 @@ class ReachRecord:
             strength = 0.15 + 0.85 * i / max(1, chosen[-1])
             axis.plot(*self._arms[i].T, "o-", color=COLOURS["left"], alpha=strength, markersize=2.5, linewidth=2)
         tips = np.array([arm[-1] for arm in self._arms])
-        axis.plot(*tips.T, color="black", linewidth=1.0)
+        axis.plot(*tips.T, color="black", linewidth=1.0, label="way of the tip")
         angle = np.linspace(0.0, 2.0 * np.pi, 60)
         circle = np.column_stack([np.cos(angle), np.sin(angle)])
         for k, post in enumerate(self._layout.posts):
-            colour = COLOURS["right"] if post.friction else "black"
+            colour, name = (COLOURS["right"], "movable") if post.friction else ("black", "fixed")
             axis.plot(*(post.place + post.radius * circle).T, "--", color=colour, linewidth=0.8)
-            axis.fill(*(self._posts[-1][k] + post.radius * circle).T, color=colour, alpha=0.5)
-        axis.plot(*self._layout.goal, "*", color="green", markersize=14)
-        axis.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
+            axis.fill(*(self._posts[-1][k] + post.radius * circle).T, color=colour, alpha=0.5, label=name)
+        axis.plot(*self._layout.goal, "*", color="green", markersize=14, linestyle="", label="goal")
+        axis.set(aspect="equal", xlabel="x [m]; dashed: at first, filled: at the end", ylabel="y [m]")
+        named = dict(zip(*reversed(axis.get_legend_handles_labels()), strict=True))
+        axis.legend(named.values(), named, fontsize=7)

@@ -197,10 +197,15 @@ class PressedExperiment(StandingExperiment):
     def plot(self, folder: Path) -> Sequence[Path]:
         trace = np.array(self._trace)
         figure, (upper, lower) = new_figure(9.0, 7.0, rows=2)
-        for i, contact in enumerate(self.contacts):
-            upper.plot(trace[:, 0], trace[:, 1 + i], linewidth=1.0, label=contact.pad.name)
+        names = [contact.pad.name.removeprefix("pad ").removeprefix("together ") for contact in self.contacts]
+        places = list(dict.fromkeys(names))
+        for i, name in enumerate(names):
+            place, label = places.index(name), "_" * (name in names[:i]) + name
+            upper.plot(
+                trace[:, 0], trace[:, 1 + i], ("-", "--")[place // 10], color=f"C{place % 10}", lw=1, label=label
+            )
         upper.set(xlabel="time [s]", ylabel="force of each pad [N]")
-        upper.legend(fontsize=5, ncols=2)
+        upper.legend(fontsize=7, ncols=2, title="alone, then together", title_fontsize=7)
         active, took = np.array(self._control.active), np.array(self._control.took[: len(self._control.active)])
         if len(took):
             apart = np.random.default_rng(0).uniform(-0.2, 0.2, len(active))

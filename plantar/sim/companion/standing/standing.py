@@ -45,11 +45,11 @@ class StandingExperiment(Experiment):
         weight: In N.
         pads: Pads that press on it.
         sides: Feet that it stands on.
-        com_height: Wanted height in m of the centre of mass above the feet; None for what the posture gives.
-        roll: Roll of the base in degrees; towards the only foot it stands on it relieves that hip.
-        cop_margin_least: Least distance in mm of the true centre of pressure to the edge of the soles.
-        posture: Joints in degrees that stand in another posture than the machine's.
-        lift: Height in m to which a foot that does not stand is lifted.
+        com_height: Wanted height in m of the centre of mass above the feet; None: the posture's.
+        roll: Of the base in degrees; towards the only foot it stands on it relieves that hip.
+        cop_margin_least: Least distance in mm of the true centre of pressure to the soles' edge.
+        posture: Joints in degrees that differ from the machine's.
+        lift: Height in m of a foot that does not stand.
     """
 
     control_type: ClassVar = StandingControl
