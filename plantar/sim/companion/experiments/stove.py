@@ -1,7 +1,7 @@
 """A hand over a hot plate draws back when its skin gets warm (T 3.3.2.1).
 
-Two orders of levels: support, hand, posture where the skin is cool; support, heat with posture where it is warm.
-`keep_hand` keeps that of T: support, heat, hand, posture.
+Cool skin: support, hand, posture. Warm skin: support, heat with posture; with `keep_hand`, as in T, support, heat,
+hand, posture.
 """
 
 import math

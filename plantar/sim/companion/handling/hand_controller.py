@@ -34,13 +34,12 @@ _TAKEN_OVER = 0.3  # s in which the wanted force is taken over into the joints a
 class HandControl(CompanionControl):
     """Gains and switches of the hierarchy.
 
-    The hand's skin is a spring of about 90 kN/m. An unknown force is corrected at the rate m force_gain force_integral,
-    20 1/s for m = 4 kg along the normal: two thirds of the limit by a delay of two periods.
+    On skin of about 90 kN/m an unknown force is corrected at the rate m force_gain force_integral, 20 1/s for m = 4 kg:
+    two thirds of the limit by a delay of two periods.
 
     Attributes:
         approach_speed: Speed of the hand towards the surface.
-        guidance_stiffness: Keeps the hand's place before contact while the arm is not touched; critical, D_3^2 / (4
-            Lambda_3). At 0 it drifts with errors of the arm's weight.
+        guidance_stiffness: Keeps an untouched hand's place before contact; critical. At 0 weight errors let it drift.
         base_stiffness: K_c of the base along x and y, and in N m/rad about z.
         base_damping: D_c likewise.
         wrist: Whether the wrist complies (ablation).

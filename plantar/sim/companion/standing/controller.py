@@ -27,8 +27,8 @@ class StandingControl(CompanionControl):
 
     Attributes:
         skin: Whether skin tasks run and contact forces count.
-        gain: Factor on contact forces by which the robot yields; 1 as without friction and gears.
-        lean: Share of the contacts' moment about the feet that the centre of mass is shifted against.
+        gain: Factor on contact forces; 1 yields as without friction and gears.
+        lean: Share of the contacts' moment that the centre of mass is shifted against.
         lean_limit: Largest shift in m.
         filter: Time constant in s of each taxel force's low pass.
         balance: Stiffness of the centre of mass over the feet.
