@@ -131,7 +131,7 @@ class Legs:
 def next_step(
     stance: Footstep, other: Footstep, velocity: Velocity, legs: Legs, stride: Stride, duration: float
 ) -> Footstep:
-    """A foot's next step.
+    """Returns a foot's next step.
 
     Args:
         stance: Standing foot.
