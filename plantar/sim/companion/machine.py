@@ -233,8 +233,7 @@ def _checked_base(base: BaseTable, spec: Any, where: str) -> BaseTable:
         raise RobotError(f"{where} kind is '{base.kind}' but the model has {has}; allowed with one: floating")
     if base.kind == "mobile":
         first = [(j.type, tuple(np.round(j.axis, 6))) for j in spec.joints[:3]]
-        wanted = [(kind, axis) for kind, axis in zip(_MOBILE, np.eye(3).tolist(), strict=True)]
-        if first != [(kind, tuple(axis)) for kind, axis in wanted]:
+        if first != [(kind, tuple(axis)) for kind, axis in zip(_MOBILE, np.eye(3).tolist(), strict=True)]:
             raise RobotError(
                 f"{where} kind is 'mobile'; the model's first joints must slide along x, y and turn about z"
             )

@@ -45,10 +45,6 @@ class PaperExperiment(NamedTuple):
     long: bool = False
 
 
-def _impacts(mean: float, largest: float) -> dict[str, float]:
-    return {"mean impact": mean, "largest impact": largest}
-
-
 _LEVEL, _BLIND, _NO_PFC = ("walk.steps=6",), ("pfc=false", "footholds=off"), ("pfc=false",)
 _ANKLES = ("control.feasibility=force_torque", "sensing.force_torque=true")
 _TOPPLE, _STILL = "skin walks around, ankles fall", ("step_adjustment=false",)
@@ -91,8 +87,8 @@ EXPERIMENTS = (
         _NO_PFC,
         "hrp2kai",
         _LEVEL,
-        printed=_impacts(58.0, 200.0),
-        printed_without=_impacts(340.0, 430.0),
+        printed={"mean impact": 58.0, "largest impact": 200.0},
+        printed_without={"mean impact": 340.0, "largest impact": 430.0},
     ),
     PaperExperiment(
         "level ground, H1",
@@ -103,8 +99,8 @@ EXPERIMENTS = (
         _NO_PFC,
         "h1",
         _LEVEL,
-        printed=_impacts(109.0, 261.0),
-        printed_without=_impacts(486.0, 615.0),
+        printed={"mean impact": 109.0, "largest impact": 261.0},
+        printed_without={"mean impact": 486.0, "largest impact": 615.0},
     ),
     PaperExperiment(
         "slab of 3 cm",

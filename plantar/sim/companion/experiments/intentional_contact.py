@@ -60,8 +60,7 @@ class ReachSettings(Settings):
     far: float = number(0.6, "m", 0.05, 5.0)
     least_angle: float = number(0.0, "deg", -360.0, 360.0)
     largest_angle: float = number(90.0, "deg", -360.0, 360.0)
-    least_friction: ClassVar[float] = 2.0  # N: least force that it takes to push what can be moved
-    largest_friction: ClassVar[float] = 5.0  # N: largest
+    friction: ClassVar[tuple[float, float]] = (2.0, 5.0)  # N: range of the force that moves a post
     half_height: float = number(0.12, "m", 0.01, 1.0)
     tolerance: float = number(0.015, "m", 1e-3, 1.0)
     shove: float = number(20.0, "N", 0.0, 1e3)
@@ -110,7 +109,7 @@ class IntentionalContactExperiment(Experiment):
         kind = s.layout if s.layout != "any" else kinds[self.seed % len(kinds)]
         reach = (s.near, s.far), (math.radians(s.least_angle), math.radians(s.largest_angle))
         for _ in range(_DRAWS):
-            layout = random_layout(self.rng, kind, tip.place[:2], reach, (s.least_friction, s.largest_friction))
+            layout = random_layout(self.rng, kind, tip.place[:2], reach, s.friction)
             clear = min(post.distance(arm, self._height, s.half_height).min() for post in layout.posts) > _CLEAR
             goal = np.array([*layout.goal, self._height])
             if clear and not free_way(tip, goal, s.tolerance, layout.posts, s.half_height):

@@ -51,6 +51,5 @@ class MultiContact(PressedExperiment):
             task.damping = (c.repelled_damping, 0.02 * c.repelled_damping)
         touched: list[Task] = [*near, *yielding] if c.proximity else yielding
         if c.com_below:
-            *touched, posture = touched
-            return [[upright], apart, touched, [com], [posture]]
+            return [[upright], apart, touched[:-1], [com], touched[-1:]]
         return [[com, upright], apart, touched]

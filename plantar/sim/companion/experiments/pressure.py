@@ -108,9 +108,8 @@ class Pressure(StandingExperiment):
 
     def controller(self, machine: Machine, skin: BodySkin) -> Controller:
         c = self.control
-        area = float(skin.areas[0])
         if c.by_pressure:
-            task: DirectInteraction = PressureInteraction(skin, c.sensitivity_taxels * area)
+            task: DirectInteraction = PressureInteraction(skin, c.sensitivity_taxels * float(skin.areas[0]))
         else:
             task = DirectInteraction(skin)
         task.damping = (c.yield_damping, 0.1 * c.yield_damping)

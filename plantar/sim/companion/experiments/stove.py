@@ -110,8 +110,9 @@ class Stove(StandingExperiment):
         self._heat.damping = (c.repelled_damping, 0.02 * c.repelled_damping)
         base, posture = self.balance_tasks(), self.posture_task()
         self._working: list[list[Task]] = [base, [self._hand], [posture]]
-        kept: list[list[Task]] = [base, [self._heat], [self._hand], [posture]]
-        self._shunning = kept if c.keep_hand else [base, [self._heat, posture]]
+        self._shunning: list[list[Task]] = (
+            [base, [self._heat], [self._hand], [posture]] if c.keep_hand else [base, [self._heat, posture]]
+        )
         self._control = StandingController(self.stance, self._working, self.balance, skin, c, self._before)
         self._control.after = self._transition.blend
         return self._control

@@ -57,16 +57,10 @@ class HandControl(CompanionControl):
     # 1/s: rate at which a lasting error is taken back, as a share of the proportional part
     force_integral: ClassVar[float] = 50.0
     distance_rate: ClassVar[float] = 6.0  # 1/s: rate at which an error of the distance decays
-    wrist_gain: ClassVar[float] = 50.0  # 1/(kg m^2): K_2 / Lambda_2 of A 10: angular acceleration for a newton metre
-    wrist_damping: ClassVar[float] = 40.0  # 1/s: D_2 / Lambda_2
-    # N/m: force that counts for a metre by which a taxel is nearer than it sees
-    wrist_stiffness: ClassVar[float] = 300.0
+    wrist_gains: ClassVar = WristGains(inertia=1.0, damping=40.0, gain=50.0, proximity_stiffness=300.0)
     # 1/s^2: stiffness with which the hand keeps its place in contact, for a unit mass
     hand_stiffness: ClassVar[float] = 400.0
-    guidance_mass: ClassVar[float] = 5.0  # kg: lambda_3 of A 12
-    guidance_damping: ClassVar[float] = 60.0  # N s/m: D_3
     guidance_stiffness: float = number(180.0, "N/m", 0, 1e6)
-    guidance_ends: ClassVar[bool] = True  # Whether guidance ends where the arm becomes straight (ablation)
     arm_stiffness: ClassVar[float] = 30.0  # N m/rad: K_c of A 18 of each joint of the arm
     arm_damping: ClassVar[float] = 15.0  # N m s/rad: D_c of each joint of the arm
     # Bend of the elbow in degrees below which it resists: stretched, an arm cannot hold its hand still while the base
@@ -76,8 +70,7 @@ class HandControl(CompanionControl):
     elbow_stiffness: ClassVar[float] = 150.0  # N m/rad: how stiffly
     base_stiffness: float = number(0.0, "N/m", 0, 1e6)
     base_damping: float = number(150.0, "N s/m", 0, 1e6)
-    avoidance_force: ClassVar[float] = 300.0  # N: f_max of A 16
-    avoidance_decay: ClassVar[float] = 0.2  # m: alpha of A 16
+    avoidance_field: ClassVar = AvoidanceField(300.0, 0.2)
     sigmoid: ClassVar[float] = 2.0  # Time in which w of A 6 goes from distance to force
     wrist: bool = switch(True)
     avoidance: bool = switch(True)
@@ -107,13 +100,10 @@ class HandController:
         stiffness = s.distance_rate * s.force_damping / s.force_gain  # for the distance error's decay rate
         gains = ContactGains(1.0, s.force_damping, s.force_gain, s.force_integral, stiffness, s.free_damping)
         self.force = ContactForce(skin, "hand", middle, normal, gains)
-        self.wrist = CompliantWrist(
-            skin, "hand", middle, WristGains(1.0, s.wrist_damping, s.wrist_gain, s.wrist_stiffness)
-        )
+        self.wrist = CompliantWrist(skin, "hand", middle, s.wrist_gains)
         held = PoseGains(stiffness=s.hand_stiffness, damping=2.0 * float(np.sqrt(s.hand_stiffness)))
         self._place = CartesianPose("hand", middle, held, rows="position")
-        guidance = GuidanceGains(s.guidance_mass, s.guidance_damping, stiffness=s.guidance_stiffness)
-        straight = _ARM if s.guidance_ends else None
+        guidance = GuidanceGains(stiffness=s.guidance_stiffness)
         arm = len(machine.joints) - 3
         self.posture = Posture(
             machine.posture,
@@ -122,16 +112,14 @@ class HandController:
             torques=True,
         )
         half = np.abs(np.array(machine.base.footprint, dtype=float)).max(axis=0)
-        self._keep_clear = BaseAvoidance(
-            machine.base.link, (float(half[0]), float(half[1])), AvoidanceField(s.avoidance_force, s.avoidance_decay)
-        )
+        self._keep_clear = BaseAvoidance(machine.base.link, (float(half[0]), float(half[1])), s.avoidance_field)
         away: list[Task] = [_BentElbow(list(machine.joints).index("elbow"), s)]
         away += [self._keep_clear] if s.avoidance else []
         first: list[list[Task]] = [[self.force], [self.wrist] if s.wrist else [_Still(self.wrist)]]
         self.phases = ContactPhases(
             [
                 *first,
-                [TactileGuidance(skin, arm_skin, "hand", middle, guidance, straight)],
+                [TactileGuidance(skin, arm_skin, "hand", middle, guidance, _ARM)],
                 [BodyCompliance(self.posture, *away)],
             ],
             [*first, [self._place], [BodyCompliance(self.posture, self._touch, *away)]],

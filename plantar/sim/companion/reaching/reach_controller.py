@@ -49,9 +49,8 @@ class ReachControl(CompanionControl):
 
     policy: str = choice("intentional", "avoid", "fields")
     speed: float = number(0.2, "m/s", 0.01, 2.0)
-    push_speed: ClassVar[float] = 0.05  # m/s: V_max while it approaches what is in the way
-    # 1/s: k_v of T 3.43 then: what is stuck is pushed by k_v V_max times the tip's effective mass
-    push_damping: ClassVar[float] = 150.0
+    # While it approaches: what is stuck is pushed by k_v V_max times the tip's effective mass (T 3.43)
+    pushing: ClassVar = PoseGains(stiffness=600.0, damping=150.0, speed=0.05)
     range: float = number(0.04, "m", 0.002, 0.2)
     proximity: float = number(25.0, "N/m", 0.0, 1e4)
     brake: ClassVar[float] = 40.0  # N s/m: damping of motion along what repels, towards it and away from it
@@ -89,7 +88,6 @@ class ReachController:
     ) -> None:
         self.settings = s = settings
         self._free = PoseGains(stiffness=60.0, damping=20.0, speed=s.speed)
-        self._pushing = PoseGains(stiffness=4.0 * s.push_damping, damping=s.push_damping, speed=s.push_speed)
         self.goal = CartesianPose(*tip, gains=self._free, rows="position")
         self._near = ProximityInteraction(skin, s.proximity, s.range)
         self._watch = ProximityInteraction(skin, s.proximity, s.range)  # sees the whole range always
@@ -99,8 +97,10 @@ class ReachController:
         self._held: list[list[Task]] = [[Posture(machine.posture, 400.0, joints=range(base))]] if base else []
         upright: list[list[Task]] = [[CartesianPose(*tip, rows="orientation")]]
         self._held += upright if s.upright == "first" else []
-        relaxed: list[Task] = [Posture(machine.posture, 6.0, 12.0, joints=range(base, len(machine.posture)))]
-        self._rest = [*(upright if s.upright == "last" else []), relaxed]
+        self._rest: list[list[Task]] = [
+            *(upright if s.upright == "last" else []),
+            [Posture(machine.posture, 6.0, 12.0, joints=range(base, len(machine.posture)))],
+        ]
         limits = ContactSettings(slow=s.slow, force_limit=s.limit_share * force_limit, stuck=s.stuck)
         contact, avoidance = AlongForce(self._yielding, s.brake), AlongForce(self._near, s.brake)
         self.policy = IntentionalContact([self.goal], [contact], [avoidance], limits)
@@ -121,7 +121,7 @@ class ReachController:
         if self.settings.policy == "intentional" and self.policy.update(self.signs, robot.time):
             self._blend.begin(robot.time)
         avoiding = self.policy.arrangement == "avoid"
-        self.goal.gains = self._free if avoiding else self._pushing
+        self.goal.gains = self._free if avoiding else self.settings.pushing
         self._near.sensing_range = max(_DEEPEST, self.settings.range * self.policy.range_share)
         levels: list[Sequence[Task]] = [*self._held, *self.policy.levels, *self._rest]
         self._stack.levels = [list(level) for level in levels]

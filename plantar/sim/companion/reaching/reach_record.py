@@ -66,19 +66,18 @@ class ReachRecord:
                 axis.plot(time, values, color=COLOURS["left"], linewidth=1.0)
             axis.set_ylabel(label)
             self._shade(axis, time)
+        for name, shade in _SHADES.items():
+            over[0].axvspan(0.0, 0.0, color=shade, linewidth=0, label=name)
         over[0].legend(fontsize=7, ncols=5, loc="lower center", bbox_to_anchor=(0.5, 1.0))  # hides no peak
         over[3].set_xlabel("time [s]")
         return save_figure(figure, path)
 
     def _shade(self, axis: Any, time: NDArray[np.float64]) -> None:
-        at, labels = 0, set(_SHADES)
+        at = 0
         for name, run in groupby(self._arrangements):
             length = len(list(run))
             if name in _SHADES:
-                label = name if name in labels else None
-                labels.discard(name)
-                end = time[min(at + length, len(time) - 1)]
-                axis.axvspan(time[at], end, color=_SHADES[name], linewidth=0, label=label)
+                axis.axvspan(time[at], time[min(at + length, len(time) - 1)], color=_SHADES[name], linewidth=0)
             at += length
 
     def _draw_plan(self, axis: Any) -> None:

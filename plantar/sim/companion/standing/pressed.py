@@ -197,13 +197,11 @@ class PressedExperiment(StandingExperiment):
     def plot(self, folder: Path) -> Sequence[Path]:
         trace = np.array(self._trace)
         figure, (upper, lower) = new_figure(9.0, 7.0, rows=2)
-        names = [contact.pad.name.removeprefix("pad ").removeprefix("together ") for contact in self.contacts]
-        places = list(dict.fromkeys(names))
-        for i, name in enumerate(names):
-            place, label = places.index(name), "_" * (name in names[:i]) + name
-            upper.plot(
-                trace[:, 0], trace[:, 1 + i], ("-", "--")[place // 10], color=f"C{place % 10}", lw=1, label=label
-            )
+        places = list(self.instances)
+        for i, contact in enumerate(self.contacts):
+            place = places.index(contact.pad.name.removeprefix("pad ").removeprefix("together "))
+            looks = {"color": f"C{place % 10}", "linestyle": ("-", "--")[place // 10], "linewidth": 1.0}
+            upper.plot(trace[:, 0], trace[:, 1 + i], label=places[place] if i < len(places) else None, **looks)
         upper.set(xlabel="time [s]", ylabel="force of each pad [N]")
         upper.legend(fontsize=7, ncols=2, title="alone, then together", title_fontsize=7)
         active, took = np.array(self._control.active), np.array(self._control.took[: len(self._control.active)])
@@ -215,8 +213,7 @@ class PressedExperiment(StandingExperiment):
             lower.set(ylim=(0.0, 1.1 * float(np.percentile(took, 99))))
             lower.legend()
         lower.set(xlabel="links with active taxels", ylabel="control tick [us]")
-        name = type(self).__name__.lower()
-        return [save_figure(figure, folder / f"{name}.png")]
+        return [save_figure(figure, folder / f"{type(self).__name__.lower()}.png")]
 
 
 def _reaching(fixed: NDArray[np.float64], scaled: NDArray[np.float64], length: float) -> float:

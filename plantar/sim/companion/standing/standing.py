@@ -217,7 +217,7 @@ class StandingExperiment(Experiment):
         return {
             "tilt_max_deg": round(self.tilt_max, 2),
             "com_off_max_mm": round(1e3 * self.com_off_max, 1),
-            "cop_margin_min_mm": round(1e3 * self.cop_margin_min, 1),
+            "cop_margin_min_mm": None if self.fell else round(1e3 * self.cop_margin_min, 1),
         }
 
 
