@@ -15,8 +15,6 @@
 Each message is one line: what is wrong and what is allowed.
 """
 
-from __future__ import annotations
-
 __all__ = [
     "DependencyError",
     "FootError",
@@ -92,6 +90,6 @@ class DependencyError(PlantarError):
         self.extra = extra
         self.reason = reason
 
-    def __reduce__(self) -> tuple[type[DependencyError], tuple[str, str, str | None]]:
+    def __reduce__(self) -> tuple[type["DependencyError"], tuple[str, str, str | None]]:
         """Rebuild from the arguments, in another process."""
         return type(self), (self.library, self.extra, self.reason)

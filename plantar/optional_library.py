@@ -9,7 +9,7 @@ from types import FrameType
 
 from plantar.errors import DependencyError
 
-__all__ = ["need_libraries", "optional_library", "unheard"]
+__all__ = ["ignore_warning", "need_libraries", "optional_library"]
 
 _INTERRUPTS = (signal.SIGINT, signal.SIGTERM)
 
@@ -91,12 +91,12 @@ def _interrupts_held_back() -> Iterator[None]:
             before[signal.Signals(came[0])](came[0], None)
 
 
-def unheard(text: str) -> None:
+def ignore_warning(text: str) -> None:
     """Ignores a library's warnings; MuJoCo prints each, and writes MUJOCO_LOG.TXT.
 
     Args:
         text: Warning.
 
     Example:
-        >>> unheard("WARNING: Nan, Inf or huge value in QACC at DOF 0. The simulation is unstable.")
+        >>> ignore_warning("WARNING: Nan, Inf or huge value in QACC at DOF 0. The simulation is unstable.")
     """

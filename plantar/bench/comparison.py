@@ -1,7 +1,5 @@
 """Routes to one result: interleaved times of a call, and error."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -125,7 +123,7 @@ class Result:
         """The fields by name."""
         return asdict(self)
 
-    def without_error(self) -> Result:
+    def without_error(self) -> "Result":
         """The same without an error."""
         return replace(self, error=None)
 

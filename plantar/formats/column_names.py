@@ -146,61 +146,57 @@ def _heading(name: str, unit: str) -> Heading:
     number = int(last[-1][-9:]) if last else None
     if words is None:
         letters = "".join(re.findall(r"[^\W\d_]+", name)).lower()
-        chunks = [
-            part for chunk in re.findall(r"[^\W\d_]+", name) for part in re.findall(r"[A-Z]?[a-z]+|[A-Z]+", chunk)
-        ]
-        foreign = any(_KINDS.get(part.lower()) == "foreign" for part in chunks) or any(
-            w in letters for w, kind in _KINDS.items() if kind == "foreign" and len(w) > 3
-        )
-        return Heading("foreign" if foreign else "unknown", number=number, unit=unit, words=letters)
+        return Heading("foreign" if _is_foreign(name, letters) else "unknown", number=number, unit=unit, words=letters)
     kinds = [_KINDS.get(w, "number") for w in words]
     sides = {k for k in kinds if k in ("left", "right")}
     side: Side | None = None if len(sides) != 1 else "left" if "left" in sides else "right"
     found = set(kinds)
     rest = " ".join(w for w, k in zip(words, kinds, strict=True) if k not in ("left", "right", "number", "plain"))
     axis = next((k for k in kinds if k in ("x", "y", "z", "ap", "ml")), "vertical" if "vertical" in found else "")
-    ground = "ground" in words or "grf" in words or "vgrf" in words or "reaction" in words
+    ground = not {"ground", "grf", "vgrf", "reaction"}.isdisjoint(words)
     if {"force", "moment"} & found and len(last) == 2 and axis:
         number = int(last[0][-9:])  # F2Y1 is of plate 2
     if not ground and "plate" not in found and {"medial", "lateral", "anterior", "posterior"} & set(words):
         axis = ""  # a part of the sole, not an axis
         found |= {"place"}
-    quantity: Quantity
-    if "foreign" in found:
-        quantity = "foreign"
-    elif axis in ("x", "y", "z") and set(words) - {axis} <= {"a", "c", "p", "l", "r", "left", "right"} | set(
-        filter(str.isdigit, words)
-    ):
-        quantity = "place"
-    elif "place" in found or (any(w in _PLACES for w in words) and "plate" not in found and axis in ("", "ml", "ap")):
-        quantity = "cell"
-    elif "cop" in found or {"pressure", "center"} <= set(words) or ("ground" in words and "p" in words):
-        quantity = "cop"
-    elif (
-        ("moment" in found and "force" not in found)
-        or "tz" in words
-        or (
-            "moment" in found
-            and axis
-            and words[-1] in ("m", *"xyz")
-            and any(w in ("m", "mom", "moment", "torque") for w in words)
-        )
-    ):
-        quantity = "moment"
-    elif "force" in found or ("vertical" in found and not {"cell", "pressure"} & found) or (ground and axis):
-        quantity = "force"
-    elif "pressure" in found:
-        quantity = "pressure"
-    elif "total" in found:
-        quantity = "force"
-    elif "cell" in found:
-        quantity = "cell"
-    elif "plate" in found and axis:
-        quantity = "force"
-    elif axis:
-        quantity = "foreign"
-    else:
-        quantity = "number"
-    return Heading(
-        quantity, axis, side, number, unit, "plate" in found or ground or ("force" in found and bool(axis)), rest
+    plate = "plate" in found or ground or ("force" in found and bool(axis))
+    return Heading(_quantity(words, found, axis, ground), axis, side, number, unit, plate, rest)
+
+
+def _is_foreign(name: str, letters: str) -> bool:
+    chunks = re.findall(r"[A-Z]?[a-z]+|[A-Z]+", name)
+    return any(_KINDS.get(chunk.lower()) == "foreign" for chunk in chunks) or any(
+        w in letters for w, kind in _KINDS.items() if kind == "foreign" and len(w) > 3
     )
+
+
+def _quantity(words: tuple[str, ...], found: set[str], axis: str, ground: bool) -> Quantity:
+    # The first that fits, the most telling first.
+    cells = any(w in _PLACES for w in words) and "plate" not in found and axis in ("", "ml", "ap")
+    alone = {"a", "c", "p", "l", "r", "left", "right", *filter(str.isdigit, words)}
+    if "foreign" in found:
+        return "foreign"
+    if axis in ("x", "y", "z") and set(words) - {axis} <= alone:
+        return "place"
+    if "place" in found or cells:
+        return "cell"
+    if "cop" in found or {"pressure", "center"} <= set(words) or ("ground" in words and "p" in words):
+        return "cop"
+    if "tz" in words or ("moment" in found and ("force" not in found or _ends_as_moment(words, axis))):
+        return "moment"
+    if "force" in found or ("vertical" in found and not {"cell", "pressure"} & found) or (ground and axis):
+        return "force"
+    if "pressure" in found:
+        return "pressure"
+    if "total" in found:
+        return "force"
+    if "cell" in found:
+        return "cell"
+    if axis:
+        return "force" if "plate" in found else "foreign"
+    return "number"
+
+
+def _ends_as_moment(words: tuple[str, ...], axis: str) -> bool:
+    # As ground_force_m1_x, of a file whose headings all begin with the force's words.
+    return bool(axis) and words[-1] in ("m", *"xyz") and not {"m", "mom", "moment", "torque"}.isdisjoint(words)

@@ -4,8 +4,6 @@ Pages give columns, rows, pressures, and forces of rows, columns and frame, from
 frames have several pages; summary pages (MVP, MPP) follow.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -73,7 +71,7 @@ class _Page:
     def cells(self) -> int:
         return sum(values.size for _, _, values in self.tables)
 
-    def goes_on_with(self, page: _Page) -> bool:
+    def goes_on_with(self, page: "_Page") -> bool:
         """Whether a page continues the frame: other columns, or other rows of the same."""
         if self.picture != page.picture:
             return False
@@ -81,7 +79,7 @@ class _Page:
             return True
         return self.columns == page.columns and self.rows_shown.isdisjoint(page.rows_shown)
 
-    def join(self, page: _Page) -> None:
+    def join(self, page: "_Page") -> None:
         """Add a page of the same frame."""
         if self.columns_shown.isdisjoint(page.columns):
             self.columns += page.columns

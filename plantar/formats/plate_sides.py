@@ -117,12 +117,8 @@ def sides_of_contacts(
             found, why = list(across), "the belts' places across the direction of walking"
         elif not all(found) and across:
             found, why = list(across), "their places across the direction of walking"
-    if treadmill and any(found):  # a belt is one foot's
-        belts: list[Side | None] = []
-        for i in range(len(plates)):
-            votes = [s for c, s in zip(contacts, found, strict=True) if c.plate == i and s]
-            belts.append(None if not votes else "left" if 2 * votes.count("left") >= len(votes) else "right")
-        found = [None if len(set(belts)) == 1 < len(belts) else belts[c.plate] for c in contacts]
+    if treadmill and any(found):
+        found = _by_belt(len(plates), contacts, found)
     elif _walks_on_one_foot(contacts, found):
         found = [None] * len(contacts)
     if any(found):
@@ -146,6 +142,15 @@ def sides_of_contacts(
         return [SIDES[c.plate % 2] for c in contacts]
     warnings.append("the plates lie in one line: taken as stepped on by left and right in turns (--plates overrides)")
     return [turn[i] for i in range(len(contacts))]
+
+
+def _by_belt(count: int, contacts: Sequence[PlateContact], found: Sequence[Side | None]) -> list[Side | None]:
+    # A belt is one foot's: the one most found on it, unless that were the same for all belts.
+    belts: list[Side | None] = []
+    for i in range(count):
+        votes = [s for c, s in zip(contacts, found, strict=True) if c.plate == i and s]
+        belts.append(None if not votes else "left" if 2 * votes.count("left") >= len(votes) else "right")
+    return [None if len(set(belts)) == 1 < len(belts) else belts[c.plate] for c in contacts]
 
 
 def _walks_on_one_foot(contacts: Sequence[PlateContact], found: Sequence[Side | None]) -> bool:

@@ -160,7 +160,7 @@ class WalkingController:
     def _bridged(self, sensors: Sensors) -> Command:
         """A tick without encoders or IMU; if blind or lost, the last command."""
         measured = (sensors.joint_positions, sensors.gyro, sensors.accelerometer)
-        bridged = self._gaps.heard(measured)
+        bridged = self._gaps.usable(measured)
         if bridged is None or self._lost:
             return self._held()
         if bridged is not measured:

@@ -1,7 +1,5 @@
 """Wrenches [fx, fy, fz, tx, ty, tz] in N and N m about their frame's origin, BY the world ON the robot."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
@@ -28,7 +26,7 @@ class Wrench(NamedTuple):
     tz: float
 
     @classmethod
-    def of(cls, wrench: ArrayLike) -> Wrench:
+    def of(cls, wrench: ArrayLike) -> "Wrench":
         """The wrench of an array (6,)."""
         return cls._make(np.asarray(wrench, dtype=float).tolist())
 

@@ -1,7 +1,5 @@
 """A plantar skin in a MuJoCo model, read from simulation data."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -197,7 +195,7 @@ class BoundSkin:
         _shared(work, threads)
         return vectors.reshape(*lead, len(self), 3), wrenches.reshape(*lead, 6)
 
-    def _look_in(self, data: Any) -> _View:
+    def _look_in(self, data: Any) -> "_View":
         if not isinstance(data, mujoco.MjData):
             raise InputError(f"a skin is read from a mujoco.MjData; got a {type(data).__name__}")
         shapes = (data.qpos.size, data.qvel.size, len(data.xpos), len(data.geom_xpos))
@@ -209,7 +207,7 @@ class BoundSkin:
         view = self._views[id(data)] = _View(self, data)
         return view
 
-    def _distances(self, view: _View) -> NDArray[np.float64]:
+    def _distances(self, view: "_View") -> NDArray[np.float64]:
         """Distance (n,) from each taxel outwards to another body in m; inf beyond range."""
         axes = self.static[1] @ view.rotation.T
         starts = view.origin + self.static[0] @ view.rotation.T + _LIFT * axes

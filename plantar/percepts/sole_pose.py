@@ -1,7 +1,5 @@
 """Sole poses in the world, and two soles' joint wrench and ZMP."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -60,7 +58,7 @@ class SolePose:
         return type(self), (self.rotation_sole_to_world, self.position_in_world)
 
     @classmethod
-    def flat(cls, x: float, y: float, z: float = 0.0, yaw: float = 0.0) -> SolePose:
+    def flat(cls, x: float, y: float, z: float = 0.0, yaw: float = 0.0) -> "SolePose":
         """Pose of a level sole: x forward, y left and z up in m, turned left by yaw in rad; InputError unless finite.
 
         Args:

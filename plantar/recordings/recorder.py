@@ -4,8 +4,6 @@ Profile "ros2": each number topic has one message type of float64 fields, encode
 values) by chunk. Viewer topics carry encoded Foxglove messages.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import os
@@ -62,7 +60,7 @@ class _Gathered(NamedTuple):
 class Channel(Generic[_Message]):
     """One recorded `topic`, such as "/skin/left", made by a `Recorder`."""
 
-    def __init__(self, recorder: Recorder, number: int, topic: str, encode: _Encode[_Message]) -> None:
+    def __init__(self, recorder: "Recorder", number: int, topic: str, encode: _Encode[_Message]) -> None:
         self.topic = topic
         self._recorder = recorder
         self._number = number
@@ -108,7 +106,7 @@ class Channel(Generic[_Message]):
 class _NumbersChannel(Channel[NDArray[np.float64]]):
     """Topic of `width` numbers a message, copied."""
 
-    def __init__(self, recorder: Recorder, number: int, topic: str, width: int) -> None:
+    def __init__(self, recorder: "Recorder", number: int, topic: str, width: int) -> None:
         super().__init__(recorder, number, topic, _as_cdr)
         self._width = width
 

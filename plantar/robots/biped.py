@@ -4,8 +4,6 @@ Hip yaw about z, hip roll about x, hip pitch, knee and ankle pitch about y, ankl
 point, the ankle axes in another.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -67,7 +65,7 @@ class BipedParameters:
     armature: float
 
     @classmethod
-    def from_table(cls, table: Mapping[str, Any], where: str) -> BipedParameters:
+    def from_table(cls, table: Mapping[str, Any], where: str) -> "BipedParameters":
         """Read and check a `[biped]` table, named `where` in a RobotError. Returns the dimensions."""
         fields = list(cls.__dataclass_fields__)
         refuse_unknown_keys(table, fields, f"{where}: [biped]", RobotError)

@@ -4,8 +4,6 @@ In this order: shear reads as normal force, crosstalk to neighbours, hysteresis,
 drifts with warmth, noise, steps (resolution), dead taxels.
 """
 
-from __future__ import annotations
-
 import math
 from collections import deque
 from dataclasses import dataclass, fields
@@ -74,7 +72,7 @@ class TaxelFaults:
             if not 0.0 <= value <= most:
                 raise InputError(f"taxel fault '{field.name}' is {value:g}; allowed: 0 to {most:g}")
 
-    def worn(self, layout: SoleLayout, seed: int = 0, batch: tuple[int, ...] = ()) -> WornFaults:
+    def worn(self, layout: SoleLayout, seed: int = 0, batch: tuple[int, ...] = ()) -> "WornFaults":
         """Draw the faults of one sole, or of many.
 
         Args:

@@ -1,7 +1,5 @@
 """Every dimension of the shoe: a named parameter with default and range."""
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Iterable, Mapping
@@ -243,7 +241,7 @@ class ShoeParameters:
         return [{"name": f.name, "default": f.default, **f.metadata} for f in fields(cls)]
 
     @classmethod
-    def from_mapping(cls, values: Mapping[str, Any]) -> ShoeParameters:
+    def from_mapping(cls, values: Mapping[str, Any]) -> "ShoeParameters":
         """Defaults with some values replaced.
 
         Raises:
@@ -253,7 +251,7 @@ class ShoeParameters:
             cls._metadata(name)
         return cls(**values)
 
-    def changed(self, settings: Iterable[str]) -> ShoeParameters:
+    def changed(self, settings: Iterable[str]) -> "ShoeParameters":
         """These parameters with some replaced, as by `--set`.
 
         Raises:

@@ -37,7 +37,7 @@ SHORTEST_TIME = 1e-6
 """Time in s in which the DCM shall reach its target at least."""
 
 MOST_GROWTH = 100.0
-"""Largest exponent w t: a nanometre that has grown by e^100 is 1e34 m, so nothing is told apart beyond it, and no
+"""Largest exponent w t: a nanometre that has grown by e^100 is 1e34 m, so no two differ beyond it, and no
 product of a few such numbers overflows."""
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)

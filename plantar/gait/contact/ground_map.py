@@ -201,11 +201,11 @@ class GroundMap:
         s = self.settings
         known = np.isfinite(reading) & np.isfinite(self._distance)
         news = np.subtract(reading, self._distance, out=np.zeros(len(known)), where=known)
-        told = news[known]
-        if len(told):
-            if abs(float(told.sum()) / len(told)) > s.jump_of_all * self._noise:
+        fresh = news[known]
+        if len(fresh):
+            if abs(float(fresh.sum()) / len(fresh)) > s.jump_of_all * self._noise:
                 self._readings[:] = 0.0
-            spread = _SIGMA_OF_MEDIAN * _median(np.abs(told))
+            spread = _SIGMA_OF_MEDIAN * _median(np.abs(fresh))
             self._noise = max(_LEAST_NOISE * self._leg, self._noise + _NOISE_SHARE * (spread - self._noise))
         self._readings[~known | (np.abs(news) > s.jump * self._noise)] = 0.0
         self._readings = np.minimum(self._readings + 1.0, self._most)

@@ -1,7 +1,5 @@
 """Strip of ground along successive partial footholds, such as a beam."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -37,7 +35,7 @@ class SupportStrip:
     _footholds: list[tuple[int, Side, float, float]] = field(default_factory=list)
 
     @classmethod
-    def for_body(cls, body: BodyScale, origin: NDArray[np.float64], along: NDArray[np.float64]) -> SupportStrip:
+    def for_body(cls, body: BodyScale, origin: NDArray[np.float64], along: NDArray[np.float64]) -> "SupportStrip":
         """Returns a robot's strip, with distances as shares of its soles: its dimensions `body`, a point `origin` (2,)
         on the walk's line in m and its unit direction `along` (2,).
         """

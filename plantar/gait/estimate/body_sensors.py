@@ -10,7 +10,7 @@ from plantar.errors import InputError
 
 __all__ = ["BodySensors"]
 
-Told: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+Readings: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
 
 
 class BodySensors:
@@ -25,34 +25,34 @@ class BodySensors:
 
     Example:
         >>> body, silent = BodySensors(0.005, 0.01), np.full(3, np.nan)
-        >>> told = body.heard((np.zeros(2), np.zeros(3), np.array([0.0, 0.0, 9.8])))
-        >>> [body.heard((np.zeros(2), silent, silent)) is told for _ in range(3)], body.blind
+        >>> first = body.usable((np.zeros(2), np.zeros(3), np.array([0.0, 0.0, 9.8])))
+        >>> [body.usable((np.zeros(2), silent, silent)) is first for _ in range(3)], body.blind
         ([True, True, False], True)
     """
 
     def __init__(self, period: float, bridged: float) -> None:
         self._most = round(bridged / period)
         self._silent = 0
-        self._last: Told | None = None
+        self._last: Readings | None = None
         self.blind = False
 
-    def heard(self, told: Told) -> Told | None:
+    def usable(self, readings: Readings) -> Readings | None:
         """Readings to use: given, or the last complete if a number is missing; None if blind.
 
         Args:
-            told: Joint angles (k,) in rad, angular velocity (3,) in rad/s and specific force (3,) in m/s^2.
+            readings: Joint angles (k,) in rad, angular velocity (3,) in rad/s and specific force (3,) in m/s^2.
 
         Raises:
             InputError: No complete reading yet.
         """
         if self.blind:
             return None
-        joints, gyro, accelerometer = told
+        joints, gyro, accelerometer = readings
         # One sum of plain numbers: what is not finite makes it so, and three calls of numpy take twice as long.
         if math.isfinite(sum(joints.tolist() + gyro.tolist() + accelerometer.tolist())):
             self._silent = 0
-            self._last = told
-            return told
+            self._last = readings
+            return readings
         if self._last is None:
             raise InputError("encoders or IMU hold a value that is not finite; the first reading has to be sound")
         self._silent += 1

@@ -1,7 +1,5 @@
 """Frame in which joints are solved: fixed to commanded footholds, slowly following the carrying foot."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -45,7 +43,7 @@ class CommandFrame:
         """From world to frame at the anchor, in m."""
         return self._offset
 
-    def now(self) -> CommandFrame:
+    def now(self) -> "CommandFrame":
         """A copy that later updates do not change."""
         frame = object.__new__(CommandFrame)
         frame.__dict__.update(self.__dict__)

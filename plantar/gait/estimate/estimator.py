@@ -297,5 +297,5 @@ class FloatingBaseEstimator:
 
     def _filter(self, dcm_filter: DcmFilter, posture: Posture, zmp: NDArray[np.float64] | None) -> None:
         com = self._position + self._rotation.dot(posture.com)
-        told = dcm_filter.update(com[:2], None, zmp, self.push_acceleration / self.omega**2)
-        self._com[:2], self._velocity[:2] = told.com, self.omega * (told.dcm - told.com)
+        filtered = dcm_filter.update(com[:2], None, zmp, self.push_acceleration / self.omega**2)
+        self._com[:2], self._velocity[:2] = filtered.com, self.omega * (filtered.dcm - filtered.com)

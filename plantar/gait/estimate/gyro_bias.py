@@ -18,7 +18,7 @@ __all__ = ["GyroBias"]
 # 0.3 mrad by chance, while in one of standing the gyro's noise of 2 mrad/s leaves 0.1 mrad
 _ONE_FOOT = 0.1
 
-_FIRST_PIECES = 2  # Pieces of standing before a slip can be told from a bias
+_FIRST_PIECES = 2  # Pieces of standing before a slip differs measurably from a bias
 
 
 class GyroBias:

@@ -3,8 +3,6 @@
 X_command = c_command + R_command R_estimated^T (X_world - c_estimated),    c: CoM
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -43,7 +41,7 @@ class PostureCompensation:
     _kept: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
 
     @classmethod
-    def for_body(cls, body: BodyScale, period: float, fade: float) -> PostureCompensation:
+    def for_body(cls, body: BodyScale, period: float, fade: float) -> "PostureCompensation":
         """No correction yet, limited to shares of a robot's leg.
 
         Args:

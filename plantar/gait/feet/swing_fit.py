@@ -4,8 +4,6 @@ Ridge regression (K 14), exact at both ends, unlike K 16, which overwrites two c
 swing, the reference kept monotone (K 2.4).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -217,7 +215,7 @@ class _FittedSwing:
     def comes_down(self, time: float) -> bool:
         return self.flight.comes_down(time)
 
-    def aimed(self, time: float, place: NDArray[np.float64], yaw: float, duration: float) -> _FittedSwing:
+    def aimed(self, time: float, place: NDArray[np.float64], yaw: float, duration: float) -> "_FittedSwing":
         return _FittedSwing(self.flight.aimed(time, place, yaw, duration), self.fit, self._falls)
 
 

@@ -1,7 +1,5 @@
 """Kinds of swing: interface; own kinds use the entry points "plantar.swings"."""
 
-from __future__ import annotations
-
 from typing import Protocol
 
 import numpy as np
@@ -79,7 +77,7 @@ class Swing(Protocol):
         """Whether half of the swing is over."""
         ...
 
-    def aimed(self, time: float, place: NDArray[np.float64], yaw: float, duration: float) -> Swing:
+    def aimed(self, time: float, place: NDArray[np.float64], yaw: float, duration: float) -> "Swing":
         """Returns the swing to another place (2,) in m, yaw and duration from a time."""
         ...
 

@@ -9,8 +9,6 @@ the CoM forward; segments are evaluated from their end, so no exponential grows.
 T), so `replanned` solves only new knots.
 """
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_right
 from collections.abc import Sequence
@@ -136,7 +134,7 @@ class VrpPlan:
         *,
         shift: ArrayLike = (0.0, 0.0),
         delay: float = 0.0,
-    ) -> VrpPlan:
+    ) -> "VrpPlan":
         """The plan over other knots, without solving kept ones again.
 
         Args:

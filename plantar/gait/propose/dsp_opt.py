@@ -7,8 +7,6 @@ The DCM at its end T (K 34; x = T - T_c, u* the VRP now, p of `ankle_strategy.do
 The cost need not be convex: it is sampled, and its derivative's zero bracketed.
 """
 
-from __future__ import annotations
-
 import math
 from typing import ClassVar, NamedTuple
 
@@ -143,13 +141,13 @@ def solve_dsp(problem: DspProblem, weights: DspWeights) -> DspSolution:
     return _solution(cost, float(times[k]), 0)
 
 
-def _solution(cost: _Cost, time: float, bound: int) -> DspSolution:
+def _solution(cost: "_Cost", time: float, bound: int) -> DspSolution:
     slope, size, missed = cost.slope(time)
     left = abs(slope) if bound == 0 else max(0.0, -slope if bound < 0 else slope)
     return DspSolution(time, np.array(missed), bound, left / max(size, 1e-300))
 
 
-def _zero(cost: _Cost, low: float, high: float, at_low: float, at_high: float) -> float:
+def _zero(cost: "_Cost", low: float, high: float, at_low: float, at_high: float) -> float:
     """Zero of the slope between ends of opposite sign (Chandrupatla, Advances in Engineering Software 28, 1997)."""
     a, b, fa, fb = low, high, at_low, at_high
     share = fa / (fa - fb)

@@ -4,8 +4,6 @@
 ceiling, pressed by a land of the pad. A *sheet* has rows and columns of electrodes; a cell lies around a crossing.
 """
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Mapping
@@ -174,7 +172,7 @@ class Cell:
         return {k: getattr(self, k) for k, d in every.items() if d not in (0.0, "") or getattr(self, k) != d}
 
     @classmethod
-    def from_mapping(cls, values: Mapping[str, Any], where: str) -> Cell:
+    def from_mapping(cls, values: Mapping[str, Any], where: str) -> "Cell":
         """Cell from a TOML table.
 
         Args:

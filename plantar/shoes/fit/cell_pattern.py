@@ -1,7 +1,5 @@
 """Repetition of cells: room of one, a union of convex parts, and lattice. In mm."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -53,7 +51,7 @@ class CellPattern:
     period: float
     hexagon: float | None = None
 
-    def at(self, origin: tuple[float, float], angle: float) -> Lattice:
+    def at(self, origin: tuple[float, float], angle: float) -> "Lattice":
         """Gives lattice with cell (0, 0) at an origin, rows at an angle in rad."""
         if self.hexagon is not None:
             return HexLattice(self.hexagon, origin, angle)

@@ -6,8 +6,6 @@ diagonal + (distance of the cell's farthest point from the centre of rotation) x
 -reach at the middle are outside for the whole box; the others bound it.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any
@@ -132,7 +130,7 @@ class _Outline:
     reach: float
 
     @classmethod
-    def of(cls, region: Any, pattern: CellPattern) -> _Outline:
+    def of(cls, region: Any, pattern: CellPattern) -> "_Outline":
         hull = region.convex_hull
         circle = shapely.minimum_bounding_circle(region)
         centre = circle.centroid

@@ -18,7 +18,7 @@ from plantar.files.model_files import check_model, folders_of_model, mesh_of_urd
 from plantar.files.model_limits import check_model_size
 from plantar.files.xml_file import XML_MOST
 from plantar.mujoco.mesh_surface import mesh_surface
-from plantar.optional_library import optional_library, unheard
+from plantar.optional_library import ignore_warning, optional_library
 from plantar.shoes.foot.mesh_file import MOST_TRIANGLES, read_mesh
 from plantar.shoes.geometry.surface import primitive
 
@@ -86,7 +86,7 @@ class ModelSource:
         """
         with optional_library("mujoco", "sim"):
             import mujoco
-        mujoco.set_mju_user_warning(unheard)
+        mujoco.set_mju_user_warning(ignore_warning)
         try:
             spec = (
                 mujoco.MjSpec.from_file(str(self.file)) if self.urdf is None else mujoco.MjSpec.from_string(self.urdf)

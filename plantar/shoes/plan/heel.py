@@ -1,7 +1,5 @@
 """Cable exit and connection board: a place at the rear wall. In mm."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from typing import Any
@@ -43,7 +41,7 @@ class Heel:
         c, s = math.cos(self.turn), math.sin(self.turn)
         return np.array([self.x + c * x - s * y, self.y + s * x + c * y])
 
-    def mirrored(self) -> Heel:
+    def mirrored(self) -> "Heel":
         """Place on the other foot's shoe."""
         return replace(self, y=-self.y, turn=-self.turn)
 

@@ -18,8 +18,6 @@ Foam has no shape factor; its gas cells give a pressure s at a compression per t
 # Gent: "On the relation between indentation hardness and Young's modulus", Trans. IRI 34, 1958. Gent, Lindley: "The
 # compression of bonded rubber blocks", Proc. IMechE 173, 1959. Foam: 4 % off the data sheet of Plastazote LD33.
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from typing import Any
@@ -165,7 +163,7 @@ class _Springs:
     stiffness: Array
 
     @classmethod
-    def of(cls, plan: ShoePlan, p: ShoeParameters, pressure: float) -> _Springs:
+    def of(cls, plan: ShoePlan, p: ShoeParameters, pressure: float) -> "_Springs":
         step = math.sqrt(plan.contact.area / _POINTS)
         low_x, low_y, high_x, high_y = plan.contact.bounds
         x, y = np.meshgrid(np.arange(low_x + 0.5 * step, high_x, step), np.arange(low_y + 0.5 * step, high_y, step))

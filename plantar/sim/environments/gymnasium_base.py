@@ -1,7 +1,5 @@
 """Gymnasium's classes, or stand-ins that cannot be constructed."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from plantar.optional_library import need_libraries
@@ -10,7 +8,7 @@ __all__ = ["Env", "ObservationWrapper", "spaces"]
 
 
 class _Missing:
-    def __new__(cls, *_: Any, **__: Any) -> _Missing:
+    def __new__(cls, *_: Any, **__: Any) -> "_Missing":
         need_libraries("gym", "gymnasium")
         return super().__new__(cls)
 

@@ -1,7 +1,5 @@
 """The walk in the plane, and the ZMP of skin and ankles (T 4.3.1, Fig. 61-64)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 
@@ -50,7 +48,7 @@ class _View:
     plane: WalkPlane
 
     @classmethod
-    def of(cls, run: Recording) -> _View:
+    def of(cls, run: Recording) -> "_View":
         steps = run.values("/foothold", "step")[:, 0].astype(int)
         last = [int(np.flatnonzero(steps == k)[-1]) for k in sorted(set(steps.tolist()))]
         polygons = run.values("/foothold", "polygon")

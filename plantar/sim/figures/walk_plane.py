@@ -1,7 +1,5 @@
 """A figure's ground plane, with the walk's longer direction to the right."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,7 +20,7 @@ class WalkPlane:
     high: NDArray[np.float64]
 
     @classmethod
-    def around(cls, points: NDArray[np.float64], pad: float) -> WalkPlane:
+    def around(cls, points: NDArray[np.float64], pad: float) -> "WalkPlane":
         """Returns the plane around `points` (n, 2) in m, without NaN, with margin `pad` in m."""
         return cls(np.nanmin(points, axis=0) - pad, np.nanmax(points, axis=0) + pad)
 

@@ -4,8 +4,6 @@ One hand does each component of a push, forward and left, without friction and t
 range, approaches, presses with a half sine, and stops at the impulse.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -172,7 +170,7 @@ class HandPushes:
         ]
         return {"height_above_base_m": round(self.height, 4), "pushes": rows}
 
-    def _follow(self, push: HandPush | None, time: float, period: float, skin: SkinSensor, frame: _Frame) -> None:
+    def _follow(self, push: HandPush | None, time: float, period: float, skin: SkinSensor, frame: "_Frame") -> None:
         if push is None or time < push.when() - _APPROACH * self._body.beat:
             if not self._next:
                 return
@@ -194,7 +192,7 @@ class HandPushes:
     def _over(self, push: HandPush, time: float) -> bool:
         return all(self._force(push, face, time) is None for face in push.shares())
 
-    def _target(self, frame: _Frame, face: str, distance: float, force: float | None = None) -> HandTarget:
+    def _target(self, frame: "_Frame", face: str, distance: float, force: float | None = None) -> HandTarget:
         point, velocity = frame.point(np.array([*self._middles[face], self.height]))
         inward = frame.inward(face)
         return HandTarget(point - distance * inward, velocity, frame.yaw, inward, force)

@@ -1,7 +1,5 @@
 """The topics of a run's MCAP file."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -90,7 +88,7 @@ class RunLog:
         self._foot_row, self._body_row = np.empty(13), np.empty(21)
         self._drawn = DrawnRun(self._recorder, world)
 
-    def __enter__(self) -> RunLog:
+    def __enter__(self) -> "RunLog":
         self._recorder.__enter__()
         return self
 

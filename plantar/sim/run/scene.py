@@ -1,7 +1,5 @@
 """A scene: a TOML of terrain, robot, gait, sensing and disturbances, read without a simulator."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -163,7 +161,7 @@ class Scene:
             return f"{owners[0]}.{name}"
         raise SceneError(f"scene '{self.name}' has no setting '{key}'")
 
-    def for_body(self, body: BodyScale) -> Scene:
+    def for_body(self, body: BodyScale) -> "Scene":
         """The scene with body shares as numbers.
 
         Raises:

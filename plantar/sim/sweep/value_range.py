@@ -1,7 +1,5 @@
 """Values of a setting as canonical texts (1.0 is 1), and ranges."""
 
-from __future__ import annotations
-
 import json
 import math
 import re
@@ -136,7 +134,7 @@ class ValueRange:
             raise InputError(f"range of '{self.name}' is {self.low:g} to {self.high:g}; allowed: a smaller one first")
 
     @classmethod
-    def from_text(cls, text: str, option: str) -> ValueRange:
+    def from_text(cls, text: str, option: str) -> "ValueRange":
         """Returns the range of `text` "key=from:to" of `option`; both ends may be shares of one unit.
 
         Raises:

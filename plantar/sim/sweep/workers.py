@@ -1,7 +1,5 @@
 """Worker processes on this machine, one run at a time each."""
 
-from __future__ import annotations
-
 import os
 import signal
 import threading
@@ -106,7 +104,7 @@ class LocalWorkers:
             worker.connection.close()
         self._workers = []
 
-    def _replace(self, worker: _Worker, task: Task) -> list[tuple[Task, Row]]:
+    def _replace(self, worker: "_Worker", task: Task) -> list[tuple[Task, Row]]:
         self._workers.remove(worker)
         how = worker.end()
         if worker.ready:

@@ -18,8 +18,8 @@ def test_one_value_that_is_no_number_silences_all_three(where, values):
     silent[where][-len(values) :] = values
     joints, gyro, accelerometer = silent
     with pytest.raises(InputError, match="the first reading has to be sound"):
-        body.heard((joints, gyro, accelerometer))
-    assert body.heard(SOUND) is SOUND
-    assert [body.heard((joints, gyro, accelerometer)) is SOUND for _ in range(3)] == [True, True, False]
+        body.usable((joints, gyro, accelerometer))
+    assert body.usable(SOUND) is SOUND
+    assert [body.usable((joints, gyro, accelerometer)) is SOUND for _ in range(3)] == [True, True, False]
     assert body.blind
-    assert body.heard(SOUND) is None  # it stays so
+    assert body.usable(SOUND) is None  # it stays so

@@ -1,7 +1,5 @@
 """Cost and error of a setting, and whether the scene's own stays."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
@@ -56,7 +54,7 @@ class SceneRow:
     impact_N: float
     margin_mm: float
 
-    def within(self, other: SceneRow) -> bool:
+    def within(self, other: "SceneRow") -> bool:
         """Whether it walks, with no error above another row's."""
         pairs = ((self.com_mm, other.com_mm), (self.zmp_mm, other.zmp_mm), (self.force, other.force))
         return self.walked and self.completed == self.seeds and self.together == 1.0 and all(a <= b for a, b in pairs)

@@ -1,7 +1,5 @@
 """The single runs of `plantar bench scenes`, in a growing table."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -70,7 +68,7 @@ class SceneRuns:
                 self._table.add({**dict(zip(_KEYS, job.key, strict=True)), **self._measure(job)})
         self._traces.clear()
 
-    def _measure(self, job: _Job) -> dict[str, Any]:
+    def _measure(self, job: "_Job") -> dict[str, Any]:
         try:
             if job.kind == "seeded":
                 return _costs(ChangedRun(*job.case[:2], job.setting, job.seed, job.case.walk))

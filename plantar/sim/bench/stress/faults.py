@@ -1,7 +1,5 @@
 """Faults of the sensors in a stress run."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
@@ -208,7 +206,7 @@ class Faults:
     begins: float = 0.0
 
     @classmethod
-    def drawn(cls, rng: np.random.Generator) -> Faults:
+    def drawn(cls, rng: np.random.Generator) -> "Faults":
         """Draw faults: each in one of five runs."""
         shares = {name: (float(rng.random() ** 2) if rng.random() < 0.2 else 0.0) for name in _SHARES}
         return cls(

@@ -1,7 +1,5 @@
 """A stress run: scene, robot, settings, place and faulty sensors."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
@@ -83,7 +81,7 @@ class Scenario:
         return asdict(self)
 
     @classmethod
-    def from_dict(cls, values: Mapping[str, Any]) -> Scenario:
+    def from_dict(cls, values: Mapping[str, Any]) -> "Scenario":
         """A scenario from the values of `as_dict`."""
         known = dict(values)
         known["settings"], known["place"] = tuple(known.get("settings", ())), tuple(known.get("place", (0.0, 0.0, 0.0)))

@@ -1,7 +1,5 @@
 """Whether a tip can reach its goal without touching obstacles that are all known."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -34,7 +32,7 @@ class Tip(NamedTuple):
     lifts: bool
 
     @classmethod
-    def of(cls, model: Any, data: Any, link: str, point: NDArray[np.float64]) -> Tip:
+    def of(cls, model: Any, data: Any, link: str, point: NDArray[np.float64]) -> "Tip":
         """Returns the tip at a `point` (3,) of a `link` of `model` and `data`; its ball is 0 m without a capsule."""
         body = data.body(link)
         place = body.xpos + body.xmat.reshape(3, 3) @ point
