@@ -9,7 +9,7 @@ from plantar.errors import InputError
 from plantar.gait.balance.balance_laws import balance_gains, balance_law
 from plantar.gait.balance.dcm_balance import BalanceGains, DcmBalance
 from plantar.gait.balance.law import Feet, FootAction, FootState
-from plantar.gait.balance.wrench_balance import WrenchBalance, WrenchBalanceGains
+from plantar.gait.balance.wrench_balance import WrenchBalance, WrenchBalanceGains, _share
 from plantar.gait.estimate.command_frame import CommandFrame
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.mechanics.contact import Contact
@@ -145,3 +145,8 @@ def test_the_foot_that_is_nearer_to_the_zmp_carries_more(aside):
     assert share == pytest.approx(0.5 + aside / 0.21, abs=1e-3)
     for wrench in wrenches.values():  # so that no foot has to be turned
         assert abs(wrench[3]) < 2e-4 * wrench[2]
+
+
+@pytest.mark.parametrize(("x", "share"), [(-0.2, 0.0), (0.1, 0.25), (0.4, 1.0), (0.6, 1.0)])
+def test_no_foot_carries_more_than_all_where_the_zmp_is_beyond_it(x, share):
+    assert _share(x, 0.3, (0.4, 0.0), (0.0, 0.0)) == pytest.approx(share)

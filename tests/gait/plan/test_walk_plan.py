@@ -105,6 +105,10 @@ def test_without_room_the_double_support_grows_or_the_rest_is_left_to_the_feedba
     assert jump == pytest.approx(replan.gap, abs=1e-12)
     bridge = [p for t, p in zip(tight.vrps.times, tight.vrps.vrps, strict=True) if time < t < time + 0.2]
     assert all(0.015 - 1e-9 <= p[0] <= 0.05 + 1e-9 for p in bridge)
+    hopeless, beat = WalkPlan(feet, steps, Timing(), CENTER, OMEGA, 1.0), Timing().body.beat
+    longest = moved(hopeless, 3, (0.6, 0.0), time, narrow)
+    assert max(map(abs, longest.gap)) > 0.01
+    assert 1.2 * beat < longest.delay < 1.5 * beat
 
 
 def test_later_footholds_move_along():
