@@ -212,9 +212,9 @@ class StepAdjustment:
 
     def _relied_on(self, tick: Tick, support: NDArray[np.float64]) -> NDArray[np.float64]:
         """Support polygon's part (k, 2) in m for planning a changed footstep: f(c) S (K 27)."""
-        swing = tick.phase.swing
-        assert swing is not None
-        return shrunk_support(support, self._ankle, support.mean(axis=0), tick.place(other_side(swing)).yaw)
+        yaw = tick.place(tick.phase.stance or "left").yaw
+        middle = tick.plan.stance_vrp(tick.phase.step) if self._ankle.law == "regulation" else support.mean(axis=0)
+        return shrunk_support(support, self._ankle, middle, yaw)
 
     def _follow(self, tick: Tick, swing: Side) -> _Foot:
         now, before, velocity = tick.place(swing), self._foot, (0.0, 0.0)

@@ -242,7 +242,8 @@ class Footing:
         if pendulum is None or not self._regulates or not len(region):
             return reference, region
         yaw = self.motion.footholds[phase.stance or "left"][1] + self.frame.turn
-        region = shrunk_support(region, self._settings.ankle_strategy, region.mean(axis=0), yaw)
+        middle = region.mean(axis=0) if phase.stance is None else plan.stance_vrp(phase.step)
+        region = shrunk_support(region, self._settings.ankle_strategy, middle, yaw)
         goal = phase_goal(plan, phase, pendulum.offset, pendulum.omega)
         goal = self._plan.dcm_after(phase) if goal is None else goal
         wanted = regulated_vrp(plan, phase, time, pendulum.dcm, goal, pendulum.offset, pendulum.omega)

@@ -246,3 +246,11 @@ def test_it_goes_along_once_and_farther_only_with_a_push_that_grows(pushed):
     more = again.changed(pendulum=pendulum.changed(pushed=np.array([0.1, 0.0])))
     change = steps.propose(more)
     assert change.shift == pytest.approx((0.02, 0.0), abs=1e-9)
+
+
+def test_an_undisturbed_robot_on_a_sole_that_ends_near_its_vrp_keeps_its_steps(pushed):
+    ankle = AnkleRules(law="regulation", confident=False)  # half of the sole along, about the VRP
+    adjust = StepAdjustment(RULES, REGION, TOUCHING, StepWeights(), ankle, PERIOD)
+    cut = np.array([[-0.1, -0.05], [0.02, -0.05], [0.02, 0.05], [-0.1, 0.05]])  # its middle is 40 mm behind
+    assert adjust.propose(pushed((0.0, 0.0), room=cut)[1]) is None
+    assert adjust.propose(pushed((0.06, 0.0), room=cut)[1]) is not None

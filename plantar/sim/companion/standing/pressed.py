@@ -96,9 +96,8 @@ class PressedExperiment(StandingExperiment):
         patch = self.skin.patch(str(self.rng.choice(free)))
         kind = next(k for k in _SHARES if k in patch.name)
         force = _SHARES[kind] * self.weight * self.rng.uniform(0.6, 1.0) * self.settings.strength
-        face = _FACES.get(kind, _FACE)
         taxel = outer_taxel(self.robot, patch, "torso", self.rng)
-        pad = Pad(name, patch, taxel, face, 2e5 if kind in _TRUNK else 6e4)
+        pad = Pad(name, patch, taxel, _FACES.get(kind, _FACE), 2e5 if kind in _TRUNK else 6e4)
         self.pads.append(pad)
         self.contacts.append(PlannedContact(pad, begin, hold, force, swell, self._root(name)))
         return self.contacts[-1]
