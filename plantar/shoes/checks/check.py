@@ -60,7 +60,6 @@ class ShoeCheck:
         mounting: None of an insole.
         pull_off: None without holders.
         shortest_edge_mm: Of the STEP.
-        arc_share: Share of bent walls in cylinders and cones, 0..1.
     """
 
     watertight: bool
@@ -80,7 +79,6 @@ class ShoeCheck:
     pull_off: PullOff | None
     checks: tuple[Check, ...]
     shortest_edge_mm: float
-    arc_share: float
 
     @property
     def holds(self) -> bool:
@@ -147,7 +145,6 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: StepSolid)
         pull_off=held,
         checks=checks,
         shortest_edge_mm=round(step.shortest, 3),
-        arc_share=round(step.round / (step.round + step.flat), 3) if step.round + step.flat > 0.0 else 1.0,
     )
 
 

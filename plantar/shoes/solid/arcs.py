@@ -13,7 +13,7 @@ from plantar.shoes.solid.polyhedron import Loops, Polyhedron
 
 __all__ = ["Arc", "CurvedSolid", "with_arcs"]
 
-BULGE = 0.25  # how far an arc may lie off a facet's middle, in mm
+_BULGE = 0.25  # how far an arc may lie off a facet's middle, in mm
 
 _OFF = 0.05  # mm: how far a corner may lie off its arc
 _TURN, _WHOLE = math.radians(20.0), math.radians(150.0)  # at a corner that may vanish, and of an arc
@@ -61,13 +61,11 @@ def with_arcs(body: Polyhedron) -> CurvedSolid:
             arcs |= dict(zip(ends, found, strict=True))
             removed.update(n for level in chain for n in level[start + 1 : end])
             for low, high in itertools.pairwise(chain):
-                forward = (low[start], low[start + 1]) if (low[start], low[start + 1]) in body.neighbours else None
-                first = body.neighbours.get((low[start], low[start + 1]), -1)
-                upright = forward is not None and high[start] in body.faces[first][0]
+                facets = [_face_of(body, low[i], low[i + 1], high[i]) for i in range(start, end)]
+                dropped.update(facets)
                 loop = (low[start], low[end], high[end], high[start])
+                upright = body.neighbours[low[start], low[start + 1]] == facets[0]
                 added.append((loop if upright else loop[::-1],))
-                for i in range(start, end):
-                    dropped.add(_face_of(body, low[i], low[i + 1], high[i]))
     faces = [
         tuple(tuple(n for n in loop if n not in removed) for loop in face)
         for i, face in enumerate(body.faces)
@@ -178,13 +176,11 @@ def _arcs(corners: Array, chain: list[list[int]]) -> Iterator[tuple[int, int, li
     start, count = 0, len(chain[0])
     while start + _FEWEST < count:
         best: tuple[int, list[Arc]] | None = None
-        end, step = start + _FEWEST, 1
-        while end < count:
+        for end in range(start + _FEWEST, count):
             found = [_arc(p[start : end + 1]) for p in points]
             if any(f is None for f in found):
                 break
             best = end, [f for f in found if f is not None]
-            end += step
         if best is None:
             start += 1
             continue
@@ -209,7 +205,7 @@ def _arc(points: Array) -> Arc | None:
     if np.abs(np.hypot(*(flat - centre).T) - radius).max() > _OFF:
         return None
     chords = np.hypot(*np.diff(points[:, :2], axis=0).T)
-    if chords.max() >= 2.0 * radius or radius - math.sqrt(radius**2 - 0.25 * chords.max() ** 2) > BULGE:
+    if chords.max() >= 2.0 * radius or radius - math.sqrt(radius**2 - 0.25 * chords.max() ** 2) > _BULGE:
         return None
     side = 1.0 if out.mean() > 0.0 else -1.0
     angle = np.unwrap(np.arctan2(*(points[:, :2] - centre).T[::-1]))

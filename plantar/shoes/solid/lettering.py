@@ -36,6 +36,6 @@ def lettering(text: str, height: float) -> Any:
         return shapely.MultiPolygon()
     shape = shapely.union_all(lines).buffer(0.5 * _WIDTH, cap_style="square", join_style="mitre", mitre_limit=1.5)
     shape = shapely.affinity.scale(shape, scale, scale, origin=(0, 0))
-    shape = shape.buffer(0.5 * _LAND, join_style="mitre").buffer(-0.5 * _LAND, quad_segs=2)
+    shape = shape.buffer(0.5 * _LAND, join_style="mitre").buffer(-0.5 * _LAND, join_style="mitre", mitre_limit=1.5)
     parts = [p for p in getattr(shape, "geoms", [shape]) if p.geom_type == "Polygon"]
     return shapely.set_precision(shapely.MultiPolygon([p.simplify(_DETAIL) for p in parts]), 1e-3)

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
 import shapely
@@ -13,6 +14,8 @@ __all__ = ["Polyhedron", "volume_of", "without_short_edges"]
 _FLAT = 1e-6  # mm
 _SLIVER = 1e-3  # mm^2
 _TWIST = 0.01  # mm by which a face bends, from which it may fold
+_EVEN = 0.1  # mm by which faces bend, up to which the fewest triangles count
+_TINY = 0.05  # mm^2, twice the area of a triangle that may turn by up to 90 degrees
 _STEEP, _LEVEL = 0.7072, 0.999  # of a unit normal downwards: at 45 degrees, and of a ceiling
 
 Array = NDArray[np.float64]
@@ -123,16 +126,21 @@ def without_short_edges(body: Polyhedron, least: float) -> Polyhedron:
     ends = np.array([e for e in body.neighbours if e[0] < e[1]])
     length = np.linalg.norm(corners[ends[:, 0]] - corners[ends[:, 1]], axis=1)
     bent: set[int] = set()
-    stands: dict[int, int] = {}
+    stands = np.arange(len(corners))  # in place of those that are lost
     for k in np.argsort(length, kind="stable")[: int((length < least).sum())].tolist():
-        a, b = (_stand_in(stands, int(n)) for n in ends[k])
+        a, b = stands[ends[k]].tolist()
         if a == b or np.linalg.norm(corners[a] - corners[b]) >= least:
             continue
-        for kept, lost, off in _moves(corners, normals, faces, at, (a, b), least):
+        for kept, lost, off, now_bent in _moves(corners, normals, faces, at, (a, b), least):
             changed = {i: faces[i] for n in lost for i in at[n]}
             for n in lost:
                 changed = {i: _contracted(face, n, kept) for i, face in changed.items()}
-            now_bent = {i for i in changed if off > _FLAT and i not in at[kept]}
+            # What a vanished face leaves between two faces alone is no corner.
+            between = {n for i, face in changed.items() if not face for loop in faces[i] for n in loop}
+            for n in sorted(between - {kept, *lost}):
+                if sum(bool(changed.get(i, faces[i])) for i in at[n]) == 2:
+                    changed |= {i: _contracted(changed.get(i, faces[i]), n, kept) for i in at[n]}
+                    lost = (*lost, n)
             # A face that was too narrow before goes by its edges one after the other.
             good = all(_sound(corners, f) or not _sound(corners, faces[i]) for i, f in changed.items() if f)
             twists = (_is_twisted(corners, changed[i], normals[i]) for i in now_bent if changed[i] and off > _TWIST)
@@ -142,25 +150,15 @@ def without_short_edges(body: Polyhedron, least: float) -> Polyhedron:
                     faces[i] = face
                 for n in lost:
                     at[kept] |= at.pop(n)
-                    stands[n] = kept
+                    stands[stands == n] = kept
                 break
-    kept_faces: list[Loops] = []
-    for i, face in enumerate(faces):
-        loops = tuple(tuple(loop) for loop in face)
-        if loops and i in bent:
-            kept_faces += [(tuple(t),) for t in _triangles(corners, loops).tolist()]
-        elif loops:
-            kept_faces.append(loops)
+    left = ((i, tuple(map(tuple, face))) for i, face in enumerate(faces) if face)
+    cut = ([(tuple(t),) for t in _triangles(corners, f).tolist()] if i in bent else [f] for i, f in left)
+    kept_faces: list[Loops] = list(chain.from_iterable(cut))
     used = np.unique([n for face in kept_faces for loop in face for n in loop])
     number = np.zeros(len(corners), dtype=np.int64)
     number[used] = np.arange(len(used))
     return Polyhedron(corners[used], tuple(tuple(tuple(number[list(q)].tolist()) for q in f) for f in kept_faces))
-
-
-def _stand_in(stands: dict[int, int], corner: int) -> int:
-    while corner in stands:
-        corner = stands[corner]
-    return corner
 
 
 def _moves(
@@ -170,25 +168,23 @@ def _moves(
     at: dict[int, set[int]],
     edge: tuple[int, int],
     most: float,
-) -> list[tuple[int, tuple[int, ...], float]]:
-    """Ways to contract an edge, by less than a length: corner that is kept, those that are lost to it, and by how much
-    that bends faces, least first. One end goes, or, if that cannot be, two corners of a small triangle.
+) -> list[tuple[int, tuple[int, ...], float, set[int]]]:
+    """Ways to contract an edge, by less than a length: corner kept, those lost, most that faces bend, and which do; of
+    small bends fewest triangles first. One end goes, or else two corners of a small triangle.
     """
     a, b = edge
     ways: list[tuple[int, tuple[int, ...]]] = [(a, (b,)), (b, (a,))]
     for loop in (loop for i in at[a] & at[b] for loop in faces[i] if len(loop) == 3):
         ways += [(n, tuple(q for q in loop if q != n)) for n in loop]
-    found = [
-        (kept, lost, max(_bend(corners, normals, at[n] - at[kept], n, kept) for n in lost))
-        for kept, lost in ways
-        if max(float(np.linalg.norm(corners[n] - corners[kept])) for n in lost) < most
-    ]
-    return sorted(found, key=lambda way: (len(way[1]), way[2], way[0]))
-
-
-def _bend(corners: Array, normals: Array, faces: set[int], lost: int, kept: int) -> float:
-    way = corners[kept] - corners[lost]
-    return max((abs(float(normals[i] @ way)) for i in faces), default=0.0)
+    found = []
+    for kept, lost in ways:
+        if max(float(np.linalg.norm(corners[n] - corners[kept])) for n in lost) < most:
+            off = [(abs(float(normals[i] @ (corners[kept] - corners[n]))), i) for n in lost for i in at[n] - at[kept]]
+            bent = {i for by, i in off if by > _FLAT}
+            cut = sum(len(loop) for i in bent for loop in faces[i])
+            far = max(off, default=(0.0, 0))[0]
+            found.append((len(lost), max(far, _EVEN), cut, far, kept, lost, bent))
+    return [(kept, lost, far, bent) for *_, far, kept, lost, bent in sorted(found, key=lambda way: way[:5])]
 
 
 def _sound(corners: Array, face: list[list[int]]) -> bool:
@@ -201,9 +197,10 @@ def _is_twisted(corners: Array, face: list[list[int]], normal: Array) -> bool:
     """Whether triangles of a bent face turn by 45 degrees from its normal (3,), as folds do, or hang over by more."""
     a, b, c = np.moveaxis(corners[_triangles(corners, tuple(map(tuple, face)))], 1, 0)
     own = np.cross(b - a, c - a)
-    own /= np.maximum(np.linalg.norm(own, axis=1), 1e-300)[:, None]
-    down = -own[:, 2]
-    return bool(((down > _STEEP) & (down < _LEVEL) | (own @ normal < _STEEP)).any())
+    double = np.linalg.norm(own, axis=1)
+    own /= np.maximum(double, 1e-300)[:, None]
+    down, least = -own[:, 2], np.where(double < _TINY, 0.0, _STEEP)
+    return bool(((down > _STEEP) & (down < _LEVEL) | (own @ normal < least)).any())
 
 
 def _contracted(face: list[list[int]], lost: int, kept: int) -> list[list[int]]:
@@ -226,13 +223,6 @@ def _contracted(face: list[list[int]], lost: int, kept: int) -> list[list[int]]:
 
 def _closed(faces: list[list[list[int]]], changed: dict[int, list[list[int]]], near: set[int]) -> bool:
     """Whether no directed edge repeats, and no loop meets itself."""
-    edges = set()
-    for i in near:
-        for loop in changed.get(i, faces[i]):
-            if len(set(loop)) < len(loop):
-                return False
-            for edge in zip(loop, (*loop[1:], loop[0]), strict=True):
-                if edge in edges:
-                    return False
-                edges.add(edge)
-    return True
+    loops = [loop for i in near for loop in changed.get(i, faces[i])]
+    edges = [edge for loop in loops for edge in zip(loop, (*loop[1:], loop[0]), strict=True)]
+    return len(set(edges)) == len(edges) and all(len(set(loop)) == len(loop) for loop in loops)

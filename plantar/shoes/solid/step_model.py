@@ -14,16 +14,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.shoes.solid.arcs import BULGE, Arc, CurvedSolid, with_arcs
+from plantar.shoes.solid.arcs import Arc, CurvedSolid, with_arcs
 from plantar.shoes.solid.kernel import ocp, parts_of, points_of
 from plantar.shoes.solid.polyhedron import Loops, Polyhedron
+from plantar.shoes.solid.step_text import with_shared_entities
 
-__all__ = ["StepPart", "StepSolid", "read_step", "release_date", "with_shared_entities", "write_step"]
+__all__ = ["StepPart", "StepSolid", "read_step", "release_date", "write_step"]
 
 _TOLERANCE = 1e-5  # mm
 _SAME = 1e-6  # mm between the centres of a cone's two arcs
+_ON = 9e-8  # mm between corners and their line or plane; the kernel allows 1e-7
 
 Array = NDArray[np.float64]
+_Known = dict[tuple[float, ...], list[tuple[Any, Array, Array]]]  # lines and planes by about where they are
 
 
 @dataclass(frozen=True)
@@ -55,8 +58,6 @@ class StepSolid:
         corners: Points (n, 3).
         circles: Arc centre and radius (m, 4).
         shortest: Shortest edge.
-        flat: Area in mm^2 of bent walls' flat facets, bent at both ends, within `BULGE` of an arc.
-        round: Area of cylinders and cones.
     """
 
     solids: int
@@ -65,8 +66,6 @@ class StepSolid:
     corners: Array
     circles: Array
     shortest: float
-    flat: float
-    round: float
 
 
 def write_step(parts: Sequence[StepPart], path: str | os.PathLike[str], name: str) -> None:
@@ -113,20 +112,38 @@ def release_date() -> str:
     return when.strftime("%Y-%m-%dT%H:%M:%S")
 
 
+def _once(known: _Known, kind: Any, points: Array, way: Array, *axes: Any) -> Any:
+    """Line or plane, a `kind`, of axes, through points (n, 3) along or across a way (3,), or an equal one of before."""
+    line = kind is ocp.gp.gp_Lin
+    place = points[0] - (points[0] @ way) * way if line else points[0] @ way
+    near = known.setdefault(tuple(np.round(np.append(way, place), 3)), [])
+    for made, at, along in near:
+        off = np.cross(points - at, along) if line else (points - at) @ along
+        if np.abs(off).max() < _ON:
+            return made
+    near.append((kind(*axes), points[0], way))
+    return near[-1][0]
+
+
+def _point(at: Array) -> Any:
+    return ocp.gp.gp_Pnt(*at.tolist())
+
+
+def _direction(way: Array) -> Any:
+    return ocp.gp.gp_Dir(*way.tolist())
+
+
 def _solid(solid: CurvedSolid) -> Any:
-    vertices = [
-        ocp.BRepBuilderAPI.BRepBuilderAPI_MakeVertex(ocp.gp.gp_Pnt(*p)).Vertex() for p in solid.body.corners.tolist()
-    ]
+    corners, known = solid.body.corners, _Known()
+    vertices = [ocp.BRepBuilderAPI.BRepBuilderAPI_MakeVertex(_point(p)).Vertex() for p in corners]
     edges = {
-        (a, b): _edge(solid.body.corners, vertices, a, b, solid.arcs.get((a, b)))
-        for a, b in solid.body.neighbours
-        if a < b
+        (a, b): _edge(corners, vertices, a, b, solid.arcs.get((a, b)), known) for a, b in solid.body.neighbours if a < b
     }
     builder, shell = ocp.BRep.BRep_Builder(), ocp.TopoDS.TopoDS_Shell()
     builder.MakeShell(shell)
-    for number, face in enumerate(solid.body.faces):
+    for number, (face, normal) in enumerate(zip(solid.body.faces, solid.body.normals, strict=True)):
         curved = number in solid.curved
-        made = (_curved_face if curved else _flat_face)(solid, face, solid.body.normals[number], edges)
+        made = _curved_face(solid, face, normal, edges) if curved else _flat_face(corners, face, normal, edges, known)
         builder.Add(shell, made)
     shell.Closed(True)
     whole = ocp.BRepBuilderAPI.BRepBuilderAPI_MakeSolid(shell).Solid()
@@ -134,10 +151,15 @@ def _solid(solid: CurvedSolid) -> Any:
     return whole
 
 
-def _edge(corners: Array, vertices: list[Any], a: int, b: int, arc: Arc | None) -> Any:
-    if arc is None:
-        return ocp.BRepBuilderAPI.BRepBuilderAPI_MakeEdge(vertices[a], vertices[b]).Edge()
-    return ocp.BRepBuilderAPI.BRepBuilderAPI_MakeEdge(_curve(corners, a, b, arc), vertices[a], vertices[b]).Edge()
+def _edge(corners: Array, vertices: list[Any], a: int, b: int, arc: Arc | None, known: _Known) -> Any:
+    if arc is not None:
+        curve = _curve(corners, a, b, arc)
+        return ocp.BRepBuilderAPI.BRepBuilderAPI_MakeEdge(curve, vertices[a], vertices[b]).Edge()
+    way = (corners[b] - corners[a]) / math.dist(corners[a], corners[b])
+    if tuple(np.round(way, 6)) < (0.0, 0.0, 0.0):
+        return ocp.TopoDS.TopoDS.Edge_s(_edge(corners, vertices, b, a, None, known).Reversed())
+    line = _once(known, ocp.gp.gp_Lin, corners[[a, b]], way, _point(corners[a]), _direction(way))
+    return ocp.BRepBuilderAPI.BRepBuilderAPI_MakeEdge(line, vertices[a], vertices[b]).Edge()
 
 
 def _curve(corners: Array, a: int, b: int, arc: Arc) -> Any:
@@ -155,10 +177,11 @@ def _wire(loop: tuple[int, ...], edges: dict[tuple[int, int], Any]) -> Any:
     return wire
 
 
-def _flat_face(solid: CurvedSolid, face: Loops, normal: Array, edges: dict[tuple[int, int], Any]) -> Any:
-    plane = ocp.gp.gp_Pln(
-        ocp.gp.gp_Pnt(*solid.body.corners[list(face[0])].mean(axis=0).tolist()), ocp.gp.gp_Dir(*normal.tolist())
-    )
+def _flat_face(corners: Array, face: Loops, normal: Array, edges: dict[tuple[int, int], Any], known: _Known) -> Any:
+    a, b = sorted(face[0][:2])
+    # Along an edge, whose direction the file has.
+    axes = ocp.gp.gp_Ax3(_point(corners[face[0][0]]), _direction(normal), _direction(corners[b] - corners[a]))
+    plane = _once(known, ocp.gp.gp_Pln, corners[list(face[0])], normal, axes)
     made = ocp.BRepBuilderAPI.BRepBuilderAPI_MakeFace(plane, _wire(face[0], edges), True)
     for hole in face[1:]:
         made.Add(_wire(hole, edges))
@@ -202,7 +225,6 @@ def read_step(path: str | os.PathLike[str]) -> StepSolid:
     edges = map(ocp.TopoDS.TopoDS.Edge_s, parts_of(shape, ocp.TopAbs.TopAbs_EDGE))
     curves = [ocp.BRepAdaptor.BRepAdaptor_Curve(e) for e in edges]
     circles = [c.Circle() for c in curves if c.GetType() == ocp.GeomAbs.GeomAbs_Circle]
-    flat, bent = _bent_walls(shape)
     return StepSolid(
         solids=len(parts_of(shape, ocp.TopAbs.TopAbs_SOLID)),
         valid=bool(ocp.BRepCheck.BRepCheck_Analyzer(shape).IsValid()),
@@ -210,79 +232,4 @@ def read_step(path: str | os.PathLike[str]) -> StepSolid:
         corners=points_of(shape),
         circles=np.array([(*(c.Location().Coord()), c.Radius()) for c in circles]).reshape(-1, 4),
         shortest=min(float(ocp.GCPnts.GCPnts_AbscissaPoint.Length_s(c)) for c in curves),
-        flat=flat,
-        round=bent,
     )
-
-
-def _bent_walls(shape: Any) -> tuple[float, float]:
-    faces = [ocp.TopoDS.TopoDS.Face_s(f) for f in parts_of(shape, ocp.TopAbs.TopAbs_FACE)]
-    surfaces = [ocp.BRepAdaptor.BRepAdaptor_Surface(f) for f in faces]
-    bends: list[set[tuple[float, ...]]] = [set() for _ in faces]  # where, in plan: a facet has two ends
-    normals = np.zeros((len(faces), 3))
-    long = np.zeros(len(faces))
-    edges = ocp.TopTools.TopTools_IndexedMapOfShape()
-    ocp.TopExp.TopExp.MapShapes_s(shape, ocp.TopAbs.TopAbs_EDGE, edges)
-    owners: list[list[int]] = [[] for _ in range(edges.Size())]
-    for i, (face, surface) in enumerate(zip(faces, surfaces, strict=True)):
-        if surface.GetType() == ocp.GeomAbs.GeomAbs_Plane:
-            normals[i] = surface.Plane().Axis().Direction().Coord()
-            if abs(normals[i, 2]) < 1e-6:
-                long[i] = math.hypot(*np.ptp(points_of(face)[:, :2], axis=0))
-                for edge in parts_of(face, ocp.TopAbs.TopAbs_EDGE):
-                    owners[edges.FindIndex(edge) - 1].append(i)
-    for k, pair in ((k, p) for k, p in enumerate(owners, start=1) if len(p) == 2):
-        bend = math.acos(min(1.0, abs(float(normals[pair[0]] @ normals[pair[1]]))))
-        if math.radians(1.0) < bend < math.radians(20.0):
-            for i in (i for i in pair if long[i] * bend < 8.0 * BULGE):
-                bends[i].add(tuple(points_of(edges.FindKey(k))[0, :2].round(3).tolist()))
-
-    def area(numbers: Any) -> float:
-        total = 0.0
-        for i in numbers:
-            measured = ocp.GProp.GProp_GProps()
-            ocp.BRepGProp.BRepGProp.SurfaceProperties_s(faces[i], measured)
-            total += float(measured.Mass())
-        return total
-
-    bent = [
-        i for i, s in enumerate(surfaces) if s.GetType() in (ocp.GeomAbs.GeomAbs_Cylinder, ocp.GeomAbs.GeomAbs_Cone)
-    ]
-    # A facet that is bent at one end alone is at a corner of a polygon.
-    return area(i for i, places in enumerate(bends) if len(places) > 1), area(bent)
-
-
-_REFERENCE = re.compile(r"('[^']*')|#(\d+)")
-_SHARED = ("CARTESIAN_POINT", "DIRECTION", "VECTOR", "AXIS2_PLACEMENT_3D", "LINE", "CIRCLE")  # each of those before
-
-
-def with_shared_entities(text: str) -> str:
-    """Shorten a file to about two thirds; topology stays as it is.
-
-    Example:
-        >>> data = "DATA;\\n#1 = DIRECTION('',(1.));\\n#2 = DIRECTION('',(1.));\\n#3 = PLANE('#2',#1,#2);\\nENDSEC;\\n"
-        >>> with_shared_entities(data)
-        "DATA;\\n#1=DIRECTION('',(1.));\\n#2=PLANE('#2',#1,#1);\\nENDSEC;\\n"
-    """
-    begin = text.index("DATA;\n") + len("DATA;\n")
-    end = text.index("\nENDSEC;", begin)
-    start, data, tail = text[:begin], text[begin:end], text[end + 1 :]
-    entities = []
-    for line in data.removesuffix(";").split(";\n"):
-        number, _, body = re.sub(r"\n *", "", line).removeprefix("#").partition(" = ")
-        entities.append((number, body))
-    stands = {number: number for number, _ in entities}
-
-    def referring(body: str, numbers: dict[str, str]) -> str:
-        return _REFERENCE.sub(lambda r: r[1] or "#" + numbers[r[2]], body)
-
-    for kind in _SHARED:
-        first: dict[str, str] = {}
-        for number, body in entities:
-            if body.startswith(kind + "("):
-                stands[number] = first.setdefault(referring(body, stands), number)
-    kept = [(number, body) for number, body in entities if stands[number] == number]
-    place = {number: str(i) for i, (number, _) in enumerate(kept, start=1)}
-    numbers = {number: place[other] for number, other in stands.items()}
-    lines = [f"#{place[number]}={referring(body, numbers)};" for number, body in kept]
-    return start + "\n".join(lines) + "\n" + tail

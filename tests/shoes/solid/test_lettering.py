@@ -30,3 +30,8 @@ def test_nothing_narrow_is_left_between_strokes():
         closed = shape.buffer(0.5).buffer(-0.5)
         assert (closed - shape).area < 0.6  # but for the corners
         assert isinstance(shape, shapely.MultiPolygon)
+
+
+def test_straight_strokes_have_no_more_corners_than_they_need():
+    for letter, corners in (("L", 6), ("E", 12), ("H", 12), ("T", 8)):
+        assert [len(part.exterior.coords) - 1 for part in lettering(letter, 8.0).geoms] == [corners]

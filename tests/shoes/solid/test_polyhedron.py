@@ -29,10 +29,13 @@ def test_a_short_edge_is_contracted():
     assert abs(short.volume - body.volume) < 1e-3 * body.volume
 
 
-def test_the_surface_of_a_shoe_has_no_fold():
+def test_the_surface_of_a_shoe_has_no_fold_and_no_short_edge():
     triangles = turned(FAMILY["of_65_mm"](), *small_turns("of_65_mm")[1])
     shoe = build_shoe(foot_from_triangles("a", triangles, where="a"), side="left").shoes[0]
     assert is_closed(shoe.surface)
+    assert shoe.solid is not None
+    ends = shoe.solid.corners[np.array(list(shoe.solid.neighbours))]
+    assert np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).min() >= 0.2
     cross = np.cross(shoe.surface[:, 1] - shoe.surface[:, 0], shoe.surface[:, 2] - shoe.surface[:, 0])
     down = -cross[:, 2] / np.linalg.norm(cross, axis=1)
     assert not ((down > 0.7082) & (down < 0.999)).any()

@@ -1,0 +1,53 @@
+"""Text of STEP files (ISO 10303-21), shortened."""
+
+import re
+from collections import Counter
+
+__all__ = ["with_shared_entities"]
+
+_REFERENCE = re.compile(r"('[^']*')|#(\d+)")
+_NUMBER = re.compile(r"-?\d+\.\d*(?:E[+-]?\d+)?")
+_DECIMALS = {"CARTESIAN_POINT": 6, "DIRECTION": 9}
+_SHARED = (*_DECIMALS, "VECTOR", "AXIS2_PLACEMENT_3D", "LINE", "CIRCLE", "PLANE")  # each of those before
+
+
+def with_shared_entities(text: str) -> str:
+    """Shorten a file to about two thirds; topology stays as it is.
+
+    Example:
+        >>> data = "DATA;\\n#1 = DIRECTION('',(1.));\\n#2 = DIRECTION('',(1.));\\n#3 = PLANE('#2',#1,#2);\\nENDSEC;\\n"
+        >>> with_shared_entities(data)
+        "DATA;\\n#1=DIRECTION('',(1.));\\n#2=PLANE('#2',#1,#1);\\nENDSEC;\\n"
+    """
+    begin = text.index("DATA;\n") + len("DATA;\n")
+    end = text.index("\nENDSEC;", begin)
+    start, data, tail = text[:begin], text[begin:end], text[end + 1 :]
+    entities = []
+    for line in data.removesuffix(";").split(";\n"):
+        number, _, body = re.sub(r"\n *", "", line).removeprefix("#").partition(" = ")
+        entities.append((number, _rounded(body, _DECIMALS.get(body.partition("(")[0]))))
+    stands = {number: number for number, _ in entities}
+
+    def referring(body: str, numbers: dict[str, str]) -> str:
+        return _REFERENCE.sub(lambda r: r[1] or "#" + numbers[r[2]], body)
+
+    for kind in _SHARED:
+        first: dict[str, str] = {}
+        for number, body in entities:
+            if body.startswith(kind + "("):
+                stands[number] = first.setdefault(referring(body, stands), number)
+    kept = [(number, body) for number, body in entities if stands[number] == number]
+    uses = Counter(stands[r[2]] for _, body in kept for r in _REFERENCE.finditer(body) if r[2])
+    kept.sort(key=lambda entity: -uses[entity[0]])  # short numbers for what is named often
+    place = {number: str(i) for i, (number, _) in enumerate(kept, start=1)}
+    numbers = {number: place[other] for number, other in stands.items()}
+    lines = [f"#{place[number]}={referring(body, numbers)};" for number, body in kept]
+    return start + "\n".join(lines) + "\n" + tail
+
+
+def _rounded(body: str, decimals: int | None) -> str:
+    def short(number: re.Match[str]) -> str:
+        text = f"{float(number[0]):.{decimals}f}".rstrip("0")
+        return "0." if text == "-0." else text
+
+    return body if decimals is None else _NUMBER.sub(short, body)
