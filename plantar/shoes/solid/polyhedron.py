@@ -14,7 +14,7 @@ __all__ = ["Polyhedron", "volume_of", "without_short_edges"]
 _FLAT = 1e-6  # mm
 _SLIVER = 1e-3  # mm^2
 _TWIST = 0.01  # mm by which a face bends, from which it may fold
-_EVEN = 0.1  # mm by which faces bend, up to which the fewest triangles count
+_EVEN = 0.03  # mm by which faces bend, up to which the fewest triangles count
 _TINY = 0.05  # mm^2, twice the area of a triangle that may turn by up to 90 degrees
 _STEEP, _LEVEL = 0.7072, 0.999  # of a unit normal downwards: at 45 degrees, and of a ceiling
 
@@ -85,7 +85,7 @@ def _of_quads(corners: Array, quads: NDArray[np.int64]) -> NDArray[np.int64]:
 def _triangles(corners: Array, face: Loops) -> NDArray[np.int64]:
     if len(face) == 1 and len(face[0]) == 3:
         return np.array([face[0]])
-    flat, up = _flattened(corners, face)
+    flat, up, _ = _flattened(corners, face)
     number = {
         tuple(q): n for loop, ring in zip(face, flat, strict=True) for n, q in zip(loop, ring.tolist(), strict=True)
     }
@@ -97,13 +97,13 @@ def _triangles(corners: Array, face: Loops) -> NDArray[np.int64]:
     return np.array([[number[q] for q in map(tuple, t)] for t in points.tolist()])
 
 
-def _flattened(corners: Array, face: Sequence[Sequence[int]]) -> tuple[list[Array], bool]:
-    """Face loops in their two largest axes, and whether they turn left."""
+def _flattened(corners: Array, face: Sequence[Sequence[int]]) -> tuple[list[Array], bool, int]:
+    """Face loops in their two largest axes, whether they turn left, and the third axis."""
     at = corners[list(face[0])]
     normal = np.cross(at - at[0], np.roll(at, -1, axis=0) - at[0]).sum(axis=0)
     axis = int(np.abs(normal).argmax())
     plane = [(axis + 1) % 3, (axis + 2) % 3]
-    return [corners[list(loop)][:, plane] for loop in face], bool(normal[axis] > 0.0)
+    return [corners[list(loop)][:, plane] for loop in face], bool(normal[axis] > 0.0), axis
 
 
 def without_short_edges(body: Polyhedron, least: float) -> Polyhedron:
@@ -142,8 +142,13 @@ def without_short_edges(body: Polyhedron, least: float) -> Polyhedron:
                     changed |= {i: _contracted(changed.get(i, faces[i]), n, kept) for i in at[n]}
                     lost = (*lost, n)
             # A face that was too narrow before goes by its edges one after the other.
-            good = all(_sound(corners, f) or not _sound(corners, faces[i]) for i, f in changed.items() if f)
-            twists = (_is_twisted(corners, changed[i], normals[i]) for i in now_bent if changed[i] and off > _TWIST)
+            good = all(
+                _sound(corners, f, normals[i]) or not _sound(corners, faces[i], normals[i])
+                for i, f in changed.items()
+                if f
+            )
+            may_twist = (now_bent if off > _TWIST else set()) | bent & changed.keys()
+            twists = (_is_twisted(corners, changed[i], normals[i]) for i in may_twist if changed[i])
             if good and not any(twists) and _closed(faces, changed, at[kept].union(*(at[n] for n in lost))):
                 bent |= now_bent
                 for i, face in changed.items():
@@ -187,10 +192,11 @@ def _moves(
     return [(kept, lost, far, bent) for *_, far, kept, lost, bent in sorted(found, key=lambda way: way[:5])]
 
 
-def _sound(corners: Array, face: list[list[int]]) -> bool:
-    flat, _ = _flattened(corners, face)
+def _sound(corners: Array, face: list[list[int]], normal: Array) -> bool:
+    """Whether a face is a polygon, and not turned over from its normal (3,)."""
+    flat, up, axis = _flattened(corners, face)
     polygon = shapely.Polygon(flat[0], flat[1:])
-    return bool(polygon.is_valid and polygon.area > _SLIVER)
+    return bool(polygon.is_valid and polygon.area > _SLIVER and up == (normal[axis] > 0.0))
 
 
 def _is_twisted(corners: Array, face: list[list[int]], normal: Array) -> bool:
