@@ -34,8 +34,8 @@ class SkinReading(Reading):
         vectors: Force (n, 3) on each taxel in N.
         wrench: Wrench (6,) of MuJoCo's contacts on body about sole origin in N and N m.
         depth: Overlap (n,) of geoms at each taxel in m, 0 elsewhere.
-        carried: Whether the vectors have the whole wrench; else only the load, as its center of pressure is beyond the
-            taxels or the contacts pull.
+        carried: Whether the vectors have the whole wrench; else only the load on the sole, as its center of pressure is
+            beyond the taxels or the body is pressed from above as well.
     """
 
     vectors: NDArray[np.float64]
@@ -102,6 +102,9 @@ class BoundSkin:
     def __len__(self) -> int:
         return len(self.layout)
 
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_views": {}}
+
     def __call__(self, data: Any) -> SkinReading:
         """Read the skin after a step or `mj_forward`; InputError for another model's MjData."""
         view = self._views.get(id(data))
@@ -124,7 +127,7 @@ class BoundSkin:
         return Percept(self.layout, self(data))
 
     def pose(self, data: Any) -> SolePose:
-        """The sole frame in the world."""
+        """The sole frame in the world of an `MjData`."""
         turn = data.xmat[self.body].reshape(3, 3)
         return SolePose(turn @ self.rotation_to_body, data.xpos[self.body] + turn @ self.position_in_body)
 
@@ -199,8 +202,12 @@ class BoundSkin:
         if not isinstance(data, mujoco.MjData):
             raise InputError(f"a skin is read from a mujoco.MjData; got a {type(data).__name__}")
         shapes = (data.qpos.size, data.qvel.size, len(data.xpos), len(data.geom_xpos))
-        model = self.model
-        if shapes != (model.nq, model.nv, model.nbody, model.ngeom):
+        model, other = self.model, getattr(data, "model", self.model)
+        if shapes != (model.nq, model.nv, model.nbody, model.ngeom) or not (
+            np.array_equal(other.geom_bodyid, model.geom_bodyid)
+            and np.array_equal(other.geom_type, model.geom_type)
+            and other.names == model.names
+        ):
             raise InputError("the data are of another model than the skin was bound to; bind it to that model")
         if len(self._views) >= _MOST_DATA:
             self._views.pop(next(iter(self._views)))

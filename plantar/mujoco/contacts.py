@@ -20,7 +20,7 @@ class ContactReader:
     """Gathers the contacts of several feet of one simulation.
 
     Args:
-        model: MjModel, whose friction cones stay as they are.
+        model: MjModel.
         data: Its MjData.
         feet: Ids of each foot's geoms.
     """
@@ -31,7 +31,8 @@ class ContactReader:
         for mask, geom_ids in zip(own, feet, strict=True):
             mask[list(geom_ids)] = 1
         self._feet = tuple(FootContacts(mask) for mask in own)
-        self._elliptic = model.opt.cone == _ELLIPTIC
+        self._options = getattr(data, "model", model).opt  # a copy's may differ
+        self._cone = self._options.cone
         self._lists: dict[int, ContactList] = {}
 
     def read(self) -> tuple[FootContacts, ...]:
@@ -41,6 +42,9 @@ class ContactReader:
             for foot in self._feet:
                 foot.clear()
             return self._feet
+        if self._options.cone != self._cone:
+            self._cone = self._options.cone
+            self._lists.clear()
         listed = self._lists.get(n)
         if listed is None:
             listed = self._lists[n] = self._list()
@@ -49,5 +53,5 @@ class ContactReader:
 
     def _list(self) -> ContactList:
         c = self._data.contact
-        friction = None if self._elliptic else c.friction
+        friction = None if self._cone == _ELLIPTIC else c.friction
         return ContactList(c.geom, c.pos, c.frame, c.dist, c.efc_address, c.dim, friction)

@@ -80,25 +80,30 @@ class Skin:
         if isinstance(geoms, str):
             raise InputError(f"geoms is {geoms!r}; expected a list of names")
         self.body = body
-        self.geoms = None if geoms is None else tuple(geoms)
+        self.geoms = None if geoms is None else tuple(str(name) for name in geoms)
         self.site = site
-        self.outward = None if outward is None else np.asarray(outward, dtype=np.float64)
-        self.forward = None if forward is None else np.asarray(forward, dtype=np.float64)
+        self.outward = outward
+        self.forward = forward
         self.cell_area = None if cell_area is None else number(cell_area, "cell area", finite=True)
         self.partial = partial
         self.proximity = None if proximity is None else number(proximity, "proximity range", finite=True)
         if self.proximity is not None and not self.proximity > 0.0:
             raise InputError(f"proximity range is {proximity} m; allowed: above 0")
         self.reach = number(reach, "reach", finite=True)
+        if self.reach < 0.0:
+            raise InputError(f"reach is {reach} m; allowed: 0 or more")
 
     def edit(self, spec: Any) -> None:
         """Add a site "BODY_skin" at the sole frame to an uncompiled `mujoco.MjSpec`.
 
         Raises:
-            RobotError: As `bind`.
+            InputError: If that is no `MjSpec`.
+            RobotError: As `bind`, or if it has that site.
         """
-        model = spec.copy().compile()
+        model = instance(spec, mujoco.MjSpec, "spec").copy().compile()
         _, shape = self._place(model)
+        if mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, f"{self.body}_skin") >= 0:
+            raise RobotError(f"the model has a site '{self.body}_skin' already; edit it once")
         body = next(b for b in spec.bodies if b.name == self.body)
         quat = np.empty(4)
         mujoco.mju_mat2Quat(quat, np.ascontiguousarray(shape.rotation).ravel())
@@ -176,7 +181,11 @@ class Skin:
     def _fitted(self, shape: SoleShape) -> SoleLayout:
         import shapely
 
-        area = self.cell_area or min(_CELL_AREA, shapely.Polygon(shape.outline).area / _CELLS)
+        area = (
+            self.cell_area
+            if self.cell_area is not None
+            else min(_CELL_AREA, shapely.Polygon(shape.outline).area / _CELLS)
+        )
         middle = shape.outline.mean(axis=0)
         return hex_layout(
             shape.outline,

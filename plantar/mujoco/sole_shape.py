@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import RobotError
 from plantar.mujoco.mesh_surface import mesh_surface
@@ -54,8 +54,8 @@ def sole_shape(
     model: Any,
     body: int,
     geoms: Collection[int],
-    outward: NDArray[np.float64] | None = None,
-    forward: NDArray[np.float64] | None = None,
+    outward: ArrayLike | None = None,
+    forward: ArrayLike | None = None,
 ) -> SoleShape:
     """Find a body's sole: its geoms' lowest face in the reference pose.
 
@@ -79,11 +79,9 @@ def sole_shape(
     place, turn = data.xpos[body].copy(), data.xmat[body].reshape(3, 3).copy()
     parts = [_surface(model, data, g, place, turn) for g in geoms]
     gravity = model.opt.gravity if np.linalg.norm(model.opt.gravity) > 1e-6 else np.array([0.0, 0.0, -1.0])
-    down = _unit(turn.T @ gravity if outward is None else np.asarray(outward, dtype=float), "outward")
+    down = _unit(turn.T @ gravity if outward is None else outward, "outward")
     down, is_flat = _face(parts, down, model)
-    ahead = (
-        turn.T @ np.array([1.0, 0.0, 0.0]) if forward is None else _unit(np.asarray(forward, dtype=float), "forward")
-    )
+    ahead = turn.T @ np.array([1.0, 0.0, 0.0]) if forward is None else _unit(forward, "forward")
     if abs(ahead @ down) > 0.95:
         if forward is not None:
             raise RobotError("the sole faces the way that is given as forward; give forward=(x, y, z) along the sole")
@@ -225,8 +223,12 @@ def _outline(parts: list[_Part], position: NDArray[np.float64], rotation: NDArra
     return np.ascontiguousarray(ring)
 
 
-def _unit(vector: NDArray[np.float64], name: str) -> NDArray[np.float64]:
+def _unit(given: ArrayLike, name: str) -> NDArray[np.float64]:
+    try:
+        vector = np.asarray(given, dtype=np.float64)
+    except (TypeError, ValueError):
+        vector = np.zeros(0)
     length = float(np.linalg.norm(vector)) if vector.shape == (3,) else math.nan
     if not (math.isfinite(length) and length > 1e-9):
-        raise RobotError(f"direction '{name}' is {vector.tolist()}; expected three numbers, not all 0")
+        raise RobotError(f"direction '{name}' is {given!s:.60}; expected three numbers, not all 0")
     return vector / length

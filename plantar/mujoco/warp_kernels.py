@@ -352,32 +352,39 @@ def _nearest(sole: Sole, p: wp.vec2d) -> wp.vec2d:
 def _carry(sole: Sole, work: Work, s: wp.int32, force: wp.float64, at: wp.vec2d) -> wp.bool:
     zero = wp.float64(0.0)
     count = sole.areas.shape[0]
-    if _tilt(sole, work, work.prior, s, force, at):
+    first = wp.int32(0)
+    corners = sole.hull.shape[0]
+    for k in range(corners):
+        way, place = sole.hull[(k + 1) % corners] - sole.hull[k], at - sole.hull[k]
+        if way[0] * place[1] - way[1] * place[0] < zero:
+            first = wp.int32(1)  # beyond the outermost taxels: no pressure of theirs has this moment
+    if first == 0 and _tilt(sole, work, work.prior, s, force, at):
         return True
-    for stage in range(2):
+    for stage in range(first, 2):
         area = wp.float64(0.0)
         for i in range(count):
             near = stage == 1
-            for j in range(count):
-                off = sole.positions[i] - sole.positions[j]
-                reach = wp.float64(4.0) * sole.widths[j] * sole.widths[j]
-                if work.prior[j, s] > zero and off[0] * off[0] + off[1] * off[1] < reach:
-                    near = True
+            if stage == 0:
+                for j in range(count):
+                    off = sole.positions[i] - sole.positions[j]
+                    reach = wp.float64(4.0) * sole.widths[j] * sole.widths[j]
+                    if work.prior[j, s] > zero and off[0] * off[0] + off[1] * off[1] < reach:
+                        near = True
             work.gaps[i, s] = zero
             if near:
                 work.gaps[i, s] = sole.areas[i]
             area += work.gaps[i, s]
         for i in range(count):
             work.weights[i, s] = work.prior[i, s] + wp.float64(1e-3) * force * work.gaps[i, s] / area
-        if _tilt(sole, work, work.weights, s, force, at):
+        if first == 0 and _tilt(sole, work, work.weights, s, force, at):
             return True
     inside = wp.vec2d()
     for k in range(sole.hull.shape[0]):
         inside += sole.hull[k] / wp.float64(sole.hull.shape[0])
-    place = _nearest(sole, at)
+    near_by = _nearest(sole, at)
     for _ in range(20):
-        place += wp.float64(1e-3) * (inside - place)
-        if _tilt(sole, work, work.weights, s, force, place):
+        near_by += wp.float64(1e-3) * (inside - near_by)
+        if _tilt(sole, work, work.weights, s, force, near_by):
             return False
     total = wp.float64(0.0)
     for i in range(count):
@@ -419,35 +426,47 @@ def press(sole: Sole, work: Work):
     w = wp.tid()
     s = w % work.prior.shape[1]
     count = wp.min(work.size[w], work.gap.shape[0])
+    total = wp.vec3d()
+    turning = wp.vec3d()
     force = wp.vec3d()
     moment = wp.vec3d()
+    holds = work.size[w] <= count
     for k in range(count):
-        force += work.force[k, w]
-        moment += work.torque[k, w] + wp.cross(work.at[k, w], work.force[k, w])
+        f = work.force[k, w] + wp.vec3d()  # a copy, not a reference
+        m = work.torque[k, w] + wp.cross(work.at[k, w], f)
+        total += f
+        turning += m
+        if f[2] < wp.float64(0.0) and f[2] * f[2] > f[0] * f[0] + f[1] * f[1]:
+            holds = False
+            work.force[k, w] = wp.vec3d()
+            work.torque[k, w] = wp.vec3d()
+        else:
+            force += f
+            moment += m
     for j in range(3):
-        work.wrench[w, j] = force[j]
-        work.wrench[w, 3 + j] = moment[j]
+        work.wrench[w, j] = total[j]
+        work.wrench[w, 3 + j] = turning[j]
     for i in range(sole.areas.shape[0]):
         work.prior[i, s] = wp.float64(0.0)
         work.vectors[w, i] = wp.vec3d()
-    work.carried[w] = wp.where(work.size[w] > count, 0, 1)
     if not force[2] > wp.float64(0.0):
-        if wp.length(force) + wp.length(moment) > wp.float64(0.0):
-            work.carried[w] = 0
+        work.carried[w] = wp.where(holds and wp.length(total) + wp.length(turning) == wp.float64(0.0), 1, 0)
         return
+    carried = wp.int32(1)
     _spread_pairs(sole, work, w, s, count)
     about = wp.vec2d(moment[0], moment[1])
     for _ in range(60):
         if not _carry(sole, work, s, force[2], wp.vec2d(-about[1] / force[2], about[0] / force[2])):
-            work.carried[w] = 0
+            carried = wp.int32(0)
         if not _shear(sole, work, w, s, force, moment[2]):
-            work.carried[w] = 0
+            carried = wp.int32(0)
         if sole.level:
             break
         off = wp.vec2d(moment[0], moment[1])
         for i in range(sole.areas.shape[0]):
             turned = wp.cross(sole.positions[i], work.vectors[w, i])
             off -= wp.vec2d(turned[0], turned[1])
-        if work.carried[w] == 0 or wp.max(wp.abs(off[0]), wp.abs(off[1])) <= wp.float64(1e-12) * force[2]:
+        if carried == 0 or wp.max(wp.abs(off[0]), wp.abs(off[1])) <= wp.float64(1e-12) * force[2]:
             break
         about += off
+    work.carried[w] = wp.where(holds, carried, 0)

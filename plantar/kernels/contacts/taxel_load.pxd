@@ -13,13 +13,14 @@ cdef class TaxelLoad:
     cdef bint level
     cdef readonly object vectors, forces, depths, wrench
     cdef double[:, ::1] _vectors
-    cdef double[::1] _forces, _depths, _wrench, weights, prior, normal, gaps
+    cdef double[::1] _forces, _depths, _wrench, load, weights, prior, normal, gaps
     cdef readonly bint carried, pressed
     cdef Py_ssize_t room
     cdef double[:, ::1] points, ring, edges, rows
     cdef int _make_room(self, Py_ssize_t room) except -1
     cpdef press(self, FootContacts contacts, ContactsInSole seen, double reach)
-    cdef void _sum(self, FootContacts contacts, const double[:, ::1] vectors) noexcept
+    cdef bint _sum(self, FootContacts contacts, double[:, ::1] vectors) noexcept
+    cdef void _add(self, double[::1] wrench, const double[:, ::1] vectors, Py_ssize_t row) noexcept
     @cython.locals(force=double, about_x=double, about_y=double, total=double)
     cdef void _spread_pairs(self, FootContacts contacts, const double[:, ::1] vectors, double reach) noexcept
     @cython.locals(length=double, least=double, shift=double, share=double)

@@ -22,6 +22,7 @@ class TaxelLoad:
     - The sum is corrected likewise, with itself as weight, to the exact load and moments; if impossible, with
       neighbouring cells, then all.
     - Tangential forces follow the normal ones, with the rest of the wrench.
+    - Contacts whose force is within 45 degrees of straight down press on the body from above: they are left out.
 
     Args:
         positions: Taxels (n, 3) in sole frame in m.
@@ -55,6 +56,7 @@ class TaxelLoad:
         self._depths = self.depths
         self.wrench = np.zeros(6)
         self._wrench = self.wrench
+        self.load = np.zeros(6)  # the part of the wrench that the taxels get
         self.weights = np.zeros(count)
         self.prior = np.zeros(count)
         self.normal = np.zeros(count)
@@ -77,7 +79,7 @@ class TaxelLoad:
         """
         count = self.areas.shape[0]
         for i in range(6):
-            self._wrench[i] = 0.0
+            self._wrench[i] = self.load[i] = 0.0
         for i in range(count):
             self.prior[i] = self._depths[i] = self._forces[i] = 0.0
             self._vectors[i, 0] = self._vectors[i, 1] = self._vectors[i, 2] = 0.0
@@ -88,8 +90,8 @@ class TaxelLoad:
             return
         if contacts.size > self.room:
             self._make_room(2 * contacts.size)
-        self._sum(contacts, seen.vectors)
-        force = self._wrench[2]
+        on_sole = self._sum(contacts, seen.vectors)
+        force = self.load[2]
         if not force > 0.0:
             for i in range(6):
                 if self._wrench[i] != 0.0:
@@ -98,18 +100,32 @@ class TaxelLoad:
         self.pressed = True
         self._spread_pairs(contacts, seen.vectors, reach)
         self._balance(force)
+        self.carried = self.carried and on_sole
 
     def _sum(self, contacts, vectors):
+        """Sum contacts and drop those from above; whether there are none."""
+        on_sole = True
         for k in range(contacts.size):
             row = 3 * k
-            x, y, z = vectors[row, 0], vectors[row, 1], vectors[row, 2]
+            self._add(self._wrench, vectors, row)
             fx, fy, fz = vectors[row + 1, 0], vectors[row + 1, 1], vectors[row + 1, 2]
-            self._wrench[0] += fx
-            self._wrench[1] += fy
-            self._wrench[2] += fz
-            self._wrench[3] += vectors[row + 2, 0] + y * fz - z * fy
-            self._wrench[4] += vectors[row + 2, 1] + z * fx - x * fz
-            self._wrench[5] += vectors[row + 2, 2] + x * fy - y * fx
+            if fz < 0.0 and fz * fz > fx * fx + fy * fy:
+                on_sole = False
+                for j in range(3):
+                    vectors[row + 1, j] = vectors[row + 2, j] = 0.0
+            else:
+                self._add(self.load, vectors, row)
+        return on_sole
+
+    def _add(self, wrench, vectors, row):
+        x, y, z = vectors[row, 0], vectors[row, 1], vectors[row, 2]
+        fx, fy, fz = vectors[row + 1, 0], vectors[row + 1, 1], vectors[row + 1, 2]
+        wrench[0] += fx
+        wrench[1] += fy
+        wrench[2] += fz
+        wrench[3] += vectors[row + 2, 0] + y * fz - z * fy
+        wrench[4] += vectors[row + 2, 1] + z * fx - x * fz
+        wrench[5] += vectors[row + 2, 2] + x * fy - y * fx
 
     def _spread_pairs(self, contacts, vectors, reach):
         count = self.areas.shape[0]
@@ -228,7 +244,7 @@ class TaxelLoad:
 
     def _balance(self, force):
         count = self.areas.shape[0]
-        about_x, about_y = self._wrench[3], self._wrench[4]
+        about_x, about_y = self.load[3], self.load[4]
         for _ in range(1 if self.level else 60):
             if not self._carry(force, -about_y / force, about_x / force):
                 self.carried = False
@@ -236,7 +252,7 @@ class TaxelLoad:
             if self.level:
                 break
             # Tangential forces on taxels above or below z = 0 have moments about x and y.
-            off_x, off_y = self._wrench[3], self._wrench[4]
+            off_x, off_y = self.load[3], self.load[4]
             for i in range(count):
                 x, y, z = self.positions[i, 0], self.positions[i, 1], self.positions[i, 2]
                 off_x -= y * self._vectors[i, 2] - z * self._vectors[i, 1]
@@ -312,7 +328,7 @@ class TaxelLoad:
         for i in range(count):
             p, q = self.positions[i, 0] - cx, self.positions[i, 1] - cy
             spread += self.normal[i] * (p * p + q * q)
-        twist = self._wrench[5] - (cx * self._wrench[1] - cy * self._wrench[0])
+        twist = self.load[5] - (cx * self.load[1] - cy * self.load[0])
         turn = 0.0
         if spread > 1e-12 * force:
             turn = twist / spread
@@ -321,8 +337,8 @@ class TaxelLoad:
         for i in range(count):
             share = self.normal[i] / force
             p, q = self.positions[i, 0] - cx, self.positions[i, 1] - cy
-            self._vectors[i, 0] = share * self._wrench[0] - turn * self.normal[i] * q
-            self._vectors[i, 1] = share * self._wrench[1] + turn * self.normal[i] * p
+            self._vectors[i, 0] = share * self.load[0] - turn * self.normal[i] * q
+            self._vectors[i, 1] = share * self.load[1] + turn * self.normal[i] * p
             self._vectors[i, 2] = self.normal[i]
 
 

@@ -51,6 +51,8 @@ ARM = (
     '<joint name="shoulder" axis="0 1 0" damping="2"/><geom type="capsule" size=".03" fromto="0 0 0 .4 0 0" mass="3"/>'
     '<body name="foot" pos=".4 0 0"><geom type="sphere" size=".035" mass="1"/></body></body></worldbody></mujoco>'
 )
+LOAD = '<body pos=".05 .03 .12"><freejoint/><geom type="box" size=".1 .05 .02" mass="5"/></body>'
+STACK = world(PLANE + LOAD, '<geom type="box" size=".2 .15 .05" mass="5"/>', 0.05)
 
 KINDS = {
     "box": box(),

@@ -99,6 +99,29 @@ def test_depth_is_the_overlap_of_the_geoms(make_box):
     assert reading.depth.argmax() in np.flatnonzero(feel.layout.positions[:, 0] > 0.0)  # where the load is
 
 
+def test_a_load_on_the_back_does_not_relieve_the_sole(contact_wrench):
+    model = mujoco.MjModel.from_xml_string(models.STACK)
+    feel, data = Skin(body="foot").bind(model), mujoco.MjData(model)
+    mujoco.mj_step(model, data, 1500)
+    reading = feel(data)
+    assert np.allclose(reading.wrench, contact_wrench(feel, data), atol=1e-9)
+    assert reading.wrench[2] == pytest.approx(5.0 * 9.81, rel=1e-3)  # of all contacts: its own weight
+    assert reading.force.sum() == pytest.approx(10.0 * 9.81, rel=1e-3)  # below it: the other box's too
+    moment = np.cross(feel.layout.positions, reading.vectors).sum(axis=0)[:2]
+    assert moment == pytest.approx([5.0 * 9.81 * 0.03, -5.0 * 9.81 * 0.05], rel=0.01)
+    assert not reading.carried
+
+
+def test_another_cone_after_binding_is_read_as_such(make_box, contact_wrench):
+    model = mujoco.MjModel.from_xml_string(make_box(euler="0 3 0", z=0.03))
+    feel, data = Skin(body="foot").bind(model), mujoco.MjData(model)
+    for cone in (0, 1, 0):
+        model.opt.cone = cone
+        mujoco.mj_step(model, data, 40)
+        assert np.allclose(feel(data).wrench, contact_wrench(feel, data), atol=1e-9)
+        assert feel(data).wrench[2] > 10.0
+
+
 def test_proximity_is_the_distance_to_the_ground(make_box):
     model = mujoco.MjModel.from_xml_string(make_box(z=0.05, euler="0 3 0"))
     feel, data = Skin(body="foot", proximity=0.05).bind(model), mujoco.MjData(model)
@@ -154,8 +177,23 @@ def test_data_of_another_model_are_refused(make_box):
     other = mujoco.MjModel.from_xml_string(KINDS["two soles on a slab"])
     with pytest.raises(InputError, match="another model"):
         feel(mujoco.MjData(other))
+    names = [f'<body name="{n}" pos="{len(n)} 0 0"><freejoint/><geom size=".1"/></body>' for n in ("foot", "a")]
+    swapped = [
+        mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{first}{then}</worldbody></mujoco>")
+        for first, then in (names, names[::-1])
+    ]
+    with pytest.raises(InputError, match="another model"):  # as many bodies, in another order
+        Skin(body="foot").bind(swapped[0])(mujoco.MjData(swapped[1]))
     with pytest.raises(InputError, match="got a str"):
         feel("data")
+
+
+def test_a_bound_skin_and_data_can_be_sent_to_another_process(make_box):
+    model = mujoco.MjModel.from_xml_string(make_box())
+    feel, data = Skin(body="foot").bind(model), mujoco.MjData(model)
+    mujoco.mj_step(model, data, 50)
+    there, sent = pickle.loads(pickle.dumps((feel, data)))
+    assert np.array_equal(there(sent).vectors, feel(data).vectors)
 
 
 def test_forces_do_not_jump_as_the_foot_rolls():

@@ -66,6 +66,7 @@ def scaled(layout, factor):
         ({"forward": (-1, 0, 0)}, "turned by 180 deg"),
         ({"forward": (0, 0, 1)}, "faces the way"),
         ({"forward": (0, 0, 0)}, "not all 0"),
+        ({"outward": "down"}, "'outward' is down; expected three numbers"),
     ],
 )
 def test_what_geometry_shows_to_be_wrong_is_refused_in_one_line(options, words):
@@ -84,11 +85,16 @@ def test_arguments_are_checked_when_it_is_made(tmp_path):
         ({"body": "a", "layout": down}, LayoutError),
         ({"body": "a", "layout": tmp_path / "none.json"}, LayoutError),
         ({"body": "a", "layout": 3}, PlantarError),
+        ({"body": "a", "reach": -1.0}, InputError),
     ]:
         with pytest.raises(error):
             Skin(**options)
     with pytest.raises(InputError, match=r"mujoco\.MjModel"):
         Skin(body="a").bind("model.xml")
+    with pytest.raises(InputError, match="expected a MjSpec"):
+        Skin(body="a").edit(two_feet())
+    with pytest.raises(InputError, match="cell area"):
+        Skin(body="left_foot", cell_area=0.0).bind(two_feet())
 
 
 def test_a_right_layout_is_accepted_in_every_form(tmp_path):
@@ -145,6 +151,8 @@ def test_edit_shows_the_sole_frame(make_box):
     mujoco.mj_step(model, data, 10)
     assert np.allclose(data.site("foot_skin").xpos, feel.pose(data).position_in_world)
     assert np.allclose(data.site("foot_skin").xmat.reshape(3, 3), feel.pose(data).rotation_sole_to_world)
+    with pytest.raises(RobotError, match="edit it once"):
+        skin.edit(spec)
 
 
 def test_outward_takes_another_face():

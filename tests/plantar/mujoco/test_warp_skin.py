@@ -20,9 +20,9 @@ spec.loader.exec_module(models)
 pytestmark = [pytest.mark.long, pytest.mark.filterwarnings("ignore")]  # compiles for a minute
 
 
-@pytest.mark.parametrize("kind", models.KINDS)
-def test_forces_are_those_of_the_skin(kind):
-    model = mujoco.MjModel.from_xml_string(models.KINDS[kind])
+@pytest.mark.parametrize("text", [*models.KINDS.values(), models.STACK], ids=[*models.KINDS, "load on the back"])
+def test_forces_are_those_of_the_skin(text):
+    model = mujoco.MjModel.from_xml_string(text)
     data, feel = mujoco.MjData(model), Skin(body="foot").bind(model)
     many = WarpSkin(feel, 2)
     for _ in range(3):
