@@ -3,8 +3,8 @@
     python examples/walk_own_computer.py
     python examples/walk_own_computer.py out/g1/robot.toml 20       a robot made by `plantar robot MODEL`, 20 steps
 
-Here MuJoCo is the robot: position servos, encoders, an IMU, and skins that read its contacts. On a real robot those
-lines read its drivers instead; nothing else changes, and `plantar.sim` is not imported.
+Here MuJoCo is the robot: position servos, encoders, an IMU, and skins. On a real robot those lines read its drivers
+instead; nothing else changes, and `plantar.sim` is not imported. More: docs/tutorials/loop.md
 """
 
 import sys
@@ -41,18 +41,20 @@ def sense():
     velocity = np.zeros(6)
     mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_SITE, imu.id, velocity, 1)
     gravity = imu.xmat.reshape(3, 3).T @ [0.0, 0.0, 9.81]
-    return Sensors(
-        data.time, data.qpos[qpos], velocity[:3], gravity, {side: feel(data) for side, feel in soles.items()}
-    )
+    readings = {side: feel(data) for side, feel in soles.items()}
+    return Sensors(data.time, data.qpos[qpos], velocity[:3], gravity, readings)
 
 
 data.qpos[:3], data.qpos[qpos] = walker.base_position, walker.stance.angles
 data.ctrl[servos] = walker.stance.angles + walker.stance.torques / stiffness
 mujoco.mj_step(model, data, 500)  # the soles settle on the floor
-data.time = 0.0
-while data.time < walker.controller.end:
+ticks = 0
+while ticks * walker.period < walker.controller.end and not data.warning.number.any():
     targets = walker.joint_targets(walker.step(sense()))
     data.ctrl[servos] = targets.angles + targets.torques / stiffness
     mujoco.mj_step(model, data, round(walker.period / model.opt.timestep))
+    ticks += 1
 torso = data.body(walker.robot.torso_body)
-print(f"walked {torso.xpos[0]:.2f} m and {'fell' if torso.xmat[8] < 0.7 else 'stands'}")
+diverged = data.warning.number.any()  # MuJoCo then begins again, at time 0
+end = "diverged" if diverged else "fell" if torso.xmat[8] < 0.7 else "stands"
+print(f"walked {torso.xpos[0]:.2f} m and {end}; controller: {walker.controller.safe_state or 'walks'}")

@@ -109,7 +109,7 @@ class WalkingController:
         self._stop = SafeStop(s.period, s.body.leg, s.body.beat, s.body.weight)
         stand = standing_command(feet, self.plan, layouts, s.mass * GRAVITY, s.com_height, begin)
         self.shell: SafetyShell | None = SafetyShell(
-            self._bridged, stand, layouts, None, s.period, s.mass, s.body.leg, s.com_height, self._stop
+            self._bridged, stand, layouts, None, s.period, s.mass, s.body.leg, s.com_height, start.time, self._stop
         )
 
     @property
@@ -132,8 +132,8 @@ class WalkingController:
         """State that it stays in, None while it walks (docs/safety.md).
 
         "no way on": no footstep is left, it stands; "blind" (encoders, IMU or soles unusable) and "lost" (CoM farther
-        from the feet than high): it sits down; "late" (times are no numbers): it holds its last command; "fallen": it
-        goes limp.
+        from the feet than high): it sits down; "late" (times are no numbers) and "waiting" (no usable reading yet): it
+        holds its last command; "fallen": it goes limp.
         """
         if self.shell is not None and self.shell.state is not None:
             return self.shell.state

@@ -53,6 +53,27 @@ def test_joint_targets_of_a_robot_at_rest_are_its_stance(walker):
     assert np.abs(targets.torques - walker.stance.torques).max() < 0.02 * weight
 
 
+def test_a_clock_that_did_not_begin_with_the_walk_changes_nothing():
+    targets = []
+    for began in (0.0, 86_400.0):
+        walker = load_controller("h1", {"walk": {"steps": 2, "settle": 0.2}})
+        for tick in range(120):
+            sensors = resting(walker, began + tick * walker.period)
+            targets.append(walker.joint_targets(walker.step(sensors)).angles)
+    assert np.allclose(targets[:120], targets[120:], atol=1e-6)
+    assert not np.allclose(targets[0], targets[119], atol=1e-3)
+
+
+def test_sensors_that_never_make_sense_are_waited_for_and_named():
+    walker = load_controller("h1", {"walk": {"steps": 2}})
+    for tick in range(30):
+        sensors = resting(walker, tick * walker.period)
+        walker.step(sensors.changed(joint_positions=np.degrees(sensors.joint_positions)))
+    assert walker.controller.safe_state == "waiting"
+    walker.step(resting(walker, 30 * walker.period))
+    assert walker.controller.safe_state is None
+
+
 def test_targets_are_the_callers_own(walker):
     command = walker.step(resting(walker, 0.005))
     first = walker.joint_targets(command)

@@ -46,10 +46,12 @@ class SafetyShell:
         mass: Robot's in kg.
         leg: Leg length in m.
         com_height: CoM over the soles in m.
+        begin: Time in s at which the walk begins; a clock that shows more at the first tick has another zero.
         stop: Commands in a state that stays.
 
     Attributes:
-        state: "fallen", "blind" (both stay), "late" (ends with the first usable time), or None.
+        state: "fallen", "blind" (both stay), "late" (ends with the first usable time), "waiting" (ends with the first
+            usable reading), or None.
         errors: Caught exceptions of the tick.
     """
 
@@ -63,6 +65,7 @@ class SafetyShell:
         mass: float,
         leg: float,
         com_height: float,
+        begin: float,
         stop: SafeStop,
     ) -> None:
         self._tick = tick
@@ -73,7 +76,7 @@ class SafetyShell:
         self._height = com_height
         self._counts = {side: len(layouts[side]) for side in layouts}
         self._positions = {side: layouts[side].positions for side in layouts}
-        self._clock = TickClock(period)
+        self._clock = TickClock(period, begin)
         self._limits = TargetLimits(period, leg, math.sqrt(leg / GRAVITY), self._weight)
         self._joints = joints
         self._body: BodyCheck | None = None
@@ -162,8 +165,8 @@ class SafetyShell:
     def _bridge(self, time: float) -> Command:
         """A tick without usable reading: on with the last briefly, then blind."""
         self._silent += 1
-        if self._silent > self._bridged and self._begun:
-            self.state = "blind"
+        if self._silent > self._bridged:
+            self.state = "blind" if self._begun else "waiting"
         if self.state is None and self._sound is not None:
             return self._limits.limited(self._last, self._tick(self._sound.changed(time=time)))
         return self._held()

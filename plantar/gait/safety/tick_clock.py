@@ -18,6 +18,7 @@ class TickClock:
 
     Args:
         period: Of control in s.
+        latest: First time in s that is taken as it is; after a later one, ticks count from 0.
 
     Attributes:
         odd: Successive ticks with unusable times.
@@ -28,8 +29,8 @@ class TickClock:
         ([1.0, 1.005, 1.01, 1.015, 1.02], 0)
     """
 
-    def __init__(self, period: float) -> None:
-        self._period = period
+    def __init__(self, period: float, latest: float = math.inf) -> None:
+        self._period, self._latest = period, latest
         self._last: float | None = None
         self._offset = 0.0
         self.odd = 0
@@ -37,8 +38,8 @@ class TickClock:
     def time_of(self, reported: float) -> float:
         """A tick's time in s, after the last one's, by the `reported` time in s."""
         if self._last is None:
-            self._last = reported if math.isfinite(reported) else 0.0
-            self._offset = 0.0 if math.isfinite(reported) else math.nan
+            self._last = reported if math.isfinite(reported) and reported <= self._latest else 0.0
+            self._offset = self._last - reported if math.isfinite(reported) else math.nan
             return self._last
         expected = self._last + self._period
         error = reported + self._offset - expected

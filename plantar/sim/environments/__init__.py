@@ -1,5 +1,7 @@
 """Gymnasium environments with plantar skin: `gymnasium.make("PlantarWalk-v0", robot="my_robot.toml")`."""
 
+from importlib.util import find_spec
+
 from plantar.optional_library import need_libraries
 
 __all__ = ["ENVIRONMENTS", "register"]
@@ -32,3 +34,7 @@ def register() -> None:
                 max_episode_steps=_STEPS,
                 kwargs={"task": task},
             )
+
+
+if find_spec("gymnasium") and find_spec("mujoco"):  # for "plantar.sim.environments:PlantarWalk-v0"
+    register()

@@ -38,6 +38,8 @@ class SkinObservation(ObservationWrapper[Any, Any, Any]):
         model = getattr(env.unwrapped, "model", None)
         if model is None or getattr(env.unwrapped, "data", None) is None:
             raise InputError("skin needs an environment with MuJoCo's model and data: env.unwrapped.model and .data")
+        if not isinstance(skins, Mapping) or not all(isinstance(skin, Skin) for skin in skins.values()):
+            raise InputError(f"skins are {skins!r:.60}; allowed: names and Skin objects, {{'left': Skin(body='foot')}}")
         own = env.observation_space
         boxes = dict(own.spaces) if isinstance(own, spaces.Dict) else {"observation": own}
         taken = sorted(boxes.keys() & skins.keys())

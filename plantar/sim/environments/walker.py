@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import number
+from plantar.arguments import instance, number
 from plantar.errors import InputError
 from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.plan.walk_plan import vrp_of_step
@@ -87,9 +87,12 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         step = number(physics_period, "physics_period", finite=True)
         if not step > 0.0 or number(period, "period", finite=True) < step:
             raise InputError(f"period is {period} s and physics_period {step} s; allowed: above 0, a period no shorter")
+        self.scale, self.difficulty = number(scale, "scale", finite=True), number(difficulty, "difficulty", finite=True)
+        if self.difficulty < 0.0:
+            raise InputError(f"difficulty is {difficulty}; allowed: 0 or more")
         self.render_mode = render_mode
         self.robot = load_robot(robot)
-        self.scale, self.difficulty, self.faults = scale, number(difficulty, "difficulty", finite=True), faults
+        self.faults = None if faults is None else instance(faults, TaxelFaults, "faults")
         legs = build_leg_model(self.robot)
         self.body = body_of(self.robot, legs.model)
         self.task: Task = TASKS[task](self)

@@ -23,6 +23,13 @@ def test_a_sound_clock_is_taken_to_the_last_bit():
     assert all(clock.time_of(3.0 + 0.005 * i) == 3.0 + 0.005 * i for i in range(10_000))
 
 
+def test_a_clock_that_began_before_the_walk_counts_from_zero():
+    for first in (1.5e9, 2.0):
+        clock = TickClock(0.005, latest=1.0)
+        assert [round(clock.time_of(first + 0.005 * i), 4) for i in range(4)] == [0.0, 0.005, 0.01, 0.015]
+    assert TickClock(0.005, latest=1.0).time_of(1.0) == 1.0
+
+
 def test_a_clock_with_jitter_is_followed_and_one_that_stops_is_noted():
     clock = TickClock(0.005)
     for i in range(4000):

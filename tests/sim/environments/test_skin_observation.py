@@ -67,3 +67,5 @@ def test_what_has_no_model_and_names_that_are_taken_are_refused():
         SkinObservation(Falling(False), {"pad": Skin(body="box")})
     with pytest.raises(InputError, match="already has observation"):
         SkinObservation(Falling(), {"observation": Skin(body="box")})
+    with pytest.raises(InputError, match="allowed: names and Skin objects"):
+        SkinObservation(Falling(), {"pad": "box"})

@@ -10,10 +10,8 @@ gymnasium = pytest.importorskip("gymnasium")
 
 from gymnasium.utils.env_checker import check_env  # noqa: E402
 
-from plantar.sim.environments import ENVIRONMENTS, register  # noqa: E402
+from plantar.sim.environments import ENVIRONMENTS  # noqa: E402
 from plantar.sim.environments.walker import PlantarEnv  # noqa: E402
-
-register()
 
 
 @pytest.mark.filterwarnings("ignore")
@@ -76,6 +74,8 @@ def test_without_skin_and_with_faults():
         ({"render_mode": "human"}, "rgb_array"),
         ({"period": 0.0}, "above 0"),
         ({"physics_period": -1.0}, "above 0"),
+        ({"difficulty": -1.0}, "0 or more"),
+        ({"faults": 0.1}, "expected a TaxelFaults"),
     ],
 )
 def test_wrong_arguments_are_refused(given, words):
@@ -84,7 +84,7 @@ def test_wrong_arguments_are_refused(given, words):
 
 
 def test_many_at_once():
-    envs = gymnasium.make_vec("PlantarStand-v0", num_envs=2, vectorization_mode="sync")
+    envs = gymnasium.make_vec("plantar.sim.environments:PlantarStand-v0", num_envs=2, vectorization_mode="sync")
     seen, _ = envs.reset(seed=3)
     assert seen["skin_left"].shape[0] == 2
     seen, reward, *_ = envs.step(np.zeros((2, 12), dtype=np.float32))
