@@ -1,149 +1,30 @@
 # mypy: ignore-errors
 """`plantar.kernels.contacts.taxel_load` for many worlds by NVIDIA Warp, a thread a world.
 
-Numbers are float64, from MuJoCo Warp's float32 contacts. `wp.int32(0)` declares a variable that a loop changes.
+`wp.int32(0)` declares a variable that a loop changes.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from plantar.mujoco.warp_contacts import Sole, Work, func, kernel
 
 try:
     import warp as wp
 except ImportError:  # then the functions are not called
     wp = None
 
-__all__ = ["Contacts", "Sole", "Work", "gather", "press"]
+__all__ = ["press"]
 
-
-def _as_it_is(function: Any) -> Any:
-    return function
-
-
-_func: Any = _as_it_is if wp is None else wp.func
-_kernel: Any = _as_it_is if wp is None else wp.kernel
-_struct: Any = _as_it_is if wp is None else wp.struct
 if wp is not None:
     wp.set_module_options({"enable_backward": False})  # half of the time to compile
 
 
-@_struct
-class Sole:
-    """A sole of n taxels and its frame in a body."""
-
-    positions: wp.array(dtype=wp.vec3d)
-    normals: wp.array(dtype=wp.vec3d)
-    areas: wp.array(dtype=wp.float64)
-    widths: wp.array(dtype=wp.float64)
-    hull: wp.array(dtype=wp.vec2d)
-    own: wp.array(dtype=wp.int32)
-    body: wp.int32
-    place: wp.vec3d
-    turn: wp.mat33d
-    reach: wp.float64
-    level: wp.bool
-
-
-@_struct
-class Contacts:
-    """All worlds' contacts, as MuJoCo Warp lists them."""
-
-    count: wp.array(dtype=wp.int32)
-    world: wp.array(dtype=wp.int32)
-    dist: wp.array(dtype=wp.float32)
-    pos: wp.array(dtype=wp.vec3f)
-    frame: wp.array(dtype=wp.mat33f)
-    geom: wp.array(dtype=wp.vec2i)
-    dim: wp.array(dtype=wp.int32)
-    friction: wp.array2d(dtype=wp.float32)
-    address: wp.array2d(dtype=wp.int32)
-    force: wp.array2d(dtype=wp.float32)
-    xpos: wp.array2d(dtype=wp.vec3f)
-    xmat: wp.array2d(dtype=wp.mat33f)
-    elliptic: wp.bool
-
-
-@_struct
-class Work:
-    """Each world's contacts in the sole frame (k, world), and work arrays (i, slot).
-
-    A GPU has a slot a world, next to each other in memory; a CPU one, which its caches hold.
-    """
-
-    size: wp.array(dtype=wp.int32)
-    pair: wp.array2d(dtype=wp.vec2i)
-    gap: wp.array2d(dtype=wp.float64)
-    at: wp.array2d(dtype=wp.vec3d)
-    force: wp.array2d(dtype=wp.vec3d)
-    torque: wp.array2d(dtype=wp.vec3d)
-    points: wp.array2d(dtype=wp.vec3d)
-    ring: wp.array2d(dtype=wp.vec2d)
-    edges: wp.array2d(dtype=wp.vec3d)
-    weights: wp.array2d(dtype=wp.float64)
-    prior: wp.array2d(dtype=wp.float64)
-    normal: wp.array2d(dtype=wp.float64)
-    gaps: wp.array2d(dtype=wp.float64)
-    rows: wp.array2d(dtype=wp.vec3d)
-    vectors: wp.array2d(dtype=wp.vec3d)
-    wrench: wp.array2d(dtype=wp.float64)
-    carried: wp.array(dtype=wp.int32)
-
-
-@_kernel
-def gather(sole: Sole, contacts: Contacts, work: Work):
-    """Add each of the `contacts` to the lists of the `sole` in `work`, in its frame; a thread a contact."""
-    i = wp.tid()
-    if i >= contacts.count[0]:
-        return
-    geoms = contacts.geom[i]
-    first, second = geoms[0], geoms[1]
-    if first < 0 or second < 0 or (sole.own[first] != 0) == (sole.own[second] != 0):
-        return
-    world = contacts.world[i]
-    k = wp.atomic_add(work.size, world, 1)
-    if k >= work.gap.shape[0]:
-        return
-    local = wp.vec3d()
-    twist = wp.vec3d()
-    if contacts.address[i, 0] >= 0:
-        dim = contacts.dim[i]
-        if contacts.elliptic or dim == 1:
-            for j in range(dim):
-                value = wp.float64(contacts.force[world, contacts.address[i, j]])
-                if j < 3:
-                    local[j] = value
-                else:
-                    twist[j - 3] = value
-        else:
-            for j in range(1, dim):
-                plus = wp.float64(contacts.force[world, contacts.address[i, 2 * j - 2]])
-                minus = wp.float64(contacts.force[world, contacts.address[i, 2 * j - 1]])
-                local[0] += plus + minus
-                side = (plus - minus) * wp.float64(contacts.friction[i, j - 1])
-                if j < 3:
-                    local[j] = side
-                else:
-                    twist[j - 3] = side
-    sign = wp.float64(1.0)
-    if sole.own[first] != 0:
-        sign = wp.float64(-1.0)
-    turn = wp.mat33d(contacts.xmat[world, sole.body])
-    to_sole = wp.transpose(turn @ sole.turn)
-    origin = wp.vec3d(contacts.xpos[world, sole.body]) + turn @ sole.place
-    axes = wp.transpose(wp.mat33d(contacts.frame[i])) * sign
-    work.pair[k, world] = geoms
-    work.gap[k, world] = wp.float64(contacts.dist[i])
-    work.at[k, world] = to_sole @ (wp.vec3d(contacts.pos[i]) - origin)
-    work.force[k, world] = to_sole @ (axes @ local)
-    work.torque[k, world] = to_sole @ (axes @ twist)
-
-
-@_func
+@func
 def _counts(sole: Sole, work: Work, w: wp.int32, k: wp.int32) -> wp.bool:
     return work.gap[k, w] <= sole.reach or work.force[k, w][2] != wp.float64(0.0)
 
 
-@_func
+@func
 def _join(work: Work, s: wp.int32, corners: wp.int32, floor: wp.int32, p: wp.vec2d) -> wp.int32:
     while corners - floor >= 2:
         a = work.ring[corners - 1, s] - work.ring[corners - 2, s]
@@ -157,7 +38,7 @@ def _join(work: Work, s: wp.int32, corners: wp.int32, floor: wp.int32, p: wp.vec
     return corners + 1
 
 
-@_func
+@func
 def _hull_of(work: Work, s: wp.int32, size: wp.int32) -> wp.int32:
     for k in range(1, size):
         p = work.points[k, s] + wp.vec3d()  # a copy, not a reference
@@ -181,7 +62,7 @@ def _hull_of(work: Work, s: wp.int32, size: wp.int32) -> wp.int32:
     return corners
 
 
-@_func
+@func
 def _distance(work: Work, s: wp.int32, corners: wp.int32, p: wp.vec2d) -> wp.float64:
     deepest = wp.float64(-1e300)
     for k in range(corners):
@@ -200,7 +81,7 @@ def _distance(work: Work, s: wp.int32, corners: wp.int32, p: wp.vec2d) -> wp.flo
     return wp.sqrt(nearest)
 
 
-@_func
+@func
 def _cover(sole: Sole, work: Work, s: wp.int32, size: wp.int32):
     corners = _hull_of(work, s, size)
     for k in range(corners):
@@ -229,7 +110,7 @@ def _cover(sole: Sole, work: Work, s: wp.int32, size: wp.int32):
         work.weights[i, s] = sole.areas[i] * share
 
 
-@_func
+@func
 def _tilt(
     sole: Sole, work: Work, weights: wp.array2d(dtype=wp.float64), s: wp.int32, force: wp.float64, at: wp.vec2d
 ) -> wp.bool:
@@ -296,7 +177,7 @@ def _tilt(
     return False
 
 
-@_func
+@func
 def _spread_pairs(sole: Sole, work: Work, w: wp.int32, s: wp.int32, count: wp.int32):
     zero = wp.float64(0.0)
     for k in range(count):
@@ -329,7 +210,7 @@ def _spread_pairs(sole: Sole, work: Work, w: wp.int32, s: wp.int32, count: wp.in
                     work.prior[i, s] += work.normal[i, s]
 
 
-@_func
+@func
 def _nearest(sole: Sole, p: wp.vec2d) -> wp.vec2d:
     best = wp.float64(1e300)
     found = wp.vec2d(p[0], p[1])
@@ -348,7 +229,7 @@ def _nearest(sole: Sole, p: wp.vec2d) -> wp.vec2d:
     return found
 
 
-@_func
+@func
 def _carry(sole: Sole, work: Work, s: wp.int32, force: wp.float64, at: wp.vec2d) -> wp.bool:
     zero = wp.float64(0.0)
     count = sole.areas.shape[0]
@@ -394,7 +275,7 @@ def _carry(sole: Sole, work: Work, s: wp.int32, force: wp.float64, at: wp.vec2d)
     return False
 
 
-@_func
+@func
 def _shear(sole: Sole, work: Work, w: wp.int32, s: wp.int32, force: wp.vec3d, about_z: wp.float64) -> wp.bool:
     middle = wp.vec2d()
     spread = wp.float64(0.0)
@@ -417,7 +298,7 @@ def _shear(sole: Sole, work: Work, w: wp.int32, s: wp.int32, force: wp.vec3d, ab
     return holds
 
 
-@_kernel
+@kernel
 def press(sole: Sole, work: Work):
     """Spread each world's contact wrench over the taxels; a thread a world.
 
