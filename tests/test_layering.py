@@ -94,12 +94,7 @@ PLACE_OF_LIBRARY = {
     "matplotlib": "plantar.plotting",
     "mpl_toolkits": "plantar.plotting",
     "gymnasium": "plantar.sim.environments",
-    "warp": (
-        "plantar.mujoco.warp_contacts",
-        "plantar.mujoco.warp_kernels",
-        "plantar.mujoco.warp_skin",
-        "plantar.mujoco.mjlab_sensor",
-    ),
+    "warp": ("plantar.mujoco.warp_kernels", "plantar.mujoco.warp_skin", "plantar.mujoco.mjlab_sensor"),
     "mjlab": "plantar.mujoco.mjlab_sensor",
     "torch": "plantar.mujoco.mjlab_sensor",
     "mink": None,  # a reference in tests and benchmarks only

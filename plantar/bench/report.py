@@ -147,9 +147,7 @@ def copy_share(results: Sequence[Result]) -> float | None:
     """
     ours = _of(results, "wrench of a recording")
     copy = _of(results, "wrench of a recording", "copy of the forces")
-    if not ours or not copy:
-        return None
-    return (1.0 + 6.0 / TAXELS) / 2.0 * copy[0].median_us / ours[0].median_us
+    return (1.0 + 6.0 / TAXELS) / 2.0 * copy[0].median_us / ours[0].median_us if ours and copy else None
 
 
 def kernel_text(result: Mapping[str, Any]) -> str:

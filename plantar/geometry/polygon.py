@@ -116,9 +116,7 @@ def signed_margin(polygon: ArrayLike, point: ArrayLike) -> float:
     """
     ring = convex_ring(polygon)
     x, y = plane_point(point)
-    if len(ring) == 0:
-        return -math.inf
-    return float(_kernel.signed_margin(ring, x, y))
+    return float(_kernel.signed_margin(ring, x, y)) if len(ring) else -math.inf
 
 
 def inner_offset(polygon: ArrayLike, distance: float) -> NDArray[np.float64]:

@@ -54,9 +54,7 @@ def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
         column = outer[:, int(np.argmax(outer.diagonal()))]
         unit = column / math.sqrt(float(column.dot(column)))
         return np.asarray(unit * math.copysign(math.atan2(sine, cosine), float(unit.dot(axis))))
-    if sine < 1e-9:
-        return axis
-    return np.asarray(axis * (math.atan2(sine, cosine) / sine))
+    return axis if sine < 1e-9 else np.asarray(axis * (math.atan2(sine, cosine) / sine))
 
 
 def rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> NDArray[np.float64]:

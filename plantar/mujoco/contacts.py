@@ -47,11 +47,9 @@ class ContactReader:
             self._lists.clear()
         listed = self._lists.get(n)
         if listed is None:
-            listed = self._lists[n] = self._list()
+            c = data.contact
+            friction = c.friction if self._cone != _ELLIPTIC else None
+            listed = ContactList(c.geom, c.pos, c.frame, c.dist, c.efc_address, c.dim, friction)
+            self._lists[n] = listed
         gather_feet(self._feet, listed, data.efc_force)
         return self._feet
-
-    def _list(self) -> ContactList:
-        c = self._data.contact
-        friction = None if self._cone == _ELLIPTIC else c.friction
-        return ContactList(c.geom, c.pos, c.frame, c.dist, c.efc_address, c.dim, friction)

@@ -39,19 +39,15 @@ def draw_skin(scene: Any, feel: BoundSkin, data: Any, *, full: float | None = No
     for place, force, area in zip(feel.layout.positions, reading.force, feel.layout.areas, strict=True):
         share = min(force / top, 1.0)
         size = [0.45 * float(np.sqrt(area))] * 2 + [3e-4]
-        _add(scene, kinds.mjGEOM_CYLINDER, size, pose.to_world(place + out), turn, _mixed(share))
-    percept = Percept(feel.layout, reading)
-    ring = percept.support_polygon_in_sole
+        color = (1.0 - share) * _UNLOADED + share * _LOADED
+        _add(scene, kinds.mjGEOM_CYLINDER, size, pose.to_world(place + out), turn, color)
+    ring = Percept(feel.layout, reading).support_polygon_in_sole
     for first, second in zip(ring, np.roll(ring, -1, axis=0), strict=True):
         _line(scene, pose.to_world([*first, -lift]), pose.to_world([*second, -lift]))
     cop = reading.position_cop_in_sole
     if cop is not None:
         _add(scene, kinds.mjGEOM_SPHERE, [0.006] * 3, pose.to_world([*cop, 0.0]), turn, _COP)
     return int(scene.ngeom - start)
-
-
-def _mixed(share: float) -> NDArray[np.float64]:
-    return np.asarray((1.0 - share) * _UNLOADED + share * _LOADED)
 
 
 def _next(scene: Any) -> Any:

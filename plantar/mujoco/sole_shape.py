@@ -92,8 +92,7 @@ def sole_shape(
     lowest = max(float((p.points @ down).max()) for p in parts)
     position = lowest * down
     outline = _outline(parts, position, rotation)
-    side = "left" if place[1] >= 0.0 else "right"
-    return SoleShape(position, rotation, outline, side, is_flat)
+    return SoleShape(position, rotation, outline, "left" if place[1] >= 0.0 else "right", is_flat)
 
 
 class _Part(NamedTuple):
@@ -130,9 +129,7 @@ def _surface(model: Any, data: Any, geom: int, place: NDArray[np.float64], turn:
     to_body = turn.T @ data.geom_xmat[geom].reshape(3, 3)
     shift = turn.T @ (data.geom_xpos[geom] - place)
     seen = local @ to_body.T + shift
-    if centres is None:
-        return _Part(seen)
-    return _Part(seen, centres @ to_body.T + shift, float(size[0]))
+    return _Part(seen) if centres is None else _Part(seen, centres @ to_body.T + shift, float(size[0]))
 
 
 def _ball() -> NDArray[np.float64]:
@@ -143,11 +140,6 @@ def _ball() -> NDArray[np.float64]:
     return np.column_stack([ring * np.cos(angle), ring * np.sin(angle), height])
 
 
-def _exact(part: _Part, down: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A part's points in which a face can lie: corners, or the lowest if round."""
-    return part.points if part.centres is None else part.centres + part.radius * down
-
-
 def _face(parts: list[_Part], down: NDArray[np.float64], model: Any) -> tuple[NDArray[np.float64], bool]:
     """Normal (3,) of the large face nearest a direction, and whether there is one."""
     from scipy.spatial import ConvexHull, QhullError
@@ -155,7 +147,8 @@ def _face(parts: list[_Part], down: NDArray[np.float64], model: Any) -> tuple[ND
     start = down
     found = False
     for _ in range(4):
-        corners = np.vstack([_exact(p, down) for p in parts])
+        # Points in which a face can lie: corners, or the lowest of something round.
+        corners = np.vstack([p.points if p.centres is None else p.centres + p.radius * down for p in parts])
         extent = float(np.ptp(corners, axis=0).max())
         # A roof makes a flat set of points solid; no face that leans on it looks down.
         roof = corners.mean(axis=0) - down * max(extent, 0.05)
@@ -167,7 +160,8 @@ def _face(parts: list[_Part], down: NDArray[np.float64], model: Any) -> tuple[ND
         faces = []
         for normal in normals[normals @ start > _TILT]:
             same = normals @ normal > 1.0 - 1e-5
-            area = sum(_triangle(hull.points[t]) for t in hull.simplices[same])
+            a, b, c = (hull.points[hull.simplices[same, k]] for k in range(3))
+            area = 0.5 * float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
             faces.append((area, tuple(normal)))
         if not faces:
             return start, False
@@ -183,10 +177,6 @@ def _face(parts: list[_Part], down: NDArray[np.float64], model: Any) -> tuple[ND
         if all(p.centres is None for p in parts):
             break
     return down / np.linalg.norm(down), found
-
-
-def _triangle(corners: NDArray[np.float64]) -> float:
-    return 0.5 * float(np.linalg.norm(np.cross(corners[1] - corners[0], corners[2] - corners[0])))
 
 
 def _area_across(points: NDArray[np.float64], axis: NDArray[np.float64]) -> float:
@@ -219,8 +209,7 @@ def _outline(parts: list[_Part], position: NDArray[np.float64], rotation: NDArra
     hull = shapely.MultiPoint(np.vstack(below)).convex_hull
     if hull.geom_type != "Polygon":
         raise RobotError("the lowest face of the sole's geoms has no area; check their sizes, or name geoms=[...]")
-    ring = shapely.get_coordinates(shapely.orient_polygons(hull))[:-1]
-    return np.ascontiguousarray(ring)
+    return np.ascontiguousarray(shapely.get_coordinates(shapely.orient_polygons(hull))[:-1])
 
 
 def _unit(given: ArrayLike, name: str) -> NDArray[np.float64]:

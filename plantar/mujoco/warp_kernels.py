@@ -1,30 +1,143 @@
 # mypy: ignore-errors
 """`plantar.kernels.contacts.taxel_load` for many worlds by NVIDIA Warp, a thread a world.
 
-`wp.int32(0)` declares a variable that a loop changes.
+Numbers are float64, from MuJoCo Warp's float32 contacts. `wp.int32(0)` declares a variable that a loop changes.
 """
 
 from __future__ import annotations
 
-from plantar.mujoco.warp_contacts import Sole, Work, func, kernel
+from typing import Any
 
 try:
     import warp as wp
 except ImportError:  # then the functions are not called
     wp = None
 
-__all__ = ["press"]
+__all__ = ["Contacts", "Sole", "Work", "gather", "press"]
 
+
+def _as_it_is(function: Any) -> Any:
+    return function
+
+
+_func: Any = _as_it_is if wp is None else wp.func
+_kernel: Any = _as_it_is if wp is None else wp.kernel
+_struct: Any = _as_it_is if wp is None else wp.struct
 if wp is not None:
     wp.set_module_options({"enable_backward": False})  # half of the time to compile
 
 
-@func
+@_struct
+class Sole:
+    """A sole of n taxels and its frame in a body."""
+
+    positions: wp.array(dtype=wp.vec3d)
+    normals: wp.array(dtype=wp.vec3d)
+    areas: wp.array(dtype=wp.float64)
+    widths: wp.array(dtype=wp.float64)
+    hull: wp.array(dtype=wp.vec2d)
+    own: wp.array(dtype=wp.int32)
+    body: wp.int32
+    place: wp.vec3d
+    turn: wp.mat33d
+    reach: wp.float64
+    level: wp.bool
+
+
+@_struct
+class Contacts:
+    """All worlds' contacts, as MuJoCo Warp lists them."""
+
+    count: wp.array(dtype=wp.int32)
+    world: wp.array(dtype=wp.int32)
+    dist: wp.array(dtype=wp.float32)
+    pos: wp.array(dtype=wp.vec3f)
+    frame: wp.array(dtype=wp.mat33f)
+    geom: wp.array(dtype=wp.vec2i)
+    dim: wp.array(dtype=wp.int32)
+    friction: wp.array2d(dtype=wp.float32)
+    address: wp.array2d(dtype=wp.int32)
+    force: wp.array2d(dtype=wp.float32)
+    xpos: wp.array2d(dtype=wp.vec3f)
+    xmat: wp.array2d(dtype=wp.mat33f)
+    elliptic: wp.bool
+
+
+@_struct
+class Work:
+    """Each world's contacts in the sole frame (k, world), and work arrays (i, slot).
+
+    A GPU has a slot a world, next to each other in memory; a CPU one, which its caches hold.
+    """
+
+    size: wp.array(dtype=wp.int32)
+    pair: wp.array2d(dtype=wp.vec2i)
+    gap: wp.array2d(dtype=wp.float64)
+    at: wp.array2d(dtype=wp.vec3d)
+    force: wp.array2d(dtype=wp.vec3d)
+    torque: wp.array2d(dtype=wp.vec3d)
+    points: wp.array2d(dtype=wp.vec3d)
+    ring: wp.array2d(dtype=wp.vec2d)
+    edges: wp.array2d(dtype=wp.vec3d)
+    weights: wp.array2d(dtype=wp.float64)
+    prior: wp.array2d(dtype=wp.float64)
+    normal: wp.array2d(dtype=wp.float64)
+    gaps: wp.array2d(dtype=wp.float64)
+    rows: wp.array2d(dtype=wp.vec3d)
+    vectors: wp.array2d(dtype=wp.vec3d)
+    wrench: wp.array2d(dtype=wp.float64)
+    carried: wp.array(dtype=wp.int32)
+
+
+@_kernel
+def gather(sole: Sole, contacts: Contacts, work: Work):
+    """Add each of the `contacts` to the lists of the `sole` in `work`, in its frame; a thread a contact."""
+    i = wp.tid()
+    if i >= contacts.count[0]:
+        return
+    geoms = contacts.geom[i]
+    first, second = geoms[0], geoms[1]
+    if first < 0 or second < 0 or (sole.own[first] != 0) == (sole.own[second] != 0):
+        return
+    world = contacts.world[i]
+    k = wp.atomic_add(work.size, world, 1)
+    if k >= work.gap.shape[0]:
+        return
+    local = wp.vec3d()
+    twist = wp.vec3d()
+    if contacts.address[i, 0] >= 0:
+        dim = contacts.dim[i]
+        for j in range(dim):
+            value = wp.float64(0.0)
+            if contacts.elliptic or dim == 1:
+                value = wp.float64(contacts.force[world, contacts.address[i, j]])
+            elif j > 0:
+                plus = wp.float64(contacts.force[world, contacts.address[i, 2 * j - 2]])
+                minus = wp.float64(contacts.force[world, contacts.address[i, 2 * j - 1]])
+                local[0] += plus + minus
+                value = (plus - minus) * wp.float64(contacts.friction[i, j - 1])
+            if j < 3:
+                local[j] += value
+            else:
+                twist[j - 3] = value
+    sign = wp.where(sole.own[first] != 0, wp.float64(-1.0), wp.float64(1.0))
+    turn = wp.mat33d(contacts.xmat[world, sole.body])
+    to_sole = wp.transpose(turn @ sole.turn)
+    origin = wp.vec3d(contacts.xpos[world, sole.body]) + turn @ sole.place
+    axes = wp.transpose(wp.mat33d(contacts.frame[i])) * sign
+    work.pair[k, world] = geoms
+    work.gap[k, world] = wp.float64(contacts.dist[i])
+    work.at[k, world] = to_sole @ (wp.vec3d(contacts.pos[i]) - origin)
+    work.force[k, world] = to_sole @ (axes @ local)
+    work.torque[k, world] = to_sole @ (axes @ twist)
+
+
+@_func
 def _counts(sole: Sole, work: Work, w: wp.int32, k: wp.int32) -> wp.bool:
     return work.gap[k, w] <= sole.reach or work.force[k, w][2] != wp.float64(0.0)
 
 
-@func
+@_func
 def _join(work: Work, s: wp.int32, corners: wp.int32, floor: wp.int32, p: wp.vec2d) -> wp.int32:
     while corners - floor >= 2:
         a = work.ring[corners - 1, s] - work.ring[corners - 2, s]
@@ -38,7 +151,7 @@ def _join(work: Work, s: wp.int32, corners: wp.int32, floor: wp.int32, p: wp.vec
     return corners + 1
 
 
-@func
+@_func
 def _hull_of(work: Work, s: wp.int32, size: wp.int32) -> wp.int32:
     for k in range(1, size):
         p = work.points[k, s] + wp.vec3d()  # a copy, not a reference
@@ -62,7 +175,7 @@ def _hull_of(work: Work, s: wp.int32, size: wp.int32) -> wp.int32:
     return corners
 
 
-@func
+@_func
 def _distance(work: Work, s: wp.int32, corners: wp.int32, p: wp.vec2d) -> wp.float64:
     deepest = wp.float64(-1e300)
     for k in range(corners):
@@ -81,14 +194,11 @@ def _distance(work: Work, s: wp.int32, corners: wp.int32, p: wp.vec2d) -> wp.flo
     return wp.sqrt(nearest)
 
 
-@func
+@_func
 def _cover(sole: Sole, work: Work, s: wp.int32, size: wp.int32):
     corners = _hull_of(work, s, size)
     for k in range(corners):
-        j = k + 1
-        if j == corners:
-            j = 0
-        way = work.ring[j, s] - work.ring[k, s]
+        way = work.ring[(k + 1) % corners, s] - work.ring[k, s]
         length = wp.length(way)
         if corners > 1:
             way /= length
@@ -110,7 +220,7 @@ def _cover(sole: Sole, work: Work, s: wp.int32, size: wp.int32):
         work.weights[i, s] = sole.areas[i] * share
 
 
-@func
+@_func
 def _tilt(
     sole: Sole, work: Work, weights: wp.array2d(dtype=wp.float64), s: wp.int32, force: wp.float64, at: wp.vec2d
 ) -> wp.bool:
@@ -134,8 +244,7 @@ def _tilt(
         off = (wp.vec2d(sole.positions[i][0], sole.positions[i][1]) - middle) / scale
         work.rows[i, s] = wp.vec3d(one, off[0], off[1])
     off = (at - middle) / scale
-    load = wp.vec3d(one, off[0], off[1])
-    field = wp.vec3d(one, zero, zero)
+    load, field = wp.vec3d(one, off[0], off[1]), wp.vec3d(one, zero, zero)
     step = wp.vec3d()
     slope = wp.float64(0.0)
     value = wp.float64(0.0)
@@ -177,9 +286,17 @@ def _tilt(
     return False
 
 
-@func
+@_func
+def _even(sole: Sole, work: Work, s: wp.int32, force: wp.float64):
+    total = wp.float64(0.0)
+    for i in range(sole.areas.shape[0]):
+        total += work.weights[i, s]
+    for i in range(sole.areas.shape[0]):
+        work.normal[i, s] = force * work.weights[i, s] / total
+
+
+@_func
 def _spread_pairs(sole: Sole, work: Work, w: wp.int32, s: wp.int32, count: wp.int32):
-    zero = wp.float64(0.0)
     for k in range(count):
         known = not _counts(sole, work, w, k)
         for j in range(k):
@@ -197,20 +314,16 @@ def _spread_pairs(sole: Sole, work: Work, w: wp.int32, s: wp.int32, count: wp.in
                     about += wp.vec2d(moment[0], moment[1])
                     work.points[size, s] = wp.vec3d(at[0], at[1], -work.gap[j, w])
                     size += 1
-            if force > zero:
+            if force > wp.float64(0.0):
                 _cover(sole, work, s, size)
                 place = wp.vec2d(-about[1] / force, about[0] / force)
                 if not _tilt(sole, work, work.weights, s, force, place):
-                    total = wp.float64(0.0)
-                    for i in range(sole.areas.shape[0]):
-                        total += work.weights[i, s]
-                    for i in range(sole.areas.shape[0]):
-                        work.normal[i, s] = force * work.weights[i, s] / total
+                    _even(sole, work, s, force)
                 for i in range(sole.areas.shape[0]):
                     work.prior[i, s] += work.normal[i, s]
 
 
-@func
+@_func
 def _nearest(sole: Sole, p: wp.vec2d) -> wp.vec2d:
     best = wp.float64(1e300)
     found = wp.vec2d(p[0], p[1])
@@ -218,10 +331,8 @@ def _nearest(sole: Sole, p: wp.vec2d) -> wp.vec2d:
     for k in range(corners):
         way = sole.hull[(k + 1) % corners] - sole.hull[k]
         off = p - sole.hull[k]
-        square = wp.dot(way, way)
-        along = wp.float64(0.0)
-        if square > wp.float64(0.0):
-            along = wp.clamp(wp.dot(way, off) / square, wp.float64(0.0), wp.float64(1.0))
+        square = wp.max(wp.dot(way, way), wp.float64(1e-300))
+        along = wp.clamp(wp.dot(way, off) / square, wp.float64(0.0), wp.float64(1.0))
         away = off - along * way
         if wp.dot(away, away) < best:
             best = wp.dot(away, away)
@@ -229,7 +340,7 @@ def _nearest(sole: Sole, p: wp.vec2d) -> wp.vec2d:
     return found
 
 
-@func
+@_func
 def _carry(sole: Sole, work: Work, s: wp.int32, force: wp.float64, at: wp.vec2d) -> wp.bool:
     zero = wp.float64(0.0)
     count = sole.areas.shape[0]
@@ -244,16 +355,13 @@ def _carry(sole: Sole, work: Work, s: wp.int32, force: wp.float64, at: wp.vec2d)
     for stage in range(first, 2):
         area = wp.float64(0.0)
         for i in range(count):
-            near = stage == 1
+            work.gaps[i, s] = sole.areas[i] * wp.float64(stage)
             if stage == 0:
                 for j in range(count):
                     off = sole.positions[i] - sole.positions[j]
                     reach = wp.float64(4.0) * sole.widths[j] * sole.widths[j]
                     if work.prior[j, s] > zero and off[0] * off[0] + off[1] * off[1] < reach:
-                        near = True
-            work.gaps[i, s] = zero
-            if near:
-                work.gaps[i, s] = sole.areas[i]
+                        work.gaps[i, s] = sole.areas[i]
             area += work.gaps[i, s]
         for i in range(count):
             work.weights[i, s] = work.prior[i, s] + wp.float64(1e-3) * force * work.gaps[i, s] / area
@@ -267,15 +375,11 @@ def _carry(sole: Sole, work: Work, s: wp.int32, force: wp.float64, at: wp.vec2d)
         near_by += wp.float64(1e-3) * (inside - near_by)
         if _tilt(sole, work, work.weights, s, force, near_by):
             return False
-    total = wp.float64(0.0)
-    for i in range(count):
-        total += work.weights[i, s]
-    for i in range(count):
-        work.normal[i, s] = force * work.weights[i, s] / total
+    _even(sole, work, s, force)
     return False
 
 
-@func
+@_func
 def _shear(sole: Sole, work: Work, w: wp.int32, s: wp.int32, force: wp.vec3d, about_z: wp.float64) -> wp.bool:
     middle = wp.vec2d()
     spread = wp.float64(0.0)
@@ -298,7 +402,7 @@ def _shear(sole: Sole, work: Work, w: wp.int32, s: wp.int32, force: wp.vec3d, ab
     return holds
 
 
-@kernel
+@_kernel
 def press(sole: Sole, work: Work):
     """Spread each world's contact wrench over the taxels; a thread a world.
 
@@ -307,31 +411,29 @@ def press(sole: Sole, work: Work):
     w = wp.tid()
     s = w % work.prior.shape[1]
     count = wp.min(work.size[w], work.gap.shape[0])
-    total = wp.vec3d()
-    turning = wp.vec3d()
-    force = wp.vec3d()
-    moment = wp.vec3d()
+    back_force, back_moment = wp.vec3d(), wp.vec3d()
+    force, moment = wp.vec3d(), wp.vec3d()
     holds = work.size[w] <= count
     for k in range(count):
         f = work.force[k, w] + wp.vec3d()  # a copy, not a reference
         m = work.torque[k, w] + wp.cross(work.at[k, w], f)
-        total += f
-        turning += m
         if f[2] < wp.float64(0.0) and f[2] * f[2] > f[0] * f[0] + f[1] * f[1]:
             holds = False
+            back_force += f
+            back_moment += m
             work.force[k, w] = wp.vec3d()
             work.torque[k, w] = wp.vec3d()
         else:
             force += f
             moment += m
     for j in range(3):
-        work.wrench[w, j] = total[j]
-        work.wrench[w, 3 + j] = turning[j]
+        work.wrench[w, j] = force[j] + back_force[j]
+        work.wrench[w, 3 + j] = moment[j] + back_moment[j]
     for i in range(sole.areas.shape[0]):
         work.prior[i, s] = wp.float64(0.0)
         work.vectors[w, i] = wp.vec3d()
     if not force[2] > wp.float64(0.0):
-        work.carried[w] = wp.where(holds and wp.length(total) + wp.length(turning) == wp.float64(0.0), 1, 0)
+        work.carried[w] = wp.where(holds and wp.length(force) + wp.length(moment) == wp.float64(0.0), 1, 0)
         return
     carried = wp.int32(1)
     _spread_pairs(sole, work, w, s, count)

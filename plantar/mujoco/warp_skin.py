@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from plantar.arguments import instance, integer
 from plantar.errors import InputError
-from plantar.mujoco import warp_contacts, warp_kernels
+from plantar.mujoco import warp_kernels
 from plantar.mujoco.bound_skin import BoundSkin
 from plantar.optional_library import need_libraries
 
@@ -46,7 +46,7 @@ class WarpSkin:
         positions, normals, areas, widths, hull = skin.static
         own = np.zeros(skin.model.ngeom, dtype=np.int32)
         own[list(skin.geom_ids)] = 1
-        sole: Any = warp_contacts.Sole()
+        sole: Any = warp_kernels.Sole()
         sole.positions, sole.normals = wp.array(positions, dtype=wp.vec3d), wp.array(normals, dtype=wp.vec3d)
         sole.areas, sole.widths = wp.array(areas, dtype=wp.float64), wp.array(widths, dtype=wp.float64)
         sole.hull, sole.own = wp.array(hull, dtype=wp.vec2d), wp.array(own, dtype=wp.int32)
@@ -60,7 +60,7 @@ class WarpSkin:
     def _room(self, count: int, room: int) -> Any:
         wp, b = self._wp, self._worlds
         slots = 1 if wp.get_device().is_cpu else b  # a CPU takes one world after the other
-        work: Any = warp_contacts.Work()
+        work: Any = warp_kernels.Work()
         work.size, work.carried = wp.zeros(b, dtype=wp.int32), wp.zeros(b, dtype=wp.int32)
         work.pair, work.gap = wp.zeros((room, b), dtype=wp.vec2i), wp.zeros((room, b), dtype=wp.float64)
         for name in ("at", "force", "torque"):
@@ -82,7 +82,7 @@ class WarpSkin:
         if data.xpos.shape[0] != self._worlds:
             raise InputError(f"data have {data.xpos.shape[0]} worlds; the skin was made for {self._worlds}")
         wp, listed = self._wp, data.contact
-        contacts: Any = warp_contacts.Contacts()
+        contacts: Any = warp_kernels.Contacts()
         contacts.count, contacts.world, contacts.dist, contacts.pos = (
             data.nacon,
             listed.worldid,
@@ -94,7 +94,7 @@ class WarpSkin:
         contacts.address, contacts.force = listed.efc_address, data.efc.force
         contacts.xpos, contacts.xmat, contacts.elliptic = data.xpos, data.xmat, self._elliptic
         self._work.size.zero_()
-        wp.launch(warp_contacts.gather, dim=listed.dist.shape[0], inputs=[self._sole, contacts, self._work])
+        wp.launch(warp_kernels.gather, dim=listed.dist.shape[0], inputs=[self._sole, contacts, self._work])
         wp.launch(warp_kernels.press, dim=self._worlds, inputs=[self._sole, self._work], block_dim=32)
 
     def numpy(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:

@@ -21,16 +21,14 @@ class FootTick(NamedTuple):
 
     Attributes:
         active: Active taxels (n,) (T 4.22).
-        wrench: Ground reaction wrench (6,) about the sole frame's origin in N and N m (T 4.23).
-        contact_area: Area of the active cells in m^2 (T 4.22).
-        position_cop: Centre of pressure (2,) in m, or None without load (T 4.21).
-        support_polygon: Convex support polygon (k, 2) in m, counter-clockwise; empty without contact (T 4.24).
+        wrench: Ground reaction wrench (6,) about the sole's origin in N and N m (T 4.23).
+        contact_area: Of active cells in m^2 (T 4.22).
+        position_cop: Centre of pressure (2,) in m; None without load (T 4.21).
+        support_polygon: Convex (k, 2) in m, counter-clockwise; empty without contact (T 4.24).
         support_area: Its area in m^2.
-        centroid: Its centroid (2,) in m, or None without contact (T 4.4.2).
-        safe_polygon: The polygon with its edges moved inwards (m, 2) in m; its deepest point (1, 2) where nothing is
-            left.
-        clamped: Point (2,) in m of the safe polygon that is closest to the aim (T Algorithm 1), or None without
-            contact.
+        centroid: Its centroid (2,) in m; None without contact (T 4.4.2).
+        safe_polygon: The same (m, 2) with edges moved inwards; its deepest point (1, 2) if that leaves none.
+        clamped: Its point (2,) closest to the aim (T Algorithm 1); None without contact.
 
     Example:
         >>> from plantar import grid_layout

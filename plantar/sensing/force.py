@@ -31,9 +31,7 @@ def center_of_pressure(
     """
     vertical = _active(layout, taxel_values(layout, force), threshold) * layout.rotations[:, 2, 2]
     total = float(vertical.sum())
-    if not total > 0.0:
-        return None
-    return np.asarray(vertical @ layout.positions[:, :2] / total)
+    return np.asarray(vertical @ layout.positions[:, :2] / total) if total > 0.0 else None
 
 
 def ground_reaction_wrench(layout: SoleLayout, force: ArrayLike, threshold: float | None = None) -> NDArray[np.float64]:

@@ -20,12 +20,11 @@ class GroundPlane(NamedTuple):
     """Ground z = -height + slope . (x, y) in sole frame.
 
     Attributes:
-        height: Height in m of the sole frame's origin above the ground, along the sole's z; negative below it.
-        slope: Rise of the ground along the sole's x and y, as a ratio (tangent).
+        height: Height in m of the sole's origin above the ground, along the sole's z.
+        slope: Rise of the ground along the sole's x and y (tangent).
         residual: Root mean square distance in m, along z, of the points used.
         inliers: Taxels (n,) whose points were used.
-        directions: Directions in which the points determine a slope: 2, or 1 for points in a row, 0 for one point. The
-            slope along the others is taken as 0.
+        directions: In which the points determine a slope: 2, 1 for points in a row, 0 for one; along others it is 0.
     """
 
     height: float
@@ -52,7 +51,7 @@ def fit_ground_plane(
     Args:
         layout: Sole, n taxels.
         distance: Distances (n,) in m; inf out of range, NaN if dead.
-        sensing_range: Distance in m, of either sign, out of range from there; layout's if None.
+        sensing_range: Largest distance in m, of either sign; layout's if None.
         tolerance: Distance in m from plane that noise explains.
 
     Returns:

@@ -71,7 +71,7 @@ def saturated_taxels(values: ArrayLike, highest: float) -> NDArray[np.bool_]:
 
     Args:
         values: Readings (..., n) of modality.
-        highest: Upper end of its range in the same unit, e.g. `layout.ranges["force"][1]`.
+        highest: Upper end of its range, e.g. `layout.ranges["force"][1]`.
 
     Returns:
         Mask.
@@ -94,9 +94,9 @@ def stuck_taxels(
     Args:
         times: Times (frames,) in s, increasing.
         values: Readings (frames, n), e.g. in N.
-        hold: Time in s without a change from which taxel is stuck.
+        hold: Time in s without a change.
         tolerance: Largest difference of two samples that is no change.
-        rest: Taxel that reads this or less is never stuck.
+        rest: Largest reading that is never stuck.
 
     Returns:
         Mask.

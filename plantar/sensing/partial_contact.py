@@ -4,9 +4,9 @@ With an elastic foundation under a rigid foot the pressure on the supported part
 
     F_i = int_(cell i and S) (a + b x + c y) dA = a A_i + b Mx_i + c My_i,
 
-with A_i, Mx_i, My_i the area and first moments of the cell's covered part. S is inside a few lines n . x <= h. For
-given lines the pressure is linear least squares; the lines move by Gauss-Newton steps with exact derivatives: an edge
-that moves out by dh adds to each cell its chord times the pressure there (Leibniz).
+with area and first moments of the cell's covered part. S is inside a few lines n . x <= h. For given lines the pressure
+is linear least squares; the lines move by Gauss-Newton steps: an edge that moves out by dh adds to each cell its chord
+times the pressure there (Leibniz).
 """
 
 import math

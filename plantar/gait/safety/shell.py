@@ -46,7 +46,7 @@ class SafetyShell:
         mass: Robot's in kg.
         leg: Leg length in m.
         com_height: CoM over the soles in m.
-        begin: Time in s at which the walk begins; a clock that shows more at the first tick has another zero.
+        begin: Of the walk in s; a later first tick has another zero.
         stop: Commands in a state that stays.
 
     Attributes:

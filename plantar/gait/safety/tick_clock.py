@@ -18,7 +18,7 @@ class TickClock:
 
     Args:
         period: Of control in s.
-        latest: First time in s that is taken as it is; after a later one, ticks count from 0.
+        latest: First time in s that may be; after a later one ticks count from 0.
 
     Attributes:
         odd: Successive ticks with unusable times.

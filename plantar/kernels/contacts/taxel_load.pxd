@@ -13,16 +13,18 @@ cdef class TaxelLoad:
     cdef bint level
     cdef readonly object vectors, forces, depths, wrench
     cdef double[:, ::1] _vectors
-    cdef double[::1] _forces, _depths, _wrench, load, weights, prior, normal, gaps
-    cdef readonly bint carried, pressed
+    cdef double[::1] _forces, _depths, _wrench, weights, prior, normal, gaps
+    cdef readonly bint carried
     cdef Py_ssize_t room
-    cdef double[:, ::1] points, ring, edges, rows
+    cdef double[:, ::1] points, ring, edges, rows, sums
     cdef int _make_room(self, Py_ssize_t room) except -1
     cpdef press(self, FootContacts contacts, ContactsInSole seen, double reach)
+    @cython.locals(sums="double[:, ::1]")
     cdef bint _sum(self, FootContacts contacts, double[:, ::1] vectors) noexcept
-    cdef void _add(self, double[::1] wrench, const double[:, ::1] vectors, Py_ssize_t row) noexcept
-    @cython.locals(force=double, about_x=double, about_y=double, total=double)
+    @cython.locals(force=double, about_x=double, about_y=double)
     cdef void _spread_pairs(self, FootContacts contacts, const double[:, ::1] vectors, double reach) noexcept
+    @cython.locals(total=double)
+    cdef void _even(self, double force) noexcept
     @cython.locals(length=double, least=double, shift=double, share=double)
     cdef void _cover(self, Py_ssize_t size) noexcept
     @cython.locals(total=double, depth=double)
@@ -35,7 +37,7 @@ cdef class TaxelLoad:
     cdef bint _tilt(self, double[::1] weights, double force, double x, double y) noexcept
     @cython.locals(about_x=double, about_y=double, off_x=double, off_y=double)
     cdef void _balance(self, double force) noexcept
-    @cython.locals(beyond=bint, p=double, q=double, area=double, near=bint, inside_x=double, inside_y=double, total=double)
+    @cython.locals(beyond=bint, p=double, q=double, area=double, inside_x=double, inside_y=double)
     cdef bint _carry(self, double force, double x, double y) noexcept
     @cython.locals(cx=double, cy=double, spread=double, turn=double)
     cdef void _shear(self, double force) noexcept

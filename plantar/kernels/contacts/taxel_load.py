@@ -22,7 +22,7 @@ class TaxelLoad:
     - The sum is corrected likewise, with itself as weight, to the exact load and moments; if impossible, with
       neighbouring cells, then all.
     - Tangential forces follow the normal ones, with the rest of the wrench.
-    - Contacts whose force is within 45 degrees of straight down press on the body from above: they are left out.
+    - Contacts that press from above, within 45 degrees of straight down, are left out.
 
     Args:
         positions: Taxels (n, 3) in sole frame in m.
@@ -37,7 +37,6 @@ class TaxelLoad:
         depths: Overlap (n,) of geoms at each taxel in m.
         wrench: Wrench (6,) of contacts about sole origin in N and N m.
         carried: Whether vectors have that wrench, or else only its force.
-        pressed: Whether contacts press on sole.
     """
 
     def __init__(self, positions, normals, areas, widths, hull):
@@ -48,23 +47,17 @@ class TaxelLoad:
         self.widths = widths
         self.hull = hull
         self.level = bool((positions[:, 2] == 0.0).all())
-        self.vectors = np.zeros((count, 3))
-        self._vectors = self.vectors
-        self.forces = np.zeros(count)
-        self._forces = self.forces
-        self.depths = np.zeros(count)
-        self._depths = self.depths
-        self.wrench = np.zeros(6)
-        self._wrench = self.wrench
-        self.load = np.zeros(6)  # the part of the wrench that the taxels get
+        self.vectors = self._vectors = np.zeros((count, 3))
+        self.forces = self._forces = np.zeros(count)
+        self.depths = self._depths = np.zeros(count)
+        self.wrench = self._wrench = np.zeros(6)
+        self.sums = np.zeros((2, 6))  # wrench of contacts that the sole has, and of those from above
         self.weights = np.zeros(count)
         self.prior = np.zeros(count)
         self.normal = np.zeros(count)
         self.gaps = np.zeros(count)
         self.rows = np.zeros((count, 3))  # of the cells with a weight: weight and place, scaled
         self.carried = True
-        self.pressed = False
-        self.room = 0
         self._make_room(16)
 
     def _make_room(self, room):
@@ -79,53 +72,50 @@ class TaxelLoad:
         """
         count = self.areas.shape[0]
         for i in range(6):
-            self._wrench[i] = self.load[i] = 0.0
+            self._wrench[i] = 0.0
         for i in range(count):
             self.prior[i] = self._depths[i] = self._forces[i] = 0.0
             self._vectors[i, 0] = self._vectors[i, 1] = self._vectors[i, 2] = 0.0
         self.carried = True
-        self.pressed = False
         seen.turn(contacts)
         if contacts.size == 0:
             return
         if contacts.size > self.room:
             self._make_room(2 * contacts.size)
         on_sole = self._sum(contacts, seen.vectors)
-        force = self.load[2]
+        force = self.sums[0, 2]
         if not force > 0.0:
             for i in range(6):
                 if self._wrench[i] != 0.0:
                     self.carried = False
             return
-        self.pressed = True
         self._spread_pairs(contacts, seen.vectors, reach)
         self._balance(force)
         self.carried = self.carried and on_sole
 
     def _sum(self, contacts, vectors):
-        """Sum contacts and drop those from above; whether there are none."""
-        on_sole = True
+        """Sum contacts, drop those from above; whether there are none."""
+        sums = self.sums
+        for i in range(6):
+            sums[0, i] = sums[1, i] = 0.0
+        above = 0
         for k in range(contacts.size):
             row = 3 * k
-            self._add(self._wrench, vectors, row)
+            x, y, z = vectors[row, 0], vectors[row, 1], vectors[row, 2]
             fx, fy, fz = vectors[row + 1, 0], vectors[row + 1, 1], vectors[row + 1, 2]
-            if fz < 0.0 and fz * fz > fx * fx + fy * fy:
-                on_sole = False
-                for j in range(3):
-                    vectors[row + 1, j] = vectors[row + 2, j] = 0.0
-            else:
-                self._add(self.load, vectors, row)
-        return on_sole
-
-    def _add(self, wrench, vectors, row):
-        x, y, z = vectors[row, 0], vectors[row, 1], vectors[row, 2]
-        fx, fy, fz = vectors[row + 1, 0], vectors[row + 1, 1], vectors[row + 1, 2]
-        wrench[0] += fx
-        wrench[1] += fy
-        wrench[2] += fz
-        wrench[3] += vectors[row + 2, 0] + y * fz - z * fy
-        wrench[4] += vectors[row + 2, 1] + z * fx - x * fz
-        wrench[5] += vectors[row + 2, 2] + x * fy - y * fx
+            a = 1 if fz < 0.0 and fz * fz > fx * fx + fy * fy else 0
+            sums[a, 0] += fx
+            sums[a, 1] += fy
+            sums[a, 2] += fz
+            sums[a, 3] += vectors[row + 2, 0] + y * fz - z * fy
+            sums[a, 4] += vectors[row + 2, 1] + z * fx - x * fz
+            sums[a, 5] += vectors[row + 2, 2] + x * fy - y * fx
+            above += a
+            for j in range(3 * a):
+                vectors[row + 1, j] = vectors[row + 2, j] = 0.0
+        for i in range(6):
+            self._wrench[i] = sums[0, i] + sums[1, i]
+        return above == 0
 
     def _spread_pairs(self, contacts, vectors, reach):
         count = self.areas.shape[0]
@@ -135,13 +125,17 @@ class TaxelLoad:
                 self._cover(size)
                 self._press_deep(size)
                 if not self._tilt(self.weights, force, -about_y / force, about_x / force):
-                    total = 0.0
-                    for i in range(count):
-                        total += self.weights[i]
-                    for i in range(count):
-                        self.normal[i] = force * self.weights[i] / total
+                    self._even(force)
                 for i in range(count):
                     self.prior[i] += self.normal[i]
+
+    def _even(self, force):
+        """Set `normal` to the weights' shares of a load in N."""
+        total = 0.0
+        for i in range(self.areas.shape[0]):
+            total += self.weights[i]
+        for i in range(self.areas.shape[0]):
+            self.normal[i] = force * self.weights[i] / total
 
     def _cover(self, size):
         """Set `weights` to each cell's area in m^2 under the patch, else the nearest's."""
@@ -244,7 +238,7 @@ class TaxelLoad:
 
     def _balance(self, force):
         count = self.areas.shape[0]
-        about_x, about_y = self.load[3], self.load[4]
+        about_x, about_y = self.sums[0, 3], self.sums[0, 4]
         for _ in range(1 if self.level else 60):
             if not self._carry(force, -about_y / force, about_x / force):
                 self.carried = False
@@ -252,7 +246,7 @@ class TaxelLoad:
             if self.level:
                 break
             # Tangential forces on taxels above or below z = 0 have moments about x and y.
-            off_x, off_y = self.load[3], self.load[4]
+            off_x, off_y = self.sums[0, 3], self.sums[0, 4]
             for i in range(count):
                 x, y, z = self.positions[i, 0], self.positions[i, 1], self.positions[i, 2]
                 off_x -= y * self._vectors[i, 2] - z * self._vectors[i, 1]
@@ -283,15 +277,14 @@ class TaxelLoad:
         for stage in range(1 if beyond else 0, 2):
             area = 0.0
             for i in range(count):
-                near = stage == 1
-                if not near:
+                self.gaps[i] = self.areas[i] * stage
+                if stage == 0:
                     for j in range(count):
                         p = self.positions[i, 0] - self.positions[j, 0]
                         q = self.positions[i, 1] - self.positions[j, 1]
                         if self.prior[j] > 0.0 and p * p + q * q < 4.0 * self.widths[j] * self.widths[j]:
-                            near = True
+                            self.gaps[i] = self.areas[i]
                             break
-                self.gaps[i] = self.areas[i] if near else 0.0
                 area += self.gaps[i]
             for i in range(count):
                 self.weights[i] = self.prior[i] + _SPREAD * force * self.gaps[i] / area
@@ -308,11 +301,7 @@ class TaxelLoad:
             near_y += 1e-3 * (inside_y - near_y)
             if self._tilt(self.weights, force, near_x, near_y):
                 return False
-        total = 0.0
-        for i in range(count):
-            total += self.weights[i]
-        for i in range(count):
-            self.normal[i] = force * self.weights[i] / total
+        self._even(force)
         return False
 
     def _shear(self, force):
@@ -328,7 +317,7 @@ class TaxelLoad:
         for i in range(count):
             p, q = self.positions[i, 0] - cx, self.positions[i, 1] - cy
             spread += self.normal[i] * (p * p + q * q)
-        twist = self.load[5] - (cx * self.load[1] - cy * self.load[0])
+        twist = self.sums[0, 5] - (cx * self.sums[0, 1] - cy * self.sums[0, 0])
         turn = 0.0
         if spread > 1e-12 * force:
             turn = twist / spread
@@ -337,8 +326,8 @@ class TaxelLoad:
         for i in range(count):
             share = self.normal[i] / force
             p, q = self.positions[i, 0] - cx, self.positions[i, 1] - cy
-            self._vectors[i, 0] = share * self.load[0] - turn * self.normal[i] * q
-            self._vectors[i, 1] = share * self.load[1] + turn * self.normal[i] * p
+            self._vectors[i, 0] = share * self.sums[0, 0] - turn * self.normal[i] * q
+            self._vectors[i, 1] = share * self.sums[0, 1] + turn * self.normal[i] * p
             self._vectors[i, 2] = self.normal[i]
 
 

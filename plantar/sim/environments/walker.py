@@ -47,17 +47,16 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
     - task (m,): see `plantar.sim.environments.tasks`.
 
     An episode ends where the torso tilts by 40 degrees or sinks by 30 %. `info`: "time" in s, "velocity" (2,) in m/s in
-    the torso's heading, "load" of both soles in body weights, and the task's.
+    its heading, "load" of both soles in body weights, and the task's.
 
     Args:
         task: "stand", "step", "walk" or "board".
         robot: Built-in name or robot file.
-        period: Of a step in s.
-        physics_period: Physics step in s.
+        period: Step in s; `physics_period` likewise.
         skin: Whether it is observed.
         faults: Of taxels, drawn at each reset, or None.
         scale: Angle in rad of an action of 1.
-        difficulty: Scales pushes, ground and commands.
+        difficulty: Scales pushes, ground and commands; 0 or more.
         render_mode: "rgb_array" or None.
 
     Raises:
@@ -204,17 +203,15 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         joints = [data.qpos[world.joint_qpos] - self._start[0][world.joint_qpos], data.qvel[world.joint_qvel]]
         seen = {"joints": np.concatenate(joints), "imu": np.concatenate(imu), "task": self.task.observe()}
         if "skin_left" in self.observation_space.spaces:
-            weight = self.body.mass * GRAVITY
             for side, reading in self.readings.items():
                 force = reading.force
                 if self._worn:
                     force = np.nan_to_num(self._worn[side].read(reading.time, force, reading.vectors))
-                seen[f"skin_{side}"] = force / weight
+                seen[f"skin_{side}"] = force / (self.body.mass * GRAVITY)
         return {name: np.asarray(value, dtype=np.float32) for name, value in seen.items()}
 
     def _info(self) -> dict[str, Any]:
-        weight = self.body.mass * GRAVITY
-        load = np.array([self.readings[s].wrench[2] / weight for s in SIDES])
+        load = np.array([self.readings[s].wrench[2] for s in SIDES]) / (self.body.mass * GRAVITY)
         return {"time": float(self.data.time), "velocity": self.velocity[:2], "load": load, **self.task.info()}
 
 

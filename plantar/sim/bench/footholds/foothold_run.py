@@ -1,5 +1,6 @@
 """Trials in units of the robot, and a policy's run on one, judged by the truth."""
 
+import traceback
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -175,4 +176,6 @@ def _called(function: Any, argument: Any) -> Any:
     try:
         return function(argument)
     except Exception as problem:  # whatever the policy raises
-        raise InputError(f"policy raised {type(problem).__name__}: {problem}") from problem
+        at = traceback.extract_tb(problem.__traceback__)[:2][-1]  # where the policy is called, or its own line
+        where = f"{Path(at.filename).name}, line {at.lineno}"
+        raise InputError(f"policy raised {type(problem).__name__}: {problem} ({where})") from problem

@@ -1,5 +1,6 @@
 """The foothold benchmark: trials with many seeds in a growing table."""
 
+import hashlib
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -34,7 +35,7 @@ def measure_footholds(
     known = list(dict.fromkeys(t.kind for t in TRIALS))
     if seeds < 1 or set(kinds) - set(known):
         raise InputError(f"{seeds} seeds of {', '.join(kinds) or 'all'}; allowed: 1 or more of {', '.join(known)}")
-    make, name = (OwnController, "plantar") if policy is None else (load_policy(policy), policy.stem)
+    make, name = (OwnController, "plantar") if policy is None else (load_policy(policy), _named(policy))
     folder.mkdir(parents=True, exist_ok=True)
     table = GrowingTable(folder / _TABLE, _COLUMNS, "foothold runs")
     done = {tuple(row[c] for c in _COLUMNS[:5]) for row in table.rows}
@@ -61,6 +62,11 @@ def measure_footholds(
     rows = _summary(table.rows)
     write_text(folder / _PAGE, footholds_text({"rows": rows}) + "\n")
     return {"rows": rows, "files": [_TABLE, _PAGE]}
+
+
+def _named(policy: Path) -> str:
+    """Name of a policy's file, and of what is in it: rows of one that was changed are no longer its own."""
+    return f"{policy.stem}-{hashlib.sha256(policy.read_bytes()).hexdigest()[:6]}"
 
 
 def _summary(table: Sequence[dict[str, str]]) -> list[dict[str, Any]]:

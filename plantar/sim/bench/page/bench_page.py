@@ -68,7 +68,7 @@ def _tiles(result: Mapping[str, Any]) -> list[tuple[str, str]]:
     for kernel, name in (("hull + area", "Support polygon"), ("walking tick", "All a walking tick asks of both feet")):
         if kernel in rivals:
             one = rivals[kernel]
-            tiles.append((name, f"{number(one.ratio, 2)} × faster than {html.escape(_short(one.rival))}"))
+            tiles.append((name, f"{number(one.ratio, 2)} × faster than {html.escape(one.rival.partition(',')[0])}"))
     targets = result.get("kernels", {}).get("targets", ())
     if targets:
         tiles.append(("Wanted of the kernels, and met", f"{sum(t['met'] for t in targets)} of {len(targets)}"))
@@ -114,10 +114,6 @@ def _fastest(results: Sequence[Row]) -> list[_Headline]:
     return sorted(found, key=lambda r: order.get(r.kernel, len(order)))
 
 
-def _short(route: str) -> str:
-    return route.partition(",")[0]
-
-
 def _kernels(found: Mapping[str, Any]) -> str:
     results = found.get("results", ())
     if not results:
@@ -128,7 +124,7 @@ def _kernels(found: Mapping[str, Any]) -> str:
         _bars_row(
             f"{html.escape(r.kernel)}, {html.escape(r.size)}",
             [f"{number(r.ratio, 2)} ×", number(r.ours), html.escape(r.rival), _error(r.error), _error(r.rival_error)],
-            [(_log_share(r.ratio, longest), "ours" if r.ratio >= 1.0 else "other")],
+            [(abs(math.log(r.ratio)) / math.log(max(longest, 1.1)), "ours" if r.ratio >= 1.0 else "other")],
         )
         for r in fastest
     ]
@@ -156,24 +152,17 @@ def _kernels(found: Mapping[str, Any]) -> str:
     return "".join(parts)
 
 
-def _log_share(ratio: float, longest: float) -> float:
-
-    return math.log(max(ratio, 1.0 / ratio)) / math.log(max(longest, 1.1))
-
-
 def _error(value: float | None) -> str:
     if value is None:
         return "–"
     return "0" if value == 0.0 else f"{value:.0e}"
 
 
-def _bar(share: float, kind: str) -> str:
-    """A bar as long as a share of the longest, hidden from screen readers."""
-    return f'<span class="bar {kind}" style="width:{100 * min(max(share, 0.005), 1.0):.1f}%" aria-hidden="true"></span>'
-
-
 def _bars_row(name: str, cells: Sequence[str], bars: Sequence[tuple[float, str]]) -> str:
-    drawn = "".join(_bar(share, kind) for share, kind in bars)
+    drawn = "".join(
+        f'<span class="bar {kind}" style="width:{100 * min(max(share, 0.005), 1.0):.1f}%" aria-hidden="true"></span>'
+        for share, kind in bars
+    )
     return row(name, cells).replace("</tr>", f'<td class="bars">{drawn}</td></tr>')
 
 

@@ -76,7 +76,12 @@ def measure_page(
     added: dict[str, Any] = {
         "scenes": measure_scenes(folder, progress[0], quick=True),
         "papers": measure_papers(progress[1], quick=quick),
-        "made": {"version": _version(), "date": time.strftime("%Y-%m-%d"), "machine": _machine(), "quick": quick},
+        "made": {
+            "version": _version(),
+            "date": time.strftime("%Y-%m-%d"),
+            "machine": f"{platform.system()} on {platform.machine()}, Python {platform.python_version()}",
+            "quick": quick,
+        },
     }
     drawn = {part: folder / name for part, name in _FIGURES.items() if (folder / name).is_file()}
     figures = {part: path.read_bytes() for part, path in drawn.items()}
@@ -90,7 +95,3 @@ def _version() -> str:
         return f"Plantar {version('plantar')}"
     except PackageNotFoundError:  # run from a folder that was not installed
         return "Plantar"
-
-
-def _machine() -> str:
-    return f"{platform.system()} on {platform.machine()}, Python {platform.python_version()}"

@@ -60,7 +60,7 @@ class SceneRuns:
 
         `traced` is the number of first seeds whose motions are compared; `progress` gets fraction done and text.
         """
-        have = {_key(row) for row in self.rows}
+        have = {tuple(row[name] for name in _KEYS) for row in self.rows}
         wanted = [job for case in cases for job in _jobs(case, settings, seeds, traced)]
         for done, job in enumerate(wanted):
             progress(done / len(wanted), f"{job.case.scene}, {job.case.robot}: {job.setting.name}, seed {job.seed}")
@@ -122,10 +122,6 @@ class _Job(NamedTuple):
             self.kind,
             str(self.seed),
         )
-
-
-def _key(row: dict[str, str]) -> tuple[str, ...]:
-    return tuple(row[name] for name in _KEYS)
 
 
 def _jobs(case: SceneCase, settings: Sequence[SceneSetting], seeds: Sequence[int], traced: int) -> Iterator[_Job]:

@@ -48,7 +48,7 @@ def test_a_policy_that_falls_is_seen():
     [
         (lambda s: (np.zeros(3), None, ()), "expected 12 finite ones"),
         (lambda s: (np.full(12, np.nan), None, ()), "finite"),
-        (lambda s: 1 / 0, "policy raised ZeroDivisionError"),
+        (lambda s: 1 / 0, r"policy raised ZeroDivisionError: .* \(test_footholds\.py, line \d+\)"),
         (lambda s: 3, "returned 3; allowed: Action"),
         (None, "allowed: an object with a method step"),
     ],
@@ -91,11 +91,22 @@ def test_a_table_grows_and_is_gone_on_with(tmp_path, monkeypatch):
     assert len(measure_footholds(tmp_path, EXAMPLE, seeds=4, kinds=["push"])["rows"]) == 6
     assert len(ran) == 15
     own = result["rows"][-1]
-    assert (own["policy"], own["completed"], own["fell"], own["runs"]) == ("own_policy", 0.75, 0.25, 4)
+    assert own["policy"].startswith("own_policy-")
+    assert (own["completed"], own["fell"], own["runs"]) == (0.75, 0.25, 4)
     assert own["low"] < 0.75 < own["high"]
     text = footholds_text(result)
     assert "push 0.15 sqrt(g l)" in text
     assert (tmp_path / "footholds.md").read_text() == text + "\n"
+
+
+def test_a_policy_that_was_changed_is_another_one(tmp_path, monkeypatch):
+    policy = tmp_path / "my.py"
+    monkeypatch.setattr(module, "run_trial", lambda *_: FootholdResult(True, 8, 8, False, 3.0, 0.01, 12.0))
+    for text in ("make_policy = print", "make_policy = len", "make_policy = print"):
+        policy.write_text(text)
+        result = measure_footholds(tmp_path, policy, seeds=1, kinds=["flat"])
+    assert len({row["policy"] for row in result["rows"]}) == 2
+    assert [row["runs"] for row in result["rows"]] == [1, 1]
 
 
 @pytest.mark.parametrize("given", [{"seeds": 0}, {"kinds": ["lava"]}])
