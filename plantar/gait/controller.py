@@ -19,6 +19,7 @@ from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.estimate.body_sensors import BodySensors
 from plantar.gait.estimate.estimator import LegKinematics
 from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.leg_momentum import LegMomentum
 from plantar.gait.plan.phases import PhaseKind, WalkSchedule
 from plantar.gait.plan.plan_change import MovedStep
 from plantar.gait.plan.walk_plan import WalkPlan
@@ -40,6 +41,7 @@ __all__ = ["Command", "FootTarget", "Sensors", "Start", "WalkingController"]
 
 _UNBOUNDED_REGION = np.empty((0, 2))  # leaves the desired ZMP free
 _NO_STEPS: tuple[MovedStep, ...] = ()
+_ARRIVED, _ARRIVED_SEEING = 0.94, 0.75  # of a swing, after which its foot only descends
 _BRIDGED = 0.2  # beats without encoders or IMU: a DCM that is not followed is a fifth farther off by then
 
 
@@ -74,6 +76,7 @@ class WalkingController:
         plan: The walk's plan.
         estimation: State of the body.
         footing: Commanded feet, and what they stand on.
+        momentum: What swinging legs add to the plan.
         balance: Balance law.
         shell: Guards the tick (docs/safety.md); None runs without.
         replans: Plan changes, without steps that come one by one.
@@ -95,6 +98,8 @@ class WalkingController:
         self.estimation = Estimation(s, feet, layouts, kinematics)
         omega = self.omega = self.estimation.omega
         self.plan = WalkPlan(feet, start.steps, s.timing, middles, omega, start.time)
+        arrived = _ARRIVED_SEEING if s.compliance is not None else _ARRIVED
+        self.momentum = LegMomentum(self.plan, omega, s.leg_inertia, arrived)
         self.balance = balance_law(s.balance, omega, s.mass, s.period)
         self._open_loop = OpenLoop(s.mass)
         turns_stance = not self.balance.wants_contacts
@@ -190,8 +195,11 @@ class WalkingController:
         """A tick with encoders and IMU."""
         time, footing, body = sensors.time, self.footing, self.estimation.body
         sensed = self.estimation.sense(sensors, self.schedule.at(time))
-        state = self.estimation.update(sensors, sensed, self.plan.at(time).com_acceleration)
-        dcm, feedback = self.estimation.dcm(state), self.settings.feedback and not self.estimation.stands
+        legs, omega = self.momentum.at(time), self.omega
+        planned = self.plan.at(time).com_acceleration + legs.com_acceleration
+        state = self.estimation.update(sensors, sensed, planned, -omega * omega * legs.vrp)
+        whole, feedback = self.estimation.dcm(state), self.settings.feedback and not self.estimation.stands
+        dcm = whole - legs.dcm  # of the pendulum that is planned and balanced
         if feedback:
             footing.align(state)
         feet, inward = footing.swing(sensed, state, feedback)
@@ -209,7 +217,7 @@ class WalkingController:
         balanced = law.update(aim, dcm, state.zmp, region)
         if feedback:
             footing.conform(phase, balanced.zmp_desired, state, sensed)
-        com, torso, posture = self.body_targets.at(phase, balanced.com, 0.0 if body is None else body.lean)
+        com, torso, posture = self.body_targets.at(phase, balanced.com + legs.com, 0.0 if body is None else body.lean)
         # Before the first step the feet stand as they were put, and do not press against each other.
         rests = feedback and phase.kind == PhaseKind.STANDING and phase.step > 0
         stand = self.foot_targets.states(phase, sensed.soles, law.wants_contacts, rests)
@@ -221,10 +229,10 @@ class WalkingController:
             rotation_torso=posture,
             feet=targets,
             phase=phase,
-            reference=reference,
+            reference=reference.plus(legs),
             zmp_desired=balanced.zmp_desired,
             state=state,
-            dcm=dcm,
+            dcm=whole,
             percepts=sensed.percepts,
             ankle_loads=sensed.ankles,
             footholds=tick.found,

@@ -65,6 +65,7 @@ class ControllerSettings(Settings):
         ankles: Their force-torque sensors, if any.
         ankle_limits: Strips (m, 4) of each sole where the weight can act on that foot alone within its ankle's torques
             (`plantar.gait.contact.ankle_limits`); empty without limits.
+        leg_inertia: D in s^2 of a leg that swings (`plantar.gait.plan.leg_momentum`); 0 plans as without legs.
         footholds: How footholds are found: "off" assumes whole soles, for comparison; "force" uses forces, "skin" also
             proximity.
         skin: Upper body skin (`Sensors.skin`): on the base, base frame, and on links posed by `Sensors.links`; None for
@@ -110,6 +111,7 @@ class ControllerSettings(Settings):
     zmp_source: str = choice("skin", "force_torque")
     ankles: Mapping[Side, AnkleSensor] = field(default_factory=dict)
     ankle_limits: Mapping[Side, NDArray[np.float64]] = field(default_factory=dict)
+    leg_inertia: float = number(0.0, "s^2", 0.0, 1.0)
     footholds: str = choice("off", "force", "skin")
     skin: BodySkin | None = None
 

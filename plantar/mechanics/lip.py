@@ -13,11 +13,12 @@ from plantar.gravity import GRAVITY
 __all__ = ["GRAVITY", "divergent_component", "pendulum_frequency"]
 
 
-def pendulum_frequency(com_height: float) -> float:
+def pendulum_frequency(com_height: float, legs: float = 0.0) -> float:
     """Natural frequency omega = sqrt(g / z_x) of the pendulum (T 4.1).
 
     Args:
         com_height: Height of CoM above ground in m, above 0.
+        legs: 2 D in s^2 of legs that turn with it (`plantar.gait.plan.leg_momentum`): omega = (z_x / g + 2 D)^(-1/2).
 
     Returns:
         Frequency in rad/s.
@@ -28,7 +29,7 @@ def pendulum_frequency(com_height: float) -> float:
     height = number(com_height, "CoM height", nan=True)
     if not 0.0 < height < math.inf:
         raise InputError(f"CoM height is {com_height} m; allowed: a finite value above 0")
-    return math.sqrt(GRAVITY / height)
+    return math.sqrt(GRAVITY / (height + GRAVITY * legs))
 
 
 def divergent_component(com: ArrayLike, com_velocity: ArrayLike, omega: float) -> NDArray[np.float64]:

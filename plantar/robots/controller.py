@@ -20,6 +20,7 @@ from plantar.robots.kinematics.ankle_limits import ankle_limits
 from plantar.robots.kinematics.ankle_sensors import ankle_sensors
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.command_joints import follow_command
+from plantar.robots.kinematics.leg_inertia import leg_inertia
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.kinematics.standing_posture import solve_standing
@@ -110,7 +111,8 @@ def load_controller(
         name="load_controller", walk=walk, control=control, controller=parts, proximity_range=sees
     )
     limits = ankle_limits(own, legs.model, body.weight, min(walk.crouch, own.largest_crouch_partial))
-    settings = controller_settings(task, own, body, ankle_sensors(legs.model, own), limits)
+    inertia = leg_inertia(own, legs, min(walk.crouch, own.largest_crouch))
+    settings = controller_settings(task, own, body, ankle_sensors(legs.model, own), limits, inertia=inertia)
     start = start_of_walk(walk, own, settings.com_height, velocities=walk.velocities(seed))
     motors = command_motors(own, legs, body, control, settings.period)
     controller = WalkingController(settings, start, own.layouts, legs, motors)

@@ -60,6 +60,7 @@ def controller_settings(
     ankles: Mapping[Side, AnkleSensor],
     limits: Mapping[Side, NDArray[np.float64]] | None = None,
     skin: BodySkin | None = None,
+    inertia: float = 0.0,
 ) -> ControllerSettings:
     """Settings of the walking controller for a scene.
 
@@ -70,6 +71,7 @@ def controller_settings(
         ankles: Force-torque sensors, if any.
         limits: Where its weight may act on one foot (`ankle_limits`); None for anywhere.
         skin: Skin of its upper body, base frame; None without.
+        inertia: Of its legs in s^2 (`leg_inertia`).
 
     Returns:
         The settings.
@@ -114,6 +116,7 @@ def controller_settings(
         zmp_source=control.zmp_source,
         ankles=ankles,
         ankle_limits=limits or {},
+        leg_inertia=inertia if control.leg_momentum else 0.0,
         footholds=control.footholds,
         skin=skin,
         **parts,

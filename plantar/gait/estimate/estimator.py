@@ -13,6 +13,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.arrays import read_only
 from plantar.errors import InputError
 from plantar.gait.estimate.dcm_filter import DcmFilter
 from plantar.gait.estimate.encoder_offsets import standing_base
@@ -94,6 +95,7 @@ def live_kinematics(kinematics: LegKinematics) -> Callable[[NDArray[np.float64]]
     return kinematics.live_posture if isinstance(kinematics, LiveKinematics) else kinematics.posture
 
 
+_STILL = read_only(np.zeros(2))
 _SAME_HEIGHT = 1 / 200  # leg, between two footholds of one height as they are estimated: twice the error of a step
 _ANCHOR = 0.5  # 1/beat, at which the base is drawn back to the height of its feet
 
@@ -185,6 +187,7 @@ class FloatingBaseEstimator:
         planned_acceleration: NDArray[np.float64] | None = None,
         airborne: Side | None = None,
         felt: NDArray[np.float64] | None = None,
+        swinging: NDArray[np.float64] = _STILL,
     ) -> BaseState:
         """Estimated state after a tick.
 
@@ -196,6 +199,7 @@ class FloatingBaseEstimator:
             planned_acceleration: CoM's horizontal (2,) in m/s^2; None for 0.
             airborne: Foot high in the air by plan: its reading becomes its tare.
             felt: CoM acceleration (2,) in m/s^2 by a push on skin, for `push`; None uses the soles.
+            swinging: CoM acceleration (2,) in m/s^2 by swinging legs, off the ZMP's pendulum.
 
         Returns:
             The state.
@@ -219,12 +223,10 @@ class FloatingBaseEstimator:
             self._stand(posture, accelerometer / float(np.linalg.norm(accelerometer)))
             zmp = base.place()
         if self.push is not None:
-            self.push_acceleration = self._pushed(self.push, accelerometer, zmp, felt)
-            base.observe(*self.push_acceleration.tolist())
-        else:
-            base.observe(0.0, 0.0)
+            self.push_acceleration = self._pushed(self.push, accelerometer, zmp, felt, swinging)
+        base.observe(*(self.push_acceleration + swinging).tolist())
         if self.dcm_filter is not None:
-            self._filter(self.dcm_filter, posture, zmp)
+            self._filter(self.dcm_filter, posture, zmp, swinging)
         rotation, position, com, velocity, left, right, turn_left, turn_right = base.snapshot()
         return BaseState(
             rotation,
@@ -290,12 +292,15 @@ class FloatingBaseEstimator:
         accelerometer: NDArray[np.float64],
         zmp: NDArray[np.float64] | None,
         felt: NDArray[np.float64] | None,
+        swinging: NDArray[np.float64],
     ) -> NDArray[np.float64]:
-        pendulum = None if zmp is None else self.omega**2 * (self._com[:2] - zmp)
+        pendulum = None if zmp is None else self.omega**2 * (self._com[:2] - zmp) + swinging
         estimated = push.update(self._rotation.dot(accelerometer)[:2], pendulum)
         return estimated if felt is None else felt
 
-    def _filter(self, dcm_filter: DcmFilter, posture: Posture, zmp: NDArray[np.float64] | None) -> None:
+    def _filter(
+        self, dcm_filter: DcmFilter, posture: Posture, zmp: NDArray[np.float64] | None, swinging: NDArray[np.float64]
+    ) -> None:
         com = self._position + self._rotation.dot(posture.com)
-        filtered = dcm_filter.update(com[:2], None, zmp, self.push_acceleration / self.omega**2)
+        filtered = dcm_filter.update(com[:2], None, zmp, (self.push_acceleration + swinging) / self.omega**2)
         self._com[:2], self._velocity[:2] = filtered.com, self.omega * (filtered.dcm - filtered.com)

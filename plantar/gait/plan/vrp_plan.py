@@ -42,6 +42,17 @@ class LipReference(Record, frozen=True):
     com_velocity: NDArray[np.float64]
     com_acceleration: NDArray[np.float64]
 
+    def plus(self, shift: LipReference) -> LipReference:
+        """This plan with the DCM and CoM of another VRP added to its own."""
+        return LipReference(
+            self.vrp,
+            self.dcm + shift.dcm,
+            self.dcm_velocity + shift.dcm_velocity,
+            self.com + shift.com,
+            self.com_velocity + shift.com_velocity,
+            self.com_acceleration + shift.com_acceleration,
+        )
+
 
 class VrpPlan:
     """DCM and CoM over a piecewise linear VRP.

@@ -58,7 +58,7 @@ class Estimation:
         kinematics: LegKinematics,
     ) -> None:
         self._settings, self._layouts, period = settings, layouts, settings.period
-        self.omega = pendulum_frequency(settings.com_height)
+        self.omega = pendulum_frequency(settings.com_height, 2.0 * settings.leg_inertia)
         self.stands = True
         self._ticks = 0
         self._state: BaseState | None = None
@@ -107,8 +107,20 @@ class Estimation:
         soles: Mapping[Side, SoleLoad] = ankles if self._settings.zmp_source == "force_torque" else percepts
         return Sensed(sensors.time, phase, percepts, ankles, soles)
 
-    def update(self, sensors: Sensors, sensed: Sensed, acceleration: NDArray[np.float64]) -> BaseState:
-        """Returns the body's state by `sensors` and `sensed`, and the CoM's planned acceleration (2,) in m/s^2."""
+    def update(
+        self, sensors: Sensors, sensed: Sensed, acceleration: NDArray[np.float64], swinging: NDArray[np.float64]
+    ) -> BaseState:
+        """Body state after a tick.
+
+        Args:
+            sensors: The readings.
+            sensed: What all parts share of them.
+            acceleration: CoM's planned (2,) in m/s^2.
+            swinging: Its part (2,) by swinging legs, which the ZMP does not explain.
+
+        Returns:
+            The state.
+        """
         s, phase = self._settings, sensed.phase
         self._ticks += 1
         self.stands = self._ticks * s.period <= s.estimator.averaging
@@ -124,6 +136,7 @@ class Estimation:
             acceleration,
             phase.swing if 0.2 < share < 0.5 and s.zmp_source == "skin" else None,  # in the air: it finds its zero
             self.push_on_skin(sensors),
+            swinging,
         )
         self._rotations = state.rotations_sole
         self._state = state

@@ -22,6 +22,7 @@ from plantar.robots.controller_settings import com_height_of, controller_setting
 from plantar.robots.kinematics.ankle_limits import ankle_limits
 from plantar.robots.kinematics.ankle_sensors import ankle_sensors
 from plantar.robots.kinematics.body import body_of
+from plantar.robots.kinematics.leg_inertia import leg_inertia
 from plantar.robots.kinematics.robot_model import Visitor, build_leg_model
 from plantar.robots.motors.torque_control import command_motors
 from plantar.robots.robot import Robot
@@ -98,6 +99,7 @@ class Simulation(Run):
             ankle_sensors(self.legs.model, robot),
             ankle_limits(robot, self.legs.model, self.body.weight, min(walk.crouch, robot.largest_crouch_partial)),
             skin if scene.sensing.body_skin else None,
+            leg_inertia(robot, self.legs, min(walk.crouch, robot.largest_crouch)),
         )
         self.motors = command_motors(robot, self.legs, self.body, scene.control, self.settings.period)
         self.controller = WalkingController(self.settings, start, robot.layouts, self.legs, self.motors)

@@ -1,0 +1,74 @@
+"""Shift of a walk's plan by the angular momentum of its legs.
+
+A CoM c at height h, with the robot's angular momentum L about it, has its ZMP at
+
+    p = c - h/g c'' + (-L_y', L_x') / (m g).
+
+With the trunk upright only the legs turn about the CoM. A foot f that moves relative to it gives (-L_y, L_x) = m g D
+(f' - c'), D in s^2 that of a leg (`plantar.robots.kinematics.leg_inertia`), and both feet together
+
+    p = c - (h/g + 2 D) c'' + D f'',
+
+f'' that of the swinging foot: a pendulum of frequency w = (h/g + 2 D)^(-1/2) over the VRP p - D f''. Its equations are
+linear: its DCM and CoM are those of the VRP p, which are planned and balanced, plus those of the VRP -D f'', by which the
+body leans ahead of a swinging leg so that the soles press where they were planned to.
+"""
+
+import math
+
+import numpy as np
+
+from plantar.gait.plan.vrp_plan import LipReference, VrpPlan
+from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.mechanics.same_time import SAME_TIME
+
+__all__ = ["LegMomentum"]
+
+_AHEAD = 4  # steps that count: later ones move the CoM by micrometres
+_HELD = 0.06  # of a swing, at its start, in which the foot only rises
+_KNOTS = tuple((k / 6, 60 * (k / 6) - 180 * (k / 6) ** 2 + 120 * (k / 6) ** 3) for k in range(7))  # minimum-jerk s''
+_FADES = 1.0  # s after the last swing in which nothing is left
+
+
+class LegMomentum:
+    """DCM and CoM by swinging legs, to be added to a plan's.
+
+    Args:
+        plan: The walk's.
+        omega: Frequency of the pendulum with legs in rad/s.
+        inertia: D in s^2; 0 shifts nothing.
+        arrived: Share of a swing after which its foot only descends.
+    """
+
+    def __init__(self, plan: WalkPlan, omega: float, inertia: float, arrived: float) -> None:
+        self._plan, self._omega, self._inertia, self._arrived = plan, omega, inertia, arrived
+        self._shift = VrpPlan((0.0, _FADES), np.zeros((2, 2)), omega)
+        self._view, self._until = None if inertia else plan.view, math.inf
+
+    def at(self, time: float) -> LipReference:
+        """The shift at a time in s, its VRP that of the swinging leg alone."""
+        if self._inertia and (self._plan.view is not self._view or time >= self._until):
+            self._look_ahead(time)
+        return self._shift.at(time)
+
+    def _look_ahead(self, time: float) -> None:
+        """Solve the next swings' shift from the CoM's now."""
+        view = self._view = self._plan.view
+        now, schedule = self._shift.at(time), view.schedule
+        times, points, first = [time], [now.vrp], schedule.at(time).step
+        self._until = math.inf
+        for phase in schedule.phases[schedule.index(time) :]:
+            if phase.swing is None:
+                continue
+            if phase.step == first + _AHEAD:
+                break
+            if phase.step == first + 1:
+                self._until = phase.end
+            lasts = (self._arrived - _HELD) * (phase.touchdown - phase.start)
+            begin = phase.start + _HELD * (phase.touchdown - phase.start)
+            way = view.vrp(phase.step) - view.vrp_before(phase.step, phase.swing)
+            for share, acceleration in _KNOTS:
+                if begin + share * lasts > times[-1] + SAME_TIME:
+                    times.append(begin + share * lasts)
+                    points.append(-self._inertia * acceleration / lasts**2 * way)
+        self._shift = VrpPlan((*times, times[-1] + _FADES), np.array([*points, np.zeros(2)]), self._omega, now.com)
