@@ -7,6 +7,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.arrays import read_only
 from plantar.gait.contact.foot_contacts import FootholdFound
 from plantar.gait.estimate.ankle_sensor import SoleWrench
 from plantar.gait.plan.phases import Phase
@@ -20,6 +21,8 @@ from plantar.sensing.reading import Reading
 from plantar.sides import Side
 
 __all__ = ["Command", "FootTarget", "JointTargets", "Motors", "Sensors"]
+
+_NOTHING = read_only(np.zeros(2))
 
 
 class Sensors(Record, frozen=True):
@@ -99,6 +102,7 @@ class Command(Record, frozen=True):
         moved_steps: Moved at this tick.
         joint_offsets: Added to joint set-points (k,) in rad for encoder errors; None for zero.
         stiffness: Share of joint stiffness and load that servos keep; 1 unless fallen.
+        momentum: (-L_y', L_x') / (m g) (2,) in m that the feet's forces give about the CoM (`LegMomentum`).
         joints: With torques and gains (`control.drives`); None where servos solve for them.
     """
 
@@ -116,6 +120,7 @@ class Command(Record, frozen=True):
     moved_steps: tuple[MovedStep, ...] = ()
     joint_offsets: NDArray[np.float64] | None = None
     stiffness: float = 1.0
+    momentum: NDArray[np.float64] = _NOTHING
     joints: JointTargets | None = None
 
 

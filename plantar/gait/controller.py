@@ -217,7 +217,9 @@ class WalkingController:
         balanced = law.update(aim, dcm, state.zmp, region)
         if feedback:
             footing.conform(phase, balanced.zmp_desired, state, sensed)
-        com, torso, posture = self.body_targets.at(phase, balanced.com + legs.com, 0.0 if body is None else body.lean)
+        acceleration = balanced.com_acceleration + legs.com_acceleration
+        balanced = balanced.changed(com=balanced.com + legs.com, com_acceleration=acceleration)
+        com, torso, posture = self.body_targets.at(phase, balanced.com, 0.0 if body is None else body.lean)
         # Before the first step the feet stand as they were put, and do not press against each other.
         rests = feedback and phase.kind == PhaseKind.STANDING and phase.step > 0
         stand = self.foot_targets.states(phase, sensed.soles, law.wants_contacts, rests)
@@ -237,5 +239,6 @@ class WalkingController:
             ankle_loads=sensed.ankles,
             footholds=tick.found,
             moved_steps=moved,
+            momentum=-legs.vrp - 2.0 * self.settings.leg_inertia * acceleration,
             joint_offsets=None if body is None else body.joint_offsets,
         )

@@ -10,8 +10,8 @@ With the trunk upright only the legs turn about the CoM. A foot f that moves rel
     p = c - (h/g + 2 D) c'' + D f'',
 
 f'' that of the swinging foot: a pendulum of frequency w = (h/g + 2 D)^(-1/2) over the VRP p - D f''. Its equations are
-linear: its DCM and CoM are those of the VRP p, which are planned and balanced, plus those of the VRP -D f'', by which the
-body leans ahead of a swinging leg so that the soles press where they were planned to.
+linear: its DCM and CoM are those of the VRP p, which are planned and balanced, plus those of the VRP -D f'', by which
+the body leans ahead of a swinging leg so that the soles press where they were planned to.
 """
 
 import math

@@ -11,6 +11,7 @@ from plantar.gait.estimate.estimator import Posture
 from plantar.kernels.joints.leg_targets import JointEntries, LegTargets
 from plantar.kernels.joints.static_load import StaticLoad
 from plantar.kernels.joints.task_step import PointRows
+from plantar.mechanics.lip import GRAVITY
 from plantar.robots.kinematics.inverse_kinematics import InverseKinematics
 from plantar.robots.kinematics.tasks.com_task import ComTask
 from plantar.robots.kinematics.tasks.pose_task import OrientationTask, PoseTask, RollingPoseTask
@@ -20,6 +21,7 @@ from plantar.sides import SIDES, Side
 
 __all__ = ["LegModel"]
 
+_NOTHING = read_only(np.zeros(2))
 _FULL_LEG = 6  # joints of a leg that can give its sole any pose
 
 
@@ -207,6 +209,7 @@ class LegModel:
         velocity: NDArray[np.float64],
         acceleration: NDArray[np.float64],
         shares: Mapping[Side, float],
+        momentum: NDArray[np.float64] = _NOTHING,
         whole: bool = True,
     ) -> None:
         """Add to the `torques` of the last `carry` those of the robot's motion: tau = M a + C v - J^T dL/dt.
@@ -217,6 +220,7 @@ class LegModel:
             velocity: Of base and joints (6 + k,) in m/s and rad/s.
             acceleration: In m/s^2 and rad/s^2.
             shares: Of the weight on each sole.
+            momentum: (-L_y', L_x') / (m g) (2,) in m that the forces of `carry` give already.
             whole: Whether an unloaded leg gets what moves it, too; a stiff servo lands softer without.
         """
         model, data, inertial = self.model, self._data, self._inertial
@@ -226,7 +230,8 @@ class LegModel:
         mujoco.mj_rne(model, data, 1, inertial)
         (x, y, z), (fx, fy, fz) = (data.subtree_com[self._root] - data.qpos[:3]).tolist(), inertial[:3].tolist()
         couple = data.xmat[self._root].reshape(3, 3) @ inertial[3:6]
-        couple -= (y * fz - z * fy, z * fx - x * fz, x * fy - y * fx)
+        dx, dy = (self.mass * GRAVITY * momentum).tolist()
+        couple -= (y * fz - z * fy + dy, z * fx - x * fz - dx, x * fy - y * fx)
         carried = np.repeat([shares["left"], shares["right"]], len(self.joints) // 2)
         taken = inertial[self._dof] + model.dof_armature[self._dof] * acceleration[6:]
         self.torques += (taken if whole else carried * taken) - carried * data.xaxis[self._axes].dot(couple)

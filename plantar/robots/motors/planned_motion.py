@@ -1,6 +1,7 @@
 """Torques of a walking command: its ground forces, and its motion."""
 
 import math
+from collections.abc import Mapping
 
 import mujoco
 import numpy as np
@@ -9,7 +10,7 @@ from numpy.typing import NDArray
 from plantar.gait.command import Command
 from plantar.robots.kinematics.command_joints import carry_command
 from plantar.robots.kinematics.leg_model import LegModel
-from plantar.sides import SIDES
+from plantar.sides import SIDES, Side
 
 __all__ = ["PlannedMotion"]
 
@@ -52,4 +53,5 @@ class PlannedMotion:
         carry_command(self._legs, command)
         left, right = (max(command.feet[side].force.item(2), 0.0) for side in SIDES)
         share = left / (left + right) if left + right > 0.0 else 0.5
-        self._legs.add_motion(self.velocity, self.acceleration, {"left": share, "right": 1.0 - share}, self._whole)
+        shares: Mapping[Side, float] = {"left": share, "right": 1.0 - share}
+        self._legs.add_motion(self.velocity, self.acceleration, shares, command.momentum, self._whole)

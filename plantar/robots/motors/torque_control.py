@@ -160,7 +160,7 @@ class TorqueControl(CommandMotors):
 
     def _pendulum(self, command: Command) -> NDArray[np.float64]:
         square = GRAVITY / (command.com.item(2) - min(f.position.item(2) for f in command.feet.values()))
-        return np.asarray(square * (command.state.com[:2] - command.zmp_desired))
+        return np.asarray(square * (command.state.com[:2] - command.zmp_desired + command.momentum))
 
     def _upright(
         self, planned: NDArray[np.float64], turn: float, rotation: NDArray[np.float64], speed: NDArray[np.float64]
