@@ -123,11 +123,6 @@ def target_dcms(
 
     Raises:
         InputError: Non-finite or misshaped place.
-
-    Example:
-        >>> targets = target_dcms([0.2, -0.1], [0, 0.1], [0.2, 0.2], 0.5, 0.1, [0, 0], 3.5)
-        >>> targets.double_end.round(4).tolist(), targets.single_end.round(4).tolist()
-        ([0.2348, -0.0652], [0.2012, -0.0522])
     """
     places = (place, "footstep"), (stance, "place of the stance foot"), (next_stride, "stride of the next step")
     end, start, stride = (_pair(*place) for place in places)
@@ -176,11 +171,6 @@ def single_support_vrp(dcm: ArrayLike, target: ArrayLike, left: float, offset: A
 
     Raises:
         InputError: Non-finite or misshaped place.
-
-    Example:
-        >>> found = single_support_vrp([0.01, 0.0], [0.04, 0.0], 0.4, [0.0, 0.0], 3.5)
-        >>> found.vrp.round(4).tolist(), found.saturated.value
-        ([0.0002, 0.0], 'none')
     """
     now, goal, push = _pair(dcm, "DCM"), _pair(target, "target of the DCM"), _pair(offset, "VRP offset")
     exponent = -omega * max(left, SHORTEST_TIME)
@@ -215,10 +205,6 @@ def double_support_vrp(
 
     Raises:
         InputError: Non-finite or misshaped place.
-
-    Example:
-        >>> double_support_vrp([0.05, 0.0], [-0.016, 0.0], [0.2, 0], 0.2, 0.0, [0, 0], 3.5).vrp.round(3).tolist()
-        [0.0, 0.0]
     """
     now, goal = _pair(dcm, "DCM"), _pair(target, "target of the DCM")
     rest = _pair(end, "end of the VRP") - _pair(offset, "VRP offset")
@@ -240,10 +226,6 @@ def double_support_pull(omega: float, duration: float, left: float) -> float:
 
     Returns:
         The displacement.
-
-    Example:
-        >>> round(double_support_pull(3.5, 0.2, 0.2), 4)
-        0.2139
     """
     rate = 0.5 * math.pi / duration
     half = math.sin(0.5 * rate * left) ** 2
@@ -273,11 +255,6 @@ def shrunk_support(
 
     Raises:
         InputError: Non-finite or misshaped middle.
-
-    Example:
-        >>> square = np.array([[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]])
-        >>> shrunk_support(square, AnkleRules(), [0.0, 0.0]).tolist()[2]
-        [0.05, 0.08000000000000002]
     """
     about = _pair(middle, "middle")
     c, s = math.cos(yaw), math.sin(yaw)
@@ -299,12 +276,6 @@ def within_support(wanted: AnkleVrp, support: ArrayLike) -> AnkleVrp:
 
     Raises:
         InputError: Non-finite or misshaped polygon.
-
-    Example:
-        >>> square = [[0.0, 0.0], [0.1, 0.0], [0.1, 0.1], [0.0, 0.1]]
-        >>> cut = within_support(single_support_vrp([0.2, 0.05], [0.1, 0.05], 0.4, [0, 0], 3.5), square)
-        >>> cut.vrp.tolist(), cut.saturated.value
-        ([0.1, 0.05], 'support polygon')
     """
     nearest = closest_point(support, wanted.vrp)
     if nearest is None or (nearest[0] == wanted.vrp[0] and nearest[1] == wanted.vrp[1]):

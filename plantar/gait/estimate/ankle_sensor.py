@@ -42,12 +42,6 @@ class AnkleSensor:
         rotation: Sensor to sole (3, 3).
         mass: Foot and shoe below the sensor in kg.
         com: Their CoM (3,), sole frame, in m.
-
-    Example:
-        >>> sensor = AnkleSensor(np.array([0.0, 0.0, 0.1]), np.eye(3), 2.0, np.array([0.03, 0.0, 0.04]))
-        >>> hanging = np.array([0.0, 0.0, -19.62, 0.0, 0.5886, 0.0])  # the foot's own weight, in the air
-        >>> bool(abs(sensor.sole_wrench(hanging, np.eye(3)).wrench_in_sole).max() < 1e-12)
-        True
     """
 
     position: NDArray[np.float64]

@@ -22,12 +22,6 @@ class BodySensors:
 
     Attributes:
         blind: Whether readings were missing longer; final.
-
-    Example:
-        >>> body, silent = BodySensors(0.005, 0.01), np.full(3, np.nan)
-        >>> first = body.usable((np.zeros(2), np.zeros(3), np.array([0.0, 0.0, 9.8])))
-        >>> [body.usable((np.zeros(2), silent, silent)) is first for _ in range(3)], body.blind
-        ([True, True, False], True)
     """
 
     def __init__(self, period: float, bridged: float) -> None:

@@ -12,12 +12,6 @@ class CoMHeight:
         ground: Initial height in m.
         period: Of control in s.
         frequency: Natural frequency in rad/s.
-
-    Example:
-        >>> height = CoMHeight(0.0, 0.005)
-        >>> track = [height.update(0.03) for _ in range(300)]
-        >>> track[0] < 1e-4, round(track[-1], 4), max(track) <= 0.03
-        (True, 0.03, True)
     """
 
     def __init__(self, ground: float, period: float, frequency: float = 8.0) -> None:

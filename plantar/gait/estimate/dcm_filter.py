@@ -57,13 +57,6 @@ class DcmFilter:
 
     Raises:
         InputError: Frequency or period not finite, positive.
-
-    Example:
-        >>> known = DcmFilter(DcmFilterRules(), 3.5, 0.005)
-        >>> state = known.update([0.0, 0.0], None, [0.0, 0.0], [0.0, 0.0])
-        >>> state = known.update([0.0, 0.0], None, [0.0, 0.0], [0.1, 0.0])  # a measured push moves it at once
-        >>> round(float(state.dcm[0]), 4)
-        0.0018
     """
 
     def __init__(self, rules: DcmFilterRules, omega: float, period: float) -> None:

@@ -35,11 +35,6 @@ class GyroBias:
         largest: Bias of an axis in rad/s.
         piece: Its duration in s.
         slip: Largest angle in rad by noise in a piece.
-
-    Example:
-        >>> bias = GyroBias(0.005, 20.0, 0.05, 0.005, 6e-4)
-        >>> bias.update(np.array([0.0, 0.0, 0.004]), np.zeros(3), {"left": 400.0, "right": 400.0}).tolist()
-        [0.0, 0.0, 0.004]
     """
 
     def __init__(self, period: float, time_constant: float, largest: float, piece: float, slip: float) -> None:

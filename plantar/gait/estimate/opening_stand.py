@@ -31,17 +31,7 @@ class Stood(NamedTuple):
 
 
 class OpeningStand:
-    """Averages encoders, accelerometer and soles.
-
-    Example:
-        >>> class Sole:
-        ...     wrench_in_sole = np.array([0.0, 0.0, 400.0, 0.0, 0.0, 0.0])
-        >>> stand = OpeningStand()
-        >>> for angle in (0.1, 0.3):
-        ...     stand.update(np.array([angle]), np.array([0.0, 0.0, 9.8]), {"left": Sole(), "right": Sole()})
-        >>> stand.mean().joint_positions.tolist(), stand.mean().up.tolist()
-        ([0.2], [0.0, 0.0, 1.0])
-    """
+    """Averages encoders, accelerometer and soles."""
 
     def __init__(self) -> None:
         self._count = 0

@@ -31,15 +31,6 @@ class PushEstimate:
     Args:
         rules: Thresholds.
         period: Of control in s.
-
-    Example:
-        >>> push = PushEstimate(PushRules(time_constant=0.01, begins=1.0, ends=0.6), 0.005)
-        >>> for _ in range(8):
-        ...     found = push.update(np.array([0.0, 4.5]), np.array([0.0, -0.5]))
-        >>> found.round(2).tolist()
-        [0.0, 4.91]
-        >>> push.update(np.array([0.0, 0.2]), None).tolist()  # no foot is loaded
-        [0.0, 0.0]
     """
 
     def __init__(self, rules: PushRules, period: float) -> None:

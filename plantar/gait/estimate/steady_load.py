@@ -22,15 +22,6 @@ class SteadyLoad:
         share: Share of total load of a still foot; the other then is not.
         time_constant: Of the running mean in s.
         band: Still foot's largest difference in N of load and mean.
-
-    Example:
-        >>> steady = SteadyLoad(0.005, 0.8, 0.25, 40.0)
-        >>> steady.update({"left": 400.0, "right": 400.0})
-        {'left': 400.0, 'right': 400.0}
-        >>> steady.update({"left": 500.0, "right": 300.0})
-        {'left': 0.0, 'right': 0.0}
-        >>> steady.update({"left": 700.0, "right": 100.0})
-        {'left': 700.0, 'right': 0.0}
     """
 
     def __init__(self, period: float, share: float, time_constant: float, band: float) -> None:

@@ -42,13 +42,6 @@ class WrenchFilter:
         rules: Its course.
         omega: Pendulum's in rad/s.
         period: Of control in s.
-
-    Example:
-        >>> push = WrenchFilter(WrenchFilterRules(time_constant=0.1, lasts=1e6), 3.5, 0.005)
-        >>> for _ in range(100):
-        ...     _ = push.update([0.02, -0.01])
-        >>> push.expected.round(4).tolist(), push.mean(0.4).round(4).tolist()
-        ([0.0199, -0.0099], [0.0199, -0.0099])
     """
 
     def __init__(self, rules: WrenchFilterRules, omega: float, period: float) -> None:

@@ -43,7 +43,7 @@ class LipReference(Record, frozen=True):
     com_acceleration: NDArray[np.float64]
 
     def plus(self, shift: LipReference) -> LipReference:
-        """This plan with the DCM and CoM of another VRP added to its own."""
+        """This plan plus the DCM and CoM of another VRP."""
         return LipReference(
             self.vrp,
             self.dcm + shift.dcm,
@@ -65,11 +65,6 @@ class VrpPlan:
 
     Raises:
         InputError: Disallowed knots.
-
-    Example:
-        >>> plan = VrpPlan([0.0, 1.0, 1.3, 3.0], [[0, 0], [0, 0], [0, 0.1], [0, 0.1]], omega=3.5)
-        >>> plan.at(3.0).dcm.tolist()
-        [0.0, 0.1]
     """
 
     def __init__(self, times: Sequence[float], vrps: ArrayLike, omega: float, com: ArrayLike | None = None) -> None:
@@ -160,11 +155,6 @@ class VrpPlan:
 
         Raises:
             InputError: Disallowed knots.
-
-        Example:
-            >>> plan = VrpPlan([0.0, 1.0, 1.3, 3.0], [[0, 0], [0, 0], [0, 0.1], [0, 0.1]], omega=3.5)
-            >>> plan.replanned([0.5, 1.0], [[0, 0], [0.02, 0]], 2).times
-            (0.5, 1.0, 1.3, 3.0)
         """
         head, points, move = np.asarray(times, float), np.asarray(vrps, float).reshape(-1, 2), np.asarray(shift, float)
         m = len(head)

@@ -110,16 +110,8 @@ class Estimation:
     def update(
         self, sensors: Sensors, sensed: Sensed, acceleration: NDArray[np.float64], swinging: NDArray[np.float64]
     ) -> BaseState:
-        """Body state after a tick.
-
-        Args:
-            sensors: The readings.
-            sensed: What all parts share of them.
-            acceleration: CoM's planned (2,) in m/s^2.
-            swinging: Its part (2,) by swinging legs, which the ZMP does not explain.
-
-        Returns:
-            The state.
+        """Returns the body's state by `sensors` and `sensed`, and the CoM's planned acceleration (2,) in m/s^2, with
+        its part (2,) by swinging legs, which the ZMP does not explain.
         """
         s, phase = self._settings, sensed.phase
         self._ticks += 1

@@ -1,10 +1,8 @@
 """Inverse kinematics of tasks: Newton steps, stable near singularities, at limits and out of reach.
 
-A step solves J^T J dq = J^T e, with 1e-8 on the diagonal. It is taken where the equations are well conditioned, no
-joint leaves its limits and no entry is too large. Otherwise:
+A step solves J^T J dq = J^T e, with 1e-8 on the diagonal, where that is well conditioned and within limits. Otherwise:
 
-- **Levels.** Each is solved in the null space of those before (Siciliano and Slotine 1991): an unloaded foot misses
-  first.
+- **Levels.** Each is solved in the null space of those before (Siciliano and Slotine 1991): unloaded feet miss first.
 - **Damping.** With a level's singular values s and near = max(0, 1 - (s / EPSILON)^2), a direction with residual r
   moves by s r / (s^2 + d), with
 
@@ -12,13 +10,11 @@ joint leaves its limits and no entry is too large. Otherwise:
 
 The first term damps near singularities (Maciejewski and Klein 1988, Chiaverini 1997). R is the length of the
 residual that no step removes, in the share `near` near a singularity and whole at joint limits: out of reach, Newton's
-step would oscillate (Sugihara 2011). A limb bent by x near straight loses reach c x^2 / 2, s = c x, and
-x goes to 0 where d >= c R / 2. S is the level's largest singular value: c is at most 2 S for up to 8 equal parallel
-links.
-- **Posture.** The share `near` of a direction, and what no task uses, is drawn to the reference posture: straight
-  knees bend again.
+step would oscillate (Sugihara 2011). A limb bent by x near straight loses reach c x^2 / 2, s = c x, and x goes to 0
+where d >= c R / 2. S is the level's largest singular value: c <= 2 S for up to 8 equal parallel links.
+- **Posture.** The share `near` of a direction, and what no task uses, is drawn to the reference posture.
 - **Scale.** One factor scales a step until no entry is too large.
-- **Unit of length.** 1 rad counts as 1 m for a leg of 0.6 m, in proportion: robots of one shape take the same steps.
+- **Unit of length.** 1 rad counts as 1 m on a leg of 0.6 m, in proportion.
 - **Limits.** Joints that would leave their limits stop there, the farthest first, and the step is solved again.
 """
 

@@ -15,17 +15,12 @@ _LARGEST_STEP = 0.15  # rad
 
 
 def leg_inertia(robot: Robot, legs: LegModel, crouch: float = 0.0) -> float:
-    """Angular momentum about the CoM by a foot's velocity relative to it, over the weight.
-
-    The CoM moves over both standing feet, trunk upright: (-L_y, L_x) = -2 m g D c', D the mean of forward and aside.
+    """Returns D in s^2, the mean forward and aside of a CoM over both feet (`plantar.gait.plan.leg_momentum`).
 
     Args:
         robot: The robot.
         legs: Its kinematics, left in that posture.
         crouch: How much lower in m than in its posture it walks.
-
-    Returns:
-        D in s^2, at least 0 (`plantar.gait.plan.leg_momentum`).
     """
     joints = np.array([*robot.posture["left"], *robot.posture["right"]])
     stands = legs.posture(joints)

@@ -61,13 +61,7 @@ def stl_bytes(triangles: Triangles) -> bytes:
 
 
 def simplified(triangles: Triangles, cells: int) -> Triangles:
-    """Returns fewer `triangles` (n, 3, 3): corners merged on a lattice of `cells` along the longest side.
-
-    Example:
-        >>> fine = np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [1e-3, 0, 0], [0, 1e-3, 0]]], dtype=float)
-        >>> simplified(fine, 10).shape
-        (1, 3, 3)
-    """
+    """Returns fewer `triangles` (n, 3, 3): corners merged on a lattice of `cells` along the longest side."""
     points = triangles.reshape(-1, 3)
     low = points.min(axis=0)
     cell = max(float((points.max(axis=0) - low).max()) / cells, 1e-12)
