@@ -15,7 +15,7 @@ from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.controller import WalkingController
 from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table
 from plantar.gait.plan.walk_plan import vrp_of_step
-from plantar.robots.controller_settings import controller_settings
+from plantar.robots.controller_settings import com_height_of, controller_settings
 from plantar.robots.kinematics.ankle_limits import ankle_limits
 from plantar.robots.kinematics.ankle_sensors import ankle_sensors
 from plantar.robots.kinematics.body import body_of
@@ -111,7 +111,7 @@ def load_controller(
         name="load_controller", walk=walk, control=control, controller=parts, proximity_range=sees
     )
     limits = ankle_limits(own, legs.model, body.weight, min(walk.crouch, own.largest_crouch_partial))
-    inertia = leg_inertia(own, legs, min(walk.crouch, own.largest_crouch))
+    inertia = leg_inertia(own, legs, com_height_of(walk, own))
     settings = controller_settings(task, own, body, ankle_sensors(legs.model, own), limits, inertia=inertia)
     start = start_of_walk(walk, own, settings.com_height, velocities=walk.velocities(seed))
     motors = command_motors(own, legs, body, control, settings.period)

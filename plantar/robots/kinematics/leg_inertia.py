@@ -14,13 +14,13 @@ _ITERATIONS = 40
 _LARGEST_STEP = 0.15  # rad
 
 
-def leg_inertia(robot: Robot, legs: LegModel, crouch: float = 0.0) -> float:
+def leg_inertia(robot: Robot, legs: LegModel, com_height: float) -> float:
     """Returns D in s^2, the mean forward and aside of a CoM over both feet (`plantar.gait.plan.leg_momentum`).
 
     Args:
         robot: The robot.
         legs: Its kinematics, left in that posture.
-        crouch: How much lower in m than in its posture it walks.
+        com_height: Above the soles in m.
     """
     joints = np.array([*robot.posture["left"], *robot.posture["right"]])
     stands = legs.posture(joints)
@@ -30,7 +30,7 @@ def leg_inertia(robot: Robot, legs: LegModel, crouch: float = 0.0) -> float:
     for axis, turned, sign in ((0, 1, 1.0), (1, 0, -1.0)):
         ends = []
         for moved in (0.0, _MOVED):
-            com = stands.com - [0.0, 0.0, crouch]
+            com = np.array([*stands.com[:2], stands.positions["left"][2] + com_height])
             com[axis] += moved
             legs.follow(com, np.eye(3), stands.positions, stands.rotations, _ITERATIONS, largest_step=_LARGEST_STEP)
             ends.append(legs.configuration)

@@ -99,7 +99,7 @@ class Simulation(Run):
             ankle_sensors(self.legs.model, robot),
             ankle_limits(robot, self.legs.model, self.body.weight, min(walk.crouch, robot.largest_crouch_partial)),
             skin if scene.sensing.body_skin else None,
-            leg_inertia(robot, self.legs, min(walk.crouch, robot.largest_crouch)),
+            leg_inertia(robot, self.legs, com_height_of(walk, robot)),
         )
         self.motors = command_motors(robot, self.legs, self.body, scene.control, self.settings.period)
         self.controller = WalkingController(self.settings, start, robot.layouts, self.legs, self.motors)

@@ -11,11 +11,13 @@ from numpy.typing import NDArray
 from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.feet.swing import SwingTrajectory
 from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.leg_momentum import LegMomentum
 from plantar.gait.plan.phases import PhaseKind, Timing
 from plantar.gait.plan.walk_plan import WalkPlan, vrp_of_step
 from plantar.mechanics.lip import GRAVITY, pendulum_frequency
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.robots.kinematics.body import pitching_joints, stood
+from plantar.robots.kinematics.leg_inertia import leg_inertia
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
 from plantar.sides import SIDES, Side
@@ -26,6 +28,7 @@ __all__ = ["PlanReach", "Walked", "plan_reach", "settled"]
 
 _INSTANTS = 24  # that are looked at in a single support; a swing foot moves by a twelfth of a step meanwhile at most
 _FIRST = 40  # Newton steps for the standing posture
+_ARRIVES = 0.94  # of a swing, after which its foot only descends
 _EACH = 3  # Newton steps for each later instant
 _BEGIN = 0.5  # s: standing time before the walk
 _SWINGING = 0.1  # of what a swinging foot misses counts
@@ -133,8 +136,10 @@ class _Pass:
     def __init__(self, robot: Robot, legs: LegModel, walked: Walked) -> None:
         self.legs, self.walked = legs, walked
         self.middles = {s: middle_of_sole(robot.layouts[s], robot.ankle_reach) for s in SIDES}
-        frequency = pendulum_frequency(walked.com_height)
+        self.inertia = leg_inertia(robot, legs, walked.com_height)
+        frequency = pendulum_frequency(walked.com_height, 2.0 * self.inertia)
         self.plan = WalkPlan(walked.feet, walked.steps, walked.timing, self.middles, frequency, begin=_BEGIN)
+        self.momentum = LegMomentum(self.plan, frequency, self.inertia, _ARRIVES)
         self.outline = robot.layouts["left"].outline
         self.every = walked.timing.single_support / _INSTANTS
         self.missed = settled(robot, legs, walked.feet, walked.com_height)
@@ -146,13 +151,15 @@ class _Pass:
         self.alone: list[Array] = []  # 1 for joints of a leg that carries alone
         self.axes: list[Array] = []
         self.static: list[Array] = []
+        self.given: list[Array] = []  # N m about the CoM by the feet's forces
         self.feet = dict(walked.feet)
         self.ground = float(np.mean([foot.z for foot in walked.feet.values()]))
         self.centre = 0.5 * (walked.feet["left"].y + walked.feet["right"].y)
 
     def look(self, time: float) -> None:
         walked, legs, feet = self.walked, self.legs, self.feet
-        phase, reference = self.plan.schedule.at(time), self.plan.at(time)
+        phase, shift = self.plan.schedule.at(time), self.momentum.at(time)
+        reference = self.plan.at(time).plus(shift)
         for foot in walked.steps[: phase.step]:
             feet[foot.side] = foot
         positions = {s: feet[s].position for s in SIDES}
@@ -179,13 +186,14 @@ class _Pass:
             self.missed = max(self.missed, (1.0 if lands else _SWINGING) * self.probe.off(s, positions[s]))
         self.missed = max(self.missed, self.probe.com_off(com))
         self.spare = np.minimum(self.spare, self.probe.spare(legs, carrying))
-        push = pendulum_frequency(walked.com_height) ** 2 * (reference.com - reference.vrp)
         points = {s: np.array([*vrp_of_step(feet[s], self.middles[s]), feet[s].z]) for s in SIDES}
         alone = carrying if len(carrying) == 1 else []
         for s in alone:
             points[s] = np.array([*reference.vrp, feet[s].z])
             self.roll = max(self.roll, self.probe.tilt(s))
-        force = legs.mass * np.array([*push, GRAVITY])
+        force = legs.mass * np.array([*reference.com_acceleration, GRAVITY])
+        x, y = (-shift.vrp - 2.0 * self.inertia * reference.com_acceleration).tolist()
+        self.given.append(legs.mass * GRAVITY * np.array([y, -x, 0.0]))
         legs.carry({s: share[s] * force for s in SIDES}, points)
         self.static.append(legs.torques.copy())
         self.configurations.append(legs.configuration.copy())
@@ -211,7 +219,7 @@ class _Pass:
         moving = self.probe.damping * moved + self.probe.swinging * np.gradient(moved, self.every, axis=0)
         # The ground gives the swinging leg its angular momentum about the CoM, through the leg that carries.
         moment = np.gradient(self.probe.angular_momenta(configurations, self.every), self.every, axis=0)
-        reaction = -alone * np.einsum("tjx,tx->tj", np.array(self.axes), moment)
+        reaction = -alone * np.einsum("tjx,tx->tj", np.array(self.axes), moment - np.array(self.given))
         torque, carrying = (
             np.abs(np.array(self.static) + more).max(axis=0).reshape(2, -1).max(axis=0)
             for more in (moving + reaction, 0.0)

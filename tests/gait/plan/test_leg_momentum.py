@@ -65,7 +65,7 @@ def test_the_soles_press_where_they_are_planned_to(name):
     legs = build_leg_model(robot)
     legs.model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
     legs.model.dof_damping[:] = 0.0
-    inertia = leg_inertia(robot, legs)
+    inertia = leg_inertia(robot, legs, robot.com_height)
     without, shifted = (np.sqrt((missed(robot, legs, D) ** 2).mean(axis=0)) for D in (0.0, inertia))
     assert inertia > 0.0
     assert (shifted < 0.5 * without).all()
