@@ -12,6 +12,7 @@ T), so `replanned` solves only new knots.
 import math
 from bisect import bisect_right
 from collections.abc import Sequence
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -42,15 +43,14 @@ class LipReference(Record, frozen=True):
     com_velocity: NDArray[np.float64]
     com_acceleration: NDArray[np.float64]
 
-    def plus(self, shift: LipReference) -> LipReference:
+    def plus(self, shift: Self) -> Self:
         """This plan plus the DCM and CoM of another VRP."""
-        return LipReference(
-            self.vrp,
-            self.dcm + shift.dcm,
-            self.dcm_velocity + shift.dcm_velocity,
-            self.com + shift.com,
-            self.com_velocity + shift.com_velocity,
-            self.com_acceleration + shift.com_acceleration,
+        return self.changed(
+            dcm=self.dcm + shift.dcm,
+            dcm_velocity=self.dcm_velocity + shift.dcm_velocity,
+            com=self.com + shift.com,
+            com_velocity=self.com_velocity + shift.com_velocity,
+            com_acceleration=self.com_acceleration + shift.com_acceleration,
         )
 
 
