@@ -90,10 +90,8 @@ class WalkingController:
         kinematics: LegKinematics,
         motors: Motors | None = None,
     ) -> None:
-        self._motors = motors
         s, feet, begin = settings, start.feet, start.time - 1.0
-        self.settings, self.layouts = settings, layouts
-        self.replans = 0
+        self.settings, self.layouts, self._motors, self.replans = settings, layouts, motors, 0
         middles = {side: middle_of_sole(layouts[side], s.ankle_reach) for side in SIDES}
         self.estimation = Estimation(s, feet, layouts, kinematics)
         omega = self.omega = self.estimation.omega
@@ -102,8 +100,8 @@ class WalkingController:
         self.momentum = LegMomentum(self.plan, omega, s.leg_inertia, arrived)
         self.balance = balance_law(s.balance, omega, s.mass, s.period)
         self._open_loop = OpenLoop(s.mass)
-        turns_stance = not self.balance.wants_contacts
-        self.footing = Footing(s, feet, layouts, self.plan, self.estimation, middles, turns_stance)
+        turns = not self.balance.wants_contacts
+        self.footing = Footing(s, feet, layouts, self.plan, self.estimation, middles, turns_stance=turns)
         self.body_targets = BodyTargets(s, self.footing)
         self.foot_targets = FootTargets(s, self.footing)
         asked = proposers(s, layouts, self.plan, feet, begin, middles, self.footing.guard)

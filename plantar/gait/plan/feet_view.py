@@ -5,13 +5,13 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.arrays import read_only
 from plantar.record import Record
 from plantar.sides import Side
 
 __all__ = ["FeetView"]
 
-_THERE = np.zeros(2)
-_THERE.flags.writeable = False
+_THERE = read_only(np.zeros(2))
 
 
 class FeetView(Record, frozen=True):

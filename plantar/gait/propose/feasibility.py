@@ -95,8 +95,7 @@ class FootholdProbe:
     """Measurements of a foot on unexpected ground."""
 
     def __init__(self, layout: SoleLayout, rules: FeasibilityRules) -> None:
-        self.layout = layout
-        self.rules = rules
+        self.layout, self.rules = layout, rules
         self._force = np.zeros(len(layout))
         self._near = np.zeros(len(layout), dtype=bool)
         self._moment = np.zeros(2)

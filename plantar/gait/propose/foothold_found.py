@@ -49,11 +49,7 @@ class FootholdCarries:
         strip: SupportStrip,
         reach: float = math.inf,
     ) -> None:
-        self._rules = rules
-        self._reach = reach
-        self._middles = middles
-        self._outlines = outlines
-        self._strip = strip
+        self._rules, self._reach, self._middles, self._outlines, self._strip = rules, reach, middles, outlines, strip
         self._moved, self._moved_step = -math.inf, -1
         self._waiting: FootholdFound | None = None
         self._proposed: PlanChange | None = None

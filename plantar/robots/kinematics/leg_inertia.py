@@ -2,12 +2,13 @@
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from plantar.mechanics.lip import GRAVITY
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
 
-__all__ = ["leg_inertia"]
+__all__ = ["angular_momentum", "leg_inertia"]
 
 _MOVED = 1e-4  # m of the CoM, of which the difference is taken
 _ITERATIONS = 40
@@ -26,19 +27,34 @@ def leg_inertia(robot: Robot, legs: LegModel, com_height: float) -> float:
     stands = legs.posture(joints)
     legs.set_configuration(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]), joints)
     model, data = legs.model, mujoco.MjData(legs.model)
-    root, found = int(model.body_rootid[model.body(robot.torso_body).id]), []
-    for axis, turned, sign in ((0, 1, 1.0), (1, 0, -1.0)):
-        ends = []
-        for moved in (0.0, _MOVED):
-            com = np.array([*stands.com[:2], stands.positions["left"][2] + com_height])
-            com[axis] += moved
-            legs.follow(com, np.eye(3), stands.positions, stands.rotations, _ITERATIONS, largest_step=_LARGEST_STEP)
-            ends.append(legs.configuration)
-        mujoco.mj_differentiatePos(model, data.qvel, _MOVED, *ends)
-        data.qpos[:] = ends[0]
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
-        mujoco.mj_comVel(model, data)
-        mujoco.mj_subtreeVel(model, data)
-        found.append(sign * data.subtree_angmom[root, turned].item())
-    return max(0.0, 0.5 * float(np.mean(found)) / (legs.mass * GRAVITY))
+    ends = []
+    for moved in (0.0, _MOVED):  # forward and aside at once: one turns the legs about y, the other about x
+        com = np.array([*(stands.com[:2] + moved), stands.positions["left"][2] + com_height])
+        legs.follow(com, np.eye(3), stands.positions, stands.rotations, _ITERATIONS, largest_step=_LARGEST_STEP)
+        ends.append(legs.configuration)
+    x, y, _ = angular_momentum(model, data, _MOVED, *ends)[model.body_rootid[model.body(robot.torso_body).id]].tolist()
+    return max(0.0, 0.25 * float(y - x) / (legs.mass * GRAVITY))
+
+
+def angular_momentum(
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    every: float,
+    before: NDArray[np.float64],
+    after: NDArray[np.float64],
+    at: NDArray[np.float64] | None = None,
+) -> NDArray[np.float64]:
+    """Returns those (b, 3) in N m s of all bodies' subtrees about their CoMs.
+
+    Args:
+        model: The model.
+        data: Its data, which is overwritten.
+        every: Time in s between two configurations.
+        before: The first (nq,); `after` the second.
+        at: That at which the motion is looked at; None for the first.
+    """
+    mujoco.mj_differentiatePos(model, data.qvel, every, before, after)
+    data.qpos[:] = before if at is None else at
+    for step in (mujoco.mj_kinematics, mujoco.mj_comPos, mujoco.mj_comVel, mujoco.mj_subtreeVel):
+        step(model, data)
+    return np.array(data.subtree_angmom)

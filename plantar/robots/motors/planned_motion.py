@@ -1,7 +1,6 @@
 """Torques of a walking command: its ground forces, and its motion."""
 
 import math
-from collections.abc import Mapping
 
 import mujoco
 import numpy as np
@@ -10,7 +9,7 @@ from numpy.typing import NDArray
 from plantar.gait.command import Command
 from plantar.robots.kinematics.command_joints import carry_command
 from plantar.robots.kinematics.leg_model import LegModel
-from plantar.sides import SIDES, Side
+from plantar.sides import SIDES
 
 __all__ = ["PlannedMotion"]
 
@@ -53,5 +52,10 @@ class PlannedMotion:
         carry_command(self._legs, command)
         left, right = (max(command.feet[side].force.item(2), 0.0) for side in SIDES)
         share = left / (left + right) if left + right > 0.0 else 0.5
-        shares: Mapping[Side, float] = {"left": share, "right": 1.0 - share}
-        self._legs.add_motion(self.velocity, self.acceleration, shares, command.momentum, self._whole)
+        self._legs.add_motion(
+            self.velocity,
+            self.acceleration,
+            {"left": share, "right": 1.0 - share},
+            command.momentum,
+            self._whole,
+        )

@@ -37,11 +37,11 @@ __all__ = [
 ROLL_MOST = math.radians(3.0)
 """Angle of a sole that carries alone against level ground up to which its taxels' soft pad lets it rest whole."""
 
+# Phases in paces and length in legs of the steps that the built-in scenes ask for which walk at a velocity.
 QUICK_SINGLE, QUICK_DOUBLE, QUICK_STEP = 2.02, 0.404, 0.15
-"""Phases in paces and length in legs of the steps that the built-in scenes ask for which walk at a velocity."""
 
+# Height in legs and speed in legs a beat of the slow approach to the ground that the built-in scenes ask for.
 APPROACH_HEIGHT, APPROACH_SPEED = 0.025, 0.0247
-"""Height in legs and speed in legs a beat of the slow approach to the ground that the built-in scenes ask for."""
 
 QUICK_HELD = 0.85
 """Share of the torque limits that quick steps may take: OP3's, whose knees took 1.6 of it, sat at a limit in a third of

@@ -17,7 +17,7 @@ from plantar.gait.plan.walk_plan import WalkPlan, vrp_of_step
 from plantar.mechanics.lip import GRAVITY, pendulum_frequency
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.robots.kinematics.body import pitching_joints, stood
-from plantar.robots.kinematics.leg_inertia import leg_inertia
+from plantar.robots.kinematics.leg_inertia import angular_momentum, leg_inertia
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
 from plantar.sides import SIDES, Side
@@ -145,13 +145,8 @@ class _Pass:
         self.missed = settled(robot, legs, walked.feet, walked.com_height)
         self.probe = _Probe(robot, legs)
         self.knee, self.straightest = self.probe.knees(legs), 0.0
-        self.spare = self.probe.spare(legs, SIDES)
-        self.roll = 0.0
-        self.configurations: list[Array] = []
-        self.alone: list[Array] = []  # 1 for joints of a leg that carries alone
-        self.axes: list[Array] = []
-        self.static: list[Array] = []
-        self.given: list[Array] = []  # N m about the CoM by the feet's forces
+        self.spare, self.roll = self.probe.spare(legs, SIDES), 0.0
+        self.seen: list[tuple[Array, ...]] = []
         self.feet = dict(walked.feet)
         self.ground = float(np.mean([foot.z for foot in walked.feet.values()]))
         self.centre = 0.5 * (walked.feet["left"].y + walked.feet["right"].y)
@@ -193,12 +188,10 @@ class _Pass:
             self.roll = max(self.roll, self.probe.tilt(s))
         force = legs.mass * np.array([*reference.com_acceleration, GRAVITY])
         x, y = (-shift.vrp - 2.0 * self.inertia * reference.com_acceleration).tolist()
-        self.given.append(legs.mass * GRAVITY * np.array([y, -x, 0.0]))
+        given = legs.mass * GRAVITY * np.array([y, -x, 0.0])  # N m about the CoM by the feet's forces
         legs.carry({s: share[s] * force for s in SIDES}, points)
-        self.static.append(legs.torques.copy())
-        self.configurations.append(legs.configuration.copy())
-        self.alone.append(np.repeat([float(alone == [s]) for s in SIDES], len(self.spare)))
-        self.axes.append(self.probe.axes())
+        lone = np.repeat([float(alone == [s]) for s in SIDES], len(self.spare))  # 1 for joints that carry alone
+        self.seen.append((legs.configuration, lone, self.probe.axes(), legs.torques.copy(), given))
 
     def _swing(self, start: Footstep, target: Footstep, duration: float) -> SwingTrajectory:
         walked = self.walked
@@ -214,15 +207,14 @@ class _Pass:
         return PlanReach(self.missed, self.knee, self.straightest, spare, never, never, math.inf, math.inf, math.pi)
 
     def result(self) -> PlanReach:
-        configurations, alone = np.array(self.configurations), np.array(self.alone)
+        configurations, alone, axes, static, given = map(np.array, zip(*self.seen, strict=True))
         moved = np.gradient(configurations[:, self.probe.places], self.every, axis=0)
         moving = self.probe.damping * moved + self.probe.swinging * np.gradient(moved, self.every, axis=0)
         # The ground gives the swinging leg its angular momentum about the CoM, through the leg that carries.
         moment = np.gradient(self.probe.angular_momenta(configurations, self.every), self.every, axis=0)
-        reaction = -alone * np.einsum("tjx,tx->tj", np.array(self.axes), moment - np.array(self.given))
+        reaction = -alone * np.einsum("tjx,tx->tj", axes, moment - given)
         torque, carrying = (
-            np.abs(np.array(self.static) + more).max(axis=0).reshape(2, -1).max(axis=0)
-            for more in (moving + reaction, 0.0)
+            np.abs(static + more).max(axis=0).reshape(2, -1).max(axis=0) for more in (moving + reaction, 0.0)
         )
         _, about_y, about_z = np.abs(moment[alone.any(axis=1)]).max(axis=0, initial=0.0)
         low, high = self.outline.min(axis=0), self.outline.max(axis=0)
@@ -254,16 +246,14 @@ class _Probe:
         model = legs.model
         self._data = stood(robot, model)
         ids = [model.joint(n).id for s in SIDES for n in robot.legs[s].joints]
-        self.places = model.jnt_qposadr[ids]
-        self._joints = ids
+        self.places, self._joints = model.jnt_qposadr[ids], ids
         dofs = model.jnt_dofadr[ids]
         self.damping = model.dof_damping[dofs]
         self.swinging = floating_inertia(model, legs.configuration)[dofs]
         free = model.jnt_limited[ids] == 0
         self._low = np.where(free, -math.inf, model.jnt_range[ids, 0])
         self._high = np.where(free, math.inf, model.jnt_range[ids, 1])
-        self._model = model
-        self._torso = model.body(robot.torso_body).id
+        self._model, self._torso = model, model.body(robot.torso_body).id
         self._root = int(model.body_rootid[self._torso])
         self._soles = {s: model.site(robot.legs[s].sole_site).id for s in SIDES}
         self._pitch: list[tuple[int, int, int]] = []
@@ -308,13 +298,8 @@ class _Probe:
         model, data = self._model, self._data
         found = np.zeros((len(configurations), 3))
         for i in range(1, len(configurations) - 1):
-            mujoco.mj_differentiatePos(model, data.qvel, 2.0 * every, configurations[i - 1], configurations[i + 1])
-            data.qpos[:] = configurations[i]
-            mujoco.mj_kinematics(model, data)
-            mujoco.mj_comPos(model, data)
-            mujoco.mj_comVel(model, data)
-            mujoco.mj_subtreeVel(model, data)
-            found[i] = data.subtree_angmom[self._root]
+            before, now, after = configurations[i - 1 : i + 2]
+            found[i] = angular_momentum(model, data, 2.0 * every, before, after, now)[self._root]
         data.qvel[:] = 0.0
         return found
 

@@ -42,10 +42,10 @@ MISSED = 2e-3
 HELD = 0.75
 """Share of the torque limits that a planned walk may take; the rest is to balance with."""
 
+# Shares of the way to the sole's edge by which a swinging leg may move the ZMP, and of friction's moment by which it
+# may turn the sole. Legs of servos sway at about the pace of a swing, so that three times the ZMP's way is seen: h1 has
+# 0.19 and 0.08, JVRC-1 fell with 0.35 and 0.13.
 SHIFT, TURN = 0.16, 0.15
-"""Shares of the way to the sole's edge by which a swinging leg may move the ZMP, and of friction's moment by which it
-may turn the sole. Legs of servos sway at about the pace of a swing, so that three times the ZMP's way is seen: h1 has
-0.19 and 0.08, JVRC-1 fell with 0.35 and 0.13."""
 
 SPARE = math.radians(1.0)
 """Angle of a joint's range that a walk leaves unused."""
@@ -68,8 +68,8 @@ _WORSE = 3  # heights in a row that cost more, below which no others are looked 
 _LEAST_KNEE = math.radians(10.0)
 # Cost of a walk from which no other one is looked for: level steps at h1's pace with 75 % of the torque have 0.15
 _GOOD = 0.3
+# Cost of steps half as long, or of twice or half the pace; of each further lean, and stance
 _OTHER_SPEED, _OTHER_LEAN, _OTHER_STANCE = 0.6, 0.1, 0.15
-"""Cost of steps half as long, or of twice or half the pace; of each further lean, and stance."""
 
 Array = NDArray[np.float64]
 

@@ -38,7 +38,7 @@ def test_the_moment_about_the_com_is_that_of_inverse_dynamics():
     every = found.every
     for time in np.arange(1.6, 2.9, every).tolist():
         found.look(time)
-    configurations = np.array(found.configurations)
+    configurations = np.array([seen[0] for seen in found.seen])
     moments = np.gradient(found.probe.angular_momenta(configurations, every), every, axis=0)
     model = legs.model
     data = mujoco.MjData(model)
