@@ -170,9 +170,7 @@ def _hull_of(work: Work, s: wp.int32, size: wp.int32) -> wp.int32:
     for i in range(size - 1):
         p = work.points[size - 2 - i, s]
         corners = _join(work, s, corners, floor, wp.vec2d(p[0], p[1]))
-    if corners > 1:
-        corners -= 1
-    return corners
+    return corners - wp.where(corners > 1, 1, 0)
 
 
 @_func
@@ -200,10 +198,7 @@ def _cover(sole: Sole, work: Work, s: wp.int32, size: wp.int32):
     for k in range(corners):
         way = work.ring[(k + 1) % corners, s] - work.ring[k, s]
         length = wp.length(way)
-        if corners > 1:
-            way /= length
-        else:
-            way = wp.vec2d(wp.float64(1.0), wp.float64(0.0))
+        way /= wp.max(length, wp.float64(1e-300))  # a single point has none
         work.edges[k, s] = wp.vec3d(way[0], way[1], length)
     half = wp.float64(0.5)
     least = wp.float64(1e300)
@@ -221,6 +216,16 @@ def _cover(sole: Sole, work: Work, s: wp.int32, size: wp.int32):
 
 
 @_func
+def _is_beyond(sole: Sole, at: wp.vec2d) -> wp.bool:
+    corners = sole.hull.shape[0]
+    for k in range(corners):
+        way, off = sole.hull[(k + 1) % corners] - sole.hull[k], at - sole.hull[k]
+        if way[0] * off[1] - way[1] * off[0] < wp.float64(0.0):
+            return True
+    return False
+
+
+@_func
 def _tilt(
     sole: Sole, work: Work, weights: wp.array2d(dtype=wp.float64), s: wp.int32, force: wp.float64, at: wp.vec2d
 ) -> wp.bool:
@@ -229,10 +234,9 @@ def _tilt(
     total = wp.float64(0.0)
     middle = wp.vec2d()
     for i in range(sole.areas.shape[0]):
-        p = wp.vec2d(sole.positions[i][0], sole.positions[i][1])
         total += weights[i, s]
-        middle += weights[i, s] * p
-    if total <= zero:
+        middle += weights[i, s] * wp.vec2d(sole.positions[i][0], sole.positions[i][1])
+    if total <= zero or _is_beyond(sole, at):
         return False
     middle /= total
     spread = wp.float64(0.0)
@@ -344,13 +348,8 @@ def _nearest(sole: Sole, p: wp.vec2d) -> wp.vec2d:
 def _carry(sole: Sole, work: Work, s: wp.int32, force: wp.float64, at: wp.vec2d) -> wp.bool:
     zero = wp.float64(0.0)
     count = sole.areas.shape[0]
-    first = wp.int32(0)
-    corners = sole.hull.shape[0]
-    for k in range(corners):
-        way, place = sole.hull[(k + 1) % corners] - sole.hull[k], at - sole.hull[k]
-        if way[0] * place[1] - way[1] * place[0] < zero:
-            first = wp.int32(1)  # beyond the outermost taxels: no pressure of theirs has this moment
-    if first == 0 and _tilt(sole, work, work.prior, s, force, at):
+    first = wp.where(_is_beyond(sole, at), 1, 0)
+    if _tilt(sole, work, work.prior, s, force, at):
         return True
     for stage in range(first, 2):
         area = wp.float64(0.0)
@@ -364,8 +363,9 @@ def _carry(sole: Sole, work: Work, s: wp.int32, force: wp.float64, at: wp.vec2d)
                         work.gaps[i, s] = sole.areas[i]
             area += work.gaps[i, s]
         for i in range(count):
-            work.weights[i, s] = work.prior[i, s] + wp.float64(1e-3) * force * work.gaps[i, s] / area
-        if first == 0 and _tilt(sole, work, work.weights, s, force, at):
+            prior = work.prior[i, s] * wp.float64(1 - first)
+            work.weights[i, s] = prior + wp.float64(1e-3) * force * work.gaps[i, s] / area
+        if _tilt(sole, work, work.weights, s, force, at):
             return True
     inside = wp.vec2d()
     for k in range(sole.hull.shape[0]):

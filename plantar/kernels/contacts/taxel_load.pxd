@@ -13,7 +13,7 @@ cdef class TaxelLoad:
     cdef bint level
     cdef readonly object vectors, forces, depths, wrench
     cdef double[:, ::1] _vectors
-    cdef double[::1] _forces, _depths, _wrench, weights, prior, normal, gaps
+    cdef double[::1] middle, _forces, _depths, _wrench, weights, prior, normal, gaps
     cdef readonly bint carried
     cdef Py_ssize_t room
     cdef double[:, ::1] points, ring, edges, rows, sums
@@ -35,9 +35,11 @@ cdef class TaxelLoad:
         pressure=double
     )
     cdef bint _tilt(self, double[::1] weights, double force, double x, double y) noexcept
+    @cython.locals(p=double, q=double)
+    cdef bint _is_beyond(self, double x, double y) noexcept
     @cython.locals(about_x=double, about_y=double, off_x=double, off_y=double)
     cdef void _balance(self, double force) noexcept
-    @cython.locals(beyond=bint, p=double, q=double, area=double, inside_x=double, inside_y=double)
+    @cython.locals(beyond=bint, p=double, q=double, area=double)
     cdef bint _carry(self, double force, double x, double y) noexcept
     @cython.locals(cx=double, cy=double, spread=double, turn=double)
     cdef void _shear(self, double force) noexcept

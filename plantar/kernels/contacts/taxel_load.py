@@ -14,7 +14,7 @@ _EXACT = 1e-12  # of the load: how exactly a curved sole has the moments of all 
 
 
 class TaxelLoad:
-    """Spreads a sole's current contact wrench over its taxels.
+    """Spreads a sole's contact wrench over its taxels.
 
     - The contact points of each pair of geoms span a patch. A cell's weight w is its area times its covered share, a
       ramp over its width.
@@ -46,6 +46,7 @@ class TaxelLoad:
         self.areas = areas
         self.widths = widths
         self.hull = hull
+        self.middle = hull.mean(axis=0)
         self.level = bool((positions[:, 2] == 0.0).all())
         self.vectors = self._vectors = np.zeros((count, 3))
         self.forces = self._forces = np.zeros(count)
@@ -200,6 +201,8 @@ class TaxelLoad:
         """
         cells, rows = 0, self.rows
         total = cx = cy = 0.0
+        if self._is_beyond(x, y):
+            return False
         for i in range(self.areas.shape[0]):
             if weights[i] > 0.0:
                 w, p, q = weights[i], self.positions[i, 0], self.positions[i, 1]
@@ -236,6 +239,16 @@ class TaxelLoad:
                 self.normal[i] = force * w * pressure if pressure > 0.0 else 0.0
         return found
 
+    def _is_beyond(self, x, y):
+        """Whether a place is beyond the outermost taxels: no pressure has its moment."""
+        corners = self.hull.shape[0]
+        for k in range(corners):
+            j = k + 1 if k + 1 < corners else 0
+            p, q = self.hull[j, 0] - self.hull[k, 0], self.hull[j, 1] - self.hull[k, 1]
+            if p * (y - self.hull[k, 1]) - q * (x - self.hull[k, 0]) < 0.0:
+                return True
+        return False
+
     def _balance(self, force):
         count = self.areas.shape[0]
         about_x, about_y = self.sums[0, 3], self.sums[0, 4]
@@ -265,14 +278,8 @@ class TaxelLoad:
     def _carry(self, force, x, y):
         """Set `normal` to all contacts' load; whether the cells can carry it."""
         count = self.areas.shape[0]
-        beyond = False  # of the outermost taxels: no pressure of theirs has this moment
-        corners = self.hull.shape[0]
-        for k in range(corners):
-            j = k + 1 if k + 1 < corners else 0
-            p, q = self.hull[j, 0] - self.hull[k, 0], self.hull[j, 1] - self.hull[k, 1]
-            if p * (y - self.hull[k, 1]) - q * (x - self.hull[k, 0]) < 0.0:
-                beyond = True
-        if not beyond and self._tilt(self.prior, force, x, y):
+        beyond = self._is_beyond(x, y)
+        if self._tilt(self.prior, force, x, y):
             return True
         for stage in range(1 if beyond else 0, 2):
             area = 0.0
@@ -287,18 +294,14 @@ class TaxelLoad:
                             break
                 area += self.gaps[i]
             for i in range(count):
-                self.weights[i] = self.prior[i] + _SPREAD * force * self.gaps[i] / area
-            if not beyond and self._tilt(self.weights, force, x, y):
+                self.weights[i] = (0.0 if beyond else self.prior[i]) + _SPREAD * force * self.gaps[i] / area
+            if self._tilt(self.weights, force, x, y):
                 return True
         # From the nearest place among the outermost taxels, a little inside.
-        inside_x = inside_y = 0.0
-        for k in range(corners):
-            inside_x += self.hull[k, 0] / corners
-            inside_y += self.hull[k, 1] / corners
         near_x, near_y = _nearest(self.hull, x, y)
         for _ in range(20):
-            near_x += 1e-3 * (inside_x - near_x)
-            near_y += 1e-3 * (inside_y - near_y)
+            near_x += 1e-3 * (self.middle[0] - near_x)
+            near_y += 1e-3 * (self.middle[1] - near_y)
             if self._tilt(self.weights, force, near_x, near_y):
                 return False
         self._even(force)

@@ -7,9 +7,12 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
+import shapely
 
 from plantar import Percept, grid_layout
 from plantar.errors import InputError
+from plantar.kernels.contacts.foot_contacts import ContactsInSole, FootContacts
+from plantar.kernels.contacts.taxel_load import TaxelLoad
 from plantar.mujoco import Skin
 
 spec = spec_from_file_location("skin_models", Path(__file__).parent / "conftest.py")
@@ -46,8 +49,10 @@ def compare(model, contact_wrench, steps, **options):
             assert np.abs(moment - wrench[3:]).max() <= 1e-9 * load
         else:  # only where the centre of pressure is beyond the outermost taxels
             cop = np.array([-wrench[4], wrench[3]]) / wrench[2]
-            assert Percept(feel.layout, reading).position_cop_in_sole is not None
-            ring = feel.static[-1]
+            ring, normal = feel.static[-1], reading.vectors[:, 2]
+            own = normal @ feel.layout.positions[:, :2] / normal.sum()
+            away = shapely.Polygon(ring).distance(shapely.Point(cop))
+            assert np.hypot(*(own - cop)) <= away + 0.02 * np.ptp(ring)  # the load is on the nearest edge
             edge = np.roll(ring, -1, axis=0) - ring
             inside = (edge[:, 0] * (cop - ring)[:, 1] - edge[:, 1] * (cop - ring)[:, 0]) / np.hypot(*edge.T)
             assert inside.min() < 1e-3
@@ -110,6 +115,31 @@ def test_a_load_on_the_back_does_not_relieve_the_sole(contact_wrench):
     moment = np.cross(feel.layout.positions, reading.vectors).sum(axis=0)[:2]
     assert moment == pytest.approx([5.0 * 9.81 * 0.03, -5.0 * 9.81 * 0.05], rel=0.01)
     assert not reading.carried
+
+
+def test_a_load_far_beyond_the_taxels_is_on_their_nearest_edge():
+    """Place and force of three contacts on a ball with much shear, of which no patch has the moment."""
+    ball = '<mujoco><worldbody><body name="foot"><freejoint/><geom size=".023"/></body></worldbody></mujoco>'
+    feel = Skin(body="foot").bind(mujoco.MjModel.from_xml_string(ball))
+    contacts = [
+        [[0.0156, -0.0121, 0.0203], [-16.5, -17.4, 15.6], [0, 0, 0]],
+        [[0.0027, 0.0198, 0.0177], [14.0, -13.8, 13.0], [0, 0, 0]],
+        [[0.0088, -0.0037, 0.0285], [-16.4, -14.3, 6.5], [0, 0, 0]],
+    ]
+    load, seen, foot = TaxelLoad(*feel.static), ContactsInSole(), FootContacts(np.ones(1, dtype=np.uint8))
+    pairs = np.array([[0, 1], [0, 2], [0, 3]], dtype=np.int32)
+    foot.take(pairs, np.array(contacts, dtype=float).reshape(-1, 3), np.zeros(3), np.ones(3, dtype=np.uint8))
+    seen.look_from(np.zeros(3), np.eye(3))
+    load.press(foot, seen, 5e-4)
+    assert not load.carried
+    cop, normal, ring = (
+        np.array([-load.wrench[4], load.wrench[3]]) / load.wrench[2],
+        load.vectors[:, 2],
+        feel.static[-1],
+    )
+    own = normal @ feel.layout.positions[:, :2] / normal.sum()
+    away = shapely.Polygon(ring).distance(shapely.Point(cop))
+    assert np.hypot(*(own - cop)) <= away + 0.02 * np.ptp(ring)
 
 
 def test_another_cone_after_binding_is_read_as_such(make_box, contact_wrench):
