@@ -74,14 +74,14 @@ def on_floor(path: str) -> Any:
 
 
 def microseconds(call: Any) -> float:
-    """Least time of a call in us, over many short rounds."""
+    """Median processor time of a call in us, over many short rounds."""
     rounds = []
     for _ in range(60):
-        began = time.perf_counter()
+        began = time.process_time()
         for _ in range(40):
             call()
-        rounds.append((time.perf_counter() - began) / 40)
-    return 1e6 * min(rounds)
+        rounds.append((time.process_time() - began) / 40)
+    return 1e6 * float(np.median(rounds))
 
 
 def row(name: str, spec_of: Callable[[], Any], skin: Skin, truth: Any) -> list[str]:
@@ -151,7 +151,7 @@ def main() -> None:
         print(lines[-1], flush=True)
     text = "# Skin next to MuJoCo's own sensors\n\nMade by `python benchmarks/skin_models.py`.\n\n"
     text += (
-        f"After {STEPS} steps of each model. Times are the least of 60 rounds; a sensor's is what it adds to "
+        f"After {STEPS} steps of each model. Processor times, medians of 60 rounds; a sensor's is what it adds to "
         "`mj_forward`. Where `carried` is no, the centre of pressure lies beyond the outermost taxels. The touch "
         "grid's cells are as large as taxels, so its centre of pressure is off by a part of a cell.\n\n"
     )
