@@ -268,16 +268,21 @@ def _reach(plan: ShoePlan, surface: Array) -> float:
 
 def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: StepSolid) -> tuple[float, float]:
     """Gives largest distances in mm of a shoe's corners in the solid (step) from the layout's, by parameters: of cells
-    from the groove, of pockets from the ceiling, except those removed by port or channel.
+    from the groove, of pockets from the ceiling, except those removed by port or channel or with a short edge.
     """
     p = parameters
     cable = shapely.union_all([*cable_outlines(shoe.plan, p), hole_outline(shoe.plan, p)]).buffer(SHORTEST)
     cable |= shapely.union_all(pocket_outlines(shoe.plan, p)).buffer(-1e-3)  # and what is too thin next to it
     shapely.prepare(cable)
     corners = np.concatenate([to_mm(shoe.layout.cell_polygon(i)) for i in range(len(shoe.layout))])
-    pockets = np.concatenate([ring(q) for q in shoe.plan.pockets])
+    pockets = np.concatenate([_apart(ring(q)) for q in shoe.plan.pockets])
     kept, pockets = (c[~shapely.contains_xy(cable, c[:, 0], c[:, 1])] for c in (corners, pockets))
     return _farthest(kept, step, p.bottom + p.scribe), _farthest(pockets, step, p.ceiling)
+
+
+def _apart(corners: Array) -> Array:
+    long = np.hypot(*(np.roll(corners, -1, axis=0) - corners).T) >= SHORTEST
+    return corners[long & np.roll(long, 1)]
 
 
 def _farthest(wanted: Array, step: StepSolid, height: float) -> float:
