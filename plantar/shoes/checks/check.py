@@ -282,7 +282,7 @@ def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: StepSolid) -> tu
 
 def _apart(corners: Array) -> Array:
     long = np.hypot(*(np.roll(corners, -1, axis=0) - corners).T) >= SHORTEST
-    return corners[long & np.roll(long, 1)]
+    return np.asarray(corners[long & np.roll(long, 1)])
 
 
 def _farthest(wanted: Array, step: StepSolid, height: float) -> float:

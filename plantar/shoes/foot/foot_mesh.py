@@ -24,7 +24,7 @@ from plantar.shoes.foot.orientation import (
     rotation_up,
     straightened,
 )
-from plantar.shoes.geometry.outline import cut_below, outline_below, outline_of, touching
+from plantar.shoes.geometry.outline import cut_below, outline_of, outlines_below, touching
 from plantar.shoes.geometry.surface import convex_outline, is_closed
 
 __all__ = ["foot_from_mesh", "foot_from_triangles", "unit_scale"]
@@ -215,7 +215,7 @@ def _standing(
     return Foot(
         name,
         sole,
-        lambda height: outline_below(triangles, height),
+        outlines_below(triangles),
         float(triangles[..., 2].max()),
         tuple(notes),
         lifted,

@@ -1,6 +1,8 @@
 """Sole plane outlines in mm: shapely, counter-clockwise, without holes, on a micrometre grid."""
 
 import math
+from bisect import bisect_right
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -17,6 +19,7 @@ __all__ = [
     "grown",
     "outline_below",
     "outline_of",
+    "outlines_below",
     "ring",
     "rounded_rectangle",
     "single_outline",
@@ -32,6 +35,9 @@ _NEARLY_CONVEX = 0.9  # of the hull's area: above it the hull is the outline
 _HAIR = 0.05  # mm: half the width of what lies between two outlines and is left out
 _LEAST = 0.25  # mm between two corners
 _BULGE = 0.1  # mm between a facet of a quarter circle and its arc
+_BAND = 8000  # triangles whose part of an outline is found at once
+_WITHIN = 0.02  # mm that a triangle may reach beyond those below it
+_EMPTY = shapely.Polygon()
 _EXACT = 1e-9  # mm: what lies nearer to a line lies on it
 
 
@@ -133,19 +139,49 @@ def outline_below(triangles: NDArray[np.float64], height: float) -> Any:
     return outline_of(cut_below(triangles, height), height)
 
 
-def outline_of(below: NDArray[np.float64], height: float) -> Any:
-    """Gives outline of triangles (n, 3, 3) in mm below a height in mm, by `single_outline`.
+def outlines_below(triangles: NDArray[np.float64]) -> Callable[[float], Any]:
+    """Gives `outline_below` of triangles (n, 3, 3) in mm by height. A scan's are joined once, in bands from below,
+    without what lies over lower ones, as most of a rough wall does.
+    """
+    if len(triangles) < 2 * _BAND:
+        return lambda height: outline_below(triangles, height)
+    low, high = triangles[..., 2].min(axis=1), triangles[..., 2].max(axis=1)
+    order = np.argsort(low, kind="stable")
+    bands: list[
+        tuple[float, Any, NDArray[np.int64]]
+    ] = []  # lowest height, outline below it, triangles that reach higher
+    cover, near = _EMPTY, order[:0]
+    for band in np.array_split(order, len(order) // _BAND):
+        start = float(low[band[0]])
+        below = high[near] <= start
+        joined = shapely.union(cover, covered_area(triangles[near[below], :, :2]), grid_size=GRID)
+        cover = shapely.union_all([shapely.Polygon(p.exterior) for p in shapely.get_parts(joined) if p.area > 0.0])
+        room = cover.buffer(_WITHIN, quad_segs=1)
+        shapely.prepare(room)
+        beyond = band[~shapely.covers(room, shapely.linearrings(triangles[band, :, :2]))]
+        near = np.concatenate([near[~below], beyond])
+        bands.append((start, cover, near))
+
+    def outline(height: float) -> Any:
+        _, lower, reaching = bands[max(bisect_right(bands, height, key=lambda band: band[0]) - 1, 0)]
+        return outline_of(cut_below(triangles[reaching], height), height, lower)
+
+    return outline
+
+
+def outline_of(below: NDArray[np.float64], height: float, lower: Any = _EMPTY) -> Any:
+    """Gives outline of triangles (n, 3, 3) in mm below a height in mm, by `single_outline`, and of a lower part's.
 
     Raises:
         FootError: If it has no area.
     """
-    if len(below) == 0:
+    if len(below) == 0 and lower.is_empty:
         raise FootError(f"the mesh has no surface in its lowest {height:g} mm")
-    points = convex_outline(below.reshape(-1, 3)[:, :2])
+    points = convex_outline(np.concatenate([below.reshape(-1, 3)[:, :2], shapely.get_coordinates(lower)]))
     if points.geom_type != "Polygon" or points.area < 1.0:
         raise FootError(f"the lowest {height:g} mm of the mesh have no area: a point or an edge is no sole")
     # Vertical walls project to lines: they count in the hull, not in the union.
-    return single_outline(_projected(below), points)
+    return single_outline(shapely.union(_projected(below), lower), points)
 
 
 def touching(triangles: NDArray[np.float64], height: float) -> Any:

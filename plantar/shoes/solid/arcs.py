@@ -122,7 +122,6 @@ def _chains(body: Polyhedron) -> Iterator[list[list[int]]]:
             line.append(after)
         if line[0] == line[-2] and len(line) > 4:  # all the way round
             line = line[:-1]
-        assert len({len(c) for c in line}) == 1
         yield [list(level) for level in zip(*line, strict=True)]
 
 

@@ -9,11 +9,15 @@ from plantar.shoes.geometry.outline import (
     cut_below,
     flush,
     outline_below,
+    outlines_below,
     ring,
     rounded_rectangle,
     single_outline,
     tidy,
 )
+from plantar.shoes.geometry.surface import corner_numbers
+
+from ..foot_family import rounded
 
 
 def test_the_outline_of_a_box_is_its_rectangle(box):
@@ -111,3 +115,19 @@ def test_outlines_that_are_about_the_same_are_the_same(seed):
     assert (gaps[new | np.roll(new, -1)] > 0.019).all()
     beside = rim.exterior.distance(shapely.points(points[new]))
     assert ((beside < 1e-9) | (beside > 0.019)).all()
+
+
+def test_outlines_of_a_rough_scan_are_those_of_all_its_triangles():
+    triangles = rounded(140, 29)
+    triangles[..., 1] *= 1.0 - 0.5 * np.exp(-(((triangles[..., 0] - 25.0) / 34.0) ** 2))
+    corners = corner_numbers(triangles)
+    rough = triangles + np.random.default_rng(1).normal(0.0, 0.05, (corners.max() + 1, 3))[corners]
+    scan = rough[np.random.default_rng(2).random(len(rough)) > 0.004]  # with holes
+    of_height = outlines_below(scan)
+    for height in (3.0, 20.0):
+        whole = outline_below(scan, height)
+        assert whole.area < 0.9 * whole.convex_hull.area
+        assert of_height(height).hausdorff_distance(whole) < 0.1
+        assert abs(of_height(height).area - whole.area) < 1e-3 * whole.area
+    with pytest.raises(FootError, match="no surface in its lowest"):
+        of_height(-1.0)
