@@ -22,7 +22,6 @@ __all__ = ["Mounting", "check_mounting"]
 
 _ABOVE = 9  # sections above the wall
 _BESIDE = 8.0  # mm next to a clip or screw, where its window or boss is
-_MANY = 20_000  # triangles, above which the near ones are picked first
 _SLICE = 2.0  # mm of height in which links are held against one section
 _SLIVER = 0.05  # mm that a wall may lean over
 _WALL_SHARE = 0.1  # of a section's area: what is smaller is a clip, no wall
@@ -145,14 +144,8 @@ def _gap_on_the_way(foot: Foot, height: float, solid: Any) -> float:
     flat = cut_below(foot.triangles, height)[..., :2]
     if not len(flat):
         return math.inf
-    if len(flat) > _MANY:  # those that cannot be the nearest are left out
-        shapely.prepare(solid)
-        far = shapely.distance(solid, shapely.points(flat[:, 0]))
-        reach = far - np.linalg.norm(flat - flat[:, :1], axis=2).max(axis=1)
-        flat = flat[reach <= far.min()]
-    tree = shapely.STRtree(shapely.polygons(np.concatenate([flat, flat[:, :1]], axis=1)))
-    _, distances = tree.query_nearest(solid, return_distance=True)
-    return float(distances.min(initial=math.inf))
+    shapely.prepare(solid)
+    return float(shapely.distance(shapely.polygons(np.concatenate([flat, flat[:, :1]], axis=1)), solid).min())
 
 
 def _play(outline: Any, solid: Any) -> float:

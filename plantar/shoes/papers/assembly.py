@@ -29,7 +29,6 @@ _TAXELS = ((0.45, 0.72, 0.50), (0.55, 0.82, 0.58), (0.37, 0.62, 0.43))  # in tur
 _WIRE, _BOARD, _FOOT, _MOULD = (0.84, 0.28, 0.22), (0.16, 0.42, 0.30), (0.78, 0.74, 0.68), (0.80, 0.63, 0.40)
 _ABOVE, _BELOW = {"azimuth": -62.0, "elevation": 38.0}, {"azimuth": -62.0, "elevation": -48.0}
 _BEHIND, _LOW = {"azimuth": -160.0, "elevation": 14.0}, {"azimuth": -62.0, "elevation": 20.0}
-_MANY = 20_000  # triangles of a foot, above which its outline stands for it
 _WIRE_WIDE = 1.6
 _STYLE = """
 .step { display: grid; gap: .5rem 1.5rem; grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); align-items: start; }
@@ -399,17 +398,10 @@ class _Views:
         return self._shown([*self._whole(), (self._foot(), _FOOT)], _LOW)
 
     def _foot(self) -> Array:
-        foot, p = self.build.foot, self.build.parameters
-        floor = p.thickness
-        if foot.triangles is not None and len(foot.triangles) <= _MANY:
-            surface = foot.triangles
-        else:
-            low_x, _, high_x, _ = foot.sole.bounds
-            top = min(foot.height, 0.3 * (high_x - low_x))
-            heights = np.linspace(0.0, top, 2 if foot.triangles is None else 8)
-            outlines = [shapely.Polygon(foot.passing(float(high)).exterior) for high in heights[1:]]
-            parts = [prism_surface(o, a, b) for o, a, b in zip(outlines, heights, heights[1:], strict=False)]
-            surface = np.concatenate(parts)
+        foot, (low_x, _, high_x, _) = self.build.foot, self.build.foot.sole.bounds
+        surface = foot.triangles
+        if surface is None:
+            surface = prism_surface(foot.sole, 0.0, 0.3 * (high_x - low_x))
         if self.shoe.side == "right":
             surface = surface[:, ::-1] * np.array([1.0, -1.0, 1.0])
-        return np.asarray(surface + np.array([0.0, 0.0, floor]))
+        return np.asarray(surface + np.array([0.0, 0.0, self.build.parameters.thickness]))

@@ -94,32 +94,19 @@ def _chains(body: Polyhedron) -> Iterator[list[list[int]]]:
     near: dict[int, list[int]] = defaultdict(list)
     for a, b in body.neighbours:
         near[a].append(b)
-    columns: dict[int, tuple[int, ...]] = {}
-    for v in near:
-        if v not in columns:
-            column = _column(body, near, v)
-            if column:
-                columns |= dict.fromkeys(column, column)
-    left = {column[0] for column in columns.values()}
+    columns = {column for v in near if (column := _column(body, near, v))}
+    beside = {column: sides for column in columns if (sides := _sides(body, near, column))}
+    left = set(beside)
     while left:
-        here = columns[min(left)]
-        sides = _sides(body, near, here)
-        if sides is None:
-            left.discard(here[0])
-            continue
-        line = [here]
-        left.discard(here[0])
-        for side in sides:
+        line = [min(left)]
+        left.discard(line[0])
+        for side in beside[line[0]]:
             line.reverse()
-            before, after = line[-1], side
-            while after[0] in columns and columns[after[0]] == after and after[0] in left:
-                left.discard(after[0])
-                both = _sides(body, near, after)
-                if both is None:
-                    break
-                line.append(after)
-                before, after = after, both[1] if both[0] == before else both[0]
-            line.append(after)
+            line.append(side)
+            while line[-1] in left:
+                left.discard(line[-1])
+                one, other = beside[line[-1]]
+                line.append(other if one == line[-2] else one)
         if line[0] == line[-2] and len(line) > 4:  # all the way round
             line = line[:-1]
         yield [list(level) for level in zip(*line, strict=True)]

@@ -186,8 +186,8 @@ def _moves(
         if max(float(np.linalg.norm(corners[n] - corners[kept])) for n in lost) < most:
             off = [(abs(float(normals[i] @ (corners[kept] - corners[n]))), i) for n in lost for i in at[n] - at[kept]]
             bent = {i for by, i in off if by > _FLAT}
-            cut = sum(len(loop) for i in bent for loop in faces[i])
             far = max(off, default=(0.0, 0))[0]
+            cut = sum(len(loop) for i in bent for loop in faces[i])
             found.append((len(lost), max(far, _EVEN), cut, far, kept, lost, bent))
     return [(kept, lost, far, bent) for *_, far, kept, lost, bent in sorted(found, key=lambda way: way[:5])]
 

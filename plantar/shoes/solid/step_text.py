@@ -22,10 +22,8 @@ def with_shared_entities(text: str) -> str:
     begin = text.index("DATA;\n") + len("DATA;\n")
     end = text.index("\nENDSEC;", begin)
     start, data, tail = text[:begin], text[begin:end], text[end + 1 :]
-    entities = []
-    for line in data.removesuffix(";").split(";\n"):
-        number, _, body = re.sub(r"\n *", "", line).removeprefix("#").partition(" = ")
-        entities.append((number, _rounded(body, _DECIMALS.get(body.partition("(")[0]))))
+    lines = (re.sub(r"\n *", "", line).removeprefix("#") for line in data.removesuffix(";").split(";\n"))
+    entities = [(number, _rounded(body)) for number, _, body in (line.partition(" = ") for line in lines)]
     stands = {number: number for number, _ in entities}
 
     def referring(body: str, numbers: dict[str, str]) -> str:
@@ -41,13 +39,10 @@ def with_shared_entities(text: str) -> str:
     kept.sort(key=lambda entity: -uses[entity[0]])  # short numbers for what is named often
     place = {number: str(i) for i, (number, _) in enumerate(kept, start=1)}
     numbers = {number: place[other] for number, other in stands.items()}
-    lines = [f"#{place[number]}={referring(body, numbers)};" for number, body in kept]
-    return start + "\n".join(lines) + "\n" + tail
+    short = [f"#{place[number]}={referring(body, numbers)};" for number, body in kept]
+    return start + "\n".join(short) + "\n" + tail
 
 
-def _rounded(body: str, decimals: int | None) -> str:
-    def short(number: re.Match[str]) -> str:
-        text = f"{float(number[0]):.{decimals}f}".rstrip("0")
-        return "0." if text == "-0." else text
-
-    return body if decimals is None else _NUMBER.sub(short, body)
+def _rounded(body: str) -> str:
+    decimals = _DECIMALS.get(body.partition("(")[0])
+    return body if decimals is None else _NUMBER.sub(lambda v: f"{float(v[0]):z.{decimals}f}".rstrip("0"), body)
