@@ -2,6 +2,7 @@
 
 import operator
 from collections.abc import Iterable
+from types import UnionType
 from typing import TypeVar
 
 import numpy as np
@@ -80,12 +81,12 @@ def integer(value: object, name: str, low: int, high: int | None = None, error: 
     return whole
 
 
-def instance(value: _Kind, kind: type, name: str, error: type[PlantarError] = InputError) -> _Kind:
+def instance(value: _Kind, kind: type | UnionType, name: str, error: type[PlantarError] = InputError) -> _Kind:
     """Object of a class.
 
     Args:
         value: Argument.
-        kind: Class.
+        kind: Class; `str | os.PathLike` is a path.
         name: Name in errors.
         error: Error class.
 
@@ -101,7 +102,7 @@ def instance(value: _Kind, kind: type, name: str, error: type[PlantarError] = In
         plantar.errors.InputError: name is 3; expected a str
     """
     if not isinstance(value, kind):
-        raise error(f"{does(name, 'are')} {_short(value)}; expected a {kind.__name__}")
+        raise error(f"{does(name, 'are')} {_short(value)}; expected a {getattr(kind, '__name__', 'path')}")
     return value
 
 

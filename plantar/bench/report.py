@@ -158,17 +158,13 @@ def kernel_text(result: Mapping[str, Any]) -> str:
             kernel = row["kernel"]
             lines.append(f"{kernel:58}{'median us':>12}{'spread':>8}{'ratio':>9}{'error':>10}")
         route = f"  {row['size']}: {row['route']}"
-        error = _error(row["error"])
+        error = "-" if row["error"] is None else f"{row['error']:.1e}"
         lines.append(f"{route:58}{row['median_us']:>12.2f}{row['spread']:>8.0%}{row['ratio']:>9.1f}{error:>10}")
     lines.append("wanted and reached, at the worst size:")
     for met, target in ((t.pop("met"), Target(**t)) for t in map(dict, result["targets"])):
         reached = f"{target.what}: {target.figure:.3g} {target.unit}".rstrip()
         lines.append(f"  {'met    ' if met else 'NOT MET'} {reached} (wanted {target.limit}; {target.where})")
     return "\n".join(lines)
-
-
-def _error(value: float | None) -> str:
-    return "-" if value is None else f"{value:.1e}"
 
 
 def write_kernel_report(folder: Path, results: Sequence[Result]) -> list[str]:

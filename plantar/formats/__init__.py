@@ -7,6 +7,7 @@ from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
 
+from plantar.arguments import instance
 from plantar.console.ending import one_line
 from plantar.errors import FormatError, InputError, PlantarError
 from plantar.extensions import extensions
@@ -63,7 +64,7 @@ def detect_format(path: str | os.PathLike[str]) -> Format:
     """Recognise a file or recording folder by content; FormatError if unknown."""
     known = formats()
     names = ", ".join(f"{f.name} ({f.title})" for f in known.values())
-    if os.path.isdir(path):
+    if os.path.isdir(instance(path, str | os.PathLike, "recording", FormatError)):
         for candidate in known.values():
             if candidate.folders is not None and is_file(Path(path) / candidate.folders):
                 return candidate
@@ -113,7 +114,7 @@ def read_recording(
     """
     chosen = named_format(path, format)
     known = options or ReadOptions()
-    known = known if layout is None else replace(known, layout=layout)
+    known = known if layout is None else replace(known, layout=instance(layout, SoleLayout, "layout"))
     if known.unit is not None and find_unit(known.unit) is None:
         raise InputError(f"unknown unit {known.unit!r}; allowed: kPa, N/cm2, mmHg, psi, N, kg, raw and their like")
     if known.insole_size is not None:

@@ -43,7 +43,10 @@ def draw_skin(scene: Any, feel: BoundSkin, data: Any, *, full: float | None = No
         _add(scene, kinds.mjGEOM_CYLINDER, size, pose.to_world(place + out), turn, color)
     ring = Percept(feel.layout, reading).support_polygon_in_sole
     for first, second in zip(ring, np.roll(ring, -1, axis=0), strict=True):
-        _line(scene, pose.to_world([*first, -lift]), pose.to_world([*second, -lift]))
+        line = _add(scene, kinds.mjGEOM_CAPSULE, np.zeros(3), np.zeros(3), np.eye(3), _EDGE)
+        if line is not None:
+            ends = pose.to_world([*first, -lift]), pose.to_world([*second, -lift])
+            mujoco.mjv_connector(line, kinds.mjGEOM_CAPSULE, 0.0015, *ends)
     cop = reading.position_cop_in_sole
     if cop is not None:
         _add(scene, kinds.mjGEOM_SPHERE, [0.006] * 3, pose.to_world([*cop, 0.0]), turn, _COP)
@@ -59,15 +62,8 @@ def _next(scene: Any) -> Any:
 
 def _add(
     scene: Any, kind: Any, size: ArrayLike, place: NDArray[np.float64], turn: NDArray[np.float64], colour: ArrayLike
-) -> None:
+) -> Any:
     if (geom := _next(scene)) is not None:
         mujoco.mjv_initGeom(geom, kind, np.asarray(size), place, turn.ravel(), np.asarray(colour, dtype=np.float32))
         geom.category = mujoco.mjtCatBit.mjCAT_DECOR
-
-
-def _line(scene: Any, first: NDArray[np.float64], second: NDArray[np.float64]) -> None:
-    if (geom := _next(scene)) is not None:
-        kind = mujoco.mjtGeom.mjGEOM_CAPSULE
-        mujoco.mjv_initGeom(geom, kind, np.zeros(3), np.zeros(3), np.eye(3).ravel(), _EDGE.astype(np.float32))
-        mujoco.mjv_connector(geom, kind, 0.0015, first, second)
-        geom.category = mujoco.mjtCatBit.mjCAT_DECOR
+    return geom

@@ -59,16 +59,12 @@ def page(title: str, about: str, sections: Sequence[Section], script: str = "", 
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
         f'<link rel="icon" href="data:,"><title>{html.escape(title)}</title>'
-        f"<style>{_style()}{style}</style></head>\n"
+        f"<style>{files('plantar.pages').joinpath('page.css').read_text(encoding='utf-8')}{style}</style></head>\n"
         '<body><a class="skip" href="#content">Skip to content</a>\n'
         f"<header><h1>{html.escape(title)}</h1>{about}"
         f'<nav aria-label="Sections"><ul>{menu}</ul></nav></header>\n'
         f'<main id="content" tabindex="-1">\n{body}\n</main>\n{script}</body></html>\n'
     )
-
-
-def _style() -> str:
-    return files("plantar.pages").joinpath("page.css").read_text(encoding="utf-8")
 
 
 def figures_of(figures: Iterable[tuple[Path, str]]) -> Section:

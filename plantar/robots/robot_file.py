@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.arguments import instance
 from plantar.errors import InputError, LayoutError, RobotError
 from plantar.files.input_file import check_input, is_file
 from plantar.files.model_files import named_file
@@ -85,7 +86,7 @@ def load_robot(name: str | os.PathLike[str]) -> Robot:
         >>> load_robot("h1").biped.total_mass
         86.0
     """
-    path = Path(name)
+    path = Path(instance(name, str | os.PathLike, "robot", RobotError))
     if path.suffix == ".toml":
         if not os.path.exists(path):
             raise RobotError(f"robot file {path} does not exist")

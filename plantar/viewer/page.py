@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from plantar.arguments import instance, items
 from plantar.atomic import replacing
 from plantar.errors import InputError
 from plantar.pages.policy import with_policy
@@ -47,7 +48,7 @@ def write_page(
         InputError: For too many, or unwritable.
         FormatError: If unreadable or without soles.
     """
-    recordings = [recordings] if isinstance(recordings, str | os.PathLike) else recordings
+    recordings = [recordings] if isinstance(recordings, str | os.PathLike) else items(recordings, "recordings")
     if not 1 <= len(recordings) <= _MOST:
         raise InputError(f"{len(recordings)} recordings to show; allowed: 1, or {_MOST} side by side")
     walks = [read_walk(recording) for recording in recordings]
@@ -56,7 +57,10 @@ def write_page(
         known = [file.stem if len({f.stem for f in files}) == len(files) else str(file) for file in files]
         walks = [replace(walk, name=f"{walk.name} ({name})") for walk, name in zip(walks, known, strict=True)]
     size = 0
-    with replacing(path) as temporary, temporary.open("w", encoding="utf-8") as file:
+    with (
+        replacing(instance(path, str | os.PathLike, "path")) as temporary,
+        temporary.open("w", encoding="utf-8") as file,
+    ):
         for piece in _pieces(walks):
             size += len(piece.encode())
             file.write(piece)

@@ -3,6 +3,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+import plantar
 from plantar.arguments import instance, integer, items, number
 from plantar.errors import InputError, LayoutError
 
@@ -52,3 +53,19 @@ def test_an_object_is_of_its_class():
         instance(np.zeros(2), str, "layout", LayoutError)
     with pytest.raises(InputError, match=r"^layout is a str; expected a int$"):
         instance("long" * 100, int, "layout")
+
+
+@pytest.mark.parametrize(
+    ("door", "arguments", "words"),
+    [
+        ("read", (None,), "recording is None; expected a path"),
+        ("load_robot", (3,), "robot is 3; expected a path"),
+        ("load_scene", (["flat"],), "expected a path"),
+        ("view", (None,), "recordings are None; expected a list"),
+        ("run", ("flat", -1), "seed is -1; allowed: a whole number, 0 or more"),
+        ("run", ("flat", 1.5), "seed is 1.5"),
+    ],
+)
+def test_doors_refuse_what_is_no_path_or_seed(door, arguments, words):
+    with pytest.raises(plantar.PlantarError, match=words):
+        getattr(plantar, door)(*arguments)

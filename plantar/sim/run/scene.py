@@ -7,6 +7,7 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
+from plantar.arguments import instance
 from plantar.errors import InputError, SceneError
 from plantar.files.input_file import is_file
 from plantar.files.structured_text import read_toml
@@ -245,7 +246,7 @@ def scene_file(name: str | os.PathLike[str]) -> Path:
         >>> scene_file("flat").name
         'flat.toml'
     """
-    path = Path(name)
+    path = Path(instance(name, str | os.PathLike, "scene", SceneError))
     if path.suffix == ".toml":
         if not os.path.exists(path):
             raise SceneError(f"scene file {path} does not exist")

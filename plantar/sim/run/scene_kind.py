@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from plantar.arguments import integer
 from plantar.errors import SceneError
 from plantar.files.structured_text import read_toml
 from plantar.sim.run.scene import Scene, scene_file, scene_of
@@ -111,4 +112,4 @@ def run(
     """
     if isinstance(scene, str | os.PathLike):
         scene = open_scene(scene)
-    return simulation_of(scene, seed).run_to_files(record, video, plot, progress)
+    return simulation_of(scene, integer(seed, "seed", 0)).run_to_files(record, video, plot, progress)
