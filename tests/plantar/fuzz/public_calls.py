@@ -70,7 +70,9 @@ INNER: frozenset[str] = frozenset(
             "inscribed.Circle",
             "inscribed.BoundedRectangle",
         ),
-        *("foot_tick.FootTick",),
+        *("foot_tick.FootTick", "base_state.BaseState", "wrench_distribution.WrenchShare"),
+        # Takes a function of arrays.
+        "curved_sole.laid_over",
         # Its arrays go with a name, a link and thresholds; its own tests hand it wrong ones.
         "link_skin.SkinPatch",
         # Made by `TaxelFaults.worn` and `identify_faults`.
@@ -174,7 +176,8 @@ def _takes_array(function: Any) -> bool:
         parameters = inspect.signature(function).parameters.values()
     except (TypeError, ValueError):
         return False
-    return any(word in str(p.annotation) for p in parameters for word in ("ArrayLike", "NDArray"))
+    words = ("ArrayLike", "NDArray", "numpy.ndarray", "_SupportsArray")  # as text, and what they stand for
+    return any(word in str(p.annotation) for p in parameters for word in words)
 
 
 def public_calls() -> list[Call]:
