@@ -147,9 +147,7 @@ def outlines_below(triangles: NDArray[np.float64]) -> Callable[[float], Any]:
         return lambda height: outline_below(triangles, height)
     low, high = triangles[..., 2].min(axis=1), triangles[..., 2].max(axis=1)
     order = np.argsort(low, kind="stable")
-    bands: list[
-        tuple[float, Any, NDArray[np.int64]]
-    ] = []  # lowest height, outline below it, triangles that reach higher
+    bands: list[tuple[float, Any, NDArray[np.int64]]] = []  # height, outline below it, triangles that reach higher
     cover, near = _EMPTY, order[:0]
     for band in np.array_split(order, len(order) // _BAND):
         start = float(low[band[0]])

@@ -26,6 +26,7 @@ _SCALES = ((2.0, "2:1"), (1.0, "1:1"), (0.5, "1:2"), (0.4, "1:2.5"), (0.2, "1:5"
 _PLAN = (150.0, 78.0)  # mm of paper for the view from above
 _DETAIL = 17.0  # mm of paper: radius of a detail
 _ROWS = 46  # of a column of the table of features
+_DATUMS = "A printed lower face, B plane y = 0, C plane x = 0"
 _OFF = 1.3e-3  # mm next to a place where corners lie
 
 Array = NDArray[np.float64]
@@ -54,6 +55,8 @@ def sheet_of(shoe: Shoe, build: ShoeBuild, triangles: Array) -> Sheet:
     _heights(along, build, cut)
     across = View(sheet, scale, (246.0, 222.0 - 0.5 * size[2] * scale), (float(middle[1]), 0.0))
     cut = _section(across, shoe, build, triangles, 0, cut_x, "B-B")
+    ends = [across.place(cut.bounds[0], z) for z in (0.0, cut.bounds[3])]
+    sheet.dimension(ends[0], ends[1], f"{cut.bounds[3]:.1f} ±0.3", -9.0)
     _details(top, along, across, shoe, build, triangles, cut)
     _features(sheet, shoe, build)
     _inspection(sheet, shoe, build)
@@ -110,7 +113,7 @@ def _plan(view: View, shoe: Shoe, build: ShoeBuild, low: Array, high: Array, cut
     sheet.dimension(a, b, f"{face[2] - face[0]:.1f} ±0.3", -6.0)
     sheet.dimension((left, bottom), (right, bottom), f"({high[0] - low[0]:.1f})", -13.0)
     a, b = view.place(low[0], face[1]), view.place(low[0], face[3])
-    sheet.dimension((left, a[1]), (left, b[1]), f"{face[3] - face[1]:.1f} ±0.3", -8.0)
+    sheet.dimension((left, a[1]), (left, b[1]), f"{face[3] - face[1]:.1f} ±0.3", -17.0)
     sides = ("outer", "inner") if shoe.side == "left" else ("inner", "outer")
     sheet.text((left, upper + 2.0), f"left, {sides[0]} side", 2.0)
     sheet.text((left, bottom - 3.5), f"right, {sides[1]} side", 2.0)
@@ -196,7 +199,11 @@ def _details(top: View, along: View, across: View, shoe: Shoe, build: ShoeBuild,
         name, texts = {
             "straps": (
                 "lug",
-                (f"slot {width + 2:g} x {p.strap_thickness + 2:g} ±0.5", f"lug {p.rim_thickness:g} ±0.3"),
+                (
+                    f"slot {width + 2:g} x {p.strap_thickness + 2:g} ±0.5",
+                    f"{p.rim_top + 1:g} ±0.3 from the ground",
+                    f"lug {p.rim_thickness:g} ±0.3",
+                ),
             ),
             "clips": ("clip", (f"hook {p.clip_hook:g} ±0.2, 45°", f"arm {p.clip_thickness:g} ±0.2 x {p.clip_width:g}")),
         }.get(kind, ("boss", (f"hole ⌀{width + 0.3:g} ±0.2", f"slot of the nut {0.8 * width + 0.4:g} ±0.2")))
@@ -256,14 +263,14 @@ def _features(sheet: Sheet, shoe: Shoe, build: ShoeBuild) -> None:
             (f"board slot, {np.degrees(plan.heel.turn):.0f}°", f"{plan.heel.x:.2f}", f"{plan.heel.y:.2f}", "0.3 B C")
         )
     for name in ("contact face", "inner wall") if build.kind == "shoe" else ("contact face",):
-        rows.append((name, "STEP", "STEP", "profile 0.3 A B C"))
+        rows.append((name, "STEP", "STEP", "prof. 0.3 A B C"))
     columns = -(-len(rows) // _ROWS)
     step = 3.4 * 0.9 * 2.0 / max(2, columns)
     per = -(-len(rows) // columns)
     wide = 124.0 / max(2, columns)
     for n in range(columns):
         part = rows[n * per : (n + 1) * per]
-        widths = [0.34 * wide, 0.18 * wide, 0.18 * wide, 0.3 * wide]
+        widths = [0.33 * wide, 0.17 * wide, 0.17 * wide, 0.33 * wide]
         at = (410.0 - wide * (columns - n), 284.0)
         sheet.table(at, widths, [("Feature", "x to C", "y to B", "position"), *part], step)
 
@@ -285,17 +292,20 @@ def _inspection(sheet: Sheet, shoe: Shoe, build: ShoeBuild) -> None:
         rows.append(("slot of the board", f"{p.board_length + 2 * made.slide:g}", f"+{made.slide:g} 0", "the board"))
     if build.retention is not None and build.retention.kind == "straps":
         rows.append(("slot of each lug", f"{build.retention.width + 2:g} x {p.strap_thickness + 2:g}", "±0.5", "strap"))
-    head = ("Inspect", "nominal", "tolerance", "with", "measured")
-    sheet.table((230.0, 112.0), [36.0, 26.0, 22.0, 22.0, 20.0], [head, *((*row, "") for row in rows)], 4.0)
+    sheet.table(
+        (230.0, 112.0),
+        [36.0, 26.0, 22.0, 22.0, 20.0],
+        [("Inspect", "nominal", "tolerance", "with", "measured"), *((*row, "") for row in rows)],
+        4.0,
+    )
 
 
 def _title(sheet: Sheet, shoe: Shoe, build: ShoeBuild, scale: str) -> None:
     p = build.parameters
     low = (230.0, 10.0)
     sheet.box(low, (410.0, 62.0), "OUTLINE")
-    name = shoe.layout.name
     rows = [
-        (("Title", f"{name}, {shoe.side} {build.kind}"), ("Part", f"{build.kind}_{shoe.side}.step")),
+        (("Title", f"{shoe.layout.name}, {shoe.side} {build.kind}"), ("Part", f"{build.kind}_{shoe.side}.step")),
         (("Material", f"{p.material}, {p.made_by.name}"), ("Scale", scale)),
         (("Tolerances", "ISO 2768-m, ISO 8015"), ("Sheet", "1 of 1, A3")),
         (("Surface", p.made_by.finish[:46]), ("Taxels", f"{len(shoe.layout)} of {build.fit.cell_area:g} mm²")),
@@ -312,4 +322,5 @@ def _title(sheet: Sheet, shoe: Shoe, build: ShoeBuild, scale: str) -> None:
     for radius in (1.6, 3.2):  # third angle
         sheet.line([(401.0 + radius * np.cos(a), 48.8 + radius * np.sin(a)) for a in np.linspace(0, 2 * np.pi, 25)])
     sheet.line([(390.0, 47.2), (396.0, 45.6), (396.0, 52.0), (390.0, 50.4), (390.0, 47.2)])
-    sheet.text((24.0, 12.0), "Lengths in mm. Datums: A printed lower face, B plane y = 0, C plane x = 0.", 2.0)
+    walls = f"; wall to plate r {p.fillet:g} in 3 facets, its inner edge {p.lead_in:g} x 45°" * (build.kind == "shoe")
+    sheet.text((24.0, 12.0), f"Lengths in mm. Datums: {_DATUMS}. Mark {p.mark_depth:g} deep{walls}.", 2.0)
