@@ -17,8 +17,8 @@ PAGES = [
     *(ROOT / "docs" / f"{name}.md" for name in ("start", "questions", "concepts")),
     *sorted((ROOT / "docs" / "tutorials").glob("*.md")),
 ]
-QUICK = {"concepts", "format", "part", "questions", "sensor", "task"}
-"""Pages that take a second; the others walk, build or analyse, and run with the long tests."""
+QUICK = {"concepts", "format", "loop", "part", "questions", "sensor", "task"}
+"""Pages that take a few seconds at most; the others walk, build or analyse, and run with the long tests."""
 BLOCK = re.compile(r"^```(python|sh)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 

@@ -23,7 +23,7 @@ from plantar.sensing.reading import Reading
 __all__ = ["BoundSkin", "SkinReading"]
 
 _LIFT = 0.02  # m inside the body at which proximity rays begin
-_MOST_DATA = 4096
+_MOST_DATA = 64  # whose contacts it keeps in view, and so in memory, unless more are read at once
 
 
 class SkinReading(Reading):
@@ -98,6 +98,7 @@ class BoundSkin:
             np.ascontiguousarray(convex_hull(layout.positions[:, :2])),
         )
         self._views: dict[int, _View] = {}
+        self._most = _MOST_DATA
 
     def __len__(self) -> int:
         return len(self.layout)
@@ -107,9 +108,7 @@ class BoundSkin:
 
     def __call__(self, data: Any) -> SkinReading:
         """Read the skin after a step or `mj_forward`; InputError for another model's MjData."""
-        view = self._views.get(id(data))
-        if view is None:
-            view = self._look_in(data)
+        view = self._views.get(id(data)) or self._look_in(data)
         load = view.load()
         proximity = None if self._range is None else self._distances(view)
         return _made(
@@ -142,6 +141,7 @@ class BoundSkin:
             Force (b, n, 3) on each taxel in N and wrench (b, 6), sole frame.
         """
         vectors, wrenches = np.empty((len(datas), len(self), 3)), np.empty((len(datas), 6))
+        self._most = max(self._most, len(datas))
         views = [self._views.get(id(d)) or self._look_in(d) for d in datas]
 
         def work(start: int) -> None:
@@ -209,7 +209,7 @@ class BoundSkin:
             and other.names == model.names
         ):
             raise InputError("the data are of another model than the skin was bound to; bind it to that model")
-        if len(self._views) >= _MOST_DATA:
+        if len(self._views) >= self._most:
             self._views.pop(next(iter(self._views)))
         view = self._views[id(data)] = _View(self, data)
         return view

@@ -1,6 +1,7 @@
 """Skin on models of many kinds: its taxels' forces against MuJoCo's own contact forces."""
 
 import pickle
+import sys
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
@@ -216,6 +217,18 @@ def test_data_of_another_model_are_refused(make_box):
         Skin(body="foot").bind(swapped[0])(mujoco.MjData(swapped[1]))
     with pytest.raises(InputError, match="got a str"):
         feel("data")
+
+
+def test_old_data_are_not_kept(make_box):
+    model = mujoco.MjModel.from_xml_string(make_box())
+    feel, first = Skin(body="foot").bind(model), mujoco.MjData(model)
+    feel(first)
+    held = sys.getrefcount(first)
+    for _ in range(100):
+        feel(mujoco.MjData(model))
+    assert sys.getrefcount(first) < held
+    feel.many([mujoco.MjData(model) for _ in range(100)])
+    assert len(feel._views) == 100
 
 
 def test_a_bound_skin_and_data_can_be_sent_to_another_process(make_box):
