@@ -25,14 +25,13 @@ from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled
 from plantar.sim.survey.robot_text import roll_pitch_yaw
 from plantar.sim.survey.servo_gains import LEAST_STIFFNESS, joint_inertia, servo_gains
 from plantar.sim.survey.sole_frame import level_axes, rested
-from plantar.sim.survey.step_search import HELD
+from plantar.sim.survey.step_search import HELD, SPARE
 
 __all__ = ["Finding", "RobotCheck", "check_robot"]
 
 _STEPS = 8  # of a longer walk: the others are as these
 _BENT = math.radians(8.0)  # of a knee: below it inverse kinematics damps, and the CoM is no longer free
 _MISSED = 0.01  # m by which feet or CoM may miss the plan: the three G1s walk with 3 to 5 mm
-_SPARE = math.radians(0.5)  # of a joint's range that feedback needs
 _TILT = math.radians(2.0)  # of a sole against the foot that it hangs on: a shoe gives way by about as much
 _BELOW = 2e-3  # m of a foot below its shoe's inner face: printer tolerance and rounded edges
 _APART = 0.05  # of the sole's width between two soles side by side
@@ -156,9 +155,9 @@ class _Checked:
             text += self._working_length() if works is None else f"com_height = {works:.3f} works"
         spare = min(float(reach.spare.min()), math.pi)
         joint = self.names[int(reach.spare.argmin())]
-        held = spare >= _SPARE or not holds
-        range_text = f"{joint} comes within {math.degrees(spare):.1f} degrees of its limit" + _unless(
-            held, f"; allowed: {math.degrees(_SPARE):.1f} or more: another com_height or stance_width, or a wider range"
+        held = spare >= SPARE or not holds
+        range_text = f"{joint} comes within {math.degrees(spare):.2f} degrees of its limit" + _unless(
+            held, f"; allowed: {math.degrees(SPARE):.1f} or more: another com_height or stance_width, or a wider range"
         )
         # Rocking legs lean with their soles until the CoM is over the sole's middle.
         half = 0.5 * (self.walked.feet["left"].y - self.walked.feet["right"].y)
@@ -170,7 +169,7 @@ class _Checked:
         return [
             Finding("level soles", round(roll, 2), round(math.degrees(most), 2), "degrees", level, roll_text),
             Finding("reach", round(bend, 2), math.degrees(_BENT), "degrees", holds, text),
-            Finding("joint range", round(math.degrees(spare), 2), math.degrees(_SPARE), "degrees", held, range_text),
+            Finding("joint range", round(math.degrees(spare), 2), math.degrees(SPARE), "degrees", held, range_text),
         ]
 
     def _working_height(self) -> float | None:

@@ -231,7 +231,7 @@ def _crouch(robot: Robot, legs: LegModel, body: BodyScale, asked: float) -> floa
     fits = 0.0
     for lower in _CROUCHES:
         found = plan_reach(robot, legs, straight_walk(robot, body, robot.com_height - lower * body.leg))
-        enough = found.missed <= _MISSED_CROUCHING and (lower <= _LEAST_CROUCH or float(found.spare.min()) >= SPARE)
+        enough = found.missed <= _MISSED_CROUCHING and float(found.spare.min()) >= SPARE
         held = max(_CROUCHED if lower <= _LEAST_CROUCH else HELD, 1.02 * asked)
         if not enough or bool((found.torque > held * limits).any()):
             break
