@@ -28,8 +28,8 @@ class MultiContactControl(FeatherControl):
 class MultiContact(PressedExperiment):
     """Pads press on thirteen instances in turn, then on all; 13 tasks of contact and 13 of proximity run (T 5.1).
 
-    The center of mass shares the support's level. Below the skin, as T 3.2.4.1 has it, the robot falls: a touched upper
-    arm takes six directions, of which shoulder and waist have five.
+    The center of mass shares the support's level. Below the skin, as T 3.2.4.1 has it, the robot falls, probably since
+    a touched upper arm takes six directions, of which shoulder and waist have five.
     """
 
     control_type: ClassVar = MultiContactControl
