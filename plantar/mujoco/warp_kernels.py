@@ -6,25 +6,21 @@ Numbers are float64, from MuJoCo Warp's float32 contacts. `wp.int32(0)` declares
 
 from __future__ import annotations
 
-from typing import Any
-
 try:
     import warp as wp
 except ImportError:  # then the functions are not called
     wp = None
 
-__all__ = ["Contacts", "Sole", "Work", "gather", "press"]
 
-
-def _as_it_is(function: Any) -> Any:
+def _as_it_is(function):
     return function
 
 
-_func: Any = _as_it_is if wp is None else wp.func
-_kernel: Any = _as_it_is if wp is None else wp.kernel
-_struct: Any = _as_it_is if wp is None else wp.struct
+_func, _kernel, _struct = 3 * (_as_it_is,) if wp is None else (wp.func, wp.kernel, wp.struct)
 if wp is not None:
     wp.set_module_options({"enable_backward": False})  # half of the time to compile
+
+__all__ = ["Contacts", "Sole", "Work", "gather", "press"]
 
 
 @_struct
@@ -103,8 +99,7 @@ def gather(sole: Sole, contacts: Contacts, work: Work):
     k = wp.atomic_add(work.size, world, 1)
     if k >= work.gap.shape[0]:
         return
-    local = wp.vec3d()
-    twist = wp.vec3d()
+    local, twist = wp.vec3d(), wp.vec3d()
     if contacts.address[i, 0] >= 0:
         dim = contacts.dim[i]
         for j in range(dim):
