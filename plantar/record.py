@@ -51,10 +51,10 @@ def constructed_by_kernel(cls: type[_Class]) -> type[_Class]:
         ... class Instant(Fields):
         ...     def __init__(self, time: float) -> None: ...
         >>> Instant(0.5).time, str(inspect.signature(Instant))
-        (0.5, "(time: 'float') -> 'None'")
+        (0.5, '(time: float) -> None')
     """
-    told = inspect.signature(vars(cls)["__init__"])
-    parameters = list(told.parameters.values())[1:]
-    cls.__signature__ = told.replace(parameters=parameters)  # type: ignore[attr-defined]
+    signature = inspect.signature(vars(cls)["__init__"])
+    parameters = list(signature.parameters.values())[1:]
+    cls.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
     del cls.__init__
     return cls
