@@ -19,7 +19,7 @@ import math
 import numpy as np
 
 from plantar.gait.plan.vrp_plan import LipReference, VrpPlan
-from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.gait.plan.walk_plan import PlanView, WalkPlan
 from plantar.mechanics.same_time import SAME_TIME
 
 __all__ = ["LegMomentum"]
@@ -43,7 +43,8 @@ class LegMomentum:
     def __init__(self, plan: WalkPlan, omega: float, inertia: float, arrived: float) -> None:
         self._plan, self._omega, self._inertia, self._arrived = plan, omega, inertia, arrived
         self._shift = VrpPlan((0.0, _FADES), np.zeros((2, 2)), omega)
-        self._view, self._until = None if inertia else plan.view, math.inf
+        self._view: PlanView | None = None  # of which the shift was solved
+        self._until = math.inf
 
     def at(self, time: float) -> LipReference:
         """The shift at a time in s, its VRP that of the swinging leg alone."""

@@ -18,12 +18,11 @@ _LEAST_OVER = 0.08
 
 _MOST_OVER = 0.5  # Share beyond which it is no foothold with an edge any more
 
+# Landings in a row of one foot, alike, by which a walk that bears partial footholds has drifted off its way: one such
+# foothold is a stone's shape.
 _DRIFT = 3
-"""Landings in a row of one foot, alike, by which a walk that bears partial footholds has drifted off its way: one such
-foothold is a stone's shape."""
 
-_ALIKE = 0.08
-"""Of a sole's width, by which the moves for them differ at most: half a row of taxels, and noise."""
+_ALIKE = 0.08  # Of a sole's width, by which the moves for them differ at most: half a row of taxels, and noise
 
 
 class EdgeBeside:

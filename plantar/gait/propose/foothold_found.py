@@ -49,7 +49,8 @@ class FootholdCarries:
         strip: SupportStrip,
         reach: float = math.inf,
     ) -> None:
-        self._rules, self._reach, self._middles, self._outlines, self._strip = rules, reach, middles, outlines, strip
+        self._rules, self._strip = rules, strip
+        self._reach, self._middles, self._outlines = reach, middles, outlines
         self._moved, self._moved_step = -math.inf, -1
         self._waiting: FootholdFound | None = None
         self._proposed: PlanChange | None = None
