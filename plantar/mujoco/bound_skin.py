@@ -9,7 +9,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import integer
+from plantar.arguments import integer, items
+from plantar.arrays import array
 from plantar.errors import InputError
 from plantar.geometry.polygon import convex_hull
 from plantar.kernels.contacts.foot_contacts import ContactsInSole, FootContacts
@@ -126,7 +127,8 @@ class BoundSkin:
         return Percept(self.layout, self(data))
 
     def pose(self, data: Any) -> SolePose:
-        """The sole frame in the world of an `MjData`."""
+        """The sole frame in the world of an `MjData`; InputError for another model's."""
+        data = (self._views.get(id(data)) or self._look_in(data)).data
         turn = data.xmat[self.body].reshape(3, 3)
         return SolePose(turn @ self.rotation_to_body, data.xpos[self.body] + turn @ self.position_in_body)
 
@@ -140,6 +142,7 @@ class BoundSkin:
         Returns:
             Force (b, n, 3) on each taxel in N and wrench (b, 6), sole frame.
         """
+        datas = items(datas, "datas")
         vectors, wrenches = np.empty((len(datas), len(self), 3)), np.empty((len(datas), 6))
         self._most = max(self._most, len(datas))
         views = [self._views.get(id(d)) or self._look_in(d) for d in datas]
@@ -169,18 +172,12 @@ class BoundSkin:
             InputError: If sizes are not the model's.
         """
         kind = mujoco.mjtState.mjSTATE_FULLPHYSICS
-        given = np.asarray(states, dtype=np.float64)
-        size = mujoco.mj_stateSize(self.model, kind)
-        if given.ndim < 1 or given.shape[-1] != size:
-            raise InputError(f"states have shape {given.shape}; expected (..., {size}), the full physics state")
+        given = array(states, "states", (..., mujoco.mj_stateSize(self.model, kind)))
         lead = given.shape[:-1]
-        flat = np.ascontiguousarray(given.reshape(-1, size))
+        flat = np.ascontiguousarray(given.reshape(-1, given.shape[-1]))
         control = None
         if controls is not None:
-            control = np.asarray(controls, dtype=np.float64)
-            if control.shape != (*lead, self.model.nu):
-                raise InputError(f"controls have shape {control.shape}; expected {(*lead, self.model.nu)}")
-            control = control.reshape(-1, self.model.nu)
+            control = array(controls, "controls", (*lead, self.model.nu)).reshape(-1, self.model.nu)
         vectors, wrenches = np.empty((len(flat), len(self), 3)), np.empty((len(flat), 6))
         threads = min(integer(threads, "threads", 1), max(len(flat), 1))
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.arguments import instance
 from plantar.errors import SceneError
 from plantar.gait.command import Command, JointTargets, Sensors
 from plantar.gait.contact.foot_contacts import middle_of_sole
@@ -101,7 +102,7 @@ def load_controller(
     own = load_robot(robot)
     legs = build_leg_model(own)
     body = body_of(own, legs.model)
-    given = dict(tables or {})
+    given = dict(instance(tables or {}, Mapping, "tables", SceneError))
     refuse_unknown_keys(given, ("walk", "control", *CONTROLLER_TABLES), "load_controller", SceneError)
     walk = Walk.from_table(given.pop("walk", {}), "[walk]", SceneError).for_body(body)
     control = Control.from_table(given.pop("control", {}), "[control]", SceneError).for_body(body)

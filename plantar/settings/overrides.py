@@ -18,7 +18,7 @@ def split_setting(setting: str) -> tuple[str, str]:
     Raises:
         SceneError: If malformed.
     """
-    key, equals, text = setting.partition("=")
+    key, equals, text = str(setting).partition("=")
     if not equals or not key.strip():
         raise SceneError(f"setting {setting!r} is not of the form key=value, such as steps=4")
     return key.strip(), text.strip()

@@ -64,6 +64,9 @@ def test_an_object_is_of_its_class():
         ("view", (None,), "recordings are None; expected a list"),
         ("run", ("flat", -1), "seed is -1; allowed: a whole number, 0 or more"),
         ("run", ("flat", 1.5), "seed is 1.5"),
+        ("run", (None,), "scene is None; expected a path"),
+        ("load_scene", ("flat", [3]), "setting 3 is not of the form key=value"),
+        ("load_controller", ("h1", [1]), "tables are a list; expected a Mapping"),
     ],
 )
 def test_doors_refuse_what_is_no_path_or_seed(door, arguments, words):

@@ -110,6 +110,5 @@ def run(
         >>> run("flat", 0)["completed"]  # doctest: +SKIP
         True
     """
-    if isinstance(scene, str | os.PathLike):
-        scene = open_scene(scene)
-    return simulation_of(scene, integer(seed, "seed", 0)).run_to_files(record, video, plot, progress)
+    found: Any = scene if hasattr(scene, "robot") else open_scene(scene)
+    return simulation_of(found, integer(seed, "seed", 0)).run_to_files(record, video, plot, progress)
