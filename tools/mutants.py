@@ -30,7 +30,10 @@ MODULE, SOURCE = "PLANTAR_MUTANT_MODULE", "PLANTAR_MUTANT_SOURCE"
 
 _JUDGED = ("verdict", "step_count", "joint_limits", "push_truth", "recovery", "summary_truth")
 ROOMS: dict[str, tuple[str, ...]] = {
-    "plantar/sim/judging": tuple(f"tests/sim/judging/test_{name}.py" for name in _JUDGED),
+    "plantar/sim/judging": (
+        *(f"tests/sim/judging/test_{name}.py" for name in _JUDGED),
+        "tests/robots/test_leg_shapes.py",
+    ),
     "plantar/gait/controller.py": (
         "tests/gait/test_controller.py",
         "tests/sim/judging/test_summary_truth.py",
@@ -124,7 +127,7 @@ def _left_alone(tree: ast.AST) -> Iterator[ast.AST]:
             roots = [node.annotation]
         elif isinstance(node, ast.Module | ast.ClassDef):
             roots = [line.value for line in node.body if isinstance(line, ast.Assign | ast.AnnAssign)]
-            roots += node.keywords if isinstance(node, ast.ClassDef) else []
+            roots += [*node.keywords, *node.decorator_list] if isinstance(node, ast.ClassDef) else []
         elif isinstance(node, ast.Expr | ast.If | ast.Assign) and _is_no_logic(node):
             roots = [node]
         elif isinstance(node, ast.keyword) and node.arg == "strict":  # of zip: a guard, as an assertion

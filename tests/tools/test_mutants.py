@@ -25,6 +25,10 @@ def clipped(x: float, side: str = "left") -> float:
     total += 1
     print(total)
     return total - x
+
+@dataclass(frozen=True)
+class Point(Base, slots=False):
+    x: float = 2.0
 '''
 
 
@@ -47,7 +51,10 @@ def test_every_kind_of_change_is_made_and_nothing_that_is_no_logic():
     ):
         assert change in changes
     assert not any(
-        m.change.startswith("2.0") or "too large" in m.change or "x + 1" in m.change or "Docs" in m.change
+        m.change.startswith(("2.0", "True", "False"))
+        or "too large" in m.change
+        or "x + 1" in m.change
+        or "Docs" in m.change
         for m in found
     )
     plain = ast.unparse(ast.parse(SOURCE))

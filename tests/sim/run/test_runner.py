@@ -85,6 +85,9 @@ def test_the_recording_tells_the_walk(short_run):
     force = skin.fields["force"].sum(axis=1)
     truth = np.interp(skin.time, run.topics["/truth/left"].time, run.topics["/truth/left"].fields["normal_force"][:, 0])
     assert np.median(np.abs(force - truth)) < 3 * 1.4715 * np.sqrt(42)
+    # After the walk the feet do not press against each other by their edges: each carries half.
+    last = [run.topics[f"/truth/{side}"].fields["normal_force"][-1, 0] for side in ("left", "right")]
+    assert last[0] / sum(last) == pytest.approx(0.5, abs=0.05)
 
 
 def test_a_fall_is_seen_and_ends_the_run():

@@ -1,11 +1,12 @@
 """Heel strikes and toe offs against contacts that are known."""
 
 from collections.abc import Callable
+from typing import get_args
 
 import numpy as np
 import pytest
 
-from plantar.gait.analysis.steps.events import find_contacts, force_levels
+from plantar.gait.analysis.steps.events import Kind, find_contacts, force_levels
 
 from ..walks import two_humps
 
@@ -35,6 +36,10 @@ def test_half_sine_contacts_are_timed_between_samples(rate):
 def test_levels_follow_the_foot(scale, rest):
     time, force = steps(peak=700.0 * scale, rest=700.0 * scale * rest)
     assert [c.complete for c in find_contacts(time, force)] == [True] * 5
+    for kind in get_args(Kind):
+        found, usual = force_levels(force, kind), force_levels(force / scale, kind)
+        assert found.release == pytest.approx(scale * usual.release)
+        assert found.rest == pytest.approx(scale * usual.rest)
 
 
 def toe_offs(course: Callable[[np.ndarray], np.ndarray], rate: float, stride: float) -> tuple[np.ndarray, np.ndarray]:
