@@ -77,6 +77,10 @@ def test_feet_at_rest_give_way_to_what_they_press_against_each_other_alone(off):
     else:
         assert rolls == pytest.approx([0.0, 0.0], abs=1e-9)
         assert [actions[side].pitch for side in ("left", "right")] == pytest.approx([0.0, 0.0], abs=1e-9)
+    for zmp, rests in ((None, True), (middle, False)):
+        other = DcmBalance(BalanceGains(), OMEGA, MASS, PERIOD)
+        balanced = other.update(still, middle, zmp, np.empty((0, 2)))
+        assert [foot.roll for foot in other.act(balanced, feet.changed(rests=rests)).values()] == [0.0, 0.0]
 
 
 def test_gains_are_checked():
