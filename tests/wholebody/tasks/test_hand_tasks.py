@@ -66,7 +66,7 @@ def test_weight_of_a_half_counts_force_and_distance_alike(robot, skin):
 def test_nearing_is_as_fast_as_it_may_be_and_no_faster(robot, skin):
     """At the approach speed nothing is asked for, however far the surface is and however stiff a free hand is."""
     for free in (0.0, 500.0):
-        hand = task(skin, distance_stiffness=1e4, damping=100.0, free_damping=free)
+        hand = task(skin, distance_stiffness=1e4, damping=100.0, free_damping=free, gain=2.5)
         hand.approach_speed = 0.05
         robot.update(np.zeros(3), np.array([0.05, 0.0, 0.0]), 0.0)
         assert asked(hand, robot, felt()) == pytest.approx(0.0, abs=1e-9)

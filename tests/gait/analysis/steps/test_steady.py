@@ -1,11 +1,14 @@
 """Which steps are in the means, and what is said of the others."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from plantar import InputError
 from plantar.gait.analysis.options import AnalysisOptions, steps_of_text
 from plantar.gait.analysis.parameters import analyse_feet
+from plantar.gait.analysis.steps.steady import with_used_steps
 from plantar.gait.analysis.summary import summary_of_foot
 
 from ..walks import made_walk
@@ -24,6 +27,10 @@ def test_steps_that_start_and_stop_a_walk_are_not_in_its_means():
     assert all_contact.mean > 1.1 * contact.mean
     assert all_contact.median == pytest.approx(contact.median, rel=0.02)
     assert any("steady walking of the left foot is steps 2-8: 1, 9 start or stop" in w for w in steady.warnings)
+    # On a plate no step starts a walk, and four steps do not show what is usual.
+    few = replace(everything, steps=everything.steps[:4])
+    for gait, kind in ((everything, "platform"), (few, "robot")):
+        assert len(with_used_steps(gait, AnalysisOptions(), kind).used) == len(gait.steps)
 
 
 def test_an_odd_step_within_the_walk_is_said_and_stays():
