@@ -259,8 +259,7 @@ def draw(axis: Any, walk: str, shares: dict[tuple[int, float], float], missed: s
     axis.set_facecolor("#dddddd")
     axis.set_xticks(range(len(DIRECTIONS)), [f"{a}" for a in DIRECTIONS], fontsize=8)
     axis.set_yticks(range(len(PHASES)), [f"{p:g}" for p in PHASES], fontsize=8)
-    axis.set_xlabel("direction [deg], 0 forward, 90 left")
-    axis.set_ylabel("phase of the step, left foot swings")
+    axis.set(xlabel="direction [deg], 0 forward, 90 left", ylabel="phase of the step, left foot swings")
     axis.set_title(f"{walk}: largest survived push over the bound", fontsize=9)
     for i, angle in enumerate(DIRECTIONS):
         for j, phase in enumerate(PHASES):

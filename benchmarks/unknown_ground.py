@@ -122,8 +122,7 @@ def report() -> None:
         axis.plot([i - 0.4, i + 0.4], [np.mean(mean)] * 2, color=colour, lw=2.5)
     labels = [", ".join(case).replace(", ", "\n").replace(" ", "\n", 1) for case in names]
     axis.set_xticks(range(len(names)), labels, fontsize=8)
-    axis.set_ylabel("impact [body weights]")
-    axis.set_yscale("log")
+    axis.set(ylabel="impact [body weights]", yscale="log")
     axis.grid(axis="y", alpha=0.3)
     save_figure(figure, FOLDER / "unknown_ground.png")
 

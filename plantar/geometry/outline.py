@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import instance, items
+from plantar.arguments import items
 from plantar.arrays import array, integers, own, read_only
 from plantar.errors import InputError
-from plantar.geometry.enclosing import bounding_box
 from plantar.kernels.geometry.outline import Rings, area_and_centroid
 from plantar.kernels.geometry.outline import ring_areas as areas_of_rings
 from plantar.layouts.cell_edges import EdgeTable, edge_table
@@ -21,7 +20,7 @@ from plantar.layouts.taxel_values import taxel_mask
 from plantar.lazy import lazy
 from plantar.plane_points import plane_points
 
-__all__ = ["Outline", "concave_outline", "feet_outline"]
+__all__ = ["Outline", "concave_outline"]
 
 _BOOL = np.dtype(np.bool_)
 
@@ -192,31 +191,6 @@ def concave_outline(layout: SoleLayout, active: ArrayLike) -> Outline:
         return _union([layout.cell_polygon(int(i)) for i in np.flatnonzero(chosen)])
     outline: Outline = table.rings(chosen.tobytes(), Outline)
     return outline
-
-
-def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:
-    """Outline of all feet's contact in one frame (T 4.25).
-
-    Args:
-        outlines_in_world: Outline of each foot in world frame in m; empty in the air.
-
-    Returns:
-        All rings together; where the boxes of two feet overlap, shapely's union.
-
-    Raises:
-        InputError: Not outlines.
-    """
-    parts = [o for o in (instance(o, Outline, "outline") for o in items(outlines_in_world, "outlines")) if len(o)]
-    boxes = [bounding_box(o.points).tolist() for o in parts]
-    for i, ((x1, y1), _, (x2, y2), _) in enumerate(boxes):
-        if any(x1 <= b[2][0] and b[0][0] <= x2 and y1 <= b[2][1] and b[0][1] <= y2 for b in boxes[:i]):
-            return _union([island for o in parts for island in o.islands])
-    sizes = (b - a for o in parts for a, b in pairwise(o.starts))
-    return Outline._of(
-        np.concatenate([np.empty((0, 2)), *(o.points for o in parts)]),
-        [0, *accumulate(sizes)],
-        [area for o in parts for area in o.ring_areas],
-    )
 
 
 def _union(parts: Sequence[NDArray[np.float64] | tuple[NDArray[np.float64], ...]]) -> Outline:

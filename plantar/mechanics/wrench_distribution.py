@@ -25,7 +25,7 @@ from plantar.errors import InputError
 from plantar.kernels.mechanics.wrench_program import WrenchProgram
 from plantar.mechanics.contact import Contact, Contacts
 from plantar.mechanics.wrench_cone import Rectangle, cone_rows
-from plantar.mechanics.zmp import zmp_of_wrench
+from plantar.mechanics.zmp import zmp_in_plane
 from plantar.record import Record
 
 __all__ = ["DistributionState", "DistributionWeights", "Program", "WrenchDistribution", "WrenchShare"]
@@ -94,7 +94,7 @@ class WrenchShare(Record, frozen=True):
 
     def center_of_pressure(self, name: str) -> NDArray[np.float64] | None:
         """Center of pressure (2,) of a contact in its frame in m; None without load (below 1 mN)."""
-        return zmp_of_wrench(self.wrenches[name], 1e-3)
+        return zmp_in_plane(self.wrenches[name], minimum_force=1e-3)
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from plantar.arrays import array
 from plantar.errors import InputError
 from plantar.plane_points import plane_point
 
-__all__ = ["centroidal_moment_pivot", "zero_moment_wrench", "zmp_in_plane", "zmp_of_feet", "zmp_of_wrench"]
+__all__ = ["centroidal_moment_pivot", "zero_moment_wrench", "zmp_in_plane", "zmp_of_feet"]
 
 
 def zmp_in_plane(wrench: ArrayLike, height: float = 0.0, minimum_force: float = 0.0) -> NDArray[np.float64] | None:
@@ -108,26 +108,6 @@ def centroidal_moment_pivot(
         return None
     pivot = (x - fx / fz * (z - height), y - fy / fz * (z - height))
     return np.array(pivot) if math.isfinite(pivot[0]) and math.isfinite(pivot[1]) else None
-
-
-def zmp_of_wrench(wrench: ArrayLike, minimum_force: float = 0.0) -> NDArray[np.float64] | None:
-    """`zmp_in_plane` at z = 0, for a force-torque sensor; None also for NaN or inf.
-
-    Args:
-        wrench: Wrench (6,) about frame's origin.
-        minimum_force: Vertical force in N above 0 below which there is no ZMP.
-
-    Returns:
-        Position (2,) in m, or None.
-
-    Raises:
-        InputError: Wrench not (6,).
-    """
-    _, _, fz, tx, ty, _ = array(wrench, "wrench", (6,)).tolist()
-    if not (fz >= number(minimum_force, "minimum force") and 0.0 < fz < math.inf):
-        return None
-    x, y = -ty / fz, tx / fz
-    return np.array([x, y]) if math.isfinite(x) and math.isfinite(y) else None
 
 
 def zmp_of_feet(points: Sequence[ArrayLike | None], vertical_forces: Sequence[float]) -> NDArray[np.float64] | None:

@@ -1,4 +1,4 @@
-"""Sole poses in the world, and two soles' joint wrench and ZMP."""
+"""Sole poses in the world, and two soles' joint wrench."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,10 +16,9 @@ from plantar.kernels.geometry import convex as _kernel
 from plantar.layouts.layout import SoleLayout
 from plantar.lazy import lazy
 from plantar.mechanics.rotation import level_rotation
-from plantar.mechanics.zmp import zmp_in_plane
 from plantar.plane_points import plane_points
 
-__all__ = ["SolePose", "feet_support_polygon", "polygon_in_world", "wrench_of_feet", "zmp_of_soles"]
+__all__ = ["SolePose", "feet_support_polygon", "polygon_in_world", "wrench_of_feet"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,41 +133,13 @@ def wrench_of_feet(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePo
     Raises:
         InputError: Not one pose a wrench.
     """
-    return np.asarray(sum(_turned(wrenches_in_sole, poses)))
-
-
-def _turned(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose]) -> list[NDArray[np.float64]]:
     wrenches, places = items(wrenches_in_sole, "wrenches"), items(poses, "poses")
     if len(wrenches) != len(places) or not places:
         raise InputError(f"{len(wrenches)} wrenches and {len(places)} poses; expected one pose a wrench")
     turned = [instance(p, SolePose, "pose").wrench_to_world(w) for w, p in zip(wrenches, places, strict=True)]
     if any(w.shape != turned[0].shape for w in turned):
         raise InputError(f"wrenches have shapes {', '.join(str(w.shape) for w in turned)}; expected the same")
-    return turned
-
-
-def zmp_of_soles(
-    wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose], height: float = 0.0, minimum_force: float = 0.0
-) -> NDArray[np.float64] | None:
-    """Composite ZMP (2,) of the soles in a horizontal plane in m (T 4.7-4.8), also tilted.
-
-    Args:
-        wrenches_in_sole: Wrench (6,) of each sole about its own origin in N and N m, zero in the air; pulls are left
-            out.
-        poses: Pose of each sole.
-        height: Height of plane in world in m.
-        minimum_force: Vertical force in N below which there is no ZMP; any load counts by default.
-
-    Returns:
-        ZMP, or None without load.
-
-    Raises:
-        InputError: Not one pose a wrench (6,).
-    """
-    turned = _turned(wrenches_in_sole, poses)
-    if turned[0].shape != (6,):
-        raise InputError(f"wrenches have shape {turned[0].shape}; expected (6,)")
-    return zmp_in_plane(np.sum([w for w in turned if not w[2] <= 0.0] or [np.zeros(6)], axis=0), height, minimum_force)
+    return np.asarray(sum(turned))
 
 
 def polygon_in_world(

@@ -102,9 +102,7 @@ def _draw_time(axis: Any, run: Recording, view: _View) -> None:
             drawn = True
     axis.plot(clock, zmp, color=COLOURS["left"], lw=0.6, label="ZMP true $p$")
     axis.plot(clock, wanted, color=COLOURS["active"], lw=0.9, label="ZMP desired $p_d$")
-    axis.set_xlabel("time [s]")
-    axis.set_ylabel(AXES[along])
-    axis.set_xlim(clock[0], clock[-1])
+    axis.set(xlabel="time [s]", ylabel=AXES[along], xlim=(clock[0], clock[-1]))
     axis.grid(alpha=0.3)
     axis.legend(fontsize=7, ncol=3, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
 
@@ -157,9 +155,7 @@ def draw_zmp_plane(run: Recording) -> Any:
     for name, colour, width in (("force_torque", COLOURS["left"], 1.2), ("skin", COLOURS["right"], 0.8)):
         label = "ZMP, ankles" if name == "force_torque" else "ZMP, skin"
         axis.plot(*topic.fields[name][counts].T, color=colour, lw=width, label=label)
-    axis.set_aspect("equal")
-    axis.set_xlabel("x [m]")
-    axis.set_ylabel("y [m]")
+    axis.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
     axis.legend(fontsize=8)
     axis.grid(alpha=0.3)
     return figure

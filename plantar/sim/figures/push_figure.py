@@ -201,8 +201,7 @@ def draw_guide(run: Recording) -> Any:
     turned = np.degrees(arm.fields["position"] - arm.fields["posture"])
     for k in np.flatnonzero(np.abs(turned).max(axis=0) > _TURNED).tolist():
         axes[2].plot(arm.time, turned[:, k], lw=1.0, label=f"joint {k + 1}")
-    axes[2].set_ylabel("arm, out of its posture [deg]")
-    axes[2].set_xlabel("time [s]")
+    axes[2].set(ylabel="arm, out of its posture [deg]", xlabel="time [s]")
     if axes[2].lines:
         axes[2].legend(ncol=7, fontsize=8, title="from the shoulder", title_fontsize=8)
     for axis in axes:

@@ -62,8 +62,7 @@ def _balance(run: Recording) -> Any:
     axes[2].plot(time, tilt, color=COLOURS["truth"], label="torso tilt [deg]")
     margin = 100.0 * run.values("/truth/body", "zmp_margin")[:, 0]
     axes[2].plot(time, margin, color=COLOURS["polygon"], lw=0.8, label="true ZMP margin [cm]")
-    axes[2].set_xlabel("time [s]")
-    axes[2].set_ylabel("deg, cm")
+    axes[2].set(xlabel="time [s]", ylabel="deg, cm")
     axes[2].grid(alpha=0.3)
     axes[2].legend(fontsize=8)
     return figure
@@ -112,8 +111,7 @@ def _feet(run: Recording) -> Any:
             time, 1e3 * run.values(f"/truth/{side}", "position")[:, 2], color=COLOURS[side], lw=0.9, label=side
         )
     axes[0].set_ylabel("ground force [N]\n(thin: as the taxels measure it)")
-    axes[1].set_ylabel("sole height [mm]")
-    axes[1].set_xlabel("time [s]")
+    axes[1].set(ylabel="sole height [mm]", xlabel="time [s]")
     for axis in axes:
         axis.grid(alpha=0.3)
         axis.legend(fontsize=8)

@@ -40,7 +40,5 @@ class WalkPlane:
         (x, y), low, high = self.turn, self.low, self.high
         axis.set_xlim(low[x], high[x])
         axis.set_ylim(*((high[y], low[y]) if x else (low[y], high[y])))
-        axis.set_aspect("equal")
-        axis.set_xlabel(AXES[x])
-        axis.set_ylabel(AXES[y])
+        axis.set(aspect="equal", xlabel=AXES[x], ylabel=AXES[y])
         axis.legend(ncol=7, fontsize=7, loc="lower center", bbox_to_anchor=(0.5, 1.01), frameon=False)

@@ -53,9 +53,7 @@ def bars_of(points: Sequence[Mapping[str, Any]], scene: str) -> Any:
         axis.set_xticks(range(len(points)), names, fontsize=7)
     else:  # no room for words
         axis.set_xlabel("grid point, counted from 0 in the order of the settings")
-    axis.set_ylim(0.0, 112.0)
-    axis.set_ylabel("completed runs [%], 95 % intervals")
-    axis.set_title(f"scene '{scene}'")
+    axis.set(ylim=(0.0, 112.0), ylabel="completed runs [%], 95 % intervals", title=f"scene '{scene}'")
     return figure
 
 
@@ -80,8 +78,7 @@ def _limits(plan: LimitSearch, limits: Sequence[Mapping[str, Any]], rows: Rows) 
             axis.set_title(
                 f"{words}: limit {found['limit']:.3g}{unit} ({low:.3g} to {high:.3g}), {found['runs']} runs", fontsize=9
             )
-        axis.set_ylim(-8.0, 108.0)
-        axis.set_ylabel("completed runs [%]")
+        axis.set(ylim=(-8.0, 108.0), ylabel="completed runs [%]")
         axis.legend(fontsize=7, loc="center left" if curve.rising else "center right")
     axes[-1, 0].set_xlabel(f"{plan.limit.name}{f' [{plan.limit.unit}]' if plan.limit.unit else ''}")
     return figure
@@ -129,8 +126,7 @@ def _map(plan: Plan, rows: Rows) -> Any:
     figure.colorbar(image, label="completed runs [%]")
     axis.set_xticks(range(len(names_x)), names_x, fontsize=7)
     axis.set_yticks(range(len(names_y)), names_y, fontsize=7)
-    axis.set_xlabel(name_x)
-    axis.set_ylabel(name_y)
+    axis.set(xlabel=name_x, ylabel=name_y)
     axis.set_title(f"scene '{plan.checked.scene}', 95 % intervals", fontsize=10)
     return figure
 

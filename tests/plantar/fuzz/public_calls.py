@@ -351,7 +351,6 @@ def _of_mechanics() -> list[Call]:
             com=Argument(com.value, (...,), "com", nan=True),
             com_velocity=Argument(com.value, (...,), "velocity com", nan=True),
         ),
-        _call(zmp.zmp_of_wrench, wrench=one),
         _call(zmp.zmp_in_plane, wrench=one),
         _call(zmp.zero_moment_wrench, wrench=one),
         _call(
@@ -561,7 +560,6 @@ def _of_objects(sole: SoleLayout) -> list[Call]:
         Call(
             "sole_pose.wrench_of_feet", lambda wrench: sole_pose.wrench_of_feet([wrench, _WRENCH], [pose, pose]), feet
         ),
-        Call("sole_pose.zmp_of_soles", lambda wrench: sole_pose.zmp_of_soles([wrench, _WRENCH], [pose, pose]), feet),
         _call(
             partial(outline.Outline, starts=[0, 5], ring_areas=shape.ring_areas),
             points=Argument(_RING, (5, 2), "points outline"),

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from plantar.bench import references as exact
 from plantar.geometry import enclosing, inscribed, polygon
-from plantar.geometry.outline import concave_outline, feet_outline
+from plantar.geometry.outline import concave_outline
 
 from .soles import Block, numbers
 
@@ -61,11 +61,10 @@ def _percept_support(block: Block) -> None:
 
 
 def _percept_outline(block: Block) -> None:
-    """Concave outline: its area is that of the cells, no more than that of the hull; moved and joined outlines."""
+    """Concave outline: its area is that of the cells, no more than that of the hull; moved outlines."""
     layout = block.layout
     turn, shift = block.pose.rotation_sole_to_world, block.pose.position_in_world
     cells = np.array([abs(polygon.area(layout.cell_polygon(i))) for i in range(len(layout))])
-    before, area_before = None, 0.0
     for active, percept in zip(block.active, block.percepts, strict=True):
         outline, wanted = percept.concave_outline_in_sole, float(active @ cells)
         assert outline.area == pytest.approx(wanted, rel=1e-12)
@@ -76,10 +75,6 @@ def _percept_outline(block: Block) -> None:
         reach = (float(np.abs(shift).max()) + 1.0) * (float(np.ptp(outline.points, axis=0).max()) if wanted else 1.0)
         rounding = 1e-12 * wanted + 64.0 * 2.3e-16 * reach * (len(outline.points) + 1)
         assert outline.moved(turn, shift).area == pytest.approx(wanted, abs=rounding)
-        if before is not None:
-            both = feet_outline([before, outline.moved(np.eye(2), [3.0, 0.0])])
-            assert both.area == pytest.approx(area_before + wanted, rel=1e-9)
-        before, area_before = outline, wanted
         assert concave_outline(layout, np.ascontiguousarray(active)).area == outline.area
 
 

@@ -239,28 +239,6 @@ def test_rectangle_in_outline_is_no_smaller_than_a_search_finds(seed):
     assert shapely.Polygon(corners).difference(as_shape(outline)).area <= 1e-12
 
 
-@settings(max_examples=20)
-@given(seeds)
-def test_no_rectangle_nearby_or_elsewhere_is_larger(seed):
-    outline = random_contact(seed)
-    corners = rectangle_in_outline(outline)
-    shape = as_shape(outline)
-    shapely.prepare(shape)
-    rng = np.random.default_rng(seed)
-    for spread in (1e-2, 1e-3, 1e-5, 1e-8):
-        trial = np.concatenate([corners[0], corners[2]]) + rng.normal(0.0, spread, (200, 4))
-        larger = (trial[:, 2] - trial[:, 0]) * (trial[:, 3] - trial[:, 1]) > area(corners) * (1 + 1e-11)
-        larger &= trial[:, 2] > trial[:, 0]
-        assert not shapely.covers(shape, shapely.box(*trial[larger].T)).any()
-
-
-@given(seeds)
-def test_rectangle_in_a_convex_outline_is_that_of_the_convex_polygon(seed):
-    hull = random_hull(seed)
-    expected = area(inscribed_rectangle(hull))
-    assert area(rectangle_in_outline(Outline.of_rings([hull]))) == pytest.approx(expected, rel=1e-11)
-
-
 @given(seeds)
 def test_rectangle_in_outline_of_the_transposed_outline_is_the_same(seed):
     outline = random_contact(seed)

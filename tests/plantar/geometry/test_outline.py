@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from plantar import hex_layout, kernels
 from plantar.errors import InputError, ReadingError
 from plantar.geometry.inscribed import rectangle_in_outline
-from plantar.geometry.outline import Outline, concave_outline, feet_outline
+from plantar.geometry.outline import Outline, concave_outline
 from plantar.layouts.cell_edges import edge_table
 from plantar.layouts.layout import SoleLayout
 
@@ -202,13 +202,6 @@ def test_an_unloaded_sole_has_an_empty_outline(sole):
     assert len(outline.moved(np.eye(2), [1.0, 0.0])) == 0
 
 
-def test_a_mask_that_does_not_fit_is_refused(sole):
-    with pytest.raises(ReadingError, match="mask of active taxels"):
-        concave_outline(sole, np.ones(len(sole) + 1, dtype=bool))
-    with pytest.raises(ReadingError, match="mask of active taxels"):
-        concave_outline(sole, np.ones(len(sole)))
-
-
 def test_a_layout_that_has_been_outlined_can_be_copied(sole):
     concave_outline(sole, np.ones(len(sole), dtype=bool))
     assert sole.kernel is not None  # compiled objects do not pickle; they are made anew
@@ -227,14 +220,6 @@ def test_a_moved_outline_keeps_its_area(angle, shift):
     assert moved.area == pytest.approx(outline.area, rel=1e-13 + 1e-13 * abs(shift) * 1e3)
     mirrored = outline.moved(np.diag([1.0, -1.0]), [0.0, 0.0])
     assert mirrored.area == pytest.approx(outline.area, rel=1e-14)
-
-
-def test_feet_that_overlap_count_once():
-    left = Outline.of_rings([[[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]]])
-    right = left.moved(np.eye(2), [0.1, 0.05])
-    assert feet_outline([left, right]).area == pytest.approx(0.035, rel=1e-12)
-    assert feet_outline([left, Outline.of_rings([])]).area == pytest.approx(0.02, rel=1e-12)
-    assert len(feet_outline([])) == 0
 
 
 SQUARE = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
@@ -281,7 +266,6 @@ def outlines(sole):
     yield "by hand", Outline(given, [0, 4], [1.0])
     yield "of a contact", concave_outline(sole, np.ones(len(sole), dtype=bool))
     yield "moved", Outline.of_rings([given]).moved(np.eye(2), [1.0, 0.0])
-    yield "of feet", feet_outline([Outline.of_rings([given])])
     given[:] = 7.0  # a change to what an outline was made of
 
 
@@ -316,8 +300,6 @@ def test_an_outline_keeps_what_it_is(sole):
         (lambda: Outline.of_rings([SQUARE]).moved(2.0 * np.eye(2), [0, 0]), "rotation"),
         (lambda: Outline.of_rings([SQUARE]).moved(np.eye(2), [0.0]), "translation"),
         (lambda: Outline.of_rings([SQUARE]).moved(np.eye(2), [0.0, np.nan]), "translation"),
-        (lambda: feet_outline([SQUARE]), "outline is a list; expected a Outline"),
-        (lambda: feet_outline(None), "outlines are None"),
     ],
 )
 def test_wrong_arguments_are_refused_by_name(call, text):
@@ -325,7 +307,9 @@ def test_wrong_arguments_are_refused_by_name(call, text):
         call()
 
 
-@pytest.mark.parametrize("mask", [np.ones((1, 5)), "all", None, [0, 4], np.ones((5, 1), dtype=bool)])
+@pytest.mark.parametrize(
+    "mask", [np.ones((1, 5)), np.ones(52, dtype=bool), np.ones(5), "all", None, [0, 4], np.ones((5, 1), dtype=bool)]
+)
 def test_a_mask_has_one_truth_value_a_taxel(sole, mask):
     with pytest.raises(ReadingError, match="mask of active taxels"):
         concave_outline(sole, mask)

@@ -6,7 +6,6 @@ import pytest
 import shapely
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from scipy.spatial import ConvexHull
 
 from plantar import InputError
 from plantar.bench.references import exact_hull
@@ -37,15 +36,6 @@ def cells_of_a_patch(seed: int) -> np.ndarray:
 # --- hull ---------------------------------------------------------------------------------------------------------
 
 
-@given(seeds, st.integers(4, 60))
-def test_hull_of_random_points_is_scipys(seed, n):
-    cloud = np.random.default_rng(seed).normal(size=(n, 2))
-    ours = convex_hull(cloud)
-    theirs = cloud[ConvexHull(cloud).vertices]  # counter-clockwise
-    start = int(np.flatnonzero((theirs == ours[0]).all(axis=1))[0])
-    assert ours.tolist() == np.roll(theirs, -start, axis=0).tolist()
-
-
 @given(seeds, st.floats(0.0, math.pi), coordinates)
 def test_hull_of_lattice_corners_keeps_true_corners_only(seed, angle, shift):
     """Whole rows of hexagon corners are collinear up to the last bit; the reference is the hull in exact integers."""
@@ -59,19 +49,6 @@ def test_hull_of_lattice_corners_keeps_true_corners_only(seed, angle, shift):
     key_of = {tuple(c): tuple(k) for c, k in zip(corners.tolist(), keys.tolist(), strict=True)}
     assert {key_of[tuple(p)] for p in got.tolist()} == expected
     assert len(got) == len(expected)
-
-
-@given(st.lists(points, max_size=20))
-def test_hull_holds_every_point_and_is_its_own_hull(cloud):
-    hull = convex_hull(np.array(cloud).reshape(-1, 2))
-    assert {tuple(p) for p in hull.tolist()} <= {(float(x), float(y)) for x, y in cloud}
-    extent = float(np.ptp(np.array(cloud), axis=0).max()) if cloud else 0.0
-    again = convex_hull(hull)
-    assert {tuple(p) for p in again.tolist()} <= {tuple(p) for p in hull.tolist()}
-    assert area(again) == pytest.approx(area(hull), abs=1e-8 * extent**2)
-    for p in cloud:
-        assert signed_margin(hull, p) >= -1e-8 * max(extent, 1e-300)
-    assert area(hull) >= 0.0
 
 
 @pytest.mark.parametrize(
@@ -150,18 +127,6 @@ def test_algorithm_1_as_printed_moves_an_inside_point():
     assert printed_algorithm_1(SQUARE, middle).tolist() == [0.5, 0.5]
 
 
-@given(seeds, st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0)))
-def test_closest_point_is_shapelys(seed, offset):
-    polygon = random_polygon(seed)
-    point = polygon.mean(axis=0) + np.array(offset)
-    got = closest_point(polygon, point)
-    region, here = shapely.Polygon(polygon), shapely.Point(point)
-    assert np.hypot(*(got - point)) == pytest.approx(region.distance(here), abs=1e-9)
-    assert region.distance(shapely.Point(got)) < 1e-9
-    if region.contains(here):
-        assert got.tolist() == point.tolist()
-
-
 @given(st.integers(1, 2), points)
 def test_closest_point_of_a_point_and_a_segment(k, point):
     got = closest_point(SQUARE[:k], point)
@@ -173,15 +138,6 @@ def test_closest_point_of_nothing():
 
 
 # --- margin -------------------------------------------------------------------------------------------------------
-
-
-@given(seeds, st.tuples(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5)))
-def test_margin_is_the_distance_to_the_boundary_with_a_sign(seed, offset):
-    polygon = random_polygon(seed)
-    point = polygon.mean(axis=0) + np.array(offset)
-    region, here = shapely.Polygon(polygon), shapely.Point(point)
-    expected = region.exterior.distance(here) * (1.0 if region.contains(here) else -1.0)
-    assert signed_margin(polygon, point) == pytest.approx(expected, abs=1e-9)
 
 
 def test_margin_without_area():

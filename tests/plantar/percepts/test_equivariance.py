@@ -7,7 +7,8 @@ import pytest
 
 from plantar import FeetPercept, Percept, Reading, SolePose, hex_layout, laid_over, layout_of_cells, mirrored
 from plantar.geometry.polygon import area
-from plantar.percepts.sole_pose import zmp_of_soles
+from plantar.mechanics.zmp import zmp_in_plane
+from plantar.percepts.sole_pose import wrench_of_feet
 
 OUTLINE = [[-0.08, -0.04], [0.15, -0.05], [0.16, 0.03], [-0.08, 0.04]]
 FLAT = hex_layout(OUTLINE)
@@ -94,7 +95,7 @@ def check(count, start=0):
             p.vertical_force == 0.0 or (pose.rotation_sole_to_world @ p.wrench_in_sole[:3])[2] > 0
             for p, pose in zip(soles, poses, strict=True)
         ):
-            again = zmp_of_soles([p.wrench_in_sole for p in soles], poses)
+            again = zmp_in_plane(wrench_of_feet([p.wrench_in_sole for p in soles], poses))
             assert (again is None) == (zmp is None)
             assert zmp is None or np.allclose(again, zmp, atol=1e-9 * max(1.0, np.abs(zmp).max()))
         if zmp is not None:
