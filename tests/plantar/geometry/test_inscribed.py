@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from plantar import hex_layout
 from plantar.bench.references import outline_rectangle_area, parallelogram_area, rectangle_area
 from plantar.errors import InputError
+from plantar.geometry.enclosing import bounding_box
 from plantar.geometry.inscribed import (
     inscribed_circle,
     inscribed_parallelogram,
@@ -19,6 +20,7 @@ from plantar.geometry.inscribed import (
     inscribed_triangle,
     rectangle_in_outline,
     rectangle_in_outline_any_angle,
+    safe_rectangle,
 )
 from plantar.geometry.outline import Outline, concave_outline
 from plantar.geometry.polygon import area, closest_point, convex_hull, inner_offset, signed_margin
@@ -278,3 +280,71 @@ def test_empty_and_tiny_outlines_have_rectangles():
     assert rectangle_in_outline_any_angle(Outline.of_rings([])).corners.shape == (0, 2)
     far = np.array([[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]]) + 1e6
     assert area(rectangle_in_outline(Outline.of_rings([far]))) == pytest.approx(0.02, rel=1e-8)
+
+
+# --- outline at any angle: the gap is true, and more looks give no less ---------------------------------------------
+
+
+@settings(max_examples=20)
+@given(seeds, st.sampled_from([60, 300]))
+def test_no_other_angle_has_more_than_the_gap_allows(seed, looks):
+    outline = random_contact(seed)
+    corners, gap = rectangle_in_outline_any_angle(outline, looks)
+    angles = np.random.default_rng(seed).uniform(0.0, math.pi, 60)
+    best = max(area(rectangle_in_outline(outline, a)) for a in [0.0, *angles])
+    assert best <= area(corners) * (1.0 + gap) * (1.0 + 1e-9)
+    assert best <= area(corners) * 1.02  # and the refined scan is close whatever is proven
+
+
+@settings(max_examples=10)
+@given(seeds)
+def test_more_looks_give_no_larger_gap(seed):
+    outline = random_contact(seed)
+    found = [rectangle_in_outline_any_angle(outline, looks) for looks in (40, 100, 400)]
+    bounds = [area(corners) * (1.0 + gap) for corners, gap in found]
+    assert bounds[0] >= bounds[1] * (1.0 - 1e-6) >= bounds[2] * (1.0 - 2e-6)
+
+
+def test_the_corners_are_inside_and_no_less_than_along_the_axes():
+    for seed in range(10):
+        outline = random_contact(seed)
+        corners, _ = rectangle_in_outline_any_angle(outline)
+        assert as_shape(outline).buffer(1e-9).covers(shapely.Polygon(corners))
+        assert area(corners) >= area(rectangle_in_outline(outline)) * (1.0 - 1e-12)
+
+
+@pytest.mark.parametrize("looks", [0, -1, 2.5, "much", None])
+def test_looks_are_a_whole_number_above_0(looks):
+    with pytest.raises(InputError, match="looks"):
+        rectangle_in_outline_any_angle(Outline.of_rings([[[0, 0], [1, 0], [1, 1], [0, 1]]]), looks)
+
+
+# --- safe rectangle -----------------------------------------------------------------------------------------------
+
+
+@given(seeds, st.floats(0.0, 0.3), st.sampled_from(["inscribed", "bounding"]))
+def test_sides_move_inwards_by_the_offset_or_meet(seed, offset, method):
+    hull = convex_hull(np.random.default_rng(seed).normal(0.0, 0.1, (8, 2)))
+    box = inscribed_rectangle(hull) if method == "inscribed" else bounding_box(hull)
+    (x1, y1), (x2, y2) = safe_rectangle(hull, offset, method)[[0, 2]]
+    for low, high, inner_low, inner_high in ((box[0, 0], box[2, 0], x1, x2), (box[0, 1], box[2, 1], y1, y2)):
+        if high - low > 2 * offset:
+            assert (inner_low - low, high - inner_high) == pytest.approx((offset, offset), abs=1e-15)
+        else:
+            assert inner_low == inner_high == 0.5 * (low + high)
+
+
+def test_an_empty_polygon_has_no_rectangle():
+    assert safe_rectangle([], 0.01).shape == (0, 2)
+    assert safe_rectangle([], 0.01, "bounding").shape == (0, 2)
+
+
+@pytest.mark.parametrize("offset", [-0.01, float("nan"), float("inf")])
+def test_a_bad_offset_is_refused(offset):
+    with pytest.raises(InputError, match="safety offset"):
+        safe_rectangle([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], offset)
+
+
+def test_a_bad_method_is_refused():
+    with pytest.raises(InputError, match="allowed: inscribed, bounding"):
+        safe_rectangle([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], 0.01, "outer")
