@@ -11,8 +11,10 @@ from pathlib import Path
 
 from resumable import write_table
 
-from plantar.sim.bench.stress.fault_run import run_with_fault
 from plantar.sim.bench.stress.faults import FAULTS
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "gait" / "safety"))
+from fault_run import run_with_fault
 
 CASES = (
     ("h1 walks", "h1", True, True),

@@ -9,10 +9,11 @@ import pytest
 from plantar.errors import InputError
 from plantar.gait.command import Sensors
 from plantar.kernels.safety.plausible import SoleCheck
-from plantar.sim.bench.stress.fault_run import run_with_fault
 from plantar.sim.bench.stress.faults import FAULTS
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
+
+from .fault_run import run_with_fault
 
 WALKED_THROUGH = (
     "time +5 s",

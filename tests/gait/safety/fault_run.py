@@ -8,8 +8,6 @@ from plantar.sim.bench.stress.faults import FAULTS
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 
-__all__ = ["FaultRun", "run_with_fault"]
-
 # m that a foot's target and the CoM move in a tick of an undisturbed walk, at most
 _USUAL = {"h1": (4.65e-3, 1.84e-3), "hrp2kai": (3.02e-3, 1.64e-3)}
 
