@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -122,10 +122,6 @@ class Result:
     def as_dict(self) -> dict[str, Any]:
         """The fields by name."""
         return asdict(self)
-
-    def without_error(self) -> "Result":
-        """The same without an error."""
-        return replace(self, error=None)
 
 
 def compare(

@@ -97,7 +97,7 @@ PROMISES: Mapping[str, str] = {
     "A message of a recording that is damaged is left out and counted.": "tests/plantar/viewer/test_walk.py",
     "No cell of a written table is a formula.": "tests/plantar/test_csv_table.py",
     "No text of a file moves the terminal's cursor.": "tests/plantar/console/test_ending.py",
-    "A page runs only its own scripts and makes no request.": "tests/plantar/pages/test_policy.py",
+    "A page runs only its own scripts and makes no request.": "tests/plantar/pages/test_page.py",
     "A Dask scheduler is trusted by certificates, or on this machine alone without a note.": (
         "tests/sim/sweep/test_cluster.py"
     ),

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from plantar.arguments import instance, items
 from plantar.atomic import replacing
 from plantar.errors import InputError
-from plantar.pages.policy import with_policy
+from plantar.pages.page import with_policy
 from plantar.viewer.messages import Entity, Shape
 from plantar.viewer.walk import Walk, read_walk
 

@@ -30,7 +30,9 @@ def by_name(name: str) -> Candidate:
 @pytest.fixture(scope="module")
 def rows():
     few = (CHOSEN, by_name("box + tactile, fz"), by_name("1 sphere a taxel"))
-    return {r.name: r for r in compare_contact_models(LAYOUT, candidates=few, seeds=1)}
+    return {
+        r.name: r for r in compare_contact_models(LAYOUT, candidates=few, seeds=1, progress=lambda share, text: None)
+    }
 
 
 def test_chosen_model_keeps_what_is_required(rows):
@@ -99,7 +101,7 @@ def test_unknown_candidate_is_refused():
 
 
 def test_report_reads_back(rows, tmp_path):
-    parameters = study_contact_parameters(LAYOUT)
+    parameters = study_contact_parameters(LAYOUT, lambda share, text: None)
     toppled = replace(rows[CHOSEN.name], name="toppled", cop_max_mm=math.inf)
     names = write_contact_report(tmp_path, LAYOUT, [*rows.values(), toppled], parameters)
     assert sorted(p.name for p in tmp_path.iterdir()) == sorted(names)

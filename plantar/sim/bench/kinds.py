@@ -63,11 +63,14 @@ def measure(what: str, options: BenchOptions, output: Path) -> Measured:
         wrong = f"cannot measure '{what}'" if what else "give what to measure: plantar bench kernels"
         raise InputError(f"{wrong}; allowed: {', '.join(allowed)}")
     _check(what, options)
+    of_kind = {"kernels": ("scipy", "cv2"), "all": (*LIBRARIES, "cv2")}
+    need_libraries("sim", *of_kind.get(what, LIBRARIES))
     with progress_bar() as progress:
         if what in _TABLES:
             measured = _TABLES[what](output, options, progress)
-            measured.result["files"] = [str(output / name) for name in measured.result["files"]]
-            return measured
+            names = [str(output / name) for name in measured.result["files"]]
+            measured.result["files"] = names
+            return measured._replace(text=measured.text + file_lines(names))
         return _measure_parts(what, options, output, progress)
 
 
@@ -91,15 +94,13 @@ _TAKEN_BY: Mapping[str, tuple[str, ...]] = {
 
 
 def _scenes(output: Path, options: BenchOptions, progress: Progress) -> Measured:
-    need_libraries("sim", *LIBRARIES)
     from plantar.sim.bench.scenes.scenes_report import measure_scenes, scenes_text
 
     result = measure_scenes(output, progress, options.scene, options.robot, options.quick)
-    return Measured(result, scenes_text(result) + file_lines(str(output / name) for name in result["files"]))
+    return Measured(result, scenes_text(result))
 
 
 def _stress(output: Path, options: BenchOptions, progress: Progress) -> Measured:
-    need_libraries("sim", *LIBRARIES)
     from plantar.sim.bench.stress.stress_run import measure_stress, stress_loop_text
 
     result = measure_stress(output, options.scenarios, options.first, progress)
@@ -108,11 +109,10 @@ def _stress(output: Path, options: BenchOptions, progress: Progress) -> Measured
 
 
 def _footholds(output: Path, options: BenchOptions, progress: Progress) -> Measured:
-    need_libraries("sim", *LIBRARIES)
     from plantar.sim.bench.footholds.measure_footholds import footholds_text, measure_footholds
 
     result = measure_footholds(output, options.policy, options.robot, options.seeds, options.scene, progress)
-    return Measured(result, footholds_text(result) + "\n" + file_lines(str(output / name) for name in result["files"]))
+    return Measured(result, footholds_text(result))
 
 
 # Kinds whose tables grow in the folder itself and are gone on with
@@ -124,7 +124,6 @@ _TABLES: Mapping[str, Callable[[Path, BenchOptions, Progress], Measured]] = {
 
 
 def _kernels(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
-    need_libraries("sim", "scipy", "cv2")
     from plantar.bench.report import kernel_text, measure_kernels
 
     result = measure_kernels(folder, progress, rounds=3 if options.quick else 9)
@@ -132,7 +131,6 @@ def _kernels(folder: Path, options: BenchOptions, progress: Progress) -> Measure
 
 
 def _contact(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
-    need_libraries("sim", *LIBRARIES)
     from plantar.sim.contact_models.report import contact_text, measure_contact
 
     result = measure_contact(folder, options.layout, progress)
@@ -141,7 +139,6 @@ def _contact(folder: Path, options: BenchOptions, progress: Progress) -> Measure
 
 
 def _skip(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
-    need_libraries("sim", *LIBRARIES)
     from plantar.sim.bench.skipping import SCENES, measure_skipping, skip_text
 
     few, rounds = (SCENES[:1], 1) if options.quick else (SCENES, 3)

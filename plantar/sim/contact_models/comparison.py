@@ -126,7 +126,7 @@ def compare_contact_models(
     candidates: Iterable[Candidate] = CANDIDATES,
     seeds: int = 2,
     contact: Contact | None = None,
-    progress: Callable[[float, str], None] | None = None,
+    progress: Callable[[float, str], None],
 ) -> list[ContactRow]:
     """Returns a row a candidate of contact models against MuJoCo's contact wrench.
 
@@ -138,8 +138,7 @@ def compare_contact_models(
     soles = [build_sole(candidate, layout, PLANE, mass=MASS, contact=contact) for candidate in candidates]
     times = _run_times(soles, layout)
     for i, (candidate, sole) in enumerate(zip(candidates, soles, strict=True)):
-        if progress is not None:
-            progress(i / len(candidates), candidate.name)
+        progress(i / len(candidates), candidate.name)
         rows.append(
             ContactRow(
                 name=candidate.name,
@@ -149,8 +148,6 @@ def compare_contact_models(
                 **times[i],
             )
         )
-    if progress is not None:
-        progress(1.0, "done")
     return rows
 
 

@@ -62,17 +62,12 @@ class ParameterRow:
     step_us: float
 
 
-def study_contact_parameters(
-    layout: SoleLayout, progress: Callable[[float, str], None] | None = None
-) -> list[ParameterRow]:
+def study_contact_parameters(layout: SoleLayout, progress: Callable[[float, str], None]) -> list[ParameterRow]:
     """Returns a row for each of `PARAMETERS` on a `layout`'s box; `progress` gets fraction and text."""
     rows = []
     for i, (name, contact) in enumerate(PARAMETERS):
-        if progress is not None:
-            progress(i / len(PARAMETERS), name)
+        progress(i / len(PARAMETERS), name)
         rows.append(_measure(name, contact, layout))
-    if progress is not None:
-        progress(1.0, "done")
     return rows
 
 

@@ -164,8 +164,6 @@ def _durations(run: Recording, kind: PhaseKind) -> tuple[NDArray[np.float64], ND
     return topic.time[starts][chosen], (ends - topic.time[starts])[chosen]
 
 
-_HAND = "#7b5ea7"
-_CARRIES = 0.05  # of the largest force on a foot, from which it is drawn as standing
 _TURNED = 1.0  # degrees that a joint has to turn by to be named
 
 
@@ -178,20 +176,18 @@ def draw_guide(run: Recording) -> Any:
     guide, body = run.topics["/guide"], run.topics["/truth/body"]
     place, held = guide.fields["place"][:, 0], guide.fields["held"][:, 0]
     com = body.fields["com"][:, 0]
-    axes[0].plot(guide.time, place - place[0], color=_HAND, lw=1.6, label="hand")
+    axes[0].plot(guide.time, place - place[0], color=_PARTNER, lw=1.6, label="hand")
     axes[0].plot(guide.time, held - held[0], color=COLOURS["active"], lw=1.0, label="forearm")
     axes[0].plot(body.time, com - com[0], color=COLOURS["polygon"], lw=1.2, label="CoM")
     for side in SIDES:
         foot = run.topics[f"/truth/{side}"]
-        force = foot.fields["normal_force"][:, 0]
-        x = np.array(foot.fields["position"][:, 0], dtype=float)
-        stands = np.where(force < _CARRIES * force.max(), np.nan, x - x[0])
-        axes[0].plot(foot.time, stands, color=COLOURS[side], lw=2.5, alpha=0.7, label=f"{side} foot")
+        moved = _standing(run, side)[:, 0] - foot.fields["position"][0, 0]
+        axes[0].plot(foot.time, moved, color=COLOURS[side], lw=2.5, alpha=0.7, label=f"{side} foot")
     axes[0].set_ylabel("from the start, x [m]")
     axes[0].legend(ncol=5, fontsize=8, loc="lower left", bbox_to_anchor=(0.0, 1.0))
     touch = run.topics["/touch"]
     measured = touch.fields["felt"][:, :2]
-    for i, name in enumerate(("x (forward)", "y (left)")):
+    for i, name in enumerate(_AXES):
         colour = COLOURS["cop"] if i == 0 else COLOURS["left"]
         axes[1].plot(touch.time, measured[:, i], color=colour, lw=1.4, alpha=0.6, label=f"measured, {name}")
         axes[1].plot(touch.time, touch.fields["force"][:, i], color=COLOURS["truth"], lw=0.5)

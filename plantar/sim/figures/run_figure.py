@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.recordings.recording import Recording, read_mcap
 from plantar.sides import SIDES
-from plantar.sim.figures.foothold_figure import draw_footholds, draw_zmp_plane, draw_zmps
+from plantar.sim.figures.foothold_figure import AXES, WalkPlane, draw_footholds, draw_zmp_plane, draw_zmps
 from plantar.sim.figures.push_figure import draw_guide, draw_partner, draw_pushes, draw_strides, draw_swing
-from plantar.sim.figures.walk_plane import AXES, WalkPlane
 
 __all__ = ["plot_run"]
 

@@ -22,7 +22,7 @@ __all__ = ["ClusterWorkers", "check_address", "network_note", "tls_files"]
 _ADDRESS = re.compile(r"(?:(?P<scheme>[a-z]+)://)?(?P<host>\[[0-9a-fA-F:.]+\]|[A-Za-z0-9_.-]+):(?P<port>\d{1,5})/?")
 _THIS_PROCESS = re.compile(r"inproc://[0-9a-fA-F.:]+/\d+/\d+")  # as `LocalCluster(protocol="inproc://")` names itself
 _ALLOWED = "allowed: tcp://HOST:PORT, or tls://HOST:PORT with certificates"
-_FILES = {"ca_file": "CA_FILE", "client_cert": "CLIENT__CERT", "client_key": "CLIENT__KEY"}
+_FILES = {"tls_ca_file": "CA_FILE", "tls_client_cert": "CLIENT__CERT", "tls_client_key": "CLIENT__KEY"}
 _VARIABLE = "DASK_DISTRIBUTED__COMM__TLS__"
 
 
@@ -103,16 +103,7 @@ class ClusterWorkers:
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)
         address = check_address(address)
         files = tls_files() if address.startswith("tls://") else {}
-        security = (
-            Security(
-                tls_ca_file=files["ca_file"],
-                tls_client_cert=files["client_cert"],
-                tls_client_key=files["client_key"],
-                require_encryption=True,
-            )
-            if files
-            else None
-        )
+        security = Security(**files, require_encryption=True) if files else None
         try:
             self._client = Client(address, timeout=_CONNECT, set_as_default=False, security=security)
         except (OSError, ValueError, RuntimeError, TypeError) as error:  # ssl's errors are OSErrors

@@ -4,7 +4,7 @@ import os
 import signal
 import threading
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -108,7 +108,7 @@ def run_sweep(
     inputs = {robot: inputs_of(checked.scene, robot) for robot in dict.fromkeys(map(checked.robot_of, points))}
     with (
         stop_noted() as note,
-        _workers(workers, scheduler) as pool,
+        closing(LocalWorkers(workers) if scheduler is None else ClusterWorkers(scheduler)) as pool,
         open_results(folder, plan.identity(), inputs, checked.axes, columns) as results,
     ):
         before = len(results.rows)
@@ -163,15 +163,6 @@ class _Tasks:
             task = Task(_anywhere(checked.scene), _anywhere(robot), settings, seed, inputs)
             self.keys[task] = key_of(*run)
             yield task
-
-
-@contextmanager
-def _workers(count: int, scheduler: str | None) -> Iterator[Workers]:
-    pool = LocalWorkers(count) if scheduler is None else ClusterWorkers(scheduler)
-    try:
-        yield pool
-    finally:
-        pool.close()
 
 
 def _rows_of(tasks: Iterator[Task | None], pool: Workers, note: StopNote) -> Iterator[tuple[Task, Row]]:

@@ -11,7 +11,7 @@ from plantar.files.structured_text import parse_toml
 
 __all__ = ["ValueRange", "canonical", "is_word", "split_values"]
 
-_CLOSING = {"[": "]", "{": "}"}
+_OPENING = ("[", "{", '"', "'")  # what a value begins with that may hold commas
 
 
 def split_values(text: str) -> list[str]:
@@ -24,29 +24,16 @@ def split_values(text: str) -> list[str]:
         >>> split_values("[1, 2], [3, 4]")
         ['[1, 2]', '[3, 4]']
     """
-    values, begin, quote, closing = [], 0, "", ""
-    i = 0
-    while i < len(text):
-        sign = text[i]
-        if quote:
-            if sign == "\\" and quote == '"':
-                i += 1  # what it escapes does not end the text
-            elif sign == quote:
-                quote = ""
-        elif closing or not text[begin:i].strip():  # inside of brackets, or at the start of a value
-            if sign in "\"'":
-                quote = sign
-            elif sign in _CLOSING:
-                closing = _CLOSING[sign] + closing
-            elif closing and sign == closing[0]:
-                closing = closing[1:]
-        if sign == "," and not quote and not closing:
-            values.append(text[begin:i].strip())
-            begin = i + 1
-        i += 1
-    if quote or closing:
-        raise InputError(f"values '{text}' do not close a {'quote' if quote else 'bracket'}: {quote or closing[0]}")
-    values.append(text[begin:].strip())
+    values: list[str] = []
+    part = None
+    for piece in text.split(","):
+        part = piece if part is None else f"{part},{piece}"
+        value = part.strip()
+        if value[:1] not in _OPENING or _parsed(value) is not None:
+            values.append(value)
+            part = None
+    if part is not None:
+        raise InputError(f"values '{text}' have one that is not closed, or no valid TOML: {part.strip()}")
     if "" in values:
         raise InputError(f"values '{text}' have an empty one; allowed: a,b,c")
     return values
@@ -71,7 +58,7 @@ def canonical(text: str, *, word: bool = False) -> str:
     if not text.isprintable():
         raise InputError(f"value {text!r} is not of printable characters")
     value = _parsed(text)
-    if value is None and text[:1] in tuple("\"'[{"):
+    if value is None and text[:1] in _OPENING:
         raise InputError(f"value '{text}' is not valid TOML")
     if word:
         return value if isinstance(value, str) else text
@@ -92,7 +79,7 @@ def _written(value: Any, bare: bool = False) -> str:
         return str(int(value))  # wherever a setting takes a number, a whole one means the same as its float
     if isinstance(value, str):
         plain = bare and value == value.strip() != "" and value.isprintable() and _parsed(value) is None
-        return value if plain and value[0] not in "\"'[{" else json.dumps(value, ensure_ascii=False)
+        return value if plain and value[0] not in _OPENING else json.dumps(value, ensure_ascii=False)
     if isinstance(value, list):
         return f"[{', '.join(map(_written, value))}]"
     if isinstance(value, dict):

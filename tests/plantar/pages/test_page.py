@@ -1,10 +1,25 @@
-"""What pages are made of."""
+"""Pages state a policy that holds for their own scripts and for no other."""
 
-from plantar.pages.page import row, table
+import base64
+import hashlib
+import re
+
+from plantar.pages.page import Section, page, with_policy
 
 
-def test_columns_of_words_are_told_from_columns_of_numbers():
-    head = ("Recording", "Participant", "Value", "Note")
-    html = table("x", "What it is", head, [row("a.asc", ["P1", "3", "odd"])], words=("Participant", "Note"))
-    assert '<table class="words-2 words-4">' in html
-    assert "<table>" in table("x", "What it is", head, [])
+def test_a_page_allows_its_own_scripts_alone():
+    code = "document.title = 'a';"
+    text = page("A title", "", [Section("a", "A", "<p>text</p>")], script=f"<script>{code}</script>")
+    policy = re.findall(r'<meta http-equiv="Content-Security-Policy" content="([^"]*)">', text)
+    digest = base64.b64encode(hashlib.sha256(code.encode()).digest()).decode()
+    assert len(policy) == 1
+    assert f"script-src 'sha256-{digest}'" in policy[0]
+    for rule in ("default-src 'none'", "connect-src 'none'", "form-action 'none'", "base-uri 'none'"):
+        assert rule in policy[0]
+    assert "unsafe-inline" not in policy[0].partition("script-src")[2]
+    assert text.index("Content-Security-Policy") < text.index("<style>")
+
+
+def test_a_page_without_scripts_runs_none_and_data_is_no_script():
+    data = '<head></head><script type="application/json" id="d">{"a": 1}</script>'
+    assert "script-src 'none'" in with_policy(data)

@@ -4,10 +4,10 @@ import platform
 import shutil
 import time
 from collections.abc import Callable, Mapping, Sequence
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from plantar import __version__
 from plantar.atomic import write_text
 from plantar.sim.bench.page.bench_page import bench_page
 from plantar.sim.bench.scenes.scene_runs import TABLE
@@ -77,7 +77,7 @@ def measure_page(
         "scenes": measure_scenes(folder, progress[0], quick=True),
         "papers": measure_papers(progress[1], quick=quick),
         "made": {
-            "version": _version(),
+            "version": f"Plantar {__version__}",
             "date": time.strftime("%Y-%m-%d"),
             "machine": f"{platform.system()} on {platform.machine()}, Python {platform.python_version()}",
             "quick": quick,
@@ -88,10 +88,3 @@ def measure_page(
     write_text(folder / "bench.html", bench_page({**result, **added}, figures))
     added["made"]["files"] = ["bench.html"]
     return added
-
-
-def _version() -> str:
-    try:
-        return f"Plantar {version('plantar')}"
-    except PackageNotFoundError:  # run from a folder that was not installed
-        return "Plantar"

@@ -50,30 +50,9 @@ def _step(period: float, *, held: bool, quick: bool = False) -> SceneSetting:
     return SceneSetting(knob, value, (f"control.physics_period={period!r}",), contact_time=kept, quick=quick)
 
 
-def _skin(rate: int, *, quick: bool = False) -> SceneSetting:
-    return SceneSetting(
-        "skin rate",
-        f"{rate} Hz",
-        (f"sensing.skin_rate={rate}",),
-        against="skin rate: 1000 Hz",
-        machine=True,
-        quick=quick,
-    )
-
-
-def _control(rate: int, *, quick: bool = False) -> SceneSetting:
-    return SceneSetting(
-        *("control rate", f"{rate} Hz", (f"control.period={1 / rate}",)),
-        against="control rate: 1000 Hz",
-        machine=True,
-        quick=quick,
-    )
-
-
-def _cells(ratio: float, value: str, *, quick: bool = False) -> SceneSetting:
-    return SceneSetting(
-        "taxel area", value, cell_ratio=ratio, against="taxel area: a quarter", machine=True, quick=quick
-    )
+def _machine(knob: str, value: str, finest: str, *settings: str, ratio: float = 1.0, quick: bool) -> SceneSetting:
+    against = f"{knob}: {finest}"
+    return SceneSetting(knob, value, settings, cell_ratio=ratio, against=against, machine=True, quick=quick)
 
 
 OWN = SceneSetting("scene's own", "", quick=True)
@@ -101,21 +80,19 @@ SETTINGS: tuple[SceneSetting, ...] = (
     SceneSetting("contact points", "1 a taxel", points=1, quick=True),
     SceneSetting("contact points", "3 a taxel", points=3, costly=True),
     SceneSetting("coarse", "1.67 ms, 2 iterations", _step(0.005 / 3, held=True).settings, CONTACT_TIME, 2, quick=True),
-    _skin(1000, quick=True),
-    _skin(500),
-    _skin(125, quick=True),
-    _skin(50),
-    _control(1000, quick=True),
-    _control(500),
-    _control(100, quick=True),
-    _cells(0.25, "a quarter", quick=True),
-    _cells(2.0, "twice"),
-    _cells(4.0, "four times", quick=True),
-    SceneSetting(
-        *("taxel model", "elastic layer", ("sensing.taxels=elastic",)),
-        against="taxel model: elastic layer",
-        machine=True,
+    *(
+        _machine("skin rate", f"{rate} Hz", "1000 Hz", f"sensing.skin_rate={rate}", quick=rate in (1000, 125))
+        for rate in (1000, 500, 125, 50)
     ),
+    *(
+        _machine("control rate", f"{rate} Hz", "1000 Hz", f"control.period={1 / rate}", quick=rate in (1000, 100))
+        for rate in (1000, 500, 100)
+    ),
+    *(
+        _machine("taxel area", value, "a quarter", ratio=ratio, quick=ratio != 2.0)
+        for value, ratio in (("a quarter", 0.25), ("twice", 2.0), ("four times", 4.0))
+    ),
+    _machine("taxel model", "elastic layer", "elastic layer", "sensing.taxels=elastic", quick=False),
 )
 """All of them, the scene's own first. Knobs of the machine are compared with their own finest value."""
 
