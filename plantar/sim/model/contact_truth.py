@@ -53,17 +53,6 @@ class ContactSet(NamedTuple):
     def size(self) -> int:
         return len(self.distances)
 
-    def gathered(self) -> FootContacts:
-        """The same for kernels."""
-        foot = FootContacts(np.zeros(1, dtype=np.uint8))
-        foot.take(
-            np.column_stack([self.own_geoms, self.other_geoms]).astype(np.int32).reshape(-1, 2),
-            np.hstack([self.positions, self.forces, self.torques]).reshape(-1, 3),
-            self.distances,
-            self.carries.astype(np.uint8),
-        )
-        return foot
-
 
 def _set_of(foot: FootContacts) -> ContactSet:
     k = foot.size

@@ -89,6 +89,7 @@ def _held_back(distance: NDArray[np.float64], poisson: float) -> NDArray[np.floa
 @lru_cache(maxsize=8)
 def _held_back_table(poisson: float) -> NDArray[np.float64]:
     """g of distances from 0 to `_FAR`, by Simpson's rule: 1 - M falls as s^2 exp(-2 s), to zero at 20."""
+    from scipy.integrate import simpson
     from scipy.special import j0
 
     s = np.linspace(0.0, 20.0, 2001)
@@ -97,11 +98,7 @@ def _held_back_table(poisson: float) -> NDArray[np.float64]:
         m = (k * np.sinh(2.0 * s) - 2.0 * s) / (
             k * np.cosh(2.0 * s) + 2.0 * s * s + 5.0 - 12.0 * poisson + 8.0 * poisson**2
         )
-    weight = np.full(len(s), 2.0)
-    weight[1::2] = 4.0
-    weight[[0, -1]] = 1.0
-    weight *= (s[1] - s[0]) / 3.0
-    return np.asarray(j0(np.outer(np.linspace(0.0, _FAR, 1201), s)) @ (weight * (1.0 - m)))
+    return np.asarray(simpson(j0(np.outer(np.linspace(0.0, _FAR, 1201), s)) * (1.0 - m), x=s))
 
 
 class Contact(NamedTuple):

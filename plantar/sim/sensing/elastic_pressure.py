@@ -138,27 +138,6 @@ class ElasticPressure:
         carried = np.maximum(shape.forces(np.array([1.0, x, y])), 0.0)
         return self._springs.along_taxels(force / float(carried.sum()) * carried)
 
-    def forces(
-        self, patch: Sequence[tuple[float, float]], force: float, center_of_pressure: tuple[float, float]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """What the squares carry.
-
-        Args:
-            patch: See `spread`.
-            force: See `spread`.
-            center_of_pressure: See `spread`.
-
-        Returns:
-            Centroids (k, 2) of the squares' covered parts in m, and forces (k,) in N; empty on the bare rim.
-        """
-        shape = self._patches.of(patch)
-        if shape is None:
-            return np.empty((0, 2)), np.empty(0)
-        inside = closest_point(shape.reach, center_of_pressure)
-        assert inside is not None
-        load = np.array([1.0, *inside.tolist()])
-        return shape.contact.points, force * shape.contact.press(load).forces
-
     def _grid(self) -> _Squares:
         import shapely
 

@@ -83,7 +83,7 @@ class SensorSuite:
                 SkinElectronics(sensing.skin_rate, sensing.force_noise, sensing.delay_periods, dead[side]),
                 np.random.default_rng(stream),
                 self.proximity.get(side),
-                _errors(world, plant, side),
+                None if plant is None else TaxelErrors(world.robot.layouts[side], plant, side),
             )
             for side, stream in zip(SIDES, streams[:2], strict=True)
         }
@@ -166,12 +166,6 @@ def _skin(world: World, sensing: Sensing, side: Side, foam: float) -> SoleSkin:
         layer=layer,
         rim_stiffness=world.robot.rim_stiffness,
     )
-
-
-def _errors(world: World, plant: TruePlant | None, side: Side) -> TaxelErrors | None:
-    if plant is None:
-        return None
-    return TaxelErrors(world.robot.layouts[side], plant, side)
 
 
 def _proximity(

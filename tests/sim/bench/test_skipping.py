@@ -29,7 +29,8 @@ def test_parts_add_up_to_what_there_could_have_been(row):
     ticks = row.skipped["recorded ticks"]
     members = sum(row.skipped[n] + row.computed[n] for n in ("polygons and other shapes", "other percept members"))
     assert members == 2 * ticks * len(Percept.members())
-    assert row.skipped["polygons and other shapes"] > 0.9 * members / 2
+    shapes = "polygons and other shapes"  # of which a walk on level ground needs few
+    assert row.skipped[shapes] > 0.9 * (row.skipped[shapes] + row.computed[shapes])
     readings = row.skipped["taxel forces"] + row.computed["taxel forces"]
     assert readings == pytest.approx(2 * 42 * 250 * row.sim_s, rel=0.01)
     assert 0 < row.skipped["taxel forces"] < row.computed["taxel forces"]  # one foot swings for a part of the time

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import InputError, SceneError, hex_layout
+from plantar.geometry.polygon import closest_point
 from plantar.sim.run.scene import load_scene
 from plantar.sim.sensing.elastic_pressure import ElasticPressure
 from plantar.sim.sensing.sensors import SensorSuite
@@ -28,7 +29,9 @@ HALF_SPACE = ElasticPressure(LAYOUT, thickness=math.inf)
 @given(x=st.floats(-0.018, 0.038), y=st.floats(-0.07, 0.07), force=st.floats(1.0, 2000.0))
 def test_force_and_centre_of_pressure_are_the_true_ones(x, y, force):
     for pressure in (LAYER, HALF_SPACE):
-        points, forces = pressure.forces(BEAM, force, (x, y))
+        shape = pressure._patches.of(BEAM)
+        load = np.array([1.0, *closest_point(shape.reach, (x, y))])
+        points, forces = shape.contact.points, force * shape.contact.press(load).forces
         assert (forces >= 0.0).all()
         assert forces.sum() == pytest.approx(force)
         # The outermost squares' middles are half a square inside the edge.

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from plantar import InputError, RobotError, hex_layout
 from plantar.sensing.force import center_of_pressure
-from plantar.sim.model.contact_truth import ContactSet, contact_wrench_in_frame, foot_contacts
+from plantar.sim.model.contact_truth import FootContacts, contact_wrench_in_frame, foot_contacts
 from plantar.sim.sensing.skin import SkinElectronics, SkinSensor, SoleSkin
 
 GRAVITY = 9.81
@@ -242,16 +242,12 @@ def test_corner_lifted_by_micrometres_stays_in_the_patch(gap, whole):
     """Three corners carry, the fourth hovers: near enough, the patch is the whole sole, else half of it."""
     model, data, skin = rig(PLANE)
     mujoco.mj_forward(model, data)
-    contacts = ContactSet(
-        own_geoms=np.ones(4, dtype=np.int32),
-        other_geoms=np.zeros(4, dtype=np.int32),
-        positions=np.column_stack([OUTLINE, np.zeros(4)]),
-        forces=np.array([[0.0, 0.0, f] for f in (0.0, 100.0, 100.0, 100.0)]),
-        torques=np.zeros((4, 3)),
-        distances=np.array([gap, 0.0, 0.0, 0.0]),
-        carries=np.array([False, True, True, True]),
-    )
-    force = skin.taxel_forces(data, contacts.gathered())
+    contacts = FootContacts(np.zeros(1, dtype=np.uint8))
+    vectors = np.zeros((4, 3, 3))  # place, force and torque of each
+    vectors[:, 0, :2], vectors[1:, 1, 2] = OUTLINE, 100.0
+    gaps, carries = np.array([gap, 0.0, 0.0, 0.0]), np.array([0, 1, 1, 1], dtype=np.uint8)
+    contacts.take(np.tile(np.array([1, 0], dtype=np.int32), (4, 1)), vectors.reshape(-1, 3), gaps, carries)
+    force = skin.taxel_forces(data, contacts)
     assert force.sum() == pytest.approx(300.0)
     beyond = LAYOUT.positions[:, :2] @ (1.0 / HALF) < -0.3  # on the hovering corner's side of the diagonal
     assert (force[beyond].max() > 1.0) == whole
