@@ -12,7 +12,7 @@ from plantar.errors import InputError, LayoutError
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.plane_points import plane_points
 
-__all__ = ["edge_neighbours", "joined_layout", "layout_of_cells", "shared_vertices"]
+__all__ = ["checked_ring", "edge_neighbours", "joined_layout", "layout_of_cells", "shared_vertices"]
 
 _GRID = 1e-6  # of the smallest cell's side
 _OVERLAP = 1e-3  # Share of the smaller cell that two cells may overlap by: rounding, not a fault
@@ -57,7 +57,7 @@ def layout_of_cells(
     """
     import shapely  # 0.2 s: only where a layout is made
 
-    rings = [_ring(cell, f"cell {i}") for i, cell in enumerate(items(cells, "cells", LayoutError))]
+    rings = [checked_ring(cell, f"cell {i}") for i, cell in enumerate(items(cells, "cells", LayoutError))]
     if not rings:
         raise LayoutError("a layout needs one cell or more")
     polygons = np.array([shapely.geometry.polygon.orient(shapely.Polygon(r)) for r in rings])
@@ -184,7 +184,8 @@ def edge_neighbours(corners: Sequence[Sequence[int]]) -> tuple[tuple[int, ...], 
     return tuple(tuple(sorted(s)) for s in near)
 
 
-def _ring(points: ArrayLike, what: str) -> NDArray[np.float64]:
+def checked_ring(points: ArrayLike, what: str) -> NDArray[np.float64]:
+    """Returns a polygon's `points` (n, 2), at least 3 and finite; `what` is its name in errors."""
     try:
         ring = numbers(points, what)
     except InputError as problem:
@@ -197,7 +198,7 @@ def _ring(points: ArrayLike, what: str) -> NDArray[np.float64]:
 def _ccw(outline: ArrayLike) -> NDArray[np.float64]:
     import shapely
 
-    polygon = shapely.Polygon(_ring(outline, "outline"))
+    polygon = shapely.Polygon(checked_ring(outline, "outline"))
     if not polygon.is_valid:
         raise LayoutError("outline is not a simple polygon: it crosses itself")
     return np.asarray(shapely.get_coordinates(shapely.geometry.polygon.orient(polygon))[:-1])

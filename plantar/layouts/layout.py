@@ -7,7 +7,7 @@ exerts [0, 0, f] on it, f >= 0.
 import math
 import operator
 from collections.abc import ItemsView, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any
@@ -291,22 +291,14 @@ def mirrored(layout: SoleLayout) -> SoleLayout:
     """
     instance(layout, SoleLayout, "layout")
     flip = np.array([1.0, -1.0, 1.0])
-    return SoleLayout(
-        name=layout.name,
+    return replace(
+        layout,
         side=other_side(layout.side),
         positions=layout.positions * flip,
         rotations=layout.rotations * np.outer(flip, flip),
         vertices=layout.vertices * flip,
         corners=tuple((c[0], *reversed(c[1:])) for c in layout.corners),
-        neighbours=layout.neighbours,
-        areas=layout.areas,
         outline=(layout.outline * flip[:2])[::-1],
-        ids=layout.ids,
-        cell_shape=layout.cell_shape,
-        cell_area=layout.cell_area,
-        modalities=layout.modalities,
-        ranges=layout.ranges,
-        thresholds=layout.thresholds,
     )
 
 

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import LARGEST, number
-from plantar.arrays import integers, numbers
+from plantar.arrays import integers
 from plantar.errors import InputError, LayoutError
-from plantar.layouts.cell_layout import edge_neighbours, shared_vertices
+from plantar.layouts.cell_layout import checked_ring, edge_neighbours, shared_vertices
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.layouts.layout import LARGEST_COORDINATE, Side, SoleLayout
 from plantar.plane_points import plane_point
@@ -144,12 +144,7 @@ def _sole_polygon(outline: ArrayLike, cell_area: float, minimum_fraction: float,
         raise InputError(f"minimum fraction of a cut cell is {minimum_fraction}; allowed: 0 to 1")
     if not cell_area <= 1.0:
         raise InputError(f"cell area is {cell_area:.3g} m^2; allowed: above 0 and up to 1 m^2")
-    try:
-        ring = numbers(outline, "outline")
-    except InputError as problem:
-        raise LayoutError(f"outline is not a list of (x, y) points ({problem})") from None
-    if ring.ndim != 2 or ring.shape[1] != 2 or len(ring) < 3 or not np.isfinite(ring).all():
-        raise LayoutError("outline is not a list of 3 or more finite (x, y) points")
+    ring = checked_ring(outline, "outline")
     far = float(np.abs(ring).max())
     if far > LARGEST:
         raise LayoutError(f"outline reaches {far:.3g} m; allowed: within {LARGEST_COORDINATE:.0f} m of the origin")

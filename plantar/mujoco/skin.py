@@ -18,6 +18,7 @@ from plantar.layouts.tiling import hex_layout
 from plantar.mujoco.bound_skin import BoundSkin
 from plantar.mujoco.contacts import REACH
 from plantar.mujoco.named_id import named_id
+from plantar.mujoco.quaternions import quaternion_of
 from plantar.mujoco.sole_shape import SoleShape, rigid_geoms, sole_shape
 from plantar.sides import other_side
 
@@ -105,8 +106,7 @@ class Skin:
         if mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, f"{self.body}_skin") >= 0:
             raise RobotError(f"the model has a site '{self.body}_skin' already; edit it once")
         body = next(b for b in spec.bodies if b.name == self.body)
-        quat = np.empty(4)
-        mujoco.mju_mat2Quat(quat, np.ascontiguousarray(shape.rotation).ravel())
+        quat = quaternion_of(shape.rotation)
         body.add_site(name=f"{self.body}_skin", pos=shape.position, quat=quat, size=[0.005] * 3, group=4)
 
     def bind(self, model: Any) -> BoundSkin:

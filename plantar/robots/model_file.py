@@ -11,6 +11,7 @@ import numpy as np
 from plantar.errors import RobotError
 from plantar.files.model_files import check_model
 from plantar.mechanics.lip import GRAVITY
+from plantar.mujoco.quaternions import quaternion_of
 from plantar.robots.leg_shapes import add_leg_shapes
 from plantar.robots.robot import LegNames, Robot
 from plantar.sides import SIDES
@@ -182,9 +183,7 @@ def _put_on_shoe(spec: Any, robot: Robot, side: Any) -> None:
         foot.add_site(name=ankle, pos=[0.0, 0.0, 0.0])
     for name, kind in (("force", mujoco.mjtSensor.mjSENS_FORCE), ("torque", mujoco.mjtSensor.mjSENS_TORQUE)):
         spec.add_sensor(name=f"{side}_ankle_{name}", type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=ankle)
-    quaternion = np.empty(4)
-    mujoco.mju_mat2Quat(quaternion, robot.sole_rotations[side].ravel())
-    shoe = foot.add_body(pos=robot.sole_origins[side], quat=quaternion)
+    shoe = foot.add_body(pos=robot.sole_origins[side], quat=quaternion_of(robot.sole_rotations[side]))
     thickness = max(robot.shoe_thickness, 1e-3)
     mass = max(robot.shoe_mass, 1e-3)
     lx, ly, lz = 2.0 * half[0], 2.0 * half[1], thickness

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from plantar.arrays import numbers
 from plantar.errors import RobotError, SceneError
+from plantar.mujoco.quaternions import rotation_of
 from plantar.robots.robot import Robot
 from plantar.sensing.link_skin import BodySkin
 from plantar.sides import Side
@@ -171,15 +172,9 @@ def _place_on_base(chest: Any, base: str) -> tuple[NDArray[np.float64], NDArray[
     place, turn = np.zeros(3), np.eye(3)
     body = chest
     while body is not None and body.name != base:
-        own = _rotation(body.quat)
+        own = rotation_of(body.quat)
         place, turn = body.pos + own @ place, own @ turn
         body = body.parent
     if body is None:
         raise RobotError(f"[arms] chest is '{chest.name}', which does not hang on '{base}'")
     return place, turn
-
-
-def _rotation(quaternion: Any) -> NDArray[np.float64]:
-    turned = np.empty(9)
-    mujoco.mju_quat2Mat(turned, np.asarray(quaternion, dtype=float))
-    return turned.reshape(3, 3)

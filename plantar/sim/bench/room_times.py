@@ -5,8 +5,8 @@ import sys
 from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
-from types import FrameType, TracebackType
-from typing import Self
+from types import FrameType
+from typing import Any, Self
 
 from plantar.errors import InputError
 
@@ -64,9 +64,7 @@ class RoomTimes:
         signal.setitimer(signal.ITIMER_REAL, _INTERVAL, _INTERVAL)
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: Any) -> None:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, self._before)
 

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Mapping, Sequence
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,6 +11,7 @@ from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.plan_change import AppliedChange
 from plantar.gait.plan.walk_plan import PlanView
 from plantar.layouts.layout import SoleLayout
+from plantar.mujoco.quaternions import quaternion_of
 from plantar.recordings.foxglove import (
     Message,
     Template,
@@ -134,12 +134,10 @@ class DrawnRun:
         out[-1, :3], out[-1, 6] = data.subtree_com[self._world.torso], 1.0
         out[:n, :3] = data.xpos[self._bodies]
         out[:n, 3:] = data.xquat[self._bodies][:, [1, 2, 3, 0]]
-        quaternion = np.empty(4)
         for i, side in enumerate(SIDES, n):
             site = self._world.sole_sites[side]
-            mujoco.mju_mat2Quat(quaternion, data.site_xmat[site])
             out[i, :3] = data.site_xpos[site]
-            out[i, 3:] = quaternion[[1, 2, 3, 0]]
+            out[i, 3:] = quaternion_of(data.site_xmat[site])[[1, 2, 3, 0]]
         return out.ravel()
 
     def _sole(self, side: Side, number: int) -> list[Message]:

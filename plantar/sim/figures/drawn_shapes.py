@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.mujoco.mesh_surface import mesh_surface
+from plantar.mujoco.quaternions import rotation_of
 from plantar.recordings.foxglove import Message, cube, cylinder, entity, pose, sphere, triangles
 
 __all__ = ["body_entity", "coarse_mesh", "drawn_bodies", "frame_name"]
@@ -85,13 +86,7 @@ def _primitives(model: Any, geom: int) -> list[Message]:
 
 def _axis(model: Any, geom: int) -> NDArray[np.float64]:
     """A geom's z axis (3,) in its body's frame."""
-    return _rotation(model.geom_quat[geom])[:, 2]
-
-
-def _rotation(quaternion: NDArray[np.float64]) -> NDArray[np.float64]:
-    matrix = np.empty(9)
-    mujoco.mju_quat2Mat(matrix, quaternion)
-    return matrix.reshape(3, 3)
+    return rotation_of(model.geom_quat[geom])[:, 2]
 
 
 def _mesh(model: Any, geom: int, colour: tuple[float, ...]) -> Message:
@@ -99,7 +94,7 @@ def _mesh(model: Any, geom: int, colour: tuple[float, ...]) -> Message:
     share = _FACES / model.nmeshface
     if share < 1.0:
         vertices, faces = coarse_mesh(vertices, faces, max(4, int(share * len(faces))))
-    placed = vertices @ _rotation(model.geom_quat[geom]).T + model.geom_pos[geom]
+    placed = vertices @ rotation_of(model.geom_quat[geom]).T + model.geom_pos[geom]
     return triangles(np.round(placed, 5).tolist(), faces, colour)
 
 

@@ -4,7 +4,6 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Self
 
 import numpy as np
@@ -189,12 +188,7 @@ class VideoWriter:
                 raise InputError("cannot encode MP4: this OpenCV has no video encoder")
         self._writer.write(picture[:, :, ::-1])
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *error: Any) -> None:
         if self._writer is not None:
             self._writer.release()
-        self._replacing.__exit__(kind, error, trace)
+        self._replacing.__exit__(*error)

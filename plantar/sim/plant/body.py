@@ -7,6 +7,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.mujoco.quaternions import quaternion_of, rotation_of
 from plantar.settings.body_scale import BodyScale
 from plantar.sim.plant.draw import TruePlant
 from plantar.sim.plant.ground import make_ground_true
@@ -59,16 +60,14 @@ def _carry(model: Any, load: float, place: NDArray[np.float64], torso: int) -> N
     """Add a point mass `load` in kg to the torso, at `place` (3,) in m from its CoM."""
     if not load:
         return
-    mass, turn = float(model.body_mass[torso]), np.empty(9)
-    mujoco.mju_quat2Mat(turn, model.body_iquat[torso])
-    axes = turn.reshape(3, 3)
+    mass, axes = float(model.body_mass[torso]), rotation_of(model.body_iquat[torso])
     reduced = mass * load / (mass + load)
     inertia = (axes * model.body_inertia[torso]) @ axes.T + reduced * (
         place @ place * np.eye(3) - np.outer(place, place)
     )
     moments, axes = np.linalg.eigh(inertia)
     axes[:, 0] *= np.linalg.det(axes)
-    mujoco.mju_mat2Quat(model.body_iquat[torso], axes.ravel())
+    model.body_iquat[torso] = quaternion_of(axes)
     model.body_inertia[torso] = moments
     model.body_ipos[torso] += load / (mass + load) * place
     model.body_mass[torso] = mass + load

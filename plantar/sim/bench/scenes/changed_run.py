@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.tiling import hex_layout
+from plantar.mujoco.quaternions import rotation_of
 from plantar.robots.kinematics.robot_model import Visitor
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
@@ -43,12 +44,11 @@ class _SpheresBelow:
         for side in SIDES:
             box, layout = spec.geom(f"{side}_sole_box"), self._robot.layouts[side]
             site = spec.site(self._robot.legs[side].sole_site)
-            rotation = np.zeros(9)
-            mujoco.mju_quat2Mat(rotation, np.asarray(site.quat, dtype=np.float64))
+            rotation = rotation_of(site.quat)
             points = np.concatenate([support_points(layout.cell_polygon(i), self._count) for i in range(len(layout))])
             for name, (x, y) in zip(self.names(side), points.tolist(), strict=True):
                 sphere = box.parent.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_SPHERE, mass=0.0, group=box.group)
-                sphere.pos = np.asarray(site.pos) + rotation.reshape(3, 3) @ (x, y, SPHERE_RADIUS)
+                sphere.pos = np.asarray(site.pos) + rotation @ (x, y, SPHERE_RADIUS)
                 sphere.size = [SPHERE_RADIUS, 0.0, 0.0]
                 sphere.contype, sphere.conaffinity = box.contype, box.conaffinity
                 sphere.condim, sphere.friction = box.condim, box.friction
