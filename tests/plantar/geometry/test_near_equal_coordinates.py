@@ -21,10 +21,22 @@ from plantar.geometry.inscribed import (
     inscribed_rectangle,
     inscribed_rectangle_any_angle,
     inscribed_triangle,
+    rectangle_in_outline,
     safe_rectangle,
 )
-from plantar.geometry.polygon import area, centroid, closest_point, convex_hull, inner_offset, signed_margin
+from plantar.geometry.outline import Outline
+from plantar.geometry.polygon import (
+    area,
+    centroid,
+    closest_point,
+    convex_hull,
+    convex_ring,
+    inner_offset,
+    part_inside,
+    signed_margin,
+)
 from plantar.kernels.geometry.few_points import FewPoints
+from plantar.percepts.sole_pose import feet_support_polygon
 
 HAIRS = (0.0, 1e-17, 1e-16, 1e-13, 1e-11, 3e-9, 1e-7, 1e-6)  # m
 LANDED = [(0.029, 0.655), (0.029, 0.815), (0.149, 0.655), (0.149, 0.815), (0.149 + 3e-9, 0.625)]
@@ -68,7 +80,8 @@ def test_hulls_are_those_in_exact_fractions(drawn):
     _, points, _ = drawn
     wanted = exact_hull((Fraction(x), Fraction(y)) for x, y in points.tolist())
     largest = float(np.abs(points).max())
-    for ring in (convex_hull(points), np.array(few_hull(points).corners_of()).reshape(-1, 2)):
+    few = np.array(few_hull(points).corners_of()).reshape(-1, 2)
+    for ring in (convex_hull(points), feet_support_polygon([points[:1], points[1:]]), few):
         corners = [(Fraction(x), Fraction(y)) for x, y in ring.tolist()]
         assert set(corners) <= {(Fraction(x), Fraction(y)) for x, y in points.tolist()}
         for a, b, c in zip(corners, corners[1:] + corners[:1], corners[2:] + corners[:2], strict=True):
@@ -121,7 +134,10 @@ SQUARE = CellCutter.of_polygons([np.array([[-1.0, -1.0], [30.0, -1.0], [30.0, 30
 MEASURES = {
     "cells cut": cut_area,
     "safe rectangle": lambda ring: sides_area(safe_rectangle(ring, 0.005)),
-    "area": lambda ring: area(ring),
+    "area": lambda ring: area(convex_ring(ring)),
+    "outline": lambda ring: Outline.of_rings([ring]).area,
+    "rectangle in an outline": lambda ring: sides_area(rectangle_in_outline(Outline.of_rings([ring]))),
+    "part inside": lambda ring: area(part_inside(ring, 0.6, 0.8, float(centroid(ring) @ [0.6, 0.8]))),
     "bounding box": lambda ring: sides_area(bounding_box(ring)),
     "oriented box": lambda ring: sides_area(oriented_box(ring)),
     "enclosing parallelogram": lambda ring: sides_area(enclosing_parallelogram(ring)),
