@@ -24,11 +24,11 @@ MIDDLE = np.array([0.015, 0.0])
 STILL = LipReference(MIDDLE, MIDDLE, np.zeros(2), MIDDLE, np.zeros(2), np.zeros(2))
 
 
-def standing(*sides: Side, fz: float = 300.0, moment: float = -0.015 * 300.0) -> Feet:
+def standing(*sides: Side, fz: float = 300.0, moment: float = -0.015 * 300.0, height: float = 0.0) -> Feet:
     """Both feet beside each other, of which some stand."""
     states: dict[Side, FootState] = {}
     for side in SIDES:
-        place = np.array([0.0, 0.105 if side == "left" else -0.105, 0.0])
+        place = np.array([0.0, 0.105 if side == "left" else -0.105, height])
         foot = FootState(place, np.eye(3), np.eye(3), np.zeros(2))
         if side in sides:
             measured = np.array([0.0, 0.0, fz, 0.0, moment, 0.0])
@@ -61,6 +61,9 @@ def test_the_feet_shall_carry_the_desired_zmp_of_t_4_18():
     assert state.zmp_desired == pytest.approx(wanted)
     assert zmp_of(actions) == pytest.approx(wanted, abs=2e-4)
     assert sum(action.force[2] for action in actions.values()) == pytest.approx(MASS * 9.81, rel=1e-3)
+    raised = law(dcm_gain=3.0).act(state, standing("left", "right", height=0.3))
+    for side, action in actions.items():
+        assert raised[side].force == pytest.approx(action.force, abs=1e-3)
     # The pendulum's horizontal force goes with it.
     assert sum(a.force[0] for a in actions.values()) == pytest.approx(MASS * OMEGA**2 * (MIDDLE - wanted)[0], rel=0.02)
 
