@@ -13,6 +13,8 @@ __all__ = ["read_rows"]
 
 _DIGITS = 15
 _TAB, _LINE_END, _BLANK, _PLUS, _COMMA, _MINUS, _POINT, _ZERO, _NINE = 9, 10, 32, 43, 44, 45, 46, 48, 57
+_LARGE_E, _SMALL_E = 69, 101
+_LARGEST = 1.7976931348623157e308
 
 
 def read_rows(text, delimiter, comma, columns, out):
@@ -25,82 +27,128 @@ def read_rows(text, delimiter, comma, columns, out):
         columns: Column of `out` for each number of a line; -1 to skip it.
         out: Receives numbers, a row a line; NaN for a missing one.
     """
-    data = text
-    size = len(text)
-    width = len(columns)
-    powers = work_arrays.numbers(_DIGITS + 1, False)
-    powers[0] = 1.0
-    for k in range(_DIGITS):
-        powers[k + 1] = 10.0 * powers[k]
-    at = 0
+    cursor = Cursor(text, delimiter, comma)
     row = 0
-    while at < size and row < out.shape[0]:
-        for k in range(width):
-            while at < size and (data[at] == _BLANK or (data[at] == _TAB and delimiter != _TAB)):
-                at += 1
-            begin = at
-            if columns[k] < 0 and delimiter != 0:
-                while at < size and data[at] != delimiter and data[at] != _LINE_END:
-                    at += 1
-            else:
-                negative = False
-                if at < size and (data[at] == _MINUS or data[at] == _PLUS):
-                    negative = data[at] == _MINUS
-                    at += 1
-                digits = 0
-                whole = 0
-                point = -1
-                while at < size:
-                    sign = data[at]
-                    if _ZERO <= sign <= _NINE:
-                        digits += 1
-                        if digits <= _DIGITS:
-                            whole = 10 * whole + (sign - _ZERO)
-                    elif point < 0 and (sign == _POINT or (comma and sign == _COMMA)):
-                        point = digits
-                    else:
-                        break
-                    at += 1
-                plain = digits <= _DIGITS
-                if digits > 0 and at < size and (data[at] == 69 or data[at] == 101):  # E, e
-                    plain = False
-                    at += 1
-                    if at < size and (data[at] == _MINUS or data[at] == _PLUS):
-                        at += 1
-                    if at == size or not _ZERO <= data[at] <= _NINE:
-                        return row
-                    while at < size and _ZERO <= data[at] <= _NINE:
-                        at += 1
-                if digits == 0:
-                    if at > begin or delimiter == 0:
-                        return row
-                    value = math.nan
-                elif plain:
-                    value = whole / powers[0 if point < 0 else digits - point]
-                    if negative:
-                        value = -value
-                else:
-                    value = float(text[begin:at].replace(b",", b"."))
-                    if not abs(value) <= 1.7976931348623157e308:
-                        return row
-                if columns[k] >= 0:
-                    out[row, columns[k]] = value
-            end = at
-            while at < size and (data[at] == _BLANK or (data[at] == _TAB and delimiter != _TAB)):
-                at += 1
-            if k + 1 < width:
-                if delimiter == 0:
-                    if at == end:
-                        return row
-                elif at < size and data[at] == delimiter:
-                    at += 1
-                else:
-                    return row
-        while at < size and (data[at] == _BLANK or data[at] == _TAB or (delimiter != 0 and data[at] == delimiter)):
-            at += 1  # empty ones too many
-        if at < size:
-            if data[at] != _LINE_END:
+    while cursor.at < cursor.size and row < out.shape[0]:
+        for k in range(len(columns)):
+            if k > 0 and not cursor.pass_delimiter():
                 return row
-            at += 1
+            cursor.pass_blanks()
+            if columns[k] < 0 and delimiter != 0:
+                cursor.pass_cell()
+                continue
+            if not cursor.read_number():
+                return row
+            if columns[k] >= 0:
+                out[row, columns[k]] = cursor.value
+        if not cursor.pass_line_end():
+            return row
         row += 1
     return row
+
+
+class Cursor:
+    """A place in a text, and the last number read before it."""
+
+    def __init__(self, text, delimiter, comma):
+        self.text = self.data = text
+        self.size = len(text)
+        self.delimiter = delimiter
+        self.comma = comma
+        self.at = 0
+        self.value = math.nan
+        self.powers = work_arrays.numbers(_DIGITS + 1, False)
+        self.powers[0] = 1.0
+        for k in range(_DIGITS):
+            self.powers[k + 1] = 10.0 * self.powers[k]
+
+    def pass_blanks(self):
+        """Pass blanks, and tabs that part no numbers."""
+        while self.at < self.size and (
+            self.data[self.at] == _BLANK or (self.data[self.at] == _TAB and self.delimiter != _TAB)
+        ):
+            self.at += 1
+
+    def pass_delimiter(self):
+        """Pass the delimiter and blanks before it; returns whether one is there."""
+        before = self.at
+        self.pass_blanks()
+        if self.delimiter == 0:
+            return self.at > before
+        if self.at == self.size or self.data[self.at] != self.delimiter:
+            return False
+        self.at += 1
+        return True
+
+    def pass_cell(self):
+        """Pass a cell up to its delimiter or the line's end, whatever it holds."""
+        while self.at < self.size and self.data[self.at] != self.delimiter and self.data[self.at] != _LINE_END:
+            self.at += 1
+
+    def pass_line_end(self):
+        """Pass empty cells too many and the line's end; returns whether nothing else is left of the line."""
+        while self.at < self.size and self.ends_cell(self.data[self.at]):
+            self.at += 1
+        if self.at == self.size:
+            return True
+        self.at += 1
+        return self.data[self.at - 1] == _LINE_END
+
+    def ends_cell(self, sign):
+        """Whether a sign is a blank or a delimiter."""
+        return sign == _BLANK or sign == _TAB or (self.delimiter != 0 and sign == self.delimiter)
+
+    def is_digit(self):
+        """Whether a digit is next."""
+        return self.at < self.size and _ZERO <= self.data[self.at] <= _NINE
+
+    def pass_sign(self):
+        """Pass a sign of a number; returns whether it is a minus."""
+        if self.at == self.size or (self.data[self.at] != _MINUS and self.data[self.at] != _PLUS):
+            return False
+        self.at += 1
+        return self.data[self.at - 1] == _MINUS
+
+    def pass_exponent(self):
+        """Pass an exponent; returns 1 if one is there, 0 if none, -1 if it has no digits."""
+        if self.at == self.size or (self.data[self.at] != _LARGE_E and self.data[self.at] != _SMALL_E):
+            return 0
+        self.at += 1
+        self.pass_sign()
+        if not self.is_digit():
+            return -1
+        while self.is_digit():
+            self.at += 1
+        return 1
+
+    def read_number(self):
+        """Read a number into `value`, NaN for an empty cell; returns whether it is one of these."""
+        begin = self.at
+        negative = self.pass_sign()
+        digits = 0
+        whole = 0
+        point = -1
+        while self.at < self.size:
+            sign = self.data[self.at]
+            if _ZERO <= sign <= _NINE:
+                digits += 1
+                if digits <= _DIGITS:
+                    whole = 10 * whole + (sign - _ZERO)
+            elif point < 0 and (sign == _POINT or (self.comma and sign == _COMMA)):
+                point = digits
+            else:
+                break
+            self.at += 1
+        if digits == 0:
+            self.value = math.nan
+            return self.at == begin and self.delimiter != 0
+        exponent = self.pass_exponent()
+        if exponent == 0 and digits <= _DIGITS:
+            self.value = whole / self.powers[0 if point < 0 else digits - point]
+            if negative:
+                self.value = -self.value
+            return True
+        if exponent < 0:
+            return False
+        self.value = float(self.text[begin : self.at].replace(b",", b"."))
+        return abs(self.value) <= _LARGEST
