@@ -5,7 +5,7 @@ cdef int _DIGITS, _TAB, _LINE_END, _BLANK, _PLUS, _COMMA, _MINUS, _POINT, _ZERO,
 cdef double _LARGEST
 
 @cython.final
-cdef class Cursor:
+cdef class _Cursor:
     cdef bytes text
     cdef const unsigned char[::1] data
     cdef Py_ssize_t size, at
@@ -24,7 +24,7 @@ cdef class Cursor:
     @cython.locals(negative=bint, sign=int, digits=Py_ssize_t, whole=long, point=Py_ssize_t, exponent=int)
     cdef inline bint read_number(self) except -1
 
-@cython.locals(cursor=Cursor)
+@cython.locals(cursor=_Cursor)
 cpdef Py_ssize_t read_rows(
     bytes text, int delimiter, bint comma, const Py_ssize_t[::1] columns, double[:, ::1] out
 ) except -1

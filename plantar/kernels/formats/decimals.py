@@ -27,7 +27,7 @@ def read_rows(text, delimiter, comma, columns, out):
         columns: Column of `out` for each number of a line; -1 to skip it.
         out: Receives numbers, a row a line; NaN for a missing one.
     """
-    cursor = Cursor(text, delimiter, comma)
+    cursor = _Cursor(text, delimiter, comma)
     row = 0
     while cursor.at < cursor.size and row < out.shape[0]:
         for k in range(len(columns)):
@@ -47,7 +47,7 @@ def read_rows(text, delimiter, comma, columns, out):
     return row
 
 
-class Cursor:
+class _Cursor:
     """A place in a text, and the last number read before it."""
 
     def __init__(self, text, delimiter, comma):
@@ -62,15 +62,15 @@ class Cursor:
         for k in range(_DIGITS):
             self.powers[k + 1] = 10.0 * self.powers[k]
 
+    # Pass blanks, and tabs that part no numbers.
     def pass_blanks(self):
-        """Pass blanks, and tabs that part no numbers."""
         while self.at < self.size and (
             self.data[self.at] == _BLANK or (self.data[self.at] == _TAB and self.delimiter != _TAB)
         ):
             self.at += 1
 
+    # Pass the delimiter and blanks before it; returns whether one is there.
     def pass_delimiter(self):
-        """Pass the delimiter and blanks before it; returns whether one is there."""
         before = self.at
         self.pass_blanks()
         if self.delimiter == 0:
@@ -80,13 +80,13 @@ class Cursor:
         self.at += 1
         return True
 
+    # Pass a cell up to its delimiter or the line's end, whatever it holds.
     def pass_cell(self):
-        """Pass a cell up to its delimiter or the line's end, whatever it holds."""
         while self.at < self.size and self.data[self.at] != self.delimiter and self.data[self.at] != _LINE_END:
             self.at += 1
 
+    # Pass empty cells too many and the line's end; returns whether nothing else is left of the line.
     def pass_line_end(self):
-        """Pass empty cells too many and the line's end; returns whether nothing else is left of the line."""
         while self.at < self.size and self.ends_cell(self.data[self.at]):
             self.at += 1
         if self.at == self.size:
@@ -94,23 +94,23 @@ class Cursor:
         self.at += 1
         return self.data[self.at - 1] == _LINE_END
 
+    # Whether a sign is a blank or a delimiter.
     def ends_cell(self, sign):
-        """Whether a sign is a blank or a delimiter."""
-        return sign == _BLANK or sign == _TAB or (self.delimiter != 0 and sign == self.delimiter)
+        return sign in (_BLANK, _TAB) or (self.delimiter != 0 and sign == self.delimiter)
 
+    # Whether a digit is next.
     def is_digit(self):
-        """Whether a digit is next."""
         return self.at < self.size and _ZERO <= self.data[self.at] <= _NINE
 
+    # Pass a sign of a number; returns whether it is a minus.
     def pass_sign(self):
-        """Pass a sign of a number; returns whether it is a minus."""
         if self.at == self.size or (self.data[self.at] != _MINUS and self.data[self.at] != _PLUS):
             return False
         self.at += 1
         return self.data[self.at - 1] == _MINUS
 
+    # Pass an exponent; returns 1 if one is there, 0 if none, -1 if it has no digits.
     def pass_exponent(self):
-        """Pass an exponent; returns 1 if one is there, 0 if none, -1 if it has no digits."""
         if self.at == self.size or (self.data[self.at] != _LARGE_E and self.data[self.at] != _SMALL_E):
             return 0
         self.at += 1
@@ -121,8 +121,8 @@ class Cursor:
             self.at += 1
         return 1
 
+    # Read a number into `value`, NaN for an empty cell; returns whether it is one of these.
     def read_number(self):
-        """Read a number into `value`, NaN for an empty cell; returns whether it is one of these."""
         begin = self.at
         negative = self.pass_sign()
         digits = 0
