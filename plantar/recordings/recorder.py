@@ -31,6 +31,7 @@ __all__ = ["Channel", "Recorder"]
 _INDEX_ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])
 _MESSAGE, _CHUNK, _MESSAGE_INDEX = 0x05, 0x06, 0x07
 _CHUNK_HEAD = struct.Struct("<BQQQQII4sQ")  # opcode, length, first and last time, size, CRC, compression, packed size
+_INDEX_HEAD = struct.Struct("<BQHI")  # opcode, length, channel, bytes of entries
 _COMPRESSION = b"zstd"
 _CDR_LITTLE_ENDIAN = np.array([[0, 1, 0, 0]], dtype=np.uint8)
 _FIELD_NAME = re.compile(r"[a-z](?:_?[a-z0-9])*")
@@ -162,10 +163,7 @@ class Recorder:
             texts = {key: json.dumps(value) for key, value in (metadata or {}).items()}
         except (TypeError, ValueError) as error:
             raise RecordingError(f"recording metadata cannot be stored as JSON: {error}") from None
-        attachments = {
-            f"layout_{side}.json": json.dumps(layout_to_dict(layout)).encode()
-            for side, layout in (layouts or {}).items()
-        }
+        documents = {f"layout_{s}.json": json.dumps(layout_to_dict(own)).encode() for s, own in (layouts or {}).items()}
         self.path = Path(path)
         self.chunk_duration = chunk_duration
         self._records: Any = records
@@ -175,8 +173,7 @@ class Recorder:
         self._definitions: list[Any] = []  # schema and channel records that no chunk holds yet
         self._summary: list[Any] = []
         self._chunk_indexes: list[Any] = []
-        self._attachment_indexes: list[Any] = []
-        self._metadata_indexes: list[Any] = []
+        self._indexes: list[Any] = []  # of metadata, then of each layout
         self._time_range: tuple[int, int] | None = None
         self._flush_at = math.inf
         if self.path.is_dir():
@@ -188,9 +185,13 @@ class Recorder:
         self._file: IO[bytes] = open(self._temporary, "wb")  # noqa: SIM115  closed by close()
         self._put(MCAP_MAGIC)
         self._put(self._encoded(records.Header(profile="ros2", library="plantar")))
-        self._add_metadata("plantar", texts)
-        for name, data in attachments.items():
-            self._add_attachment(name, data)
+        record = self._encoded(records.Metadata(name="plantar", metadata=texts))
+        self._indexes.append(records.MetadataIndex(offset=self._put(record), length=len(record), name="plantar"))
+        for name, data in documents.items():
+            about: dict[str, Any] = {"log_time": 0, "create_time": 0, "name": name, "media_type": "application/json"}
+            record = self._encoded(records.Attachment(data=data, **about))
+            about |= {"length": len(record), "data_size": len(data)}
+            self._indexes.append(records.AttachmentIndex(offset=self._put(record), **about))
         self._file.flush()
         self._flush_at = 0.0
 
@@ -268,19 +269,14 @@ class Recorder:
             entries["log_time"] = times
             entries["offset"] = offset + messages.offsets
             entries = entries[np.argsort(times, kind="stable")]
-            index = self._builder_type()
-            index.start_record(_MESSAGE_INDEX)
-            index.write2(channel._number)
-            index.write4(entries.nbytes)
-            index.write(entries.tobytes())
-            index.finish_record()
-            indexes.append((channel._number, index.end()))
+            head = _INDEX_HEAD.pack(_MESSAGE_INDEX, 6 + entries.nbytes, channel._number, entries.nbytes)
+            indexes.append((channel._number, head + entries.tobytes()))
             parts.append(messages.data)
             offset += len(messages.data)
         data = b"".join(parts)
         packed = self._compress(data)
-        head = (low, high, offset, zlib.crc32(data), len(_COMPRESSION), _COMPRESSION, len(packed))
-        start = self._put(_CHUNK_HEAD.pack(_CHUNK, _CHUNK_HEAD.size - 9 + len(packed), *head))
+        about = (low, high, offset, zlib.crc32(data), len(_COMPRESSION), _COMPRESSION, len(packed))
+        start = self._put(_CHUNK_HEAD.pack(_CHUNK, _CHUNK_HEAD.size - 9 + len(packed), *about))
         self._put(packed)
         offsets = {number: self._put(index) for number, index in indexes}
         self._chunk_indexes.append(
@@ -351,36 +347,16 @@ class Recorder:
             message_count=sum(counts.values()),
             schema_count=len(counts),
             channel_count=len(counts),
-            attachment_count=len(self._attachment_indexes),
-            metadata_count=len(self._metadata_indexes),
+            attachment_count=len(self._indexes) - 1,
+            metadata_count=1,
             chunk_count=len(self._chunk_indexes),
             message_start_time=low,
             message_end_time=high,
             channel_message_counts=counts,
         )
-        summary = self._encoded(
-            *self._summary,
-            statistics,
-            *self._chunk_indexes,
-            *self._attachment_indexes,
-            *self._metadata_indexes,
-        )
-        start = self._put(summary)
+        start = self._put(self._encoded(*self._summary, statistics, *self._chunk_indexes, *self._indexes))
         self._put(self._encoded(records.Footer(summary_start=start, summary_offset_start=0, summary_crc=0)))
         self._put(MCAP_MAGIC)
-
-    def _add_metadata(self, name: str, texts: dict[str, str]) -> None:
-        record = self._encoded(self._records.Metadata(name=name, metadata=texts))
-        offset = self._put(record)
-        self._metadata_indexes.append(self._records.MetadataIndex(offset=offset, length=len(record), name=name))
-
-    def _add_attachment(self, name: str, data: bytes) -> None:
-        about = {"log_time": 0, "create_time": 0, "name": name, "media_type": "application/json"}
-        record = self._encoded(self._records.Attachment(data=data, **about))
-        offset = self._put(record)
-        self._attachment_indexes.append(
-            self._records.AttachmentIndex(offset=offset, length=len(record), data_size=len(data), **about)
-        )
 
     def _encoded(self, *records: Any) -> bytes:
         builder = self._builder_type()
