@@ -22,11 +22,7 @@ def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.i
         threshold: Activation threshold epsilon_f in N.
         saturation: Force in N from which taxel is saturated.
 
-    Returns:
-        Mask.
-
-    Raises:
-        ReadingError, InputError: Forces not numeric.
+    Returns mask; ReadingError, InputError: forces not numeric.
     """
     given = numbers(force, "forces", ReadingError)
     low, high = number(threshold, "activation threshold"), number(saturation, "saturation")
@@ -45,11 +41,7 @@ def hysteresis(
         initial: State (...) before the first frame.
         saturation: Switches off from here on.
 
-    Returns:
-        State (frames, ...) after each frame.
-
-    Raises:
-        InputError: `low` above `high`.
+    Returns state (frames, ...) after each frame; InputError: `low` above `high`.
 
     Example:
         >>> hysteresis([0.0, 2.0, 1.2, 0.9, 1.2], high=1.5, low=1.0).tolist()

@@ -25,11 +25,7 @@ def active_cells(
         proximity: Proximity signals (..., n), larger when nearer.
         force_threshold: epsilon_force in unit of `force`; `proximity_threshold` likewise.
 
-    Returns:
-        Mask; NaN, inf or beyond `LARGEST` does not count.
-
-    Raises:
-        ReadingError, InputError: Shapes differ.
+    Returns mask; NaN, inf or beyond `LARGEST` does not count; errors if shapes differ.
     """
     f, p = _signals(force, proximity)
     least_force = number(force_threshold, "threshold of force")
@@ -53,11 +49,7 @@ def pseudo_force(
         proximity_weight: w_prox, in N per unit of `proximity`.
         active: Mask (..., n), e.g. of `active_cells`; all cells if None.
 
-    Returns:
-        Pseudo-forces (..., n) in N, 0 for inactive cells; NaN, inf or beyond `LARGEST` counts as 0.
-
-    Raises:
-        ReadingError, InputError: Shapes differ.
+    Returns pseudo-forces (..., n) in N, 0 for inactive cells and NaN, inf or beyond `LARGEST`; errors if shapes differ.
     """
     f, p = _signals(force, proximity)
     by_force = number(force_weight, "weight of force", finite=True)
@@ -74,11 +66,7 @@ def patch_signal(force: ArrayLike, proximity: ArrayLike, weight: float) -> NDArr
         proximity: Proximity signals (..., n), normalised to 0..1, 1 at contact.
         weight: w: 0 for proximity alone, 1 for force alone.
 
-    Returns:
-        Signals (..., n); NaN, inf or beyond `LARGEST` counts as 0.
-
-    Raises:
-        ReadingError, InputError: Shapes differ.
+    Returns signals (..., n); NaN, inf or beyond `LARGEST` counts as 0; errors if shapes differ.
     """
     f, p = _signals(force, proximity)
     share = number(weight, "weight of force against proximity", nan=True)
@@ -95,11 +83,8 @@ def skin_wrench(positions: ArrayLike, rotations: ArrayLike, signal: ArrayLike) -
         rotations: Rotations (n, 3, 3) from each cell's frame to wanted frame.
         signal: Normal forces (n,) or (frames, n) in N; NaN, inf or beyond `LARGEST` counts as 0.
 
-    Returns:
-        Wrench (6,) or (frames, 6) about wanted frame's origin in N and N m, by world on robot.
-
-    Raises:
-        ReadingError: Shapes do not agree.
+    Returns wrench (6,) or (frames, 6) about wanted frame's origin in N and N m, by world on robot; ReadingError:
+    shapes do not agree.
     """
     r = numbers(positions, "positions of cells", ReadingError)
     turn = numbers(rotations, "rotations of cells", ReadingError)

@@ -33,11 +33,7 @@ def clipped_mean(force: ArrayLike, noise: float) -> NDArray[np.float64]:
         force: Forces (...) in N, 0 or more.
         noise: Standard deviation sigma of its white noise in N.
 
-    Returns:
-        Means (...) in N.
-
-    Raises:
-        InputError: Noise negative.
+    Returns means (...) in N; InputError: noise negative.
     """
     given, sigma = numbers(force, "forces"), _sigma(noise)
     if sigma < _NEGLIGIBLE:
@@ -55,11 +51,7 @@ def unclipped_mean(mean: ArrayLike, noise: float) -> NDArray[np.float64]:
         mean: Running means (...) of readings in N.
         noise: Standard deviation sigma of white noise in N.
 
-    Returns:
-        Forces (...) in N.
-
-    Raises:
-        InputError: Noise negative.
+    Returns forces (...) in N; InputError: noise negative.
 
     Example:
         >>> unclipped_mean(clipped_mean([0.0, 1.0, 10.0], 1.5), 1.5).round(3).tolist()

@@ -21,13 +21,9 @@ def center_of_pressure(
     Args:
         layout: Sole, n taxels.
         force: Normal forces (n,) in N; only active taxels count.
-        threshold: Activation threshold in N; layout's if None.
+        threshold: In N; layout's if None.
 
-    Returns:
-        Point; for many frames see `plantar.batch.loads`.
-
-    Raises:
-        ReadingError, InputError: Forces not (taxels,).
+    Returns point; for many frames see `plantar.batch.loads`; ReadingError or InputError for other shapes.
     """
     vertical = _active(layout, taxel_values(layout, force), threshold) * layout.rotations[:, 2, 2]
     total = float(vertical.sum())
@@ -40,13 +36,10 @@ def ground_reaction_wrench(layout: SoleLayout, force: ArrayLike, threshold: floa
     Args:
         layout: Sole, n taxels.
         force: Normal forces (n,) or (frames, n) in N; only active taxels count.
-        threshold: Activation threshold in N; layout's if None.
+        threshold: In N; layout's if None.
 
-    Returns:
-        Wrench (6,) or (frames, 6) in sole frame in N and N m, by world on sole.
-
-    Raises:
-        ReadingError, InputError: Forces not (..., taxels).
+    Returns wrench (6,) or (frames, 6) in sole frame in N and N m, by world on sole; ReadingError, InputError:
+    forces not (..., taxels).
     """
     return np.asarray(_active(layout, taxel_frames(layout, force), threshold) @ layout.wrench_map.T)
 
@@ -68,11 +61,8 @@ def pressure_driven_wrench(
         reference_area: Gain xi in m^2: contact area with unchanged wrench.
         threshold: Activation threshold epsilon_a in N; layout's if None.
 
-    Returns:
-        Wrench (6,) or (frames, 6) about sole origin in N and N m; zero without contact.
-
-    Raises:
-        ReadingError, InputError: Forces not (..., taxels).
+    Returns wrench (6,) or (frames, 6) about sole origin in N and N m; zero without contact; raises ReadingError,
+    InputError: forces not (..., taxels).
     """
     readings = taxel_frames(layout, force)
     active = active_taxels(readings, layout.force_threshold if threshold is None else threshold, layout.force_limit)
@@ -89,11 +79,8 @@ def scaled_by_area(wrench: ArrayLike, contact_area: ArrayLike, reference_area: f
         contact_area: Contact area () or (frames,) in m^2.
         reference_area: Gain xi in m^2.
 
-    Returns:
-        Wrench in shape of `wrench`; zero where contact area is 0.
-
-    Raises:
-        InputError: Shapes differ, area not above 0.
+    Returns wrench in shape of `wrench`; zero where contact area is 0; InputError: shapes differ, area not above
+    0.
     """
     reference = number(reference_area, "reference area", nan=True)
     if not 0.0 < reference < np.inf:
@@ -118,11 +105,7 @@ def joint_torque(jacobian: ArrayLike, rotation_to_base: ArrayLike, wrench: Array
         rotation_to_base: Rotation (3, 3) from link's (the sole's) frame to base frame.
         wrench: Wrench (6,) or (frames, 6) about link's origin in its frame in N and N m.
 
-    Returns:
-        Torques (joints,) or (frames, joints) in N m.
-
-    Raises:
-        InputError: Another shape, not finite.
+    Returns torques (joints,) or (frames, joints) in N m; InputError: another shape, not finite.
     """
     columns = array(jacobian, "jacobian", (6, "joints"), finite=True)
     rotation = array(rotation_to_base, "rotation", (3, 3), finite=True)

@@ -54,11 +54,7 @@ def fit_ground_plane(
         sensing_range: Largest distance in m, of either sign; layout's if None.
         tolerance: Distance in m from plane that noise explains.
 
-    Returns:
-        Plane; None where no taxel measures ground.
-
-    Raises:
-        ReadingError, InputError: Distances not (taxels,).
+    Returns plane; None where no taxel measures ground; ReadingError, InputError: distances not (taxels,).
 
     Example:
         >>> from plantar import hex_layout

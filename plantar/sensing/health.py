@@ -73,11 +73,7 @@ def saturated_taxels(values: ArrayLike, highest: float) -> NDArray[np.bool_]:
         values: Readings (..., n) of modality.
         highest: Upper end of its range, e.g. `layout.ranges["force"][1]`.
 
-    Returns:
-        Mask.
-
-    Raises:
-        ReadingError, InputError: Values not numeric.
+    Returns mask; ReadingError, InputError: values not numeric.
     """
     readings = numbers(values, "readings", ReadingError)
     return np.asarray(np.isfinite(readings) & (readings >= number(highest, "upper end of the range")))
@@ -98,11 +94,7 @@ def stuck_taxels(
         tolerance: Largest difference of two samples that is no change.
         rest: Largest reading that is never stuck.
 
-    Returns:
-        Mask.
-
-    Raises:
-        InputError: Times not increasing.
+    Returns mask; InputError: times not increasing.
 
     Example:
         >>> stuck_taxels([0.0, 0.5, 1.0], [[0, 5, 5], [0, 5, 6], [0, 5, 5]], hold=1.0).tolist()[-1]
@@ -149,11 +141,7 @@ class StuckMonitor:
             time: Time in s, later than the last one.
             values: Readings (n,).
 
-        Returns:
-            Mask (n,).
-
-        Raises:
-            InputError, ReadingError: Time not later.
+        Returns mask (n,); InputError, ReadingError: time not later.
         """
         now = numbers(values, "readings", ReadingError).copy()
         if now.ndim != 1:
@@ -182,11 +170,7 @@ def fill_from_neighbours(
         faulty: Mask (n,) or of shape of `values`: taxels to fill.
         per_area: Average per area, for forces on unequal cells.
 
-    Returns:
-        Readings in shape of `values`.
-
-    Raises:
-        ReadingError: Values or mask do not fit.
+    Returns readings in shape of `values`; ReadingError: values or mask do not fit.
     """
     out = taxel_frames(layout, values, "readings").copy()
     bad = mask(faulty, "mask of faulty taxels", (...,), ReadingError)

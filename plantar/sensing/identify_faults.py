@@ -51,11 +51,7 @@ def identify_faults(layout: SoleLayout, time: ArrayLike, force: ArrayLike, read:
         force: Known normal force (t, n) on each taxel in N, rising and falling.
         read: Readings (t, n) in N; NaN if dead.
 
-    Returns:
-        Faults.
-
-    Raises:
-        ReadingError: Under 20 frames.
+    Returns faults; raises ReadingError under 20 frames.
     """
     times = array(time, "times", ("t",), ReadingError, finite=True)
     if len(times) < 20 or not (np.diff(times) > 0.0).all():

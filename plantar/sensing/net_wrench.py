@@ -1,7 +1,7 @@
 """Net wrench about a point of all that touches a body, or is about to (K 2-5).
 
 A taxel counts if it measures force OR proximity (K 2, corrected: printed AND). Its pseudo-force is its force plus a
-share of its proximity (K 3), which answers a push before it arrives. K's weight of 99 turns full scale into newtons.
+share of its proximity (K 3), which answers a push early.
 """
 
 from collections.abc import Mapping
@@ -55,11 +55,7 @@ def net_wrench(
         point: Point (3,) in world in m for moments; in K the CoM.
         rules: What counts.
 
-    Returns:
-        Wrench; zeros without a push.
-
-    Raises:
-        ReadingError: Point not finite.
+    Returns wrench; zeros without a push; ReadingError: point not finite.
 
     Example:
         >>> from plantar.sensing.link_skin import SkinPatch

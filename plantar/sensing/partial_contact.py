@@ -101,11 +101,7 @@ class PartialContact:
             center_of_pressure: Where it acts (2,) in sole frame in m.
             lines: Half-planes (m, 3), see `cover`.
 
-        Returns:
-            Forces, none negative.
-
-        Raises:
-            InputError: Not finite.
+        Returns forces, none negative; InputError: not finite.
         """
         place = array(center_of_pressure, "center of pressure", (2,), finite=True)
         measure = self.cover(lines)
@@ -150,11 +146,7 @@ class PartialContact:
             steps: Gauss-Newton steps.
             start: First guess of edges (m, 3), see `between`; from loads if None.
 
-        Returns:
-            Edges; with no active taxel an empty polygon.
-
-        Raises:
-            ReadingError, InputError: Loads or mask do not fit.
+        Returns edges; with no active taxel an empty polygon; ReadingError, InputError: loads or mask do not fit.
         """
         force = taxel_values(self.layout, load, "loads")
         mask = taxel_mask(self.layout, active, "mask of active taxels")
@@ -193,11 +185,8 @@ class PartialContact:
             supported: Mask (n,) of cells over ground.
             idle: Mask (n,) of cells known not to be.
 
-        Returns:
-            Half-planes (m, 3), side with most idle cells first; m up to 4.
-
-        Raises:
-            ReadingError: A mask does not fit.
+        Returns half-planes (m, 3), side with most idle cells first; m up to 4; ReadingError: a mask does not
+        fit.
         """
         over = taxel_mask(self.layout, supported, "mask of supported taxels")
         inner, outer = self._centers[over], self._centers[taxel_mask(self.layout, idle, "mask of idle taxels")]

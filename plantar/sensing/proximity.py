@@ -81,11 +81,8 @@ def cells_polygon(layout: SoleLayout, taxels: ArrayLike) -> NDArray[np.float64]:
         layout: Sole, n taxels.
         taxels: Mask (n,) of cells.
 
-    Returns:
-        Polygon (k, 2) in sole frame in m, counter-clockwise; empty without cells.
-
-    Raises:
-        ReadingError: Mask does not fit.
+    Returns polygon (k, 2) in sole frame in m, counter-clockwise; empty without cells; ReadingError: mask does
+    not fit.
     """
     polygon: NDArray[np.float64] = layout.kernel.hull(taxel_mask(layout, taxels))[0]
     return polygon
@@ -99,11 +96,7 @@ def preemptive_polygon(layout: SoleLayout, distance: ArrayLike, threshold: float
         distance: Distances (n,) in m.
         threshold: Threshold epsilon_p in m.
 
-    Returns:
-        Polygon, counter-clockwise; empty if none is near.
-
-    Raises:
-        ReadingError, InputError: Distances do not fit.
+    Returns polygon, counter-clockwise; empty if none is near; ReadingError, InputError: distances do not fit.
     """
     return cells_polygon(layout, near_taxels(taxel_values(layout, distance, "distances"), threshold))
 
@@ -128,11 +121,8 @@ def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[f
         distance: Distances (n,) in m.
         heights: Thresholds epsilon_p in m, in any order.
 
-    Returns:
-        One per height, lowest first, each including lower ones; read-only.
-
-    Raises:
-        ReadingError, InputError: Distances do not fit.
+    Returns one per height, lowest first, each including lower ones; read-only; ReadingError, InputError:
+    distances do not fit.
 
     Example:
         >>> from plantar import hex_layout

@@ -132,11 +132,7 @@ class WornFaults:
             force: Normal force (..., n) on each taxel in N.
             vectors: Force (..., n, 3) in N with tangential part, for shear.
 
-        Returns:
-            Readings (..., n) in N; NaN for dead taxels.
-
-        Raises:
-            ReadingError: Forces do not fit.
+        Returns readings (..., n) in N; NaN for dead taxels; ReadingError: forces do not fit.
         """
         faults = self.faults
         pressed = array(force, "forces", self.gains.shape, ReadingError, finite=True)

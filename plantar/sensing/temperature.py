@@ -22,11 +22,7 @@ def temperature_measure(temperature: ArrayLike, threshold: float, highest: float
         threshold: Temperature kappa_0 in degC from which taxel reacts.
         highest: Upper end of sensors' range in degC, where readings are cut.
 
-    Returns:
-        Excess.
-
-    Raises:
-        InputError: Not numeric.
+    Returns excess; InputError: not numeric.
     """
     readings = numbers(temperature, "temperatures")
     level = number(threshold, "threshold of temperature", finite=True)
@@ -49,11 +45,7 @@ def temperature_wrench(
         threshold: Temperature kappa_0 in degC from which taxel reacts; layout's if None.
         gain: Force of a kelvin of excess in N/K.
 
-    Returns:
-        Wrench (6,) or (frames, 6) about sole origin in N and N m.
-
-    Raises:
-        ReadingError: Temperatures do not fit.
+    Returns wrench (6,) or (frames, 6) about sole origin in N and N m; ReadingError: temperatures do not fit.
     """
     readings = taxel_frames(layout, temperature, "temperatures")
     level = layout.temperature_threshold if threshold is None else threshold
@@ -70,11 +62,7 @@ def warm_taxels(temperature: ArrayLike, threshold: float) -> NDArray[np.bool_]:
         temperature: Temperatures (..., n) in degC; NaN or inf if dead.
         threshold: Temperature kappa_0 in degC.
 
-    Returns:
-        Mask (..., n).
-
-    Raises:
-        InputError: Not numeric.
+    Returns mask (..., n); InputError: not numeric.
     """
     readings = numbers(temperature, "temperatures")
     return np.asarray(np.isfinite(readings) & (readings >= number(threshold, "threshold of temperature")))
@@ -90,11 +78,8 @@ def temperature_footprint(
         temperature: Temperatures (n,) in degC; NaN if dead.
         threshold: Temperature in degC of warm cell; layout's if None.
 
-    Returns:
-        Polygon (k, 2) in sole frame in m, counter-clockwise; empty if none is warm.
-
-    Raises:
-        ReadingError: Temperatures do not fit.
+    Returns polygon (k, 2) in sole frame in m, counter-clockwise; empty if none is warm; ReadingError:
+    temperatures do not fit.
     """
     readings = taxel_values(layout, temperature, "temperatures")
     level = layout.temperature_threshold if threshold is None else threshold

@@ -31,11 +31,8 @@ def virtual_ground_reaction_wrench(
         gain: Repulsion k_p of each taxel in N/m.
         sensing_range: Range of sensors in m; layout's if None.
 
-    Returns:
-        Wrench (6,) or (frames, 6) in sole frame in N and N m.
-
-    Raises:
-        ReadingError, InputError: Distances do not fit.
+    Returns wrench (6,) or (frames, 6) in sole frame in N and N m; ReadingError, InputError: distances do not
+    fit.
     """
     readings = taxel_frames(layout, distance, "distances")
     reach = layout.proximity_range if sensing_range is None else sensing_range
@@ -57,11 +54,7 @@ def early_stop(virtual_wrench: ArrayLike, threshold: float) -> NDArray[np.bool_]
         virtual_wrench: Virtual wrench (..., 6) in N and N m.
         threshold: Threshold epsilon_stop in N.
 
-    Returns:
-        Bool for one wrench, a mask (...) for several.
-
-    Raises:
-        InputError: Wrench not (..., 6).
+    Returns bool for one wrench, a mask (...) for several; InputError: wrench not (..., 6).
     """
     stop = np.asarray(_size(array(virtual_wrench, "wrench", (..., 6))) > number(threshold, "threshold of the stop"))
     return bool(stop) if stop.ndim == 0 else stop
@@ -80,11 +73,8 @@ def sole_wrenches(
         threshold: Force |f_f| in N above which foot has landed.
         release: Force in N at or below which it has lifted; half of `threshold` if None.
 
-    Returns:
-        Wrenches (frames, 6) in N and N m. A part with NaN or inf counts as zero.
-
-    Raises:
-        InputError: Not (frames, 6) each.
+    Returns wrenches (frames, 6) in N and N m. A part with NaN or inf counts as zero; InputError: not (frames, 6)
+    each.
 
     Example:
         >>> contact = np.outer([0.0, 0.5, 9.0, 4.0], [0, 0, 1, 0, 0, 0])

@@ -96,8 +96,6 @@ def test_bad_arguments_are_refused():
         hysteresis([[1.0]], 1.0, 2.0)
     with pytest.raises(InputError, match="off not above on"):
         TaxelActivation(float("nan"))
-    with pytest.raises(InputError, match="no time axis"):
-        hysteresis(1.0, 2.0, 1.0)
     activation = TaxelActivation(1.0)
     activation.update([1.0])
     with pytest.raises(ReadingError, match="taxels"):

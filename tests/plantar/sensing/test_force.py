@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from plantar import InputError, ReadingError, SoleLayout
+from plantar import InputError, SoleLayout
 from plantar.mechanics.wrench import wrench_at
 from plantar.mechanics.zmp import zmp_in_plane, zmp_of_feet
 from plantar.sensing.force import center_of_pressure, ground_reaction_wrench
@@ -136,13 +136,6 @@ def test_zmp_of_feet_in_the_air():
     assert zmp_of_feet([], []) is None
 
 
-@pytest.mark.parametrize("shape", [(), (12, 1), (3, 12), (11,), (0,)])
-def test_a_cop_is_of_one_reading(shape):
-    """Frames were once divided by the sum over all of them, and one number or a column spread over all taxels."""
-    with pytest.raises(ReadingError, match="forces have shape"):
-        center_of_pressure(tilted_sole(0), np.ones(shape))
-
-
 def test_dead_taxels_are_left_out():
     layout = tilted_sole(0)
     force = np.full(len(layout), 5.0)
@@ -164,12 +157,7 @@ def test_a_wrench_that_is_not_known_has_no_zmp():
 @pytest.mark.parametrize(
     ("call", "text"),
     [
-        (lambda: zmp_in_plane(np.zeros(3)), r"wrench has shape \(3,\); expected \(6,\)"),
-        (lambda: wrench_at(np.zeros(3), np.zeros(3)), r"wrench has shape \(3,\); expected \(..., 6\)"),
-        (lambda: wrench_at(np.zeros(6), np.zeros(2)), r"point has shape \(2,\); expected \(3,\)"),
-        (lambda: wrench_at(np.zeros(6), [0.0, 0.0, np.nan]), "point holds a value that is not finite"),
         (lambda: zmp_of_feet([None], [1.0, 2.0]), "1 points and 2 vertical forces"),
-        (lambda: zmp_of_feet([[0.0]], [1.0]), r"point has shape \(1,\)"),
         (lambda: zmp_of_feet([[0.0, 0.0]], [np.inf]), "not finite"),
         (lambda: zmp_of_feet(None, [1.0]), "points are None"),
         (lambda: zmp_of_feet([None], "a"), "vertical force is 'a'"),

@@ -6,7 +6,7 @@ import scipy.linalg
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plantar import InputError, ReadingError
+from plantar import InputError
 from plantar.sensing.ground_plane import fit_ground_plane
 
 seeds = st.integers(0, 2**32 - 1)
@@ -129,8 +129,6 @@ def test_any_reading_gives_a_finite_plane_or_none(sole, seed):
 
 
 def test_bad_arguments_are_refused(sole):
-    with pytest.raises(ReadingError, match="taxels"):
-        fit_ground_plane(sole, [0.01])
     with pytest.raises(InputError, match="tolerance"):
         fit_ground_plane(sole, np.zeros(len(sole)), tolerance=0.0)
     for reach in (0.0, math.nan, math.inf):

@@ -7,7 +7,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import hex_layout
-from plantar.errors import ReadingError
 from plantar.kernels import python_form
 from plantar.kernels.geometry.cut_cells import cut_cells
 from plantar.sensing.partial_contact import PartialContact
@@ -113,5 +112,3 @@ def test_what_is_no_foothold_gives_no_edges():
     dead = np.full(n, 10.0)
     dead[3] = math.nan
     assert len(fit.update(dead, np.ones(n, dtype=bool)).lines) == 0
-    with pytest.raises(ReadingError):
-        fit.update(np.zeros(n - 1), np.zeros(n, dtype=bool))

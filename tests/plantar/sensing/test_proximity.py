@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from plantar import InputError, ReadingError
+from plantar import InputError
 from plantar.geometry.polygon import area, convex_hull, signed_margin
 from plantar.sensing.proximity import cells_polygon, height_contours, near_taxels, preemptive_polygon, proximity_measure
 
@@ -79,7 +79,5 @@ def test_nothing_in_range_has_empty_polygons(sole):
 
 
 def test_bad_arguments_are_refused(sole):
-    with pytest.raises(ReadingError, match="taxels"):
-        preemptive_polygon(sole, [0.01], 0.02)
     with pytest.raises(InputError, match="NaN"):
         height_contours(sole, np.zeros(len(sole)), [math.nan])

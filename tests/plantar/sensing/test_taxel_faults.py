@@ -89,8 +89,6 @@ def test_a_fault_is_finite_and_not_below_zero(name, value):
 
 def test_wrong_forces_are_refused():
     worn = TaxelFaults(shear=0.1).worn(SOLE)
-    with pytest.raises(ReadingError, match="shape"):
-        worn.read(0.0, np.zeros(N + 1))
     with pytest.raises(ReadingError, match="vectors"):
         worn.read(0.0, np.zeros(N))
 
