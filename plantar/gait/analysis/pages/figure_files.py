@@ -23,7 +23,7 @@ def write_figures(
     Args:
         figures: Name, figure (None without data) and caption of each.
         folder: Existing folder.
-        progress: Called with a fraction 0..1 and the current work.
+        progress: Called with a share 0..1 and the work.
 
     Returns:
         PNG files with captions.

@@ -13,6 +13,7 @@ from plantar.csv_table import csv_text
 from plantar.formats.footprint_image import FootprintImage, Print, read_footprints
 from plantar.gait.analysis.pages.figure_files import write_figures
 from plantar.gait.analysis.pages.report import facts_of_image
+from plantar.gait.analysis.pages.sole_figures import draw_lines
 from plantar.gait.analysis.prints.footprint import Footprint, footprint_of_pixels
 from plantar.gait.analysis.prints.regions import REGIONS, regions_of, with_toe_line
 from plantar.gait.analysis.subject import Subject
@@ -78,9 +79,7 @@ def footprint_in_image(part: Print, pixel: float, side: Side) -> Footprint:
     rows, columns = np.nonzero(part.mask)
     every = max(1, round(float(np.sqrt(len(rows) / _MOST_PIXELS))))
     keep = (rows % every == 0) & (columns % every == 0)
-    height = part.mask.shape[0]
-    # As in the sole frame x is up the image and y to its left.
-    centres = np.column_stack([height - rows[keep] - 0.5, -columns[keep] - 0.5]) * pixel
+    centres = _centres(part, pixel)[keep]
     return with_toe_line(footprint_of_pixels(centres, pixel * every, side, _forward(centres)))
 
 
@@ -116,6 +115,7 @@ def _sides(image: FootprintImage, pixel: float, stated: Side | None) -> tuple[li
 
 
 def _centres(part: Print, pixel: float) -> NDArray[np.float64]:
+    """Pixels (n, 2) of a print in m: as in the sole frame x is up the image and y to its left."""
     rows, columns = np.nonzero(part.mask)
     return np.column_stack([part.mask.shape[0] - rows - 0.5, -columns - 0.5]) * pixel
 
@@ -211,18 +211,11 @@ def _draw_contours(axes: Any, part: Print, side: Side, height: int, scale: _Scal
 
 
 def _draw_lines(axes: Any, print_: Footprint, scale: _Scale) -> None:
-    def place(points: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.asarray(print_.from_foot(points)[:, ::-1] * (-scale.of_length, scale.of_length)).T
-
-    low, high = float(print_.rings[:, :, 1].min()), float(print_.rings[:, :, 1].max())
-    for k in range(4):
-        u = k * print_.toeless_length / 3.0
-        axes.plot(*place(np.array([[u, low], [u, high]])), color="#111111", linewidth=0.8, linestyle=":")
-    axes.plot(*place(np.array([[0.0, 0.0], [print_.length, 0.0]])), color=COLOURS["cop"], linewidth=1.4)
+    draw_lines(axes, print_, scale.of_length, color=COLOURS["cop"])
     if print_.toe_line is not None:
-        v = np.linspace(low, high, 20)
-        line = np.column_stack([np.interp(v, *print_.toe_line.T), v])
-        axes.plot(*place(line), color=COLOURS["polygon"], linewidth=1.4, linestyle="--")
+        v = np.linspace(float(print_.rings[:, :, 1].min()), float(print_.rings[:, :, 1].max()), 20)
+        x, y = scale.of_length * print_.from_foot(np.column_stack([np.interp(v, *print_.toe_line.T), v])).T
+        axes.plot(-y, x, color=COLOURS["polygon"], linewidth=1.4, linestyle="--")
 
 
 _FOOTPRINT = (

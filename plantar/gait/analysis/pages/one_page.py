@@ -10,7 +10,7 @@ import numpy as np
 
 from plantar.gait.analysis.measures import MEASURES, full_title
 from plantar.gait.analysis.pages.force_figures import STANCE, draw_sd, force_label, stance_curves
-from plantar.gait.analysis.pages.report import facts_of, summary_text
+from plantar.gait.analysis.pages.report import asset, facts_of, summary_text
 from plantar.gait.analysis.pages.tables import shown_as
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.pages.page import Section, embedded, number, page, row, table, warning_list
@@ -35,14 +35,6 @@ _ROWS = (
 )
 _APART = 0.1  # Distance in m at which insoles are drawn, which measure no step width
 _MOST_WARNINGS = 4
-_STYLE = """
-.band { width: 6rem; height: .8rem; margin-right: .4rem; } td:last-child, th:last-child { white-space: nowrap; }
-@media print { @page { size: A4; margin: 9mm; } body { font-size: 7.5pt; line-height: 1.2; }
-  main, section, header { margin: 0; padding: 0; }
-  h1 { font-size: 12pt; margin: 0; } h2 { font-size: 9pt; margin: .4rem 0 .1rem; } p, ul, dl { margin: .1rem 0; }
-  dl.facts dd, table, caption { font-size: 7.5pt; } .band { width: 3rem; height: .5rem; }
-  th, td { padding: 0 .3rem; } figure { margin: 0; } figure img, figure.wide img { max-height: 52mm; } }
-"""
 
 
 def one_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], title: str) -> str:
@@ -62,7 +54,7 @@ def one_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], ti
         Section("figures", "Feet and steps", embedded(figures)),
         Section("notes", "Notes", warning_list(notes) or "<p>None.</p>"),
     ]
-    return page(f"Gait summary: {title}", facts_of(metrics, title), sections, style=_STYLE)
+    return page(f"Gait summary: {title}", facts_of(metrics, title), sections, style=asset("one_page.css"))
 
 
 def _table(metrics: Mapping[str, Any]) -> str:

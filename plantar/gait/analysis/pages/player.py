@@ -79,32 +79,34 @@ def _frames(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> NDAr
 
 def _highest(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64]) -> float:
     """Largest value in some frames of a foot, in the shown unit."""
+    return float(_shown(recording, gait, np.nan_to_num(gait.foot.force[chosen])).max(initial=0.0))
+
+
+def _shown(recording: PressureRecording, gait: FootGait, force: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Counts, or pressure in kPa, of forces (n, k)."""
     assert gait.foot.layout is not None
-    force = np.nan_to_num(gait.foot.force[chosen])
-    return float((force if recording.raw else force / gait.foot.layout.areas / 1e3).max(initial=0.0))
+    return force if recording.raw else force / gait.foot.layout.areas / 1e3
 
 
 def _foot(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64], most: float) -> dict[str, Any]:
     """Player data of one foot; the largest value of both is the colours' upper end."""
     layout = gait.foot.layout
     assert layout is not None
-    force = gait.foot.force[chosen]
-    force = np.where(np.isnan(force), 0.0, force)
+    force = np.nan_to_num(gait.foot.force[chosen])
     loaded = force > gait.cell_threshold
     cells, outline = np.arange(len(layout)), layout.outline
     if recording.kind == "platform":
         cells, outline = stepped_on(layout, np.asarray(loaded.any(axis=0)))
-    value = force[:, cells] if recording.raw else force[:, cells] / layout.areas[cells] / 1e3
     highest = most or 1.0
     cop = gait.cop[chosen] if gait.cop is not None else np.full((len(chosen), 2), np.nan)
     return {
         "side": gait.foot.side,
         "cells": [_seen(layout.cell_polygon(int(c))) for c in cells],
         "outline": _seen(outline),
-        "pressure": _bytes(value, loaded[:, cells], highest),
+        "pressure": _bytes(_shown(recording, gait, force)[:, cells], loaded[:, cells], highest),
         "highest": float(f"{highest:.4g}"),
         "force": [round(float(f), 1) if np.isfinite(f) else None for f in gait.foot.vertical_force[chosen]],
-        "cop": [_seen_point(x, y) for x, y in cop],
+        "cop": [None if np.isnan(x) else point for (x, _), point in zip(cop, _seen(cop), strict=True)],
     }
 
 
@@ -117,7 +119,3 @@ def _bytes(value: NDArray[np.float64], loaded: NDArray[np.bool_], highest: float
 def _seen(ring: NDArray[np.float64]) -> list[list[float]]:
     """Ring from above, toes up: right and forward, in mm."""
     return np.round(1e3 * ring[:, ::-1] * (-1.0, 1.0), 1).tolist()  # type: ignore[no-any-return]
-
-
-def _seen_point(x: float, y: float) -> list[float] | None:
-    return [round(-1e3 * float(y), 1), round(1e3 * float(x), 1)] if np.isfinite(x) else None

@@ -5,6 +5,7 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
+from string import Template
 from typing import Any
 
 from plantar import __version__
@@ -13,7 +14,7 @@ from plantar.gait.analysis.pages.tables import comparison_table, measures_table,
 from plantar.gravity import GRAVITY
 from plantar.pages.page import Section, embedded, figures_of, number, page, warning_list
 
-__all__ = ["analysis_text", "comparison_page", "facts_of", "facts_of_image", "report_page", "summary_text"]
+__all__ = ["analysis_text", "asset", "comparison_page", "facts_of", "facts_of_image", "report_page", "summary_text"]
 
 _GAIT = (
     ("cadence_steps_per_min", "Cadence", "steps/min", 1.0),
@@ -53,11 +54,12 @@ def report_page(
     sections += _with_figures("sides", "Left and right", "", figures, ("symmetry",))
     sections += _with_figures("wrench", "Wrench", "", figures, ("wrench",))
     sections += _with_figures("steps", "Each step", steps_table(metrics), (), ())
-    script, style = ("", "") if player is None else (f"<script>{_asset('report.js')}</script>", _asset("report.css"))
+    script, style = ("", "") if player is None else (f"<script>{asset('report.js')}</script>", asset("report.css"))
     return page(f"Gait analysis: {title}", facts_of(metrics, title), sections, script, style)
 
 
-def _asset(name: str) -> str:
+def asset(name: str) -> str:
+    """Text of a page's part: script, style or template."""
     return files("plantar.gait.analysis.pages").joinpath(name).read_text(encoding="utf-8")
 
 
@@ -149,31 +151,7 @@ def _player(data: Mapping[str, Any]) -> str:
     text = json.dumps(data, separators=(",", ":")).replace("</", "<\\/")
     scales = f"0 to {number(data['feet'][0]['highest'])} {data['unit']}"
     part = "" if data["whole"] else f" The first {data['times'][-1] - data['times'][0]:.0f} s of walking are shown."
-    options = "".join(
-        f'<option value="{value}"{" selected" if value == 1 else ""}>{name}</option>'
-        for value, name in ((0.1, "1/10"), (0.25, "1/4"), (0.5, "1/2"), (1, "1"), (2, "2"))
-    )
-    return (
-        '<div id="player" role="group" aria-label="Player of frames">\n'
-        '<canvas id="player-canvas" role="img" tabindex="0" aria-label="Soles from above: pressure of each cell, '
-        'loaded cells outlined, CoP, polygon. The line of text below gives the figures."></canvas>\n'
-        f'<p class="legend"><span><span class="scale" aria-hidden="true"></span> pressure: {scales}</span>'
-        '<span><span class="dot" aria-hidden="true"></span> centre of pressure</span>'
-        '<span><span class="dash" aria-hidden="true"></span> support polygon</span></p>\n'
-        '<label for="player-frame">Frame</label> '
-        '<input type="range" id="player-frame" min="0" max="0" value="0" disabled>\n'
-        '<div class="controls"><button type="button" id="player-play" aria-pressed="false" disabled>Play</button>'
-        '<button type="button" id="player-back" disabled>Frame back</button>'
-        '<button type="button" id="player-forward" disabled>Frame forward</button>'
-        '<button type="button" id="player-before" disabled>Event before</button>'
-        '<button type="button" id="player-next" disabled>Next event</button>'
-        f'<label for="player-speed">Speed</label> <select id="player-speed" disabled>{options}</select></div>\n'
-        f'<p id="player-readout"></p><p class="hidden" id="player-live" aria-live="polite"></p>'
-        f"<noscript><p>The player needs JavaScript; everything else on this page does not.</p></noscript>"
-        f'<p class="about">Seen from above, toes up.{part} '
-        "Keys: arrows and space on the picture, arrows on the slider.</p>\n"
-        f'</div>\n<script type="application/json" id="player-data">{text}</script>\n'
-    )
+    return Template(asset("player.html")).substitute(data=text, scales=scales, part=part)
 
 
 def facts_of(metrics: Mapping[str, Any], file: str) -> str:

@@ -18,7 +18,7 @@ from plantar.plotting import COLOURS, draw_cells, draw_classes, new_figure
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side
 
-__all__ = ["axis_is_inside", "figure_pair", "figure_pressure", "figure_regions", "stepped_on"]
+__all__ = ["axis_is_inside", "draw_lines", "figure_pair", "figure_pressure", "figure_regions", "stepped_on"]
 
 # CoP paths drawn a foot, thin, next to the mean one; of more steps every n-th: the map below has to be seen.
 MOST_PATHS = 12
@@ -54,17 +54,17 @@ def _panels(shown: Mapping[Side, _Cells], extra: float) -> tuple[Any, Any]:
     return figure, axes
 
 
-def _highest(feet: Iterable[FootGait]) -> float:
-    return max(float(gait.picture.max()) for gait in feet if gait.picture is not None)
-
-
-def _draw_picture(panel: Any, gait: FootGait, cells: _Cells, factor: float, highest: float) -> Any:
-    assert gait.picture is not None
-    values = gait.picture[cells.chosen] * factor
-    return draw_cells(panel, cells.layout, np.where(values > 0.0, values, np.nan), highest)
-
-
-def _finish(figure: Any, axes: Any, drawn: Any, what: str, raw: bool) -> None:
+def _draw_pictures(
+    figure: Any, axes: Any, panels: Sequence[tuple[str, FootGait, _Cells]], what: str, raw: bool
+) -> None:
+    """Draw feet's maximum pressure pictures on one scale, each under a title."""
+    factor = 1.0 if raw else 1e-3
+    pictures = [gait.picture[cells.chosen] * factor for _, gait, cells in panels if gait.picture is not None]
+    highest = max(float(values.max()) for values in pictures)
+    for panel, (title, _, cells), values in zip(axes[0], panels, pictures, strict=True):
+        drawn = draw_cells(panel, cells.layout, np.where(values > 0.0, values, np.nan), highest)
+        panel.set_title(title)
+        panel.set_xlabel(_RIGHT)
     axes[0][0].set_ylabel(_FORWARD)
     figure.colorbar(drawn, ax=list(axes[0]), label=f"{what} ({'counts' if raw else 'kPa'})", shrink=0.8)
 
@@ -74,18 +74,14 @@ def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait])
     pictured = {side: gait for side, gait in feet.items() if gait.picture is not None}
     if not pictured:
         return None
-    factor = 1.0 if recording.raw else 1e-3
     platform = recording.kind == "platform"
     shown = {side: _shown(gait, platform) for side, gait in pictured.items()}
     figure, axes = _panels(shown, 1.6)
-    highest = _highest(pictured.values()) * factor
-    for panel, (side, gait) in zip(axes[0], pictured.items(), strict=True):
-        drawn = _draw_picture(panel, gait, shown[side], factor, highest)
-        _draw_paths(panel, gait)
-        panel.set_title(f"{side} foot, {_steps_of_picture(gait)}")
-        panel.set_xlabel(_RIGHT)
+    panels = [(f"{s} foot, {_steps_of_picture(gait)}", gait, shown[s]) for s, gait in pictured.items()]
     what = "maximum pressure" if platform else "maximum pressure, mean of the steps"
-    _finish(figure, axes, drawn, what, recording.raw)
+    _draw_pictures(figure, axes, panels, what, recording.raw)
+    for panel, gait in zip(axes[0], pictured.values(), strict=True):
+        _draw_paths(panel, gait)
     _legend(figure, axes[0], "outside lower center", ncols=2, facecolor="#8a8f98", labelcolor="#111111")
     return figure
 
@@ -139,17 +135,15 @@ def figure_pair(recordings: Sequence[tuple[str, PressureRecording, Mapping[Side,
     """Returns maximum pressure pictures of recordings (name, recording, feet) on one scale; None without geometry."""
     if not all(any(gait.picture is not None for gait in feet.values()) for _, _, feet in recordings):
         return None
-    panels = [(f"{n}, {s}", r, g) for n, r, feet in recordings for s, g in feet.items() if g.picture is not None]
-    raw = panels[0][1].raw
-    factor = 1.0 if raw else 1e-3
+    panels = [
+        (f"{name}, {side} foot", gait, _shown(gait, recording.kind == "platform"))
+        for name, recording, feet in recordings
+        for side, gait in feet.items()
+        if gait.picture is not None
+    ]
     figure, axes = new_figure(2.4 * len(panels) + 1.4, 5.6, columns=len(panels), squeeze=False)
     figure.set_layout_engine("compressed")
-    highest = _highest(gait for _, _, gait in panels) * factor
-    for panel, (name, recording, gait) in zip(axes[0], panels, strict=True):
-        drawn = _draw_picture(panel, gait, _shown(gait, recording.kind == "platform"), factor, highest)
-        panel.set_title(f"{name} foot")
-        panel.set_xlabel(_RIGHT)
-    _finish(figure, axes, drawn, "maximum pressure", raw)
+    _draw_pictures(figure, axes, panels, "maximum pressure", recordings[0][1].raw)
     return figure
 
 
@@ -176,7 +170,7 @@ def figure_regions(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
     for panel, (side, own) in zip(axes[0], drawn.items(), strict=True):
         layout, chosen = shown[side]
         draw_classes(panel, layout, own.region[chosen], REGION_COLOURS)
-        _draw_axis_and_thirds(panel, own.print_)
+        draw_lines(panel, own.print_, axis=axis_is_inside(own.print_), color="#111111", label="foot axis")
         panel.set_title(f"{side} foot")
         panel.set_xlabel(_RIGHT)
     axes[0][0].set_ylabel(_FORWARD)
@@ -192,15 +186,14 @@ def _regions(gait: FootGait, platform: bool) -> _Regions | None:
     return None if print_ is None or region is None else _Regions(gait, print_, region)
 
 
-def _draw_axis_and_thirds(panel: Any, print_: Footprint) -> None:
+def draw_lines(panel: Any, print_: Footprint, scale: float = 1.0, axis: bool = True, **look: Any) -> None:
+    """Draw the thirds of `print_` in a `panel`, and if wanted its `axis` with a `look`, times a `scale`."""
     low, high = float(print_.rings[:, :, 1].min()), float(print_.rings[:, :, 1].max())
-    for k in range(4):
-        u = k * print_.toeless_length / 3.0
-        line = print_.from_foot(np.array([[u, low], [u, high]]))
-        panel.plot(-line[:, 1], line[:, 0], color="#111111", linewidth=0.8, linestyle=":")
-    if axis_is_inside(print_):
-        line = print_.from_foot(np.array([[0.0, 0.0], [print_.length, 0.0]]))
-        panel.plot(-line[:, 1], line[:, 0], color="#111111", linewidth=1.4, label="foot axis")
+    lines = [((u, low), (u, high)) for u in print_.toeless_length * np.arange(4) / 3.0]
+    for ends in (*lines, ((0.0, 0.0), (print_.length, 0.0)))[: 5 if axis else 4]:
+        x, y = scale * print_.from_foot(np.array(ends)).T
+        thirds = {"color": "#111111", "linewidth": 0.8, "linestyle": ":"}
+        panel.plot(-y, x, **(thirds if ends in lines else {"linewidth": 1.4, **look}))
 
 
 def axis_is_inside(print_: Footprint) -> bool:
