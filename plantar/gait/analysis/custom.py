@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import cast
 
 import numpy as np
+import shapely
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import InputError
@@ -73,18 +74,18 @@ def mask_measures(analysis: Analysis, masks: Mapping[str, ArrayLike]) -> dict[Si
             if view.places is not None and view.load.pressure is not None:
                 duration = view.step.toe_off_s - view.step.heel_strike_s
                 for name, ring in rings.items():
-                    region = np.where(_inside(view.places, ring), 0, -1)
+                    region = np.where(shapely.contains_xy(ring, view.places), 0, -1)
                     row |= region_measures(view.load, region, [name], [duration])[0]
             rows.append(row)
         out[side] = rows
     return out
 
 
-def _ring(name: str, corners: ArrayLike) -> NDArray[np.float64]:
+def _ring(name: str, corners: ArrayLike) -> shapely.Polygon:
     ring = np.asarray(corners, dtype=float)
     if ring.ndim != 2 or ring.shape[1] != 2 or len(ring) < 3 or not np.isfinite(ring).all():
         raise InputError(f"{name} has corners of shape {ring.shape}; allowed: three or more finite points (u, v)")
-    return ring
+    return shapely.Polygon(ring)
 
 
 def _views(analysis: Analysis, gait: FootGait) -> Sequence[StepView]:
@@ -110,13 +111,3 @@ def _places(analysis: Analysis, gait: FootGait, step: Step | None) -> NDArray[np
         return None
     low, high = print_.rings.reshape(-1, 2).min(axis=0), print_.rings.reshape(-1, 2).max(axis=0)
     return cast(NDArray[np.float64], (print_.in_foot(layout.positions[:, :2]) - low) / (high - low))
-
-
-def _inside(points: NDArray[np.float64], ring: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Points (k, 2) inside any polygon: a ray crosses its edges an odd number of times."""
-    x, y = points.T[:, :, None]
-    a, b = ring, np.roll(ring, -1, axis=0)
-    spans = (a[:, 1] > y) != (b[:, 1] > y)
-    rise = np.where(b[:, 1] == a[:, 1], 1.0, b[:, 1] - a[:, 1])
-    cross = x < a[:, 0] + (y - a[:, 1]) / rise * (b[:, 0] - a[:, 0])
-    return np.asarray((spans & cross).sum(axis=1) % 2 == 1)

@@ -46,7 +46,7 @@ class PlatformPrint:
 def separated_feet(recording: PressureRecording) -> tuple[PressureRecording, tuple[PlatformPrint, ...]]:
     """Platform's recording with each foot's footprints under its side, and the footprints; others unchanged.
 
-    Turned so that the first pass walks along x. Ends that carry little get unloaded frames.
+    The first pass walks along x. Ends that carry little get unloaded frames.
     """
     whole = next(iter(recording.feet.values()), None)
     if recording.kind != "platform" or whole is None or whole.layout is None:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.analysis.prints.footprint import Footprint, footprint_of_cells
+from plantar.gait.analysis.prints.joined import joined
 from plantar.layouts.layout import SoleLayout
 from plantar.sides import Side, other_side
 
@@ -115,32 +116,9 @@ def _pieces(load: PlatformLoad, loaded: NDArray[np.bool_]) -> Iterator[_Piece]:
 
 def _components(layout: SoleLayout, active: NDArray[np.bool_]) -> list[list[int]]:
     """Active cells that touch, or have one between them."""
-    left = active.copy()
-    out: list[list[int]] = []
-    for start in np.flatnonzero(active).tolist():
-        if left[start]:
-            left[start] = False
-            out.append(sorted(_flooded(layout, start, left)))
-    return out
-
-
-def _flooded(layout: SoleLayout, start: int, left: NDArray[np.bool_]) -> list[int]:
-    """Cells joined to one, itself included; removes them from `left`."""
-    stack, cells = [start], []
-    while stack:
-        cell = stack.pop()
-        cells.append(cell)
-        for other in _within_two(layout, cell):
-            if left[other]:
-                left[other] = False
-                stack.append(other)
-    return cells
-
-
-def _within_two(layout: SoleLayout, cell: int) -> Iterator[int]:
-    for near in layout.neighbours[cell]:
-        yield near
-        yield from layout.neighbours[near]
+    near = layout.neighbours
+    reach = {cell: {*near[cell], *(j for k in near[cell] for j in near[k])} for cell in np.flatnonzero(active).tolist()}
+    return [sorted(cells) for cells in joined(reach)]
 
 
 def _apart(layout: SoleLayout, one: _Piece, other: _Piece) -> float:

@@ -16,7 +16,6 @@ from plantar.errors import FormatError
 from plantar.files.input_file import open_input
 from plantar.formats import ReadOptions
 from plantar.gait.analysis.analyse_one import analyse_one, with_layout
-from plantar.gait.analysis.measures import MEASURES, raw_name
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.pages.force_figures import stance_curves
 from plantar.gait.analysis.results import Analysis
@@ -63,10 +62,10 @@ class RecordingResult:
         format: Format's name; empty if unreadable.
         error: Why not measured, or empty.
         raw: Whether values are counts.
-        rows: A row a step: side, step, used, note, heel_strike_s, toe_off_s and every measure; None if unknown.
-        feet: Each foot's mean of each measure over the used steps, and "steps" of them.
+        rows: A row a step, with every measure; None if unknown.
+        feet: Each foot's mean of each measure, and "steps" used.
         curves: Each foot's mean vertical force (101,) in N over the stance.
-        maps: Each foot's mean maximum pressure `GRID` in Pa, heel to toes and lateral to medial, NaN off the sole.
+        maps: Each foot's mean maximum pressure `GRID` in Pa, heel to toes, lateral to medial, NaN off the sole.
         warnings: What was assumed.
         walk: Measures of the whole walk.
     """
@@ -137,16 +136,15 @@ def measure_recording(
     known = with_layout(known, folder / who.layout) if who.layout else known
     subject = Subject(who.participant, who.mass_kg, who.foot_length_m)
     analysis = analyse_one(folder / who.file, None, known, choices=choices, subject=subject)
-    recording, raw = analysis.recording, analysis.recording.raw
-    rows = [row for gait in analysis.feet.values() for row in _rows(gait, who, raw)]
-    rows.sort(key=lambda row: float(row["heel_strike_s"]))
+    recording = analysis.recording
+    rows = _rows(analysis, who)
     return RecordingResult(
         who=who,
         digest=digest,
         key=key_of(folder, who, digest, choices, options),
         format=recording.format,
         error="",
-        raw=raw,
+        raw=recording.raw,
         rows=tuple(rows),
         feet={side: _means(rows, side) for side in analysis.feet},
         curves={s: stance_curves(recording, g).mean(axis=0) for s, g in analysis.feet.items() if g.used},
@@ -156,23 +154,16 @@ def measure_recording(
     )
 
 
-def _rows(gait: FootGait, who: Participation, raw: bool) -> list[dict[str, Any]]:
+def _rows(analysis: Analysis, who: Participation) -> list[dict[str, Any]]:
+    columns = analysis.steps
+    keys = [key for key in columns if key not in ("side", "number", "used", "note", "heel_strike_s", "toe_off_s")]
     out = []
-    for step in gait.steps:
-        measures = {raw_name(key) if raw else key: step[key] for key in MEASURES}
-        known = {key: float(value) if np.isfinite(value) else None for key, value in measures.items()}
-        out.append(
-            {
-                "side": step.side,
-                "step": step.number,
-                "used": int(step.used),
-                "note": step.unused or step.odd,
-                "heel_strike_s": step.heel_strike_s,
-                "toe_off_s": step.toe_off_s,
-                **known,
-                **normalised(known, who),
-            }
-        )
+    for values in zip(*(column.tolist() for column in columns.values()), strict=True):
+        step = dict(zip(columns, values, strict=True))
+        known = {key: step[key] if np.isfinite(step[key]) else None for key in keys}
+        head = {"side": step["side"], "step": step["number"], "used": int(step["used"]), "note": step["note"]}
+        times = {key: step[key] for key in ("heel_strike_s", "toe_off_s")}
+        out.append({**head, **times, **known, **normalised(known, who)})
     return out
 
 

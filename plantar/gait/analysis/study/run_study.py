@@ -114,7 +114,7 @@ def run_study(
         folder: With its subfolders.
         out: Output folder, made if needed.
         participants: Table of `read_participants`; nothing is compared without it.
-        progress: Called with a fraction 0..1 and the current work.
+        progress: Called with a share 0..1 and the work.
         choices: Steps in the means, and events.
         options: Known of all files; the table overrides.
 

@@ -13,6 +13,8 @@ from itertools import combinations, product
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.gait.analysis.prints.joined import joined
+
 __all__ = ["Effect", "PermutationTest", "effect_of", "permutation_test", "student_quantile"]
 
 # Permutations that are drawn where there are more: a p of 0.05 is then known to 0.005 (one standard deviation).
@@ -197,11 +199,16 @@ def permutation_test(
     a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
     freedom = len(a) - 1 if paired else len(a) + len(b) - 2
     beyond = student_quantile(0.975, freedom)
-    observed = _paired_t(b - a) if paired else _independent_t(np.vstack([a, b]), _first(len(a), len(a) + len(b)))
+    both = b - a if paired else np.vstack([a, b])
+
+    def t_of(label: NDArray[np.float64]) -> NDArray[np.float64]:
+        return _paired_t(both * label[:, None]) if paired else _independent_t(both, label)
+
+    observed = t_of(np.ones(len(a)) if paired else _first(len(a), len(both)))
     clusters, masses = _clusters(observed, beyond, neighbours)
     each = np.zeros(observed.shape)
     largest, heaviest = [], []
-    for t in _permuted(a, b, paired, permutations):
+    for t in map(t_of, _labels(len(a), len(b), paired, permutations)):
         size = np.abs(t)
         each += size >= np.abs(observed) - 1e-9
         largest.append(float(size.max(initial=0.0)))
@@ -222,30 +229,17 @@ def _first(n: int, total: int) -> NDArray[np.float64]:
     return (np.arange(total) < n).astype(float)
 
 
-def _permuted(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, most: int) -> Iterator[NDArray[np.float64]]:
-    """t statistics (k,) of every permutation, or of the observed labels and drawn ones."""
-    random = np.random.default_rng(_SEED)
-    if paired:
-        change = b - a
-        n = len(change)
-        if 2**n <= most:
-            signs: Iterator[NDArray[np.float64]] = (np.array(s) for s in product((1.0, -1.0), repeat=n))
-        else:
-            drawn = (random.choice((-1.0, 1.0), size=n) for _ in range(most - 1))
-            signs = (s for part in ([np.ones(n)], drawn) for s in part)
-        for sign in signs:
-            yield _paired_t(change * sign[:, None])
-        return
-    both, n, total = np.vstack([a, b]), len(a), len(a) + len(b)
-    if math.comb(total, n) <= most:
-        for chosen in combinations(range(total), n):
-            label = np.zeros(total)
-            label[list(chosen)] = 1.0
-            yield _independent_t(both, label)
-        return
-    yield _independent_t(both, _first(n, total))
-    for _ in range(most - 1):
-        yield _independent_t(both, random.permutation(_first(n, total)))
+def _labels(n: int, m: int, paired: bool, most: int) -> Iterator[NDArray[np.float64]]:
+    """Signs (n,) of pairs, or which of n + m samples are of A: every choice, or the observed and drawn ones."""
+    random, observed = np.random.default_rng(_SEED), np.ones(n) if paired else _first(n, n + m)
+    if paired and 2**n <= most:
+        yield from map(np.array, product((1.0, -1.0), repeat=n))
+    elif not paired and math.comb(n + m, n) <= most:
+        yield from (np.isin(np.arange(n + m), chosen).astype(float) for chosen in combinations(range(n + m), n))
+    else:
+        yield observed
+        for _ in range(most - 1):
+            yield random.choice((-1.0, 1.0), size=n) if paired else random.permutation(observed)
 
 
 def _paired_t(change: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -277,17 +271,9 @@ def _clusters(
     masses: list[float] = []
     if neighbours is None:
         return label, masses
-    for start in np.flatnonzero(np.abs(t) > beyond).tolist():
-        if label[start]:
-            continue
-        label[start] = len(masses) + 1
-        queue, mass = [start], 0.0
-        while queue:
-            at = queue.pop()
-            mass += abs(float(t[at]))
-            for other in neighbours[at]:
-                if not label[other] and abs(t[other]) > beyond and t[other] * t[at] > 0.0:
-                    label[other] = label[start]
-                    queue.append(other)
-        masses.append(mass)
+    far = np.flatnonzero(np.abs(t) > beyond).tolist()
+    alike = {at: [k for k in neighbours[at] if abs(t[k]) > beyond and t[k] * t[at] > 0.0] for at in far}
+    for number, places in enumerate(joined(alike), 1):
+        label[places] = number
+        masses.append(float(np.abs(t[places]).sum()))
     return label, masses
