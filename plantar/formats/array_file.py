@@ -6,8 +6,6 @@ NPZ arrays are "time" (s), "left" and "right" or one of another name, and option
 
 import json
 import math
-import zipfile
-import zlib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -19,7 +17,7 @@ from typing import IO, Any, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import FormatError, LayoutError
+from plantar.errors import FormatError, LayoutError, PlantarError
 from plantar.files.input_file import open_input
 from plantar.files.structured_text import JSON_MOST
 from plantar.files.zip_archive import open_archive
@@ -35,22 +33,6 @@ from plantar.sides import SIDES
 __all__ = ["FORMAT", "recording_of_arrays"]
 
 _USUAL_RATE = 100.0
-_BROKEN: tuple[type[Exception], ...] = (
-    AttributeError,
-    EOFError,
-    IndexError,
-    KeyError,
-    MemoryError,
-    NotImplementedError,
-    OSError,
-    OverflowError,
-    RuntimeError,
-    SyntaxError,
-    TypeError,
-    ValueError,
-    zipfile.BadZipFile,
-    zlib.error,
-)
 _LARGEST = 4e9  # Largest size of all arrays in bytes
 _SHOWN = 20  # arrays in a message
 
@@ -76,7 +58,9 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     try:
         with _arrays(path) as arrays:
             return _recording(path, arrays, options)
-    except _BROKEN as error:
+    except PlantarError:
+        raise
+    except Exception as error:  # whatever numpy and zipfile hit in a damaged file
         raise FormatError(f"{path}: not an array file that can be read ({type(error).__name__}: {error})") from None
 
 
@@ -109,18 +93,14 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
             by_side.setdefault(side, (key, array))
     own_export = any(k.startswith("skin/") for k, _ in by_side.values())
     unit = unit_of_values(_text(arrays, "unit", "units") or ("N" if own_export else None), options, warnings)
-    feet: dict[Side, FootRecording] = {}
+    clock = ""
     if by_side:
-        first = by_side.get("left") or by_side["right"]
-        for side in SIDES:
-            if side in by_side:
-                array = by_side[side][1]
-                if array.shape[0] != first[1].shape[0]:
-                    raise FormatError(f"{path}: the feet have {first[1].shape[0]} and {array.shape[0]} frames")
-                own = _layout(arrays, side, warnings)
-                feet[side] = cells_of_foot(side, _frames(array), unit, options, warnings, own=own)
-        frames = first[1].shape[0]
-        prefix = first[0].rsplit("/", 1)[0] + "/time" if "/" in first[0] else ""
+        counts = [by_side[side][1].shape[0] for side in SIDES if side in by_side]
+        if counts[0] != counts[-1]:
+            raise FormatError(f"{path}: the feet have {counts[0]} and {counts[-1]} frames")
+        split = [(side, _frames(by_side[side][1])) for side in SIDES if side in by_side]
+        group = by_side[split[0][0]][0].rpartition("/")[0]
+        clock = f"{group}/time" if group else ""
     else:
         key, largest = max((force_like or tables).items(), key=lambda item: item[1].size)
         table = _frames(largest)
@@ -128,10 +108,11 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
             warnings.append(f"no array names a foot: the largest one, {key!r}, is read")
         stated = options.side or side_of(_text(arrays, "side", "foot") or "")
         split = [(stated, table)] if stated else halves(table, options, warnings)
-        for side, values in split:
-            feet[side] = cells_of_foot(side, values, unit, options, warnings, own=_layout(arrays, side, warnings))
-        frames, prefix = len(table), ""
-    time, rate, notes = _times(path, arrays, prefix, frames, options, warnings)
+    feet = {
+        side: cells_of_foot(side, values, unit, options, warnings, own=_layout(arrays, side, warnings))
+        for side, values in split
+    }
+    time, rate, notes = _times(arrays, clock, len(split[0][1]), options, warnings)
     kind = "robot" if own_export else _kind(arrays)
     if kind == "platform":
         feet = _one_platform(feet)
@@ -232,9 +213,8 @@ def _layout(arrays: dict[str, _Array], side: Side, warnings: list[str]) -> SoleL
 
 
 def _times(
-    path: Path,
     arrays: dict[str, _Array],
-    prefix: str,
+    clock: str,
     frames: int,
     options: ReadOptions,
     warnings: list[str],
@@ -243,7 +223,7 @@ def _times(
     for key in ("rate_hz", "rate", "frequency", "fs"):
         if rate is None and key in arrays and arrays[key].size == 1 and arrays[key].dtype.kind in "iuf":
             rate = possible_rate(float(arrays[key].read().reshape(-1)[0]), f"{key} states")
-    for key in (prefix, "time", "time_s", "t", "times", "timestamps"):
+    for key in (clock, "time", "time_s", "t", "times", "timestamps"):
         if options.rate_hz is None and key in arrays and arrays[key].dtype.kind in "iuf" and arrays[key].size == frames:
             return sampling(np.asarray(arrays[key].read(), dtype=float).reshape(-1), rate)
     if rate is None:

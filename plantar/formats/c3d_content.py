@@ -1,5 +1,6 @@
 """C3D contents as plain arrays; ezc3d is native code, so in a separate process."""
 
+import math
 import re
 from collections.abc import Sequence
 from pathlib import Path
@@ -116,16 +117,22 @@ def _plates(parameters: Any, analogs: NDArray[np.float64]) -> dict[str, Any]:
         out[f"type_{i}"] = kind
         out[f"channels_{i}"] = analogs[numbers] if there and wanted else np.zeros((0, analogs.shape[1]))
         out[f"units_{i}"] = np.array([units[c] if c < len(units) else "" for c in numbers] or [""])
-        out[f"corners_{i}"] = (
-            corners.reshape(3, 4, -1, order="F")[:, :, i].T if corners.size >= 12 * (i + 1) else np.zeros((0, 3))
-        )
-        out[f"origin_{i}"] = origins.reshape(3, -1, order="F")[:, i] if origins.size >= 3 * (i + 1) else np.zeros(3)
-        size = 6 * wanted
-        held = matrices.size and size and matrices.size % size == 0 and matrices.size >= size * (i + 1)
-        out[f"matrix_{i}"] = (
-            matrices.reshape(6, wanted, -1, order="F")[:, :, i] if held and kind in (4, 5) else np.zeros((0, 0))
-        )
+        place, origin = _of_plate(corners, (3, 4), i), _of_plate(origins, (3,), i)
+        matrix = _of_plate(matrices, (6, wanted), i) if kind in (4, 5) else None
+        out[f"corners_{i}"] = np.zeros((0, 3)) if place is None else place.T
+        out[f"origin_{i}"] = np.zeros(3) if origin is None else origin
+        out[f"matrix_{i}"] = np.zeros((0, 0)) if matrix is None else matrix
     return out
+
+
+def _of_plate(values: NDArray[np.float64], shape: tuple[int, ...], i: int) -> NDArray[np.float64] | None:
+    """Plate i's array of values that are stored plate after plate; None without."""
+    size = math.prod(shape)
+    return (
+        values.ravel("F")[i * size : (i + 1) * size].reshape(shape, order="F")
+        if values.size >= size * (i + 1)
+        else None
+    )
 
 
 def _events(content: Any) -> dict[str, NDArray[np.float64]]:

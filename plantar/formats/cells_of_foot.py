@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.formats.format import ReadOptions
-from plantar.formats.recorded_layouts import grid_cells, subset
+from plantar.formats.recorded_layouts import cells_by_id, grid_cells
 from plantar.formats.units import Unit, find_unit
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.recordings.frame_table import scale_frames
@@ -58,12 +58,11 @@ def cells_of_foot(
         own: File's own layout.
     """
     layout = layout_for(side, options.layout) or own
-    if layout is not None and ids is not None and len(set(ids)) == len(ids) and set(ids) <= set(layout.ids.tolist()):
-        index = {int(v): i for i, v in enumerate(layout.ids)}
-        order = [index[i] for i in ids]
-        layout = layout if order == list(range(len(layout))) else subset(layout, order)
-    elif layout is not None and len(layout) == values.shape[1] and ids is not None:
-        warnings.append("the cells' names are not the layout's ids: taken in the layout's order")
+    if layout is not None and ids is not None:
+        named = cells_by_id(layout, ids)
+        if named is None and len(layout) == values.shape[1]:
+            warnings.append("the cells' names are not the layout's ids: taken in the layout's order")
+        layout = named or layout
     foot = FootRecording(side, values, layout)
     if layout is None and unit.kind == "pressure":
         raise FormatError(

@@ -18,8 +18,8 @@ from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.nominal_insole import CELL_AREAS, DEFAULT_SIZE, nominal_insole
-from plantar.formats.recorded_layouts import corner_table, layout_of_corners, subset
-from plantar.formats.text import head_text, number_rows, open_text
+from plantar.formats.recorded_layouts import cells_by_id, corner_table, layout_of_corners
+from plantar.formats.text import head_text, number_rows, open_text, row_of_numbers
 from plantar.formats.units import Unit, find_unit, plain
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.frame_table import FrameTable
@@ -188,24 +188,10 @@ def _damaged_frames(block: list[str], delimiter: str | None, cells: int) -> NDAr
     """Numbers (lines, 1 + cells); NaN in lines without as many finite numbers."""
     out = np.full((len(block), 1 + cells), np.nan)
     for i, line in enumerate(block):
-        row = _numbers(line.rstrip(f"{delimiter or ' '}\n").split(delimiter), cells)
-        if row is not None:
+        row, _ = row_of_numbers(line.rstrip(f"{delimiter or ' '}\n").split(delimiter))
+        if len(row) == 1 + cells and np.isfinite(row).all() and abs(row[0]) < _LATEST:
             out[i] = row
     return out
-
-
-def _numbers(parts: list[str], cells: int) -> NDArray[np.float64] | None:
-    """One frame, or None without the due count of finite numbers."""
-    if len(parts) != 1 + cells:
-        return None
-    try:
-        row = np.array(parts, dtype=float)
-    except ValueError:
-        try:
-            row = np.array([p.replace(",", ".") for p in parts], dtype=float)
-        except ValueError:
-            return None
-    return row if np.isfinite(row).all() and abs(row[0]) < _LATEST else None
 
 
 def _field(text: str, pattern: str) -> str | None:
@@ -298,27 +284,25 @@ def _layout(
     if given is not None:
         sole = layout_for(side, given)
         assert sole is not None
-        if set(cells) <= set(sole.ids.tolist()):
-            return subset(sole, _order(sole, cells))
-        return sole
+        return cells_by_id(sole, cells) or sole
     if geometry is not None:
         warnings.append(
             "cell geometry from the file's own corner table; its y is taken as forward, its x as to the right"
         )
         return layout_of_corners(geometry, cells, side)
-    if not all(1 <= c <= 99 for c in cells) or len(set(cells)) != len(cells):
+    size, assumed = _size(text, insole_size)
+    sole = cells_by_id(nominal_insole(size, side), cells)
+    if sole is None:
         raise FormatError(
             f"{path}: its {len(cells)} cells are not those of a 99-cell insole, and the file holds no geometry; "
             "give one with --layout"
         )
-    size, assumed = _size(text, insole_size)
     warnings.append(
         f"the file holds no cell geometry: a nominal 99-cell insole of size {size.upper()}{assumed}, "
         f"{CELL_AREAS[size].mean() * 1e6:.0f} mm2 a cell, is used; forces, areas and CoP rest on it "
         "(--layout overrides)"
     )
-    sole = nominal_insole(size, side)
-    return sole if len(cells) == 99 else subset(sole, _order(sole, cells))
+    return sole
 
 
 def _size(text: str, given: str | None) -> tuple[str, str]:
@@ -333,11 +317,6 @@ def _size(text: str, given: str | None) -> tuple[str, str]:
         f" (assumed, the file names no known size: by the true one of {', '.join(CELL_AREAS)}, forces may be "
         f"{min(sizes) / used:.2f} to {max(sizes) / used:.2f} times these; give it by --insole-size)"
     )
-
-
-def _order(sole: SoleLayout, cells: list[int]) -> list[int]:
-    index = {int(v): i for i, v in enumerate(sole.ids)}
-    return [index[c] for c in cells]
 
 
 FORMAT = Format(

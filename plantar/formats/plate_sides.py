@@ -155,13 +155,11 @@ def _by_belt(count: int, contacts: Sequence[PlateContact], found: Sequence[Side 
 
 def _walks_on_one_foot(contacts: Sequence[PlateContact], found: Sequence[Side | None]) -> bool:
     """Whether contacts of one foot overlap as two feet's do: begins and ends some time apart."""
-    for i, a in enumerate(contacts):
-        for k in range(i + 1, len(contacts)):
-            b = contacts[k]
-            shared = min(a.end, b.end) - max(a.begin, b.begin)
-            steps = 0 < shared < 0.5 * min(a.end - a.begin, b.end - b.begin)
-            if a.plate != b.plate and steps and found[i] is not None and found[i] == found[k]:
-                return True
+    for (a, one), (b, other) in itertools.combinations(zip(contacts, found, strict=True), 2):
+        shared = min(a.end, b.end) - max(a.begin, b.begin)
+        steps = 0 < shared < 0.5 * min(a.end - a.begin, b.end - b.begin)
+        if a.plate != b.plate and steps and one is not None and one == other:
+            return True
     return False
 
 

@@ -12,7 +12,7 @@ from plantar.geometry.polygon import area, centroid, convex_hull
 from plantar.layouts.cell_layout import edge_neighbours, shared_vertices
 from plantar.layouts.layout import DEFAULT_RANGES, Side, SoleLayout
 
-__all__ = ["corner_table", "grid_cells", "layout_of_corners", "polygon_layout", "subset"]
+__all__ = ["cells_by_id", "corner_table", "grid_cells", "layout_of_corners", "polygon_layout", "subset"]
 
 
 def grid_cells(
@@ -118,6 +118,15 @@ def polygon_layout(rings: Sequence[NDArray[np.float64]], *, ids: Sequence[int], 
         )
     except LayoutError as error:
         raise FormatError(f"the recording's own geometry is not valid: {error}") from None
+
+
+def cells_by_id(layout: SoleLayout, ids: Sequence[int]) -> SoleLayout | None:
+    """Returns a layout's cells of ids in their order; None for others or twice the same."""
+    index = {int(v): i for i, v in enumerate(layout.ids)}
+    if len(set(ids)) < len(ids) or not set(ids) <= set(index):
+        return None
+    order = [index[i] for i in ids]
+    return layout if order == list(range(len(layout))) else subset(layout, order)
 
 
 def subset(layout: SoleLayout, cells: Sequence[int]) -> SoleLayout:

@@ -58,13 +58,11 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
             f"{path}: no topic of the bag carries an array of {_LEAST_CELLS} to {_MOST_CELLS} numbers more than once"
         )
     warnings: list[str] = []
-    named = {key: side_of(key.replace("/", " ")) for key in series}
     by_side: dict[Side, str] = {}
-    for key, side in named.items():
+    for key in sorted(series, key=lambda k: -len(series[k][1])):  # of several arrays of a foot the longest
+        side = side_of(key.replace("/", " "))
         if side is not None:
-            better = len(series[key][1]) > len(series[by_side[side]][1]) if side in by_side else True
-            if better:
-                by_side[side] = key
+            by_side.setdefault(side, key)
     chosen = list(by_side.values()) or [max(series, key=lambda k: len(series[k][1]))]
     left_out = sorted(set(series) - set(chosen))
     if left_out:
@@ -77,17 +75,10 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
     stamps, first = series[chosen[0]]
     time, rate, notes = sampling(stamps - stamps[0], None, options.rate_hz)
     feet: dict[Side, FootRecording] = {}
-    if by_side:
-        for side in SIDES:
-            if side in by_side:
-                own, values = series[by_side[side]]
-                if len(own) != len(stamps) or np.abs(own - stamps).max() > 1e-6:
-                    warnings.append(f"the {side} foot has its own times: interpolated to those of the other")
-                    values = np.column_stack([np.interp(stamps, own, v, left=np.nan, right=np.nan) for v in values.T])
-                feet[side] = cells_of_foot(side, values, unit, options, warnings)
-    else:
-        for side, values in halves(first, options, warnings):
-            feet[side] = cells_of_foot(side, values, unit, options, warnings)
+    for side, values in _at_times(stamps, {s: series[by_side[s]] for s in SIDES if s in by_side}, warnings) or halves(
+        first, options, warnings
+    ):
+        feet[side] = cells_of_foot(side, values, unit, options, warnings)
     if len(feet) == 1:
         warnings.append(f"the bag holds the {next(iter(feet))} foot only")
     return PressureRecording(
@@ -101,6 +92,21 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
         raw=unit.kind == "raw",
         kind="robot",
     )
+
+
+def _at_times(
+    stamps: NDArray[np.float64],
+    series: dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]],
+    warnings: list[str],
+) -> list[tuple[Side, NDArray[np.float64]]]:
+    """Each foot's values at stamps (n,), from its own times and values."""
+    out = []
+    for side, (own, values) in series.items():
+        if len(own) != len(stamps) or np.abs(own - stamps).max() > 1e-6:
+            warnings.append(f"the {side} foot has its own times: interpolated to those of the other")
+            values = np.column_stack([np.interp(stamps, own, v, left=np.nan, right=np.nan) for v in values.T])
+        out.append((side, values))
+    return out
 
 
 def _size(path: Path) -> int:

@@ -91,7 +91,6 @@ def _report_rows(path: str | os.PathLike[str]) -> Pairs:
 
 
 def _number(cell: ElementTree.Element | None) -> float:
-    """Number of a cell; NaN for text or blank."""
     text = None if cell is None or cell.get("t") == "s" else cell.findtext(f"{_SHEET}v")
     found = None if text is None else number(text)
     return float("nan") if found is None else found

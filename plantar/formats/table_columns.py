@@ -128,7 +128,6 @@ def _repeated(
 
 
 def _refuse_curves(headings: Sequence[Heading], at: int | None) -> None:
-    """Refuse tables of trial curves over the stance."""
     trial = any({"subject", "trial", "session", "participant"} & set(h.words.split()) for h in headings)
     if at is None and (trial or any("trialid" in h.words for h in headings)):
         stems = [h.words for h in headings if h.number is not None]

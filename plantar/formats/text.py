@@ -163,8 +163,7 @@ def table_of_lines(
 ) -> NDArray[np.float64]:
     """Returns numbers (n, k) of a file's lines at path, NaN for empty cells or none.
 
-    Warnings get a cut last row, and counts of damaged rows and cells. FormatError without lines, or if too many are
-    damaged.
+    Warnings get repairs. FormatError without lines, or if too many are damaged.
 
     Args:
         path: Its size decides the room made.
@@ -266,14 +265,14 @@ _COMPILED = is_compiled("decimals")
 def number_rows(
     lines: Sequence[str], delimiter: str | None, columns: int | Sequence[int]
 ) -> NDArray[np.float64] | None:
-    """Returns the numbers (n, columns) of lines, NaN where one is missing, each to the last bit as `float` gives it.
+    """Returns numbers (n, columns) of lines as `float` gives them, NaN for missing ones.
 
-    None where a line has another count of them or anything that is no finite number, and without the compiled kernel.
+    None for another count, anything else than finite numbers, or without the compiled kernel.
 
     Args:
-        lines: The lines, with their ends or without.
-        delimiter: The sign between numbers; None for blanks. Unless it is a comma, numbers may have a decimal comma.
-        columns: Numbers of a line; or for each of them the column that it goes to, -1 where it is left out.
+        lines: With their ends or without.
+        delimiter: Sign between numbers; None for blanks. Unless a comma, numbers may have decimal commas.
+        columns: Numbers of a line; or the column of each, -1 to leave it out.
 
     Example:
         >>> rows = number_rows(["1;2,5;x\\n", ";1e3;y\\n"], ";", [0, 1, -1])

@@ -16,7 +16,15 @@ from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import foot_of_matrix, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
-from plantar.formats.text import head_text, number, number_in, open_text, seconds_of_clock
+from plantar.formats.text import (
+    cells_of_row,
+    head_text,
+    number,
+    number_in,
+    open_text,
+    row_of_numbers,
+    seconds_of_clock,
+)
 from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import FrameTable
@@ -80,8 +88,6 @@ class _Sensor:
 
 @dataclass
 class _Scan:
-    """Contents of the file."""
-
     facts: dict[str, str] = field(default_factory=dict)
     clock: list[float | None] = field(default_factory=list)
     numbers: list[float] = field(default_factory=list)
@@ -233,22 +239,11 @@ def _keep(facts: dict[str, str], key: str, value: str) -> None:
 
 def _row(line: str, delimiter: str, columns: int) -> NDArray[np.float64] | None:
     """One matrix row; None with anything not a number. Blank cells were not measured."""
-    cells = line.rstrip("\n").split(delimiter)
-    if columns:
-        extra, cells = cells[columns:], cells[:columns]
-        if len(cells) < columns or any(c.strip() for c in extra):
-            return None
-    else:
-        while cells and not cells[-1].strip():
-            cells.pop()
-    try:
-        values = np.array(cells, dtype=float)
-    except ValueError:
-        numbers = [np.nan if not c.strip() else number(c) for c in cells]
-        if any(v is None for v in numbers):
-            return None
-        values = np.array(numbers, dtype=float)
-    return None if np.isinf(values).any() else values
+    cells = line.rstrip("\n").split(delimiter) if columns else cells_of_row(line, delimiter)
+    if columns and (len(cells) < columns or any(c.strip() for c in cells[columns:])):
+        return None
+    values, wrong = row_of_numbers(cells[: columns or None])
+    return None if wrong else values
 
 
 def _unit(facts: dict[str, str], options: ReadOptions, warnings: list[str]) -> Unit:
