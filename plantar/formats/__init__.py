@@ -101,8 +101,8 @@ def read_recording(
 
     Args:
         path: File.
-        format: Its name; recognised from content where None.
-        layout: Sole layout in place of the format's own; mirrored for the other foot.
+        format: Its name; by content where None.
+        layout: Sole layout; mirrored for the other foot.
         options: What else is known.
 
     Returns:

@@ -12,14 +12,15 @@ from typing import TextIO
 from plantar.errors import FormatError
 from plantar.formats.column_names import heading_of
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.side import is_side_column, with_numbers
+from plantar.formats.side import is_side_column, number_of_side
 from plantar.formats.table_columns import recording_of_columns
 from plantar.formats.table_text import (
+    CountedSeconds,
     has_quoted_commas,
     head_of_table,
     seconds_of_time,
     time_unit,
-    with_seconds,
+    with_column,
     without_quotes,
 )
 from plantar.formats.text import head_text, open_text, table_of_lines
@@ -59,18 +60,28 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         rows: Iterator[str] = chain((x for x in first if not x.startswith("#")), _content(stream))
         if delimiter == "," and any(map(has_quoted_commas, first)):
             rows = without_quotes(rows)
-        clock = next((i for i, n in enumerate(names) if time_unit(n) is not None), None if names else 0)
-        cells = (line.split(delimiter) for line in first)
-        if clock is not None and any(seconds_of_time(c[clock]) is not None for c in cells if clock < len(c)):
-            rows = with_seconds(rows, delimiter, clock)
+        if delimiter == "," and not names and head.first and 2 * lines[head.first - 1].count(",") + 2 == head.width:
+            raise FormatError(
+                "rows have twice as many cells as names: a comma cannot be decimal sign and delimiter, too"
+            )
+        clock = _clock(names, [line.split(delimiter) for line in first])
+        if clock is not None:
+            rows = with_column(rows, delimiter, clock, CountedSeconds())
             names[clock : clock + 1] = ["time [s]"] if names else []
         of_side = next((i for i, n in enumerate(names) if is_side_column(n)), None)
         if of_side is not None:
-            rows = with_numbers(rows, delimiter, of_side)
+            rows = with_column(rows, delimiter, of_side, number_of_side)
         if head.width > _MOST_COLUMNS:
             raise FormatError(f"{path}: a table of {head.width} columns cannot be read; allowed: up to {_MOST_COLUMNS}")
         table = table_of_lines(path, rows, delimiter, head.width, warnings)
     return recording_of_columns(table, names, options, path, dict(head.facts), warnings)
+
+
+def _clock(names: list[str], rows: list[list[str]]) -> int | None:
+    """Column of times of day or dates: the one that is called time, else the first that holds them."""
+    named = [i for i, n in enumerate(names) if time_unit(n) is not None][:1]
+    tried = named or range(len(names) or 1)
+    return next((i for i in tried if any(seconds_of_time(row[i]) is not None for row in rows if i < len(row))), None)
 
 
 def _content(stream: TextIO) -> Iterator[str]:

@@ -23,7 +23,7 @@ def recording_of(given: Any, format: str | None = None, options: ReadOptions | N
     Args:
         given: Recording; path of a file; array (n, k) of n frames and k cells (or n x rows x columns); mapping of an
             NPZ file's arrays; or data frame (pandas, polars) with a column a cell and names as in a CSV table.
-        format: File format; recognised from content where None.
+        format: By content where None.
         options: What else is known: layout, unit, rate, side. Arrays without unit are raw counts.
 
     Raises:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.recordings.frame_table import blocks_of_frames, column_maxima, let_go, room
-from plantar.recordings.pressure_recording import FootRecording, PressureRecording
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, true_runs
 
 __all__ = ["checked", "doubts", "without_marks"]
 
@@ -28,6 +28,9 @@ _SEEN = 500_000
 # a sensor from one with an offset.
 _SWITCH, _LOW, _ZEROS = 0.20, 0.1, 0.05
 _LONGEST_FOOT = 0.40
+# Share of its peak that a loaded foot has at least, and what is left where its samples are lost; time in s in which no
+# foot is lifted and set down again.
+_UNDER_FOOT, _GONE, _INSTANT = 0.30, 0.01, 0.10
 _SLENDER = (1.8, 4.2)  # How many times longer than wide insoles are, with room; those of makers are 2.4 to 3.4
 
 
@@ -55,6 +58,8 @@ def doubts(recording: PressureRecording) -> list[str]:
             )
         if len(force) and float(force.min()) < -0.1 * peak - 10.0:
             out.append(f"the {side} foot's force falls to {force.min():.4g} N: check its zero and its sign")
+        if recording.kind in ("insole", "plate"):
+            out += _lost_or_flat(side, foot.vertical_force, peak, recording.rate_hz)
         if foot.layout is None or recording.kind == "plate":
             continue
         out += [] if recording.kind == "robot" else _clipped_or_held(foot, recording.rate_hz)
@@ -68,6 +73,29 @@ def doubts(recording: PressureRecording) -> list[str]:
         if recording.kind != "platform" and not 0.05 <= extent <= _LONGEST_FOOT:
             out.append(f"the {side} sole is {extent * 1e3:.4g} mm long, which is unusual: check the cell size")
         out += _slender_or_wide(foot) if recording.kind == "insole" else []
+    return out
+
+
+def _lost_or_flat(side: str, force: NDArray[np.float64], peak: float, rate: float) -> list[str]:
+    """Warnings about a load (n,) in N that is gone for an instant, or clipped."""
+    out, beside = [], _UNDER_FOOT * peak
+    drops = [
+        (a, b) for a, b in true_runs(force <= _GONE * peak) if a > 0 and b < len(force) and b - a < _INSTANT * rate
+    ]
+    drops = [(a, b) for a, b in drops if force[a - 1] > beside and force[b] > beside]
+    if drops:
+        out.append(
+            f"the {side} foot's force drops to 0 and back within {_INSTANT:g} s {len(drops)} time(s): lost samples? "
+            "Impulses and contact times are too small"
+        )
+    top = force >= np.nanmax(force, initial=0.0) * (1.0 - 1e-9)
+    full = sum(b - a >= _FLAT for a, b in true_runs(top))
+    others = np.diff(force)[(~top & (force > beside))[1:]]  # where these repeat, too, the sensor is slow
+    if full >= _CELLS and len(others) and float((others == 0.0).mean()) < _HELD:
+        out.append(
+            f"the {side} foot's force stays at {peak:.4g} N, its largest value, in {full} steps: the end of the "
+            "sensor's range? Forces would be larger"
+        )
     return out
 
 

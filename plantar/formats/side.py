@@ -1,7 +1,8 @@
 """Foot of a one-sensor recording, force plate or table row."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +10,7 @@ from numpy.typing import NDArray
 from plantar.errors import FormatError, InputError
 from plantar.sides import SIDES, Side, other_side
 
-__all__ = ["is_side_column", "on_one_time", "rows_of_sides", "side_of", "sides_of_plates", "with_numbers"]
+__all__ = ["is_side_column", "number_of_side", "on_one_time", "rows_of_sides", "side_of", "sides_of_plates"]
 
 _MARKS: dict[Side, re.Pattern[str]] = {
     "left": re.compile(r"left|links|gauche|izquierd|(?:(?<=[\W_\d])|^)(?:l|lf|lt)(?=[\W_\d]|$)", re.IGNORECASE),
@@ -68,18 +69,11 @@ def is_side_column(name: str) -> bool:
     return _SIDE_COLUMN.fullmatch(name) is not None
 
 
-def with_numbers(lines: Iterator[str], delimiter: str | None, column: int) -> Iterator[str]:
-    """Yields lines of cells between a delimiter (None: blanks) with the side column as 0 (left) and 1 (right)."""
-    known: dict[str, str] = {}
-    for line in lines:
-        cells = line.split(delimiter)
-        if column < len(cells):
-            text = cells[column]
-            if text not in known:
-                side = side_of(text.strip().strip('"'))
-                known[text] = text if side is None else _MARK[side]
-            cells[column] = known[text]
-        yield (delimiter or " ").join(cells)
+@lru_cache(maxsize=64)
+def number_of_side(cell: str) -> str:
+    """Cell of a side column as 0 (left) or 1 (right); unchanged if it names no foot."""
+    side = side_of(cell.strip().strip('"'))
+    return cell if side is None else _MARK[side]
 
 
 def rows_of_sides(values: NDArray[np.float64], warnings: list[str]) -> dict[Side, NDArray[np.int64]]:

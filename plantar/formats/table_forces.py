@@ -66,6 +66,9 @@ def feet_of_forces(
     plates = any(columns[i].plate for own in loaded.values() for i in own["force"].values())
     up = _vertical(table, loaded, warnings)
     verticals = [own["force"][a] for own in loaded.values() if (a := _up(own["force"], up)) is not None]
+    units = dict.fromkeys(columns[i].unit for own in loaded.values() for i in own["force"].values() if columns[i].unit)
+    if len(set(map(plain, units))) > 1 and not options.unit:
+        raise FormatError(f"the forces are in different units: {', '.join(units)}; allowed: one unit, or --unit")
     unit, relative = _unit(table, columns, verticals, options, stated, warnings)
     made, names = [], []
     for key, parts in loaded.items():
@@ -110,7 +113,6 @@ def _up(axes: Mapping[str, int], up: str) -> str | None:
 
 
 def _vertical(table: NDArray[np.float64], groups: Mapping[_Key, dict[str, dict[str, int]]], warnings: list[str]) -> str:
-    """Vertical axis, along which most load acts."""
     load = dict.fromkeys("xyz", 0.0)
     named = False
     for own in groups.values():

@@ -2,7 +2,7 @@
 
 import csv
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 
@@ -12,13 +12,14 @@ from plantar.formats.text import number
 from plantar.formats.units import FORCES, LENGTHS, MOMENTS, PASCALS, plain
 
 __all__ = [
+    "CountedSeconds",
     "TableHead",
     "has_quoted_commas",
     "head_of_table",
     "names_of_row",
     "seconds_of_time",
     "time_unit",
-    "with_seconds",
+    "with_column",
     "without_quotes",
 ]
 
@@ -311,25 +312,31 @@ def seconds_of_time(text: str) -> float | None:
     return (moment.replace(tzinfo=None) - _SINCE).total_seconds()
 
 
-def with_seconds(lines: Iterator[str], delimiter: str | None, column: int) -> Iterator[str]:
-    """Yields lines with seconds, also beyond midnight, for the time column's times of day or dates; others unchanged.
-
-    Args:
-        lines: The first one's time is 0.
-        column: Time column.
-        delimiter: Sign between cells; None for blanks.
-    """
-    first: float | None = None
-    last = days = 0.0
+def with_column(
+    lines: Iterator[str], delimiter: str | None, column: int, change: Callable[[str], str]
+) -> Iterator[str]:
+    """Yields lines of cells between a delimiter (None: blanks), with those of one column replaced by their change."""
     for line in lines:
         cells = line.split(delimiter)
-        seconds = seconds_of_time(cells[column]) if column < len(cells) else None
-        if seconds is not None:
-            if first is None:
-                first = last = seconds
-            if seconds < last - 0.5 * _DAY:
-                days += _DAY
-            last = seconds
-            cells[column] = f"{seconds - first + days:.6f}"
-            line = (delimiter or " ").join(cells)
-        yield line
+        if column < len(cells):
+            cells[column] = change(cells[column])
+        yield (delimiter or " ").join(cells)
+
+
+class CountedSeconds:
+    """Times of day or dates as seconds from the first one, also beyond midnight."""
+
+    def __init__(self) -> None:
+        self._first: float | None = None
+        self._last = self._days = 0.0
+
+    def __call__(self, cell: str) -> str:
+        seconds = seconds_of_time(cell)
+        if seconds is None:
+            return cell
+        if self._first is None:
+            self._first = self._last = seconds
+        if seconds < self._last - 0.5 * _DAY:
+            self._days += _DAY
+        self._last = seconds
+        return f"{seconds - self._first + self._days:.6f}"

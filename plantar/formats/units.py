@@ -53,7 +53,7 @@ MOMENTS: Mapping[str, float] = {
 }
 """Moment units by their plain lower-case name, in N m."""
 
-RAW: tuple[str, ...] = ("raw", "counts", "count", "adc", "digital", "do", "bits")
+RAW = ("raw", "counts", "count", "adc", "digital", "do", "bits", "v", "mv", "uv", "volt", "volts")
 """Names of readings that were never calibrated."""
 
 

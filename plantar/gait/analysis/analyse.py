@@ -33,18 +33,18 @@ def analyse(
     Args:
         given: Path of a file; folder of recordings (a study); `PressureRecording`; array (n, k) of n frames and k
             cells, or a mapping of arrays "left", "right" and "time"; data frame with a column a cell.
-        format: File format; recognised from content where None.
+        format: By content where None.
         options: What else is known; the three keywords below override it.
-        progress: Called with a fraction 0..1 and the current work.
+        progress: Called with a share 0..1 and the work.
         choices: Steps in the means, and events used.
-        subject: Person, if known.
+        subject: Person.
         layout: Layout or its file; mirrored for the other foot.
         unit: Unit of values, such as "kPa", "N" or "raw".
         rate_hz: Frames a second.
 
     Returns:
         Analysis: `.steps` (columns of every measure), `.to_pandas()`, `.report()`, `.metrics`, `.feet`; of a folder a
-        `Study` with the first three.
+        `Study`.
 
     Raises:
         FormatError: If unreadable.

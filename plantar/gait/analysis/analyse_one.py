@@ -40,9 +40,9 @@ def analyse_one(
 
     Args:
         given: Any form of `plantar.formats.given.recording_of`.
-        format: File format; recognised from content where None.
+        format: By content where None.
         options: What else is known.
-        progress: Called with a fraction 0..0.5 and the current work.
+        progress: Called with a share 0..0.5 and the work.
         choices: Steps in the means, and events used.
         subject: Person. FormatError if unreadable.
     """
@@ -82,13 +82,13 @@ def analyse_recording(
     Args:
         path: Recording or image.
         out: Output folder, made if needed; left empty on an error.
-        format: File format; recognised from content where None.
-        layout: Layout file in place of the format's own; mirrored for the other foot.
-        progress: Called with a fraction 0..1 and the current work.
+        format: By content where None.
+        layout: Layout file; mirrored for the other foot.
+        progress: Called with a share 0..1 and the work.
         options: What else is known.
         mm_per_pixel: Of an image, in mm.
         choices: Steps in the means, and events used; of recordings only.
-        subject: Person, if known.
+        subject: Person.
         also: Called with analysis and folder, to write more; see `plantar.gait.analysis.exports.exporter`.
         figures: Whether figures and report.html are written.
 

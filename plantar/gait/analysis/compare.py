@@ -60,9 +60,9 @@ def compare_recordings(
         a: First recording.
         b: Second one.
         out: Output folder.
-        format: Format of both files; recognised from content where None.
+        format: Of both files; by content where None.
         layout: Layout file for both.
-        progress: Called with a fraction 0..1 and the current work.
+        progress: Called with a share 0..1 and the work.
         options: What else is known of both.
         choices: Steps in the means, and events used.
         subject: Person in both.

@@ -1,9 +1,9 @@
 """Measures of a step (docs/metrics.md): name, title, unit and heading."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-__all__ = ["MEASURES", "REGION_MEASURES", "Measure", "full_title", "raw_name"]
+__all__ = ["MEASURES", "REGION_MEASURES", "Measure", "full_title", "naming", "raw_name"]
 
 
 @dataclass(frozen=True)
@@ -128,3 +128,8 @@ def raw_name(key: str) -> str:
         if key.endswith(end):
             return key.removesuffix(end) + instead
     return key
+
+
+def naming(raw: bool) -> Callable[[str], str]:
+    """Function for a measure's key, of counts if `raw`."""
+    return raw_name if raw else str

@@ -12,11 +12,12 @@ from plantar.gait.analysis.health import (
     creep_doubts,
     implied_weight,
     mirrored_doubts,
+    scrambled_doubts,
     silent_cell_doubts,
     weight_doubts,
 )
 from plantar.gait.analysis.measure_errors import errors_of_foot
-from plantar.gait.analysis.measures import raw_name
+from plantar.gait.analysis.measures import naming
 from plantar.gait.analysis.pages.tables import EACH_STEP
 from plantar.gait.analysis.steps.events import MINIMUM_STANCE, find_contacts
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
@@ -41,7 +42,7 @@ def metrics_of(
     Args:
         recording: Recording.
         feet: Gait of each foot.
-        subject: Person, if known.
+        subject: Person.
     """
     warnings = list(recording.warnings)
     activity = activity_of(recording, feet)
@@ -64,11 +65,10 @@ def metrics_of(
     subject = subject_of(recording, subject)
     segments = () if standing else segments_of(feet)
     warnings += _segment_notes(segments, feet)
-    warnings += silent_cell_doubts(recording) + creep_doubts(feet)
+    warnings += silent_cell_doubts(recording) + scrambled_doubts(recording) + creep_doubts(feet)
     warnings += progression_doubts(recording, feet) + mirrored_doubts(recording, feet)
     warnings += weight_doubts(recording, weight) + mass_doubts(subject, weight)
-    named = _keys(recording.raw)
-    indices = symmetry(feet)
+    named = naming(recording.raw)
     return {
         "format": recording.format,
         "kind": recording.kind,
@@ -89,7 +89,7 @@ def metrics_of(
             **gait_of_feet(feet),
             "implied_weight_N": weight,
             "body_weight_N": None if recording.raw else subject.weight or weight,
-            "symmetry_percent": {named(key): value for key, value in indices.items()},
+            "symmetry_percent": {named(key): value for key, value in symmetry(feet).items()},
         },
         "warnings": list(dict.fromkeys(warnings)),
     }
@@ -121,8 +121,7 @@ def _segment(segment: Segment, feet: Mapping[Side, FootGait]) -> dict[str, Any]:
 
 
 def _segment_notes(segments: Sequence[Segment], feet: Mapping[Side, FootGait]) -> list[str]:
-    kinds = list(dict.fromkeys(s.activity for s in segments))
-    if len(segments) < 2 or (len(kinds) == 1 and len(segments) < 2):
+    if len(segments) < 2:
         return []
     parts = ", ".join(
         f"{s.activity} {s.begin:.1f} to {s.end:.1f} s" + (f" ({s.count} steps)" if s.count else "")
@@ -159,12 +158,8 @@ def not_given(kind: str) -> dict[str, str]:
     return dict.fromkeys(("arch_index", "foot_length_m", "foot_width_m"), reason)
 
 
-def _keys(raw: bool) -> Callable[[str], str]:
-    return raw_name if raw else lambda key: key
-
-
 def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
-    foot, named = gait.foot, _keys(recording.raw)
+    foot, named = gait.foot, naming(recording.raw)
     errors = errors_of_foot(recording, gait)
     known = {step.heel_strike_s: step["landing_impact_N"] for step in gait.steps}
     impacts = (

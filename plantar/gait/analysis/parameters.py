@@ -35,6 +35,7 @@ COP_WINDOW = 0.05
 _CARRIED = 0.2  # Share of a foot's peak that shoes and creases do not press in swing
 # How many times its usual height the level of heel strikes is from which events move by more than 20 and 35 ms.
 _RAISED = 1.4
+_UNLOADED = 0.05  # Share of one foot's peak below which the other foot's sensor carries no foot
 BACKWARDS = -0.02  # Median travel of the CoP in m over a step under which it looks as if the sensor were turned round
 
 
@@ -172,9 +173,13 @@ def _with_events(
 def _other_foot(
     recording: PressureRecording, side: Side, events: Mapping[Side, tuple[Levels | None, list[Contact]]]
 ) -> OtherFoot | None:
-    if other_side(side) not in recording.feet or not recording.metadata.get("sees_every_step", True):
+    other = other_side(side)
+    if other not in recording.feet or not recording.metadata.get("sees_every_step", True):
         return None  # plates in a walkway do not see what the other foot does next to them
-    return OtherFoot(recording, other_side(side), events[other_side(side)][1])
+    own, theirs = events[side][0], events[other][0]
+    if own is not None and (theirs is None or theirs.peak < _UNLOADED * own.peak):
+        return None  # a sensor that is not connected does not show what the foot does
+    return OtherFoot(recording, other, events[other][1])
 
 
 def _contacts(recording: PressureRecording, side: Side, stated: bool, levels: Levels | None) -> list[Contact]:
@@ -206,7 +211,6 @@ def _regions(
 
 
 def _place(recording: PressureRecording, gait: FootGait, step: Step, prints: Sequence[PlatformPrint]) -> Place | None:
-    """Place of a step on the ground, or None."""
     placement = gait.foot.placement
     if placement is not None:
         middle = (step.contact.begin + step.contact.end) // 2

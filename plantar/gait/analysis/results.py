@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from plantar.csv_table import csv_text
 from plantar.errors import InputError
-from plantar.gait.analysis.measures import MEASURES, REGION_MEASURES, raw_name
+from plantar.gait.analysis.measures import MEASURES, REGION_MEASURES, naming
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 from plantar.layouts.layout import Side
 from plantar.recordings.pressure_recording import PressureRecording
@@ -47,7 +47,7 @@ class Analysis:
         note (why not, or what is odd).
         """
         steps = _in_order(self.feet)
-        named = raw_name if self.recording.raw else str
+        named = naming(self.recording.raw)
         return {
             "side": np.array([s.side for s in steps], dtype=object),
             "number": np.array([s.number for s in steps], dtype=int),
@@ -96,7 +96,7 @@ def write_analysis(
 ) -> None:
     """Write an analysis' metrics.json, steps.csv and regions.csv into a folder; with figures these and two pages.
 
-    `progress` is called with a fraction 0..1 and the current work.
+    `progress` is called with a share 0..1 and the work.
     """
     recording, feet, metrics = analysis.recording, analysis.feet, analysis.metrics
     (folder / "steps.csv").write_text(_steps_csv(analysis.steps), encoding="utf-8")
@@ -131,7 +131,7 @@ def _steps_csv(columns: Mapping[str, NDArray[Any]]) -> str:
 
 
 def _regions_csv(feet: Mapping[Side, FootGait], raw: bool) -> str:
-    named = raw_name if raw else str
+    named = naming(raw)
     rows = [
         [s.side, s.number, region, *(values.get(name, math.nan) for name in REGION_MEASURES)]
         for s in _in_order(feet)

@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from plantar.gait.analysis.health import creep_doubts, silent_cell_doubts, silent_cells
+from plantar.formats.nominal_insole import nominal_insole
+from plantar.gait.analysis.health import creep_doubts, scrambled_doubts, silent_cell_doubts, silent_cells
 from plantar.gait.analysis.parameters import analyse_feet
 
+from .vendor_texts import matrix_insoles
 from .walks import made_walk
 
 
@@ -35,3 +37,25 @@ def test_gain_that_creeps():
         lines = creep_doubts(feet)
         assert len(lines) == expected
         assert all("gain creeps" in line for line in lines)
+
+
+def test_half_a_sole_that_is_silent_shows_by_the_other_foot():
+    """The cells of two equal matrices mirror each other by place, not by number."""
+    recording = made_walk(strides=3, rate=50.0, layouts=matrix_insoles(24, 8, 0.011)).recording
+    foot = recording.feet["left"]
+    force = np.where(foot.layout.positions[:, 0] > 0.12, 0.0, foot.force)
+    (line,) = silent_cell_doubts(replace(recording, feet={**recording.feet, "left": replace(foot, force=force)}))
+    assert "of the left foot read 0 throughout" in line
+
+
+@pytest.mark.parametrize(
+    "layouts", [matrix_insoles(24, 8, 0.011), {s: nominal_insole("x", s) for s in ("left", "right")}]
+)
+def test_cells_in_another_order_than_the_layout(layouts):
+    recording = made_walk(strides=3, rate=50.0, noise=0.5, layouts=layouts).recording
+    assert scrambled_doubts(recording) == []
+    foot = recording.feet["left"]
+    order = np.argsort(np.arange(foot.force.shape[1]) % 9, kind="stable")  # as if written column by column
+    mixed = {**recording.feet, "left": replace(foot, force=foot.force[:, order])}
+    (line,) = scrambled_doubts(replace(recording, feet=mixed))
+    assert "neighbouring cells of the left foot" in line

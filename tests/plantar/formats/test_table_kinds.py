@@ -186,6 +186,12 @@ def test_sensors_by_place_and_times_in_milliseconds(tmp_path):
             "each row is a curve of a trial",
         ),
         ("time,Fx,Fy,Fz\n" + rows([TIME, RIGHT, RIGHT, RIGHT], ","), "no foot pushes so"),
+        (
+            "time,left (N),right (N)\n" + rows([TIME, LEFT, RIGHT], ",").replace(".", ","),
+            "twice as many cells as names",
+        ),
+        ("time,Left Fz (N),Right Fz (lbf)\n" + rows([TIME, LEFT, RIGHT], ","), "different units: N, lbf"),
+        ("time,Left force (V),Right force (V)\n" + rows([TIME, LEFT, RIGHT], ","), "unknown unit of force 'V'"),
         ("time,Fz\n" + rows([TIME, 700.0 + 200.0 * np.sin(12.0 * TIME)], ","), "both feet walk on one plate"),
     ],
 )
@@ -212,6 +218,29 @@ def test_times_by_headings_that_name_a_unit_or_a_foot(tmp_path, head, scale):
     found = analyse(path)
     assert found.metrics["rate_hz"] == pytest.approx(50.0)
     assert found.metrics["feet"]["left"]["measures"]["peak_force_N"]["mean"] == pytest.approx(800.0, rel=0.01)
+
+
+def test_times_of_day_below_another_heading(tmp_path):
+    path = tmp_path / "walk.csv"
+    lines = [f"12:00:{2.0 * t:06.3f},{a:.1f},{b:.1f}" for t, a, b in WALK]
+    path.write_text("Datum/Zeit,left (N),right (N)\n" + "\n".join(lines) + "\n")
+    assert analyse(path).metrics["rate_hz"] == pytest.approx(50.0)
+
+
+def test_a_foot_without_a_sensor_has_no_double_support(tmp_path):
+    path = tmp_path / "walk.csv"
+    path.write_text("time (s),left (N),right (N)\n" + rows([TIME, LEFT, NONE + 3.0], ","))
+    assert analyse(path).metrics["gait"]["double_support_percent"] is None
+
+
+def test_one_step_on_each_of_two_plates_counts(tmp_path):
+    """They have no stride, by which other steps are found to lie in the other foot's time."""
+    one, other = (np.where((a <= TIME) & (b > TIME), f, 0.0) for a, b, f in ((0.8, 1.7, LEFT), (1.4, 2.1, RIGHT)))
+    path = tmp_path / "plates.csv"
+    path.write_text("time (s),FP1 Fz (N),FP2 Fz (N)\n" + rows([TIME, one, other], ","))
+    walk = analyse(path, options=ReadOptions(plates=("left", "right")))
+    assert [len(gait.used) for gait in walk.feet.values()] == [1, 1]
+    assert walk.metrics["gait"]["implied_weight_N"] == pytest.approx(800.0 / 1.1, rel=0.01)
 
 
 def test_a_column_that_is_there_twice_counts_once(tmp_path):

@@ -1,8 +1,7 @@
 """Gait events: heel strikes and toe offs from a foot's vertical force.
 
-Force is measured from its swing level to its robust peak; `EVENT_LEVELS` are shares of that range, raised by noise. An
-event is where force crosses its level, or midway in a jump of half the range; an insole's toe off is where the
-straightened fall of push-off ends.
+`EVENT_LEVELS` are shares of the range from swing level to robust peak, raised by noise. An event is where force crosses
+its level, or midway in a jump of half the range; an insole's toe off is where the straightened fall of push-off ends.
 """
 
 from collections.abc import Mapping

@@ -90,7 +90,9 @@ def in_one_window(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
     if len(feet) < 2 or not all(used.values()):
         return dict(feet)
     strides = [v for own in used.values() for s in own if np.isfinite(v := s["stride_time_s"])]
-    stride = float(np.median(strides)) if strides else 0.0
+    if not strides:  # single steps of each foot, as on two plates
+        return dict(feet)
+    stride = float(np.median(strides))
     begin = max(own[0].heel_strike_s for own in used.values()) - stride
     end = min(own[-1].toe_off_s for own in used.values()) + stride
     out: dict[Side, FootGait] = {}

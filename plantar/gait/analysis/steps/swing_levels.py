@@ -1,7 +1,7 @@
 """Level of each swing, for sensors with offsets that change each stride.
 
-A morphological opening (Serra 1982, Image Analysis and Mathematical Morphology, ch. 2) removes contacts and follows the
-level under them; runs of frames at it between quick flanks are swings.
+A morphological opening (Serra 1982, Image Analysis and Mathematical Morphology, ch. 2) follows the level under
+contacts; runs of frames at it between quick flanks are swings.
 """
 
 from collections.abc import Sequence
