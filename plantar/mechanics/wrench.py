@@ -1,39 +1,11 @@
 """Wrenches [fx, fy, fz, tx, ty, tz] in N and N m about their frame's origin, BY the world ON the robot."""
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.arrays import array
 
-__all__ = ["Wrench", "wrench_at", "wrench_in_frame"]
-
-
-class Wrench(NamedTuple):
-    """Wrench with named components; numpy accepts it as an array.
-
-    Example:
-        >>> Wrench.of([0.0, 0.0, 100.0, 5.0, -2.0, 0.0]).center_of_pressure
-        (0.02, 0.05)
-    """
-
-    fx: float
-    fy: float
-    fz: float
-    tx: float
-    ty: float
-    tz: float
-
-    @classmethod
-    def of(cls, wrench: ArrayLike) -> "Wrench":
-        """The wrench of an array (6,)."""
-        return cls._make(np.asarray(wrench, dtype=float).tolist())
-
-    @property
-    def center_of_pressure(self) -> tuple[float, float] | None:
-        """Point (x, y) of the plane z = 0 in m without tipping moment (T 4.5-4.6); None without load."""
-        return (-self.ty / self.fz, self.tx / self.fz) if self.fz > 0.0 else None
+__all__ = ["wrench_at", "wrench_in_frame"]
 
 
 def wrench_at(wrench: ArrayLike, point: ArrayLike) -> NDArray[np.float64]:

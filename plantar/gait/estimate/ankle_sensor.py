@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.mechanics.lip import GRAVITY
-from plantar.mechanics.wrench import Wrench
 
 __all__ = ["AnkleSensor", "SoleWrench"]
 
@@ -29,8 +28,8 @@ class SoleWrench:
     @property
     def position_cop_in_sole(self) -> NDArray[np.float64] | None:
         """Center of pressure (2,), sole frame, in m (T 4.5-4.6); None without load."""
-        point = Wrench.of(self.wrench_in_sole).center_of_pressure
-        return None if point is None else np.array(point)
+        _, _, fz, tx, ty, _ = self.wrench_in_sole.tolist()
+        return np.array([-ty / fz, tx / fz]) if fz > 0.0 else None
 
 
 @dataclass(frozen=True)

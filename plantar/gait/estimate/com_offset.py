@@ -5,9 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.gait.estimate.ankle_sensor import SoleWrench
 from plantar.gait.estimate.estimator import Posture
 from plantar.mechanics.rotation import level_rotation
-from plantar.mechanics.wrench import Wrench
 from plantar.mechanics.zmp import zmp_of_feet
 from plantar.sides import SIDES, Side
 
@@ -30,8 +30,8 @@ def com_offset(
     bases: list[NDArray[np.float64]] = []
     for side in SIDES:
         x, y, z, yaw = feet[side]
-        cop = Wrench.of(wrenches[side]).center_of_pressure
-        points.append(None if cop is None else np.array([x, y]) + level_rotation(yaw)[:2, :2] @ np.array(cop))
+        cop = SoleWrench(wrenches[side]).position_cop_in_sole
+        points.append(None if cop is None else np.array([x, y]) + level_rotation(yaw)[:2, :2] @ cop)
         bases.append(np.array([x, y, z]) - rotation @ posture.positions[side])
     zmp = zmp_of_feet(points, [float(wrenches[side][2]) for side in SIDES])
     if zmp is None:

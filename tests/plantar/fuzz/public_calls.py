@@ -52,12 +52,14 @@ INNER: frozenset[str] = frozenset(
         *(f"rotation.{name}" for name in ("sine_vector", "vector_from_rotation")),
         "reading.Reading.taken_over",
         "percept.Percept.summed",
-        *("wrench.wrench_in_frame", "wrench.Wrench.of", "contact.Contact", "contact.Contact.wrench_in_world"),
+        *("wrench.wrench_in_frame", "contact.Contact", "contact.Contact.wrench_in_world"),
         *("link_skin.LinkWrench", "link_skin.SkinReading", "link_skin.link_wrenches", "net_wrench.NetWrench"),
         *("within_limits.Box", "within_limits.Box.of", "within_limits.nearest_within"),
         *(f"wrench_distribution.WrenchDistribution.{name}" for name in ("program", "solve")),
         "wrench_distribution.Program",
         *("cell_edges.cells_overlap", "taxel_values.without_dead"),
+        # Called by those that lay out cells, whose own calls hand it wrong outlines.
+        "cell_layout.checked_ring",
         *("cell_cutting.CellCutter.of_polygons", "polygon.part_inside"),
         # Takes surfaces that readers of meshes have checked.
         "hull_plane.hull_plane",

@@ -8,9 +8,8 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from plantar.mechanics.contact import Contact
-from plantar.mechanics.wrench import Wrench, wrench_at, wrench_in_frame
+from plantar.mechanics.wrench import wrench_at, wrench_in_frame
 from plantar.mechanics.wrench_cone import Rectangle
-from plantar.mechanics.zmp import zmp_in_plane
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -52,18 +51,6 @@ def test_power_does_not_depend_on_the_frame(seed):
     there = np.concatenate([rotation @ velocity - np.cross(turned, position), turned])
     moved = wrench_in_frame(wrench, rotation, position)
     assert moved @ there == pytest.approx(wrench @ np.concatenate([velocity, rate]), abs=1e-12)
-
-
-def test_named_components_are_those_of_the_array():
-    wrench = Wrench.of(np.arange(1.0, 7.0))
-    assert (wrench.fx, wrench.fy, wrench.fz, wrench.tx, wrench.ty, wrench.tz) == (1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
-    assert np.asarray(wrench).tolist() == [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]
-    assert wrench.center_of_pressure == (-5.0 / 3.0, 4.0 / 3.0)
-    assert np.array_equal(wrench.center_of_pressure, zmp_in_plane(wrench))
-    for unloaded in (0.0, -1.0, float("nan")):
-        assert wrench._replace(fz=unloaded).center_of_pressure is None
-    with pytest.raises(TypeError):
-        Wrench.of([1.0, 2.0, 3.0])
 
 
 @given(seeds)

@@ -191,7 +191,6 @@ class TraceError(NamedTuple):
         force: Of the vertical sole forces, over the body's weight.
         impact: Of the landings' impacts until then, over the reference's; NaN for none.
         together_s: Time until the runs part, or end.
-        whole_s: Time of reference.
     """
 
     com_m: float
@@ -199,7 +198,6 @@ class TraceError(NamedTuple):
     force: float
     impact: float
     together_s: float
-    whole_s: float
 
 
 def trace_error(trace: Trace, reference: Trace) -> TraceError:
@@ -234,7 +232,6 @@ def trace_error(trace: Trace, reference: Trace) -> TraceError:
         force=_rms(force),
         impact=_rms(np.array(impacts)) if impacts else float("nan"),
         together_s=until,
-        whole_s=len(reference.com) * SAMPLE,
     )
 
 

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
@@ -75,17 +75,6 @@ class Scenario:
     settings: tuple[str, ...] = ()
     place: tuple[float, float, float] = (0.0, 0.0, 0.0)
     faults: Faults = field(default_factory=Faults)
-
-    def as_dict(self) -> dict[str, Any]:
-        """Plain JSON values for `from_dict`."""
-        return asdict(self)
-
-    @classmethod
-    def from_dict(cls, values: Mapping[str, Any]) -> "Scenario":
-        """A scenario from the values of `as_dict`."""
-        known = dict(values)
-        known["settings"], known["place"] = tuple(known.get("settings", ())), tuple(known.get("place", (0.0, 0.0, 0.0)))
-        return cls(**known | {"faults": Faults(**known.get("faults", {}))})
 
 
 def draw_scenario(number: int) -> Scenario:
