@@ -16,10 +16,14 @@ WAY = (0.2, -0.17, 0.0)
 """Of a right foot after a left one."""
 
 
+def plain(*solids: Solid) -> PlainGround:
+    return PlainGround(Ground(solids, 0.0, 0.8), {"left": SOLE, "right": SOLE}, 0.1)
+
+
 def judge(pushed: tuple[float, ...] = (), *solids: Solid) -> Judge:
     made = object.__new__(Judge)
     made.world = SimpleNamespace(body=SimpleNamespace(beat=0.25))
-    made.ground = PlainGround(Ground(solids, 0.0, 0.8), {"left": SOLE, "right": SOLE}, 0.1)
+    made.ground = plain(*solids)
     made._pushed = list(pushed)
     return made
 
@@ -74,12 +78,7 @@ def test_the_floor_and_what_moves_of_the_ground_are_ground_and_the_robot_is_not(
         assert not mask[list(world.sole_geoms[side])].any()
 
 
-FOOT = np.array([[-0.1, -0.05], [0.15, -0.05], [0.15, 0.05], [-0.1, 0.05]])
 TILTED = np.array([[np.cos(0.1), 0.0, np.sin(0.1)], [0.0, 1.0, 0.0], [-np.sin(0.1), 0.0, np.cos(0.1)]])
-
-
-def plain(*solids: Solid) -> PlainGround:
-    return PlainGround(Ground(solids, 0.0, 0.8), {"left": FOOT, "right": FOOT}, 0.1)
 
 
 def test_the_bare_floor_is_plain():
