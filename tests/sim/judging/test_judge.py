@@ -2,12 +2,15 @@
 
 from types import SimpleNamespace
 
+import mujoco
 import numpy as np
 import pytest
 
+from plantar.gait.plan.footsteps import straight_plan
 from plantar.mechanics.rotation import level_rotation
 from plantar.sim.judging.judge import Judge, PlainGround, is_ground
 from plantar.sim.judging.step_count import Stand
+from plantar.sim.judging.walk_goal import WalkGoal
 from plantar.sim.model.world import build_world
 from plantar.sim.terrain import Ground, Motion, Solid
 
@@ -79,6 +82,23 @@ def test_the_floor_and_what_moves_of_the_ground_are_ground_and_the_robot_is_not(
 
 
 TILTED = np.array([[np.cos(0.1), 0.0, np.sin(0.1)], [0.0, 1.0, 0.0], [-np.sin(0.1), 0.0, np.cos(0.1)]])
+
+
+@pytest.mark.parametrize(
+    ("tilt", "share", "words"),
+    [(39.0, 1.0, None), (41.0, 1.0, "tilted by 41.0 deg"), (0.0, 0.61, None), (0.0, 0.59, "m above the lower sole")],
+)
+def test_a_body_that_tilts_or_sinks_has_fallen(h1, tilt, share, words):
+    world = build_world(h1, Ground((), 0.0, 0.8))
+    world.data.qpos[2] = 2.0
+    mujoco.mj_forward(world.model, world.data)
+    goal = WalkGoal(*straight_plan(2, length=0.2))
+    made = Judge(world, Judge(world, 1.0, goal).height / share, goal)
+    mujoco.mju_axisAngle2Quat(world.data.qpos[3:7], np.array([0.6, 0.8, 0.0]), np.radians(tilt))
+    mujoco.mj_forward(world.model, world.data)
+    made.step()
+    assert made.fell == (words is not None)
+    assert words is None or words in made.fall[2]
 
 
 def test_the_bare_floor_is_plain():
