@@ -61,7 +61,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     except PlantarError:
         raise
     except Exception as error:  # whatever numpy and zipfile hit in a damaged file
-        raise FormatError(f"{path}: not an array file that can be read ({type(error).__name__}: {error})") from None
+        raise FormatError(f"not an array file that can be read ({type(error).__name__}: {error})") from None
 
 
 def recording_of_arrays(arrays: Mapping[str, NDArray[Any]], options: ReadOptions, name: Path) -> PressureRecording:
@@ -84,7 +84,7 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
     tables = {k: a for k, a in arrays.items() if len(a.shape) in (2, 3) and a.dtype.kind in "iufb" and a.size}
     if not tables:
         held = ", ".join(f"{k} {a.shape}" for k, a in islice(arrays.items(), _SHOWN)) or "nothing"
-        raise FormatError(f"{path}: no array of frames and cells; the file holds {held}")
+        raise FormatError(f"no array of frames and cells; the file holds {held}")
     force_like = {k: t for k, t in tables.items() if k.split("/")[-1] in ("force", "pressure")}
     by_side: dict[Side, tuple[str, _Array]] = {}
     for key, array in (force_like or tables).items():
@@ -97,7 +97,7 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
     if by_side:
         counts = [by_side[side][1].shape[0] for side in SIDES if side in by_side]
         if counts[0] != counts[-1]:
-            raise FormatError(f"{path}: the feet have {counts[0]} and {counts[-1]} frames")
+            raise FormatError(f"the feet have {counts[0]} and {counts[-1]} frames")
         split = [(side, _frames(by_side[side][1])) for side in SIDES if side in by_side]
         group = by_side[split[0][0]][0].rpartition("/")[0]
         clock = f"{group}/time" if group else ""
@@ -172,9 +172,9 @@ def _array(path: Path, name: str, opened: Callable[[], IO[bytes]], size: int) ->
     if dtype.hasobject:
         raise ValueError(f"array {name!r} holds Python objects, which are not unpickled")
     if min(shape, default=0) < 0 or math.prod(shape) * dtype.itemsize != held:
-        raise FormatError(f"{path}: array {name!r} states a shape of {shape}, its {held} bytes are not: cut short?")
+        raise FormatError(f"array {name!r} states a shape of {shape}, its {held} bytes are not: cut short?")
     if math.prod(shape) > MOST_VALUES:
-        raise FormatError(f"{path}: array {name!r} of shape {shape} is too large; allowed: {MOST_VALUES:g} values")
+        raise FormatError(f"array {name!r} of shape {shape} is too large; allowed: {MOST_VALUES:g} values")
 
     def read() -> NDArray[Any]:
         with opened() as stream:

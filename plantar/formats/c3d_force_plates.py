@@ -47,12 +47,12 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     with open_input(path, FormatError) as stream:
         head = stream.read(_HEAD)
     if len(head) < 512 or head[1] != 0x50:
-        raise FormatError(f"{path}: not a C3D file that can be read (no C3D header)")
+        raise FormatError("not a C3D file that can be read (no C3D header)")
     held = read_apart("c3d", path, FormatError)
     rate = options.rate_hz or float(held["rate"])
     count = int(held["plates"])
     if count == 0:
-        raise FormatError(f"{path}: the C3D file holds no force plate (group FORCE_PLATFORM)")
+        raise FormatError("the C3D file holds no force plate (group FORCE_PLATFORM)")
     possible_rate(rate, "its analog channels state")
     warnings = _cut_short(head, held)
     length = LENGTHS.get(plain(str(held["point_unit"][0])), 1e-3)

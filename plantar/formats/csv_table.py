@@ -55,7 +55,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         lines = list(islice((x.rstrip("\n") for x in stream if x.strip()), _HEAD))
         head = head_of_table(lines)
         if head is None:
-            raise FormatError(f"{path}: the table has no rows of numbers")
+            raise FormatError("the table has no rows of numbers")
         first, names, delimiter = lines[head.first :], list(head.names), head.delimiter
         rows: Iterator[str] = chain((x for x in first if not x.startswith("#")), _content(stream))
         if delimiter == "," and any(map(has_quoted_commas, first)):
@@ -72,7 +72,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         if of_side is not None:
             rows = with_column(rows, delimiter, of_side, number_of_side)
         if head.width > _MOST_COLUMNS:
-            raise FormatError(f"{path}: a table of {head.width} columns cannot be read; allowed: up to {_MOST_COLUMNS}")
+            raise FormatError(f"a table of {head.width} columns cannot be read; allowed: up to {_MOST_COLUMNS}")
         table = table_of_lines(path, rows, delimiter, head.width, warnings)
     return recording_of_columns(table, names, options, path, dict(head.facts), warnings)
 

@@ -44,7 +44,7 @@ def _recognises(head: bytes) -> bool:
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
     with open_input(path, FormatError) as stream:
         if stream.read(4) == _EXCEL:
-            raise FormatError(f"{path}: a binary Excel file; save it as text (tab delimited) or CSV first")
+            raise FormatError("a binary Excel file; save it as text (tab delimited) or CSV first")
     warnings: list[str] = []
     with open_text(path) as stream:
         times, (rows, columns), table = _take_frames(path, iter(stream), warnings)
@@ -100,12 +100,12 @@ def _take_frames(
     for mark, body in frames_of_lines(lines, _FRAME, first, _MOST_ROWS):
         time = number(mark[2])
         if time is None:
-            raise FormatError(f"{path}: the time {mark[2]!r} ms of frame {mark[1]} is no number")
+            raise FormatError(f"the time {mark[2]!r} ms of frame {mark[1]} is no number")
         delimiter = next((d for d in "\t;," if d in body[0]), None) if body else None
         if table is None:
             shape = len(body), len(cells_of_row(body[0], delimiter)) if body else 0
             if not 0 < shape[0] * shape[1] <= _LARGEST:
-                raise FormatError(f"{path}: a plate of {shape[0]} x {shape[1]} cells cannot be read")
+                raise FormatError(f"a plate of {shape[0]} x {shape[1]} cells cannot be read")
             usual = sum(len(line) + 1 for line in body)
             table = FrameTable(shape[0] * shape[1], path.stat().st_size * 5 // (3 * usual))
         odd += last_is_odd
@@ -118,13 +118,13 @@ def _take_frames(
         table.add(values[::-1].reshape(1, -1))
         times.append(time)
     if table is None:
-        raise FormatError(f"{path}: not a footscan export: no line 'Frame 0 (0 ms)'")
+        raise FormatError("not a footscan export: no line 'Frame 0 (0 ms)'")
     if last_is_odd and len(times) > 1:
         times.pop()
         table.drop_last()
         warnings.append("the last frame is cut short: left out")
     if odd > 0.2 * len(times) or np.isnan(table.rows).all():
-        raise FormatError(f"{path}: {odd} of {len(times)} frames are no matrix of {shape[0]} x {shape[1]} numbers")
+        raise FormatError(f"{odd} of {len(times)} frames are no matrix of {shape[0]} x {shape[1]} numbers")
     if odd:
         warnings.append(f"{odd} damaged frame(s): what is no number counts as not measured")
     return times, shape, table

@@ -88,7 +88,7 @@ def _other_bag(path: Path, options: ReadOptions, topics: str) -> PressureRecordi
         return read_bag(path, options)
     except (FormatError, DependencyError):
         raise FormatError(
-            f"{path}: no taxel forces (/skin/left, /skin/right) in the recording, nor another topic with an array of "
+            f"no taxel forces (/skin/left, /skin/right) in the recording, nor another topic with an array of "
             f"numbers; its topics: {topics}"
         ) from None
 

@@ -41,7 +41,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     warnings: list[str] = []
     with open_text(path) as stream:
         lines = iter(stream)
-        header, channels, delimiter = _take_header(path, lines)
+        header, channels, delimiter = _take_header(lines)
         wanted = _wanted(channels)
         rows = (line for line in lines if line.strip() and not line.startswith("#"))
         table = table_of_lines(path, rows, delimiter, len(channels), warnings, wanted)
@@ -65,15 +65,15 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         raw = raw or unit.kind == "raw"
         units.add(unit.name)
         pressure = table[:, [i for _, i, _ in cells]]
-        total = _total(path, columns, table, side, warnings)
-        layout = _layout(path, side, size, pressure, unit, total, options, warnings)
+        total = _total(columns, table, side, warnings)
+        layout = _layout(side, size, pressure, unit, total, options, warnings)
         cop = _device_cop(columns, table, size, side) if options.layout is None else None
         if unit.kind == "raw":
             total, cop = None, None
         feet[side] = FootRecording(side, pressure, layout, total=total, cop=cop)
         scale_to_force(pressure, unit, layout.areas)
     if not feet:
-        raise FormatError(f"{path}: no channel 'left pressure 1' or 'right pressure 1' holds values")
+        raise FormatError("no channel 'left pressure 1' or 'right pressure 1' holds values")
     if len(units) > 1:
         warnings.append(f"the feet are in different units ({', '.join(sorted(units))})")
     if len(feet) == 1:
@@ -95,7 +95,7 @@ def _wanted(channels: list[str]) -> list[int]:
     return [0, *(i for i in found if not re.search(r"label|events|steps", channels[i], re.IGNORECASE))]
 
 
-def _take_header(path: Path, lines: Iterator[str]) -> tuple[dict[str, str], list[str], str]:
+def _take_header(lines: Iterator[str]) -> tuple[dict[str, str], list[str], str]:
     header: dict[str, str] = {}
     for line in islice(lines, _LARGEST_HEADER):
         text = line.lstrip("\ufeff").rstrip("\n")
@@ -104,12 +104,12 @@ def _take_header(path: Path, lines: Iterator[str]) -> tuple[dict[str, str], list
             delimiter = next((d for d in "\t;," if d in content), "\t")
             names = [c.strip().strip('"')[:_LONGEST_NAME] for c in content.split(delimiter)]
             if len(names) > _MOST_CHANNELS:
-                raise FormatError(f"{path}: {len(names)} channels cannot be read; allowed: up to {_MOST_CHANNELS}")
+                raise FormatError(f"{len(names)} channels cannot be read; allowed: up to {_MOST_CHANNELS}")
             return header, names, delimiter
         if text.startswith("#") and ":" in content:
             key, value = content.split(":", 1)
             header[key.strip()[:_LONGEST_NAME].lower()] = value.strip()[:_LONGEST_NAME]
-    raise FormatError(f"{path}: not a Moticon export: no line names the channels ('# time', 'left pressure 1', ...)")
+    raise FormatError("not a Moticon export: no line names the channels ('# time', 'left pressure 1', ...)")
 
 
 def _columns(names: list[str], side: Side) -> dict[str, tuple[int, str]]:
@@ -147,7 +147,7 @@ def _size(header: dict[str, str], warnings: list[str]) -> int | None:
 
 
 def _total(
-    path: Path, columns: dict[str, tuple[int, str]], table: NDArray[np.float64], side: Side, warnings: list[str]
+    columns: dict[str, tuple[int, str]], table: NDArray[np.float64], side: Side, warnings: list[str]
 ) -> NDArray[np.float64] | None:
     if "total force" not in columns:
         warnings.append(f"the file holds no total force of the {side} foot: it is the sum over the cells")
@@ -157,12 +157,11 @@ def _total(
     if not stated:
         warnings.append(f"the {side} foot's total force states no unit: N is assumed")
     if unit is None or unit.kind != "force":
-        raise FormatError(f"{path}: unknown unit of force {stated!r}; allowed: N, kN, kg and their like")
+        raise FormatError(f"unknown unit of force {stated!r}; allowed: N, kN, kg and their like")
     return table[:, index] * unit.factor
 
 
 def _layout(
-    path: Path,
     side: Side,
     size: int | None,
     pressure: NDArray[np.float64],
@@ -175,7 +174,7 @@ def _layout(
     if given is not None:
         return given
     if pressure.shape[1] != 16:
-        raise FormatError(f"{path}: the {side} foot has {pressure.shape[1]} cells, not 16; give a layout with --layout")
+        raise FormatError(f"the {side} foot has {pressure.shape[1]} cells, not 16; give a layout with --layout")
     layout = moticon_insole(size, side)
     if total is None or unit.kind == "raw":
         return layout

@@ -97,16 +97,16 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         pages = _pages(stream, facts)
     frames = _frames(pages, warnings)
     if not frames:
-        raise FormatError(f"{path}: the file holds no frame (no page with Pict-No. and a table)")
+        raise FormatError("the file holds no frame (no page with Pict-No. and a table)")
     ends = np.array([(r.min(), r.max(), c.min(), c.max()) for f in frames for r, c, _ in f.tables])
     if ends.min() < 1 or ends.max() > _LARGEST:
-        raise FormatError(f"{path}: the tables hold no pressures in rows and columns 1 to {_LARGEST}")
+        raise FormatError(f"the tables hold no pressures in rows and columns 1 to {_LARGEST}")
     columns, rows = _matrix(facts, (int(ends[:, 3].max()), int(ends[:, 1].max())), warnings)
     size = _sensor_size(facts, warnings)
     most = min(MOST_VALUES, _SMALL + _MOST_A_BYTE * path.stat().st_size)
     if len(frames) * rows * columns > most:
         raise FormatError(
-            f"{path}: {len(frames)} frames of {rows} x {columns} cells are more than its tables can mean; "
+            f"{len(frames)} frames of {rows} x {columns} cells are more than its tables can mean; "
             f"allowed for a file of this size: {most / 1e6:.3g} million values"
         )
     pressure = np.zeros((len(frames), rows, columns))
@@ -114,7 +114,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         for r, c, values in frame.tables:
             pressure[i, r[:, None] - 1, c - 1] = values
     stated = np.array([np.nan if f.force is None else f.force for f in frames])
-    unit = _unit(path, options, pressure, stated, size[0] * size[1], warnings)
+    unit = _unit(options, pressure, stated, size[0] * size[1], warnings)
     rate = options.rate_hz or _rate(facts, warnings)
     time = (np.arange(len(frames)) + 1) / rate
     starts = [i for i in range(1, len(frames)) if frames[i].picture <= frames[i - 1].picture]
@@ -257,7 +257,6 @@ def _sensor_size(facts: dict[str, str], warnings: list[str]) -> tuple[float, flo
 
 
 def _unit(
-    path: Path,
     options: ReadOptions,
     pressure: NDArray[np.float64],
     stated: NDArray[np.float64],
@@ -268,7 +267,7 @@ def _unit(
     if options.unit is not None:
         unit = find_unit(options.unit)
         if unit is None or unit.kind == "force":
-            raise FormatError(f"{path}: the tables hold pressures, not {options.unit}")
+            raise FormatError(f"the tables hold pressures, not {options.unit}")
         return unit
     sums = np.nansum(pressure, axis=(1, 2)) * area
     known = np.isfinite(stated) & (sums > 0.0) & (stated > 0.0)
@@ -279,7 +278,7 @@ def _unit(
     name, factor = min((("kPa", 1e3), ("N/cm2", 1e4)), key=lambda u: abs(np.log(ratio / u[1])))
     if abs(ratio / factor - 1.0) > 0.05:
         raise FormatError(
-            f"{path}: the forces are {ratio / 1e3:.4g} times pressure in kPa times sensor area, which is no unit of "
+            f"the forces are {ratio / 1e3:.4g} times pressure in kPa times sensor area, which is no unit of "
             "pressure; give one with --unit if the sensor size is right"
         )
     off = np.abs(sums * factor - stated)[known] > 0.02 + 1e-3 * stated[known]

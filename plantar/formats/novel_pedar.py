@@ -49,21 +49,19 @@ def _recognises(head: bytes) -> bool:
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
     notes: list[str] = []
     with open_text(path) as stream:
-        header, columns, delimiter = _take_header(path, stream)
+        header, columns, delimiter = _take_header(stream)
         text = "\n".join(header)
         sides = _sides(text, columns, options, notes)
         rows, tail = _take_rows(path, stream, delimiter, len(columns), [span for _, span in sides])
     warnings = [*rows.warnings, *notes]
     layout = options.layout
-    unit = _unit(path, text, options, warnings)
+    unit = _unit(text, options, warnings)
     time, rate, doubts = sampling(rows.time, None if options.rate_hz else _rate(text), options.rate_hz)
     warnings += doubts
     geometry = corner_table(tail, len(columns), warnings) if layout is None else None
     feet: dict[Side, FootRecording] = {}
     for (side, span), values in zip(sides, rows.values, strict=True):
-        sole = _layout(
-            path, side, columns[span.start : span.stop], layout, geometry, text, warnings, options.insole_size
-        )
+        sole = _layout(side, columns[span.start : span.stop], layout, geometry, text, warnings, options.insole_size)
         feet[side] = FootRecording(side, values, sole)
         scale_to_force(values, unit, sole.areas)
     if len(feet) == 1:
@@ -84,19 +82,19 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     )
 
 
-def _take_header(path: Path, lines: Iterable[str]) -> tuple[list[str], list[int], str | None]:
+def _take_header(lines: Iterable[str]) -> tuple[list[str], list[int], str | None]:
     """Lines before the column names, their cells, and the delimiter; None for blanks."""
     header: list[str] = []
     for line in lines:
         if _COLUMNS.match(line):
             cells = re.findall(r"(?<![\w.])\d{1,9}(?![\w.])", _COLUMNS.sub("", line, count=1))
             if not cells:
-                raise FormatError(f"{path}: the row of column names lists no cells")
+                raise FormatError("the row of column names lists no cells")
             return header, [int(c) for c in cells], next((d for d in ";," if line.count(d) >= len(cells)), None)
         header.append(line[:_LONGEST_FACT].rstrip("\n"))
         if len(header) > _LARGEST_HEADER:
             break
-    raise FormatError(f"{path}: not a pedar or pliance export: no row of column names that starts with time[secs]")
+    raise FormatError("not a pedar or pliance export: no row of column names that starts with time[secs]")
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +135,7 @@ def _take_rows(
         if bad > max(0.5 * len(times), 8):  # no use in reading on
             break
     if not len(times):
-        raise FormatError(f"{path}: the file holds no whole frame of {cells} cells")
+        raise FormatError(f"the file holds no whole frame of {cells} cells")
     damaged = np.concatenate(lost)
     warnings: list[str] = []
     if damaged[-1]:
@@ -146,9 +144,9 @@ def _take_rows(
         warnings.append("the last frame is cut short: left out")
     n, bad = len(times), int(damaged[: len(times)].sum())
     if bad == n:
-        raise FormatError(f"{path}: the file holds no whole frame of {cells} cells")
+        raise FormatError(f"the file holds no whole frame of {cells} cells")
     if bad > 0.2 * n:
-        raise FormatError(f"{path}: {bad} of {n} frames do not have {cells} numbers; the file is damaged")
+        raise FormatError(f"{bad} of {n} frames do not have {cells} numbers; the file is damaged")
     if bad:
         warnings.append(f"{bad} damaged frame(s) are treated as not measured")
     return _Rows(times.rows[:, 0], [table.rows for table in values], tuple(warnings)), tail
@@ -199,7 +197,7 @@ def _field(text: str, pattern: str) -> str | None:
     return match[1].strip() if match else None
 
 
-def _unit(path: Path, text: str, options: ReadOptions, warnings: list[str]) -> Unit:
+def _unit(text: str, options: ReadOptions, warnings: list[str]) -> Unit:
     stated = options.unit or _field(text, r"pressure\s+values\s+in:?[ \t]*([^\n]*)")
     if not stated:
         warnings.append("the header states no unit of pressure: kPa is assumed, as pedar writes (--unit overrides)")
@@ -208,7 +206,7 @@ def _unit(path: Path, text: str, options: ReadOptions, warnings: list[str]) -> U
     if options.unit is None and plain(stated.split()[0]) not in _WRITTEN:  # "hPa" is a damaged "kPa", not hectopascal
         unit = None
     if unit is None or unit.kind == "force":
-        raise FormatError(f"{path}: unknown unit of pressure {stated!r}; allowed: {', '.join(_WRITTEN)}")
+        raise FormatError(f"unknown unit of pressure {stated!r}; allowed: {', '.join(_WRITTEN)}")
     return unit
 
 
@@ -272,7 +270,6 @@ def _sensor_type(text: str) -> str:
 
 
 def _layout(
-    path: Path,
     side: Side,
     cells: list[int],
     given: SoleLayout | None,
@@ -294,7 +291,7 @@ def _layout(
     sole = cells_by_id(nominal_insole(size, side), cells)
     if sole is None:
         raise FormatError(
-            f"{path}: its {len(cells)} cells are not those of a 99-cell insole, and the file holds no geometry; "
+            f"its {len(cells)} cells are not those of a 99-cell insole, and the file holds no geometry; "
             "give one with --layout"
         )
     warnings.append(

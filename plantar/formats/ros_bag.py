@@ -48,14 +48,14 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
         DependencyError: If rosbags is missing.
     """
     if os.path.isdir(path) and not is_file(path / _FOLDERS):
-        raise FormatError(f"{path}: cannot be read (a folder that is no ROS 2 bag)")
+        raise FormatError("cannot be read (a folder that is no ROS 2 bag)")
     if find_spec("rosbags") is None:
         raise DependencyError("rosbags", "formats")
     held = read_apart("bag", path, FormatError, _size(path))
     series = {name: (held[f"{name}:times"], held[f"{name}:values"]) for name in held["names"].tolist()}
     if not series:
         raise FormatError(
-            f"{path}: no topic of the bag carries an array of {_LEAST_CELLS} to {_MOST_CELLS} numbers more than once"
+            f"no topic of the bag carries an array of {_LEAST_CELLS} to {_MOST_CELLS} numbers more than once"
         )
     warnings: list[str] = []
     by_side: dict[Side, str] = {}

@@ -61,7 +61,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     warnings: list[str] = []
     with open_text(path) as stream:
         lines = iter(stream)
-        header, first = _take_header(path, lines)
+        header, first = _take_header(lines)
         numbers, (rows, columns), table = _take_frames(path, first, lines, header, warnings)
     unit = _unit(header, options, warnings)
     pitch = _pitch(header, warnings)
@@ -82,7 +82,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     time, rate, notes = sampling(time, rate)
     present = _measuring(table.rows)
     if not present.any():
-        raise FormatError(f"{path}: no cell of the matrix holds a number")
+        raise FormatError("no cell of the matrix holds a number")
     flat = table.columns(present)
     kind: Kind = "insole"
     if columns * pitch[1] > _WIDEST_FOOT or rows * pitch[0] > _LONGEST_FOOT:
@@ -116,7 +116,7 @@ def _measuring(frames: NDArray[np.float64]) -> NDArray[np.bool_]:
     return out
 
 
-def _take_header(path: Path, lines: Iterator[str]) -> tuple[dict[str, str], re.Match[str]]:
+def _take_header(lines: Iterator[str]) -> tuple[dict[str, str], re.Match[str]]:
     header: dict[str, str] = {}
     key = ""
     for count, line in enumerate(lines):
@@ -131,7 +131,7 @@ def _take_header(path: Path, lines: Iterator[str]) -> tuple[dict[str, str], re.M
             header[key] = f"{header[key]} {line.strip()}".strip()
         if count > _LARGEST_HEADER:
             break
-    raise FormatError(f"{path}: not a Tekscan export: no line 'Frame 1' after the header")
+    raise FormatError("not a Tekscan export: no line 'Frame 1' after the header")
 
 
 def _take_frames(
@@ -143,8 +143,8 @@ def _take_frames(
     bodies = ((int(match[1][-18:]), [line.strip() for line in body]) for match, body in frames)
     known = list(islice(bodies, 1 if stated else _FIRST))
     if not known:
-        raise FormatError(f"{path}: the first frame has no end")
-    shape, delimiter = _shape(path, header, stated, [body for _, body in known])
+        raise FormatError("the first frame has no end")
+    shape, delimiter = _shape(header, stated, [body for _, body in known])
     usual = sum(len(line) + 1 for _, body in known for line in body) // len(known)
     table = FrameTable(shape[0] * shape[1], path.stat().st_size * 5 // max(3 * usual, 1))  # frames may be shorter
     numbers: list[int] = []
@@ -168,25 +168,23 @@ def _take_frames(
         warnings.append(f"the header announces frames up to {stop}, the file ends with frame {numbers[-1]}")
     if not len(table) or odd > 0.2 * len(table):
         raise FormatError(
-            f"{path}: {odd} of {len(table) + last_is_cut} frames are no matrix of {shape[0]} x {shape[1]} numbers"
+            f"{odd} of {len(table) + last_is_cut} frames are no matrix of {shape[0]} x {shape[1]} numbers"
         )
     if odd:
         warnings.append(f"{odd} damaged frame(s): what is no number counts as not measured")
     return numbers, shape, table
 
 
-def _shape(
-    path: Path, header: dict[str, str], rows: int | None, bodies: list[list[str]]
-) -> tuple[tuple[int, int], str | None]:
+def _shape(header: dict[str, str], rows: int | None, bodies: list[list[str]]) -> tuple[tuple[int, int], str | None]:
     first = bodies[0]
     rows = rows or int(np.median([len(b) for b in bodies]))
     delimiter = next((d for d in ";\t," if first and d in first[0]), None)
     widths = [len([c for c in cells_of_row(line, delimiter) if c.strip()]) for line in first] or [0]
     columns = _stated(header, "COLS") or int(np.median(widths))
     if rows < 1 or columns < 1 or rows * columns > _LARGEST:
-        raise FormatError(f"{path}: a matrix of {rows} x {columns} cells cannot be read; allowed: up to {_LARGEST}")
+        raise FormatError(f"a matrix of {rows} x {columns} cells cannot be read; allowed: up to {_LARGEST}")
     if int(np.median(widths)) != columns:
-        raise FormatError(f"{path}: the header states {columns} columns, the rows of the matrix have {max(widths)}")
+        raise FormatError(f"the header states {columns} columns, the rows of the matrix have {max(widths)}")
     return (rows, columns), delimiter
 
 

@@ -44,7 +44,7 @@ def open_text(path: Path) -> TextIO:
     stream = open_input(path, FormatError)
     encoding = encoding_of(stream.read(1 << 20))
     stream.seek(0)
-    lines = _Lines(stream.detach(), str(path))  # type: ignore[attr-defined]
+    lines = _Lines(stream.detach(), _CHUNK)  # type: ignore[attr-defined]
     text = io.TextIOWrapper(lines, encoding=encoding, errors="replace", newline=None)
     text._CHUNK_SIZE = _CHUNK  # type: ignore[attr-defined]  # of 8 kB, an hour of insoles is 70,000 calls
     return text
@@ -53,17 +53,14 @@ def open_text(path: Path) -> TextIO:
 class _Lines(io.BufferedReader):
     """Text bytes with lines of limited length."""
 
-    def __init__(self, stream: io.RawIOBase, where: str) -> None:
-        super().__init__(stream, _CHUNK)
-        self._where = where
-        self._without_end = 0
+    _without_end = 0
 
     def read1(self, size: int = -1, /) -> bytes:
         data = super().read1(size)
         end = max(data.rfind(b"\n"), data.rfind(b"\r"))
         self._without_end = len(data) - 1 - end + (self._without_end if end < 0 else 0)
         if self._without_end > _LONGEST_LINE:
-            raise FormatError(f"{self._where}: a line is longer than {_LONGEST_LINE / 1e6:g} MB: not a text of lines")
+            raise FormatError(f"a line is longer than {_LONGEST_LINE / 1e6:g} MB: not a text of lines")
         return data
 
 
@@ -188,14 +185,14 @@ def table_of_lines(
         if len(table) > _FIRST and max(short, bad / len(wanted)) > 0.5 * len(table):  # no use in reading on
             break
     if not len(table):
-        raise FormatError(f"{path}: the file holds no row of data")
+        raise FormatError("the file holds no row of data")
     if len(last.split(delimiter)) < width and len(table) > 1:
         table.drop_last()
         short -= 1
         warnings.append("the last row is cut short: left out")
     if short > 0.2 * len(table) or bad > 0.2 * len(table) * len(wanted):
         raise FormatError(
-            f"{path}: not a table of numbers: {short} of {len(table)} rows of another width than {width} columns, "
+            f"not a table of numbers: {short} of {len(table)} rows of another width than {width} columns, "
             f"{bad} cells of text"
         )
     if short:

@@ -101,7 +101,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     frames = len(scan.clock)
     sensors = {name: s for name, s in scan.sensors.items() if s.frames}
     if not frames or not sensors:
-        raise FormatError(f"{path}: the file holds no frame with a matrix of SENSELS")
+        raise FormatError("the file holds no frame with a matrix of SENSELS")
     last = max(s.frames[-1] for s in sensors.values())
     if any(s.frames[-1] < frames - 1 for s in sensors.values()):
         whole = min(s.frames[-1] for s in sensors.values()) + 1 if len(sensors) > 1 else last + 1
@@ -112,12 +112,12 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     time, rate, notes = _times(scan.clock[:frames], scan.numbers[:frames], options, warnings)
     feet: dict[Side, FootRecording] = {}
     grid = None
-    for side, sensor in _sides(path, sensors, options, warnings):
+    for side, sensor in _sides(sensors, options, warnings):
         shape = sensor.rows, sensor.columns
         values = sensor.of_frames(frames)
         lost = int(np.isnan(values).all(axis=1).sum())
         if lost == frames:
-            raise FormatError(f"{path}: no frame of the {side} insole holds a number")
+            raise FormatError(f"no frame of the {side} insole holds a number")
         if lost:
             warnings.append(f"{lost} frame(s) of the {side} insole are missing: they count as not measured")
         if sensor.damaged:
@@ -283,14 +283,12 @@ def _places(numbers: list[float], warnings: list[str]) -> NDArray[np.float64]:
     return places
 
 
-def _sides(
-    path: Path, sensors: dict[str, _Sensor], options: ReadOptions, warnings: list[str]
-) -> list[tuple[Side, _Sensor]]:
+def _sides(sensors: dict[str, _Sensor], options: ReadOptions, warnings: list[str]) -> list[tuple[Side, _Sensor]]:
     if len(sensors) > 2:  # a damaged name makes a sensor of its own; the two that have most frames are the feet
         kept = sorted(sensors.values(), key=lambda s: -len(s.frames))[:2]
         lost = sum(len(s.frames) for s in sensors.values()) - sum(len(s.frames) for s in kept)
         if lost > 0.1 * len(kept[0].frames):
-            raise FormatError(f"{path}: the file holds {len(sensors)} sensors; one or two feet can be read")
+            raise FormatError(f"the file holds {len(sensors)} sensors; one or two feet can be read")
         warnings.append(f"{lost} matrix(es) are of sensors of another name: left out")
         sensors = {s.name: s for s in kept}
     named = [(side_of(s.name), s) for s in sensors.values()]

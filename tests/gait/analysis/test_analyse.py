@@ -21,6 +21,7 @@ from plantar.gait.analysis.parameters import analyse_foot
 from plantar.plotting import thinned
 from plantar.recordings.recorder import Recorder
 
+from ...plantar.formats.corruption import refusals
 from .walks import made_walk
 
 FIGURES = ("pressure", "regions", "force", "steps", "symmetry", "wrench", "summary")
@@ -107,23 +108,15 @@ def test_a_recording_without_steps_still_gives_a_report(tmp_path):
 
 
 def test_random_corruption_never_breaks_the_analysis(tmp_path, run):
-    whole = run[0].read_bytes()
-    random = np.random.default_rng(3)
-    analysed = 0
-    for trial in range(25):
-        data = bytearray(whole)
-        for at in random.integers(0, len(data), size=random.integers(1, 25)):
-            data[at] = random.integers(0, 256)
-        bad = tmp_path / "bad.mcap"
-        bad.write_bytes(bytes(data[: random.integers(1, len(data))]) if trial % 3 == 0 else bytes(data))
-        try:
-            recording = read_recording(bad)
-        except FormatError:
-            continue
+    bad = tmp_path / "bad.mcap"
+    bad.write_bytes(run[0].read_bytes())
+
+    def read(path):
+        recording = read_recording(path)
         feet = {side: analyse_foot(recording, side) for side in recording.feet}
         json.dumps(metrics_of(recording, feet), allow_nan=False)
-        analysed += 1
-    assert analysed > 10
+
+    assert len(refusals(bad, 25, read)) < 15
 
 
 def test_command_prints_one_json_object(tmp_path, run):
