@@ -65,6 +65,9 @@ _OTHER = {
     ast.And: ast.Or,
     ast.Or: ast.And,
 }
+_SYMMETRIC = ("max", "min", "math.hypot", "math.dist", "np.hypot", "np.maximum", "np.minimum")
+"""Functions of which an exchange of the first two arguments is no other program."""
+
 _SIDES = {"left": "right", "right": "left"}
 
 
@@ -156,7 +159,8 @@ def _ways(node: ast.AST) -> int:
     if isinstance(node, ast.Constant):
         return int(type(node.value) in (int, float) or node.value in _SIDES or type(node.value) is bool)
     if isinstance(node, ast.Call):
-        return int(len(node.args) > 1 and ast.dump(node.args[0]) != ast.dump(node.args[1]))
+        same = ast.unparse(node.func) in _SYMMETRIC
+        return int(len(node.args) > 1 and not same and ast.dump(node.args[0]) != ast.dump(node.args[1]))
     if isinstance(node, ast.Expr):
         return int(isinstance(node.value, ast.Call))
     return 0

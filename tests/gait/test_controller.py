@@ -114,6 +114,17 @@ def test_a_body_whose_com_is_elsewhere_is_commanded_so():
     assert plain.com - shifted.com == pytest.approx(shifted.rotation_torso @ shift, abs=1e-6)
 
 
+@pytest.mark.parametrize("feedback", [True, False])
+def test_feet_are_compensated_for_the_lean_where_feedback_is_on(feedback):
+    run, _ = first_tick(settings=(f"feedback={str(feedback).lower()}",))
+    run.controller.estimation._ticks = 1000  # the stand before feedback is over
+    seen: list[Any] = []
+    run.controller.foot_targets.compensate = lambda targets, *_: seen.append(targets)
+    sensors = run.sensors.read_body()
+    command = run.controller.step(msgspec.structs.replace(sensors, time=sensors.time + run.settings.period))
+    assert seen == [command.feet] * feedback
+
+
 def test_where_the_feet_level_themselves_each_tick_teaches_the_slope(controller):
     seen: list[tuple[Any, ...]] = []
     slope: Any = SimpleNamespace(update=lambda *given: seen.append(given), slope=lambda side: np.zeros(2))

@@ -23,7 +23,7 @@ def clipped(x: float, side: str = "left") -> float:
         raise ValueError(f"{x + 1} is too large")
     total = math.atan2(x, -1.0) * x
     total += 1
-    print(total)
+    print(max(total, x))
     return total - x
 
 @dataclass(frozen=True)
@@ -46,12 +46,12 @@ def test_every_kind_of_change_is_made_and_nothing_that_is_no_logic():
         "math.atan2(x, -1.0) * x  ->  math.atan2(x, -1.0) / x",
         "total += 1  ->  total -= 1",
         "total += 1  ->  pass",
-        "print(total)  ->  pass",
+        "print(max(total, x))  ->  pass",
         "total - x  ->  total + x",
     ):
         assert change in changes
     assert not any(
-        m.change.startswith(("2.0", "True", "False"))
+        m.change.startswith(("2.0", "True", "False", "max"))
         or "too large" in m.change
         or "x + 1" in m.change
         or "Docs" in m.change

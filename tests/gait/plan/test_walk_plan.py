@@ -265,6 +265,8 @@ def test_a_phase_that_is_shortened_brings_the_touchdown_and_all_later_phases_for
 def test_a_change_of_a_step_that_is_not_there_is_refused():
     with pytest.raises(InputError, match=r"step 9 is not in the plan; allowed: 0 to 5"):
         walking().apply(PlanChange("a test", 9, vrp=(0.0, 0.0)), 1.0, WIDE)
+    with pytest.raises(InputError, match=r"step 1 is not in the plan; allowed: 0 to 0"):
+        walking(1).apply(PlanChange("a test", 1, vrp=(0.0, 0.0)), 1.0, WIDE)
 
 
 def test_what_the_plan_hands_out_cannot_be_changed():
