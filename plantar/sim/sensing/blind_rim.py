@@ -1,12 +1,10 @@
 """What an unrelieved pad carries past its taxels (docs/shoes.md)."""
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import InputError
 from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.polygon import area as polygon_area
 from plantar.layouts.layout import SoleLayout
@@ -27,9 +25,6 @@ class BlindRim:
         stiffness: k.
         rubber: Half width in m of a line contact.
 
-    Raises:
-        InputError: If k is negative or not finite.
-
     Example:
         >>> from plantar import hex_layout
         >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
@@ -40,8 +35,6 @@ class BlindRim:
     """
 
     def __init__(self, layout: SoleLayout, stiffness: float, rubber: float) -> None:
-        if not (math.isfinite(stiffness) and stiffness >= 0.0):
-            raise InputError(f"stiffness of the rim is {stiffness}; allowed: a finite value of 0 or more")
         self.stiffness = stiffness
         self._rubber = rubber
         self._cutter = CellCutter(layout)
@@ -52,8 +45,6 @@ class BlindRim:
         return self._patches.of(patch)
 
     def _make_share(self, points: NDArray[np.float64]) -> float:
-        if self.stiffness == 0.0:
-            return 1.0
         polygon, lines = patch_polygon(points, self._rubber)
         taxels = float(self._cutter.cut(lines)[0][:, 0].sum())
         beside = self.stiffness * max(0.0, polygon_area(polygon) - taxels)

@@ -11,7 +11,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import InputError
 from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.polygon import area as polygon_area
 from plantar.geometry.polygon import closest_point, convex_hull
@@ -86,11 +85,9 @@ class ElasticPressure:
         layout: The sole.
         thickness: Of the layer in m; infinity for the half-space.
         rubber: Half width in m of a line contact.
-        poisson: Poisson's ratio: 0.4 for foams and soft prints, near 0.5 for silicone.
 
     Raises:
         LayoutError: If a taxel does not face the ground.
-        InputError: If thickness or ratio is invalid.
 
     Example:
         >>> from plantar import hex_layout
@@ -101,16 +98,11 @@ class ElasticPressure:
         (100.0, True)
     """
 
-    def __init__(self, layout: SoleLayout, *, thickness: float, rubber: float = 3e-3, poisson: float = 0.4) -> None:
-        if not thickness > 0.0:
-            raise InputError(f"layer thickness is {thickness} m; allowed: a value above 0")
-        if not 0.0 <= poisson <= 0.499:
-            raise InputError(f"Poisson's ratio is {poisson}; allowed: 0 to 0.499")
+    def __init__(self, layout: SoleLayout, *, thickness: float, rubber: float = 3e-3) -> None:
         self._springs = SolePressure(layout, rubber=rubber)  # checks the layout, and carries what rests on its bare rim
         self.layout = layout
         self.thickness = thickness
         self.rubber = rubber
-        self.poisson = poisson
         self._squares = self._grid()
         self._patches = Patches(self._make_patch, _GRID, _MOST_PATCHES)
 
@@ -155,7 +147,7 @@ class ElasticPressure:
         used, square = np.unique(square[kept], return_inverse=True)
         rings = [np.asarray(p.exterior.coords)[:-1] for p in shapely.orient_polygons(shapely.convex_hull(pieces[kept]))]
         centers = centers[used]
-        compliance = influence(centers, np.full(len(centers), side), self.thickness, self.poisson)
+        compliance = influence(centers, np.full(len(centers), side), self.thickness)
         return _Squares(CellCutter.of_polygons(rings), square, taxel[kept], side, centers, compliance)
 
     def _make_patch(self, points: NDArray[np.float64]) -> _Patch | None:
@@ -176,7 +168,7 @@ class ElasticPressure:
         cut = np.flatnonzero(area < (1.0 - 1e-9) * whole)
         if len(cut):  # a square that an edge cuts presses on a smaller one, about the middle of what is left
             order = np.concatenate([cut, np.setdiff1d(np.arange(len(used)), cut)])
-            column = influence(place[order], np.sqrt(area[cut]), self.thickness, self.poisson)
+            column = influence(place[order], np.sqrt(area[cut]), self.thickness)
             compliance[np.ix_(order, cut)] = column
             compliance[np.ix_(cut, order)] = column.T
             both = column[: len(cut)]

@@ -11,7 +11,6 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import InputError
 from plantar.kernels.sensors.sole_rays import SoleRays
 from plantar.layouts.layout import SoleLayout
 from plantar.mujoco.named_id import named_id
@@ -41,7 +40,6 @@ class SoleProximity:
 
     Raises:
         RobotError: If there is no such site.
-        InputError: If the range is invalid.
     """
 
     def __init__(
@@ -53,8 +51,6 @@ class SoleProximity:
         ground_top: float = math.inf,
         colours: GroundColours | None = None,
     ) -> None:
-        if not (math.isfinite(sensing_range) and sensing_range > 0.0):
-            raise InputError(f"proximity range is {sensing_range} m; allowed: a finite value above 0")
         self.layout = layout
         self.range = sensing_range
         self._model = model
@@ -131,9 +127,7 @@ class ProximitySensor:
         dead: Collection[int] = (),
     ) -> None:
         self.proximity = proximity
-        self.noise_std = noise_std
-        self.bias = bias
-        self.dead = np.array(sorted({int(i) for i in dead}), dtype=np.int64)
+        self.dead = np.array(sorted(dead), dtype=np.int64)
         self.cast = 0
         self.skipped = 0
         self._count = len(proximity.layout)

@@ -19,7 +19,7 @@ from plantar.sim.plant.ground import GroundColours
 from plantar.sim.plant.taxels import TaxelErrors
 from plantar.sim.sensing.proximity import ProximitySensor, SoleProximity
 from plantar.sim.sensing.settings import Sensing
-from plantar.sim.sensing.skin import SkinElectronics, SkinSensor, SoleSkin
+from plantar.sim.sensing.skin import SkinSensor, SoleSkin
 from plantar.sim.sensing.white_noise import white_noise
 
 __all__ = ["SensorSuite"]
@@ -80,10 +80,11 @@ class SensorSuite:
         self.skins = {
             side: SkinSensor(
                 _skin(world, sensing, side, 0.0 if plant is None else plant.rubber),
-                SkinElectronics(sensing.skin_rate, sensing.force_noise, sensing.delay_periods, dead[side]),
+                sensing,
                 np.random.default_rng(stream),
                 self.proximity.get(side),
                 None if plant is None else TaxelErrors(world.robot.layouts[side], plant, side),
+                dead[side],
             )
             for side, stream in zip(SIDES, streams[:2], strict=True)
         }

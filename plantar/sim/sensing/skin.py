@@ -4,21 +4,18 @@ A rigid box lifts a corner by micrometres where rubber stays pressed: with a `ga
 and those within REACH belong to the patch.
 """
 
-import math
 from collections import deque
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import InputError, RobotError
+from plantar.errors import RobotError
 from plantar.kernels.contacts.foot_contacts import ContactsInSole
 from plantar.kernels.contacts.pressed_sole import PressedSole
-from plantar.kernels.sensors.noise_rows import NoiseRows, TaxelSample
+from plantar.kernels.sensors.noise_rows import TaxelSample
 from plantar.layouts.layout import DEFAULT_RANGES, SoleLayout
-from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.mujoco.named_id import named_id
 from plantar.sensing.reading import Reading
@@ -27,10 +24,11 @@ from plantar.sim.plant.taxels import TaxelErrors
 from plantar.sim.sensing.blind_rim import BlindRim
 from plantar.sim.sensing.elastic_pressure import ElasticPressure
 from plantar.sim.sensing.proximity import ProximitySensor
+from plantar.sim.sensing.settings import Sensing
 from plantar.sim.sensing.sole_pressure import SolePressure
 from plantar.sim.sensing.white_noise import white_noise
 
-__all__ = ["SkinElectronics", "SkinSensor", "SoleSkin"]
+__all__ = ["SkinSensor", "SoleSkin"]
 
 
 class SoleSkin:
@@ -139,34 +137,6 @@ class SoleSkin:
         return self._reader.read()[0] if contacts is None else contacts
 
 
-@dataclass(frozen=True)
-class SkinElectronics:
-    """What a skin's electronics do to its forces.
-
-    Attributes:
-        rate_hz: Sampling rate in Hz.
-        noise_std_N: Of each taxel in N (0.15 kg by default, T Table 2).
-        delay_periods: Periods from sample to delivery; until then the first sample.
-        dead: Indices that read NaN.
-
-    Raises:
-        InputError: If out of range.
-    """
-
-    rate_hz: float = 250.0
-    noise_std_N: float = 0.15 * GRAVITY
-    delay_periods: int = 0
-    dead: Collection[int] = ()
-
-    def __post_init__(self) -> None:
-        if not (math.isfinite(self.rate_hz) and self.rate_hz > 0.0):
-            raise InputError(f"skin rate is {self.rate_hz} Hz; allowed: a finite value above 0")
-        if not (math.isfinite(self.noise_std_N) and self.noise_std_N >= 0.0):
-            raise InputError(f"skin noise is {self.noise_std_N} N; allowed: a finite value of 0 or more")
-        if int(self.delay_periods) != self.delay_periods or self.delay_periods < 0:
-            raise InputError(f"skin delay is {self.delay_periods} periods; allowed: whole numbers of 0 or more")
-
-
 class SkinSensor:
     """A skin as delivered: sampled, noisy, clipped, late.
 
@@ -174,50 +144,33 @@ class SkinSensor:
 
     Args:
         skin: The noise-free skin.
-        rng: None only without noise.
+        sensing: Rate, noise and delay of the soles' skin.
+        rng: Of the noise.
         proximity: Sampled with the forces, or None.
         errors: Of the taxels, or None.
-
-    Raises:
-        InputError: If source or taxel is missing.
+        dead: Indices that read NaN.
     """
 
     def __init__(
         self,
         skin: SoleSkin,
-        electronics: SkinElectronics | None = None,
-        rng: np.random.Generator | None = None,
+        sensing: Sensing,
+        rng: np.random.Generator,
         proximity: ProximitySensor | None = None,
         errors: TaxelErrors | None = None,
+        dead: Collection[int] = (),
     ) -> None:
-        electronics = electronics or SkinElectronics()
-        if rng is None and electronics.noise_std_N > 0.0:
-            raise InputError("skin noise needs a random generator; pass rng=numpy.random.default_rng(seed)")
-        if any(not 0 <= int(i) < len(skin) for i in electronics.dead):
-            raise InputError(
-                f"dead taxels {sorted(electronics.dead)} name one that does not exist; allowed: 0 to {len(skin) - 1}"
-            )
         self.skin = skin
-        self.period = 1.0 / electronics.rate_hz
-        self.noise_std = electronics.noise_std_N
-        self.delay_periods = int(electronics.delay_periods)
-        self.dead = np.array(sorted({int(i) for i in electronics.dead}), dtype=np.int64)
-        self.range = skin.layout.ranges.get("force", DEFAULT_RANGES["force"])
+        self.period = 1.0 / sensing.skin_rate
         self.proximity = proximity
         count = len(skin)
-        noise = NoiseRows(lambda: np.zeros((1, count)))
-        if rng is not None and self.noise_std > 0.0:
-            noise = white_noise(rng, 0.0, self.noise_std, count)
-        self._sample = TaxelSample(noise, count, *self.range, self.dead)
+        limits = skin.layout.ranges.get("force", DEFAULT_RANGES["force"])
+        noise = white_noise(rng, 0.0, sensing.force_noise, count)
+        self._sample = TaxelSample(noise, count, *limits, np.array(sorted(dead), dtype=np.int64))
         self._errors = errors
         self._direct = isinstance(skin, SoleSkin) and skin.springs is not None and errors is None
-        self._queue: deque[Reading] = deque(maxlen=self.delay_periods + 1)
+        self._queue: deque[Reading] = deque(maxlen=sensing.delay_periods + 1)
         self._start = 0.0
-        self._taken = 0
-
-    def reset(self) -> None:
-        """Forget all samples, not the state of the noise."""
-        self._queue.clear()
         self._taken = 0
 
     def read(

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import InputError, LayoutError
+from plantar.errors import LayoutError
 from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.polygon import area as polygon_area
 from plantar.geometry.polygon import convex_hull
@@ -41,7 +41,6 @@ class SolePressure:
 
     Raises:
         LayoutError: If a taxel faces away.
-        InputError: If the thickness is not above 0.
 
     Attributes:
         springs: Kernel of the cells.
@@ -58,8 +57,6 @@ class SolePressure:
     def __init__(self, layout: SoleLayout, *, rubber: float = 3e-3) -> None:
         import shapely  # 0.2 s: only where a skin is made
 
-        if not (math.isfinite(rubber) and rubber > 0.0):
-            raise InputError(f"rubber thickness is {rubber} m; allowed: a finite value above 0")
         facing = layout.rotations[:, 2, 2]
         if len(layout) == 0 or not (facing > 0.1).all():
             raise LayoutError("layout field 'rotations' holds a taxel that does not face the ground, or none at all")

@@ -113,11 +113,9 @@ class LimitCurve:
 
 
 def limit_curve(values: Sequence[float], completed: Sequence[bool], low: float, high: float) -> LimitCurve:
-    """Returns what `values` and whether each was `completed` show of a limit between `low` and `high`; a ValueError
-    unless `low` is below `high`.
+    """Returns what `values` and whether each was `completed` show of a limit between `low` and `high`, which
+    is above `low`.
     """
-    if not low < high:
-        raise ValueError(f"range {low} to {high} is empty")
     span = high - low
     tried, which = np.unique(np.asarray(values, dtype=float), return_inverse=True)
     good, bad = np.zeros(len(tried)), np.zeros(len(tried))

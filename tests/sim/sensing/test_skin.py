@@ -1,5 +1,6 @@
 """Simulated skin: what the taxels feel of contacts of every kind, and the sensor around it."""
 
+from collections.abc import Sequence
 from types import SimpleNamespace
 from typing import Any
 
@@ -8,10 +9,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from plantar import InputError, RobotError, hex_layout
+from plantar import RobotError, hex_layout
 from plantar.sensing.force import center_of_pressure
 from plantar.sim.model.contact_truth import FootContacts, contact_wrench_in_frame, foot_contacts
-from plantar.sim.sensing.skin import SkinElectronics, SkinSensor, SoleSkin
+from plantar.sim.sensing.settings import Sensing
+from plantar.sim.sensing.skin import SkinSensor, SoleSkin
 
 GRAVITY = 9.81
 MASS = 43.0
@@ -52,8 +54,6 @@ def test_a_pad_that_is_not_relieved_hides_a_part_of_the_load():
     share = taxels / (taxels + 2.0 * (4.0 * HALF.prod() - taxels))
     np.testing.assert_allclose(bad.taxel_forces(data), share * skin.taxel_forces(data), rtol=1e-3)
     assert 0.3 < share < 0.95
-    with pytest.raises(InputError, match="stiffness of the rim"):
-        SoleSkin(model, LAYOUT, "left_sole", ["left_sole_box"], rim_stiffness=np.inf)
 
 
 @pytest.mark.parametrize("com", ["0 0 0.1", "0.05 0.02 0.1", "-0.08 -0.05 0.1"])
@@ -133,26 +133,14 @@ def test_two_blocks_carry_separate_patches():
     assert force[x > 0].sum() / force.sum() == pytest.approx(0.725, abs=1e-3)
 
 
-def test_unknown_names_and_bad_values_are_refused():
-    model, _, skin = rig(PLANE)
+def test_unknown_names_are_refused():
+    model, _, _ = rig(PLANE)
     with pytest.raises(RobotError, match="no site named 'sole'; did you mean left_sole"):
         SoleSkin(model, LAYOUT, "sole", ["left_sole_box"])
     with pytest.raises(RobotError, match="no geom named 'box'; it has: floor, left_sole_box"):
         SoleSkin(model, LAYOUT, "left_sole", ["box"])
     with pytest.raises(RobotError, match="no collision geom"):
         SoleSkin(model, LAYOUT, "left_sole", [])
-    rng = np.random.default_rng(0)
-    for bad in (
-        {"rate_hz": 0.0},
-        {"noise_std_N": -1.0},
-        {"delay_periods": -1},
-        {"delay_periods": 0.5},
-        {"dead": [len(LAYOUT)]},
-    ):
-        with pytest.raises(InputError):
-            SkinSensor(skin, SkinElectronics(**bad), rng)
-    with pytest.raises(InputError, match="random generator"):
-        SkinSensor(skin)
 
 
 class _CountingSkin:
@@ -170,10 +158,9 @@ class _CountingSkin:
         return np.full(len(self.layout), 1e3 * data.time)
 
 
-def sensor(**options: Any) -> tuple[SkinSensor, _CountingSkin]:
+def sensor(seed: int = 0, dead: Sequence[int] = (), **options: float) -> tuple[SkinSensor, _CountingSkin]:
     skin = _CountingSkin()
-    rng, proximity = options.pop("rng", None), options.pop("proximity", None)
-    return SkinSensor(skin, SkinElectronics(**{"noise_std_N": 0.0, **options}), rng, proximity), skin
+    return SkinSensor(skin, Sensing(**{"force_noise": 0.0, **options}), np.random.default_rng(seed), dead=dead), skin
 
 
 def at(time: float) -> Any:
@@ -181,29 +168,28 @@ def at(time: float) -> Any:
 
 
 def test_sensor_samples_at_its_rate_and_holds():
-    device, skin = sensor(rate_hz=250.0)
+    device, skin = sensor(skin_rate=250.0)
     times = [device.read(at(i * 1e-3)).time for i in range(1000)]
     assert skin.calls == 250
     assert times[:9] == pytest.approx([0.0] * 4 + [0.004] * 4 + [0.008])
-    device.reset()
     assert device.read(at(5.0)).force[0] == pytest.approx(785.0)  # clipped at the layout's range
 
 
 def test_sensor_of_an_odd_rate_keeps_its_mean_rate():
-    device, skin = sensor(rate_hz=300.0)
+    device, skin = sensor(skin_rate=300.0)
     for i in range(3000):
         device.read(at(i * 1e-3))
     assert skin.calls == 900
 
 
 def test_sensor_faster_than_the_physics_samples_every_step():
-    device, skin = sensor(rate_hz=4000.0)
-    assert [device.read(at(i * 1e-3)).time for i in range(50)] == pytest.approx([i * 1e-3 for i in range(50)])
+    device, skin = sensor(skin_rate=1000.0)
+    assert [device.read(at(i * 4e-3)).time for i in range(50)] == pytest.approx([i * 4e-3 for i in range(50)])
     assert skin.calls == 50
 
 
 def test_delay_is_whole_periods():
-    device, _ = sensor(rate_hz=250.0, delay_periods=2)
+    device, _ = sensor(skin_rate=250.0, delay_periods=2)
     age = [i * 1e-3 - device.read(at(i * 1e-3)).time for i in range(100)]
     assert min(age[8:]) == pytest.approx(0.008)
     assert max(age[8:]) == pytest.approx(0.011)
@@ -212,7 +198,7 @@ def test_delay_is_whole_periods():
 
 def test_noise_is_white_reproducible_and_clipped():
     def record(seed: int) -> NDArray[np.float64]:
-        device, _ = sensor(noise_std_N=1.47, rng=np.random.default_rng(seed))
+        device, _ = sensor(seed, force_noise=1.47)
         return np.array([device.read(at(0.3 + i * 0.004)).force for i in range(400)])
 
     first = record(7)
@@ -222,15 +208,15 @@ def test_noise_is_white_reproducible_and_clipped():
     error = (first - truth[:, None])[:50]  # far from both ends of the range
     assert error.std() == pytest.approx(1.47, rel=0.05)
     assert first.max() == 785.0
-    device, _ = sensor(noise_std_N=1.47, rng=np.random.default_rng(0))
+    device, _ = sensor(force_noise=1.47)
     idle = device.read(at(0.0)).force
     assert idle.min() == 0.0
     assert 0.2 < np.mean(idle > 0.0) < 0.8
 
 
 def test_dead_taxels_read_nan_and_leave_the_others_alone():
-    whole, _ = sensor(noise_std_N=1.0, rng=np.random.default_rng(3))
-    broken, _ = sensor(noise_std_N=1.0, rng=np.random.default_rng(3), dead=[2, 5])
+    whole, _ = sensor(3, force_noise=1.0)
+    broken, _ = sensor(3, [2, 5], force_noise=1.0)
     a, b = whole.read(at(0.1)).force, broken.read(at(0.1)).force
     assert np.isnan(b).nonzero()[0].tolist() == [2, 5]
     alive = ~np.isnan(b)

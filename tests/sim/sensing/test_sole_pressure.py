@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar import InputError, LayoutError, SoleLayout, hex_layout, layout_of_cells
+from plantar import LayoutError, SoleLayout, hex_layout, layout_of_cells
 from plantar.geometry.polygon import convex_hull, inner_offset, signed_margin
 from plantar.sensing.force import center_of_pressure
 from plantar.sim.sensing.contact_patch import patch_polygon
@@ -166,11 +166,6 @@ def test_tilted_taxels_add_up_in_the_vertical():
     assert float(force @ layout.rotations[:, 2, 2]) == pytest.approx(50.0)
     with pytest.raises(LayoutError, match="does not face the ground"):
         SolePressure(tilted_layout(1.6))
-
-
-def test_a_rubber_without_thickness_is_refused():
-    with pytest.raises(InputError, match="rubber"):
-        SolePressure(LAYOUT, rubber=0.0)
 
 
 def test_pseudo_inverse_is_numpy_s():

@@ -71,11 +71,6 @@ def test_intervals_of_95_percent_hold_the_limit_that_often(width, lapse):
     assert held >= 25
 
 
-def test_an_empty_range_is_refused():
-    with pytest.raises(ValueError, match="empty"):
-        limit_curve([], [], 1.0, 1.0)
-
-
 @pytest.mark.parametrize(
     ("width", "lapse", "limits", "least"),
     [
