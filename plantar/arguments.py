@@ -9,7 +9,7 @@ import numpy as np
 
 from plantar.errors import InputError, PlantarError
 
-__all__ = ["LARGEST", "does", "instance", "integer", "items", "number"]
+__all__ = ["LARGEST", "does", "instance", "integer", "items", "number", "positive"]
 
 LARGEST = 1e100
 """Largest absolute value of a number that has to be finite: products of a few of them are finite too."""
@@ -49,6 +49,30 @@ def number(
         if finite:
             raise error(f"{does(name, 'are')} {plain}; expected a finite number")
     return plain
+
+
+def positive(value: object, name: str, unit: str = "") -> float:
+    """One finite number above 0.
+
+    Args:
+        value: Argument.
+        name: Name in errors; `unit` its unit.
+
+    Returns:
+        Float.
+
+    Raises:
+        InputError: Another.
+
+    Example:
+        >>> positive(-2.0, "CoM height", "m")
+        Traceback (most recent call last):
+        plantar.errors.InputError: CoM height is -2.0 m; allowed: a finite value above 0
+    """
+    given = number(value, name, nan=True)
+    if not 0.0 < given <= LARGEST:
+        raise InputError(f"{name} is {f'{value} {unit}'.rstrip()}; allowed: a finite value above 0")
+    return given
 
 
 def integer(value: object, name: str, low: int, high: int | None = None, error: type[PlantarError] = InputError) -> int:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import instance, items, number
+from plantar.arguments import instance, items, positive
 from plantar.arrays import array, integers, is_finite, numbers
 from plantar.errors import InputError, LayoutError
 from plantar.layouts.layout import Side, SoleLayout
@@ -145,8 +145,7 @@ def shared_vertices(rings: Sequence[ArrayLike], tolerance: float) -> tuple[NDArr
 
     Returns points (v, 2) in m, and each cell's corner indices, none twice in a row; an InputError if invalid.
     """
-    if not number(tolerance, "tolerance of corners", finite=True) > 0.0:
-        raise InputError(f"tolerance of corners is {tolerance} m; allowed: above 0")
+    positive(tolerance, "tolerance of corners", "m")
     points: list[NDArray[np.float64]] = []
     index: dict[tuple[int, int], int] = {}
     corners: list[tuple[int, ...]] = []

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import LARGEST, number
+from plantar.arguments import LARGEST, number, positive
 from plantar.arrays import array, integers
 from plantar.errors import InputError
 from plantar.plane_points import plane_point
@@ -30,10 +30,7 @@ _CORNER_OFFSETS: tuple[tuple[int, int], ...] = ((1, -1), (1, 1), (0, 2), (-1, 1)
 
 def hexagon_side(area: float) -> float:
     """Side s in m of a regular hexagon of an area in m^2, above 0 (else an InputError): area = 3 sqrt(3) / 2 s^2."""
-    whole = number(area, "cell area", nan=True)
-    if not 0.0 < whole <= LARGEST:
-        raise InputError(f"cell area is {area} m^2; allowed: a finite value above 0")
-    return math.sqrt(2.0 * whole / (3.0 * math.sqrt(3.0)))
+    return math.sqrt(2.0 * positive(area, "cell area", "m^2") / (3.0 * math.sqrt(3.0)))
 
 
 @dataclass(frozen=True)

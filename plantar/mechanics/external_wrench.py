@@ -8,14 +8,11 @@ that passes to the ground. Moments about the ZMP give
 so both push the CoM away (printed: u_F - u_tau). The vertical force is left out.
 """
 
-import math
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number
+from plantar.arguments import positive
 from plantar.arrays import array
-from plantar.errors import InputError
 from plantar.gravity import GRAVITY
 
 __all__ = ["external_acceleration", "vrp_offset"]
@@ -43,8 +40,8 @@ def vrp_offset(wrench: ArrayLike, mass: float, omega: float, virtual_mass: float
         [0.0491, 0.0, 0.0728, 0.0]
     """
     given = array(wrench, "wrench", (..., 6))
-    rate = _positive(omega, "pendulum frequency", "rad/s")
-    carried = _positive(mass, "mass", "kg") * _positive(virtual_mass, "share of the mass", "1")
+    rate = positive(omega, "pendulum frequency", "rad/s")
+    carried = positive(mass, "mass", "kg") * positive(virtual_mass, "share of the mass", "1")
     if given.ndim == 1:
         fx, fy, _, tx, ty, _ = given.tolist()
         by_force, by_moment = 1.0 / (carried * rate * rate), 1.0 / (carried * GRAVITY)
@@ -71,10 +68,3 @@ def external_acceleration(
         Acceleration.
     """
     return np.asarray(vrp_offset(wrench, mass, omega, virtual_mass) * float(omega) ** 2)
-
-
-def _positive(value: float, name: str, unit: str) -> float:
-    given = number(value, name, nan=True)
-    if not 0.0 < given < math.inf:
-        raise InputError(f"{name} is {value} {unit}; allowed: a finite value above 0")
-    return given

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number
+from plantar.arguments import positive
 from plantar.arrays import is_finite, numbers
 from plantar.errors import InputError
 from plantar.gravity import GRAVITY
@@ -26,10 +26,7 @@ def pendulum_frequency(com_height: float, legs: float = 0.0) -> float:
     Raises:
         InputError: Height not finite.
     """
-    height = number(com_height, "CoM height", nan=True)
-    if not 0.0 < height < math.inf:
-        raise InputError(f"CoM height is {com_height} m; allowed: a finite value above 0")
-    return math.sqrt(GRAVITY / (height + GRAVITY * legs))
+    return math.sqrt(GRAVITY / (positive(com_height, "CoM height", "m") + GRAVITY * legs))
 
 
 def divergent_component(com: ArrayLike, com_velocity: ArrayLike, omega: float) -> NDArray[np.float64]:
@@ -50,9 +47,7 @@ def divergent_component(com: ArrayLike, com_velocity: ArrayLike, omega: float) -
         >>> divergent_component([0.0, 0.1], [0.5, 0.0], 4.0).tolist()
         [0.125, 0.1]
     """
-    rate = number(omega, "pendulum frequency", nan=True)
-    if not 0.0 < rate < math.inf:
-        raise InputError(f"pendulum frequency is {omega} rad/s; allowed: a finite value above 0")
+    rate = positive(omega, "pendulum frequency", "rad/s")
     position, velocity = numbers(com, "CoM"), numbers(com_velocity, "velocity of the CoM")
     if position.shape != velocity.shape:
         raise InputError(f"CoM has shape {position.shape}, its velocity {velocity.shape}; expected the same")

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.arguments import positive
 from plantar.errors import InputError
 
 __all__ = ["Rectangle", "cone_rows", "wrench_cone"]
@@ -51,9 +52,7 @@ def wrench_cone(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
     x0, x1, y0, y1 = rectangle
     if not (all(map(math.isfinite, rectangle)) and x0 <= x1 and y0 <= y1):
         raise InputError(f"contact rectangle is {tuple(rectangle)}; allowed: finite, x_min <= x_max, y_min <= y_max")
-    if not 0.0 < friction < math.inf:
-        raise InputError(f"friction coefficient is {friction}; allowed: a finite value above 0")
-    return cone_rows(rectangle, friction)
+    return cone_rows(rectangle, positive(friction, "friction coefficient"))
 
 
 def cone_rows(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:

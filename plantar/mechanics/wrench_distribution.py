@@ -21,6 +21,7 @@ import daqp
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.arguments import positive
 from plantar.errors import InputError
 from plantar.kernels.mechanics.wrench_program import WrenchProgram
 from plantar.mechanics.contact import Contact, Contacts
@@ -72,9 +73,7 @@ class DistributionWeights:
 
     def __post_init__(self) -> None:
         for item in fields(self):
-            value = getattr(self, item.name)
-            if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"distribution weight '{item.name}' is {value}; allowed: a finite number above 0")
+            positive(getattr(self, item.name), f"distribution weight '{item.name}'")
 
 
 class WrenchShare(Record, frozen=True):
@@ -172,14 +171,10 @@ class WrenchDistribution:
         minimum_force: float = 15.0,
         length: float = 0.1,
     ) -> None:
-        if not (math.isfinite(weight) and weight > 0.0):
-            raise InputError(f"weight of the robot is {weight} N; allowed: a finite value above 0")
         if not (math.isfinite(minimum_force) and minimum_force >= 0.0):
             raise InputError(f"minimum force is {minimum_force} N; allowed: a finite value, 0 or more")
-        if not (math.isfinite(length) and length > 0.0):
-            raise InputError(f"unit of length is {length} m; allowed: a finite value above 0")
-        self.weight = weight
-        self.length = length
+        self.weight = positive(weight, "weight of the robot", "N")
+        self.length = positive(length, "unit of length", "m")
         self.weights = weights or DistributionWeights()
         self.minimum_force = minimum_force
         self._workspaces: dict[int, _Workspace] = {}

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike
 
-from plantar.arguments import instance, number
+from plantar.arguments import instance, number, positive
 from plantar.errors import InputError, LayoutError, RobotError
 from plantar.layouts.layout import SoleLayout, mirrored
 from plantar.layouts.layout_file import read_layout
@@ -87,9 +87,7 @@ class Skin:
         self.forward = forward
         self.cell_area = None if cell_area is None else number(cell_area, "cell area", finite=True)
         self.partial = partial
-        self.proximity = None if proximity is None else number(proximity, "proximity range", finite=True)
-        if self.proximity is not None and not self.proximity > 0.0:
-            raise InputError(f"proximity range is {proximity} m; allowed: above 0")
+        self.proximity = None if proximity is None else positive(proximity, "proximity range", "m")
         self.reach = number(reach, "reach", finite=True)
         if self.reach < 0.0:
             raise InputError(f"reach is {reach} m; allowed: 0 or more")

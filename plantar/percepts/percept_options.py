@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from plantar.arguments import number
+from plantar.arguments import number, positive
 from plantar.errors import InputError
 from plantar.sensing.proximity import contour_levels
 
@@ -40,7 +40,4 @@ class PerceptOptions:
         object.__setattr__(self, "proximity_gain", number(self.proximity_gain, "proximity gain", finite=True))
         object.__setattr__(self, "contour_heights", contour_levels(self.contour_heights))
         if self.reference_area is not None:
-            area = number(self.reference_area, "reference area", finite=True)
-            if not area > 0.0:
-                raise InputError(f"reference area is {area} m^2; allowed: above 0")
-            object.__setattr__(self, "reference_area", area)
+            object.__setattr__(self, "reference_area", positive(self.reference_area, "reference area", "m^2"))

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number
+from plantar.arguments import number, positive
 from plantar.arrays import array
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
@@ -82,9 +82,7 @@ def scaled_by_area(wrench: ArrayLike, contact_area: ArrayLike, reference_area: f
     Returns wrench in shape of `wrench`; zero where contact area is 0; InputError: shapes differ, area not above
     0.
     """
-    reference = number(reference_area, "reference area", nan=True)
-    if not 0.0 < reference < np.inf:
-        raise InputError(f"reference area is {reference_area} m^2; allowed: a finite value above 0")
+    reference = positive(reference_area, "reference area", "m^2")
     given = array(wrench, "wrench", (..., 6))
     if isinstance(contact_area, float) and given.ndim == 1:  # one reading: without arrays for one number
         one = number(contact_area, "contact area", finite=True)

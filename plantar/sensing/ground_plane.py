@@ -1,12 +1,11 @@
 """Ground under a swinging sole as a plane."""
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number
+from plantar.arguments import number, positive
 from plantar.arrays import read_only
 from plantar.errors import InputError
 from plantar.kernels.skin.ground import GroundFit
@@ -87,10 +86,7 @@ def checked_range(layout: SoleLayout, sensing_range: float | None, tolerance: fl
     """
     if not number(tolerance, "tolerance of the ground plane", nan=True) > 0.0:
         raise InputError(f"tolerance of the ground plane is {tolerance} m; allowed: above 0")
-    reach = layout.proximity_range if sensing_range is None else number(sensing_range, "sensing range", nan=True)
-    if not 0.0 < reach < math.inf:
-        raise InputError(f"sensing range is {reach} m; allowed: a finite value above 0")
-    return reach
+    return positive(layout.proximity_range if sensing_range is None else sensing_range, "sensing range", "m")
 
 
 def ground_fit(layout: SoleLayout) -> GroundFit:

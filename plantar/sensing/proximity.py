@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number
+from plantar.arguments import number, positive
 from plantar.arrays import array, numbers, read_only
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
@@ -52,9 +52,7 @@ def proximity_measure(distance: ArrayLike, sensing_range: float) -> NDArray[np.f
     Returns:
         Measures (..., n) in m: 0 out of range and for a dead taxel, `sensing_range` at contact (d <= 0), never NaN.
     """
-    reach = number(sensing_range, "sensing range", nan=True)
-    if not 0.0 < reach < math.inf:
-        raise InputError(f"sensing range is {sensing_range} m; allowed: a finite value above 0")
+    reach = positive(sensing_range, "sensing range", "m")
     measured = np.asarray(reach - numbers(distance, "distances"))
     # fmax drops NaN, so that a dead taxel reads as one that sees nothing.
     np.fmax(measured, 0.0, out=measured)

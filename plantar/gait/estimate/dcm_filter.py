@@ -11,9 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number
+from plantar.arguments import positive
 from plantar.arrays import array
-from plantar.errors import InputError
 from plantar.settings.part import Part
 from plantar.settings.schema import fixed, share
 
@@ -60,10 +59,8 @@ class DcmFilter:
     """
 
     def __init__(self, rules: DcmFilterRules, omega: float, period: float) -> None:
-        w = number(omega, "pendulum frequency", finite=True)
-        tick = number(period, "control period", finite=True)
-        if w <= 0.0 or tick <= 0.0:
-            raise InputError(f"pendulum frequency is {omega} rad/s, control period {period} s; allowed: above 0")
+        w = positive(omega, "pendulum frequency", "rad/s")
+        tick = positive(period, "control period", "s")
         c, s = math.cosh(w * tick), math.sinh(w * tick)
         self._input = np.array([1.0 - c, 1.0 - c - s])  # of the VRP, on x and xi
         own = np.array([[c - s, s], [0.0, c + s]])

@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number
+from plantar.arguments import number, positive
 from plantar.arrays import array
 from plantar.errors import InputError
 from plantar.settings.part import Part
@@ -45,10 +45,8 @@ class WrenchFilter:
     """
 
     def __init__(self, rules: WrenchFilterRules, omega: float, period: float) -> None:
-        rate = number(omega, "pendulum frequency", finite=True)
-        tick = number(period, "control period", finite=True)
-        if rate <= 0.0 or tick <= 0.0:
-            raise InputError(f"pendulum frequency is {omega} rad/s, control period {period} s; allowed: above 0")
+        rate = positive(omega, "pendulum frequency", "rad/s")
+        tick = positive(period, "control period", "s")
         self._omega = rate
         # Exact for an offset that is constant over a tick; K 19's alpha is its first order.
         self._share = 1.0 if rules.time_constant == 0.0 else -math.expm1(-tick / rules.time_constant)

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import number as checked_number
+from plantar.arguments import positive
 from plantar.arrays import array
-from plantar.errors import InputError
 from plantar.gait.feet.swing_flight import PolynomialSwing, SwingFlight
 from plantar.gait.feet.swing_kind import Swing, SwingKind, SwingStart
 from plantar.kernels.gait.swing_fit import fit
@@ -80,9 +80,7 @@ class SwingFit:
     """
 
     def __init__(self, rules: SwingFitRules, start: ArrayLike, period: float, height: float) -> None:
-        self._period = checked_number(period, "control period", finite=True)
-        if self._period <= 0.0:
-            raise InputError(f"control period is {period} s; allowed: above 0")
+        self._period = positive(period, "control period", "s")
         self._rules, self._height = rules, height
         self._start: NDArray[np.float64] = array(start, "start of the swing", (3,), finite=True).copy()
         self._state = np.array([self._start, np.zeros(3), np.zeros(3)])  # of the tick before

@@ -17,6 +17,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.arguments import positive
 from plantar.errors import InputError
 from plantar.kernels.mechanics.pendulum import on_segment
 from plantar.record import Record
@@ -74,8 +75,7 @@ class VrpPlan:
             raise InputError(f"a VRP plan needs k >= 2 times and (k, 2) points; got {knots.shape} and {points.shape}")
         if not (np.isfinite(knots).all() and np.isfinite(points).all() and (np.diff(knots) > 0.0).all()):
             raise InputError("a VRP plan needs finite points at strictly increasing finite times")
-        if not (math.isfinite(omega) and omega > 0.0):
-            raise InputError(f"pendulum frequency is {omega} rad/s; allowed: above 0")
+        positive(omega, "pendulum frequency", "rad/s")
         segments = len(knots) - 1
         self._keep(knots, points, np.empty((segments, 2)), np.empty((segments, 2)), np.empty((segments + 1, 2)), omega)
         self.dcm_waypoints[-1] = points[-1]  # the plan ends at rest on its last VRP

@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.arguments import positive
 from plantar.arrays import array
 from plantar.errors import InputError
 from plantar.gait.balance.ankle_strategy import MOST_GROWTH, sway_share
@@ -242,8 +243,7 @@ def solve_ssp(problem: SspProblem, weights: StepWeights) -> SspSolution | None:
     region: list[list[float]] = array(problem.region, "region", ("k", 2), finite=True).tolist()
     if not region:
         return None
-    if not 0.0 < problem.omega < math.inf:
-        raise InputError(f"pendulum frequency is {problem.omega} rad/s; allowed: a finite value above 0")
+    positive(problem.omega, "pendulum frequency", "rad/s")
     if not problem.shortest <= problem.longest:
         raise InputError(f"shortest single support is {problem.shortest} s, the longest {problem.longest} s")
     high = min(max(problem.longest, problem.elapsed), MOST_GROWTH / problem.omega)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import InputError
+from plantar.arguments import positive
 from plantar.sensing.link_skin import SkinReading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
@@ -40,9 +40,8 @@ class SelfCollision(Task):
     def __init__(
         self, pairs: Sequence[tuple[Sphere, Sphere]], margin: float, stiffness: float, damping: float = 0.0
     ) -> None:
-        if not margin > 0.0:
-            raise InputError(f"margin of self-collision is {margin} m; allowed: above 0")
-        self.pairs, self.margin, self.stiffness, self.damping = tuple(pairs), margin, stiffness, damping
+        self.margin = positive(margin, "margin of self-collision", "m")
+        self.pairs, self.stiffness, self.damping = tuple(pairs), stiffness, damping
         spheres = list({(s.link, *np.asarray(s.center).tolist()): s for pair in pairs for s in pair}.values())
         places = {(s.link, *np.asarray(s.center).tolist()): i for i, s in enumerate(spheres)}
         index = [[places[s.link, *np.asarray(s.center).tolist()] for s in pair] for pair in pairs]

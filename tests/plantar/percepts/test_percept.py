@@ -243,7 +243,7 @@ def test_wrong_arguments_are_refused_by_name(sole, argument, value, text):
         ("proximity_gain", np.inf, "proximity gain is inf"),
         ("contour_heights", 0.01, r"heights of contours have shape \(\)"),
         ("contour_heights", ["low"], "heights of contours are not numeric"),
-        ("reference_area", 0.0, "allowed: above 0"),
+        ("reference_area", 0.0, "allowed: a finite value above 0"),
     ],
 )
 def test_wrong_options_are_refused_by_name(option, value, text):
