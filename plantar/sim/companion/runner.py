@@ -108,6 +108,7 @@ class Companion(Run):
         self.experiment.act(self.world, float(data.time))
         mujoco.mj_step1(self.world.model, data)
         self.skin.apply(data)
+        self.skin.read(data)  # samples at the skin's own rate, whatever the control period
         if self.lidar is not None and k % self._scan_every == 0:
             self.controller.scan(self.lidar.scan(data))
 

@@ -78,6 +78,23 @@ def test_controller_gets_noise_and_the_judge_does_not(scene):
     assert 0.001 < np.abs(apart).max() < 0.1
 
 
+@pytest.mark.parametrize(
+    ("rate", "delay", "least", "most"), [(250, 1, 0.004, 0.004), (250, 3, 0.012, 0.012), (200, 0, 0.0, 0.004)]
+)
+def test_skin_samples_at_its_own_rate_between_control_ticks(scene, rate, delay, least, most):
+    companion = Companion(scene(f"skin.rate={rate}", f"skin.delay_periods={delay}", "control.period=0.008"), 0)
+    inner, ages = companion.controller, []
+
+    class Watch:
+        def step(self, robot, reading):
+            ages.append(companion.world.data.time - reading.time)
+            return inner.step(robot, reading)
+
+    companion.controller = Watch()
+    companion.run()
+    assert (min(ages[3:]), max(ages[3:])) == pytest.approx((least, most), abs=1e-9)
+
+
 def test_settings_reach_every_table(scene):
     made = scene("control.period=0.004", "stiffness=2e7", "machine=planar-arm")
     assert (made.control.period, made.skin.stiffness, made.robot) == (0.004, 2e7, "planar-arm")
