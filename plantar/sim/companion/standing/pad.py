@@ -111,7 +111,9 @@ class PlannedContact:
         force: In N.
         swell: Time in s over which its force grows; it fades in that time, and 0.6 s at least.
         against: Link against which the yield is measured; empty for centre of mass.
-        yielded: Largest yield in m along the pad's first direction.
+        rest: `place` before anything pressed.
+        yielded: Largest yield in m from there along the pad, once its force has grown: until then a link may be on its
+            way back from the contact before.
         measured: Largest true force in N.
     """
 
@@ -121,10 +123,10 @@ class PlannedContact:
     force: float
     swell: float = 0.3
     against: str = ""
+    rest: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
     yielded: float = 0.0
     measured: float = 0.0
     _touched: float = field(default=math.inf, repr=False)
-    _first: tuple[NDArray[np.float64], NDArray[np.float64]] | None = field(default=None, repr=False)
 
     def act(self, time: float, measured: float) -> None:
         """Set the pad's wanted force at `time` in s by the `measured` one."""
@@ -142,15 +144,17 @@ class PlannedContact:
         if force <= 0.0:
             return
         self.measured = max(self.measured, force)
+        if self.rest is not None and world.data.time >= self._touched + self.swell:
+            place, inward = self.rest
+            self.yielded = max(self.yielded, float((self.place(world)[0] - place) @ inward))
+
+    def place(self, world: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Target (3,) of the pad in m and its direction (3,), against what the yield is measured against."""
         place, inward = self.pad.touching(world)
         if self.against:
             origin, rotation = world.pose(self.against)
-            place, inward = (place - origin) @ rotation, inward @ rotation
-        else:
-            place = place - world.data.subtree_com[world.model.body(world.machine.base.link).id]
-        if self._first is None:
-            self._first = place, inward
-        self.yielded = max(self.yielded, float((place - self._first[0]) @ self._first[1]))
+            return (place - origin) @ rotation, inward @ rotation
+        return place - world.data.subtree_com[world.model.body(world.machine.base.link).id], inward
 
     @property
     def compliance(self) -> float:

@@ -38,6 +38,7 @@ _TRUNK = ("torso", "hip")
 _FACES = {"torso": 0.07, "hip": 0.06}  # m: radius; elsewhere _FACE
 _FACE = 0.04
 _FIRST, _APART, _EACH = 0.6, 1.0, 1.5  # s: when single contacts begin; each takes half a second to come near
+_RESTS = 500  # physics steps of 1 ms after which it has settled, before anything presses
 _TOGETHER, _SWELLING = 4.6, 1.5  # s: contacts that press together, and of that both to grow and to fade
 _STRONGEST = 4.0  # times the force of a single contact
 
@@ -164,6 +165,9 @@ class PressedExperiment(StandingExperiment):
 
     def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
         super().judge(world, sensor, time)
+        if self._steps == _RESTS:
+            for contact in self.contacts:
+                contact.rest = contact.place(world)
         forces = [self.pressing(c.pad) for c in self.contacts]
         for contact, force in zip(self.contacts, forces, strict=True):
             contact.judge(world, force)
