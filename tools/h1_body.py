@@ -1,4 +1,4 @@
-"""Write the MJCF of the machine `h1-body`: `python tools/h1_body.py sim/companion/machines/h1-body/h1_body.xml`.
+"""Write the MJCF of the machine `h1-body`: `python tools/h1_body.py .../companion/machines/h1-body/h1_body.xml`.
 
 Legs, pelvis and total mass are those of the walking robot h1 (`plantar/robots/h1/robot.toml`); two waist joints, a
 torso, two arms of seven joints and a head of two replace its chest. Lengths and masses of the upper body are assumed,
@@ -110,8 +110,8 @@ def mjcf(mass: float, com_z: float) -> str:
         sole_half_size=half,
         shoe_thickness=robot.shoe_thickness,
         shoe_mass=robot.shoe_mass,
-        stiffness=1.0,
-        damping=1.0,
+        stiffness=[1.0] * 6,
+        damping=[1.0] * 6,
     )
     begin, end = text.index('<body name="chest">'), text.index('<body name="left_hip_yaw_link"')
     text = text[:begin] + torso(mass, com_z).lstrip() + "\n    " + text[end:]
