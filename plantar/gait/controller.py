@@ -91,7 +91,10 @@ class WalkingController:
         motors: Motors | None = None,
     ) -> None:
         s, feet, begin = settings, start.feet, start.time - 1.0
-        self.settings, self.layouts, self._motors, self.replans = settings, layouts, motors, 0
+        self.settings = settings
+        self.layouts = layouts
+        self._motors = motors
+        self.replans = 0
         middles = {side: middle_of_sole(layouts[side], s.ankle_reach) for side in SIDES}
         self.estimation = Estimation(s, feet, layouts, kinematics)
         omega = self.omega = self.estimation.omega

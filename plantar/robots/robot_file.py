@@ -101,7 +101,8 @@ class RobotTables:
     """The tables of a robot file."""
 
     def __init__(self, source: Mapping[str, Any], where: str) -> None:
-        self.source, self.where = source, where
+        self.source = source
+        self.where = where
 
     def place(self, *tables: str) -> str:
         """Place of an error, for its message."""

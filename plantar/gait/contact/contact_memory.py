@@ -35,7 +35,10 @@ class ContactMemory:
         smoothing: float = 0.3,
     ) -> None:
         self._places = layout.positions[:, :2]
-        self._least_force, self._least_share, self._smoothing, self._gap = least_force, least_share, smoothing, gap
+        self._least_force = least_force
+        self._least_share = least_share
+        self._smoothing = smoothing
+        self._gap = gap
         self.lift()
 
     def lift(self) -> None:

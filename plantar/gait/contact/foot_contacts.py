@@ -111,7 +111,8 @@ class FootContacts:
         limits: Mapping[Side, AnkleLimits] | None = None,
         sensing_range: float = math.inf,
     ) -> None:
-        self._settings, self._reach = settings, reach
+        self._settings = settings
+        self._reach = reach
         self._limits = limits or {}
         self._middle = {side: middle_of_sole(layouts[side], reach) for side in SIDES}
         self._borne = {side: borne_part(layouts[side].outline, reach) for side in SIDES}

@@ -84,7 +84,8 @@ class GroundMap:
     """
 
     def __init__(self, layout: SoleLayout, settings: GroundMapSettings) -> None:
-        self.layout, self.settings = layout, settings
+        self.layout = layout
+        self.settings = settings
         self.bias = 0.0
         self._x, self._y = layout.positions[:, 0].copy(), layout.positions[:, 1].copy()
         self._corners = layout.outline

@@ -81,7 +81,8 @@ class StanceContact:
     """
 
     def __init__(self, layout: SoleLayout, settings: ContactSettings, sensing_range: float = math.inf) -> None:
-        self.layout, self.settings = layout, settings
+        self.layout = layout
+        self.settings = settings
         # From higher up, taxels that see no ground may only be out of range: that needs the sight of a step down.
         self._highest = sensing_range - _IN_SIGHT * settings.step_down
         self._fit = PartialContact(layout)

@@ -25,7 +25,8 @@ class BodySensors:
     """
 
     def __init__(self, period: float, bridged: float) -> None:
-        self._most, self._silent = round(bridged / period), 0
+        self._most = round(bridged / period)
+        self._silent = 0
         self._last: Readings | None = None
         self.blind = False
 

@@ -15,8 +15,10 @@ class CoMHeight:
     """
 
     def __init__(self, ground: float, period: float, frequency: float = 8.0) -> None:
-        self.ground, self.rate = ground, 0.0
-        self._period, self._frequency = period, frequency
+        self.ground = ground
+        self.rate = 0.0
+        self._period = period
+        self._frequency = frequency
 
     def update(self, target: float) -> float:
         """Filtered height in m after a tick with `target`, the ground's height in m under the feet."""

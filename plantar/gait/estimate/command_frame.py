@@ -24,7 +24,8 @@ class CommandFrame:
         x, y, z = anchor.tolist()
         self._anchor: tuple[float, float, float] = (x, y, z)
         self._offset = (0.0, 0.0, 0.0)
-        self.turn, self._share = 0.0, min(1.0, period / time_constant)
+        self.turn = 0.0
+        self._share = min(1.0, period / time_constant)
 
     def update(self, commanded: NDArray[np.float64], real: NDArray[np.float64], turn: float) -> None:
         """Follow the carrying foot for a tick: `commanded` and `real`, estimated in the world, (3,) in m, and its

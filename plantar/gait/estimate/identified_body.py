@@ -49,13 +49,18 @@ class IdentifiedBody:
         rules: IdentificationRules,
         period: float,
     ) -> None:
-        self.encoder_offsets, self.com_offset, self.mass_ratio, self.known = np.zeros(0), np.zeros(3), 1.0, False
-        self._weight, self._kinematics = weight, kinematics
+        self.encoder_offsets = np.zeros(0)
+        self.com_offset = np.zeros(3)
+        self.mass_ratio = 1.0
+        self.known = False
+        self._weight = weight
+        self._kinematics = kinematics
         self._live_posture = live_kinematics(kinematics)
         self._reads_off = self._lies_off = False  # whether encoders, and the CoM, are known to differ from the model
         self._com = np.zeros(3)
         self._corrected: tuple[Posture, Posture] | None = None  # the model's live posture, and the body's
-        self._feet, self._rules = feet, rules
+        self._feet = feet
+        self._rules = rules
         self._stand = OpeningStand()
         self._share = self._tenths = 0.0
         self._step = period / rules.fade

@@ -34,7 +34,9 @@ class OpeningStand:
     """Averages encoders, accelerometer and soles."""
 
     def __init__(self) -> None:
-        self._count, self._joints, self._specific = 0, np.zeros(0), np.zeros(3)
+        self._count = 0
+        self._joints = np.zeros(0)
+        self._specific = np.zeros(3)
         self._wrenches: dict[Side, NDArray[np.float64]] = {side: np.zeros(6) for side in SIDES}
 
     def update(

@@ -36,7 +36,8 @@ class PushEstimate:
     def __init__(self, rules: PushRules, period: float) -> None:
         self._rules = rules
         self._share = 1.0 if rules.time_constant == 0.0 else -math.expm1(-period / rules.time_constant)
-        self._acceleration, self.acts = np.zeros(2), False
+        self._acceleration = np.zeros(2)
+        self.acts = False
 
     def update(self, measured: NDArray[np.float64], pendulum: NDArray[np.float64] | None) -> NDArray[np.float64]:
         """Returns CoM acceleration (2,) in m/s^2 by a push after a tick; zero without.

@@ -39,7 +39,9 @@ class SkinLoad:
     """
 
     def __init__(self, layout: SoleLayout, noise: float, share: float) -> None:
-        self.layout, self.noise, self.share = layout, noise, share
+        self.layout = layout
+        self.noise = noise
+        self.share = share
         self._mean: NDArray[np.float64] | None = None
 
     def update(self, reading: Reading) -> SoleWrench:

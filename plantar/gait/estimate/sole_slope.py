@@ -25,7 +25,8 @@ class SoleSlope:
     """
 
     def __init__(self, least_load: float, smoothing: float = 0.02) -> None:
-        self._least_load, self._smoothing = least_load, smoothing
+        self._least_load = least_load
+        self._smoothing = smoothing
         self._standing: dict[Side, NDArray[np.float64]] = {}
         self._slopes: dict[Side, NDArray[np.float64]] = {side: np.zeros(2) for side in SIDES}
         self._known: dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]] = {}

@@ -114,7 +114,9 @@ class FootMotion:
         }
         self.landed = True
         self.comes_down = False
-        self._period, self._height, self._landing = period, swing_height, landing
+        self._period = period
+        self._height = swing_height
+        self._landing = landing
         self._leg = landing.body.leg
         self._compliance = compliance
         self._kind = PolynomialSwing() if swing is None else swing

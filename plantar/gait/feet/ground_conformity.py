@@ -67,7 +67,8 @@ class FootTurn:
     """
 
     def __init__(self, gains: ConformityGains, period: float) -> None:
-        self.gains, self.period = gains, period
+        self.gains = gains
+        self.period = period
         self._past: deque[tuple[NDArray[np.float64], float]] = deque(maxlen=max(1, int(gains.watch)))
 
     def lift(self) -> None:
@@ -163,7 +164,9 @@ class GroundConformity:
         period: float,
         turns_stance: bool = True,
     ) -> None:
-        self.gains, self.turns_stance, self._middles = gains, turns_stance, middles
+        self.gains = gains
+        self.turns_stance = turns_stance
+        self._middles = middles
         self._turns = {side: FootTurn(gains, period) for side in SIDES}
         self._contacts = {
             side: ContactMemory(layouts[side], least_force=gains.carries, gap=gains.gap) for side in SIDES

@@ -49,7 +49,9 @@ class SwingCompliance:
     def __init__(
         self, layout: SoleLayout, gains: ComplianceGains, touchdown: TouchdownGains, ground: GroundMapSettings
     ) -> None:
-        self.layout, self.gains, self.touchdown = layout, gains, touchdown
+        self.layout = layout
+        self.gains = gains
+        self.touchdown = touchdown
         self.ground = GroundMap(layout, ground)
         self.switch = SoleWrenchSwitch(touchdown.contact_force)
         self.force = 0.0

@@ -92,8 +92,11 @@ class VrpPlan:
         omega: float,
     ) -> None:
         self.times: tuple[float, ...] = tuple(times.tolist())
-        self._times, self.vrps, self.omega = times, vrps, omega
-        self.dcm_waypoints, self._rate = waypoints, rate
+        self._times = times
+        self.vrps = vrps
+        self.omega = omega
+        self.dcm_waypoints = waypoints
+        self._rate = rate
         self._end_offset = end_offset  # A e^(w T) of each segment
 
     def _solve(self, segments: int) -> None:

@@ -166,7 +166,9 @@ class WalkPlan:
         omega: float,
         begin: float = 0.0,
     ) -> None:
-        self._vrp_in_sole, self._omega, self._body = dict(vrp_in_sole), omega, timing.body
+        self._vrp_in_sole = dict(vrp_in_sole)
+        self._omega = omega
+        self._body = timing.body
         self._record: deque[AppliedChange] = deque(maxlen=_RECORDED)
         schedule = WalkSchedule.of([step.side for step in steps], timing, begin)
         standing = {s: vrp_of_step(feet[s], vrp_in_sole[s]) for s in feet}

@@ -57,7 +57,10 @@ class DoubleSupportTiming:
         period: float,
         ankle: AnkleRules | None = None,
     ) -> None:
-        self._rules, self._weights, self._confidence, self._period = rules, weights, confidence, period
+        self._rules = rules
+        self._weights = weights
+        self._confidence = confidence
+        self._period = period
         self._ankle = ankle if ankle is not None and ankle.law == "regulation" else None
         self._changed = -math.inf
 

@@ -41,7 +41,8 @@ class EdgeBeside:
 
     def __init__(self, layouts: Mapping[Side, SoleLayout], drop: float, largest: float, *, drift: bool = False) -> None:
         self._places = {side: layout.positions[:, :2] for side, layout in layouts.items()}
-        self._drop, self._largest = drop, largest
+        self._drop = drop
+        self._largest = largest
         self._proposed: PlanChange | None = None
         self._moved = (-1, 0.0)
         self._seen: list[float] | None = [] if drift else None  # moves for the last landings, of both feet in turn

@@ -95,7 +95,8 @@ class FootholdProbe:
     """Measurements of a foot on unexpected ground."""
 
     def __init__(self, layout: SoleLayout, rules: FeasibilityRules) -> None:
-        self.layout, self.rules = layout, rules
+        self.layout = layout
+        self.rules = rules
         self._force = np.zeros(len(layout))
         self._near = np.zeros(len(layout), dtype=bool)
         self._moment = np.zeros(2)

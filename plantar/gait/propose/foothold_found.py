@@ -49,8 +49,11 @@ class FootholdCarries:
         strip: SupportStrip,
         reach: float = math.inf,
     ) -> None:
-        self._rules, self._strip = rules, strip
-        self._reach, self._middles, self._outlines = reach, middles, outlines
+        self._rules = rules
+        self._strip = strip
+        self._reach = reach
+        self._middles = middles
+        self._outlines = outlines
         self._moved, self._moved_step = -math.inf, -1
         self._waiting: FootholdFound | None = None
         self._proposed: PlanChange | None = None

@@ -124,7 +124,11 @@ class StepAdjustment:
         period: float,
         timing: StepTiming | None = None,
     ) -> None:
-        self._rules, self._timing, self._box, self._touching, self._weights = rules, timing, region, touching, weights
+        self._rules = rules
+        self._timing = timing
+        self._box = region
+        self._touching = touching
+        self._weights = weights
         c, (forward, sideways) = rules.confidence if ankle.confident else 0.0, (ankle.forward, ankle.sideways)
         self._ankle = replace(ankle, forward=forward + c * (1.0 - forward), sideways=sideways + c * (1.0 - sideways))
         self._period = period

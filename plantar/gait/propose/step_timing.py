@@ -44,7 +44,8 @@ class StepTiming:
     priority = Priority.TIMING
 
     def __init__(self, rules: StepTimingRules, period: float) -> None:
-        self._rules, self._period = rules, period
+        self._rules = rules
+        self._period = period
         self._changed = -math.inf
 
     def propose(self, tick: Tick) -> PlanChange | None:

@@ -188,7 +188,8 @@ class VelocityCommand:
     priority = Priority.COMMAND
 
     def __init__(self, table: VelocityTable, legs: Legs, stride: Stride | None = None) -> None:
-        self.table, self.legs = table, legs
+        self.table = table
+        self.legs = legs
         self.stride = Stride() if stride is None else stride
         self._planned = -1
         self._proposed: PlanChange | None = None

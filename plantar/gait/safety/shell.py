@@ -68,7 +68,8 @@ class SafetyShell:
         begin: float,
         stop: SafeStop,
     ) -> None:
-        self._tick, self._last = tick, start
+        self._tick = tick
+        self._last = start
         self._begun = False
         self._period = period
         self._weight = mass * GRAVITY

@@ -35,7 +35,8 @@ class Watchdog:
     def __init__(self, limit: float, late: Callable[[], object]) -> None:
         if not 0.0 < limit < math.inf:
             raise InputError(f"limit of the watchdog is {limit} s; allowed: more than 0")
-        self._limit, self._late = limit, late
+        self._limit = limit
+        self._late = late
         self._beat: float | None = None
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._watch, daemon=True)

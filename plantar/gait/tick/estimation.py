@@ -59,7 +59,8 @@ class Estimation:
     ) -> None:
         self._settings, self._layouts, period = settings, layouts, settings.period
         self.omega = pendulum_frequency(settings.com_height, 2.0 * settings.leg_inertia)
-        self.stands, self._ticks = True, 0
+        self.stands = True
+        self._ticks = 0
         self._state: BaseState | None = None
         self._rotations: Mapping[str, NDArray[np.float64]] = {s: feet[s].rotation_sole_to_world for s in SIDES}
         places: Mapping[Side, tuple[float, float, float, float]] = {

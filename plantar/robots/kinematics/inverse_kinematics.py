@@ -73,7 +73,8 @@ class InverseKinematics:
         self._configuration = data.qpos  # the data's own array
         self.tasks, self.posture = tuple(tasks), posture
         rows = sum(task.rows for task in tasks)
-        self._jacobian, self._error = np.zeros((rows, model.nv)), np.zeros(rows)
+        self._jacobian = np.zeros((rows, model.nv))
+        self._error = np.zeros(rows)
         ends = np.cumsum([task.rows for task in tasks]).tolist()
         self._rows = [slice(end - task.rows, end) for task, end in zip(tasks, ends, strict=True)]
         self._parts = [(t, self._error[r], self._jacobian[r]) for t, r in zip(tasks, self._rows, strict=True)]
@@ -107,7 +108,8 @@ class InverseKinematics:
             _moving(model, self._configuration, self._velocity),
         )
         self.plain = self.careful = 0
-        self._placed, self._drawn = False, np.zeros((posture.rows, model.nv))
+        self._placed = False
+        self._drawn = np.zeros((posture.rows, model.nv))
         posture.jacobian(self._drawn)
 
     def solve(self, iterations: int = 1, largest_step: float = 0.5) -> float:

@@ -36,7 +36,8 @@ class BodyDynamics:
         count, size = len(self.rows), model.nv
         self._grid = np.ix_(self.rows, self.rows)
         self._full, self._acceleration, self._force = np.zeros((size, size)), np.zeros(size), np.zeros(size)
-        self._wide, self._damping = np.zeros((6, size)), model.dof_damping[self.rows]
+        self._wide = np.zeros((6, size))
+        self._damping = model.dof_damping[self.rows]
         self.mass, self.bias = np.zeros((count, count)), np.zeros(count)
         self.soles: dict[Side, NDArray[np.float64]] = {s: np.zeros((6, count)) for s in SIDES}
         self.drifts: dict[Side, NDArray[np.float64]] = {s: np.zeros(6) for s in SIDES}

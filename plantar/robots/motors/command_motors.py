@@ -75,7 +75,8 @@ class CommandMotors:
 
     def __init__(self, robot: Robot, legs: LegModel, body: BodyScale, gains: MotorGains, period: float) -> None:
         self.stiffness, self.damping = gains
-        self.out_of_reach, self._legs = False, legs
+        self.out_of_reach = False
+        self._legs = legs
         model = legs.model
         dofs = legs.rows[6:]
         self.motion = PlannedMotion(legs, period, body.beat, whole=True)
@@ -83,7 +84,8 @@ class CommandMotors:
         self._angles: NDArray[np.float64] | None = None
         self._limits = np.array([*(robot.velocity_limits or (1e3,) * (len(dofs) // 2))] * 2)
         self._farthest = SPEED_SHARE * period * self._limits  # rad in a control period
-        self._friction, self._damping = model.dof_frictionloss[dofs], model.dof_damping[dofs]
+        self._friction = model.dof_frictionloss[dofs]
+        self._damping = model.dof_damping[dofs]
         self._slow = SLOW / body.beat
 
     def targets(self, command: Command, sensors: Sensors) -> JointTargets:

@@ -19,7 +19,8 @@ class PostureTask(Task):
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, joints: Sequence[int]) -> None:
-        self.rows, self._positions = len(joints), data.qpos
+        self.rows = len(joints)
+        self._positions = data.qpos
         self._places = np.array([model.jnt_qposadr[i] for i in joints], dtype=int)
         self._dofs = np.array([model.jnt_dofadr[i] for i in joints], dtype=int)
         self.target: NDArray[np.float64] = self._positions[self._places]
