@@ -117,7 +117,10 @@ def _columns(names: list[str], side: Side) -> dict[str, tuple[int, str]]:
     for i, name in enumerate(names):
         match = _CHANNEL.match(name)
         if match and match[1].lower() == side:
-            out.setdefault(match[2].lower(), (i, match[3] or ""))
+            channel = match[2].lower()
+            if channel in out:
+                raise FormatError(f"the channel '{side} {channel}' is there twice; allowed: once for each foot")
+            out[channel] = i, match[3] or ""
     return out
 
 

@@ -5,6 +5,7 @@ cells' area; in swing the stated load is 0.
 """
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TextIO
@@ -58,9 +59,13 @@ class _Sensor:
     load: list[float] = field(default_factory=list)
     contact: list[float] = field(default_factory=list)
     damaged: int = 0
+    repeated: int = 0
 
     def add(self, frame: int, rows: list[NDArray[np.float64]], file_size: int) -> None:
         """Add a frame's matrix if whole and of the sensor's shape; the first defines both."""
+        if self.frames[-1:] == [frame]:
+            self.repeated += 1
+            return
         stated = self.rows or len(rows)
         widths = {len(r) for r in rows}
         if len(rows) != stated or len(widths) != 1 or stated * len(rows[0]) > _LARGEST:
@@ -68,7 +73,7 @@ class _Sensor:
         if not self.frames:
             self.rows, self.columns = stated, len(rows[0])
             self.values = FrameTable(self.rows * self.columns, file_size // (2 * self.rows * self.columns))
-        if widths == {self.columns} and self.frames[-1:] != [frame]:
+        if widths == {self.columns}:
             self.frames.append(frame)
             self.values.add(np.concatenate(rows)[None])
 
@@ -110,6 +115,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
             warnings.append("the last frame is cut short: left out")
     unit = _unit(scan.facts, options, warnings)
     time, rate, notes = _times(scan.clock[:frames], scan.numbers[:frames], options, warnings)
+    _check_repeated(sensors.values(), warnings)
     feet: dict[Side, FootRecording] = {}
     grid = None
     for side, sensor in _sides(sensors, options, warnings):
@@ -281,6 +287,20 @@ def _places(numbers: list[float], warnings: list[str]) -> NDArray[np.float64]:
     if missing:
         warnings.append(f"{missing} frame number(s) are missing: gaps in time")
     return places
+
+
+def _check_repeated(sensors: Iterable[_Sensor], warnings: list[str]) -> None:
+    """A sensor that is twice in a frame: by a damaged line now and then, or two sensors have one name."""
+    for sensor in sensors:
+        if sensor.repeated > 0.1 * len(sensor.frames):
+            raise FormatError(
+                f"{sensor.repeated} of {len(sensor.frames)} frames hold more than one matrix of {sensor.name!r}: "
+                "give each sensor a name of its own"
+            )
+        if sensor.repeated:
+            warnings.append(
+                f"{sensor.repeated} frame(s) hold more than one matrix of {sensor.name!r}: the first counts"
+            )
 
 
 def _sides(sensors: dict[str, _Sensor], options: ReadOptions, warnings: list[str]) -> list[tuple[Side, _Sensor]]:

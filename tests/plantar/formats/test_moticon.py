@@ -161,6 +161,14 @@ def test_a_cut_end_and_damaged_values(tmp_path, feet):
     assert any("1 value(s) are no numbers" in w for w in damaged.warnings)
 
 
+def test_a_channel_that_is_there_twice_is_refused(tmp_path, feet):
+    path = tmp_path / "walk.txt"
+    export(path, feet)
+    path.write_text(path.read_text().replace("right ", "left "))
+    with pytest.raises(FormatError, match="the channel 'left pressure 1' is there twice"):
+        read_recording(path)
+
+
 def test_damage(tmp_path, feet):
     path = tmp_path / "walk.txt"
     export(path, feet)

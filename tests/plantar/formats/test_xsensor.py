@@ -173,6 +173,13 @@ def test_a_cut_end_and_missing_cells(tmp_path, feet):
     assert any("no numbers" in w for w in damaged.warnings)
 
 
+def test_two_sensors_of_one_name_are_refused(tmp_path, feet):
+    path = tmp_path / "walk.csv"
+    export(path, feet, names=(NAMES[0], NAMES[0]))
+    with pytest.raises(FormatError, match=r"60 of 60 frames hold more than one matrix of '[^']*': give each"):
+        read_recording(path)
+
+
 def test_damage(tmp_path, feet):
     path = tmp_path / "walk.csv"
     export(path, [f[:20] for f in feet])
