@@ -112,11 +112,10 @@ class _Checked:
 
     def result(self) -> RobotCheck:
         stands = settled(self.robot, self.legs, self.walked.feet, self.walked.com_height)
-        model, configuration = self.legs.model, self.legs.configuration
+        model, gains = self.legs.model, self._gains(self.legs.model, self.legs.configuration)
         reach = plan_reach(self.robot, self.legs, self.walked)
-        found = [*self._reach(reach, stands), self._apart(), *self._gains(model, configuration)]
-        found += [*self._soles(model), *self._torques(reach)]
-        return RobotCheck(self.robot.name, self.scene.name, tuple(found))
+        found = (*self._reach(reach, stands), self._apart(), *gains, *self._soles(model), *self._torques(reach))
+        return RobotCheck(self.robot.name, self.scene.name, found)
 
     def _walked(self) -> Walked:
         walk, robot = self.scene.walk, self.robot

@@ -56,14 +56,10 @@ def bent_posture(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
 
 def stance_width(robot: Robot, legs: LegModel) -> float:
     """Returns the distance in m of a `robot`'s feet: as in the model of its `legs`, or wider for the soles."""
-    angles = np.array([*robot.posture["left"], *robot.posture["right"]])
-    feet = legs.posture(angles).positions
-    own = float(feet["left"][1] - feet["right"][1])
-    outline = robot.layouts["left"].outline
-    low, high = outline.min(axis=0), outline.max(axis=0)
-    inner = -float(low[1])
-    least = 2.0 * inner + SOLE_GAP * float(high[1] - low[1])
-    return round(max(own, least), 3)
+    feet = legs.posture(np.array([*robot.posture["left"], *robot.posture["right"]])).positions
+    across = robot.layouts["left"].outline[:, 1]
+    least = -2.0 * float(across.min()) + SOLE_GAP * float(np.ptp(across))
+    return round(max(float(feet["left"][1] - feet["right"][1]), least), 3)
 
 
 def posture_height(robot: Robot, legs: LegModel) -> float:

@@ -192,9 +192,8 @@ class _Copy:
     def _imu(self, root: Element, kind: str, name: str, site: str) -> None:
         model = self.model
         body = model.body(name).id if kind == "body" else int(model.site(name).bodyid[0])
-        at, turn = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
-        if kind == "site":
-            at, turn = model.site(name).pos, model.site(name).quat
+        own = model.site(name) if kind == "site" else None
+        at, turn = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)) if own is None else (own.pos, own.quat)
         wearer = next(e for e in root.iter("body") if e.get("name") == model.body(body).name)
         SubElement(wearer, "site", name=site, pos=_text(at), quat=_text(turn))
 

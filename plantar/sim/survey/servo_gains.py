@@ -115,9 +115,8 @@ def servo_gains(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Gains of a leg's servos.
 
-    Stiffness is 12 m g h, as of h1; for a light joint only until the foot's own swing, of frequency sqrt(k / I), moves
-    by 1.5 rad in a control period, or for a weak one until 0.007 rad take all its torque. Damping is critical for the
-    swing, or as of h1 if more, less the joint's own.
+    Stiffness is 12 m g h, as of h1, or less: a foot's own swing sqrt(k / I) by 1.5 rad in a control period at most, and
+    0.007 rad take all torque at most. Damping is critical for the swing, or as of h1 if more, less the joint's own.
 
     Args:
         inertia: About each joint of a leg.

@@ -1,7 +1,7 @@
-"""How long the steps of a robot without ankle roll take, and how far weak ankles bear it.
+"""Step time of a robot without ankle roll, and how far weak ankles bear it.
 
-Without ankle roll a sole is level only where its leg is vertical from ahead. A pendulum of height h carried at p aside,
-half the feet's distance, swings to the foot and back in a time T, and leans by atan(y / h), with
+Without ankle roll a sole is level only under a vertical leg. A pendulum of height h over a foot p aside swings there
+and back in a time T, and leans by atan(y / h), with
 
     y = p (1 - 1 / cosh(w T / 2)),    w = sqrt(g / h)
 

@@ -118,19 +118,17 @@ class Solid:
     @property
     def top(self) -> float:
         """Largest height in m of any part, ever."""
-        up = np.abs(self.rotation[2])
-        size = np.array(self.size)
-        if self.shape == "box":
-            reach = float(up @ size)
-        elif self.shape == "cylinder":
-            reach = float(math.hypot(up[0], up[1]) * size[0] + up[2] * size[1])
-        elif self.shape == "ellipsoid":
-            reach = float(np.linalg.norm(up * size))
-        elif self.shape == "field":
-            reach = float(size[2])
-        else:
-            reach = float(size[0])
-        return reach + max([float(self.position[2]), *(float(m.position[2]) for m in self.motions)])
+        up, (a, b, c) = np.abs(self.rotation[2]), self.size
+        reach = {
+            "box": up @ self.size,
+            "sphere": a,
+            "ellipsoid": np.linalg.norm(up * self.size),
+            "cylinder": math.hypot(up[0], up[1]) * a + up[2] * b,
+            "field": c,
+        }
+        return float(reach[self.shape]) + max(
+            float(place[2]) for place in (self.position, *(m.position for m in self.motions))
+        )
 
 
 @dataclass(frozen=True)

@@ -113,8 +113,9 @@ class Uneven(Terrain):
     depth: float = share_of_body(0.25, "leg", 0.02, 10)
 
     def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        standing = feet.standing
-        solids = {side: [stone_under(standing[side], feet, self.height, self.depth, gap=self.gap)] for side in SIDES}
+        solids = {
+            side: [stone_under(feet.standing[side], feet, self.height, self.depth, gap=self.gap)] for side in SIDES
+        }
         place, height = dict(feet.standing), dict.fromkeys(SIDES, 0.0)
         for foot in feet.steps:
             rise = float(rng.uniform(-1.0, 1.0)) * self.height_range
@@ -220,21 +221,17 @@ def stone_under(
     roll: float = 0.0,
     gap: float = _GAP,
 ) -> Solid:
-    """A box that carries the footprint with a margin, or a part.
+    """Returns a box that carries a footprint with a margin, or part of it.
 
     Args:
         foot: The footprint.
         feet: All footprints, to keep clear of.
         height: Of the upper face in m.
         depth: Of the box in m.
-        share: Carried share of the footprint.
+        share: Carried share.
         part: "rear", "front", "inner" or "outer".
-        pitch: Slope along the foot in rad.
-        roll: Slope across it in rad.
+        pitch: Along the foot in rad; `roll` across it.
         gap: Between both feet's boxes in m.
-
-    Returns:
-        The box.
     """
     outward = 1.0 if foot.side == "left" else -1.0
     half_length, half_width = foot.half

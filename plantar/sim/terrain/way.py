@@ -148,8 +148,7 @@ class Relief(Terrain):
         heights *= self.unevenness / max(float(np.ptp(heights)), 1e-12)
         begin = 0.5 * way.length  # of the walk, behind the field's middle
         level = np.clip((x + begin - foremost - 0.5 * self.bump) / self.bump, 0.0, 1.0)
-        level = level**2 * (3.0 - 2.0 * level)
-        heights *= level[None, :]
+        heights *= level**2 * (3.0 - 2.0 * level)
         lowest = float(heights.min())
         size = (0.5 * float(np.ptp(x)), 0.5 * float(np.ptp(y)), float(heights.max()) - lowest)
         place = np.array([*(way.begin + begin * way.along), self.height + lowest])
