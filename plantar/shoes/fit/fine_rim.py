@@ -14,7 +14,7 @@ from plantar.errors import FootError
 from plantar.shoes.fit.cell_pattern import Lattice, hex_pattern
 from plantar.shoes.fit.lattice_fit import fit_lattice
 from plantar.shoes.fit.taxels import TaxelFit, trimmed_cell
-from plantar.shoes.geometry.outline import grown, tidy
+from plantar.shoes.geometry.outline import gathered, grown, tidy
 
 __all__ = ["blind_rim", "fit_fine_rim", "strip_cells"]
 
@@ -185,7 +185,8 @@ def fit_fine_rim(foot: Any, *, cell_area: float, overhang: float, border: float)
     region, face = tidy(grown(foot, overhang)), tidy(grown(foot, overhang + border))
     strip, inside = strip_cells(region, face, cell_area)
     core, lattice, bound = _core(inside, cell_area)
-    polygons = [shapely.Polygon(c) for c in (*strip, *core)]
+    ends = np.concatenate(strip)
+    polygons = [shapely.Polygon(c) for c in (*strip, *(gathered(c, ends) for c in core))]
     polygons.sort(key=lambda c: (round(c.centroid.x, 3), round(c.centroid.y, 3)))
     areas = shapely.area(polygons)
     cells = tuple(shapely.get_coordinates(c.exterior)[:-1] for c in polygons)

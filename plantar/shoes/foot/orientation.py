@@ -45,6 +45,7 @@ _EITHER = 0.8  # of the face below: a face above that is so large could be the s
 _UPWARD = 0.2  # of a normal: faces above are no sole
 _LONGER = 1.05  # of the other side: what counts as the long side
 _CLEAR = 0.06  # of the foot's length: how far the ankle lies from its middle where it shows the heel from the toes
+_THIN = 0.05  # height over length: up to it the uppermost part of a plate that is tilted a little is no block
 _BLOCK = 0.6  # of the foot's length: what is shorter on top of it is its ankle
 _TURN_NOTED = 4.0  # degrees: a foot askew by more is noted
 _TURN_SQUARE = 30.0  # degrees: a foot about as wide as long that stands so much askew could point either way
@@ -287,7 +288,7 @@ def forward_axis(triangles: Array, where: str = "the mesh") -> tuple[Axis, str]:
     if (low[:2] <= 0.0).all() and (high[:2] >= 0.0).all():
         clues.append((float(middle[i] / size[i]), "origin"))
     upper = points[points[:, 2] > high[2] - 0.15 * size[2], i]
-    if upper.max() - upper.min() < _BLOCK * size[i]:
+    if size[2] > _THIN * size[i] and upper.max() - upper.min() < _BLOCK * size[i]:
         clues.append((float((middle[i] - 0.5 * (upper.max() + upper.min())) / size[i]), "uppermost part"))
     clues = [(share, what) for share, what in clues if abs(share) > _CLEAR]
     how = f"the foot is longer along {name}" if i else f"{name} points to the toes, as usual"

@@ -16,7 +16,9 @@ __all__ = [
     "apart",
     "cut_below",
     "flush",
+    "gathered",
     "grown",
+    "joined_corners",
     "outline_below",
     "outline_of",
     "outlines_below",
@@ -61,17 +63,32 @@ def grown(shape: Any, distance: float) -> Any:
 
 def _pointed(polygon: Any) -> Any:
     points = ring(polygon)
-    for i in range(len(points) - 1, -1, -1):
-        a, b, c, d = (points[(i + k) % len(points)] for k in (-1, 0, 1, 2))
-        u, v = b - a, d - c
-        across = u[0] * v[1] - u[1] * v[0]
-        if len(points) < 5 or np.hypot(*(c - b)) >= _LEAST or abs(across) < 1e-9:
-            continue
+    while (fewer := _with_fewer(points)) is not None:
+        points = fewer
+    return shapely.Polygon(points, polygon.interiors)
+
+
+def _with_fewer(points: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    """Ring without one of its short edges; None where all stay."""
+    short = np.hypot(*(np.roll(points, -1, axis=0) - points).T) < _LEAST
+    tries = (_without_edge(np.roll(points, 1 - k, axis=0)) for k in np.flatnonzero(short).tolist() if len(points) > 4)
+    return next((fewer for fewer in tries if fewer is not None), None)
+
+
+def _without_edge(points: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    """Ring without its second edge: with one corner where those next to it meet, or without what lies on a line."""
+    a, b, c, d = points[:4]
+    u, v = b - a, d - c
+    across = u[0] * v[1] - u[1] * v[0]
+    if abs(across) > 1e-9:
         point = a + ((c - a)[0] * v[1] - (c - a)[1] * v[0]) / across * u
         if np.hypot(*(point - 0.5 * (b + c))) < _LEAST:
-            points[i] = point
-            points = np.delete(points, (i + 1) % len(points), axis=0)
-    return shapely.Polygon(points, polygon.interiors)
+            return np.vstack([a, point, points[3:]])
+    off = [
+        abs(way[0] * (q - start)[1] - way[1] * (q - start)[0]) / max(np.hypot(*way), _EXACT)
+        for q, start, way in ((b, a, c - a), (c, b, d - b))
+    ]
+    return np.delete(points, 1 + int(off[1] < off[0]), axis=0) if min(off) < _SIMPLIFY else None
 
 
 def ring(polygon: Any) -> NDArray[np.float64]:
@@ -99,10 +116,16 @@ def flush(outer: Any, inner: Any) -> Any:
     joined = inner.union(apart(outer, inner).intersection(outer))
     largest = max(getattr(joined, "geoms", [joined]), key=lambda g: float(g.area))
     points = ring(shapely.geometry.polygon.orient(shapely.Polygon(largest.exterior)))
-    corners = set(map(tuple, ring(inner).tolist()))
     beside = inner.exterior.distance(shapely.points(points))
-    points, along = (v[(beside < _EXACT) | (beside > _LEAST)] for v in (points, beside < _EXACT))
-    # Of two corners that are nearly one the inner outline's stays, or else what lies on its edge.
+    return joined_corners(shapely.Polygon(points[(beside < _EXACT) | (beside > _LEAST)]), inner)
+
+
+def joined_corners(outline: Any, other: Any) -> Any:
+    """Gives shapely outline in mm without corners that nearly coincide: another outline's stay, or else those on its
+    edges.
+    """
+    points, corners = ring(outline), set(map(tuple, ring(other).tolist()))
+    along = other.exterior.distance(shapely.points(points)) < _EXACT
     rank = [2 if tuple(p) in corners else int(on) for p, on in zip(points.tolist(), along, strict=True)]
     kept: list[int] = []
     for i in range(len(points)):
@@ -113,6 +136,19 @@ def flush(outer: Any, inner: Any) -> Any:
     if math.dist(points[kept[0]], points[kept[-1]]) < _LEAST and min(rank[kept[0]], rank[kept[-1]]) < 2:
         kept.pop(0 if rank[kept[0]] < rank[kept[-1]] else -1)
     return shapely.Polygon(points[kept])
+
+
+def gathered(points: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Gives points (n, 2) in mm, those near one of corners (k, 2) moved there: no unmakeably short edges.
+
+    Example:
+        >>> gathered(np.array([[0.1, 0.0], [3.0, 0.0]]), np.array([[0.0, 0.0]])).tolist()
+        [[0.0, 0.0], [3.0, 0.0]]
+    """
+    from scipy.spatial import cKDTree
+
+    gaps, nearest = cKDTree(corners).query(points)
+    return np.where((gaps < _LEAST)[:, None], corners[nearest], points)
 
 
 def rounded_rectangle(length: float, width: float, centre: tuple[float, float], radius: float) -> Any:

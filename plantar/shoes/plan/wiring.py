@@ -7,6 +7,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from plantar.shoes.geometry.outline import gathered
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import Block, Step
 from plantar.shoes.plan.heel import LIP, POST, holder_depth
@@ -24,7 +25,6 @@ __all__ = [
 ]
 
 _BARB = 0.1  # mm
-_SHORT = 0.25  # mm
 _STEP = 0.01  # mm between two corners that are one
 _WIDER = 0.3  # mm
 _WITHIN = 1.0  # mm
@@ -43,17 +43,9 @@ def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
             openings = shapely.remove_repeated_points(shapely.union_all([openings, *slivers]), _STEP)
             # and the pockets' corners stay where they are
             openings = shapely.snap(openings, shapely.multipoints(shapely.get_coordinates(list(plan.pockets))), _STEP)
-    joined = shapely.transform(openings, lambda points: _gathered(points, shapely.get_coordinates(list(plan.pockets))))
+    joined = shapely.transform(openings, lambda points: gathered(points, shapely.get_coordinates(list(plan.pockets))))
     joined = shapely.set_precision(joined.buffer(0.0), 1e-4)
     return sorted(getattr(joined, "geoms", [joined]), key=lambda g: g.bounds)
-
-
-def _gathered(points: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points (n, 2), those near a pocket's corner (k, 2) moved there: no unmakeably short edges."""
-    from scipy.spatial import cKDTree
-
-    gaps, nearest = cKDTree(corners).query(points)
-    return np.where((gaps < _SHORT)[:, None], corners[nearest], points)
 
 
 def _slivers(openings: Any, near: Any, thin: float) -> list[Any]:

@@ -7,7 +7,7 @@ import shapely
 
 from plantar.layouts.layout import Side
 from plantar.shoes.foot.foot import Foot
-from plantar.shoes.geometry.outline import apart, grown, ring, tidy
+from plantar.shoes.geometry.outline import apart, grown, joined_corners, ring, tidy
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import Block, Groove, Step, moved_edges, tapered
 from plantar.shoes.plan.shoe_plan import ShoePlan
@@ -20,6 +20,8 @@ __all__ = ["bare_floor", "cavity_levels", "insole_steps", "mark_outline", "shoe_
 LEVELS = (0.06, 0.14, 0.25, 0.4, 0.6, 1.0)  # shares of the wall's height at which the foot's outline is taken
 
 _STEP = 0.3  # mm by which two levels must differ to be two
+_WIDER = (0.0, 0.1, 0.2, 0.3)  # mm
+_LOSS = 0.045  # mm of the foot's place that joining corners may take
 _PLACE = "the foot's place"  # name of the step that cuts it
 _TRIM = 0.8  # mm: bevel of the wall's upper outer edge
 _MARK_MOST = 10  # letters
@@ -87,9 +89,16 @@ def cavity_levels(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> lis
 
 
 def _within(above: Any, outline: Any) -> Any:
-    """Outline within the one above, identical wherever nearly so."""
-    lower = above.difference(apart(above, outline).difference(outline))
-    return max(getattr(lower, "geoms", [lower]), key=lambda g: float(g.area))
+    """Outline within the one above, identical wherever nearly so, wider where joining corners would take of it."""
+    needed = outline.intersection(above)
+    for more in _WIDER:
+        wider = grown(outline, more)
+        lower = above.difference(apart(above, wider).difference(wider))
+        largest = max(getattr(lower, "geoms", [lower]), key=lambda g: float(g.area))
+        joined = joined_corners(largest, above)
+        if needed.difference(joined.buffer(_LOSS)).is_empty and joined.difference(above).area < _LOSS**2:
+            return joined
+    return largest
 
 
 def _wall(plan: ShoePlan, p: ShoeParameters) -> list[Block]:

@@ -12,7 +12,8 @@ from plantar.errors import FootError
 from plantar.optional_library import optional_library
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.plan.block import Block, Groove, Step
-from plantar.shoes.solid.polyhedron import Polyhedron, without_short_edges
+from plantar.shoes.solid.polyhedron import Polyhedron
+from plantar.shoes.solid.short_edges import without_short_edges
 
 __all__ = ["build_solid", "load_kernel", "parts_of", "points_of"]
 

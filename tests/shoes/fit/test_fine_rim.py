@@ -3,11 +3,14 @@
 import numpy as np
 import pytest
 import shapely
+from scipy.spatial import cKDTree
 
 from plantar.errors import FootError, InputError
 from plantar.shoes import build_shoe, foot_from_dimensions
 from plantar.shoes.fit.fine_rim import BLIND_MOST, fit_fine_rim, strip_cells
 from plantar.shoes.geometry.outline import grown, rounded_rectangle
+
+from ..foot_family import oval
 
 SOLES = {
     "round corners": rounded_rectangle(180.0, 90.0, (20.0, 0.0), 22.0),
@@ -32,6 +35,17 @@ def test_the_cells_fill_the_edge_and_leave_a_narrow_blind_rim(name):
     assert min(c.area for c in cells) >= 60.0
     assert max(fit.shares) <= 1.0 + 1e-6
     assert fit.whole == sum(abs(c.area - 691.0) < 1e-3 for c in cells) > 0
+
+
+@pytest.mark.parametrize("seed", [3, 4, 7, 9])
+def test_corners_of_neighbouring_cells_coincide_or_lie_apart(seed):
+    chance = np.random.default_rng(seed)
+    size = chance.uniform(200, 260), chance.uniform(80, 110)
+    sole = shapely.Polygon(oval(*size, 20, int(chance.integers(20, 90)), chance.uniform(2, 4)))
+    fit = fit_fine_rim(shapely.affinity.rotate(sole, chance.uniform(-4, 4)), cell_area=691.0, overhang=1.0, border=2.0)
+    corners = np.unique(np.concatenate(fit.cells).round(4), axis=0)
+    gaps, _ = cKDTree(corners).query(corners, k=2)
+    assert gaps[:, 1].min() > 0.2  # mm: an edge of a groove is made
 
 
 def test_a_strip_has_one_cell_at_each_sharp_corner():

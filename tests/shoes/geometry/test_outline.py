@@ -8,6 +8,8 @@ from plantar.errors import FootError
 from plantar.shoes.geometry.outline import (
     cut_below,
     flush,
+    grown,
+    joined_corners,
     outline_below,
     outlines_below,
     ring,
@@ -131,3 +133,24 @@ def test_outlines_of_a_rough_scan_are_those_of_all_its_triangles():
         assert abs(of_height(height).area - whole.area) < 1e-3 * whole.area
     with pytest.raises(FootError, match="no surface in its lowest"):
         of_height(-1.0)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_grown_outlines_have_no_short_edges_and_keep_their_distance(seed):
+    chance = np.random.default_rng(seed)
+    angle = np.sort(chance.uniform(0.0, 2.0 * np.pi, 60))
+    angle = np.concatenate([angle, angle[::6] + 1e-4])  # corners of some hundredths, as a tilted mesh's have
+    angle = np.sort(angle)
+    sole = tidy(shapely.Polygon(np.column_stack([110.0 * np.cos(angle), 45.0 * np.sin(angle)])).convex_hull)
+    outline = grown(sole, 0.5)
+    edges = ring(outline) - np.roll(ring(outline), 1, axis=0)
+    assert np.hypot(*edges.T).min() > 0.2
+    assert sole.distance(outline.exterior) > 0.45
+    assert max(sole.distance(shapely.points(ring(outline)))) < 0.85
+
+
+def test_corners_that_nearly_coincide_with_another_outlines_are_joined_with_them():
+    outer = shapely.Polygon([(0, 0), (40, 0), (60, 3), (60, 30), (0, 30)])
+    whisker = [(0, 0), (40, 0), (40.18, 0.027), (40.16, 0.06), (40.2, 0.1), (55, 20), (0, 20)]
+    joined = joined_corners(shapely.Polygon(whisker), outer)
+    assert ring(joined).tolist() == [[0, 0], [40, 0], [55, 20], [0, 20]]

@@ -6,9 +6,11 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import shapely
+from scipy.spatial import cKDTree
 
 from plantar.shoes import build_shoe
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
+from plantar.shoes.geometry.outline import ring
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import mirrored_step
 from plantar.shoes.plan.shoe_plan import mirrored_plan
@@ -41,6 +43,23 @@ def test_walls_leave_room_for_all_that_passes(generated_feet, name):
         assert gap < 1.3 * p.clearance + 0.35  # and no more room than that
     below, above = levels[0][2], levels[-1][2]
     assert (above.area > below.area + 500.0) == (name != "plate")
+
+
+@pytest.mark.parametrize(
+    ("name", "turn"), [("concave", 3), ("concave", 4), ("pitched", 19), ("pitched", 3), ("large", 13)]
+)
+def test_levels_of_the_foots_place_have_no_short_edge_and_keep_the_gap(name, turn):
+    p = ShoeParameters()
+    foot = foot_from_triangles(name, turned(FAMILY[name](), *small_turns(name)[turn]), where=name)
+    plan = build_shoe(foot, layout_only=True, parameters=replace(p, bed_length=500.0)).shoes[0].plan
+    levels = cavity_levels(foot, plan, p)
+    corners = [ring(outline) for _, _, outline in levels]
+    for (_, high, outline), points in zip(levels, corners, strict=True):
+        assert np.hypot(*(points - np.roll(points, 1, axis=0)).T).min() > 0.2
+        assert foot.passing(high).distance(outline.exterior) > 0.44
+    for one, other in pairwise(corners):  # and what two levels have nearly in common they have in common
+        gaps, _ = cKDTree(other).query(one)
+        assert not ((gaps > 1e-6) & (gaps < 0.05)).any()
 
 
 def test_the_mark_says_side_and_name_and_fits(small_foot):

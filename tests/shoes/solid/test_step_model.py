@@ -11,7 +11,8 @@ from plantar.shoes.plan.block import Block, Step, box_block, tapered
 from plantar.shoes.solid import step_model
 from plantar.shoes.solid.arcs import CurvedSolid, with_arcs
 from plantar.shoes.solid.kernel import build_solid
-from plantar.shoes.solid.polyhedron import Polyhedron, without_short_edges
+from plantar.shoes.solid.polyhedron import Polyhedron
+from plantar.shoes.solid.short_edges import without_short_edges
 from plantar.shoes.solid.step_model import StepPart, read_step, write_step
 
 from ..step_walls import bent_walls

@@ -10,7 +10,8 @@ from plantar.shoes.geometry.section import thinnest_wall
 from plantar.shoes.geometry.surface import is_closed
 from plantar.shoes.plan.block import Block, Step, box_block
 from plantar.shoes.solid.kernel import build_solid
-from plantar.shoes.solid.polyhedron import Polyhedron, without_short_edges
+from plantar.shoes.solid.polyhedron import Polyhedron
+from plantar.shoes.solid.short_edges import without_short_edges
 
 from ..foot_family import FAMILY, small_turns, turned
 
