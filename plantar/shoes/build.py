@@ -152,6 +152,32 @@ def build_shoe(
             f"overhang of the taxels is {overhang:g} mm; allowed: 0 to {p.overhang_max:g} mm (overhang_max)"
         )
     report(0.0, "fitting the taxels to the sole")
+    fit, left, chosen = _fitted(foot, p, name, cell_area, taxels, overhang, rim, cell)
+    p = replace(p, border=fit.border)
+    p, raised = strengthened(foot, left.contact, p)
+    if raised:
+        left = plan_shoe(foot, fit, p, name=name)
+    p, led = led_parameters(left, p)
+    load = load_case(foot, p)
+    left, gentle = _sensitive(left, load.mass)
+    p, soft = softened(left, load, p)
+    p, lowered = relieved(left, load, p)
+    changed = (*of_cell, *chosen, *fit.notes, *gentle, *raised, *led, *soft, *lowered, *left.notes)
+    notes = (*foot.notes, *changed, *_blind_note(left, fit))
+    share, touching = check_load_share(left, load, p), check_touching(left, load, p)
+    if layout_only:
+        report(1.0, "layouts fitted")
+        return ShoeBuild(foot, fit, p, _planned_sides(left, sides), share, notes=notes, touching=touching)
+    retention = choose_retention(foot, left, p)
+    shoes = _built_sides(left, shoe_steps(foot, left, retention, p), p, sides, report)
+    return ShoeBuild(foot, fit, p, shoes, share, retention, (*notes, retention.note), touching=touching)
+
+
+def _fitted(
+    foot: Foot, p: ShoeParameters, name: str | None, cell_area: float, taxels: int | None, overhang: float, rim: Rim,
+    cell: Cell | None,
+) -> tuple[TaxelFit, ShoePlan, tuple[str, ...]]:  # fmt: skip
+    """Cells and plan that see the center of pressure both ways, and notes; options as in `build_shoe`."""
     # The plate under the wall meets the ground, too; the load case may ask for a thicker wall.
     wall = strengthened(foot, foot.sole, p)[0].rim_thickness
     face, reach = foot.passing(p.rim_height), max(overhang, p.clearance + wall - p.border)
@@ -173,37 +199,7 @@ def build_shoe(
         tries += [(cell_area, float(r)) for r in np.arange(reach + _FARTHER, most, _FARTHER)]
     elif taxels is None and rim == "whole":
         tries += [(area, reach) for area in _AREAS if area < cell_area]
-    fit, left, chosen = _observed(placed, tries)
-    p = replace(p, border=fit.border)
-    p, raised = strengthened(foot, left.contact, p)
-    if raised:
-        left = plan_shoe(foot, fit, p, name=name)
-    p, led = led_parameters(left, p)
-    left, gentle = _sensitive(left, load_case(foot, p).mass)
-    p, soft = softened(left, load_case(foot, p), p)
-    p, lowered = relieved(left, load_case(foot, p), p)
-    notes = (
-        foot.notes
-        + of_cell
-        + chosen
-        + fit.notes
-        + gentle
-        + raised
-        + led
-        + soft
-        + lowered
-        + left.notes
-        + _blind_note(left, fit)
-    )
-    load = load_case(foot, p)
-    share, touching = check_load_share(left, load, p), check_touching(left, load, p)
-    if layout_only:
-        report(1.0, "layouts fitted")
-        return ShoeBuild(foot, fit, p, _planned_sides(left, sides), share, notes=notes, touching=touching)
-    retention = choose_retention(foot, left, p)
-    steps = shoe_steps(foot, left, retention, p)
-    shoes = _built_sides(left, steps, p, sides, report)
-    return ShoeBuild(foot, fit, p, shoes, share, retention, (*notes, retention.note), touching=touching)
+    return _observed(placed, tries)
 
 
 def _observed(

@@ -22,14 +22,16 @@ __all__ = ["Cell", "built_in_cells", "read_cell"]
 # How a cell is pressed: by its own head, by a land of the pad, or as a part of one sheet
 Kind = Literal["tile", "film", "sheet"]
 
+_BOTH = (("tail_length", "tail_width"), ("active_length", "active_width"), ("connector_length", "connector_height"))
+
 SHAPES = ("hex", "square", "rectangle", "round", "sheet")  # what a cell's body is
 
 _ALL = (
     *("name", "about", "source", "shape", "pitch_x", "pitch_y"),
-    *("thickness", "stiffness", "rated_load", "threshold", "play"),
+    *("thickness", "stiffness", "rated_load", "threshold", "play", "bend_radius"),
 )
 _LEADS = ("leads", "lead_diameter")
-_TAIL = ("tail_length", "tail_width")
+_TAIL = ("tail_length", "tail_width", "connector_length", "connector_height")
 # The keys that a cell's TOML may have, by its shape
 KEYS: Mapping[str, tuple[str, ...]] = {
     "hex": tuple(k for k in (*_ALL, "size", "active", *_LEADS) if k != "pitch_y"),
@@ -79,6 +81,9 @@ class Cell:
     lead_diameter: float = mm(0.6, 0.1, 3.0, "of a lead with its insulation")
     tail_length: float = mm(0.0, 1.0, 120.0, "straight tail beyond the body, along the rows")
     tail_width: float = mm(0.0, 1.0, 60.0, "of the tail")
+    connector_length: float = mm(0.0, 1.0, 60.0, "connector at the tail's end and as wide, along the tail")
+    connector_height: float = mm(0.0, 0.2, 15.0, "of the connector, below the pocket's ceiling")
+    bend_radius: float = mm(0.0, 0.2, 40.0, "smallest inner radius of the cable, lead or sheet's tail up the heel")
     line_width: float = mm(0.0, 0.2, 50.0, "electrodes of a sheet")
     edge: float = mm(1.0, 0.0, 20.0, "sheet beyond its outermost electrodes")
     tail_pitch: float = mm(0.5, 0.1, 5.0, "of the lines in a sheet's tail, a line for each row and column and one more")
@@ -103,7 +108,7 @@ class Cell:
                 raise InputError(
                     f"cell of shape {self.shape} has no {name}; it needs: {', '.join(needs.get(self.shape, ('size',)))}"
                 )
-        for one, other in (("tail_length", "tail_width"), ("active_length", "active_width")):
+        for one, other in _BOTH:
             if bool(getattr(self, one)) != bool(getattr(self, other)):
                 raise InputError(f"cell has one of {one} and {other}; give both or none")
         if self.tail_length and self.kind == "tile":
@@ -121,6 +126,7 @@ class Cell:
             ("active_length", "length"),
             ("active_width", "width"),
             ("threshold", "rated_load"),
+            ("connector_length", "tail_length"),
         ]
         pairs += [("line_width", "pitch_x"), ("line_width", "pitch_y")] if self.shape == "sheet" else []
         pairs += [("tail_width", "size")] if self.size else [("tail_width", "width")] if self.width else []

@@ -16,7 +16,7 @@ from plantar.shoes.checks.printability import Printing, Weights, choose_directio
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.geometry.section import thinnest_wall
 from plantar.shoes.parameters import ShoeParameters
-from plantar.shoes.plan.cell_room import lead_rooms
+from plantar.shoes.plan.cell_room import bend_at_heel, lead_rooms
 from plantar.shoes.plan.insole_plan import EVEN_SHARE, even_share
 from plantar.shoes.plan.load_share import LoadShare
 from plantar.shoes.plan.pull_off import SNAP_MOST, PullOff
@@ -123,6 +123,7 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: StepSolid)
             Check(f"leads in the {q.name}, mm2", q.holds, round(q.needed, 1), f"{q.room:.1f} or less")
             for q in lead_rooms(shoe.plan, p)
         ),
+        *_bend_checks(shoe.plan, p),
         *_strength_checks(load, members, build, len(shoe.layout)),
         *_printing_checks(printing[0], shoe.plan, p),
     )
@@ -239,6 +240,11 @@ def _holding_checks(held: PullOff) -> Iterator[Check]:
     yield Check("moment that holds the shoe in a scuff at the toe, N m", enough, round(held.moment, 2), allowed)
     if held.snap > 0.0:
         yield _most("force that snaps a clip on, N", held.snap, SNAP_MOST)
+
+
+def _bend_checks(plan: ShoePlan, p: ShoeParameters) -> Iterator[Check]:
+    if plan.cell is not None and plan.cell.bend_radius and plan.heel.board:
+        yield _least("bend of the cable up the heel, mm", bend_at_heel(plan.cell, p), plan.cell.bend_radius, 2)
 
 
 def _strength_checks(load: LoadCase, members: tuple[Member, ...], build: ShoeBuild, taxels: int) -> Iterator[Check]:

@@ -121,9 +121,7 @@ def flush(outer: Any, inner: Any) -> Any:
 
 
 def joined_corners(outline: Any, other: Any) -> Any:
-    """Gives shapely outline in mm without corners that nearly coincide: another outline's stay, or else those on its
-    edges.
-    """
+    """Gives shapely outline in mm without one of corners that nearly coincide: other's stay, or those on its edges."""
     points, corners = ring(outline), set(map(tuple, ring(other).tolist()))
     along = other.exterior.distance(shapely.points(points)) < _EXACT
     rank = [2 if tuple(p) in corners else int(on) for p, on in zip(points.tolist(), along, strict=True)]

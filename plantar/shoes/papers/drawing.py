@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from plantar.shoes.build import Shoe, ShoeBuild
 from plantar.shoes.geometry.section import section, section_along
 from plantar.shoes.papers.sheet import Sheet, View
+from plantar.shoes.plan.heel import slot_entry
 from plantar.shoes.plan.shoe_plan import pad_rim
 from plantar.shoes.solid.pad import land_top
 from plantar.shoes.solid.step_model import release_date
@@ -211,7 +212,11 @@ def _details(top: View, along: View, across: View, shoe: Shoe, build: ShoeBuild,
     if plan.heel.board:
         level = section(triangles, p.thickness + 0.5 * p.rim_height + _OFF)
         wide, thick = p.board_length + 2.0 * made.slide, p.board_thickness + 2.0 * made.slide
-        texts = (f"slot {wide:g} x {thick:g} +{made.slide:g} 0", f"gap to the wall {p.board_gap:g} ±0.3")
+        texts = (
+            f"slot {wide:g} x {thick:g} +{made.slide:g} 0, entry {slot_entry(p):g} x 45°",
+            f"gap to the wall {p.board_gap:g} ±0.3",
+            f"rails {p.rim_height:g} ±0.3 high, from {p.thickness:g}",
+        )
         end = plan.heel.point(-p.board_gap, 0.5 * p.board_length)
         details.append(("slot of the board", top, level, end, 8.5, texts))
     for n, detail in enumerate(details):

@@ -8,9 +8,10 @@ import numpy as np
 from plantar.errors import FootError
 from plantar.shoes.cells.cell import Cell
 from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.heel import HOLE_OFF
 from plantar.shoes.plan.shoe_plan import ShoePlan
 
-__all__ = ["LeadRoom", "cell_parameters", "lead_rooms", "led_parameters", "tail_lines"]
+__all__ = ["LeadRoom", "bend_at_heel", "cell_parameters", "lead_rooms", "led_parameters", "tail_lines"]
 
 _TAIL_PLAY = 0.5  # mm on either side of a sheet's tail
 _DEEPEST = 8.0  # mm: of a pocket that is deepened for leads
@@ -36,14 +37,39 @@ def cell_parameters(cell: Cell | None, parameters: ShoeParameters) -> tuple[Shoe
         return p, ()
     if cell.kind != "tile":
         p = replace(p, scribe=0.0)
-    default = ShoeParameters().pocket_depth
+    default, notes = ShoeParameters().pocket_depth, []
     least, _, _, _ = ShoeParameters.range_of("pocket_depth")
     flush = cell.kind == "sheet" and p.pocket_depth == default  # a sheet ends level with the print around it
-    depth = max(least, cell.thickness) if flush else max(p.pocket_depth, cell.thickness)
-    if depth == p.pocket_depth:
-        return p, ()
-    note = f"pocket_depth is {depth:g} instead of {p.pocket_depth:g} mm: the cell's body is {cell.thickness:g} mm thick"
-    return replace(p, pocket_depth=depth), (note,)
+    body = max(cell.thickness, cell.connector_height)
+    depth = max(least, body) if flush else max(p.pocket_depth, body)
+    if depth != p.pocket_depth:
+        what = "body" if body == cell.thickness else "connector"
+        notes.append(
+            f"pocket_depth is {depth:g} instead of {p.pocket_depth:g} mm: the cell's {what} is {body:g} mm thick"
+        )
+        p = replace(p, pocket_depth=depth)
+    if p.board_length > 0.0 and bend_at_heel(cell, p) < cell.bend_radius:
+        beside = math.sqrt(2.0 * max(p.pocket_depth - _cable(cell), 0.0))
+        # what `bend_at_heel` gives, solved for the hole
+        free = 0.25 * (math.sqrt(4.0 * cell.bend_radius - beside**2) - beside) ** 2
+        gap = math.ceil(10.0 * (free + _cable(cell) + HOLE_OFF)) / 10.0
+        notes.append(f"board_gap raised from {p.board_gap:g} to {gap:g} mm: the cable bends there")
+        p = replace(p, board_gap=gap)
+    return p, tuple(notes)
+
+
+def _cable(cell: Cell) -> float:
+    return cell.thickness if cell.kind == "sheet" else cell.lead_diameter
+
+
+def bend_at_heel(cell: Cell, parameters: ShoeParameters) -> float:
+    """Gives largest inner radius in mm by which a cell's cable turns from the channel up into the hole, by parameters.
+
+    An arc of outer radius r touches the floors of two ways, a and b high, that meet at a right angle, and clears the
+    corner between them where (r - a)^2 + (r - b)^2 = (r - t)^2, t being the cable's thickness.
+    """
+    a, b = (max(v - _cable(cell), 0.0) for v in (parameters.pocket_depth, parameters.board_gap - HOLE_OFF))
+    return a + b + math.sqrt(2.0 * a * b)
 
 
 def tail_lines(plan: ShoePlan) -> int:

@@ -11,14 +11,17 @@ from numpy.typing import NDArray
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.parameters import ShoeParameters
 
-__all__ = ["Heel", "find_heel", "holder_depth"]
+__all__ = ["Heel", "find_heel", "holder_depth", "slot_entry"]
 
 LIP = 1.5  # rail behind the board
 
 POST = 2.5  # rail beside the board
 
+HOLE_OFF = 0.2  # of the cable's hole from the wall
+
 _TURNS = (0, 10, -10, 20, -20, 30, -30, 40, -40, 50, -50, 60, -60)  # degrees from straight back
 _TURN_COST = 0.03  # mm of reach that a degree of turning is worth
+_ENTRY = 0.3  # mm
 _REAR = 4.0  # mm: how much of the rim counts as its rear edge
 
 
@@ -50,6 +53,11 @@ def holder_depth(parameters: ShoeParameters) -> float:
     """Board holder's reach behind the wall, in mm."""
     p = parameters
     return p.board_gap + p.board_thickness + 2.0 * p.made_by.slide + LIP
+
+
+def slot_entry(parameters: ShoeParameters) -> float:
+    """Bevel in mm around the upper end of the board's slot; its rail stays a wall."""
+    return min(_ENTRY, max(LIP - parameters.wall_min, 0.0))
 
 
 def find_heel(rim: Any, foot: Any, parameters: ShoeParameters) -> tuple[Heel, str | None]:

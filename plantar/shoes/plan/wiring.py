@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from plantar.shoes.geometry.outline import gathered
 from plantar.shoes.parameters import ShoeParameters
-from plantar.shoes.plan.block import Block, Step
-from plantar.shoes.plan.heel import LIP, POST, holder_depth
+from plantar.shoes.plan.block import Block, Step, tapered
+from plantar.shoes.plan.heel import HOLE_OFF, LIP, POST, holder_depth, slot_entry
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.units import to_mm
 
@@ -118,7 +118,7 @@ def hole_outline(plan: ShoePlan, parameters: ShoeParameters) -> Any:
 
     p = parameters
     half = min(0.5 * p.channel_width + _WIDER, 0.5 * p.board_length - POST - 0.5)
-    return plan.heel.placed(shapely.box(-p.board_gap, -half, -0.2, half))
+    return plan.heel.placed(shapely.box(-p.board_gap, -half, -HOLE_OFF, half))
 
 
 _SQUARE = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
@@ -159,5 +159,11 @@ def wiring_steps(plan: ShoePlan, parameters: ShoeParameters) -> tuple[list[Block
     shelf = block((-outer, outer), (p.bottom, p.thickness))
     posts = [block(y, (p.thickness - 1.0, p.rim_top)) for y in ((half - POST, outer), (-outer, POST - half))]
     slot = heel.placed(shapely.box(back + LIP, -half - play, -p.board_gap, half + play))
-    cuts = (Block(slot, p.thickness, p.rim_top + 1.0), Block(hole_outline(plan, p), p.bottom - 1.0, p.thickness + 1.0))
+    bevel = slot_entry(p)
+    entry = tapered(slot, -0.02, bevel, p.rim_top - bevel, p.rim_top + 0.02) if bevel > 0.0 else None
+    cuts = (
+        Block(slot, p.thickness, p.rim_top + 1.0),
+        *([] if entry is None else [entry]),
+        Block(hole_outline(plan, p), p.bottom - 1.0, p.thickness + 1.0),
+    )
     return [shelf, *posts], [Step("cut", "slot of the connection board and hole of the cable", cuts)]

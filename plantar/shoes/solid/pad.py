@@ -1,5 +1,6 @@
 """Replaceable silicone pad: a sheet under the taxels, with a rim. In mm."""
 
+import math
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
@@ -8,6 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from plantar.shoes.cells.cell import Cell
 from plantar.shoes.geometry.outline import GRID, ring
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import Block
@@ -85,10 +87,25 @@ def taxel_blocks(plan: ShoePlan, parameters: ShoeParameters) -> list[list[Block]
     sheet's body.
     """
     p = parameters
+    if plan.cell is not None and plan.cell.kind == "film":
+        return [_film(plan.cell, *shapes, p) for shapes in zip(plan.pockets, plan.lands, strict=True)]
     bodies = [[Block(q, land_top(plan, p) if plan.lands else p.bottom, p.ceiling)] for q in plan.pockets]
     if plan.lands or p.taxel_protrusion <= 0.0:
         return bodies
     return [[Block(c, p.pad_thickness, p.bottom), *b] for c, b in zip(plan.cells, bodies, strict=True)]
+
+
+def _film(cell: Cell, pocket: Any, land: Any, p: ShoeParameters) -> list[Block]:
+    """Body with its tail, less play, at the ceiling; below the tail's end, away from the land, its connector."""
+    blocks = [Block(pocket.buffer(-cell.play, join_style="mitre"), p.ceiling - cell.thickness, p.ceiling)]
+    if cell.connector_height > cell.thickness:
+        end, half = 0.5 * cell.body[0] + cell.tail_length, 0.5 * cell.tail_width
+        x, y = np.subtract(pocket.centroid.coords[0], land.centroid.coords[0])
+        box = shapely.box(end - cell.connector_length, -half, end, half)
+        turned = shapely.affinity.rotate(box, math.atan2(y, x), origin=(0.0, 0.0), use_radians=True)
+        placed = shapely.affinity.translate(turned, land.centroid.x, land.centroid.y)
+        blocks.append(Block(placed, p.ceiling - cell.connector_height, p.ceiling - cell.thickness))
+    return blocks
 
 
 def taxel_surfaces(plan: ShoePlan, parameters: ShoeParameters) -> list[Array]:

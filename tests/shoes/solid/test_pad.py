@@ -1,10 +1,13 @@
 """Tests of the pad: closed, of the right volume, with a rim beside the taxels."""
 
+import math
+
 import pytest
 import shapely
 import trimesh
 
 from plantar.shoes import ShoeParameters, build_shoe
+from plantar.shoes.cells.cell import Cell
 from plantar.shoes.foot.foot import foot_from_dimensions
 from plantar.shoes.plan.shoe_plan import pad_rim
 from plantar.shoes.solid.pad import mould_surface, pad_surface, taxel_surfaces
@@ -42,6 +45,24 @@ def test_the_taxels_of_a_fine_rim_are_solids_of_their_volumes(length, width):
         assert mesh.is_winding_consistent
         true = cell.area * p.taxel_protrusion + pocket.area * p.pocket_depth
         assert volume_of(surface) == pytest.approx(true, rel=1e-6)
+
+
+def test_a_films_body_has_its_size_its_tail_and_its_connector(small_foot):
+    cell = Cell(shape="round", size=16.0, active=10.0, thickness=0.5, play=0.3, tail_length=9.0, tail_width=6.0,
+                connector_length=4.0, connector_height=2.0)  # fmt: skip
+    build = build_shoe(small_foot, side="left", cell=cell, layout_only=True)
+    p, plan = build.parameters, build.shoes[0].plan
+    within = 2.0 * math.sqrt(8.0**2 - 3.0**2)  # of the tail within the disc
+    tail = 6.0 * (8.0 + 9.0 - 0.5 * within) - (64.0 * math.asin(3.0 / 8.0) - 3.0 * 0.5 * within)
+    for pocket, land, surface in zip(plan.pockets, plan.lands, taxel_surfaces(plan, p), strict=True):
+        true = (math.pi * 64.0 + tail) * 0.5 + 4.0 * 6.0 * 1.5
+        assert volume_of(surface) == pytest.approx(true, rel=0.02)  # a circle has corners
+        assert surface[..., 2].min() == pytest.approx(p.ceiling - 2.0)
+        low = surface[surface[..., 2].max(axis=1) < p.ceiling - 0.6]
+        connector = shapely.MultiPoint(low.reshape(-1, 3)[:, :2]).convex_hull
+        assert connector.area == pytest.approx(24.0, rel=1e-6)
+        assert pocket.covers(connector)
+        assert connector.distance(land) > 3.0
 
 
 def test_the_mould_is_what_the_pad_leaves_of_a_block(small_foot):
