@@ -20,10 +20,8 @@ __all__ = ["KeepOut", "keep_out", "strap_path"]
 _SPACING = 2.0  # mm between points on the foot
 _ROOM = 2.0  # mm between a link and what is printed or strapped
 _SHANK = 0.1  # of the foot's length: radius of a shank that is not known
-_BLOCK, _UPPER = (
-    0.6,
-    0.1,
-)  # of the foot's length, and of its height: a shorter uppermost part is what the shank stands on
+_BLOCK, _UPPER = 0.6, 0.1  # of length and height: what is shorter on top of a foot is what its shank stands on
+_THIN = 0.05  # height over length: up to it the upper end of a plate that is tilted a little is no shank
 _LEANS, _TALL = math.tan(math.radians(20.0)), 60.0  # of a shank that is not known
 
 Array = NDArray[np.float64]
@@ -81,7 +79,7 @@ def keep_out(foot: Foot) -> KeepOut:
     low, _, high, _ = foot.sole.bounds
     length, top = high - low, min(foot.height, 60.0)
     shank = shapely.Point(0.0, 0.0).buffer(_SHANK * length)
-    if surface is not None:
+    if surface is not None and foot.height > _THIN * length:
         upper = surface[surface[:, 2] > (1.0 - _UPPER) * foot.height, :2]
         block = convex_outline(upper)
         if np.ptp(upper[:, 0]) < _BLOCK * length and block.geom_type == "Polygon":

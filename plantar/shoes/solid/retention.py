@@ -134,11 +134,15 @@ def _strap_places(foot: Foot, plan: ShoePlan, width: float, p: ShoeParameters) -
         half, y = 0.5 * width + _LUG_END, plan.foot.centroid.y
         tries = [round(x, 3) for x in np.arange(low + half, high - half, 2.0).tolist()]
         tries = [x for x in tries if max(_wall_line(plan.foot, x, s, half, y)[1] for s in (1, -1)) < _ROUND]
-        free = [x for x in tries if strap_meets(others, plan.foot, x, width, p) == 0]
-        near = [min(free, key=lambda x: abs(x - wanted)) for wanted in usual if free]
+
+        def first(order: list[float]) -> float | None:
+            return next((x for x in order if strap_meets(others, plan.foot, x, width, p) == 0), None)
+
         apart = width + 2.0 * _LUG_END + _SLOT_PLAY
-        near = near if len(near) < 2 or near[1] - near[0] >= apart else [min(free), max(free)]
-        free = near if len(near) < 2 or near[1] - near[0] >= apart else near[1:]
+        free = [x for q in usual if (x := first(sorted(tries, key=lambda x: abs(x - q)))) is not None]
+        if len(free) == 2 and free[1] - free[0] < apart:
+            free = [x for order in (tries, tries[::-1]) if (x := first(order)) is not None]
+            free = free if free[1] - free[0] >= apart else free[1:]
     return tuple(_Place(x, side) for x in free for side in (1, -1))
 
 

@@ -12,7 +12,7 @@ from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.keep_out import keep_out
 from plantar.shoes.solid.retention import choose_retention, strap_meets
 
-from ..foot_family import prism
+from ..foot_family import FAMILY, prism, small_turns, turned
 
 STRAPS = ShoeParameters(retention="straps")
 
@@ -41,6 +41,13 @@ def test_straps_are_where_links_leave_room(links):
         assert strap_meets(others, plan.foot, place.x, held.width, STRAPS) == 0
         near = others.links[np.abs(others.links[:, 0] - place.x) < 0.5 * held.width]
         assert not (near[:, 2] < 40.0).any()  # by hand: none of the shank over the strap's width
+
+
+@pytest.mark.parametrize("turn", [7, 16, 36])
+def test_the_upper_end_of_a_tilted_plate_is_no_shank(turn):
+    plate = turned(FAMILY["plate"](), *small_turns("plate")[turn])
+    links = keep_out(foot_from_triangles("plate", plate, where="plate")).links
+    np.testing.assert_allclose(links[links[:, 2] < 20.0].mean(axis=0)[:2], 0.0, atol=2.0)  # above the ankle
 
 
 def test_screws_where_neither_straps_nor_clips_have_room():
