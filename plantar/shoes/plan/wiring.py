@@ -45,7 +45,13 @@ def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
             openings = shapely.snap(openings, shapely.multipoints(shapely.get_coordinates(list(plan.pockets))), _STEP)
     joined = shapely.transform(openings, lambda points: gathered(points, shapely.get_coordinates(list(plan.pockets))))
     joined = shapely.set_precision(joined.buffer(0.0), 1e-4)
-    return sorted(getattr(joined, "geoms", [joined]), key=lambda g: g.bounds)
+    return sorted((_without_posts(g, wall) for g in getattr(joined, "geoms", [joined])), key=lambda g: g.bounds)
+
+
+def _without_posts(opening: Any, wall: float) -> Any:
+    """Opening without what stands in it alone and thinner than a wall, which may touch a rib in a point."""
+    kept = [hole for hole in opening.interiors if not shapely.Polygon(hole).buffer(-0.5 * wall).is_empty]
+    return shapely.Polygon(opening.exterior, kept)
 
 
 def _slivers(openings: Any, near: Any, thin: float) -> list[Any]:

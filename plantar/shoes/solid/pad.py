@@ -10,7 +10,7 @@ import shapely
 from numpy.typing import NDArray
 
 from plantar.shoes.cells.cell import Cell
-from plantar.shoes.geometry.outline import GRID, ring
+from plantar.shoes.geometry.outline import GRID
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import Block
 from plantar.shoes.plan.shoe_plan import ShoePlan, pad_rim
@@ -120,15 +120,7 @@ def taxel_surfaces(plan: ShoePlan, parameters: ShoeParameters) -> list[Array]:
 
 def prism_surface(polygon: Any, low: float, high: float) -> Array:
     """Gives closed surface (n, 3, 3) of a shapely polygon without holes between low and high in mm."""
-    flat = _triangles(polygon)
-    a = ring(polygon)
-    b = np.roll(a, -1, axis=0)
-
-    def at(points: Array, z: float) -> Array:
-        return np.column_stack([points, np.full(len(points), z)])
-
-    walls = [(at(a, low), at(b, low), at(b, high)), (at(a, low), at(b, high), at(a, high))]
-    return np.concatenate([_at(flat, low)[:, ::-1], _at(flat, high), *(np.stack(w, axis=1) for w in walls)])
+    return _height_field([polygon], [high - low]) + np.array([0.0, 0.0, low])
 
 
 def _triangles(face: Any) -> Array:

@@ -11,7 +11,7 @@ from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.geometry.section import wall_thickness
 from plantar.shoes.plan.wiring import pocket_outlines
 
-from ..foot_family import FAMILY
+from ..foot_family import FAMILY, small_turns, turned
 
 
 @pytest.mark.parametrize("cell", ["fsr_402", "square"])
@@ -34,3 +34,13 @@ def test_no_wedge_next_to_a_slanting_channel_is_thinner_than_a_wall():
     middles = segments.mean(axis=1) + 1e-3 * outwards[:, :2]
     outwards *= np.where(shapely.contains_xy(shapely.union_all(openings), *middles.T), 1.0, -1.0)[:, None]
     assert wall_thickness(segments, outwards) > build.parameters.wall_min
+
+
+@pytest.mark.parametrize("turn", [36, 37])
+def test_nothing_thinner_than_a_wall_stands_alone_in_an_opening(turn):
+    triangles = turned(FAMILY["of_65_mm"](), *small_turns("of_65_mm")[turn])
+    build = build_shoe(foot_from_triangles("a", triangles, where="a"), side="left", layout_only=True)
+    openings = pocket_outlines(build.shoes[0].plan, build.parameters)
+    posts = [shapely.Polygon(hole) for opening in openings for hole in opening.interiors]
+    assert all(not post.buffer(-0.5 * build.parameters.wall_min).is_empty for post in posts)
+    assert all(post.distance(q.exterior) > 0.2 for q in openings for post in posts)  # touching, it is no solid
