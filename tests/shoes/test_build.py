@@ -15,14 +15,14 @@ from plantar.errors import FootError, InputError
 from plantar.gait.analysis.analyse import analyse, with_layout
 from plantar.shoes import ShoeBuild, ShoeParameters, build_shoe, export_shoe, foot_from_dimensions, foot_from_mesh
 from plantar.shoes.build import build_insole
-from plantar.shoes.checks.check import ShoeCheck, check_shoe
+from plantar.shoes.checks.check import ShoeCheck, check_plan, check_shoe
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.foot.mesh_file import read_mesh
 from plantar.shoes.papers.mesh_files import write_stl
 from plantar.shoes.parameters import read_parameters
 from plantar.shoes.solid.step_model import StepPart, read_step, write_step
 
-from .foot_family import prism
+from .foot_family import oval, prism
 from .shoe_witness import Witness
 
 NAMES = (
@@ -236,3 +236,17 @@ def test_an_insole_holds_and_a_witness_agrees(small_foot, tmp_path, thickness):
     assert read_parameters(tmp_path / "check.json") == build.parameters
     again = build_insole(small_foot, thickness, parameters=build.parameters, cell_area=300.0, layout_only=True)
     assert again.parameters == build.parameters
+
+
+@pytest.mark.parametrize(("rise", "holds"), [(3.0, True), (34.0, False)])
+def test_a_foot_that_stands_on_a_part_of_its_length_is_reported(rise, holds):
+    outline = oval(236.0, 86.0, 55.0)
+    lift = rise / (1.0 + np.exp((outline[:, 0] - 30.0) / 12.0))
+    low, high = (np.column_stack([outline, z]) for z in (lift, np.full(len(outline), 80.0)))
+    ends = [(ring.mean(axis=0), ring[::step]) for ring, step in ((low, -1), (high, 1))]
+    parts = [np.stack([np.broadcast_to(m, r.shape), r, np.roll(r, -1, axis=0)], axis=1) for m, r in ends]
+    after, up = np.roll(low, -1, axis=0), np.roll(high, -1, axis=0)
+    foot = np.concatenate([*parts, np.stack([low, after, up], axis=1), np.stack([low, up, high], axis=1)])
+    build = build_shoe(foot_from_triangles("last", foot, where="last", forward="x"), side="left", layout_only=True)
+    (check,) = (c for c in check_plan(build.shoes[0].plan, build) if "length of the sole" in c.name)
+    assert check.holds == holds

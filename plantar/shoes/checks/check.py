@@ -31,6 +31,7 @@ from plantar.shoes.units import to_mm
 __all__ = ["Check", "ShoeCheck", "check_plan", "check_shoe", "corner_errors"]
 
 _OVERHANG_SHARE = 0.02  # of the contact face: what may hang over without support on a printer that lays lines
+_LONG = 0.7  # of a foot's length: a sole that is shorter, as of a high heel, is no foot's that stands on a flat shoe
 _FLAT_SHARE, _HALF_SHARE = 0.95, 0.80  # of the load: what goes past the taxels is an error of every force read
 
 Array = NDArray[np.float64]
@@ -152,7 +153,10 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: StepSolid)
 def check_plan(plan: ShoePlan, build: ShoeBuild) -> tuple[Check, ...]:
     """Gives checks decided by a build's plan: blind rim, CoP, touching taxels, load share."""
     rim, share = build.fit.blind_most, build.load_share
+    low = build.foot.passing(min(build.foot.height, build.parameters.clip_height_max)).bounds
+    long = (build.foot.sole.bounds[2] - build.foot.sole.bounds[0]) / (low[2] - low[0])
     return (
+        _least("length of the sole over that of the foot's lower part, %", 100.0 * long, 100.0 * _LONG),
         *(() if rim is None else (_most("blind rim beyond the taxels' centres, mm", plan.blind_rim, rim, 2),)),
         *_contact_checks(plan, build),
         _least("load that the taxels carry on flat ground, %", 100.0 * share.flat, 100.0 * _FLAT_SHARE),
