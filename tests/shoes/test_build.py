@@ -243,7 +243,7 @@ def test_a_foot_that_stands_on_a_part_of_its_length_is_reported(rise, holds):
     outline = oval(236.0, 86.0, 55.0)
     lift = rise / (1.0 + np.exp((outline[:, 0] - 30.0) / 12.0))
     low, high = (np.column_stack([outline, z]) for z in (lift, np.full(len(outline), 80.0)))
-    ends = [(ring.mean(axis=0), ring[::step]) for ring, step in ((low, -1), (high, 1))]
+    ends = [((55.0, 0.0, 0.11 * rise), low[::-1]), ((55.0, 0.0, 80.0), high)]
     parts = [np.stack([np.broadcast_to(m, r.shape), r, np.roll(r, -1, axis=0)], axis=1) for m, r in ends]
     after, up = np.roll(low, -1, axis=0), np.roll(high, -1, axis=0)
     foot = np.concatenate([*parts, np.stack([low, after, up], axis=1), np.stack([low, up, high], axis=1)])
