@@ -152,4 +152,7 @@ def test_the_foot_that_is_nearer_to_the_zmp_carries_more(aside):
 
 @pytest.mark.parametrize(("x", "share"), [(-0.2, 0.0), (0.1, 0.25), (0.4, 1.0), (0.6, 1.0)])
 def test_no_foot_carries_more_than_all_where_the_zmp_is_beyond_it(x, share):
-    assert _share(x, 0.3, (0.4, 0.0), (0.0, 0.0)) == pytest.approx(share)
+    # Along a line that is turned and away from the origin, with a ZMP aside of it.
+    c, s = 0.6, 0.8
+    first, second, zmp = ((1.0 + c * v - s * w, 2.0 + s * v + c * w) for v, w in ((0.4, 0.0), (0.0, 0.0), (x, 0.3)))
+    assert _share(*zmp, first, second) == pytest.approx(share)
