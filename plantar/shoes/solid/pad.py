@@ -120,7 +120,7 @@ def taxel_surfaces(plan: ShoePlan, parameters: ShoeParameters) -> list[Array]:
 
 def prism_surface(polygon: Any, low: float, high: float) -> Array:
     """Gives closed surface (n, 3, 3) of a shapely polygon without holes between low and high in mm."""
-    return _height_field([polygon], [high - low]) + np.array([0.0, 0.0, low])
+    return np.asarray(_height_field([polygon], [high - low]) + np.array([0.0, 0.0, low]))
 
 
 def _triangles(face: Any) -> Array:
