@@ -140,7 +140,7 @@ class BodyScale:
         return value
 
 
-REFERENCE_BODY = BodyScale(mass=86.0, leg=0.6, sole=0.2307, sole_width=0.159623)
+REFERENCE_BODY = BodyScale(mass=86.0, leg=0.6, sole=0.25, sole_width=0.159)
 """The body that settings count for as long as nobody says which it is: the robot `h1`."""
 
 
