@@ -56,7 +56,8 @@ def positive(value: object, name: str, unit: str = "") -> float:
 
     Args:
         value: Argument.
-        name: Name in errors; `unit` its unit.
+        name: Name in errors.
+        unit: Its unit.
 
     Returns:
         Float.

@@ -14,7 +14,7 @@ import numpy as np
 from plantar.gait.balance.balance_laws import balance_law
 from plantar.gait.balance.load_transfer import OpenLoop
 from plantar.gait.command import Command, FootTarget, Motors, Sensors
-from plantar.gait.contact.foot_contacts import middle_of_sole
+from plantar.gait.contact.foot_contacts import middle_of_sole, on_its_hull
 from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.estimate.body_sensors import BodySensors
 from plantar.gait.estimate.estimator import LegKinematics
@@ -92,7 +92,7 @@ class WalkingController:
     ) -> None:
         s, feet, begin = settings, start.feet, start.time - 1.0
         self.settings = settings
-        self.layouts = layouts
+        layouts = self.layouts = {side: on_its_hull(layouts[side]) for side in SIDES}
         self._motors = motors
         self.replans = 0
         middles = {side: middle_of_sole(layouts[side], s.ankle_reach) for side in SIDES}
@@ -132,6 +132,11 @@ class WalkingController:
     def stopped(self) -> bool:
         """Whether it stopped for good, in its `safe_state`."""
         return self.safe_state is not None
+
+    @property
+    def raised(self) -> tuple[int, str]:
+        """Ticks that raised, and the last error: the shell caught them."""
+        return (0, "") if self.shell is None else (self.shell.errors, self.shell.error)
 
     @property
     def safe_state(self) -> str | None:

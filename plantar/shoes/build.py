@@ -117,8 +117,7 @@ def build_shoe(
         side: "left", "right" or "both"; right mirrors left.
         cell_area: Taxel in mm^2.
         taxels: Their number; None takes as many whole cells as fit.
-        overhang: Allowed taxel reach beyond the sole in mm; up to overhang_max with `taxels`, or where a `cell` would
-            not see the center of pressure both ways.
+        overhang: Allowed reach beyond the sole in mm; more with `taxels`, or where a `cell` would not see the CoP.
         rim: "whole" cells, or "fine": smaller ones along the edge.
         cell: Other cells than skin hexagons, see `read_cell`, in place of `rim` and `cell_area`.
         parameters: Dimensions.
@@ -205,9 +204,7 @@ def _fitted(
 def _observed(
     placed: Callable[[float, float], tuple[TaxelFit, ShoePlan]], tries: list[tuple[float, float]]
 ) -> tuple[TaxelFit, ShoePlan, tuple[str, ...]]:
-    """Cells and plan of the first cell area and reach that observe the CoP both ways; those of the only area if none
-    does.
-    """
+    """Cells and plan of the first cell area and reach that observe the CoP both ways, else of the only area."""
     problem, kept = None, None
     (first, least), (last, _) = tries[0], tries[-1]
     for area, reach in tries:

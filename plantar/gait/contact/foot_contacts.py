@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ from plantar.gait.contact.stance_contact import ContactSettings, StanceContact
 from plantar.gait.estimate.sole_slope import SoleSlope
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.phases import Phase, PhaseKind
-from plantar.geometry.polygon import inner_offset
+from plantar.geometry.polygon import area, convex_hull, inner_offset
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.rotation import level_rotation
@@ -22,19 +22,25 @@ from plantar.percepts.percept import Percept
 from plantar.percepts.sole_pose import feet_support_polygon, polygon_in_world
 from plantar.sides import SIDES, Side
 
-__all__ = ["FootContacts", "FootholdFound", "FootholdSeen", "middle_of_sole"]
+__all__ = ["FootContacts", "FootholdFound", "FootholdSeen", "middle_of_sole", "on_its_hull"]
 
 
 _FORGETS = 4  # steps after which a foothold that carried a part of the sole is no evidence of the ground ahead
 
 
 def middle_of_sole(layout: SoleLayout, reach: float = math.inf) -> NDArray[np.float64]:
-    """Returns VRP place (2,) over a whole foothold of a `layout`, sole frame, in m
+    """Returns the VRP (2,) over a whole foothold of a `layout`, sole frame, in m
     (`plantar.gait.contact.ankle_reach`).
 
     `reach` is the distance in m along the sole, from its origin, at which the ankle bears the robot.
     """
     return loaded_middle(layout.outline, reach)
+
+
+def on_its_hull(layout: SoleLayout) -> SoleLayout:
+    """Returns the `layout` with its outline's convex hull, which carries a rigid sole."""
+    hull = convex_hull(layout.outline)
+    return layout if area(layout.outline) >= (1.0 - 1e-9) * area(hull) else replace(layout, outline=hull)
 
 
 @dataclass(frozen=True)

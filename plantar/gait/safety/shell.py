@@ -53,6 +53,7 @@ class SafetyShell:
         state: "fallen", "blind" (both stay), "late" (ends with the first usable time), "waiting" (ends with the first
             usable reading), or None.
         errors: Caught exceptions of the tick.
+        error: The last one.
     """
 
     def __init__(
@@ -91,6 +92,7 @@ class SafetyShell:
         self._stop = stop
         self.state: str | None = None
         self.errors = 0
+        self.error = ""
 
     def step(self, sensors: Sensors) -> Command:
         """Command of the controller, or of its state, at a tick; never raises."""
@@ -101,8 +103,9 @@ class SafetyShell:
         time = self._clock.time_of(reported)
         try:
             command = self._stepped(sensors, time)
-        except Exception:  # of any kind: a robot that walks needs a command
+        except Exception as raised:  # of any kind: a robot that walks needs a command
             self.errors += 1
+            self.error = f"{type(raised).__name__}: {raised}"
             try:
                 command = self._bridge(time)
             except Exception:  # the last sound reading makes the tick raise, too

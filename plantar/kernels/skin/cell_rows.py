@@ -38,12 +38,7 @@ def ordered_rows(vertices, rings, starts, tolerance):
 def _rows_of_copies(cells, tolerance):
     """Rows of cells that are copies along one line: a row's first and last active cell make its hull.
 
-    Args:
-        cells: Corners (k, 2) of each cell in m.
-        tolerance: How far in m a copy may be off.
-
-    Returns:
-        Indices of each row's cells from one end to the other; a cell without copies is a row.
+    `cells` are corners (k, 2) in m, off by `tolerance` in m at most; a row's indices go from one end to the other.
     """
     kinds = {}  # cells of one kind, the first of which stands for them
     for i, cell in enumerate(cells):

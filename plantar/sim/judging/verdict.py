@@ -37,6 +37,7 @@ class Ending:
         tilt: Of the torso in degrees.
         pushes: Recovered from, and all.
         overrun: Cut and first planned end in s, or None.
+        raised: Ticks at which the controller raised, and the last error.
     """
 
     fall: tuple[float, float, str] | None
@@ -49,6 +50,7 @@ class Ending:
     body: BodyScale = REFERENCE_BODY
     pushes: tuple[int, int] = (0, 0)
     overrun: tuple[float, float] | None = None
+    raised: tuple[int, str] = (0, "")
 
 
 def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[str, Any]]:
@@ -65,6 +67,14 @@ def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[
         add("fall", round(value, 3), round(limit, 3), text)
     if ending.stopped is not None:
         add("emergency_stop", 1, 0, f"the controller stopped for good: {ending.stopped}")
+    raised, error = ending.raised
+    if raised:
+        add(
+            "controller_error",
+            raised,
+            0,
+            f"the controller raised at {raised} ticks and held; the last: {error}",
+        )
     if ending.overrun is not None:
         time, planned_end = ending.overrun
         text = f"the controller still put its end off at {time:.0f} s, where the run was cut off"

@@ -129,6 +129,7 @@ def _end(
         body=run.body,
         fall=judge.fall,
         stopped=run.controller.safe_state,
+        raised=run.controller.raised,
         steps=(count.taken, len(run.steps)),
         missed=count.missed,
         position=off if run.speeds is None else None,

@@ -32,6 +32,7 @@ def test_a_good_end_has_no_reasons():
     [
         ({"fall": (41.2345, 40.0, "the robot fell")}, ("fall", 41.234, 40.0)),
         ({"stopped": "sensors froze"}, ("emergency_stop", 1, 0)),
+        ({"raised": (3, "InputError: x")}, ("controller_error", 3, 0)),
         ({"overrun": (60.0, 12.0)}, ("overrun", 60.0, 12.0)),
         ({"steps": (7, 8), "missed": "x"}, ("steps", 7, 8)),
         ({"steps": (0, 8), "missed": "x"}, ("steps", 0, 8)),

@@ -1,5 +1,8 @@
 """Short walks, judged by MuJoCo's truth."""
 
+import json
+from shutil import copytree
+
 import numpy as np
 import pytest
 
@@ -188,3 +191,29 @@ def test_the_controllers_settings_do_not_depend_on_the_ground():
     made = [Simulation(load_scene("flat", ["steps=2", *terrain], "hrp2kai")).settings for terrain in ground.values()]
     assert all(settings.com_height == pytest.approx(0.84) for settings in made)
     assert all(settings.partial_rise == pytest.approx(0.015) for settings in made)
+
+
+def test_a_sole_with_a_waist_walks_on_the_hull_of_its_outline(tmp_path, repository):
+    folder = copytree(repository / "plantar" / "robots" / "h1", tmp_path / "waisted")
+    for side in ("left", "right"):
+        layout = json.loads((folder / f"layout_{side}.json").read_text())
+        ring = np.array(layout["outline"])
+        ahead = np.roll(ring, -1, 0) - ring
+        k = np.hypot(*ahead.T).argmax()  # the longest edge, 3 mm inwards at its middle
+        inwards = np.array([-ahead[k, 1], ahead[k, 0]]) / np.hypot(*ahead[k])
+        layout["outline"] = np.insert(ring, k + 1, ring[k] + 0.5 * ahead[k] + 0.003 * inwards, 0).tolist()
+        (folder / f"layout_{side}.json").write_text(json.dumps(layout))
+    run = Simulation(load_scene("flat", ["steps=2", "settle=0.2"], str(folder / "robot.toml")))
+    assert run.run()["reasons"] == []
+    assert run.controller.raised == (0, "")
+
+
+def test_a_controller_that_raises_has_not_completed():
+    run = Simulation(load_scene("flat", ["steps=0", "settle=0.2"]))
+    shell = run.controller.shell
+    healthy, ticks = shell._tick, iter(range(10**6))
+    shell._tick = lambda sensors: healthy(sensors) if next(ticks) % 7 else healthy(None)
+    (reason,) = run.run()["reasons"]
+    assert reason["criterion"] == "controller_error"
+    assert reason["value"] == run.controller.raised[0] > 10
+    assert "the last: AttributeError: 'NoneType'" in reason["text"]
