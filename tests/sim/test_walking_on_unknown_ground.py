@@ -102,8 +102,8 @@ def test_a_robot_that_does_not_see_the_ground_judges_no_footholds_and_takes_no_s
     assert None not in (sees.compliance, sees.feasibility, sees.conformity)
 
 
-# Of seeds 0 to 7, 3 fall, and 5 with feet that do not.
-@pytest.mark.parametrize("seeds", [(2, 7), pytest.param((1, 2, 7), marks=pytest.mark.long)])
+# Of seeds 0 to 7, 2 fall, and 7 with feet that do not.
+@pytest.mark.parametrize("seeds", [range(4), pytest.param(range(8), marks=pytest.mark.long)])
 def test_feet_that_take_the_shape_of_bumps_walk_further(seeds):
     def upright(*settings: str) -> float:
         """Time in s until they fell or ended, in all."""

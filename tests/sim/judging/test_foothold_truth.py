@@ -49,9 +49,11 @@ def test_a_short_beam_is_crossed():
     assert min(run["contact_area_ratio"]) < 0.4
 
 
-def test_the_same_beam_throws_a_robot_that_does_not_feel_it():
+@pytest.mark.parametrize("offset", [0.06, -0.06])
+def test_the_same_beam_throws_a_robot_that_does_not_feel_it(offset):
     """Steps that move for balance keep the blind robot upright, though off its way: here neither robot's do."""
-    sensing, blind = (run_scene(load_scene("beam", [*SHORT_BEAM, *KEPT, f"footholds={f}"]), 0) for f in ("skin", "off"))
+    far = [*SHORT_BEAM, *KEPT, "offset_range=0", f"terrain.offset={offset}"]
+    sensing, blind = (run_scene(load_scene("beam", [*far, f"footholds={f}"]), 0) for f in ("skin", "off"))
     assert sensing["completed"]
     assert blind["fell"]
     assert not blind["completed"]
