@@ -10,9 +10,9 @@ FORCE = ("footholds=force", "sensing.taxels=elastic")
 ERRORS = ("plant.taxel_gain=0.15", "plant.crosstalk=0.1")
 WALKS: dict[str, tuple[str, tuple[str, ...]]] = {
     "`partial-rear`": ("partial-rear", ()),
-    "`beam` 12 cm, +-80 mm": ("beam", ("terrain.width=0.52 sole", "offset_range=0.347 sole")),
-    "`beam` 8 cm, +-60 mm": ("beam", ("terrain.width=0.348 sole", "offset_range=0.26 sole")),
-    "`beam` 6 cm, +-40 mm": ("beam", ("terrain.width=0.26 sole", "offset_range=0.174 sole")),
+    "`beam` 12 cm, +-80 mm": ("beam", ("terrain.width=0.48 sole", "offset_range=0.32 sole")),
+    "`beam` 8 cm, +-60 mm": ("beam", ("terrain.width=0.32 sole", "offset_range=0.24 sole")),
+    "`beam` 6 cm, +-40 mm": ("beam", ("terrain.width=0.24 sole", "offset_range=0.16 sole")),
 }
 EVERY = tuple(WALKS)
 BEAM, REAR = (EVERY[2],), (EVERY[0],)

@@ -101,12 +101,12 @@ def test_a_scene_grows_with_the_robot():
     body = BodyScale(mass=11.0, leg=0.3, sole=0.12, sole_width=0.08)
     beam = load_scene("beam", ["terrain.start=0.2", "walk.start=2 beat"]).for_body(body)
     assert isinstance(beam.terrain, Beam)
-    assert (beam.terrain.width, beam.terrain.start) == (pytest.approx(0.52 * 0.12), 0.2)
+    assert (beam.terrain.width, beam.terrain.start) == (pytest.approx(0.48 * 0.12), 0.2)
     assert (beam.walk.sideways, beam.walk.start) == pytest.approx((0.04, 2.0 * body.beat))
     turn = load_scene("turn").for_body(body).walk.velocities(0)
     assert turn.commands[0] == Velocity(turn=0.0495 * (1.0 / body.beat))
     shares = shares_of(beam)
-    assert shares["terrain.width"] == {"share": "0.52 sole", "value": 0.0624, "unit": "m"}
+    assert shares["terrain.width"] == {"share": "0.48 sole", "value": 0.0576, "unit": "m"}
     assert "terrain.start" not in shares
 
 
