@@ -27,7 +27,7 @@ file = "own.xml"
 layout = "layout_{side}.json"
 origin = [0.0, 0.0, -0.129]
 thickness = 0.012
-mass = 0.252
+mass = 0.273
 [legs.left]
 joints = [JOINTS]
 foot_body = "left_foot"
@@ -238,7 +238,7 @@ def test_a_urdf_gets_a_floating_base_and_walks(own):
     own.write_text(text.replace("com_height = 0.80", "com_height = 0.76"))
     world = build_world(load_robot(own), Ground((), 0.0, 0.8))
     assert (world.model.nv, world.model.nu) == (18, 12)
-    assert mujoco.mj_getTotalmass(world.model) == pytest.approx(63.5 + 12 * 1.9 + 2 * 0.252)
+    assert mujoco.mj_getTotalmass(world.model) == pytest.approx(63.5 + 12 * 1.9 + 2 * 0.273)
     # At its own com_height: with the default crouch, 3 cm lower, it falls.
     summary = run_scene(load_scene("flat", ["steps=2", "settle=1.0", "length=0.1", "crouch=0"], robot=str(own)))
     assert summary["completed"], summary

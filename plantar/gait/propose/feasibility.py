@@ -51,7 +51,7 @@ class FeasibilityRules(
     at: str = choice("probe", "impact")
     area_ratio: float = number(0.6, "1", 0, 2)
     # epsilon_t in N m: a foothold that makes this moment at the ankle is refused
-    ankle_moment: float = fixed(0.0411, "weight sole")
+    ankle_moment: float = fixed(0.0379, "weight sole")
     surprise: float = fixed(1 / 30, "leg")  # Height in m above expected ground from which it is checked
     hold: float = share(2.83, "beat", 0.01, 10)
     probe_force: float = fixed(0.154, "weight")  # Pressing force in N

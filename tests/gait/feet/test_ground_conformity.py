@@ -52,8 +52,8 @@ def test_a_stance_foot_brings_its_load_where_it_is_wanted():
 
 def test_a_foot_that_rolls_over_an_edge_turns_faster():
     foot, stuck = FootTurn(GAINS, PERIOD), np.array([0.05, 0.02])
-    turns = [float(np.hypot(*foot.stance(200.0, stuck, np.array([0.02, 0.0])))) for _ in range(60)]
-    assert turns[-1] == pytest.approx(GAINS.rolling / (GAINS.firm * 200.0) * turns[0])
+    turns = [float(np.hypot(*foot.stance(230.0, stuck, np.array([0.02, 0.0])))) for _ in range(60)]
+    assert turns[-1] == pytest.approx(GAINS.rolling / (GAINS.firm * 230.0) * turns[0])
     assert max(turns) <= GAINS.largest_rate * PERIOD + 1e-12
 
 

@@ -33,7 +33,7 @@ def test_legs_are_those_of_the_walking_robot():
         joints = robot.legs[side].joints
         assert [efforts[name] for name in joints] == pytest.approx(robot.biped.effort_limits)
         assert np.degrees(robot.posture[side]) == pytest.approx([machine.joints[name].posture for name in joints])
-        assert sum(float(model.body(model.joint(n).bodyid[0]).mass[0]) for n in joints) == pytest.approx(11.26 + 0.252)
+        assert sum(float(model.body(model.joint(n).bodyid[0]).mass[0]) for n in joints) == pytest.approx(11.26 + 0.273)
 
 
 def test_the_skin_has_1260_taxels_and_mirrors():

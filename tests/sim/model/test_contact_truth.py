@@ -8,6 +8,8 @@ import pytest
 
 from plantar.geometry.polygon import area, signed_margin
 from plantar.sim.model.contact_truth import (
+    ContactSet,
+    FootContacts,
     contact_wrench_in_frame,
     contact_wrench_in_world,
     feet_contacts,
@@ -48,6 +50,15 @@ def settled(model: Any, seconds: float = 0.6, push: tuple[float, ...] = (0.0,) *
 
 def sole_contacts(model: Any, data: Any) -> Any:
     return foot_contacts(model, data, {mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, "left_sole_box")})
+
+
+def gathered(contacts: ContactSet) -> FootContacts:
+    """The same for the kernel."""
+    foot = FootContacts(np.zeros(1, dtype=np.uint8))
+    ids = np.column_stack([contacts.own_geoms, contacts.other_geoms]).astype(np.int32).reshape(-1, 2)
+    vectors = np.hstack([contacts.positions, contacts.forces, contacts.torques]).reshape(-1, 3)
+    foot.take(ids, vectors, contacts.distances, contacts.carries.astype(np.uint8))
+    return foot
 
 
 @pytest.mark.parametrize("floor", [PLANE, BLOCK])
@@ -105,7 +116,7 @@ def test_foot_in_the_air_has_no_contact_and_no_zmp():
     mujoco.mj_forward(model, data)
     contacts = sole_contacts(model, data)
     assert contacts.size == 0
-    truth = ground_truth([contacts.gathered()] * 2)
+    truth = ground_truth([gathered(contacts)] * 2)
     assert truth.zmp is None
     assert truth.margin is None
     assert truth.polygon.shape == (0, 2)
@@ -123,7 +134,7 @@ def test_truth_of_a_standing_foot():
     """Polygon is the sole, the ZMP is under the weight, the margin is its distance to the nearest edge."""
     model = foot_model(PLANE, com="0.03 -0.05 0.2")
     data = settled(model)
-    truth = ground_truth([sole_contacts(model, data).gathered()])
+    truth = ground_truth([gathered(sole_contacts(model, data))])
     assert area(truth.polygon) == pytest.approx(0.25 * 0.155, rel=1e-3)
     assert truth.zmp == pytest.approx([0.03, -0.05], abs=2e-4)
     assert truth.margin == pytest.approx(0.0775 - 0.05, abs=2e-4)
@@ -134,7 +145,7 @@ def test_zmp_moves_with_the_height_of_its_plane():
     """A horizontal force f at height z shifts the ZMP of plane h by f (z - h) / fz: the line of action tilts."""
     model = foot_model(PLANE)
     data = settled(model, push=(40.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-    feet = [sole_contacts(model, data).gathered()]
+    feet = [gathered(sole_contacts(model, data))]
     low, high = (ground_truth(feet, plane_height=height).zmp for height in (0.0, 0.1))
     assert high[0] - low[0] == pytest.approx(-0.1 * 40.0 / (MASS * GRAVITY), rel=1e-3)
     assert ground_truth(feet, minimum_force=1e4).zmp is None
@@ -159,7 +170,7 @@ def test_truth_of_two_feet_is_the_sum_of_its_parts():
     left = sole_contacts(model, settled(model, push=(20.0, -10.0, -30.0, 2.0, 3.0, 1.0)))
     right = left._replace(positions=left.positions + np.array([0.05, -0.3, 0.02]))
     feet = [left, right]
-    truth = ground_truth([contacts.gathered() for contacts in feet])
+    truth = ground_truth([gathered(contacts) for contacts in feet])
     parts = [contact_wrench_in_world(c, np.zeros(3)) for c in feet]
     assert truth.wrench == pytest.approx(parts[0] + parts[1], abs=1e-9)
     fx, fy, fz, tx, ty, _ = parts[0] + parts[1]

@@ -167,9 +167,9 @@ def test_hrp2kai_walks_by_its_own_law_and_at_its_own_pace():
 
 def test_steps_beyond_the_legs_reach_are_pointed_out(short_run):
     assert short_run[0]["out_of_reach_since_s"] is None
-    wide = ["steps=2", "length=0.3", "sideways=0.1", "settle=0.5", "crouch=0"]
+    wide = ["steps=2", "length=0.33", "sideways=0.1", "settle=0.5", "crouch=0"]
     late = run_scene(load_scene("flat", wide))["out_of_reach_since_s"]
-    assert 2.2 < late < 4.0  # in the first step, whose foot leads by 0.3 m forward and 0.1 m to the side
+    assert 2.2 < late < 4.0  # in the first step, whose foot leads by 0.33 m forward and 0.1 m to the side
     assert run_scene(load_scene("flat", [*wide, "crouch=0.05"]))["out_of_reach_since_s"] is None
 
 
