@@ -7,6 +7,7 @@ from plantar.sim.run.scene import load_scene
 
 BEYOND = {
     ("box-step", "h1"),  # pushed to the edge of its support
+    ("box-step", "hrp2kai"),  # falls
     ("height-field", "h1"),  # feet rock on two or three points
     ("height-field", "hrp2kai"),  # feet rock on two or three points
     ("partial-third", "hrp2kai"),  # falls
