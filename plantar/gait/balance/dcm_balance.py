@@ -36,7 +36,7 @@ class BalanceGains(Part, table="balance"):
     com_gain: float = share(0.247, "1/beat", 0, 50)
     zmp_filter: float = fixed(0.0809, "beat")  # Low-pass time constant in s of the ZMP error
     # Inner offset in m that the desired ZMP keeps from the support polygon's edge
-    zmp_offset: float = fixed(0.065, "sole")
+    zmp_offset: float = fixed(0.06, "sole")
 
 
 class DcmBalance:

@@ -25,7 +25,7 @@ class AdmittanceGains(Settings):
         foot_return: Decay in 1/s of a standing foot's corrections.
     """
 
-    foot_turn_gain: float = share(0.0481, "rad/beat/weight/sole", 0, 1)
+    foot_turn_gain: float = share(0.0521, "rad/beat/weight/sole", 0, 1)
     foot_lift_gain: float = share(0.00695, "leg/beat/weight", 0, 0.1)
     foot_return: float = share(0.247, "1/beat", 0, 100)
     foot_release: float = fixed(1.98, "1/beat")  # Rate in 1/s at which they do in the air

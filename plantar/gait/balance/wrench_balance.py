@@ -45,12 +45,12 @@ class WrenchBalanceGains(Part, table="balance"):
     dcm_gain: float = share(0.742, "1/beat", 0, 50)
     dcm_integral: float = number(0.0, "1/s", 0, 50)
     dcm_forgetting: float = fixed(0.0247, "1/beat")  # Decay of the integral in 1/s
-    largest_integral: float = fixed(0.13, "sole")  # Largest part of the desired ZMP in m by the integral
+    largest_integral: float = fixed(0.12, "sole")  # Largest part of the desired ZMP in m by the integral
     zmp_gain: float = number(0.0, "1/s", 0, 50)
     com_gain: float = share(0.247, "1/beat", 0, 50)
     zmp_filter: float = fixed(0.0809, "beat")  # Low-pass time constant in s of the ZMP error
     # Inner offset in m that the desired ZMP keeps from the support polygon's edge
-    zmp_offset: float = fixed(0.065, "sole")
+    zmp_offset: float = fixed(0.06, "sole")
     minimum_force: float = fixed(0.0178, "weight")  # Normal force in N of a standing foot
     feet: AdmittanceGains = field(default_factory=AdmittanceGains)
 

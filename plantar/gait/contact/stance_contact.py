@@ -49,7 +49,7 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
     sight: ClassVar[float] = 0.3  # Share of a new reading in the running mean of what is seen
     least_seen: ClassVar[int] = 4  # Number of taxels that have to see ground
     # Distance in m of the load from the believed polygon's edge, from which silence counts
-    least_margin: float = fixed(0.13, "sole")
+    least_margin: float = fixed(0.12, "sole")
     # Share of the load that silent taxels should carry, from which the belief is wrong
     least_wrong: ClassVar[float] = 0.1
     level: float = number(1.5e-4, "rad", 0, 0.5)
@@ -64,7 +64,7 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
     standing_load: float = fixed(0.533, "weight")
     # Readings of the ground from which a foothold is planned with before the foot is on it
     foresee_readings: ClassVar[int] = 6
-    foresee_reach: float = fixed(0.065, "sole")  # Distance in m that the foot may still have to go for that
+    foresee_reach: float = fixed(0.06, "sole")  # Distance in m that the foot may still have to go for that
     # Time in s before the planned touchdown from which it is too late for that
     foresee_least: float = fixed(0.283, "beat")
     remember: bool = switch(True)

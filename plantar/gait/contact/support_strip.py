@@ -10,7 +10,7 @@ from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 
 __all__ = ["SupportStrip"]
 
-_SPREAD, _AGREEMENT = 0.026, 0.173  # of a sole's length: 6.5 and 43 mm of one of 250 mm
+_SPREAD, _AGREEMENT = 0.024, 0.16  # of a sole's length: 6 and 40 mm of one of 250 mm
 
 
 @dataclass

@@ -28,8 +28,8 @@ class DcmFilterRules(Part, table="dcm_filter", needs={"control.dcm_estimate": ("
 
     com_noise: float = fixed(0.00333, "leg")  # Of the kinematic CoM in m
     velocity_noise: float = fixed(0.0206, "leg/beat")  # Of its velocity in m/s, where measured
-    zmp_noise: float = fixed(0.0433, "sole")  # Of the ZMP, less the measured offset, in m
-    unfelt_rate: float = share(0.536, "sole/beat", 0, 100)
+    zmp_noise: float = fixed(0.04, "sole")  # Of the ZMP, less the measured offset, in m
+    unfelt_rate: float = share(0.495, "sole/beat", 0, 100)
 
 
 class PushedPendulum(NamedTuple):

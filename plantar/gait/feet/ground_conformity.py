@@ -37,14 +37,14 @@ class ConformityGains(Part, table="conformity", needs={"control.pfc": (True,), "
         gap: Rise in m of a lifted cell.
     """
 
-    firm: float = fixed(0.289, "rad/beat/sole/weight")  # k on firm ground, in rad/s per m for each newton carried
-    rolling: float = fixed(0.285, "rad/beat/sole")  # k of a foot rolling over an edge in rad/s per m
-    nearly: float = fixed(0.0433, "sole")  # Distance in m from its target within which an incoming foot is not turned
+    firm: float = fixed(0.313, "rad/beat/sole/weight")  # k on firm ground, in rad/s per m for each newton carried
+    rolling: float = fixed(0.309, "rad/beat/sole")  # k of a foot rolling over an edge in rad/s per m
+    nearly: float = fixed(0.04, "sole")  # Distance in m from its target within which an incoming foot is not turned
     largest_rate: float = fixed(0.148, "rad/beat")  # Largest rate of a turn in rad/s
     least_load: float = fixed(0.0178, "weight")  # Vertical force in N from which a centre of pressure means something
     press: float = fixed(0.0948, "weight")  # Force in N of a landed foot before it takes weight over
     # Distance in m that a centre of pressure goes at least for each rad of a turn on firm ground
-    follows: float = fixed(4.33, "sole/rad")
+    follows: float = fixed(4.0, "sole/rad")
     watch: ClassVar[int] = 16  # Control ticks over which rolling is judged
     least_turn: ClassVar[float] = 0.0016  # Turn in rad, in the first half of them, from which it is
     carries: float = fixed(0.00948, "weight")  # Mean force in N from which a cell touches

@@ -20,7 +20,7 @@ __all__ = ["DampingGains", "LandingCompliance"]
 class DampingGains(Settings):
     """Foot damping at touchdown."""
 
-    admittance: float = fixed(0.241, "rad/beat/weight/sole")  # A in rad/s per N m
+    admittance: float = fixed(0.261, "rad/beat/weight/sole")  # A in rad/s per N m
     largest_rate: float = fixed(0.0247, "rad/beat")  # Largest rate of a turn
     largest_turn: ClassVar[float] = 0.004  # Largest turn in rad: the error of a levelled sole
     # Vertical force in N of a foot that carries the body and no longer yields

@@ -31,7 +31,7 @@ class DoubleSupportTimingRules(
         pause: Between two changes in s.
     """
 
-    least_error: float = share(0.0867, "sole", 0, 0.2)
+    least_error: float = share(0.08, "sole", 0, 0.2)
     least_left: float = fixed(0.202, "beat")  # Time in s before its end from which it stays; none ends sooner
     pause: float = share(0.202, "beat", 0, 5)
 

@@ -60,7 +60,7 @@ class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_ad
     confidence: float = number(0.0, "1", 0, 1)
     yielding: float = number(0.0, "1", 0, 2)
     double_support: bool = switch(False)
-    least_error: float = share(0.0433, "sole", 0, 0.2)
+    least_error: float = share(0.04, "sole", 0, 0.2)
     acceleration: float = share(0.816, "leg/beat^2", 0.1, 100)
     sideways: float = number(0.5, "1", 0.01, 1)
     shortest: float = number(0.45, "1", 0, 0.9)

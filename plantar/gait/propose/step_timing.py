@@ -25,7 +25,7 @@ class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (
         pause: Between two changes in s.
     """
 
-    least_error: float = share(0.0433, "sole", 0, 0.2)
+    least_error: float = share(0.04, "sole", 0, 0.2)
     price: float = share(0.0206, "leg/beat", 0, 10)
     longest: float = number(0.15, "1", 0, 5)
     shortest: float = number(0.1, "1", 0, 0.9)
