@@ -34,7 +34,7 @@ def middle_of_sole(layout: SoleLayout, reach: float = math.inf) -> NDArray[np.fl
 
     `reach` is the distance in m along the sole, from its origin, at which the ankle bears the robot.
     """
-    return loaded_middle(layout.outline, reach)
+    return loaded_middle(on_its_hull(layout).outline, reach)
 
 
 def on_its_hull(layout: SoleLayout) -> SoleLayout:

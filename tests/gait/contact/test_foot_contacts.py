@@ -1,12 +1,13 @@
 """What both feet stand on."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from plantar import Percept, hex_layout
-from plantar.gait.contact.foot_contacts import FootContacts
+from plantar.gait.contact.foot_contacts import FootContacts, middle_of_sole, on_its_hull
 from plantar.gait.contact.stance_contact import ContactSettings
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.phases import Phase, PhaseKind
@@ -34,3 +35,11 @@ def test_a_foot_that_lands_stands_on_the_part_of_its_sole_that_saw_ground(edge):
     assert contacts.center("left")[0] == pytest.approx(-0.0625 if edge == 0.0 else whole[0], abs=0.015)
     contacts.lift_off("left", 2)
     assert not contacts.partial("left")
+
+
+@pytest.mark.parametrize("reach", [0.08, math.inf])
+def test_a_sole_with_a_waist_is_loaded_where_its_hull_is(reach):
+    ring = np.insert(SOLE.outline, 1, [0.0, -0.06], 0)  # 15 mm inwards, at the right side
+    waisted = replace(SOLE, outline=ring)
+    assert on_its_hull(SOLE) is SOLE
+    assert middle_of_sole(waisted, reach) == pytest.approx(middle_of_sole(SOLE, reach), abs=1e-12)
