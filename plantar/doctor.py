@@ -23,6 +23,7 @@ LIBRARIES: dict[str, dict[str, str]] = {
         "matplotlib": "matplotlib",
         "msgspec": "msgspec",
         "protobuf": "google.protobuf",
+        "xlrd": "xlrd",
     },
     "shoes": {
         "cadquery": "cadquery",

@@ -57,6 +57,7 @@ HELPERS: Mapping[str, Helper] = {
     ),
     "c3d": Helper("plantar.formats.c3d_content:content_of_file", "a C3D file", (250e6, 64.0), (10.0, 3e-6), "ezc3d"),
     "bag": Helper("plantar.formats.ros_bag:series_of_bag", "a ROS bag", (300e6, 30.0), (10.0, 2e-6), "rosbags"),
+    "xls": Helper("plantar.formats.excel_sheet:text_of_workbook", "a workbook", (300e6, 60.0), (5.0, 3e-6), "xlrd"),
     "dxf": Helper(f"{_MESHES}:lines_of_dxf", "a DXF drawing", (300e6, 20.0), (3.0, 0.25e-6), "ezdxf"),
     "ply": Helper(f"{_TRIMESH}:triangles_of_trimesh", "a PLY mesh", (330e6, 20.0), (2.5, 2.5e-7), "trimesh"),
     "off": Helper(f"{_TRIMESH}:triangles_of_trimesh", "a OFF mesh", (330e6, 20.0), (2.5, 2.5e-7), "trimesh"),
