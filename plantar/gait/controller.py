@@ -100,7 +100,7 @@ class WalkingController:
         omega = self.omega = self.estimation.omega
         self.plan = WalkPlan(feet, start.steps, s.timing, middles, omega, start.time)
         arrived = _ARRIVED_SEEING if s.compliance is not None else _ARRIVED
-        self.momentum = LegMomentum(self.plan, omega, s.leg_inertia, arrived)
+        self.momentum = LegMomentum(self.plan, omega, s.leg_inertia.turning, arrived)
         self.balance = balance_law(s.balance, omega, s.mass, s.period)
         self._open_loop = OpenLoop(s.mass)
         turns = not self.balance.wants_contacts
@@ -201,9 +201,9 @@ class WalkingController:
         """A tick with encoders and IMU."""
         time, footing, body = sensors.time, self.footing, self.estimation.body
         sensed = self.estimation.sense(sensors, self.schedule.at(time))
-        legs, omega = self.momentum.at(time), self.omega
+        legs = self.momentum.at(time)
         planned = self.plan.at(time).com_acceleration + legs.com_acceleration
-        state = self.estimation.update(sensors, sensed, planned, -omega * omega * legs.vrp)
+        state = self.estimation.update(sensors, sensed, planned, self.momentum.foot_acceleration(legs))
         whole, feedback = self.estimation.dcm(state), self.settings.feedback and not self.estimation.stands
         dcm = whole - legs.dcm  # of the pendulum that is planned and balanced
         if feedback:
@@ -245,6 +245,6 @@ class WalkingController:
             ankle_loads=sensed.ankles,
             footholds=tick.found,
             moved_steps=moved,
-            momentum=-legs.vrp - 2.0 * self.settings.leg_inertia * acceleration,
+            momentum=-legs.vrp - 2.0 * self.settings.leg_inertia.turning * acceleration,
             joint_offsets=None if body is None else body.joint_offsets,
         )

@@ -34,6 +34,7 @@ from plantar.gait.propose.slope_inside import SlopeRules
 from plantar.gait.propose.ssp_opt import StepRegionRules, StepWeights
 from plantar.gait.propose.step_adjustment import StepAdjustmentRules
 from plantar.gait.propose.step_timing import StepTimingRules
+from plantar.mechanics.leg_inertia import LegInertia
 from plantar.sensing.link_skin import BodySkin
 from plantar.sensing.net_wrench import NetWrenchRules
 from plantar.settings.schema import Settings, choice, fixed, number, share, switch
@@ -56,8 +57,7 @@ class ControllerSettings(Settings):
         timing: Phase durations.
         swing_height: Swing foot clearance in m.
         swing: Swing path.
-        ankle_reach: Distance in m along the sole from its origin, below the ankle, at which an ankle bears the robot;
-            none farther is loaded.
+        ankle_reach: Distance in m along the sole within which an ankle bears the robot.
         trunk_lean: Torso roll in rad per metre of the CoM from the feet's middle.
         balance: Gains; their class decides the law.
         feedback: False walks in open loop, for comparison.
@@ -65,11 +65,10 @@ class ControllerSettings(Settings):
         ankles: Their force-torque sensors, if any.
         ankle_limits: Strips (m, 4) of each sole where the weight can act on that foot alone within its ankle's torques
             (`plantar.gait.contact.ankle_limits`); empty without limits.
-        leg_inertia: D in s^2 of a leg that swings (`plantar.gait.plan.leg_momentum`); 0 plans as without legs.
+        leg_inertia: Of a leg that swings, for plan and estimate.
         footholds: How footholds are found: "off" assumes whole soles, for comparison; "force" uses forces, "skin" also
             proximity.
-        skin: Upper body skin (`Sensors.skin`): on the base, base frame, and on links posed by `Sensors.links`; None for
-            none.
+        skin: Upper body skin (`Sensors.skin`): on the base, base frame, and on links posed by `Sensors.links`.
     """
 
     com_height: float
@@ -111,7 +110,7 @@ class ControllerSettings(Settings):
     zmp_source: str = choice("skin", "force_torque")
     ankles: Mapping[Side, AnkleSensor] = field(default_factory=dict)
     ankle_limits: Mapping[Side, NDArray[np.float64]] = field(default_factory=dict)
-    leg_inertia: float = number(0.0, "s^2", 0.0, 1.0)
+    leg_inertia: LegInertia = field(default_factory=LegInertia)
     footholds: str = choice("off", "force", "skin")
     skin: BodySkin | None = None
 

@@ -13,6 +13,7 @@ from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.controller_tables import CONTROLLER_TABLES, OPTIONAL_PARTS
 from plantar.gait.estimate.ankle_sensor import AnkleSensor
 from plantar.gait.feet.swing_kinds import swing_kinds
+from plantar.mechanics.leg_inertia import LegInertia
 from plantar.robots.robot import Robot
 from plantar.robots.walk import Control, Walk, walk_timing
 from plantar.sensing.link_skin import BodySkin
@@ -26,6 +27,7 @@ __all__ = ["Task", "com_height_of", "controller_settings"]
 # side.)
 _YAW_ON_UNKNOWN_GROUND = 0.1
 
+_NO_LEGS = LegInertia()
 _QUICK_HEIGHT = 1 / 12  # Leg, clearance of the swing foot of quick steps at most
 
 
@@ -60,7 +62,7 @@ def controller_settings(
     ankles: Mapping[Side, AnkleSensor],
     limits: Mapping[Side, NDArray[np.float64]] | None = None,
     skin: BodySkin | None = None,
-    inertia: float = 0.0,
+    inertia: LegInertia = _NO_LEGS,
 ) -> ControllerSettings:
     """Settings of the walking controller for a scene.
 
@@ -71,7 +73,7 @@ def controller_settings(
         ankles: Force-torque sensors, if any.
         limits: Where its weight may act on one foot (`ankle_limits`); None for anywhere.
         skin: Skin of its upper body, base frame; None without.
-        inertia: Of its legs in s^2 (`leg_inertia`).
+        inertia: Of its legs (`leg_inertia`).
 
     Returns:
         The settings.
@@ -116,7 +118,7 @@ def controller_settings(
         zmp_source=control.zmp_source,
         ankles=ankles,
         ankle_limits=limits or {},
-        leg_inertia=inertia if control.leg_momentum else 0.0,
+        leg_inertia=inertia if control.leg_momentum else _NO_LEGS,
         footholds=control.footholds,
         skin=skin,
         **parts,

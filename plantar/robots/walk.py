@@ -150,7 +150,7 @@ class Control(Settings):
         step_timing: End a single support sooner or later where the DCM asks for it; not of a robot that rocks.
         step_adjustment: Footsteps move for balance, in place and time; not of a robot that rocks, and only in time on
             ground that does not carry everywhere.
-        leg_momentum: The plan counts on how swinging legs turn about the CoM.
+        leg_momentum: Plan and estimate count on how swinging legs turn about the CoM and move it.
         learn_strides: Strides grow by the extra length of pushed steps; needs `step_adjustment`.
         push_estimate: Source of a push on the body: "off"; "soles", the acceleration that the ZMP does not explain;
             "skin" on the upper body, or the soles where that measures none.

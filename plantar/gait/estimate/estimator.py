@@ -23,6 +23,7 @@ from plantar.gait.estimate.steady_load import SteadyLoad
 from plantar.kernels.gait.floating_base import FloatingBase
 from plantar.layouts.layout import Side
 from plantar.mechanics.base_state import BaseState
+from plantar.mechanics.leg_inertia import LegInertia
 from plantar.mechanics.lip import GRAVITY
 from plantar.record import Record
 from plantar.settings.part import Part
@@ -133,6 +134,7 @@ class FloatingBaseEstimator:
         steady: Selects still feet for the gyro; None takes all loaded.
         push: Push by soles and IMU; None disables it.
         dcm_filter: Horizontal CoM and velocity; None uses the observer.
+        legs: By which a swing moves the base.
         push_acceleration: CoM's (2,) in m/s^2 by a push now.
     """
 
@@ -145,6 +147,7 @@ class FloatingBaseEstimator:
     steady: SteadyLoad | None = None
     push: PushEstimate | None = None
     dcm_filter: DcmFilter | None = None
+    legs: LegInertia = field(default_factory=LegInertia)
 
     def __post_init__(self) -> None:
         gains = self.gains
@@ -184,10 +187,10 @@ class FloatingBaseEstimator:
         gyro: NDArray[np.float64],
         accelerometer: NDArray[np.float64],
         soles: Mapping[Side, SoleLoad],
-        planned_acceleration: NDArray[np.float64] | None = None,
+        planned_acceleration: NDArray[np.float64] = _STILL,
         airborne: Side | None = None,
         felt: NDArray[np.float64] | None = None,
-        swinging: NDArray[np.float64] = _STILL,
+        swing: NDArray[np.float64] = _STILL,
     ) -> BaseState:
         """Estimated state after a tick.
 
@@ -196,10 +199,10 @@ class FloatingBaseEstimator:
             gyro: Angular velocity (3,) of the base, base frame, in rad/s.
             accelerometer: Specific force (3,) of the base, base frame, in m/s^2.
             soles: Each sole's load.
-            planned_acceleration: CoM's horizontal (2,) in m/s^2; None for 0.
+            planned_acceleration: CoM's (2,) in m/s^2.
             airborne: Foot high in the air by plan: its reading becomes its tare.
-            felt: CoM acceleration (2,) in m/s^2 by a push on skin, for `push`; None uses the soles.
-            swinging: CoM acceleration (2,) in m/s^2 by swinging legs, off the ZMP's pendulum.
+            felt: CoM's by a push on skin, for `push`; None: soles.
+            swing: That (2,) of the swinging foot.
 
         Returns:
             The state.
@@ -212,9 +215,9 @@ class FloatingBaseEstimator:
         loads: dict[str, float] = {"left": self._carry(0, "left", soles), "right": self._carry(1, "right", soles)}
         base = self._base
         self._watch(posture)
+        base_planned = self.legs.base_acceleration(planned_acceleration, swing)
         if self._begun:
-            planned = (0.0, 0.0) if planned_acceleration is None else planned_acceleration.tolist()
-            zmp = base.follow(*gyro.tolist(), *accelerometer.tolist(), *planned)
+            zmp = base.follow(*gyro.tolist(), *accelerometer.tolist(), *base_planned.tolist())
             self._anchor(loads)
         else:
             self._begun = True
@@ -222,8 +225,10 @@ class FloatingBaseEstimator:
             base.take()
             self._stand(posture, accelerometer / float(np.linalg.norm(accelerometer)))
             zmp = base.place()
+        swinging = self.omega**2 * self.legs.turning * swing  # CoM acceleration off the ZMP's pendulum
         if self.push is not None:
-            self.push_acceleration = self._pushed(self.push, accelerometer, zmp, felt, swinging)
+            moved = self._rotation.dot(accelerometer)[:2] - (base_planned - planned_acceleration)
+            self.push_acceleration = self._pushed(self.push, moved, zmp, felt, swinging)
         base.observe(*(self.push_acceleration + swinging).tolist())
         if self.dcm_filter is not None:
             self._filter(self.dcm_filter, posture, zmp, swinging)
@@ -289,13 +294,13 @@ class FloatingBaseEstimator:
     def _pushed(
         self,
         push: PushEstimate,
-        accelerometer: NDArray[np.float64],
+        moved: NDArray[np.float64],
         zmp: NDArray[np.float64] | None,
         felt: NDArray[np.float64] | None,
         swinging: NDArray[np.float64],
     ) -> NDArray[np.float64]:
         pendulum = None if zmp is None else self.omega**2 * (self._com[:2] - zmp) + swinging
-        estimated = push.update(self._rotation.dot(accelerometer)[:2], pendulum)
+        estimated = push.update(moved, pendulum)
         return estimated if felt is None else felt
 
     def _filter(

@@ -24,9 +24,7 @@ class SwingStart(Record, frozen=True):
         period: Of control in s.
         least_time: Time in s before touchdown from which the place is fixed.
         sees_ground: Whether the sole sees the ground, and should be near it early.
-        approach_height: Height in m above the end from which it descends slowly; 0 for one move.
-        approach_speed: Its speed in m/s.
-        rises_first: Whether the foot rises before it moves horizontally, for an obstacle.
+        approach_height: As in `SwingTrajectory`; so are `approach_speed` and `rises_first`.
     """
 
     position: NDArray[np.float64]

@@ -10,13 +10,13 @@ With the trunk upright only the legs turn about the CoM. A foot f that moves rel
     p = c - (h/g + 2 D) c'' + D f'',
 
 f'' that of the swinging foot: a pendulum of frequency w = (h/g + 2 D)^(-1/2) over the VRP p - D f''. Its equations are
-linear: its DCM and CoM are those of the VRP p, which are planned and balanced, plus those of the VRP -D f'', by which
-the body leans ahead of a swinging leg so that the soles press where they were planned to.
+linear: to DCM and CoM of the planned VRP p come those of the VRP -D f'', by which the body leans ahead of a swing.
 """
 
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from plantar.gait.plan.vrp_plan import LipReference, VrpPlan
 from plantar.gait.plan.walk_plan import PlanView, WalkPlan
@@ -51,6 +51,10 @@ class LegMomentum:
         if self._inertia and (self._plan.view is not self._view or time >= self._until):
             self._look_ahead(time)
         return self._shift.at(time)
+
+    def foot_acceleration(self, shift: LipReference) -> NDArray[np.float64]:
+        """f'' (2,) in m/s^2 of the swinging foot at a `shift`; 0 without inertia."""
+        return shift.vrp / -self._inertia if self._inertia else shift.vrp
 
     def _look_ahead(self, time: float) -> None:
         """Solve the next swings' shift from the CoM's now."""

@@ -58,7 +58,7 @@ class Estimation:
         kinematics: LegKinematics,
     ) -> None:
         self._settings, self._layouts, period = settings, layouts, settings.period
-        self.omega = pendulum_frequency(settings.com_height, 2.0 * settings.leg_inertia)
+        self.omega = pendulum_frequency(settings.com_height, 2.0 * settings.leg_inertia.turning)
         self.stands = True
         self._ticks = 0
         self._state: BaseState | None = None
@@ -84,6 +84,7 @@ class Estimation:
             steady,
             None if settings.push_estimate is None else PushEstimate(settings.push_estimate, period),
             None if settings.dcm_filter is None else DcmFilter(settings.dcm_filter, self.omega, period),
+            settings.leg_inertia,
         )
 
     def summary(self) -> dict[str, object]:
@@ -108,11 +109,9 @@ class Estimation:
         return Sensed(sensors.time, phase, percepts, ankles, soles)
 
     def update(
-        self, sensors: Sensors, sensed: Sensed, acceleration: NDArray[np.float64], swinging: NDArray[np.float64]
+        self, sensors: Sensors, sensed: Sensed, acceleration: NDArray[np.float64], swing: NDArray[np.float64]
     ) -> BaseState:
-        """Returns the body's state by `sensors` and `sensed`, and the CoM's planned acceleration (2,) in m/s^2, with
-        its part (2,) by swinging legs, which the ZMP does not explain.
-        """
+        """Returns the state by `sensors`, `sensed` and planned `acceleration` (2,) in m/s^2 of CoM and `swing` foot."""
         s, phase = self._settings, sensed.phase
         self._ticks += 1
         self.stands = self._ticks * s.period <= s.estimator.averaging
@@ -128,7 +127,7 @@ class Estimation:
             acceleration,
             phase.swing if 0.2 < share < 0.5 and s.zmp_source == "skin" else None,  # in the air: it finds its zero
             self.push_on_skin(sensors),
-            swinging,
+            swing,
         )
         self._rotations = state.rotations_sole
         self._state = state

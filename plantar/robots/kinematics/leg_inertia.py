@@ -1,9 +1,10 @@
-"""How much a robot's legs turn about its CoM as it moves over its feet."""
+"""How much a robot's legs turn and move its CoM as it moves over its feet."""
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.mechanics.leg_inertia import LegInertia
 from plantar.mechanics.lip import GRAVITY
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
@@ -15,8 +16,8 @@ _ITERATIONS = 40
 _LARGEST_STEP = 0.15  # rad
 
 
-def leg_inertia(robot: Robot, legs: LegModel, com_height: float) -> float:
-    """Returns D in s^2, the mean forward and aside of a CoM over both feet (`plantar.gait.plan.leg_momentum`).
+def leg_inertia(robot: Robot, legs: LegModel, com_height: float) -> LegInertia:
+    """Returns a leg's, the mean forward and aside of a CoM over both feet, which moves the base by 1 / (1 - 2 mu).
 
     Args:
         robot: The robot.
@@ -33,7 +34,8 @@ def leg_inertia(robot: Robot, legs: LegModel, com_height: float) -> float:
         legs.follow(com, np.eye(3), stands.positions, stands.rotations, _ITERATIONS, largest_step=_LARGEST_STEP)
         ends.append(legs.configuration)
     x, y, _ = angular_momentum(model, data, _MOVED, *ends)[model.body_rootid[model.body(robot.torso_body).id]].tolist()
-    return max(0.0, 0.25 * float(y - x) / (legs.mass * GRAVITY))
+    turning, (forward, aside) = 0.25 * float(y - x) / (legs.mass * GRAVITY), (ends[1] - ends[0])[:2].tolist()
+    return LegInertia(max(0.0, turning), max(0.0, 0.5 - _MOVED / (forward + aside)))
 
 
 def angular_momentum(

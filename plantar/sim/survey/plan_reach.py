@@ -78,9 +78,9 @@ class PlanReach:
         torque: Largest torque in N m of each joint, over both legs: to carry, against damping and inertia, and against
             what a swinging leg takes.
         carrying: The same to carry alone.
-        shift: Largest way by which a swinging leg moves the ZMP along the sole, over that from its place to the edge.
-        turn: Largest moment by which it turns the sole that carries, over what friction holds.
-        roll: Largest angle in rad of a sole that carries alone off level, without ankle roll.
+        shift: Largest share of the way to the sole's edge by which a swinging leg moves the ZMP along it.
+        turn: Largest share of friction's moment by which it turns the sole that carries.
+        roll: Largest angle in rad off level of a sole that carries alone.
     """
 
     missed: float
@@ -136,7 +136,7 @@ class _Pass:
     def __init__(self, robot: Robot, legs: LegModel, walked: Walked) -> None:
         self.legs, self.walked = legs, walked
         self.middles = {s: middle_of_sole(robot.layouts[s], robot.ankle_reach) for s in SIDES}
-        self.inertia = leg_inertia(robot, legs, walked.com_height)
+        self.inertia = leg_inertia(robot, legs, walked.com_height).turning
         frequency = pendulum_frequency(walked.com_height, 2.0 * self.inertia)
         self.plan = WalkPlan(walked.feet, walked.steps, walked.timing, self.middles, frequency, begin=_BEGIN)
         self.momentum = LegMomentum(self.plan, frequency, self.inertia, _ARRIVES)

@@ -1,4 +1,4 @@
-"""The plan's shift against MuJoCo's inverse dynamics of the motion that it plans."""
+"""The plan's shift, and what it expects of the base, against MuJoCo's dynamics of the motion that it plans."""
 
 from dataclasses import replace
 
@@ -13,6 +13,7 @@ from plantar.gait.plan.leg_momentum import LegMomentum
 from plantar.gait.plan.phases import PhaseKind, Timing
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.mechanics.leg_inertia import LegInertia
 from plantar.mechanics.lip import pendulum_frequency
 from plantar.robots import load_robot
 from plantar.robots.kinematics.leg_inertia import leg_inertia
@@ -24,15 +25,18 @@ FREE = np.empty((0, 2))
 MIDDLES = dict.fromkeys(SIDES, np.zeros(2))
 
 
-def missed(robot, legs, inertia: float) -> np.ndarray:
-    """Planned VRP less the motion's ZMP (n, 2) in m, in single support."""
+def missed(robot, legs, leg: LegInertia) -> np.ndarray:
+    """Planned VRP less the motion's ZMP (n, 2) in m, and the base's acceleration likewise in m/s^2: (n, 4), in single
+    support.
+    """
+    inertia = leg.turning
     height, (feet, steps) = robot.com_height, straight_plan(4, length=0.2, width=robot.stance_width)
     omega = pendulum_frequency(height, 2.0 * inertia)
     plan = WalkPlan(feet, steps, Timing(0.7, 0.2, settle=0.5), MIDDLES, omega, 0.5)
     momentum, model, data = LegMomentum(plan, omega, inertia, 0.94), legs.model, mujoco.MjData(legs.model)
     posture = np.array([*robot.posture["left"], *robot.posture["right"]])
     legs.set_configuration(np.array([0.0, 0.0, height]), np.array([1.0, 0.0, 0.0, 0.0]), posture)
-    times, postures, vrps, alone = np.arange(0.4, plan.schedule.walking_end, PERIOD), [], [], []
+    times, postures, wanted, alone = np.arange(0.4, plan.schedule.walking_end, PERIOD), [], [], []
     for time in times.tolist():
         phase, shift, places = plan.schedule.at(time), momentum.at(time), {s: feet[s].position for s in SIDES}
         for step in steps[: phase.step]:
@@ -45,7 +49,8 @@ def missed(robot, legs, inertia: float) -> np.ndarray:
         error = legs.follow(np.array([*reference.com, height]), np.eye(3), places, dict.fromkeys(SIDES, np.eye(3)), 5)
         assert error < 1e-4
         postures.append(legs.configuration)
-        vrps.append(reference.vrp)
+        base = leg.base_acceleration(reference.com_acceleration, momentum.foot_acceleration(shift))
+        wanted.append([*reference.vrp, *base])
         alone.append(phase.kind == PhaseKind.SINGLE_SUPPORT)
     found, (before, after) = [], np.zeros((2, model.nv))
     for last, now, following in zip(postures, postures[1:], postures[2:], strict=False):
@@ -55,21 +60,21 @@ def missed(robot, legs, inertia: float) -> np.ndarray:
         mujoco.mj_inverse(model, data)
         force, moment = data.qfrc_inverse[:3], data.xmat[1].reshape(3, 3) @ data.qfrc_inverse[3:6]
         moment = moment + np.cross(now[:3], force)
-        found.append([-moment[1] / force[2], moment[0] / force[2]])
-    return (np.array(vrps[1:-1]) - found)[np.array(alone[1:-1])]
+        found.append([-moment[1] / force[2], moment[0] / force[2], *data.qacc[:2]])
+    return (np.array(wanted[1:-1]) - found)[np.array(alone[1:-1])]
 
 
 @pytest.mark.parametrize("name", ["h1", "hrp2kai"])
-def test_the_soles_press_where_they_are_planned_to(name):
+def test_soles_press_and_the_base_accelerates_as_planned(name):
     robot = load_robot(name)
     legs = build_leg_model(robot)
     legs.model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
     legs.model.dof_damping[:] = 0.0
     inertia = leg_inertia(robot, legs, robot.com_height)
-    without, shifted = (np.sqrt((missed(robot, legs, D) ** 2).mean(axis=0)) for D in (0.0, inertia))
-    assert inertia > 0.0
-    assert (shifted < 0.5 * without).all()
-    assert shifted.max() < 8e-3
+    without, counted = (np.sqrt((missed(robot, legs, leg) ** 2).mean(axis=0)) for leg in (LegInertia(), inertia))
+    assert inertia.turning > 0.0
+    assert (counted < 0.5 * without).all()
+    assert counted[:2].max() < 8e-3
 
 
 def walked(steps: int = 12, inertia: float = 5e-3) -> tuple[WalkPlan, LegMomentum]:

@@ -1,3 +1,4 @@
+import mujoco
 import numpy as np
 import pytest
 
@@ -6,7 +7,8 @@ from plantar.gait.plan.footsteps import straight_plan
 from plantar.gait.plan.phases import Timing, WalkSchedule
 from plantar.settings.body_scale import BodyScale
 from plantar.sim.run.pushing import Pusher
-from plantar.sim.run.scene import Push
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import Push, load_scene
 
 SCHEDULE = WalkSchedule.of([s.side for s in straight_plan(6)[1]], Timing(), begin=1.0)
 
@@ -108,3 +110,35 @@ def test_what_is_applied_is_what_was_asked_for_whatever_the_duration(world, dura
 def test_pushes_that_do_not_fit_are_refused(push, schedule, word):
     with pytest.raises(SceneError, match=word):
         Pusher(push, schedule, 0)
+
+
+def test_a_push_in_mid_swing_is_estimated_less_the_swing():
+    """Against what the true CoM does beyond a pendulum with legs, by the same low pass."""
+    sim = Simulation(load_scene("push", ["walk.steps=3", "push.step=1", "push.direction=forward"], "h1"))
+    (estimator, step), model, data = (
+        (sim.controller.estimation.estimator, sim.controller.step),
+        sim.world.model,
+        sim.world.data,
+    )
+    root, rows = model.body_rootid[sim.world.torso], []
+
+    def stepped(sensors):
+        command = step(sensors)
+        mujoco.mj_subtreeVel(model, data)
+        legs = -(estimator.omega**2) * sim.controller.momentum.at(sensors.time).vrp
+        pendulum = estimator.omega**2 * (data.subtree_com[root][:2] - command.state.zmp) + legs
+        rows.append([sensors.time, data.subtree_linvel[root][0], pendulum[0], estimator.push_acceleration[0]])
+        return command
+
+    sim.controller.step = stepped
+    sim.run()
+    times, speed, pendulum, estimated = np.array(rows).T
+    true, low, share = np.gradient(speed, times) - pendulum, [0.0], estimator.push._share
+    for value in true:
+        low.append(low[-1] + share * (value - low[-1]))
+    (shove,) = sim.pusher.shoves
+    during = (times > shove.start + 0.03) & (times <= shove.end)
+    error = estimated[during] - np.array(low[1:])[during]
+    assert np.mean(true[during]) > 1.5
+    assert not estimated[times < shove.start].any()
+    assert np.sqrt(np.mean(error**2)) < 0.4  # m/s^2; 0.66 with the base's share of the swing
