@@ -4,8 +4,6 @@ import os
 
 from plantar.console.ending import leave_at_interrupt
 
-__all__ = ["main"]
-
 
 def main() -> None:
     """Entry point of the console script.

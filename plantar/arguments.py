@@ -9,8 +9,6 @@ import numpy as np
 
 from plantar.errors import InputError, PlantarError
 
-__all__ = ["LARGEST", "does", "instance", "integer", "items", "number", "positive"]
-
 LARGEST = 1e100
 """Largest absolute value of a number that has to be finite: products of a few of them are finite too."""
 

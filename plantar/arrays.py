@@ -14,19 +14,6 @@ from plantar.errors import InputError, PlantarError
 from plantar.kernels.base.limits import points_within, values_within
 from plantar.kernels.base.member import close_all
 
-__all__ = [
-    "array",
-    "held_numbers",
-    "integers",
-    "is_finite",
-    "mask",
-    "not_finite",
-    "numbers",
-    "own",
-    "own_array",
-    "read_only",
-]
-
 _FLOAT, _BOOL = np.dtype(np.float64), np.dtype(np.bool_)
 _MANY = 4096
 _KINDS = {"O": "objects", "U": "text", "S": "bytes", "c": "complex numbers", "m": "durations", "M": "dates"}

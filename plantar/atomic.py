@@ -16,8 +16,6 @@ from pathlib import Path
 
 from plantar.errors import InputError
 
-__all__ = ["output_folder", "parent_folder", "replacing", "temporary_beside", "write_text"]
-
 _LEFTOVER = re.compile(r"\.plantar-([0-9a-f]{8})-([1-9]\d{0,9})-")
 
 

@@ -23,18 +23,6 @@ from plantar.layouts.layout import SoleLayout
 from plantar.lazy import lazy
 from plantar.sensing.ground_plane import checked_range, ground_fit
 
-__all__ = [
-    "BLOCK",
-    "GroundPlanes",
-    "Loads",
-    "SupportPolygons",
-    "blocks",
-    "ground_planes",
-    "loads",
-    "support_polygons",
-    "wrenches",
-]
-
 BLOCK = 4096
 """Frames that are looked at together where a conversion or an iterator cuts a recording into pieces."""
 

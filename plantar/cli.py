@@ -13,8 +13,6 @@ from plantar.console.ending import print_note, run
 from plantar.errors import InputError
 from plantar.extensions import extensions
 
-__all__ = ["app", "main"]
-
 app = typer.Typer(
     name="plantar",
     no_args_is_help=True,

@@ -6,8 +6,6 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, TextIO
 
-__all__ = ["csv_row", "csv_text", "mapping_rows", "original_cell", "write_csv_rows"]
-
 _FORMULA = ("=", "+", "-", "@", "\t", "\n")
 _GUARD = "'"
 

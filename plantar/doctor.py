@@ -11,8 +11,6 @@ from typing import Any
 from plantar.errors import DependencyError
 from plantar.optional_library import optional_library
 
-__all__ = ["LIBRARIES", "doctor_text", "examine"]
-
 LIBRARIES: dict[str, dict[str, str]] = {
     "": {
         "numpy": "numpy",

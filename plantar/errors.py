@@ -15,20 +15,6 @@
 Each message is one line: what is wrong and what is allowed.
 """
 
-__all__ = [
-    "DependencyError",
-    "FootError",
-    "FormatError",
-    "InputError",
-    "LayoutError",
-    "PlantarError",
-    "ReadingError",
-    "RecordingError",
-    "RobotError",
-    "SceneError",
-    "WorkerError",
-]
-
 
 class PlantarError(Exception):
     """Root of every error that Plantar raises on purpose."""

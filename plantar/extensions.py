@@ -7,8 +7,6 @@ from typing import TypeVar
 from plantar.console.ending import one_line
 from plantar.errors import InputError
 
-__all__ = ["extensions"]
-
 T = TypeVar("T")
 
 

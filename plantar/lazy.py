@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 
 from plantar.kernels.base.member import Member
 
-__all__ = ["lazy"]
-
 if TYPE_CHECKING:
     lazy = cached_property
 else:

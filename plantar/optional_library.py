@@ -9,8 +9,6 @@ from types import FrameType
 
 from plantar.errors import DependencyError
 
-__all__ = ["ignore_warning", "need_libraries", "optional_library"]
-
 _INTERRUPTS = (signal.SIGINT, signal.SIGTERM)
 
 

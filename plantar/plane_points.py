@@ -8,8 +8,6 @@ from plantar.arrays import not_finite, numbers
 from plantar.errors import InputError
 from plantar.kernels.base.limits import are_plane_points, pair_of, points_within
 
-__all__ = ["plane_point", "plane_points"]
-
 _FLOAT = np.dtype(np.float64)
 
 

@@ -13,19 +13,6 @@ from plantar.atomic import replacing
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 
-__all__ = [
-    "COLOURS",
-    "FORMATS",
-    "draw_cells",
-    "draw_classes",
-    "draw_raster",
-    "new_figure",
-    "png_of",
-    "save_figure",
-    "thinned",
-    "ticks_in_mm",
-]
-
 FORMATS: tuple[str, ...] = ("pdf", "png", "svg")
 """Formats that a figure is saved in, by the suffix of its path."""
 

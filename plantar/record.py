@@ -8,8 +8,6 @@ from typing import Any, Self, TypeVar
 
 import msgspec
 
-__all__ = ["Record", "constructed_by_kernel"]
-
 
 class Record(msgspec.Struct, frozen=True):
     """Base class of records; each repeats `frozen=True` for type checkers.

@@ -2,8 +2,6 @@
 
 from typing import Literal
 
-__all__ = ["SIDES", "Side", "other_side"]
-
 Side = Literal["left", "right"]
 """Which foot something belongs to."""
 

@@ -8,8 +8,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-__all__ = ["Reference", "Result", "Route", "Time", "compare", "time_routes"]
-
 _ONE_MEASUREMENT = 1.5e-3  # Least time in s of one measurement: a call that is shorter is repeated
 
 

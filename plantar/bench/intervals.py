@@ -2,8 +2,6 @@
 
 import math
 
-__all__ = ["wilson_interval"]
-
 _NORMAL_95 = 1.959963984540054  # 97.5 % of a standard normal variable are below
 
 

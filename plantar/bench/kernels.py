@@ -16,8 +16,6 @@ from plantar.geometry.outline import Outline, concave_outline
 from plantar.percepts.percept import Percept
 from plantar.sensing.reading import Reading
 
-__all__ = ["OFFSET", "RANDOM", "compare_random_cells", "compare_shapes"]
-
 Array = NDArray[np.float64]
 Compared = tuple[list[Route], Reference]
 

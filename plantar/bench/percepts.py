@@ -24,8 +24,6 @@ from plantar.percepts.percept import Percept
 from plantar.percepts.sole_pose import SolePose
 from plantar.sensing.reading import Reading
 
-__all__ = ["FRAMES", "TAXELS", "compare_forms", "compare_percepts", "compare_recordings"]
-
 Array = NDArray[np.float64]
 
 FRAMES = 100_000

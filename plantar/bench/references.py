@@ -9,27 +9,6 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = [
-    "area_exact",
-    "centroid_exact",
-    "circle_radius",
-    "closest_point_exact",
-    "exact_hull",
-    "hull_area_exact",
-    "inner_offset_area",
-    "integers",
-    "least_box_area",
-    "least_parallelogram_area",
-    "outline_rectangle_area",
-    "parallelogram_area",
-    "rectangle_area",
-    "rectangle_area_any_angle",
-    "search_period",
-    "triangle_area_exact",
-    "turn",
-    "wrench_exact",
-]
-
 Array = NDArray[np.float64]
 Point = tuple[int, int]
 Number = TypeVar("Number", int, Fraction)

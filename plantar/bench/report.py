@@ -14,8 +14,6 @@ from plantar.bench.tables import Mark, cell, draw_errors, made_on, markdown_tabl
 from plantar.kernels import compiled
 from plantar.plotting import new_figure, save_figure
 
-__all__ = ["Target", "copy_share", "kernel_text", "measure_kernels", "targets", "write_kernel_report"]
-
 
 @dataclass(frozen=True)
 class Target:

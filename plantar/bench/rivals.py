@@ -13,20 +13,6 @@ from numpy.typing import NDArray
 
 from plantar.layouts.layout import SoleLayout
 
-__all__ = [
-    "Corners",
-    "alpha_shape_area",
-    "closest_shapely",
-    "hull_cv2",
-    "hull_scipy",
-    "hull_shapely",
-    "interior_rectangle",
-    "parallelogram_around",
-    "rectangle_slsqp",
-    "triangle",
-    "turned",
-]
-
 Array = NDArray[np.float64]
 
 

@@ -11,8 +11,6 @@ from plantar.layouts.hex_lattice import HexLattice
 from plantar.layouts.layout import SoleLayout, mirrored
 from plantar.layouts.tiling import hex_layout
 
-__all__ = ["SIZES", "Contact", "contacts", "foot_outline", "random_outline", "sole_of"]
-
 SIZES: dict[str, tuple[int, int]] = {"5": (51, 5), "20": (51, 20), "51": (51, 51), "dense": (1000, 850)}
 """Of each size that is measured: taxels on the sole, and how many of them about are active."""
 

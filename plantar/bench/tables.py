@@ -14,8 +14,6 @@ from plantar.csv_table import csv_text, mapping_rows, original_cell, write_csv_r
 from plantar.errors import InputError
 from plantar.plotting import COLOURS
 
-__all__ = ["GrowingTable", "Mark", "cell", "draw_errors", "made_on", "markdown_table", "write_rows"]
-
 _PAINT = ("#4c78a8", "#f2a541", "#59a14f", "#b279a2", "#9d755d", "#2f4b7c", "#76b7b2", "#e377c2", "#8c8c8c")
 
 

@@ -11,9 +11,6 @@ from plantar.console.ending import print_note
 from plantar.console.progress import progress_bar
 from plantar.errors import InputError
 
-__all__ = ["COMMAND", "AnalysisOrder", "FileOrder", "analyze"]
-
-
 _NOTES = 3  # Warnings that are printed of each recording; the files hold all
 
 

@@ -7,8 +7,6 @@ from typer import Argument, Option
 
 from plantar.console.command import Command, Json, Output, end_command
 
-__all__ = ["COMMAND", "bench"]
-
 
 def bench(
     what: Annotated[str, Argument(help="kernels, contact, scenes, skip, stress, footholds or all.")] = "",

@@ -12,8 +12,6 @@ from plantar.optional_library import need_libraries
 from plantar.sides import SIDES
 from plantar.sim.libraries import LIBRARIES
 
-__all__ = ["COMMAND", "demo"]
-
 
 def demo(
     output: Annotated[Path, Option("-o", "--output", help="Folder for everything that is made.")] = Path("out"),

@@ -2,8 +2,6 @@
 
 from plantar.console.command import Command, Json, end_command
 
-__all__ = ["COMMAND", "doctor"]
-
 
 def doctor(as_json: Json = False) -> None:
     """List what is installed of what Plantar can use, what is missing or broken, and how to get it.

@@ -8,8 +8,6 @@ from plantar.console.command import Command, Json, end_command
 from plantar.errors import InputError
 from plantar.optional_library import need_libraries
 
-__all__ = ["COMMAND", "list_"]
-
 
 def list_(
     what: Annotated[

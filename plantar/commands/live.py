@@ -8,8 +8,6 @@ from typer import Argument, Option
 from plantar.console.command import Command, Json, end_command
 from plantar.console.progress import progress_bar
 
-__all__ = ["COMMAND", "live"]
-
 
 def live(
     source: Annotated[str, Argument(help="Source, and its address after a colon; plantar list sources lists them.")],

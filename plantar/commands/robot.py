@@ -13,8 +13,6 @@ from plantar.errors import InputError, RobotError
 from plantar.optional_library import need_libraries
 from plantar.sim.libraries import LIBRARIES
 
-__all__ = ["COMMAND", "robot"]
-
 
 def robot(
     model: Annotated[

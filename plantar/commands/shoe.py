@@ -12,8 +12,6 @@ from plantar.errors import InputError
 from plantar.shoes.order import FootSource, ShoeOrder
 from plantar.sides import SIDES
 
-__all__ = ["COMMAND", "shoe"]
-
 
 @with_option_groups
 def shoe(

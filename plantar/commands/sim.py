@@ -12,8 +12,6 @@ from plantar.errors import InputError
 from plantar.optional_library import need_libraries
 from plantar.sim.libraries import LIBRARIES
 
-__all__ = ["COMMAND", "sim"]
-
 
 def sim(
     scene: Annotated[

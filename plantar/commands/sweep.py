@@ -12,8 +12,6 @@ from plantar.console.progress import progress_bar
 from plantar.optional_library import need_libraries
 from plantar.sim.libraries import LIBRARIES
 
-__all__ = ["COMMAND", "sweep"]
-
 
 def sweep(
     scene: Annotated[str, Argument(help="A built-in scene (plantar list scenes) or a scene .toml file.")],

@@ -8,8 +8,6 @@ from typer import Argument, Option
 from plantar.console.command import Command, Json, end_command
 from plantar.errors import InputError
 
-__all__ = ["COMMAND", "view"]
-
 
 def view(
     recording: Annotated[Path, Argument(help="Recording (.mcap) of plantar sim --record, or of a robot's soles.")],

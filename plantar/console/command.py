@@ -15,9 +15,6 @@ import typer
 from plantar.console.ending import BAD_INPUT, one_line, plain_lines
 from plantar.errors import InputError
 
-__all__ = ["Command", "Json", "Output", "end_command", "file_lines", "run_command", "with_option_groups"]
-
-
 Output = Annotated[Path, typer.Option("-o", "--output", help="Folder for the files.")]
 """The option for where a command writes."""
 

@@ -21,19 +21,6 @@ from typing import Any
 
 from plantar.errors import PlantarError, WorkerError
 
-__all__ = [
-    "BAD_INPUT",
-    "FAILED",
-    "INTERRUPTED",
-    "Terminated",
-    "ignore_further_interrupts",
-    "leave_at_interrupt",
-    "one_line",
-    "plain_lines",
-    "print_note",
-    "run",
-]
-
 FAILED = 1
 """Exit code where what was asked for is fine and could not be done."""
 

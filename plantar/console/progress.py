@@ -5,8 +5,6 @@ from contextlib import contextmanager
 
 from plantar.console.ending import one_line
 
-__all__ = ["Progress", "part_of", "progress_bar"]
-
 Progress = Callable[[float, str], None]
 """Receives the fraction done, 0..1, and what is being done."""
 

@@ -16,8 +16,6 @@ from numpy.typing import NDArray
 from plantar.console.ending import one_line
 from plantar.errors import PlantarError
 
-__all__ = ["confined"]
-
 _CODE = "from plantar.files.confined import _called_on_file; _called_on_file()"
 _LARGEST_FILE = 1_000_000_000  # bytes that the process may write of a temporary file
 _STARTING = 10.0  # s that starting the process may take on a busy machine

@@ -16,8 +16,6 @@ from plantar.files.structured_text import JSON_MOST, TOML_MOST
 from plantar.files.text_table import TABLE_MOST
 from plantar.files.xml_file import XML_MOST
 
-__all__ = ["HELPERS", "PROMISES", "SIZES", "Helper", "read_apart"]
-
 SIZES: Mapping[str, float] = {
     "TOML: robots, scenes, parameters": TOML_MOST,
     "JSON: layouts, parameters, outlines": JSON_MOST,

@@ -3,8 +3,6 @@
 import struct
 from dataclasses import dataclass
 
-__all__ = ["ImageSize", "stated_size"]
-
 _PNG, _JPEG = b"\x89PNG\r\n\x1a\n", b"\xff\xd8"
 _PNG_CHANNELS = {0: 1, 2: 3, 3: 3, 4: 2, 6: 4}
 _NO_FRAME = (0xC4, 0xC8, 0xCC)  # JPEG markers among those of a frame that are none

@@ -6,8 +6,6 @@ from typing import BinaryIO
 
 from plantar.errors import PlantarError
 
-__all__ = ["check_input", "is_file", "open_input", "read_input"]
-
 _KINDS = (
     (stat.S_ISDIR, "Is a directory"),
     (stat.S_ISFIFO, "it is a pipe"),

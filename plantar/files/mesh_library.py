@@ -11,8 +11,6 @@ from plantar.errors import DependencyError, PlantarError
 from plantar.files.xml_file import parse_xml
 from plantar.optional_library import optional_library
 
-__all__ = ["triangles_of_listed", "triangles_of_trimesh"]
-
 
 def triangles_of_listed(path: Path) -> dict[str, NDArray[Any]]:
     """Triangles (n, 3, 3) in file units of each mesh file that a JSON list at a path names, by its number there; none

@@ -24,16 +24,6 @@ from plantar.files.input_file import check_input, open_input, read_input
 from plantar.files.model_limits import MOST_PARTS, check_model_size
 from plantar.files.xml_file import XML_MOST, parse_xml
 
-__all__ = [
-    "VARIABLE",
-    "check_model",
-    "files_of_model",
-    "folders_of_model",
-    "mesh_of_urdf",
-    "named_file",
-    "parsed_model",
-]
-
 VARIABLE = "PLANTAR_MODEL_FOLDERS"
 """Environment variable with folders from which models may take files, too."""
 

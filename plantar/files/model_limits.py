@@ -6,8 +6,6 @@ from xml.etree.ElementTree import Element
 
 from plantar.errors import PlantarError
 
-__all__ = ["MOST_PARTS", "check_model_size", "parsed_in_trial"]
-
 MOST_PARTS = 2000
 """Most shapes, and most bodies: MuJoCo's reader takes a time that grows with their square."""
 

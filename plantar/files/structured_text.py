@@ -12,8 +12,6 @@ from typing import Any
 from plantar.errors import InputError, PlantarError
 from plantar.files.input_file import read_input
 
-__all__ = ["JSON_MOST", "TOML_MOST", "described_files", "packaged_files", "parse_toml", "read_json", "read_toml"]
-
 TOML_MOST = 250_000
 """Largest TOML file in bytes."""
 

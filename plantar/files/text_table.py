@@ -10,8 +10,6 @@ from typing import NamedTuple
 from plantar.errors import PlantarError
 from plantar.files.input_file import read_input
 
-__all__ = ["TABLE_MOST", "TextTable", "encoding_of", "read_text_table"]
-
 TABLE_MOST = 20_000_000
 """Largest table in bytes."""
 

@@ -4,8 +4,6 @@ from xml.etree import ElementTree
 
 from plantar.errors import PlantarError
 
-__all__ = ["XML_MOST", "parse_xml"]
-
 XML_MOST = 10_000_000
 """Largest XML file in bytes."""
 

@@ -11,8 +11,6 @@ from typing import BinaryIO
 from plantar.errors import PlantarError
 from plantar.files.input_file import open_input
 
-__all__ = ["ALLOWED", "is_bomb", "open_archive", "read_part"]
-
 _MOST_PARTS = 4096
 _LARGEST_LIST = 1_000_000  # bytes of the list of parts
 _ANYHOW = 100e6  # bytes that any archive may unpack to

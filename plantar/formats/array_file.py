@@ -30,8 +30,6 @@ from plantar.recordings.frame_table import MOST_VALUES
 from plantar.recordings.pressure_recording import FootRecording, Kind, PressureRecording, possible_rate, sampling
 from plantar.sides import SIDES
 
-__all__ = ["FORMAT", "recording_of_arrays"]
-
 _USUAL_RATE = 100.0
 _LARGEST = 4e9  # Largest size of all arrays in bytes
 _SHOWN = 20  # arrays in a message

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 
 from plantar.sides import SIDES, Side
 
-__all__ = ["content_of_file", "event_of", "foot_of_marker"]
-
 _FOOT = (
     "to|hee|hel|heel|ank|mal|ft|foot|foo|cal|met|mt|mh|hal|hlx|hx|big|sma|smh|vmh|d[1-5]m|p[1-5]m|st[0-9]?$|m[15]|[1-5]m|fcc|fm|"
     "fal|tam|lmal|mmal|mm|lm|cuneo|nav|inst|toe"

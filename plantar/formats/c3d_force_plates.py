@@ -22,8 +22,6 @@ from plantar.formats.units import FORCES, LENGTHS, MOMENTS, plain
 from plantar.recordings.pressure_recording import PressureRecording, StatedEvents, possible_rate
 from plantar.sides import SIDES, Side
 
-__all__ = ["FORMAT"]
-
 _LARGEST, _HEAD = 256e6, 1 << 16  # bytes
 _TILT = 0.97  # Least cosine of the angle between a plate's normal and the laboratory's vertical: 14 degrees, a ramp
 _LONGEST_PLATE = 2.0  # Largest distance in m of a CoP from where a plate's moments are about

@@ -16,8 +16,6 @@ from plantar.recordings.pressure_recording import FootRecording, layout_for
 # Share of its high readings below which a foot is in the air; share of the time in which one of two is alone.
 _IN_AIR, _ALONE = 0.05, 0.15
 
-__all__ = ["cells_of_foot", "foot_of_matrix", "halves", "scale_to_force", "unit_of_values"]
-
 
 def unit_of_values(
     stated: str | None, options: ReadOptions, warnings: list[str], what: str = "the file", pressures: bool = False

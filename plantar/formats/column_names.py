@@ -12,8 +12,6 @@ from typing import Literal
 from plantar.formats.units import FORCES, LENGTHS, MOMENTS, PASCALS, find_unit, plain
 from plantar.sides import Side
 
-__all__ = ["BODY_WEIGHTS", "Heading", "Quantity", "heading_of"]
-
 Quantity = Literal["force", "pressure", "cop", "moment", "place", "cell", "number", "foreign", "unknown"]
 """What a column holds: "number" is a heading of nothing but side and number, as cells have; "foreign" is known
 and no load, such as an angle; "place" is an axis alone, a CoP next to forces; "unknown" is a word that is not known."""

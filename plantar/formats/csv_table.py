@@ -26,8 +26,6 @@ from plantar.formats.table_text import (
 from plantar.formats.text import head_text, open_text, table_of_lines
 from plantar.recordings.pressure_recording import PressureRecording
 
-__all__ = ["FORMAT"]
-
 _MOST_COLUMNS, _HEAD = 100_000, 200
 _FEWEST = 3  # Numbers of a row from which lines are a table by themselves; a row of two needs names
 

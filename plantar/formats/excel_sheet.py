@@ -19,8 +19,6 @@ from plantar.files.input_file import check_input
 from plantar.formats.format import Format, ReadOptions
 from plantar.recordings.pressure_recording import PressureRecording
 
-__all__ = ["FORMAT", "text_of_workbook"]
-
 _MAGIC = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 _LARGEST = 100_000_000
 _LONGEST_CELL = 16_384

@@ -15,8 +15,6 @@ from plantar.files.input_file import read_input
 from plantar.formats.format import Format
 from plantar.optional_library import optional_library
 
-__all__ = ["FORMAT", "FootprintImage", "Print", "decoded_image", "read_footprints"]
-
 _MAGIC = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"II*\0", b"MM\0*", b"BM")
 _LARGEST = 250e6  # Most bytes of a file, and of an image once it is decoded: 83 million pixels in colour
 _IMAGE = "not an image that can be read (PNG, JPEG, TIFF or BMP of 16 x 16 pixels or more)"

@@ -25,8 +25,6 @@ from plantar.recordings.pressure_recording import (
     sampling,
 )
 
-__all__ = ["FORMAT"]
-
 _FRAME = re.compile(r"\W*frame\s*(\d{1,9})\s*\(\s*([\d.,]{1,15})\s*ms\s*\)", re.IGNORECASE)
 _ACROSS, _ALONG = 5.08e-3, 7.62e-3  # Size of a cell in m across and along the plate
 _COLUMNS = 64  # Cells across every plate: 0.5, 1, 1.5 and 2 m long plates have 64, 128, 192 and 256 along

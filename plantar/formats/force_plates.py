@@ -15,8 +15,6 @@ from plantar.formats.plate_sides import LEAST, Plate, PlateContact, plate_contac
 from plantar.recordings.pressure_recording import FootRecording, StatedEvents, true_runs
 from plantar.sides import SIDES, Side
 
-__all__ = ["feet_of_plates"]
-
 # An empty plate reads less than 0.15 of its peak, or 60 N; else the commonest level is its own, if it is an end.
 _WINDOW, _WINDOW_N = 0.15, 60.0
 # Share of frames on one side of a level that is an end; share of the range in which an empty plate drifts.

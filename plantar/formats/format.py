@@ -9,8 +9,6 @@ from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import RATES, PressureRecording
 from plantar.sides import SIDES, Side
 
-__all__ = ["Format", "ReadOptions"]
-
 
 @dataclass(frozen=True)
 class ReadOptions:

@@ -14,8 +14,6 @@ from plantar.formats.plausibility import checked
 from plantar.formats.table_columns import recording_of_columns
 from plantar.recordings.pressure_recording import PressureRecording
 
-__all__ = ["recording_of"]
-
 
 def recording_of(given: Any, format: str | None = None, options: ReadOptions | None = None) -> PressureRecording:
     """Returns recording from any form.

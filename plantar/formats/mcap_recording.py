@@ -14,8 +14,6 @@ from plantar.recordings.pressure_recording import FootRecording, PressureRecordi
 from plantar.recordings.recording import Recording, Table, read_mcap
 from plantar.sides import SIDES, Side
 
-__all__ = ["FORMAT"]
-
 
 def _recognises(head: bytes) -> bool:
     return head.startswith(MCAP_MAGIC)

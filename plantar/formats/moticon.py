@@ -22,8 +22,6 @@ from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
 from plantar.sides import SIDES, Side
 
-__all__ = ["FORMAT"]
-
 _CHANNEL = re.compile(r"(left|right)\s+(.*?)\s*(?:\[(.*)\])?\s*$", re.IGNORECASE)
 _USUAL_UNIT = "N/cm2"
 _LARGEST_HEADER, _MOST_CHANNELS, _LONGEST_NAME = 1000, 10_000, 200

@@ -12,18 +12,6 @@ from plantar.geometry.polygon import area, centroid
 from plantar.layouts.cell_layout import edge_neighbours, shared_vertices
 from plantar.layouts.layout import DEFAULT_RANGES, Side, SoleLayout, mirrored
 
-__all__ = [
-    "CELL_AREAS",
-    "DEFAULT_SIZE",
-    "MOTICON_LENGTH",
-    "MOTICON_WIDTH",
-    "ROWS",
-    "WIDE_ROWS",
-    "insole_outline",
-    "moticon_insole",
-    "nominal_insole",
-]
-
 ROWS: tuple[int, ...] = (5, *(7,) * 12, 6, 4)
 """Cells in each row of a regular insole, heel to toe; in a row they are counted from the medial to the lateral edge."""
 

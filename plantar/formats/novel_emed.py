@@ -22,8 +22,6 @@ from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import MOST_VALUES
 from plantar.recordings.pressure_recording import PressureRecording, possible_rate
 
-__all__ = ["FORMAT"]
-
 _LARGEST = 1024
 _MOST_PAGES, _MOST_EMPTY = 200_000, 1000
 # Values of all frames' whole matrices that any file may mean, and for each of its bytes; usual is one a byte.

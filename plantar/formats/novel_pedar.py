@@ -26,9 +26,6 @@ from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, possible_rate, sampling
 from plantar.sides import Side
 
-__all__ = ["FORMAT"]
-
-
 _COLUMNS = re.compile(r"\s*\"?time\s*\[\s*s(?:ecs?)?\s*\]\"?", re.IGNORECASE)
 _NUMBER = r"[-+]?\d+(?:[.,]\d*)?(?:[eE][-+]?\d+)?"
 _LABELS = re.compile(r"\s*(?:M[VP]P|x\[|y\[|area|electrical|mechanical|corner|time)", re.IGNORECASE)

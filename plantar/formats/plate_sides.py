@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from plantar.recordings.pressure_recording import StatedEvents, true_runs
 from plantar.sides import SIDES, Side, other_side
 
-__all__ = ["LEAST", "Plate", "PlateContact", "plate_contacts", "sides_of_contacts"]
-
 LEAST = 20.0
 """Vertical force in N from which a plate counts as stepped on, and has a centre of pressure."""
 

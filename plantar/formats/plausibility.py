@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 from plantar.recordings.frame_table import blocks_of_frames, column_maxima, let_go, room
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, true_runs
 
-__all__ = ["checked", "doubts", "without_marks"]
-
 _FORCE = (15.0, 6000.0)
 _PRESSURE = (5e3, 3e6)
 _CELL = (1e-6, 4e-3)

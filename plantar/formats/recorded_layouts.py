@@ -12,8 +12,6 @@ from plantar.geometry.polygon import area, centroid, convex_hull
 from plantar.layouts.cell_layout import edge_neighbours, shared_vertices
 from plantar.layouts.layout import DEFAULT_RANGES, Side, SoleLayout
 
-__all__ = ["cells_by_id", "corner_table", "grid_cells", "layout_of_corners", "polygon_layout", "subset"]
-
 
 def grid_cells(
     present: NDArray[np.bool_], row_pitch: float, column_pitch: float, *, side: Side, name: str, threshold: float

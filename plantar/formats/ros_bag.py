@@ -25,8 +25,6 @@ from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
 from plantar.sides import SIDES
 
-__all__ = ["FORMAT", "read_bag", "series_of_bag"]
-
 _LEAST_CELLS, _MOST_CELLS = 3, 20_000  # Numbers in an array that may be a sole: a picture has more
 _DEPTH = 3
 _FOLDERS = "metadata.yaml"

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from plantar.errors import FormatError, InputError
 from plantar.sides import SIDES, Side, other_side
 
-__all__ = ["is_side_column", "number_of_side", "on_one_time", "rows_of_sides", "side_of", "sides_of_plates"]
-
 _MARKS: dict[Side, re.Pattern[str]] = {
     "left": re.compile(r"left|links|gauche|izquierd|(?:(?<=[\W_\d])|^)(?:l|lf|lt)(?=[\W_\d]|$)", re.IGNORECASE),
     "right": re.compile(r"right|rechts|droit|derech|(?:(?<=[\W_\d])|^)(?:r|rf|rt)(?=[\W_\d]|$)", re.IGNORECASE),

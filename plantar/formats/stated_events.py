@@ -18,8 +18,6 @@ from plantar.formats.text import number
 from plantar.recordings.pressure_recording import StatedEvents
 from plantar.sides import SIDES, Side
 
-__all__ = ["read_events"]
-
 _MOST = 50e6  # bytes that a report may unpack to
 _MOST_SHEETS, _MOST_ROWS = 200, 100_000
 _SHEET = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"

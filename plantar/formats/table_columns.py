@@ -20,8 +20,6 @@ from plantar.formats.units import find_unit, plain
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, possible_rate, sampling
 from plantar.sides import SIDES, Side
 
-__all__ = ["recording_of_columns"]
-
 _USUAL_RATE = 100.0
 _MOST_NAMED = 10  # Columns that are left out by name in the warnings; of more their number is given
 _SUMS = 0.02  # How near a column is to the sum of others, relative to its largest value, where it is their total

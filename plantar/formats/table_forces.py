@@ -16,8 +16,6 @@ from plantar.gravity import GRAVITY
 from plantar.recordings.pressure_recording import FootRecording
 from plantar.sides import SIDES, Side
 
-__all__ = ["feet_of_forces", "is_force_table"]
-
 _Key = tuple[Side | None, int | None]
 # The two horizontal axes, right-handed with each vertical one.
 _UPRIGHT = {"z": ("x", "y"), "y": ("z", "x"), "x": ("y", "z")}

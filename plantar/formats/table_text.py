@@ -11,18 +11,6 @@ from plantar.formats.side import side_of
 from plantar.formats.text import number
 from plantar.formats.units import FORCES, LENGTHS, MOMENTS, PASCALS, plain
 
-__all__ = [
-    "CountedSeconds",
-    "TableHead",
-    "has_quoted_commas",
-    "head_of_table",
-    "names_of_row",
-    "seconds_of_time",
-    "time_unit",
-    "with_column",
-    "without_quotes",
-]
-
 _ROWS = 10  # Rows of numbers in a row from which a table begins, where there are so many
 _LONGEST_NAME = 200
 _UNITS = {

@@ -35,8 +35,6 @@ from plantar.recordings.pressure_recording import (
     sampling,
 )
 
-__all__ = ["FORMAT"]
-
 _KEY = re.compile(r"\s*\"?([A-Z][A-Z0-9_]+)\"?[\s,;:]*(.*)$")
 _FRAME = re.compile(r"\s*\"?frame\s*[,;:]?\s*(\d+)", re.IGNORECASE)
 # The sign of a place without a cell where it is a part of something else.

@@ -16,20 +16,6 @@ from plantar.kernels import is_compiled
 from plantar.kernels.formats import decimals
 from plantar.recordings.frame_table import FrameTable
 
-__all__ = [
-    "blocks_of_lines",
-    "cells_of_row",
-    "frames_of_lines",
-    "head_text",
-    "number",
-    "number_in",
-    "number_rows",
-    "open_text",
-    "row_of_numbers",
-    "seconds_of_clock",
-    "table_of_lines",
-]
-
 _LONGEST_LINE, _CHUNK = 1_000_000, 1 << 17
 _BLOCK, _BLOCK_VALUES, _FIRST = 2048, 4_000_000, 32
 _ZEROS = 0.01  # Share of zeros that damage may put into a text

@@ -4,8 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-__all__ = ["FORCES", "LENGTHS", "MOMENTS", "PASCALS", "RAW", "Unit", "find_unit", "plain"]
-
 _POUND, _KILOGRAM = 4.4482216152605, 9.80665  # N
 _PSI = 6894.757293168  # Pa
 

@@ -32,8 +32,6 @@ from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
 from plantar.sides import SIDES
 
-__all__ = ["FORMAT"]
-
 _USUAL_SIZE, _USUAL_RATE = 0.0086, 100.0
 _LARGEST = 100_000  # Most cells of a matrix, and rows and columns that are believed
 _MOST_SENSORS, _MOST_FACTS, _MOST_EMPTY, _LONGEST_NAME = 100, 1000, 1000, 200

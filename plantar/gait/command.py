@@ -20,8 +20,6 @@ from plantar.sensing.link_skin import SkinReading
 from plantar.sensing.reading import Reading
 from plantar.sides import Side
 
-__all__ = ["Command", "FootTarget", "JointTargets", "Motors", "Sensors"]
-
 _NOTHING = read_only(np.zeros(2))
 
 

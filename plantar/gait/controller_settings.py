@@ -40,8 +40,6 @@ from plantar.sensing.net_wrench import NetWrenchRules
 from plantar.settings.schema import Settings, choice, fixed, number, share, switch
 from plantar.sides import Side
 
-__all__ = ["ControllerSettings"]
-
 
 class ControllerSettings(Settings):
     """Settings of a walk: numbers, and parts under their tables' names.

@@ -12,14 +12,6 @@ from plantar.settings.part import Part
 from plantar.settings.schema import Setting
 from plantar.settings.unknown_keys import refuse_unknown_keys
 
-__all__ = [
-    "CONTROLLER_TABLES",
-    "OPTIONAL_PARTS",
-    "check_controller_table",
-    "controller_keys",
-    "controller_settings_described",
-]
-
 
 def _parts() -> tuple[dict[str, tuple[type[Part], ...]], frozenset[str]]:
     """Classes of each table, and which can be None, by `ControllerSettings` field types."""

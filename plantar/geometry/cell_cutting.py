@@ -10,8 +10,6 @@ from plantar.arrays import array
 from plantar.kernels.geometry.cut_cells import cut_cells
 from plantar.layouts.layout import SoleLayout
 
-__all__ = ["CellCutter", "half_planes"]
-
 
 def half_planes(lines: ArrayLike, name: str = "lines") -> NDArray[np.float64]:
     """Returns half-planes (m, 3) n . x <= h of a caller's `lines`, not copied if float64; an empty list is none.

@@ -10,8 +10,6 @@ from plantar.kernels import is_compiled
 from plantar.kernels.geometry.shapes import ConvexShapes
 from plantar.plane_points import plane_points
 
-__all__ = ["bounding_box", "convex_shapes", "enclosing_parallelogram", "oriented_box"]
-
 
 def bounding_box(points: ArrayLike) -> NDArray[np.float64]:
     """Corners (4, 2) in m of the axis-aligned box of points (k, 2), from the lower left one; (0, 2) without points (T

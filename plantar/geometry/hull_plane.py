@@ -5,8 +5,6 @@ from numpy.typing import NDArray
 
 from plantar.optional_library import optional_library
 
-__all__ = ["hull_plane"]
-
 
 def hull_plane(
     points: NDArray[np.float64], highest: float, same: float, faces: int

@@ -18,20 +18,6 @@ from plantar.geometry.enclosing import bounding_box, convex_shapes
 from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import convex_ring
 
-__all__ = [
-    "BoundedRectangle",
-    "Circle",
-    "inscribed_circle",
-    "inscribed_parallelogram",
-    "inscribed_rectangle",
-    "inscribed_rectangle_any_angle",
-    "inscribed_triangle",
-    "rectangle_in_outline",
-    "rectangle_in_outline_any_angle",
-    "safe_rectangle",
-]
-
-
 _QUARTER = 0.5 * math.pi
 _FIRST = 32  # intervals of a quarter turn that a scan begins with
 _LOOKS = 300  # angles that a scan measures

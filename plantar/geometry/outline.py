@@ -20,8 +20,6 @@ from plantar.layouts.taxel_values import taxel_mask
 from plantar.lazy import lazy
 from plantar.plane_points import plane_points
 
-__all__ = ["Outline", "concave_outline"]
-
 _BOOL = np.dtype(np.bool_)
 
 

@@ -17,17 +17,6 @@ from plantar.kernels.geometry.clean import clean_ring, extent, turning
 from plantar.kernels.geometry.cut_cells import part_below
 from plantar.plane_points import plane_point, plane_points
 
-__all__ = [
-    "area",
-    "centroid",
-    "closest_point",
-    "convex_hull",
-    "convex_ring",
-    "inner_offset",
-    "part_inside",
-    "signed_margin",
-]
-
 _DENT = 1e-6  # of its hull: a polygon that lacks less than this is convex
 _NOISE = 1e-15  # of a polygon's extent: corners that a cut leaves nearer to each other are one
 

@@ -12,8 +12,6 @@ from plantar.errors import InputError, LayoutError
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.plane_points import plane_points
 
-__all__ = ["checked_ring", "edge_neighbours", "joined_layout", "layout_of_cells", "shared_vertices"]
-
 _GRID = 1e-6  # of the smallest cell's side
 _OVERLAP = 1e-3  # Share of the smaller cell that two cells may overlap by: rounding, not a fault
 

@@ -11,8 +11,6 @@ from plantar.arrays import array, is_finite, numbers
 from plantar.errors import InputError, LayoutError
 from plantar.layouts.layout import SoleLayout
 
-__all__ = ["Surface", "laid_over", "rotations_to_normals"]
-
 Surface = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
 """Height z (...) of the sole's outer face in m over positions x (...) and y (...) in m, in the sole frame."""
 

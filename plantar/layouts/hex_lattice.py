@@ -19,8 +19,6 @@ from plantar.arrays import array, integers
 from plantar.errors import InputError
 from plantar.plane_points import plane_point
 
-__all__ = ["HexLattice", "hexagon_side"]
-
 _WIDEST = 3000  # sides: 14 million cells
 _FARTHEST = 10**9  # cells from the origin: their keys fit 64 bits, their positions have digits left
 

@@ -16,9 +16,6 @@ from plantar.errors import LayoutError
 from plantar.files.structured_text import read_json
 from plantar.layouts.layout import Side, SoleLayout
 
-__all__ = ["SCHEMA", "check_cells", "layout_from_dict", "layout_to_dict", "read_layout", "write_layout"]
-
-
 SCHEMA = "plantar.layout/1"
 """Schema name and version that a layout file states."""
 

@@ -8,8 +8,6 @@ from plantar.arrays import is_finite, mask, numbers
 from plantar.errors import PlantarError, ReadingError
 from plantar.layouts.layout import SoleLayout
 
-__all__ = ["taxel_frames", "taxel_mask", "taxel_values", "without_dead"]
-
 _FLOAT, _BOOL = np.dtype(np.float64), np.dtype(np.bool_)
 
 

@@ -15,8 +15,6 @@ from plantar.layouts.hex_lattice import HexLattice
 from plantar.layouts.layout import LARGEST_COORDINATE, Side, SoleLayout
 from plantar.plane_points import plane_point
 
-__all__ = ["MOST_TAXELS", "grid_layout", "hex_layout"]
-
 MOST_TAXELS = 100_000
 """Most taxels that a lattice lays out; the papers' soles have 42 and 51."""
 

@@ -15,8 +15,6 @@ from plantar.recordings.pressure_recording import layout_for
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side
 
-__all__ = ["SOURCE"]
-
 _LONGEST = 1 << 20  # bytes of a line: 50,000 taxels
 
 

@@ -15,8 +15,6 @@ from plantar.recordings.recorder import Recorder
 from plantar.sensing.reading import Reading
 from plantar.sides import Side
 
-__all__ = ["record"]
-
 _SHOWN = 0.2  # s of the source's time between two lines of what comes
 
 

@@ -11,8 +11,6 @@ from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sensing.reading import Reading
 from plantar.sides import Side
 
-__all__ = ["SOURCE"]
-
 
 def _open(address: str, layout: SoleLayout | None) -> LiveStream:
     if not address:

@@ -13,8 +13,6 @@ from plantar.layouts.layout import SoleLayout
 from plantar.sensing.reading import Reading
 from plantar.sides import Side
 
-__all__ = ["LiveSource", "LiveStream", "live_sources", "open_live"]
-
 
 class LiveStream(NamedTuple):
     """Readings as they come.

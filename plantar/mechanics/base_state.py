@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 from plantar.record import Record
 
-__all__ = ["BaseState"]
-
 
 class BaseState(Record, frozen=True):
     """Estimated state, world frame; contacts by name, a biped's feet "left" and "right".

@@ -10,8 +10,6 @@ from plantar.lazy import lazy
 from plantar.mechanics.wrench import wrench_in_frame
 from plantar.mechanics.wrench_cone import Rectangle
 
-__all__ = ["Contact", "Contacts"]
-
 
 @dataclass(frozen=True)
 class Contact:

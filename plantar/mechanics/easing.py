@@ -1,7 +1,5 @@
 """Smooth transitions from 0 to 1."""
 
-__all__ = ["minimum_jerk"]
-
 
 def minimum_jerk(phase: float) -> tuple[float, float]:
     """Minimum-jerk blend 10 s^3 - 15 s^4 + 6 s^5 and its rate at phase s, held at 0 and 1 outside."""

@@ -15,8 +15,6 @@ from plantar.arguments import positive
 from plantar.arrays import array
 from plantar.gravity import GRAVITY
 
-__all__ = ["external_acceleration", "vrp_offset"]
-
 
 def vrp_offset(wrench: ArrayLike, mass: float, omega: float, virtual_mass: float = 1.0) -> NDArray[np.float64]:
     """Offset u_w = u_F + u_tau (..., 2) in m of the VRP by a wrench on the body: u = u_ref - u_w (K 9-11 corrected).

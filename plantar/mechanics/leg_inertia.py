@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from plantar.record import Record
 
-__all__ = ["LegInertia"]
-
 
 class LegInertia(Record, frozen=True):
     """A leg's inertia, 0 where it is not counted.

@@ -11,17 +11,6 @@ from numpy.typing import NDArray
 from plantar.kernels.base.vectors import matrix, vector
 from plantar.kernels.mechanics import rotations
 
-__all__ = [
-    "heading",
-    "level_rotation",
-    "orthonormalised",
-    "rotation_error",
-    "rotation_from_angles",
-    "rotation_from_vector",
-    "sine_vector",
-    "vector_from_rotation",
-]
-
 _THREE_HALVES = 1.5 * np.eye(3)
 # Cosine below which the axis is taken from the rotation's symmetric part: its antisymmetric part vanishes there
 _NEAR_HALF_TURN = -0.9

@@ -1,6 +1,4 @@
 """Tolerance of times."""
 
-__all__ = ["SAME_TIME"]
-
 SAME_TIME = 1e-9
 """Times in s that are nearer to each other than this are one: sums of periods differ in their last bits."""

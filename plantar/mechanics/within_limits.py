@@ -7,8 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import null_space
 
-__all__ = ["Box", "nearest_within"]
-
 _KEPT = 1e-9  # share of a limit's row by which it may be missed
 _ROUNDS = 4  # of limits that are found to act only once others do
 _LEAST = 1e-6  # weight of motion that a level does not care for, while its limits are looked for

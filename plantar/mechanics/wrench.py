@@ -5,8 +5,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from plantar.arrays import array
 
-__all__ = ["wrench_at", "wrench_in_frame"]
-
 
 def wrench_at(wrench: ArrayLike, point: ArrayLike) -> NDArray[np.float64]:
     """Same wrench (..., 6) about another point: tau_p = tau_o - p x f.

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from plantar.arguments import positive
 from plantar.errors import InputError
 
-__all__ = ["Rectangle", "cone_rows", "wrench_cone"]
-
 
 class Rectangle(NamedTuple):
     """Axis-aligned rectangle in contact frame: rear, front, right and left edge, signed coordinates in m."""

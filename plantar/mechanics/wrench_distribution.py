@@ -29,8 +29,6 @@ from plantar.mechanics.wrench_cone import Rectangle, cone_rows
 from plantar.mechanics.zmp import zmp_in_plane
 from plantar.record import Record
 
-__all__ = ["DistributionState", "DistributionWeights", "Program", "WrenchDistribution", "WrenchShare"]
-
 _ROWS = 17  # of one contact: 16 facets of the cone and the least normal force
 _RIDGE = 1e-8  # on wrenches while the violations alone are minimised
 _TRACKED = 0.005  # of the body weight (or times the unit of length): a net wrench nearer than this is tracked

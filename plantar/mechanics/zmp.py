@@ -14,8 +14,6 @@ from plantar.arrays import array
 from plantar.errors import InputError
 from plantar.plane_points import plane_point
 
-__all__ = ["centroidal_moment_pivot", "zero_moment_wrench", "zmp_in_plane", "zmp_of_feet"]
-
 
 def zmp_in_plane(wrench: ArrayLike, height: float = 0.0, minimum_force: float = 0.0) -> NDArray[np.float64] | None:
     """Zero moment point in a plane z = height (T 4.5-4.6): p = [(h fx - ty) / fz, (h fy + tx) / fz].

@@ -21,8 +21,6 @@ from plantar.percepts.percept import Percept
 from plantar.percepts.sole_pose import SolePose
 from plantar.sensing.reading import Reading
 
-__all__ = ["BoundSkin", "SkinReading"]
-
 _LIFT = 0.02  # m inside the body at which proximity rays begin
 _MOST_DATA = 64  # whose contacts it keeps in view, and so in memory, unless more are read at once
 

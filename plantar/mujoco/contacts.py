@@ -8,8 +8,6 @@ import numpy as np
 
 from plantar.kernels.contacts.foot_contacts import ContactList, FootContacts, gather_feet
 
-__all__ = ["REACH", "ContactReader"]
-
 REACH = 5e-4
 """Largest gap in m between sole and ground that still counts as contact: what the rubber sole of H1 gives."""
 

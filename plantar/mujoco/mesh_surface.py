@@ -5,8 +5,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["mesh_surface"]
-
 
 def mesh_surface(model: Any, mesh: int) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Returns corners (v, 3) in m, in their geoms' frame, and corner numbers (f, 3) of the faces of a `model`'s `mesh`

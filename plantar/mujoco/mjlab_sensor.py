@@ -29,8 +29,6 @@ except ImportError as problem:
 
     _Sensor = SensorCfg = _Missing
 
-__all__ = ["SkinSensor", "SkinSensorCfg"]
-
 
 @dataclass
 class SkinSensorCfg(SensorCfg):

@@ -7,8 +7,6 @@ import mujoco
 
 from plantar.errors import RobotError
 
-__all__ = ["named_id"]
-
 
 def named_id(model: Any, kind: str, name: str) -> int:
     """Returns the id of a `name` of `kind` "body", "geom" or "site" in a `model`; RobotError if missing."""

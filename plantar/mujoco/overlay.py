@@ -10,8 +10,6 @@ from plantar.arguments import number
 from plantar.mujoco.bound_skin import BoundSkin
 from plantar.percepts.percept import Percept
 
-__all__ = ["draw_skin"]
-
 _LIFT = 0.001  # m below the sole, where the ground does not hide it
 _UNLOADED, _LOADED = np.array([0.55, 0.6, 0.65, 0.5]), np.array([0.9, 0.15, 0.1, 0.9])
 _EDGE, _COP = np.array([0.1, 0.35, 0.9, 1.0]), np.array([1.0, 0.85, 0.1, 1.0])

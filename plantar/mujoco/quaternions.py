@@ -4,8 +4,6 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["quaternion_of", "rotation_of"]
-
 
 def rotation_of(quaternion: ArrayLike) -> NDArray[np.float64]:
     """Returns the rotation (3, 3) of a `quaternion` (4,)."""

@@ -22,8 +22,6 @@ from plantar.mujoco.quaternions import quaternion_of
 from plantar.mujoco.sole_shape import SoleShape, rigid_geoms, sole_shape
 from plantar.sides import other_side
 
-__all__ = ["Skin"]
-
 _CELL_AREA = 691e-6  # m^2, of the papers' soles
 _CELLS = 30  # at least so many of a sole that is fitted
 _RIM = 0.005  # m: a shoe's sole may be so much wider than the shapes that collide

@@ -11,8 +11,6 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.errors import RobotError
 from plantar.mujoco.mesh_surface import mesh_surface
 
-__all__ = ["SoleShape", "rigid_geoms", "sole_shape"]
-
 _DEPTH = 0.01  # m above the lowest point: what of a round sole a load brings to the ground
 _TILT = math.cos(math.radians(35.0))  # a face that is turned farther from down is no sole
 _LEAST_FACE = 0.3  # of the sole's outline: a smaller face is a facet of something round

@@ -20,8 +20,6 @@ _func, _kernel, _struct = 3 * (_as_it_is,) if wp is None else (wp.func, wp.kerne
 if wp is not None:
     wp.set_module_options({"enable_backward": False})  # half of the time to compile
 
-__all__ = ["Contacts", "Sole", "Work", "gather", "press"]
-
 
 @_struct
 class Sole:

@@ -13,8 +13,6 @@ from plantar.mujoco import warp_kernels
 from plantar.mujoco.bound_skin import BoundSkin
 from plantar.optional_library import need_libraries
 
-__all__ = ["WarpSkin"]
-
 _CONTACTS = 32
 
 

@@ -10,23 +10,6 @@ from importlib.resources import files
 from pathlib import Path
 from typing import NamedTuple
 
-__all__ = [
-    "Section",
-    "embedded",
-    "figure",
-    "figures_of",
-    "group_row",
-    "number",
-    "page",
-    "row",
-    "scaled",
-    "table",
-    "titled",
-    "warning_list",
-    "with_policy",
-]
-
-
 _WIDE = 1000  # Width in pixels from which a telephone scrolls a figure sideways: fitted, it would be too small to read
 
 

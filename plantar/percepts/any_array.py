@@ -13,8 +13,6 @@ from plantar.arguments import instance, number
 from plantar.errors import ReadingError
 from plantar.layouts.layout import SoleLayout
 
-__all__ = ["ArrayLoads", "active", "loads"]
-
 
 class ArrayLoads(NamedTuple):
     """Sums of forces; "..." are dimensions before taxels.

@@ -15,8 +15,6 @@ from plantar.mechanics.zmp import zmp_in_plane
 from plantar.percepts.percept import Percept
 from plantar.percepts.sole_pose import SolePose, feet_support_polygon, wrench_of_feet
 
-__all__ = ["FeetPercept"]
-
 
 class FeetPercept:
     """Percepts of the soles with their poses.

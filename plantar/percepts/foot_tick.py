@@ -11,8 +11,6 @@ from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_values
 from plantar.plane_points import plane_point
 
-__all__ = ["FootTick", "walking_tick"]
-
 _FLOAT = np.dtype(np.float64)
 
 

@@ -26,8 +26,6 @@ from plantar.sensing.force import scaled_by_area
 from plantar.sensing.health import TaxelHealth, fill_from_neighbours
 from plantar.sensing.reading import Reading
 
-__all__ = ["Percept"]
-
 
 @constructed_by_kernel
 class Percept(ShapeMembers, VirtualMembers, PerceptFields):

@@ -6,8 +6,6 @@ from plantar.arguments import number, positive
 from plantar.errors import InputError
 from plantar.sensing.proximity import contour_levels
 
-__all__ = ["CONTOUR_HEIGHTS", "PROXIMITY_GAIN", "PerceptOptions"]
-
 PROXIMITY_GAIN = 50.0
 """Repulsion k_p of a taxel in N/m (T 4.26): 42 taxels with a range of 50 mm push with up to 105 N."""
 

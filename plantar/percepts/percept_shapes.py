@@ -14,8 +14,6 @@ from plantar.geometry.outline import Outline, concave_outline
 from plantar.layouts.layout import SoleLayout
 from plantar.lazy import lazy
 
-__all__ = ["ShapeMembers"]
-
 
 class ShapeMembers:
     """Shapes of the contact in sole frame in m: counter-clockwise corners, none (0, 2) without."""

@@ -13,8 +13,6 @@ from plantar.sensing import virtual_wrench as _virtual
 from plantar.sensing.proximity import HeightContour
 from plantar.sensing.reading import Reading
 
-__all__ = ["VirtualMembers"]
-
 
 class VirtualMembers:
     """Members of a `Percept` other than forces; None without the modality."""

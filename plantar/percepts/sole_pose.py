@@ -18,8 +18,6 @@ from plantar.lazy import lazy
 from plantar.mechanics.rotation import level_rotation
 from plantar.plane_points import plane_points
 
-__all__ = ["SolePose", "feet_support_polygon", "polygon_in_world", "wrench_of_feet"]
-
 
 @dataclass(frozen=True, eq=False)
 class SolePose:

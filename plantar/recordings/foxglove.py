@@ -15,28 +15,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = [
-    "LEVELS",
-    "SCHEMAS",
-    "Message",
-    "Template",
-    "arrow",
-    "cube",
-    "cylinder",
-    "delete_all",
-    "descriptor",
-    "entity",
-    "frame_transform",
-    "line_loop",
-    "log_message",
-    "message_of",
-    "pose",
-    "slot",
-    "sphere",
-    "triangles",
-    "words",
-]
-
 SCHEMAS = ("foxglove.FrameTransforms", "foxglove.SceneUpdate", "foxglove.Log")
 """The schemas whose messages are written."""
 

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 
-__all__ = ["LARGE", "MOST_VALUES", "FrameTable", "blocks_of_frames", "column_maxima", "let_go", "room", "scale_frames"]
-
 LARGE = 100_000_000
 """Bytes from which a table is kept in a file: smaller ones are quicker in memory."""
 

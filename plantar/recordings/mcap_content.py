@@ -21,8 +21,6 @@ from plantar.layouts.layout_file import layout_from_dict
 from plantar.recordings.foxglove import SCHEMAS
 from plantar.recordings.frame_table import FrameTable
 
-__all__ = ["MCAP_MAGIC", "McapContent", "Sink", "message_values"]
-
 Sink = Callable[[float, bytes, list[tuple[str, int]] | None], None]
 """Receives a message's time in s, its encoding, and names and widths of its fields where all are float64."""
 

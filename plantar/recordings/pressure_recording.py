@@ -13,18 +13,6 @@ from plantar.errors import FormatError
 from plantar.layouts.layout import Side, SoleLayout, mirrored
 from plantar.recordings.frame_table import blocks_of_frames, let_go, room
 
-__all__ = [
-    "RATES",
-    "FootRecording",
-    "Kind",
-    "PressureRecording",
-    "StatedEvents",
-    "layout_for",
-    "possible_rate",
-    "sampling",
-    "true_runs",
-]
-
 RATES = (0.1, 1e5)
 """Lowest and highest rate in frames a second that is believed."""
 

@@ -26,8 +26,6 @@ from plantar.layouts.layout_file import layout_to_dict
 from plantar.recordings.foxglove import SCHEMAS, Template, descriptor
 from plantar.recordings.mcap_content import MCAP_MAGIC
 
-__all__ = ["Channel", "Recorder"]
-
 _INDEX_ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])
 _MESSAGE, _CHUNK, _MESSAGE_INDEX = 0x05, 0x06, 0x07
 _CHUNK_HEAD = struct.Struct("<BQQQQII4sQ")  # opcode, length, first and last time, size, CRC, compression, packed size

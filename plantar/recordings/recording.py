@@ -17,8 +17,6 @@ from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import layout_to_dict
 from plantar.recordings.mcap_content import MCAP_MAGIC, McapContent
 
-__all__ = ["Recording", "Table", "read_mcap", "take_mcap"]
-
 
 @dataclass(frozen=True, eq=False)
 class Table:

@@ -16,8 +16,6 @@ from plantar.errors import RobotError
 from plantar.settings.unknown_keys import refuse_unknown_keys
 from plantar.sides import SIDES, Side
 
-__all__ = ["BipedParameters", "biped_mjcf"]
-
 _JOINTS = ("hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll")
 _AXES = ("0 0 1", "1 0 0", "0 1 0", "0 1 0", "0 1 0", "1 0 0")
 _BASE_COM_Z = -0.06

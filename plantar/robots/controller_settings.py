@@ -20,8 +20,6 @@ from plantar.sensing.link_skin import BodySkin
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import Side
 
-__all__ = ["Task", "com_height_of", "controller_settings"]
-
 # Heading correction by the loaded feet in 1/s where they meet ground that is not where it is expected: they turn a
 # little as they land, which only the gyro shows. (Corrected by 2.0 a walk of 100 steps drifted 42 mm off to the
 # side.)

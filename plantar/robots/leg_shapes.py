@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from plantar.robots.robot import Robot
 from plantar.sides import SIDES, Side
 
-__all__ = ["COLLIDES", "add_leg_shapes", "keep_apart"]
-
 COLLIDES: Mapping[Side, tuple[int, int]] = {"left": (4, 8), "right": (8, 4)}
 """MuJoCo's contype and conaffinity of each leg's shapes."""
 

@@ -16,8 +16,6 @@ from plantar.robots.leg_shapes import add_leg_shapes
 from plantar.robots.robot import LegNames, Robot
 from plantar.sides import SIDES
 
-__all__ = ["forget_own_simulation", "spec_from_file"]
-
 _SHOE_HEIGHT = 0.02  # m: where the shoe's mass is taken to be above the contact face, at most
 
 

@@ -12,8 +12,6 @@ from plantar.layouts.layout import SoleLayout
 from plantar.robots.biped import BipedParameters
 from plantar.sides import Side
 
-__all__ = ["Arms", "FootShape", "LegNames", "Robot"]
-
 
 @dataclass(frozen=True)
 class LegNames:

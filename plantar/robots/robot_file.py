@@ -24,9 +24,6 @@ from plantar.robots.robot import Arms, FootShape, LegNames, Robot
 from plantar.settings.unknown_keys import refuse_unknown_keys
 from plantar.sides import SIDES, Side
 
-__all__ = ["RobotTables", "builtin_robots", "load_robot"]
-
-
 _FOLDER = Path(__file__).parent
 _LEAST_JOINTS = 4  # of a leg: hip roll and pitch, knee, ankle pitch; the ground chooses the sole's roll
 _LARGEST_ANGLE = 360.0  # degrees, of a posture

@@ -10,8 +10,6 @@ from plantar.robots.robot import Robot
 from plantar.robots.walk import Walk
 from plantar.sides import Side, other_side
 
-__all__ = ["STEPS_A_ROUND", "box_plan", "start_of_walk"]
-
 
 def start_of_walk(
     walk: Walk, robot: Robot, com_height: float, height: float = 0.0, velocities: VelocityTable | None = None

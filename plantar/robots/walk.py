@@ -15,8 +15,6 @@ from plantar.robots.robot import Robot
 from plantar.settings.body_scale import BodyScale
 from plantar.settings.schema import Settings, choice, number, share, switch, tables, whole
 
-__all__ = ["CONTROL_PERIOD", "Control", "Walk", "walk_timing"]
-
 # Beats that the phases of a step last where neither scene nor robot states them: 0.9 and 0.3 s on a leg of 0.6 m
 _SINGLE_SUPPORT, _DOUBLE_SUPPORT = 3.64, 1.21
 

@@ -9,8 +9,6 @@ from plantar.arguments import number
 from plantar.arrays import mask, numbers
 from plantar.errors import InputError, ReadingError
 
-__all__ = ["TaxelActivation", "active_taxels", "hysteresis"]
-
 
 def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.inf) -> NDArray[np.bool_]:
     """Mask (..., n) of taxels above the activation threshold (T 4.22: |f_iz| > epsilon_f).

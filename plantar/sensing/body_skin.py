@@ -12,8 +12,6 @@ from plantar.arrays import array, mask, numbers
 from plantar.errors import InputError, ReadingError
 from plantar.layouts.taxel_values import without_dead
 
-__all__ = ["active_cells", "patch_signal", "pseudo_force", "skin_wrench"]
-
 
 def active_cells(
     force: ArrayLike, proximity: ArrayLike, force_threshold: float, proximity_threshold: float

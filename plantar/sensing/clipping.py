@@ -15,8 +15,6 @@ from plantar.arguments import LARGEST, number
 from plantar.arrays import is_finite, numbers
 from plantar.errors import InputError
 
-__all__ = ["clipped_mean", "unclipped_mean"]
-
 _NEGLIGIBLE, _LOUDEST = 1e-12, 1e6  # N
 _FORCE = np.linspace(0.0, 6.0, 601)  # in sigma; above it nothing is cut off
 _MEAN = np.array(

@@ -10,8 +10,6 @@ from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_frames, taxel_values
 from plantar.sensing.activation import active_taxels
 
-__all__ = ["center_of_pressure", "ground_reaction_wrench", "joint_torque", "pressure_driven_wrench", "scaled_by_area"]
-
 
 def center_of_pressure(
     layout: SoleLayout, force: ArrayLike, threshold: float | None = None

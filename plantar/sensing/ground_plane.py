@@ -12,8 +12,6 @@ from plantar.kernels.skin.ground import GroundFit
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_values
 
-__all__ = ["GroundPlane", "checked_range", "fit_ground_plane", "ground_fit"]
-
 
 class GroundPlane(NamedTuple):
     """Ground z = -height + slope . (x, y) in sole frame.

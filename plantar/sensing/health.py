@@ -14,8 +14,6 @@ from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_frames
 from plantar.lazy import lazy
 
-__all__ = ["StuckMonitor", "TaxelHealth", "dead_taxels", "fill_from_neighbours", "saturated_taxels", "stuck_taxels"]
-
 
 @dataclass(frozen=True, eq=False)
 class TaxelHealth:

@@ -13,8 +13,6 @@ from plantar.errors import ReadingError
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.taxel_faults import WARMING, TaxelFaults, WornFaults
 
-__all__ = ["IdentifiedFaults", "identify_faults"]
-
 _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 _ROUNDS = 16  # over delay, crosstalk and hysteresis, one after the other: delay and hysteresis both come late
 _TURNS = 10  # of a golden section: a hundredth of its range

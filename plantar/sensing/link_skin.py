@@ -11,8 +11,6 @@ from plantar.arrays import array
 from plantar.errors import InputError, LayoutError
 from plantar.sensing.body_skin import skin_wrench
 
-__all__ = ["BodySkin", "LinkWrench", "SkinPatch", "SkinReading", "link_wrenches"]
-
 
 @dataclass(frozen=True)
 class SkinPatch:

@@ -17,8 +17,6 @@ from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
 from plantar.settings.part import Part
 from plantar.settings.schema import number, share
 
-__all__ = ["NetWrench", "NetWrenchRules", "net_wrench"]
-
 
 class NetWrenchRules(Part, table="push_felt", needs={"control.push_estimate": ("skin",)}):
     """What counts as a push, with force thresholds.

@@ -23,8 +23,6 @@ from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_mask, taxel_values
 from plantar.sensing.proximity import cells_polygon
 
-__all__ = ["GroundEdges", "PartialContact"]
-
 _MOST_EDGES = 4
 _WEAK = 0.4  # of the strongest neighbour's pressure: a cell with less is cut by an edge
 _RANGE = 0.38  # of a cell's size, prior spread of an edge about where the cells' corners put it

@@ -16,16 +16,6 @@ from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_mask, taxel_values
 
-__all__ = [
-    "HeightContour",
-    "cells_polygon",
-    "contour_levels",
-    "height_contours",
-    "near_taxels",
-    "preemptive_polygon",
-    "proximity_measure",
-]
-
 
 class HeightContour(NamedTuple):
     """Ground nearer to the sole than a height.

@@ -16,8 +16,6 @@ from plantar.kernels.base import vectors
 from plantar.kernels.skin.percept_fields import ReadingFields
 from plantar.record import constructed_by_kernel
 
-__all__ = ["Reading"]
-
 _TIME, _FORCE = "reading field 'time'", "reading field 'force'"
 
 

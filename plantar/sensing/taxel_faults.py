@@ -17,8 +17,6 @@ from plantar.errors import InputError, ReadingError
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.same_time import SAME_TIME
 
-__all__ = ["WARMING", "TaxelFaults", "WornFaults", "crosstalk_matrix"]
-
 WARMING = 60.0
 """Time constant in s with which a sole becomes as warm as the foot in it."""
 

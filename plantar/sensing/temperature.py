@@ -11,8 +11,6 @@ from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_frames, taxel_values
 from plantar.sensing.proximity import cells_polygon
 
-__all__ = ["temperature_footprint", "temperature_measure", "temperature_wrench", "warm_taxels"]
-
 
 def temperature_measure(temperature: ArrayLike, threshold: float, highest: float = math.inf) -> NDArray[np.float64]:
     """Excess kappa (..., n) in K over a threshold (T 3.34): 0 below and if dead, never NaN.

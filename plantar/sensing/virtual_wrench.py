@@ -13,8 +13,6 @@ from plantar.layouts.taxel_values import taxel_frames
 from plantar.sensing.activation import hysteresis
 from plantar.sensing.proximity import proximity_measure
 
-__all__ = ["SoleWrenchSwitch", "early_stop", "sole_wrenches", "virtual_ground_reaction_wrench"]
-
 _CHUNK = 1024  # Frames that are worked on at once
 
 

@@ -15,8 +15,6 @@ from typing import NamedTuple
 from plantar.errors import InputError
 from plantar.gravity import GRAVITY
 
-__all__ = ["BODY_UNITS", "REFERENCE_BODY", "BodyScale", "Quantity", "si_unit"]
-
 
 class _Symbol(NamedTuple):
     """Powers of kg, m and s in a unit's dimension, and its SI unit; "" if itself SI."""

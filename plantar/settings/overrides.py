@@ -9,8 +9,6 @@ from plantar.errors import SceneError
 from plantar.files.structured_text import parse_toml
 from plantar.settings.schema import Setting
 
-__all__ = ["owner_of", "setting_rows", "setting_text", "split_setting", "value_of"]
-
 
 def split_setting(setting: str) -> tuple[str, str]:
     """Key and text of a setting "key=value".

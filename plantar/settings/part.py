@@ -5,8 +5,6 @@ from typing import Any, ClassVar
 
 from plantar.settings.schema import Settings
 
-__all__ = ["Part"]
-
 
 class Part(Settings):
     """Settings of a part: a robot file's or scene's table.

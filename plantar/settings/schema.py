@@ -17,8 +17,6 @@ from plantar.errors import InputError, PlantarError
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale, Quantity, si_unit
 from plantar.settings.unknown_keys import refuse_unknown_keys
 
-__all__ = ["Setting", "Settings", "choice", "fixed", "number", "share", "switch", "tables", "text", "whole"]
-
 
 def number(default: float, unit: str, low: float = 0.0, high: float = math.inf, words: tuple[str, ...] = ()) -> Any:
     """Returns the dataclass field of a number from `low` to `high` in a `unit`, "1" for none, or one of `words`, such

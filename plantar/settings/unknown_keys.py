@@ -5,8 +5,6 @@ from difflib import get_close_matches
 
 from plantar.errors import InputError, PlantarError
 
-__all__ = ["refuse_unknown_keys"]
-
 
 def refuse_unknown_keys(
     given: Iterable[str], allowed: Iterable[str], where: str, error: type[PlantarError] = InputError, note: str = ""

@@ -30,8 +30,6 @@ from plantar.shoes.solid.polyhedron import Polyhedron
 from plantar.shoes.solid.retention import Retention, choose_retention
 from plantar.sides import SIDES
 
-__all__ = ["Shoe", "ShoeBuild", "build_insole", "build_shoe"]
-
 Sides = Literal["left", "right", "both"]  # which shoes to build
 
 Rim = Literal["whole", "fine"]  # cells along the edge of the face: whole ones of the lattice, or a row of smaller ones

@@ -18,8 +18,6 @@ from plantar.shoes.solid.body import insole_steps, shoe_steps
 from plantar.shoes.solid.kernel import build_solid
 from plantar.shoes.solid.retention import Retention, choose_retention
 
-__all__ = ["Coupon", "build_coupons", "write_coupons"]
-
 _FLANGE = 2.0  # mm of plate around the cell's ribs
 _SHEET = 15.0  # mm of a sheet's recess to each side of a point of its edge, and forward of it
 _BESIDE, _INWARDS, _OUTWARDS = 10.0, 16.0, 30.0  # mm of shoe next to, within and outside of what holds it

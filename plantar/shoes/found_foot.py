@@ -18,8 +18,6 @@ from plantar.shoes.papers.export import export_shoe
 from plantar.shoes.units import MM_PER_M, to_m
 from plantar.sides import SIDES
 
-__all__ = ["FoundShoes", "shoe_for_surface", "taxel_area"]
-
 TAXELS = 42  # taxels of the papers' soles, which a smaller sole has, too: what they measure depends on their number
 
 _THRESHOLD = 0.146  # of the mean load of a taxel of a standing robot: 0.15 kg of the papers' 86 kg over two soles of 42

@@ -7,8 +7,6 @@ printer replaces them: parameters `gap_press`, `gap_slide`, `gap_play` and `seat
 
 from dataclasses import dataclass
 
-__all__ = ["Material", "Process"]
-
 
 @dataclass(frozen=True)
 class Material:

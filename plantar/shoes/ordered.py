@@ -13,8 +13,6 @@ from plantar.shoes.foot.foot import Foot
 from plantar.shoes.order import ShoeOrder
 from plantar.shoes.parameters import ShoeParameters
 
-__all__ = ["build_ordered", "coupons_text", "ordered_cell", "write_ordered_coupons"]
-
 
 def build_ordered(
     foot: Foot,

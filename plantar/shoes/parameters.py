@@ -11,8 +11,6 @@ from plantar.errors import InputError
 from plantar.files.structured_text import read_json, read_toml
 from plantar.shoes.materials import MATERIALS, PROCESSES, Material, Process
 
-__all__ = ["ShoeParameters", "check_dimensions", "checked", "choice", "length", "number", "read_parameters", "text"]
-
 
 def length(default: float, low: float, high: float, meaning: str) -> Any:
     """Gives dataclass field for a length in mm: default, low and high limits, meaning."""

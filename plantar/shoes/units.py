@@ -5,8 +5,6 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["to_m", "to_mm"]
-
 MM_PER_M = 1000.0  # millimetres in a metre
 
 _Length = TypeVar("_Length", float, NDArray[np.float64])

@@ -16,8 +16,6 @@ import numpy as np
 from plantar.atomic import output_folder, parent_folder
 from plantar.sim.figures.render import FRAME_RATE
 
-__all__ = ["Progress", "Result", "Run"]
-
 Progress = Callable[[float, str], None]
 """Takes the fraction done and a text, about ten times a second."""
 

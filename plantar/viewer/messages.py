@@ -7,8 +7,6 @@ from itertools import count
 
 from plantar.recordings.foxglove import Message, Template, frame_transform, message_of, slot
 
-__all__ = ["Entity", "Shape", "deleted_all", "entities", "transform_template", "transforms"]
-
 _KINDS = ("arrow", "cube", "sphere", "cylinder", "line", "triangles", "text")
 _SCENE = "foxglove.SceneUpdate"
 

@@ -24,8 +24,6 @@ from plantar.pages.page import with_policy
 from plantar.viewer.messages import Entity, Shape
 from plantar.viewer.walk import Walk, read_walk
 
-__all__ = ["view_text", "write_page"]
-
 _MOST = 2  # walks side by side
 _NOT_MEASURED = 0xFFFF
 _FARTHEST = 1e9  # m, or s: what damaged numbers of 32 bits are limited to

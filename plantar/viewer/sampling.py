@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from plantar.viewer.messages import transform_template, transforms
 
-__all__ = ["FramePoses", "Latest"]
-
 
 class Latest:
     """Keeps for each wanted time the last value until it; else the first.

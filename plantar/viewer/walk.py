@@ -26,8 +26,6 @@ from plantar.sides import SIDES, Side
 from plantar.viewer.messages import Entity, deleted_all, entities, transforms
 from plantar.viewer.sampling import FramePoses, Latest
 
-__all__ = ["Event", "Walk", "read_walk"]
-
 _RATE = 50.0  # pictures a second, as many as "/tf" has
 _MOST = 30_000  # pictures of a walk: 10 min; a longer one is shown with fewer a second
 _CORNERS = 12  # of a support polygon

@@ -5,8 +5,6 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["RobotDynamics"]
-
 
 class RobotDynamics(Protocol):
     """Equations of motion M q'' + bias = S^T tau + J^T f, and link kinematics.

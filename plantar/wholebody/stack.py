@@ -10,9 +10,6 @@ from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.fusion.hierarchy import Fused, fuse
 from plantar.wholebody.tasks.task import Task
 
-__all__ = ["Fusion", "TaskStack"]
-
-
 Fusion = Callable[..., Fused]
 """Demands to one torque, called as `plantar.wholebody.fusion.hierarchy.fuse`."""
 

@@ -12,8 +12,6 @@ from plantar.errors import InputError
 from plantar.settings.schema import Settings, number
 from plantar.wholebody.dynamics import RobotDynamics
 
-__all__ = ["ResolverSettings", "SetPoint", "TorqueResolver"]
-
 
 class ResolverSettings(Settings):
     """The virtual robot's coupling to the real one.

@@ -8,26 +8,28 @@ import pytest
 
 import plantar
 
+from ..public_names import public_names
+
 # Recordings, files and drawing are documented where they are tested; errors are one line each.
 OTHERS = {"atomic", "errors", "partial_contact", "plotting", "pressure_recording", "recorder", "recording"}
 MODULES = sorted(m.name for m in pkgutil.iter_modules(plantar.__path__) if not m.ispkg and m.name not in OTHERS)
 
 
-def public_names():
+def public_values():
     for module in MODULES:
         loaded = importlib.import_module(f"plantar.{module}")
-        for name in getattr(loaded, "__all__", []):
+        for name in public_names(loaded):
             value = getattr(loaded, name)
             if inspect.isfunction(value) or inspect.isclass(value):
                 yield pytest.param(value, id=f"{module}.{name}")
 
 
-@pytest.mark.parametrize("value", list(public_names()))
+@pytest.mark.parametrize("value", list(public_values()))
 def test_a_public_name_has_an_example(value):
     assert ">>>" in (value.__doc__ or "")
 
 
-@pytest.mark.parametrize("value", [p for p in public_names() if inspect.isfunction(p.values[0])])
+@pytest.mark.parametrize("value", [p for p in public_values() if inspect.isfunction(p.values[0])])
 def test_a_public_function_names_arguments_results_and_errors(value):
     text = value.__doc__
     signature = inspect.signature(value)
@@ -38,7 +40,7 @@ def test_a_public_function_names_arguments_results_and_errors(value):
     assert ("Raises:\n" in text) or "raise " not in inspect.getsource(value)
 
 
-@pytest.mark.parametrize("value", [p for p in public_names() if inspect.isclass(p.values[0])])
+@pytest.mark.parametrize("value", [p for p in public_values() if inspect.isclass(p.values[0])])
 def test_a_public_class_documents_its_members(value):
     for name, member in vars(value).items():
         function = member.fget if isinstance(member, property) else getattr(member, "func", member)

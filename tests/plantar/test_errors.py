@@ -4,7 +4,10 @@ import pytest
 
 from plantar import errors
 
-ALL = [getattr(errors, name) for name in errors.__all__]
+from ..public_names import public_names
+
+NAMES = public_names(errors)
+ALL = [getattr(errors, name) for name in NAMES]
 
 
 @pytest.mark.parametrize("kind", ALL)
@@ -17,7 +20,7 @@ def test_tree_in_the_module_docstring_is_the_tree():
     parents = [(0, "Exception")]
     for line in errors.__doc__.splitlines():
         name = line.lstrip(" │├└─").split(" ")[0]
-        if name not in errors.__all__:
+        if name not in NAMES:
             continue
         depth = line.index(name)
         while parents[-1][0] >= depth:

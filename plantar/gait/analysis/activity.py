@@ -12,8 +12,6 @@ from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.recordings.pressure_recording import PressureRecording, true_runs
 from plantar.sides import Side
 
-__all__ = ["Activity", "activity_of", "progression_doubts", "sway_measures"]
-
 # Median time in s with both feet off the ground from which steps are those of a run: above what events err.
 _FLIGHT = 0.01
 # Stance in % of the stride under which one foot's steps are those of a run: walking has 58 to 65, a run below 45.

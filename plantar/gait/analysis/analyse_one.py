@@ -22,8 +22,6 @@ from plantar.gait.analysis.subject import Subject
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import read_layout
 
-__all__ = ["Progress", "analyse_one", "analyse_recording", "with_layout"]
-
 Progress = Callable[[float, str], None]
 """Called with a fraction 0..1 and what is being done."""
 

@@ -24,8 +24,6 @@ from plantar.gait.analysis.subject import Subject
 from plantar.plotting import COLOURS, new_figure
 from plantar.sides import SIDES, Side
 
-__all__ = ["compare_recordings", "difference_of"]
-
 # Measures whose difference is drawn.
 _MAIN = (
     "contact_time_s",

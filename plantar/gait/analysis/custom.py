@@ -19,8 +19,6 @@ from plantar.gait.analysis.steps.pressure_measures import region_measures
 from plantar.gait.analysis.steps.step_load import StepLoad, StepLoads
 from plantar.sides import Side
 
-__all__ = ["StepView", "custom_measures", "mask_measures"]
-
 
 @dataclass(frozen=True, eq=False)
 class StepView:

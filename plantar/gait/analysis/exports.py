@@ -23,16 +23,6 @@ from plantar.layouts.layout_file import layout_to_dict
 from plantar.optional_library import optional_library
 from plantar.sides import Side
 
-__all__ = [
-    "EXPORTS",
-    "GroundReaction",
-    "export_analysis",
-    "exporter",
-    "ground_reactions",
-    "write_external_loads",
-    "write_mot",
-]
-
 
 class GroundReaction(NamedTuple):
     """Ground reaction on one foot.

@@ -13,19 +13,6 @@ from plantar.recordings.frame_table import column_maxima, let_go
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 from plantar.sides import SIDES, Side, other_side
 
-__all__ = [
-    "SilentCells",
-    "creep_doubts",
-    "implied_weight",
-    "inward_of_toes",
-    "mirrored_doubts",
-    "scrambled_doubts",
-    "silent_cell_doubts",
-    "silent_cells",
-    "unequal_strides",
-    "weight_doubts",
-]
-
 _BESIDE = 1.7  # Usual distances between cells up to which they are neighbours: the eight around a cell of a matrix
 _CARRIES = 0.15  # Largest reading of a cell that carries load, as a share of the high ones
 # Share of a cell's neighbours that carry, and largest angle in degrees without one, where an unloaded part of a sole

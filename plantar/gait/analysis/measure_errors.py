@@ -8,8 +8,6 @@ from plantar.gait.analysis.measures import MEASURES
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.recordings.pressure_recording import PressureRecording
 
-__all__ = ["errors_of_foot"]
-
 # Standard error in s of heel strikes and toe offs by the form of the force (`benchmarks/gait_events.py`, all sets).
 _EVENTS = {"insole": (2e-3, 7e-3), "robot": (3e-3, 5e-3), "platform": (4e-3, 5e-3), "plate": (4e-3, 5e-3)}
 _FRAME = 12.0**-0.5  # Standard deviation of a place within a frame or a cell, as a share of its width

@@ -3,8 +3,6 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-__all__ = ["MEASURES", "REGION_MEASURES", "Measure", "full_title", "naming", "raw_name"]
-
 
 @dataclass(frozen=True)
 class Measure:

@@ -29,8 +29,6 @@ from plantar.gait.analysis.summary import gait_of_feet, regions_of_foot, spread,
 from plantar.layouts.layout import Side
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
-__all__ = ["metrics_of", "not_given"]
-
 
 def metrics_of(
     recording: PressureRecording, feet: Mapping[Side, FootGait], subject: Subject | None = None

@@ -6,8 +6,6 @@ from typing import Literal
 
 from plantar.errors import InputError
 
-__all__ = ["ACTIVITIES", "AnalysisOptions", "steps_of_text"]
-
 ACTIVITIES = ("walking", "running", "hopping")
 """Activities of steps that segments are of."""
 

@@ -28,8 +28,6 @@ from plantar.gait.analysis.steps.walk_geometry import Place, step_geometry
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side, other_side
 
-__all__ = ["analyse_feet", "analyse_foot"]
-
 # Time in s over which the centre of pressure is averaged, weighted by force: a path of noise has no length.
 COP_WINDOW = 0.05
 _CARRIED = 0.2  # Share of a foot's peak that shoes and creases do not press in swing

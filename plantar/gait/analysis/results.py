@@ -19,9 +19,6 @@ from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 from plantar.layouts.layout import Side
 from plantar.recordings.pressure_recording import PressureRecording
 
-__all__ = ["Analysis", "as_data_frame", "write_analysis"]
-
-
 _LONG = 500  # Steps from which metrics.json is one line
 
 

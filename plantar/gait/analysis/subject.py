@@ -11,8 +11,6 @@ from plantar.formats import formats
 from plantar.gravity import GRAVITY
 from plantar.recordings.pressure_recording import PressureRecording
 
-__all__ = ["BODY_MASSES", "FOOT_LENGTHS", "Subject", "device_of", "mass_doubts", "subject_of"]
-
 BODY_MASSES, FOOT_LENGTHS = (2.0, 400.0), (0.05, 0.45)
 """Masses in kg and lengths of a foot in m, smallest and largest, that are believed of people and robots."""
 

@@ -11,8 +11,6 @@ from plantar.gait.analysis.prints.regions import REGIONS
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.layouts.layout import Side
 
-__all__ = ["Spread", "gait_of_feet", "regions_of_foot", "spread", "summary_of_foot", "symmetry"]
-
 
 @dataclass(frozen=True)
 class Spread:

@@ -17,22 +17,6 @@ from plantar.settings.part import Part
 from plantar.settings.schema import choice, switch
 from plantar.settings.schema import number as number_setting
 
-__all__ = [
-    "MOST_GROWTH",
-    "SHORTEST_TIME",
-    "AnkleRules",
-    "AnkleVrp",
-    "Saturation",
-    "TargetDcms",
-    "double_support_pull",
-    "double_support_vrp",
-    "shrunk_support",
-    "single_support_vrp",
-    "sway_share",
-    "target_dcms",
-    "within_support",
-]
-
 SHORTEST_TIME = 1e-6
 """Time in s in which the DCM shall reach its target at least."""
 

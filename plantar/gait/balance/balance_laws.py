@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
     LawGains: TypeAlias = BalanceGains | WrenchBalanceGains
 
-__all__ = ["LAWS", "balance_gains", "balance_law"]
-
 LAWS = ("com_admittance", "wrench_distribution")
 """Names of the balance laws."""
 

@@ -16,8 +16,6 @@ from plantar.settings.part import Part
 from plantar.settings.schema import fixed, share
 from plantar.sides import Side
 
-__all__ = ["BalanceGains", "DcmBalance"]
-
 _LARGEST_OFFSET = 0.5  # leg that the CoM's reference may be off its plan: no foot reaches both from there
 _ZMP_SHARE = 0.3  # of the ZMP's error, which feet that stand give way to; all of it lets a push tip the robot over
 

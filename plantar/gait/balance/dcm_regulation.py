@@ -11,8 +11,6 @@ from plantar.gait.balance.ankle_strategy import AnkleVrp, double_support_vrp, si
 from plantar.gait.plan.phases import Phase, PhaseKind
 from plantar.gait.plan.walk_plan import PlanView
 
-__all__ = ["phase_goal", "regulated_vrp"]
-
 
 def phase_goal(plan: PlanView, phase: Phase, offset: NDArray[np.float64], omega: float) -> NDArray[np.float64] | None:
     """DCM (2,) in m at a phase's end that lets the walk rest over its next step (K 21-24).

@@ -13,8 +13,6 @@ from plantar.kernels.gait.sole_admittance import SoleAdmittance
 from plantar.settings.schema import Settings, fixed, share
 from plantar.sides import SIDES, Side
 
-__all__ = ["AdmittanceGains", "FootAdmittance"]
-
 
 class AdmittanceGains(Settings):
     """Gains of the feet's admittance.

@@ -13,8 +13,6 @@ from plantar.mechanics.contact import Contact
 from plantar.record import Record
 from plantar.sides import Side
 
-__all__ = ["BalanceLaw", "BalanceState", "Feet", "FootAction", "FootState"]
-
 
 class BalanceState(Record, frozen=True):
     """A balance law's decision, world frame.

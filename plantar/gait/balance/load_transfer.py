@@ -12,8 +12,6 @@ from plantar.kernels.gait.dcm_feedback import shared_load
 from plantar.mechanics.lip import GRAVITY
 from plantar.sides import Side
 
-__all__ = ["OpenLoop", "transferred"]
-
 
 def transferred(balanced: BalanceState, mass: float, feet: Feet) -> dict[Side, FootAction]:
     """Share the pendulum's force, m (a_x, a_y, g), between the feet.

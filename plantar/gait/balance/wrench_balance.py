@@ -25,8 +25,6 @@ from plantar.settings.part import Part
 from plantar.settings.schema import Setting, fixed, number, share
 from plantar.settings.unknown_keys import refuse_unknown_keys
 
-__all__ = ["WrenchBalance", "WrenchBalanceGains"]
-
 _NO_WRENCH = np.zeros(6)
 _LENGTH = 1 / 6  # leg: lever that makes moments as large as forces in the distribution; 0.1 m for a leg of 0.6 m
 

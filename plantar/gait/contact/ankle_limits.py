@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from plantar.geometry.polygon import area, centroid, closest_point, inner_offset, part_inside
 
-__all__ = ["AnkleLimits"]
-
 # Share of the torque limit that the weight may take; the rest is for the foot's own motion and the feedback
 _SHARE = 0.95
 

@@ -5,8 +5,6 @@ from numpy.typing import NDArray
 
 from plantar.geometry.polygon import area, centroid, closest_point, part_inside
 
-__all__ = ["borne_part", "loaded_middle"]
-
 _HALF = 0.5  # of an ankle's torque, which the other half is to balance with
 
 

@@ -12,8 +12,6 @@ from plantar.geometry.polygon import convex_hull, signed_margin
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.reading import Reading
 
-__all__ = ["ContactMemory"]
-
 
 class ContactMemory:
     """A foot's contacts over its stance.

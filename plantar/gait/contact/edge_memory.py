@@ -16,8 +16,6 @@ from numpy.typing import NDArray
 
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 
-__all__ = ["EdgeMemory"]
-
 _SPREAD = 0.012  # of a sole's length, standard deviation of an edge's place: 3 mm of a sole of 250 mm
 _TURN = 0.05  # rad, that of its direction
 _PARALLEL = 0.2  # rad within which two lines may be the same edge

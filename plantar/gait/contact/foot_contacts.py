@@ -22,9 +22,6 @@ from plantar.percepts.percept import Percept
 from plantar.percepts.sole_pose import feet_support_polygon, polygon_in_world
 from plantar.sides import SIDES, Side
 
-__all__ = ["FootContacts", "FootholdFound", "FootholdSeen", "middle_of_sole", "on_its_hull"]
-
-
 _FORGETS = 4  # steps after which a foothold that carried a part of the sole is no evidence of the ground ahead
 
 

@@ -19,9 +19,6 @@ from plantar.sensing.virtual_wrench import virtual_ground_reaction_wrench
 from plantar.settings.part import Part
 from plantar.settings.schema import choice, share
 
-__all__ = ["GroundMap", "GroundMapSettings", "GroundView"]
-
-
 _LARGEST_BIAS_STEP = 0.0025  # leg that one touch changes the bias by: more is ground that moved
 _NEAR_TOUCH = 0.025  # leg that the ground may seem away at a touch for the bias to learn from it
 _EVEN = 0.9  # share of the taxels that see ground which lies on a plane where all of it is one

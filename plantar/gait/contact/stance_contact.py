@@ -17,8 +17,6 @@ from plantar.sensing.reading import Reading
 from plantar.settings.part import Part
 from plantar.settings.schema import fixed, number, switch
 
-__all__ = ["ContactSettings", "StanceContact"]
-
 _DENIALS = 3  # times in a row that silence denies what is remembered until it is forgotten: a load that jumps does once
 _IN_SIGHT = 1.5  # times a step down, below the range's end, from where a sole's sight of the ground counts
 _BESIDE = 0.3  # of a taxel's size from where the load is, towards the side that rises: what still lies under it

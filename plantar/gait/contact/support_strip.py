@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 from plantar.layouts.layout import Side
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 
-__all__ = ["SupportStrip"]
-
 _SPREAD, _AGREEMENT = 0.024, 0.16  # of a sole's length: 6 and 40 mm of one of 250 mm
 
 

@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 from plantar.mechanics.lip import GRAVITY
 
-__all__ = ["AnkleSensor", "SoleWrench"]
-
 
 @dataclass(frozen=True)
 class SoleWrench:

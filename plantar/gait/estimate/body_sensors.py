@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from plantar.errors import InputError
 
-__all__ = ["BodySensors"]
-
 Readings: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
 
 

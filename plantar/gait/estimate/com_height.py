@@ -1,7 +1,5 @@
 """CoM height over ground that goes up and down."""
 
-__all__ = ["CoMHeight"]
-
 
 class CoMHeight:
     """Foothold height by a critically damped second-order filter.

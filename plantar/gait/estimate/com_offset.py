@@ -11,8 +11,6 @@ from plantar.mechanics.rotation import level_rotation
 from plantar.mechanics.zmp import zmp_of_feet
 from plantar.sides import SIDES, Side
 
-__all__ = ["com_offset"]
-
 
 def com_offset(
     posture: Posture,

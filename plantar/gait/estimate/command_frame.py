@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 from plantar.kernels.base.vectors import vector, vector2
 
-__all__ = ["CommandFrame"]
-
 
 class CommandFrame:
     """Offset and turn of the command frame in the world.

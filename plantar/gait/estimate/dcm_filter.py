@@ -16,8 +16,6 @@ from plantar.arrays import array
 from plantar.settings.part import Part
 from plantar.settings.schema import fixed, share
 
-__all__ = ["DcmFilter", "DcmFilterRules", "PushedPendulum"]
-
 
 class DcmFilterRules(Part, table="dcm_filter", needs={"control.dcm_estimate": ("kalman",)}):
     """Standard deviations at a tick.

@@ -30,16 +30,6 @@ from plantar.settings.part import Part
 from plantar.settings.schema import fixed, share
 from plantar.sides import SIDES
 
-__all__ = [
-    "EstimatorGains",
-    "FloatingBaseEstimator",
-    "LegKinematics",
-    "LiveKinematics",
-    "Posture",
-    "SoleLoad",
-    "live_kinematics",
-]
-
 
 class Posture(Record, frozen=True):
     """Kinematics of a joint configuration, base (torso) frame.

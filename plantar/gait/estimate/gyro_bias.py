@@ -11,9 +11,6 @@ from numpy.typing import NDArray
 from plantar.kernels.gait.gyro_bias import GyroBias as _Kernel
 from plantar.sides import Side
 
-__all__ = ["GyroBias"]
-
-
 # What a tick counts in which one foot carries, of one in which both do: in a second of single support a foot turns by
 # 0.3 mrad by chance, while in one of standing the gyro's noise of 2 mrad/s leaves 0.1 mrad
 _ONE_FOOT = 0.1

@@ -5,8 +5,6 @@ from typing import ClassVar
 from plantar.settings.part import Part
 from plantar.settings.schema import fixed, share, switch
 
-__all__ = ["IdentificationRules"]
-
 
 class IdentificationRules(Part, table="identification", needs={"control.identify": (True,)}):
     """What is identified standing and walking, and how fast.

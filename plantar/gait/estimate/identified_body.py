@@ -14,8 +14,6 @@ from plantar.gait.estimate.identification import IdentificationRules
 from plantar.gait.estimate.opening_stand import OpeningStand
 from plantar.sides import Side
 
-__all__ = ["IdentifiedBody"]
-
 _TENTHS_MOST = 2.0  # that the torso leans for: h1 then by 5 degrees, which brings its CoM 3 cm nearer to the hip
 
 _EVEN = 0.03  # share that hips carry more up to which the torso does not lean: what taxels' gains leave uncertain

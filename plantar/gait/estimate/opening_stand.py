@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from plantar.sides import SIDES, Side
 
-__all__ = ["OpeningStand", "Stood"]
-
 
 class _Sole(Protocol):
     @property

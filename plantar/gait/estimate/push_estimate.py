@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 from plantar.settings.part import Part
 from plantar.settings.schema import share
 
-__all__ = ["PushEstimate", "PushRules"]
-
 
 class PushRules(Part, table="push_estimate", needs={"control.push_estimate": ("soles", "skin")}):
     """When the disagreement is a push; walking alone leaves up to 0.117 g.

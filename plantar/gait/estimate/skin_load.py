@@ -11,8 +11,6 @@ from plantar.percepts.percept import Percept
 from plantar.sensing.clipping import unclipped_mean
 from plantar.sensing.reading import Reading
 
-__all__ = ["SkinLoad", "at_its_limit", "percept_to_its_limit"]
-
 
 def at_its_limit(reading: Reading, layout: SoleLayout) -> Reading:
     """Returns a sole's `reading` on a `layout` with saturated taxels at their largest force; without, a loaded foot

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 from plantar.sides import SIDES, Side, other_side
 
-__all__ = ["SoleSlope"]
-
 
 class SoleSlope:
     """Slope of each sole against the other's ground.

@@ -8,8 +8,6 @@ from collections.abc import Mapping
 from plantar.kernels.gait.gyro_bias import SteadyLoad as _Kernel
 from plantar.sides import Side
 
-__all__ = ["SteadyLoad"]
-
 
 class SteadyLoad:
     """Compares a foot's load with the total and its own mean.

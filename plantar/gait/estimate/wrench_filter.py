@@ -16,8 +16,6 @@ from plantar.errors import InputError
 from plantar.settings.part import Part
 from plantar.settings.schema import share
 
-__all__ = ["WrenchFilter", "WrenchFilterRules"]
-
 MOST_OFFSET = 10.0
 """Largest expected offset in m that is handed on: far beyond what any step makes up for, and small enough that no
 product of it with what a pendulum grows by overflows."""

@@ -5,8 +5,6 @@ from typing import ClassVar
 from plantar.settings.part import Part
 from plantar.settings.schema import choice, fixed, number, share
 
-__all__ = ["ComplianceGains", "TouchdownGains"]
-
 
 class ComplianceGains(Part, table="compliance", needs={"control.pfc": (True,)}):
     """How a swing foot descends to ground that its taxels see.

@@ -23,8 +23,6 @@ from plantar.settings.part import Part
 from plantar.settings.schema import number, share, switch
 from plantar.sides import SIDES, Side, other_side
 
-__all__ = ["FootMotion", "Landing", "SoleSense"]
-
 # Distances as shares of the leg:
 _RETAKE_HEIGHT = 1 / 15  # above what the foot met that a step taken once more rises at most
 _CLOSE_BY = 0.1  # before its place from which a swing turns its sole to the ground

@@ -25,8 +25,6 @@ from plantar.settings.part import Part
 from plantar.settings.schema import fixed, share
 from plantar.sides import SIDES, Side
 
-__all__ = ["ConformityGains", "FootTurn", "GroundConformity", "SoleTurn"]
-
 _ORIGIN = np.zeros(2)
 
 

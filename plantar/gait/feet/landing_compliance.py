@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 
 from plantar.settings.schema import Settings, fixed
 
-__all__ = ["DampingGains", "LandingCompliance"]
-
 
 class DampingGains(Settings):
     """Foot damping at touchdown."""

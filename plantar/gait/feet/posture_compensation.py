@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from plantar.kernels.gait.lean_correction import correct
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 
-__all__ = ["PostureCompensation"]
-
 _TIME_CONSTANT = 0.121  # beat: 0.03 s on a leg of 0.6 m
 _LARGEST_SHIFT = 0.1  # leg
 _ROUNDED = 0.4  # share of its coming, at the end, in which it slows down: an even rate that stops would jerk the foot

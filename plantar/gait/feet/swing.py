@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 from plantar.kernels.base.vectors import vector
 from plantar.mechanics.easing import minimum_jerk
 
-__all__ = ["SwingTrajectory"]
-
 _APPROACH_SHARE = 0.44  # Share of a swing, at its end, that a slow approach takes
 
 _ARRIVED_SHARE = 0.61  # Share of such a swing after which the foot moves only downwards

@@ -16,9 +16,6 @@ from plantar.mechanics.rotation import vector_from_rotation
 from plantar.percepts.percept_options import PROXIMITY_GAIN
 from plantar.sensing.virtual_wrench import SoleWrenchSwitch, early_stop, virtual_ground_reaction_wrench
 
-__all__ = ["SwingCompliance"]
-
-
 _DOUBT = 1 / 600  # leg past the ground that it sees at which a sole that has not touched goes down twice as fast
 _THERE = 1 / 300  # leg before its place from which a sole is above it
 _KEPT = 1 / 150  # leg from the ground that a sole keeps until then, and more the further it has to go

@@ -19,8 +19,6 @@ from plantar.kernels.gait.swing_fit import fit
 from plantar.record import Record
 from plantar.settings.schema import number, whole
 
-__all__ = ["SwingFit", "SwingFitRules", "SwingPoint"]
-
 _LEAST_SHARE = 1e-6  # of a swing: what is left of it at least, for a duration that has passed
 
 

@@ -17,8 +17,6 @@ from plantar.gait.feet.swing_kind import SwingKind, SwingStart
 from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.same_time import SAME_TIME
 
-__all__ = ["PolynomialSwing", "SwingFlight"]
-
 _EARLY = {"lateral_end": 0.25, "spare": 0.12}  # of a swing that should be near to the ground early
 _EARLY_LIFT = 0.28  # share of such a swing spent rising,
 _LIFT = 0.45  # and of others

@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 from plantar.record import Record
 from plantar.settings.part import Part
 
-__all__ = ["Swing", "SwingKind", "SwingStart"]
-
 
 class SwingStart(Record, frozen=True):
     """Start of a swing, command frame.

@@ -7,8 +7,6 @@ from plantar.gait.feet.swing_fit import SwingFitRules
 from plantar.gait.feet.swing_flight import PolynomialSwing
 from plantar.gait.feet.swing_kind import SwingKind
 
-__all__ = ["swing_kinds"]
-
 
 @cache
 def swing_kinds() -> dict[str, type[SwingKind]]:

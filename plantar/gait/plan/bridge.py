@@ -9,8 +9,6 @@ from plantar.gait.plan.vrp_plan import LipReference, VrpPlan
 from plantar.geometry.polygon import closest_point
 from plantar.mechanics.same_time import SAME_TIME
 
-__all__ = ["bridged"]
-
 _RAMP = 0.15  # of the bridge's time at both ends, in which the VRP moves to where it bridges and back
 
 Knots = tuple[list[float], list[NDArray[np.float64]]]

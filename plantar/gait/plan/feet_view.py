@@ -9,8 +9,6 @@ from plantar.arrays import read_only
 from plantar.record import Record
 from plantar.sides import Side
 
-__all__ = ["FeetView"]
-
 _THERE = read_only(np.zeros(2))
 
 

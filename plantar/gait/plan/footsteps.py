@@ -10,8 +10,6 @@ from plantar.errors import InputError
 from plantar.mechanics.rotation import level_rotation
 from plantar.sides import Side, other_side
 
-__all__ = ["Footstep", "straight_plan"]
-
 
 @dataclass(frozen=True)
 class Footstep:

@@ -22,8 +22,6 @@ from plantar.gait.plan.vrp_plan import LipReference, VrpPlan
 from plantar.gait.plan.walk_plan import PlanView, WalkPlan
 from plantar.mechanics.same_time import SAME_TIME
 
-__all__ = ["LegMomentum"]
-
 _AHEAD = 4  # steps that count: later ones move the CoM by micrometres
 _HELD = 0.06  # of a swing, at its start, in which the foot only rises
 _KNOTS = tuple((k / 6, 60 * (k / 6) - 180 * (k / 6) ** 2 + 120 * (k / 6) ** 3) for k in range(7))  # minimum-jerk s''

@@ -13,8 +13,6 @@ from plantar.errors import InputError
 from plantar.settings.schema import Settings, number
 from plantar.sides import Side, other_side
 
-__all__ = ["Phase", "PhaseKind", "Timing", "WalkSchedule"]
-
 
 class PhaseKind(IntEnum):
     """What the feet do."""

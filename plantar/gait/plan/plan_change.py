@@ -4,8 +4,6 @@ from dataclasses import dataclass
 
 from plantar.gait.plan.footsteps import Footstep
 
-__all__ = ["AppliedChange", "MovedStep", "PlanChange", "Point"]
-
 Point = tuple[float, float]
 """A place (x, y) in the world in m."""
 

@@ -22,8 +22,6 @@ from plantar.errors import InputError
 from plantar.kernels.mechanics.pendulum import on_segment
 from plantar.record import Record
 
-__all__ = ["LipReference", "VrpPlan"]
-
 
 class LipReference(Record, frozen=True):
     """The plan at a time, horizontal, world frame.

@@ -21,8 +21,6 @@ from plantar.gait.plan.vrp_plan import LipReference, VrpPlan
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.sides import Side, other_side
 
-__all__ = ["PlanView", "PlannedStep", "WalkPlan", "vrp_of_step"]
-
 _DELAY = 0.202  # beats by which a double support that is too short grows at a time
 _MOST_DELAY = 1.21  # beats in all
 _SHORT = 0.02  # leg of the DCM that the feedback is left to deal with

@@ -5,8 +5,6 @@ from collections.abc import Sequence
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Proposer, Tick
 
-__all__ = ["decide"]
-
 
 def decide(proposers: Sequence[Proposer], tick: Tick) -> PlanChange | None:
     """The change to apply, or None: one a tick, of the first `Priority`; among equals, of the first proposer.

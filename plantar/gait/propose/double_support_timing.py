@@ -16,8 +16,6 @@ from plantar.gait.propose.proposer import Pendulum, Priority, Tick
 from plantar.settings.part import Part
 from plantar.settings.schema import fixed, share
 
-__all__ = ["DoubleSupportTiming", "DoubleSupportTimingRules"]
-
 
 class DoubleSupportTimingRules(
     Part,

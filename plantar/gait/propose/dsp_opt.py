@@ -19,8 +19,6 @@ from plantar.gait.balance.ankle_strategy import MOST_GROWTH, SHORTEST_TIME, doub
 from plantar.settings.part import Part
 from plantar.settings.schema import number
 
-__all__ = ["DspProblem", "DspSolution", "DspWeights", "solve_dsp"]
-
 _SAMPLES = np.linspace(0.0, 1.0, 33)
 _LEVELS = 6  # each with samples 16 times as close as the one before
 _SMALL = 1e-3  # 1 - cos(w_d x) below which the closed form of the pull cancels too many digits

@@ -11,8 +11,6 @@ from plantar.gait.propose.proposer import Priority, Tick, was_applied
 from plantar.layouts.layout import SoleLayout
 from plantar.sides import Side
 
-__all__ = ["EdgeBeside"]
-
 # Share of the taxels that see nothing, of an edge: half of the row along a side. Fewer are a hole, or have failed.
 _LEAST_OVER = 0.08
 

@@ -20,8 +20,6 @@ from plantar.sensing.proximity import cells_polygon
 from plantar.settings.part import Part
 from plantar.settings.schema import choice, fixed, number, share, whole
 
-__all__ = ["FeasibilityRules", "Foothold", "FootholdProbe", "room_ahead", "way_around"]
-
 
 class FeasibilityRules(
     Part,

@@ -16,8 +16,6 @@ from plantar.gait.propose.proposer import Priority, Tick, was_applied
 from plantar.mechanics.rotation import level_rotation
 from plantar.sides import Side
 
-__all__ = ["FootholdCarries"]
-
 # Share of the sole across the walk below which the ground is narrow. The widest that counts as a strip, half a sole,
 # is seen with an error of a taxel at either edge, a fourteenth of a sole of 42 taxels.
 _NARROW = 0.75

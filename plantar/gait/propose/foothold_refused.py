@@ -22,9 +22,6 @@ from plantar.gait.propose.proposer import Priority, Tick
 from plantar.layouts.layout import SoleLayout
 from plantar.sides import Side, other_side
 
-__all__ = ["CheckedStep", "StepGuard"]
-
-
 _LASTING = 4  # control ticks for which ground has to look higher than expected
 
 

@@ -3,8 +3,6 @@
 from plantar.settings.part import Part
 from plantar.settings.schema import fixed
 
-__all__ = ["FootholdRules"]
-
 
 class FootholdRules(Part, table="foothold", needs={"control.footholds": ("force", "skin")}):
     """When unexpected footholds move the plan, and how far."""

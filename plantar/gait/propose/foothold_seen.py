@@ -6,8 +6,6 @@ from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.foothold_rules import FootholdRules
 from plantar.gait.propose.proposer import Priority, Tick
 
-__all__ = ["FootholdSeenAhead"]
-
 
 class FootholdSeenAhead:
     """Proposes the VRP over a descending foot's foothold.

@@ -16,8 +16,6 @@ from plantar.settings.part import Part
 from plantar.settings.schema import fixed, number
 from plantar.sides import Side
 
-__all__ = ["LearnedStride", "LearnedStrideRules"]
-
 
 class LearnedStrideRules(
     Part, table="learned_stride", needs={"control.step_adjustment": (True,), "control.learn_strides": (True,)}

@@ -26,8 +26,6 @@ from plantar.record import Record
 from plantar.sensing.reading import Reading
 from plantar.sides import Side
 
-__all__ = ["Pendulum", "Priority", "Proposer", "Tick", "nearest_place", "was_applied"]
-
 
 class Priority(IntEnum):
     """Rank of proposed changes, the first applied.

@@ -6,8 +6,6 @@ from plantar.settings.part import Part
 from plantar.settings.schema import number
 from plantar.sides import Side
 
-__all__ = ["SlopeInside", "SlopeRules", "inward_distance"]
-
 
 def inward_distance(side: Side, outward_rise: float, ankle_reach: float, com_height: float) -> float:
     """Returns how far in m along its y axis a foot on a slope should carry inwards.

@@ -25,16 +25,6 @@ from plantar.settings.part import Part
 from plantar.settings.schema import number, share
 from plantar.sides import Side
 
-__all__ = [
-    "SspProblem",
-    "SspSolution",
-    "StepRegionRules",
-    "StepWeights",
-    "footstep_region",
-    "solve_ssp",
-    "touching_distance",
-]
-
 
 class StepWeights(
     Part, table="step_weights", needs={"control.step_adjustment": (True,), "step_adjustment.method": ("ssp_opt",)}

@@ -32,8 +32,6 @@ from plantar.settings.part import Part
 from plantar.settings.schema import choice, fixed, number, share, switch
 from plantar.sides import Side, other_side
 
-__all__ = ["StepAdjustment", "StepAdjustmentRules"]
-
 _PEAK = 5.774  # largest acceleration of a minimum-jerk motion over its way and time: 10 / sqrt(3) way / time^2
 _COARSE, _FINE = 10, 4  # times that are tried first, and how often the best one's neighbourhood is halved
 

@@ -11,8 +11,6 @@ from plantar.gait.propose.proposer import Pendulum, Priority, Tick
 from plantar.settings.part import Part
 from plantar.settings.schema import fixed, number, share
 
-__all__ = ["StepTiming", "StepTimingRules"]
-
 
 class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (True,)}):
     """When a single support's end moves.

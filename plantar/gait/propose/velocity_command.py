@@ -26,8 +26,6 @@ from plantar.gait.propose.proposer import Priority, Tick, was_applied
 from plantar.settings.schema import Settings, number
 from plantar.sides import SIDES, Side, other_side
 
-__all__ = ["STOP", "Legs", "Stride", "Velocity", "VelocityCommand", "VelocityTable", "next_step", "table_of"]
-
 _AHEAD = 2  # steps that follow the command, before the one that closes
 
 

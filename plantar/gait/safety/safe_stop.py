@@ -7,8 +7,6 @@ from plantar.gait.command import Command
 from plantar.kernels.base.vectors import vector
 from plantar.sides import SIDES, Side
 
-__all__ = ["SafeStop"]
-
 # leg/beat at which a foot in the air is put down, and the CoM moves; thrice as fast H1 falls
 _LOWER, _SINK = 0.15, 0.03
 _DEPTH = 0.08  # leg by which a robot sits lower than it walks; legs that walk crouched by 0.05 reach it

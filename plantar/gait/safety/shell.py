@@ -20,8 +20,6 @@ from plantar.mechanics.lip import GRAVITY
 from plantar.sensing.reading import Reading
 from plantar.sides import Side, other_side
 
-__all__ = ["SafetyShell"]
-
 _STUCK = 0.12  # s for which sensors may report the very same: a train of 0.1 s is walked through
 _SLIP, _JERK = 0.02, 800.0  # rad, rad/s^2: a joint's speed changes faster only where its encoder jumps; walks reach 80
 _SILENT = 0.06  # s for which a reading that cannot be taken is bridged by the last one that could

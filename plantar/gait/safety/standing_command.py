@@ -14,8 +14,6 @@ from plantar.percepts.percept import Percept
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side
 
-__all__ = ["standing_command"]
-
 
 def standing_command(
     feet: Mapping[Side, Footstep],

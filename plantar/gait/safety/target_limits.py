@@ -9,8 +9,6 @@ from plantar.gait.command import Command, FootTarget
 from plantar.kernels.safety.plausible import farthest
 from plantar.sides import SIDES, Side
 
-__all__ = ["TargetLimits"]
-
 _FOOT, _COM = 1.1, 0.44  # leg/beat: fastest targets of a foot and of the CoM
 _TURN = 2.4  # rad/beat of a sole or the torso
 _FORCE = 4.5  # weight/beat of the force on a foot

@@ -2,8 +2,6 @@
 
 import math
 
-__all__ = ["TickClock"]
-
 _NEAR = 0.5  # periods that a tick may come early or late by and still be taken as it is
 _FOLLOWED = 0.1  # s that a clock may be off by and still be followed, slowly
 _DRAWN = 0.02  # share of an error that a tick follows

@@ -9,8 +9,6 @@ from typing import Self
 
 from plantar.errors import InputError
 
-__all__ = ["Watchdog"]
-
 
 class Watchdog:
     """Calls a function once when ticks stop, from a thread.

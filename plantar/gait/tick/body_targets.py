@@ -12,8 +12,6 @@ from plantar.gait.tick.footing import Footing
 from plantar.kernels.base.vectors import matrix, vector
 from plantar.sides import SIDES
 
-__all__ = ["BodyTargets"]
-
 _ROUND = 0.2  # of the way aside over which the lean ends
 _FOLLOWS_GROUND = 1.98  # rad/beat, natural frequency of the CoM's height over ground that goes up and down
 

@@ -27,8 +27,6 @@ from plantar.record import Record
 from plantar.sensing.net_wrench import net_wrench
 from plantar.sides import SIDES, Side
 
-__all__ = ["Estimation", "Sensed"]
-
 
 class Sensed(Record, frozen=True):
     """A reading that all parts share."""

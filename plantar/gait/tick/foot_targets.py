@@ -22,8 +22,6 @@ from plantar.mechanics.rotation import level_rotation
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.sides import SIDES, Side
 
-__all__ = ["FootTargets"]
-
 _CONTACT_OFFSET = 0.0433  # sole that a foot's centre of pressure keeps from the edge of its contact: 10 mm in T 4.4.4
 
 

@@ -37,8 +37,6 @@ from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.rotation import heading
 from plantar.sides import SIDES, Side, other_side
 
-__all__ = ["Footing"]
-
 _NO_PUSH = read_only(np.zeros(2))
 _PROBING = 0.0237  # weight on a foot that probes the ground from which its centre of pressure turns it
 _MAX_LANDING_OFFSET = 0.25  # leg that a foot that has landed off its place is commanded away from it at most

@@ -24,8 +24,6 @@ from plantar.gait.propose.step_timing import StepTiming
 from plantar.layouts.layout import SoleLayout
 from plantar.sides import SIDES, Side
 
-__all__ = ["proposers"]
-
 _NO_GROUND = 0.8  # of the taxels' sensing range: a sole that stands sees this far only where there is no ground
 _SHORTEST_WALK = 1 / 12  # leg: a walk that is shorter has no direction
 

@@ -8,8 +8,6 @@ from plantar.robots.kinematics.body import pitching_joints, rolling_joints, stoo
 from plantar.robots.robot import Robot
 from plantar.sides import SIDES, Side
 
-__all__ = ["ankle_limits"]
-
 
 def ankle_limits(
     robot: Robot, model: mujoco.MjModel, weight: float, crouch: float = 0.0

@@ -8,8 +8,6 @@ from plantar.gait.estimate.ankle_sensor import AnkleSensor
 from plantar.robots.robot import Robot
 from plantar.sides import SIDES, Side
 
-__all__ = ["ankle_sensors"]
-
 
 def ankle_sensors(model: Any, robot: Robot) -> dict[Side, AnkleSensor]:
     """Place of each ankle's force-torque sensor, and the mass below it.

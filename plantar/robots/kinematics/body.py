@@ -9,8 +9,6 @@ from plantar.robots.robot import Robot
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 
-__all__ = ["body_of", "hanging_on", "leg_length", "pitching_joints", "rolling_joints", "stood"]
-
 _RESOLUTION = 6  # decimals of a leg's length in m: sums of link lengths differ in their last bits
 _ALONG = 0.7  # cosine with an axis of the torso from which a joint turns about it: nearer to it than to the others
 

@@ -4,8 +4,6 @@ from plantar.gait.command import Command
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.sides import Side
 
-__all__ = ["REACH_ERROR", "SLOW", "SPEED_SHARE", "carry_command", "follow_command"]
-
 REACH_ERROR = 0.02
 """Miss of a reached command in rad, or in m on a leg of 0.6 m; the motion of one control period leaves 8 mm."""
 

@@ -29,8 +29,6 @@ from plantar.kernels.joints.task_step import Configuration, NewtonStep, TaskStep
 from plantar.robots.kinematics.tasks.posture_task import PostureTask
 from plantar.robots.kinematics.tasks.task import Task
 
-__all__ = ["InverseKinematics"]
-
 _ROUNDING = 1e-8  # on the diagonal of the normal equations
 # The largest step L must not carry a limb across the damped zone: c L / 2 <= _EPSILON; c is 0.13 m for a leg of 0.8 m.
 # A level's residual counts with at most 1 (m and rad).

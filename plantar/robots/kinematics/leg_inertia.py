@@ -9,8 +9,6 @@ from plantar.mechanics.lip import GRAVITY
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
 
-__all__ = ["angular_momentum", "leg_inertia"]
-
 _MOVED = 1e-4  # m of the CoM, of which the difference is taken
 _ITERATIONS = 40
 _LARGEST_STEP = 0.15  # rad

@@ -19,8 +19,6 @@ from plantar.robots.kinematics.tasks.posture_task import PostureTask
 from plantar.robots.kinematics.tasks.task import chain
 from plantar.sides import SIDES, Side
 
-__all__ = ["LegModel"]
-
 _NOTHING = read_only(np.zeros(2))
 _FULL_LEG = 6  # joints of a leg that can give its sole any pose
 

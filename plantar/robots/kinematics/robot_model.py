@@ -17,8 +17,6 @@ from plantar.robots.robot import Robot
 from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.sides import SIDES
 
-__all__ = ["Visitor", "build_leg_model", "compiled_model", "robot_spec"]
-
 
 class Visitor(Protocol):
     """An addition to a model: an arm, a partner, furniture."""

@@ -13,8 +13,6 @@ from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
 from plantar.sides import SIDES, Side
 
-__all__ = ["solve_standing"]
-
 
 def solve_standing(
     robot: Robot,

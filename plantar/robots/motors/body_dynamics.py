@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from plantar.sides import SIDES, Side
 
-__all__ = ["BodyDynamics"]
-
 _BASE = 6  # velocities of the free base: three of its origin in the world frame, three turns in its own
 
 

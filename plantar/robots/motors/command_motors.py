@@ -17,8 +17,6 @@ from plantar.robots.robot import Robot
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 
-__all__ = ["CommandMotors", "MotorGains", "motor_gains", "planned_wrenches"]
-
 
 class MotorGains(NamedTuple):
     """Gains of the leg joints' motors.

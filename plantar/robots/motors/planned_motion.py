@@ -11,8 +11,6 @@ from plantar.robots.kinematics.command_joints import carry_command
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.sides import SIDES
 
-__all__ = ["PlannedMotion"]
-
 _SMOOTH = 0.04  # beat, time constant of the low pass on the acceleration: 10 ms on a leg of 0.6 m
 
 

@@ -23,8 +23,6 @@ from plantar.robots.walk import Control
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side, other_side
 
-__all__ = ["TorqueControl", "command_motors"]
-
 _FRICTION = 0.6
 _SMOOTH = 0.03  # beat, time constant of the low pass on the encoders' rates: 7 ms on a leg of 0.6 m
 _HEIGHT, _TILT, _SWING, _STANCE = 2.5, 3.5, 5.0, 5.0  # 1/beat: how fast height, base, swing leg and soles are corrected

@@ -24,8 +24,6 @@ from plantar.mechanics.wrench_cone import Rectangle, cone_rows
 from plantar.robots.motors.body_dynamics import BodyDynamics
 from plantar.sides import Side
 
-__all__ = ["Standing", "Torques", "Wish", "torques_of"]
-
 Array = NDArray[np.float64]
 
 _BASE = 6

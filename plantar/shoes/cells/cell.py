@@ -17,8 +17,6 @@ from plantar.settings.unknown_keys import refuse_unknown_keys
 from plantar.shoes.parameters import check_dimensions, checked, choice, number, text
 from plantar.shoes.parameters import length as mm
 
-__all__ = ["Cell", "built_in_cells", "read_cell"]
-
 # How a cell is pressed: by its own head, by a land of the pad, or as a part of one sheet
 Kind = Literal["tile", "film", "sheet"]
 

@@ -28,8 +28,6 @@ from plantar.shoes.solid.kernel import SHORTEST
 from plantar.shoes.solid.step_model import StepSolid
 from plantar.shoes.units import to_mm
 
-__all__ = ["Check", "ShoeCheck", "check_plan", "check_shoe", "corner_errors"]
-
 _OVERHANG_SHARE = 0.02  # of the contact face: what may hang over without support on a printer that lays lines
 _LONG = 0.7  # of a foot's length: a sole that is shorter, as of a high heel, is no foot's that stands on a flat shoe
 _FLAT_SHARE, _HALF_SHARE = 0.95, 0.80  # of the load: what goes past the taxels is an error of every force read

@@ -18,8 +18,6 @@ from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.plan.wiring import cable_outlines, channel_lines, hole_outline
 from plantar.shoes.solid.retention import Retention
 
-__all__ = ["Feature", "printed_features"]
-
 _FULL, _FREE = 0.90, 0.02  # share of a place that print must fill, and may
 _CABLE = 1.0  # mm: a cable that has to pass
 _EPS = 1.7e-3  # mm next to a level at which corners lie

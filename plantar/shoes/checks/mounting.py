@@ -18,8 +18,6 @@ from plantar.shoes.plan.keep_out import keep_out
 from plantar.shoes.solid.body import LEVELS
 from plantar.shoes.solid.retention import Retention, strap_meets
 
-__all__ = ["Mounting", "check_mounting"]
-
 _ABOVE = 9  # sections above the wall
 _BESIDE = 8.0  # mm next to a clip or screw, where its window or boss is
 _SLICE = 2.0  # mm of height in which links are held against one section

@@ -12,8 +12,6 @@ from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.solid.pad import pad_surface
 from plantar.shoes.solid.polyhedron import volume_of
 
-__all__ = ["Printing", "Weights", "choose_direction", "print_hours", "weigh"]
-
 # Build directions that are tried: order and signs of the axes that bring the bed's normal to z
 BUILD_DIRECTIONS: dict[str, tuple[tuple[int, int, int], tuple[int, int, int]]] = {
     "sole down": ((0, 1, 2), (1, 1, 1)),

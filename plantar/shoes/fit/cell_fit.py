@@ -22,8 +22,6 @@ from plantar.shoes.fit.lattice_fit import fit_lattice
 from plantar.shoes.fit.taxels import TaxelFit, rows_and_columns
 from plantar.shoes.geometry.outline import CORNER, grown, ring, tidy
 
-__all__ = ["fit_cells"]
-
 LINES_MOST = 128  # most rows and columns of a sheet together
 
 _SAMPLES = 8  # offsets of a sheet's lines along each axis

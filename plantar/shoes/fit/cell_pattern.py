@@ -15,16 +15,6 @@ from plantar.layouts.hex_lattice import HexLattice, hexagon_side
 from plantar.shoes.cells.cell import Cell
 from plantar.shoes.geometry.outline import ring
 
-__all__ = [
-    "CellPattern",
-    "RowLattice",
-    "active_shape",
-    "hex_pattern",
-    "joined",
-    "pattern_of",
-    "pocket_parts",
-]
-
 Array = NDArray[np.float64]
 
 _SIDES = 24  # corners of a circle's polygon: flats along the directions to the neighbours on both lattices

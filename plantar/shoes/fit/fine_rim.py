@@ -16,8 +16,6 @@ from plantar.shoes.fit.lattice_fit import fit_lattice
 from plantar.shoes.fit.taxels import TaxelFit, trimmed_cell
 from plantar.shoes.geometry.outline import gathered, grown, tidy
 
-__all__ = ["blind_rim", "fit_fine_rim", "strip_cells"]
-
 # Widest blind rim in mm that a fine rim leaves: the contact face beyond the hull of the cells' centres
 BLIND_MOST = 12.0
 

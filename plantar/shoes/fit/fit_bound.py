@@ -16,8 +16,6 @@ from numpy.typing import NDArray
 
 from plantar.shoes.fit.cell_pattern import CellPattern
 
-__all__ = ["CellBound", "bound_whole_cells"]
-
 _BUDGET = 40_000_000  # conditions looked at: boxes x cells x edges
 _LEFT_OVER = 4000  # boxes
 _APART = math.radians(0.2)  # two angles that differ

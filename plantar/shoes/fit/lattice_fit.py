@@ -13,8 +13,6 @@ from plantar.errors import FootError, InputError
 from plantar.shoes.fit.cell_pattern import CellPattern, Lattice, hex_pattern
 from plantar.shoes.fit.fit_bound import bound_whole_cells
 
-__all__ = ["LatticeFit", "fit_lattice", "whole_cell_region"]
-
 CELL_AREAS = (100.0, 5000.0)  # cell areas in mm^2 that are taken
 
 _ANGLE_STEP, _TAILED_STEP = 5, 15  # degrees between the lattice angles that are looked at; of cells with a tail

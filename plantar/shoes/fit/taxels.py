@@ -16,8 +16,6 @@ from plantar.shoes.fit.cell_pattern import Lattice, hex_pattern
 from plantar.shoes.fit.lattice_fit import LatticeFit, fit_lattice
 from plantar.shoes.geometry.outline import CORNER, grown, tidy
 
-__all__ = ["TaxelFit", "fit_taxels", "rows_and_columns", "trimmed_cell"]
-
 LEAST_SHARE = 0.6  # share of a cell that is left at least where the rim cuts it: below, the taxel's board does not fit
 
 LEAST_BORDER = 0.5  # border in mm that is left around the cells where a number of them needs the room

@@ -13,8 +13,6 @@ from plantar.errors import FootError
 from plantar.shoes.geometry.outline import rounded_rectangle, tidy
 from plantar.shoes.units import MM_PER_M, to_mm
 
-__all__ = ["Foot", "foot_from_dimensions", "foot_from_outline"]
-
 FOOT_LENGTHS = (60.0, 450.0)  # lengths in mm that a robot's foot may have
 
 

@@ -27,8 +27,6 @@ from plantar.shoes.foot.orientation import (
 from plantar.shoes.geometry.outline import cut_below, outline_of, outlines_below, touching
 from plantar.shoes.geometry.surface import convex_outline, is_closed
 
-__all__ = ["foot_from_mesh", "foot_from_triangles", "unit_scale"]
-
 UNIT_SIZE: dict[str, float] = {"m": 1000.0, "cm": 10.0, "mm": 1.0, "in": 25.4}  # length of each unit in mm
 
 _SOLE_SHARE = 0.4  # of the silhouette: a body whose lowest band is smaller is round below

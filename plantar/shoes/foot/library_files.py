@@ -9,9 +9,6 @@ from numpy.typing import NDArray
 
 from plantar.optional_library import optional_library
 
-__all__ = ["lines_of_dxf", "triangles_of_step"]
-
-
 _CHORD, _ANGLE = 0.05, 0.2  # share of an edge, and rad: how far triangles may lie off a curved face
 
 

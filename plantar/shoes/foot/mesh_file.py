@@ -20,8 +20,6 @@ from plantar.files.gate import read_apart
 from plantar.files.input_file import check_input, read_input
 from plantar.shoes.foot.package_3mf import triangles_of_3mf
 
-__all__ = ["read_mesh"]
-
 Unit = Literal["m", "cm", "mm", "in"]  # unit of length of a mesh file
 
 # File endings that are read

@@ -22,8 +22,6 @@ from plantar.optional_library import ignore_warning, optional_library
 from plantar.shoes.foot.mesh_file import MOST_TRIANGLES, read_mesh
 from plantar.shoes.geometry.surface import primitive
 
-__all__ = ["BodyPlace", "ModelSource", "read_model_source", "urdf_for_mujoco"]
-
 _LARGEST = 100e6  # bytes of a mesh
 FARTHEST = 1e6  # distance in m beyond which no shape reaches
 

@@ -12,18 +12,6 @@ from plantar.geometry.hull_plane import hull_plane
 from plantar.optional_library import optional_library
 from plantar.shoes.geometry.surface import convex_outline, corner_numbers, thinned
 
-__all__ = [
-    "check_level",
-    "check_one_body",
-    "check_upright",
-    "flat_share",
-    "forward_axis",
-    "levelled",
-    "rotation_forward",
-    "rotation_up",
-    "straightened",
-]
-
 Axis = Literal["x", "-x", "y", "-y", "z", "-z"]  # an axis of a mesh, with its direction
 
 AXES: tuple[Axis, ...] = ("x", "-x", "y", "-y", "z", "-z")  # all axes

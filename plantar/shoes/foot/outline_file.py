@@ -27,8 +27,6 @@ from plantar.shoes.foot.mesh_file import Unit
 from plantar.shoes.foot.orientation import AXES, Axis, rotation_forward
 from plantar.shoes.geometry.outline import single_outline
 
-__all__ = ["foot_from_drawing", "read_outline"]
-
 OUTLINE_FORMATS: tuple[str, ...] = (".dxf", ".svg", ".geojson", ".json")  # file endings of drawings that are read
 
 _LARGEST, _LARGEST_DXF = 10e6, 4e6  # bytes

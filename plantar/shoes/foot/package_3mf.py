@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 from plantar.errors import FootError
 from plantar.files.zip_archive import open_archive
 
-__all__ = ["triangles_of_3mf"]
-
 _UNITS: dict[str, tuple[str, float]] = {
     "micron": ("mm", 1e-3),
     "millimeter": ("mm", 1.0),

@@ -15,8 +15,6 @@ from plantar.errors import FootError
 from plantar.shoes.foot.model_source import FARTHEST, BodyPlace, ModelSource, read_model_source
 from plantar.shoes.geometry.surface import surface_points, thinned
 
-__all__ = ["BodyGeometry", "read_foot_body", "side_of_name", "swept_points"]
-
 MODEL_FORMATS: tuple[str, ...] = (".xml", ".mjcf", ".urdf")  # file endings of robot models that are read
 
 _SHOWN = 14  # names in a message

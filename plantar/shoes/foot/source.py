@@ -15,8 +15,6 @@ from plantar.shoes.foot.robot_model import MODEL_FORMATS, read_foot_body
 from plantar.shoes.order import FootSource
 from plantar.sides import SIDES
 
-__all__ = ["foot_of_robot", "read_foot"]
-
 _ALLOWED = {
     "mesh_side": SIDES,
     "unit": ("m", "cm", "mm", "in"),

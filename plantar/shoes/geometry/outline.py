@@ -12,23 +12,6 @@ from numpy.typing import NDArray
 from plantar.errors import FootError
 from plantar.shoes.geometry.surface import convex_outline, covered_area
 
-__all__ = [
-    "apart",
-    "cut_below",
-    "flush",
-    "gathered",
-    "grown",
-    "joined_corners",
-    "outline_below",
-    "outline_of",
-    "outlines_below",
-    "ring",
-    "rounded_rectangle",
-    "single_outline",
-    "tidy",
-    "touching",
-]
-
 GRID = 1e-3  # grid in mm that polygon corners lie on
 CORNER = 1.2  # how much farther than its edges the corner of a grown outline may lie
 _SIMPLIFY = 0.04  # mm of detail that is dropped; less than what the gap between foot and wall may lack

@@ -8,8 +8,6 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-__all__ = ["cut_segments", "section", "section_along", "thinnest_wall", "wall_thickness"]
-
 _OPPOSITE = -0.9  # cosine between the normals of two faces that count as the sides of one wall
 _SPACING = 3.0  # mm between two measurements along a wall
 

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 from plantar.errors import FootError
 from plantar.optional_library import optional_library
 
-__all__ = ["convex_outline", "corner_numbers", "covered_area", "is_closed", "primitive", "surface_points", "thinned"]
-
 _GRID = 1e-3  # mm
 _MOST_EDGES = 60_000  # left over: more come of triangles that do not join
 _MOST_CROSSED = 40_000_000  # edges times faces that they enclose

@@ -19,8 +19,6 @@ from plantar.shoes.papers.picture import rendered_png
 from plantar.shoes.plan.wiring import channel_lines, length_of, wire_lines
 from plantar.shoes.solid.pad import mould_surface, pad_surface, prism_surface, taxel_surfaces
 
-__all__ = ["assembly_page"]
-
 Array = NDArray[np.float64]
 Bodies = list[tuple[Array, tuple[float, float, float]]]
 

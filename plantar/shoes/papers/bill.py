@@ -12,9 +12,6 @@ from plantar.shoes.plan.cell_room import tail_lines
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.units import to_mm
 
-__all__ = ["Part", "bill_of_parts", "bill_text"]
-
-
 WINDOW = 5.0  # diameter in mm of a hole in the pad through which a taxel's infrared sensor looks
 
 

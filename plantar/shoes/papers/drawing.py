@@ -21,8 +21,6 @@ from plantar.shoes.solid.pad import land_top
 from plantar.shoes.solid.step_model import release_date
 from plantar.shoes.units import to_mm
 
-__all__ = ["draw_shoe", "sheet_of"]
-
 _SCALES = ((2.0, "2:1"), (1.0, "1:1"), (0.5, "1:2"), (0.4, "1:2.5"), (0.2, "1:5"))
 _PLAN = (150.0, 78.0)  # mm of paper for the view from above
 _DETAIL = 17.0  # mm of paper: radius of a detail

@@ -30,8 +30,6 @@ from plantar.shoes.solid.pad import mould_surface, pad_surface, taxel_surfaces
 from plantar.shoes.solid.step_model import StepSolid, read_step, write_step
 from plantar.shoes.units import to_m
 
-__all__ = ["ShoeReport", "export_shoe", "failed_checks", "shoe_text"]
-
 
 @dataclass(frozen=True)
 class ShoeReport:

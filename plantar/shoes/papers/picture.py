@@ -12,8 +12,6 @@ from plantar.plotting import COLOURS, new_figure, png_of, save_figure
 from plantar.shoes.foot.foot import Foot
 from plantar.shoes.geometry.outline import ring
 
-__all__ = ["draw_picture", "draw_preview", "render", "rendered_png"]
-
 _PRINTED = (0.36, 0.55, 0.72)
 _PAD = (0.30, 0.31, 0.33)
 _EDGE = 0.35  # brightness of an edge

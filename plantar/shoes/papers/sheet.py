@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 from plantar.atomic import write_text
 from plantar.plotting import new_figure, save_figure
 
-__all__ = ["Sheet", "View", "dxf_text"]
-
 _SIZE = (420.0, 297.0)  # A3
 _INCH = 25.4
 # Width in mm, dashes and colour of each kind of line; their names are the layers of the DXF

@@ -17,8 +17,6 @@ from plantar.shoes.solid.polyhedron import Polyhedron
 from plantar.shoes.solid.retention import slot_lines
 from plantar.shoes.solid.step_model import StepPart
 
-__all__ = ["assembly_parts"]
-
 _SAME = 1e-3  # mm: bodies whose corners lie nearer are one product
 _DETAIL = 0.1  # mm of the pad's rim that is dropped
 _HERE = (0.0, 0.0, 0.0)

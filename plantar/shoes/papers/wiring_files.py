@@ -25,8 +25,6 @@ from plantar.shoes.plan.wiring import (
 )
 from plantar.shoes.units import to_mm
 
-__all__ = ["board_nets", "board_outlines", "board_text", "cells_dxf", "net_list_text", "wiring_text"]
-
 _HEADER = ("side", "cell", "patch", "x_mm", "y_mm", "area_mm2", "hop", "from_cell", "port_x_mm", "port_y_mm", "wire_mm")
 _SHEET_HEADER = ("row", "column")
 

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from plantar.shoes.geometry.outline import ring
 
-__all__ = ["Block", "Groove", "Step", "box_block", "mirrored_block", "mirrored_step", "moved_edges", "tapered"]
-
 
 @dataclass(frozen=True)
 class Block:

@@ -11,8 +11,6 @@ from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.heel import HOLE_OFF
 from plantar.shoes.plan.shoe_plan import ShoePlan
 
-__all__ = ["LeadRoom", "bend_at_heel", "cell_parameters", "lead_rooms", "led_parameters", "tail_lines"]
-
 _TAIL_PLAY = 0.5  # mm on either side of a sheet's tail
 _DEEPEST = 8.0  # mm: of a pocket that is deepened for leads
 

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.parameters import ShoeParameters
 
-__all__ = ["Heel", "find_heel", "holder_depth", "slot_entry"]
-
 LIP = 1.5  # rail behind the board
 
 POST = 2.5  # rail beside the board

@@ -19,8 +19,6 @@ from plantar.shoes.geometry.outline import tidy
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.shoe_plan import ShoePlan, plan_face
 
-__all__ = ["even_share", "fit_insole", "insole_foot", "insole_parameters", "person_mass", "plan_insole"]
-
 INSOLE_THICKNESS = (4.0, 15.0)  # least and greatest thickness of an insole in mm, with its pad
 
 EVEN_SHARE = 0.80  # least share of an even pressure that an insole's cells carry

@@ -15,8 +15,6 @@ from plantar.geometry.polygon import convex_hull
 from plantar.shoes.foot.foot import Foot
 from plantar.shoes.geometry.surface import convex_outline, surface_points
 
-__all__ = ["KeepOut", "keep_out", "strap_path"]
-
 _SPACING = 2.0  # mm between points on the foot
 _ROOM = 2.0  # mm between a link and what is printed or strapped
 _SHANK = 0.1  # of the foot's length: radius of a shank that is not known

@@ -30,17 +30,6 @@ from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.shoe_plan import ShoePlan, pad_rim
 from plantar.shoes.plan.strength import LoadCase
 
-__all__ = [
-    "LoadShare",
-    "apparent_modulus",
-    "check_load_share",
-    "pad_modulus",
-    "relieved",
-    "shore_modulus",
-    "spring_forces",
-    "taxel_stiffness",
-]
-
 _POINTS = 3000  # springs of a sole
 _HARD = 1e3  # N/mm^3: print on the ground, without a pad
 _RESERVE = 1.25  # relief over the taxels' compression at the largest load

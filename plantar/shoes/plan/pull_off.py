@@ -17,8 +17,6 @@ from dataclasses import dataclass
 from plantar.mechanics.lip import GRAVITY
 from plantar.shoes.parameters import ShoeParameters
 
-__all__ = ["PullOff", "clip_force", "pull_off"]
-
 _MU = 0.3  # plastic on plastic or metal
 _SWING = 5.0  # g
 _SCUFF = 0.1  # of the robot's weight on the toe

@@ -25,8 +25,6 @@ from plantar.shoes.plan.block import moved_edges
 from plantar.shoes.plan.heel import Heel, find_heel
 from plantar.shoes.units import to_m, to_mm
 
-__all__ = ["ShoePlan", "mirrored_plan", "pad_rim", "plan_face", "plan_shoe"]
-
 _TOUCH = 1e-3  # mm between cells that share an edge
 _PORT_SHARE = 0.6  # of a shared edge or a body: the widest port
 _LAND_PLAY = 0.3  # mm between a sheet's land and its recess

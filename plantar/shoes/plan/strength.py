@@ -23,8 +23,6 @@ from plantar.shoes.foot.foot import Foot
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.parameters import ShoeParameters
 
-__all__ = ["LoadCase", "Member", "check_strength", "estimated_mass", "load_case", "strengthened"]
-
 _MOST_MASS = 150.0  # kg: what a robot is estimated to weigh at most
 
 

@@ -17,8 +17,6 @@ from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.plan.strength import LoadCase
 from plantar.shoes.units import to_mm
 
-__all__ = ["Observability", "Touching", "check_touching", "observability", "softened"]
-
 # Least share of taxels that are active at half the weight; most that the footprint's area (share) and the center of
 # pressure (mm) may be off
 ACTIVE_LEAST, AREA_OFF, COP_OFF = 0.95, 0.10, 1.0

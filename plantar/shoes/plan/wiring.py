@@ -14,16 +14,6 @@ from plantar.shoes.plan.heel import HOLE_OFF, LIP, POST, holder_depth, slot_entr
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.units import to_mm
 
-__all__ = [
-    "cable_outlines",
-    "channel_lines",
-    "hole_outline",
-    "length_of",
-    "pocket_outlines",
-    "wire_lines",
-    "wiring_steps",
-]
-
 _BARB = 0.1  # mm
 _STEP = 0.01  # mm between two corners that are one
 _WIDER = 0.3  # mm

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 
 from plantar.shoes.solid.polyhedron import Loops, Polyhedron
 
-__all__ = ["Arc", "CurvedSolid", "with_arcs"]
-
 _BULGE = 0.25  # how far an arc may lie off a facet's middle, in mm
 
 _OFF = 0.05  # mm: how far a corner may lie off its arc

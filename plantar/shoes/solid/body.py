@@ -15,8 +15,6 @@ from plantar.shoes.plan.wiring import pocket_outlines, wiring_steps
 from plantar.shoes.solid.lettering import lettering
 from plantar.shoes.solid.retention import Retention, retention_steps
 
-__all__ = ["bare_floor", "cavity_levels", "insole_steps", "mark_outline", "shoe_steps"]
-
 LEVELS = (0.06, 0.14, 0.25, 0.4, 0.6, 1.0)  # shares of the wall's height at which the foot's outline is taken
 
 _STEP = 0.3  # mm by which two levels must differ to be two

@@ -15,8 +15,6 @@ from plantar.shoes.plan.block import Block, Groove, Step
 from plantar.shoes.solid.polyhedron import Polyhedron
 from plantar.shoes.solid.short_edges import without_short_edges
 
-__all__ = ["build_solid", "load_kernel", "parts_of", "points_of"]
-
 
 @cache
 def load_kernel() -> Any:

@@ -5,8 +5,6 @@ from typing import Any
 
 import shapely
 
-__all__ = ["lettering"]
-
 # Strokes on a grid 4 wide and 6 high, one letter a line: polylines of points, x then y.
 _STROKES = dict(
     line.split(" ", 1)

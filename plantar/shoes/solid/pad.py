@@ -15,8 +15,6 @@ from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import Block
 from plantar.shoes.plan.shoe_plan import ShoePlan, pad_rim
 
-__all__ = ["land_top", "mould_surface", "pad_surface", "prism_surface", "taxel_blocks", "taxel_surfaces"]
-
 _MOULD_WALL, _MOULD_FLOOR = 6.0, 3.0  # mm around and below the cast pad
 
 Array = NDArray[np.float64]

@@ -8,9 +8,6 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-__all__ = ["Polyhedron", "flattened", "triangles_of", "volume_of"]
-
-
 Array = NDArray[np.float64]
 # Corner numbers around a face, counter-clockwise from outside; the outer loop first, holes clockwise
 Loops = tuple[tuple[int, ...], ...]

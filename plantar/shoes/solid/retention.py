@@ -18,8 +18,6 @@ from plantar.shoes.plan.pull_off import SNAP_MOST, PullOff, pull_off
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.plan.strength import load_case
 
-__all__ = ["Retention", "choose_retention", "retention_steps", "slot_lines", "strap_meets"]
-
 _LUG_END = 5.0  # mm of lug before and behind a slot
 _BAR = 4.0  # mm of lug above a slot
 _SLOT_PLAY = 2.0  # mm of slot more than the strap, along and up

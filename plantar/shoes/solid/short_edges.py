@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from plantar.shoes.solid.polyhedron import Loops, Polyhedron, flattened, triangles_of
 
-__all__ = ["without_short_edges"]
-
 _FLAT = 1e-6  # mm
 _SLIVER = 1e-3  # mm^2
 _TWIST = 0.01  # mm by which a face bends, from which it may fold

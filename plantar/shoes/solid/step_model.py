@@ -19,8 +19,6 @@ from plantar.shoes.solid.kernel import ocp, parts_of, points_of
 from plantar.shoes.solid.polyhedron import Loops, Polyhedron
 from plantar.shoes.solid.step_text import with_shared_entities
 
-__all__ = ["StepPart", "StepSolid", "read_step", "release_date", "write_step"]
-
 _TOLERANCE = 1e-5  # mm
 _SAME = 1e-6  # mm between the centres of a cone's two arcs
 _ON = 9e-8  # mm between corners and their line or plane; the kernel allows 1e-7

@@ -3,8 +3,6 @@
 import re
 from collections import Counter
 
-__all__ = ["with_shared_entities"]
-
 _REFERENCE = re.compile(r"('[^']*')|#(\d+)")
 _NUMBER = re.compile(r"-?\d+\.\d*(?:E[+-]?\d+)?")
 _DECIMALS = {"CARTESIAN_POINT": 6, "DIRECTION": 9}

@@ -15,8 +15,6 @@ from plantar.wholebody.stack import TaskStack
 from plantar.wholebody.tasks.posture import BodyCompliance, Posture
 from plantar.wholebody.tasks.skin_interaction import DirectInteraction
 
-__all__ = ["CompliantArm"]
-
 _MARGIN = math.radians(5.0)  # from the end of a joint's range at which it is pushed back
 _AT_END = 0.5  # of a joint's largest torque, with which it is pushed back at the end of its range
 _DAMPED = 0.1  # s: damping there over its stiffness

@@ -2,8 +2,6 @@
 
 from plantar.settings.schema import Settings, choice, number, share, tables
 
-__all__ = ["ArmSettings"]
-
 
 class ArmSettings(Settings):
     """An arm under the companion's tasks (A 13-14, 18): springs to a posture, yielding skin.

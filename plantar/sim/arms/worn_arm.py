@@ -17,8 +17,6 @@ from plantar.sides import Side
 from plantar.sim.body_skin.surface import skin_from_tables
 from plantar.sim.companion.machine import JointTable, load_machine
 
-__all__ = ["WornArm"]
-
 _PREFIX = "arm/"  # What the names of its links and joints begin with: a robot may have some of these names already
 
 

@@ -13,8 +13,6 @@ from plantar.errors import InputError
 from plantar.optional_library import need_libraries
 from plantar.sim.libraries import LIBRARIES
 
-__all__ = ["BenchOptions", "Measured", "measure"]
-
 Progress = Callable[[float, str], None]
 
 

@@ -10,8 +10,6 @@ from typing import Any, Self
 
 from plantar.errors import InputError
 
-__all__ = ["ROOMS", "RoomTimes", "room_of"]
-
 _ROOT = Path(__file__).resolve().parents[2]
 _INTERVAL = 0.001  # s between two looks: about one a physics step, and under 0.5 % of the time
 

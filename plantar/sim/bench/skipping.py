@@ -22,16 +22,6 @@ from plantar.sim.bench.room_times import ROOMS, RoomTimes
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import Scene, load_scene
 
-__all__ = [
-    "SCENES",
-    "SkipRow",
-    "WatchedSimulation",
-    "compare_skipping",
-    "measure_skipping",
-    "replay_physics",
-    "skip_text",
-]
-
 
 class WatchedSimulation(Simulation):
     """A simulation that keeps its controls and hashes its motion.

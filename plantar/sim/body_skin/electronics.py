@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import Settings, number, whole
 
-__all__ = ["SkinElectronics", "SkinElectronicsSettings"]
-
 
 class SkinElectronicsSettings(Settings):
     """Quality of readings; white noise (1 sigma).

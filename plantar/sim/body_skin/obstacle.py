@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 from plantar.errors import SceneError
 from plantar.kernels.sensors.ground_rays import cast_rays
 
-__all__ = ["Obstacle"]
-
 _KINDS = {name: int(getattr(mujoco.mjtGeom, f"mjGEOM_{name.upper()}")) for name in (
     *("plane", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh"),
 )}  # fmt: skip

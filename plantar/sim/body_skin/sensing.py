@@ -18,8 +18,6 @@ from plantar.sim.body_skin.electronics import SkinElectronics, SkinElectronicsSe
 from plantar.sim.body_skin.obstacle import Obstacle
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 
-__all__ = ["LIFT", "SkinSensing", "SkinSensor"]
-
 LIFT = 0.02
 """Depth in m below the surface from which rays start: what sinks in deeper is not measured."""
 

@@ -19,8 +19,6 @@ from plantar.mechanics.rotation import rotation_from_angles
 from plantar.sensing.link_skin import BodySkin, SkinPatch
 from plantar.settings.schema import Settings, number, tables, text, whole
 
-__all__ = ["OBSTACLE_GROUP", "PatchShape", "skin_from_tables"]
-
 OBSTACLE_GROUP = 3
 """MuJoCo's group of geoms that skin measures."""
 

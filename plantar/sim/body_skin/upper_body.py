@@ -14,8 +14,6 @@ from plantar.layouts.hex_lattice import HexLattice
 from plantar.mujoco.mesh_surface import mesh_surface
 from plantar.sensing.link_skin import BodySkin, SkinPatch
 
-__all__ = ["FACES", "upper_body_skin"]
-
 FACES = {"front": (1.0, 0.0), "back": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0.0, -1.0)}
 """Patches of the box and their outward normals, forward and to the left."""
 

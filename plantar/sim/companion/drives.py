@@ -9,8 +9,6 @@ from plantar.sim.companion.experiment import CompanionControl, World
 from plantar.sim.companion.machine import ServoTable
 from plantar.wholebody.torque_resolver import SetPoint, TorqueResolver
 
-__all__ = ["Drives", "Encoders"]
-
 
 class Encoders:
     """Measures positions and velocities with white noise, of a floating base too; its orientation is the IMU's."""

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from plantar.errors import InputError
 
-__all__ = ["MujocoDynamics"]
-
 _NAMED = 5  # links in an error where none has a similar name
 
 

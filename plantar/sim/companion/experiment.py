@@ -25,20 +25,6 @@ from plantar.sim.figures.render import View
 from plantar.sim.papers.preset import with_paper
 from plantar.wholebody.dynamics import RobotDynamics
 
-__all__ = [
-    "CompanionControl",
-    "CompanionScene",
-    "Controller",
-    "Experiment",
-    "Verdict",
-    "World",
-    "companion_scene",
-    "companion_tables",
-    "experiment_class",
-    "experiment_names",
-    "unmet",
-]
-
 
 class CompanionControl(Settings):
     """How the machine is controlled, and how well it knows its motion.

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from plantar.settings.schema import Settings, number, whole
 
-__all__ = ["Lidar", "LidarSettings"]
-
 _NO_ECHO = 1e6  # m: distance of a ray that meets nothing
 
 

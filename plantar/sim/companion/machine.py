@@ -21,8 +21,6 @@ from plantar.settings.schema import Settings, choice, number, tables, text
 from plantar.settings.unknown_keys import refuse_unknown_keys
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 
-__all__ = ["BaseTable", "JointTable", "Machine", "ServoTable", "builtin_machines", "load_machine"]
-
 _FOLDER = Path(__file__).parent / "machines"
 _KEYS = ("name", "description", "model", "base", "servo", "joint_defaults", "joints", "patch")
 _UNSEEN = 4  # geom group that pictures leave out

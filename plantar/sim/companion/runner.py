@@ -23,8 +23,6 @@ from plantar.sim.figures.film import BodyFilm
 from plantar.sim.loop import Result, Run
 from plantar.sim.model.world import add_looks
 
-__all__ = ["Companion"]
-
 
 class Companion(Run):
     """A scene, ready to run; `seed` draws noise and the experiment's choices.

@@ -21,15 +21,13 @@ from plantar.sim.contact_models.sole import Sole, build_sole
 from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Candidate, Contact
 from plantar.sim.model.contact_truth import contact_wrench_in_frame, foot_contacts, support_polygon_of_contacts
 
-__all__ = ["ContactRow", "Rig", "compare_contact_models", "full_stance", "tip_over"]
-
-MASS = 43.0
-PLANE = '<geom name="ground" type="plane" size="2 2 0.1" {contact}/>'
-INNER = 0.7
-BEAMS = (0.12, 0.06)
+MASS = 43.0  # kg
+PLANE = '<geom name="ground" type="plane" size="2 2 0.1" {contact}/>'  # the ground
+INNER = 0.7  # part of the half size within which loads are balanced
+_BEAMS = (0.12, 0.06)  # widths in m
 _TIPPED = math.radians(1.0)
 _TIPPING_LOAD = 600.0  # N
-BEAM_OFFSETS = (-0.031, -0.013, 0.0, 0.009, 0.027)
+_BEAM_OFFSETS = (-0.031, -0.013, 0.0, 0.009, 0.027)
 
 
 @dataclass(frozen=True)
@@ -243,8 +241,8 @@ def _on_beams(candidate: Candidate, layout: SoleLayout, contact: Contact | None)
     contact_ratio, taxel_ratio = [], []
     wrong = silent = 0
     shapes = [shapely.Polygon(layout.cell_polygon(i)) for i in range(len(layout))]
-    for width in BEAMS:
-        for offset in BEAM_OFFSETS:
+    for width in _BEAMS:
+        for offset in _BEAM_OFFSETS:
             ground = (
                 f'<geom name="beam" type="box" size="{0.5 * width} 1 0.05" pos="{middle[0] + offset} 0 -0.05" '
                 "{contact}/>"

@@ -16,8 +16,6 @@ from plantar.sim.contact_models.sole import build_sole
 from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Contact
 from plantar.sim.model.contact_truth import contact_wrench_in_world, foot_contacts
 
-__all__ = ["PARAMETERS", "ParameterRow", "study_contact_parameters"]
-
 _SOFT = (0.9, 0.95, 0.001, 0.5, 2.0)
 _HARD = (0.99, 0.999, 0.001, 0.5, 2.0)
 

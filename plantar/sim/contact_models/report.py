@@ -15,8 +15,6 @@ from plantar.sim.contact_models.comparison import INNER, MASS, ContactRow, compa
 from plantar.sim.contact_models.parameters import ParameterRow, study_contact_parameters
 from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Contact
 
-__all__ = ["contact_text", "holds", "measure_contact", "write_contact_report"]
-
 COP_LIMIT_MM, EDGE_LIMIT_MM = 2.0, 1.0
 """What is required of the chosen model: largest error of the centre of pressure in full-sole stance, and largest
 distance of the tip-over edge from the sole's edge."""

@@ -12,8 +12,6 @@ from plantar.sim.contact_models.sole_mjcf import Candidate, Contact, sole_mjcf
 from plantar.sim.model.contact_truth import contact_wrench_in_frame, foot_contacts
 from plantar.sim.sensing.skin import SoleSkin
 
-__all__ = ["Sole", "build_sole"]
-
 Reader = Callable[[Any], NDArray[np.float64]]
 """Taxel forces (n,) in N from the MjData."""
 

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 
-__all__ = ["CANDIDATES", "SPHERE_RADIUS", "Candidate", "Contact", "SoleMjcf", "sole_mjcf", "support_points"]
-
 
 @dataclass(frozen=True)
 class Candidate:

@@ -12,8 +12,6 @@ from plantar.mujoco.skin import Skin
 from plantar.sensing.taxel_faults import TaxelFaults, WornFaults
 from plantar.sim.environments.gymnasium_base import ObservationWrapper, spaces
 
-__all__ = ["SkinObservation"]
-
 
 class SkinObservation(ObservationWrapper[Any, Any, Any]):
     """Adds the forces on skins to the observation, which becomes a Dict.

@@ -20,8 +20,6 @@ from plantar.sides import SIDES, Side
 from plantar.sim.model.world import World
 from plantar.sim.terrain import Ground, Motion, Solid, Terrain
 
-__all__ = ["TASKS", "Board", "Simulated", "Stand", "Step", "Task", "Walk"]
-
 
 class Simulated(Protocol):
     """What a task reads of its environment (`plantar.sim.environments.walker.PlantarEnv`)."""

@@ -30,8 +30,6 @@ from plantar.sim.model.world import build_world
 from plantar.sim.run.servos import LegServos
 from plantar.sim.run.standing import stand
 
-__all__ = ["PlantarEnv"]
-
 _FALLEN_UP = math.cos(0.7)  # the torso's z against the world's
 _FALLEN_HEIGHT = 0.7  # of the height of the torso when standing
 

@@ -34,8 +34,6 @@ from plantar.sim.figures.drawn_shapes import body_entity, drawn_bodies, frame_na
 from plantar.sim.model.contact_truth import GroundTruth
 from plantar.sim.model.world import World
 
-__all__ = ["FULL_COLOUR", "DrawnRun", "change_text", "scale_colours"]
-
 _FRAMES = 0.02  # s between two messages of where bodies are
 _SOLES = 0.04  # s between two readings of the soles and of the balance
 _CORNERS = 12  # of a support polygon that is drawn; it seldom has more

@@ -10,8 +10,6 @@ from plantar.mujoco.mesh_surface import mesh_surface
 from plantar.mujoco.quaternions import rotation_of
 from plantar.recordings.foxglove import Message, cube, cylinder, entity, pose, sphere, triangles
 
-__all__ = ["body_entity", "coarse_mesh", "drawn_bodies", "frame_name"]
-
 _SHOWN = (0, 1, 2)  # groups of geoms that MuJoCo's own viewer shows at first
 _UNSET = (0.5, 0.5, 0.5, 1.0)  # colour of a geom that takes its material's
 _FLOOR = 20.0  # m: side of what is drawn of an endless plane

@@ -16,8 +16,6 @@ from plantar.sim.figures.render import Camera, VideoWriter, View, opencv
 from plantar.sim.figures.sole_inset import SoleInset
 from plantar.sim.model.world import World
 
-__all__ = ["BodyFilm", "Film"]
-
 _INSET = 0.25  # of the picture's height
 _ARROW = 0.5  # leg: length of the arrow for the robot's weight
 _LEAST = 0.05  # weight on a sole below which none is drawn: a swing foot's noise

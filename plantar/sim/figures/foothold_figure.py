@@ -11,8 +11,6 @@ from plantar.plotting import COLOURS, new_figure
 from plantar.recordings.recording import Recording
 from plantar.sides import SIDES
 
-__all__ = ["AXES", "WalkPlane", "draw_footholds", "draw_zmp_plane", "draw_zmps"]
-
 AXES = ("x forward [m]", "y left [m]")
 """Labels of the world's axes."""
 

@@ -11,8 +11,6 @@ from plantar.plotting import COLOURS, new_figure
 from plantar.recordings.recording import Recording
 from plantar.sides import SIDES
 
-__all__ = ["draw_guide", "draw_partner", "draw_pushes", "draw_strides", "draw_swing"]
-
 _PUSHED = 0.01  # of the largest force: less is no push
 _AXES = ("x (forward)", "y (left)")
 _PARTNER = "#7b5ea7"

@@ -13,8 +13,6 @@ from plantar.atomic import replacing
 from plantar.errors import InputError
 from plantar.optional_library import optional_library
 
-__all__ = ["FRAME_RATE", "Camera", "Line", "VideoWriter", "View", "opencv", "save_picture"]
-
 FRAME_RATE = 25.0
 """Frames a second of a video; a whole number of physics steps apart."""
 

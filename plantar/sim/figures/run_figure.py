@@ -12,8 +12,6 @@ from plantar.sides import SIDES
 from plantar.sim.figures.foothold_figure import AXES, WalkPlane, draw_footholds, draw_zmp_plane, draw_zmps
 from plantar.sim.figures.push_figure import draw_guide, draw_partner, draw_pushes, draw_strides, draw_swing
 
-__all__ = ["plot_run"]
-
 _PAD = 0.03  # m: what is shown around the walk
 
 

@@ -12,8 +12,6 @@ from plantar.sides import SIDES, Side
 from plantar.sim.figures.drawn_run import FULL_COLOUR, scale_colours
 from plantar.sim.figures.render import opencv
 
-__all__ = ["SoleInset"]
-
 _SECONDS = 4.0  # of the forces that are drawn
 _LEAST = 0.02  # weight on a sole below which no CoP is drawn
 _PAPER, _INK, _SOFT = (255, 255, 255), (40, 40, 40), (150, 150, 150)

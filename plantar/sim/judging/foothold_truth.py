@@ -12,8 +12,6 @@ from plantar.layouts.layout import Side
 from plantar.sim.model.world import World
 from plantar.sim.terrain import Ground
 
-__all__ = ["FootholdTruth"]
-
 _LEVEL = 0.01  # leg: faces within this of the sole are under it
 
 

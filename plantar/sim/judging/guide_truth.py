@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from plantar.sides import SIDES
 from plantar.sim.model.world import World
 
-__all__ = ["ASTRAY", "FOLLOWED", "YIELDED", "GuideTruth"]
-
 YIELDED = 0.15
 """Share of the way by which the arm has to have given way, as the place where it is held moves against the trunk: the
 hand goes for some steps before the feet can follow."""

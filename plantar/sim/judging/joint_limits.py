@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 from plantar.kernels.judging.joint_extremes import JointExtremes
 from plantar.sim.model.world import World
 
-__all__ = ["JointLimits"]
-
 _AT_LIMIT = 0.999  # of a torque limit: a servo there asks for more than it gets
 
 

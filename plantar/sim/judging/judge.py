@@ -26,8 +26,6 @@ from plantar.sim.model.contact_truth import ContactReader, GroundTruth, foot_con
 from plantar.sim.model.world import DIVERGED, World
 from plantar.sim.terrain import Ground
 
-__all__ = ["Judge", "Landing", "PlainGround", "is_ground"]
-
 _LEVEL = 0.9999  # cosine of the tilt up to which a face is level
 
 

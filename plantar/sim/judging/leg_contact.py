@@ -4,8 +4,6 @@ from plantar.robots.leg_shapes import COLLIDES
 from plantar.sides import SIDES
 from plantar.sim.model.world import World
 
-__all__ = ["LegContact", "legs_that_touch"]
-
 
 def legs_that_touch(world: World) -> tuple[str, str] | None:
     """Both links of the first contact between the legs in a `world`, or None."""

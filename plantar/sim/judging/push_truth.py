@@ -16,8 +16,6 @@ from plantar.gravity import GRAVITY
 from plantar.sides import Side, other_side
 from plantar.sim.judging.step_count import Stand
 
-__all__ = ["AGREEMENT", "CHANGED", "PushTruth", "Pushed", "Stride", "step_changes", "strides"]
-
 CHANGED = 1 / 20
 """Distance in leg lengths by which a step has to be off its plan to count as changed: 30 mm for H1. A swing foot that
 is not aimed again lands up to 25 mm off while a push that the ankles hold shakes the body."""

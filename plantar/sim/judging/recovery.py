@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sim.model.shove import Shove
 
-__all__ = ["Recovery"]
-
 _ZMP_BACK = 0.025  # leg from the reference: nearer counts as back; 15 mm for H1
 _COM_BACK = 1 / 60  # leg
 _CALM = 2.02  # beats for which it has to stay: half a second

@@ -6,8 +6,6 @@ from plantar.kernels.contacts.ground_reaction import GroundReaction
 from plantar.kernels.judging.stance_force import StanceForce
 from plantar.sim.model.world import World
 
-__all__ = ["EDGE", "RIPPLE", "SETTLED", "SPAN", "StanceRipple"]
-
 RIPPLE = 0.02
 """Largest root mean square of the ground's vertical force less m (g + z'') in single support, over the weight."""
 

@@ -10,8 +10,6 @@ from plantar.layouts.layout import Side
 from plantar.sides import SIDES
 from plantar.sim.judging.walk_goal import NEAR_YAW, WalkGoal, Way
 
-__all__ = ["Count", "Stand", "StepCount"]
-
 # Share of the weight that makes a touch a stand: probes, taps and bounces carry less, or are followed by one
 _CARRIES = 0.25
 

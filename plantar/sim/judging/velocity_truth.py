@@ -10,8 +10,6 @@ from plantar.gait.plan.phases import Timing
 from plantar.gait.propose.velocity_command import VelocityTable
 from plantar.sim.model.world import World
 
-__all__ = ["AT_REST", "SPEED_ERROR", "STEPS_TO_REST", "VelocityTruth"]
-
 SPEED_ERROR = 0.1
 """Share of the commanded speed by which the mean speed may be off."""
 

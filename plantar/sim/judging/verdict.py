@@ -8,8 +8,6 @@ from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sim.judging.joint_limits import JointLimits
 from plantar.sim.judging.leg_contact import LegContact
 
-__all__ = ["FASTER_FOR", "HEADING", "LED", "POSITION", "UPRIGHT", "Ending", "partner_reasons", "reasons"]
-
 POSITION = 1 / 6
 """Distance in leg lengths of the CoM from the walk's end that counts as there: 0.1 m for H1."""
 

@@ -17,8 +17,6 @@ from plantar.layouts.layout import Side
 from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.sides import SIDES, other_side
 
-__all__ = ["NEAR_YAW", "WalkGoal", "Way"]
-
 Way = tuple[float, float, float]
 """From one foothold to the next: forward and left in m, in the frame of the first, and the turn in rad."""
 

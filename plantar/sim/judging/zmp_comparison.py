@@ -16,8 +16,6 @@ from plantar.layouts.layout import Side, SoleLayout
 from plantar.mechanics.zmp import zmp_of_feet
 from plantar.sides import SIDES
 
-__all__ = ["FILTER_TIME", "ZmpComparison"]
-
 FILTER_TIME = 0.02
 """Time constant in s of both low-pass filters: that of the balance laws' own."""
 

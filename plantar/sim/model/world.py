@@ -21,8 +21,6 @@ from plantar.sim.plant.body import make_true
 from plantar.sim.plant.draw import TruePlant
 from plantar.sim.terrain import GROUND_GROUP, Ground, Solid
 
-__all__ = ["DIVERGED", "PHYSICS_PERIOD", "World", "add_looks", "build_world", "check_stable"]
-
 PHYSICS_PERIOD = 0.001
 """Time step of the physics in s, where a scene gives none."""
 

@@ -7,8 +7,6 @@ from typing import Any, NamedTuple
 
 from plantar.errors import PlantarError
 
-__all__ = ["EXPERIMENTS", "PaperExperiment", "figure_of"]
-
 _ON_SLAB = 4  # which landing of `obstacle`
 _PUSHED = slice(6, 22)  # steps of `box-step` along which a partner pushes
 _LONGER = 0.01  # m by which a stride is longer

@@ -11,8 +11,6 @@ from plantar.errors import SceneError
 from plantar.files.structured_text import packaged_files, read_toml
 from plantar.settings.overrides import split_setting
 
-__all__ = ["PaperSettings", "paper_files", "paper_rows", "paper_settings", "paper_text", "with_paper"]
-
 
 class PaperSettings(NamedTuple):
     """What a paper states.

@@ -19,8 +19,6 @@ from plantar.sim.partner.hand import body_point
 from plantar.sim.partner.settings import GuideSettings
 from plantar.sim.partner.touch import Partner
 
-__all__ = ["Grip", "Guide"]
-
 _MASS = 0.02  # of the robot: 1.7 kg next to H1, as a hand and forearm
 _FINGER, _LONG = 1 / 30, 0.075  # leg: radius of a finger and half its length, 20 and 45 mm
 _PLAY = 0.02  # leg: on each side of the arm, 12 mm: an arm that yields turns, and is thicker along the way then

@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 from plantar.settings.body_scale import BodyScale
 from plantar.sim.body_skin.upper_body import FACES
 
-__all__ = ["Hand", "HandTarget", "body_point"]
-
 
 def body_point(
     data: Any, body: int, root: int, local: NDArray[np.float64]

@@ -21,8 +21,6 @@ from plantar.sim.body_skin.upper_body import FACES
 from plantar.sim.model.world import World
 from plantar.sim.partner.hand import Hand, HandTarget, body_point
 
-__all__ = ["HandPush", "HandPushes", "faces_of"]
-
 _APART = 0.15  # leg, between a waiting hand and the skin: more than the skin sees
 _NEAR = 0.003  # leg, at the begin of a push: 2 mm for H1
 _APPROACH = 1.2  # beats before a push at which its hands come up: 0.3 s for H1

@@ -17,8 +17,6 @@ from plantar.sim.model.world import World
 from plantar.sim.partner.settings import PartnerSettings
 from plantar.sim.partner.touch import Partner
 
-__all__ = ["Impedance", "MobileRobot"]
-
 
 class Impedance:
     """A mobile robot's reference motion along one axis.

@@ -2,8 +2,6 @@
 
 from plantar.settings.schema import Settings, choice, number, share
 
-__all__ = ["GuideSettings", "PartnerSettings"]
-
 
 class PartnerSettings(Settings):
     """A mobile robot that is pushed or pushes (K, appendix B).

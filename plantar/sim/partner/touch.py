@@ -12,8 +12,6 @@ from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sim.body_skin.sensing import SkinSensing, SkinSensor
 from plantar.sim.model.world import World
 
-__all__ = ["Partner", "Touch", "skin_material"]
-
 _SLIP = (
     0.12  # leg/beat: 0.3 m/s for H1. Slower, the friction of 1 kN would turn a hand of 1.7 kg round in a physics step
 )

@@ -12,8 +12,6 @@ from plantar.settings.body_scale import BodyScale
 from plantar.sim.plant.draw import TruePlant
 from plantar.sim.plant.ground import make_ground_true
 
-__all__ = ["make_true"]
-
 
 def make_true(
     model: Any,

@@ -5,8 +5,6 @@ from typing import Generic, TypeVar
 
 from plantar.mechanics.same_time import SAME_TIME
 
-__all__ = ["Delay"]
-
 T = TypeVar("T")
 
 

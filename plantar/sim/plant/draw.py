@@ -14,8 +14,6 @@ from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 from plantar.sim.plant.settings import RANDOM, STATED, Plant
 
-__all__ = ["RANGES", "Range", "TruePlant", "drawn_plant", "stream"]
-
 _LEVEL = 2.0  # at which `RANGES` hold
 
 _GAIN_MOST = 0.9  # either way of a taxel's gain of 1: a taxel that reads nothing is dead, which is another fault

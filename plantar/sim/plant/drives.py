@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 from plantar.sim.plant.delay import Delay
 from plantar.sim.plant.draw import TruePlant
 
-__all__ = ["RIPPLES", "TorqueCurve", "TrueDrives"]
-
 RIPPLES = 200.0
 """Swings of the torque in a turn of a joint: two in a turn of the wave generator of a harmonic drive of 100 : 1."""
 

@@ -11,8 +11,6 @@ from plantar.settings.body_scale import BodyScale
 from plantar.sim.plant.draw import TruePlant, stream
 from plantar.sim.terrain import GROUND_GROUP
 
-__all__ = ["FOAM_MODULUS", "PATCH", "GroundColours", "foam_time", "make_ground_true"]
-
 PATCH = 0.05
 """Size in m of a patch of one colour."""
 

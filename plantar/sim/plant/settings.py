@@ -6,8 +6,6 @@ from typing import Any, Self
 from plantar.errors import InputError, PlantarError
 from plantar.settings.schema import Settings, choice, number, tables
 
-__all__ = ["EVERYTHING", "RANDOM", "STATED", "Plant"]
-
 RANDOM = "random"
 """The word in place of a number that the seed draws."""
 

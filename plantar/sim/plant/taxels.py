@@ -8,8 +8,6 @@ from plantar.sensing.taxel_faults import TaxelFaults, WornFaults
 from plantar.sides import Side
 from plantar.sim.plant.draw import TruePlant, stream
 
-__all__ = ["CONNECTORS", "SILENCE", "TaxelErrors"]
-
 CONNECTORS = 4
 """Connectors of a sole: its taxels hang on them from heel to toe, each on as many."""
 

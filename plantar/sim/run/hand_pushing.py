@@ -21,8 +21,6 @@ from plantar.sim.partner.hand_pushes import HandPush, HandPushes, faces_of
 from plantar.sim.run.pushing import direction_of
 from plantar.sim.run.scene import Push, Scene
 
-__all__ = ["hand_pushes", "pushed_height", "upper_body_skin_of"]
-
 _SHOULDER = 0.7  # of the way from the hips to the top of the upper body
 
 Steps = tuple[Mapping[Side, Footstep], Sequence[Footstep]]

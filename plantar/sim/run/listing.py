@@ -4,8 +4,6 @@ from plantar.errors import InputError
 from plantar.files.structured_text import described_files, packaged_files
 from plantar.sim.papers.preset import paper_files
 
-__all__ = ["listed"]
-
 
 def listed(what: str) -> dict[str, str]:
     """Names with a line on each.

@@ -21,8 +21,6 @@ from plantar.sim.partner.guide import Guide
 from plantar.sim.partner.mobile_robot import MobileRobot
 from plantar.sim.partner.touch import Touch
 
-__all__ = ["MOST_VERTICES", "RunLog"]
-
 _NAN2 = np.full(2, np.nan)
 
 MOST_VERTICES = 24

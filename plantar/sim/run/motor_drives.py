@@ -10,8 +10,6 @@ from plantar.sim.model.world import World
 from plantar.sim.plant.draw import TruePlant
 from plantar.sim.plant.drives import TorqueCurve, TrueDrives
 
-__all__ = ["MotorDrives"]
-
 
 class MotorDrives:
     """Hands joint targets to motors, and moves angles on between control ticks.

@@ -10,8 +10,6 @@ from plantar.robots.robot import Robot
 from plantar.sides import SIDES
 from plantar.sim.terrain import Footprint, PlannedFeet
 
-__all__ = ["planned_feet"]
-
 
 def planned_feet(
     robot: Robot, feet: Mapping[Side, Footstep], steps: Sequence[Footstep], schedule: WalkSchedule

@@ -12,8 +12,6 @@ from plantar.sim.model.shove import Shove
 from plantar.sim.model.world import World
 from plantar.sim.run.scene import Push
 
-__all__ = ["Pusher", "direction_name", "direction_of"]
-
 _DIRECTIONS = {
     "forward": (1.0, 0.0),
     "backward": (-1.0, 0.0),

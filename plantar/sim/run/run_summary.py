@@ -32,8 +32,6 @@ from plantar.sim.run.servos import LegServos
 from plantar.sim.run.touched import Touched
 from plantar.sim.terrain import Ground
 
-__all__ = ["FinishedRun", "shares_of", "size_of", "summary_of"]
-
 
 class FinishedRun(Protocol):
     """Parts of a run that its summary reads."""

@@ -8,8 +8,6 @@ from typing import Any
 from plantar.console.command import file_lines
 from plantar.gravity import GRAVITY
 
-__all__ = ["demo_text", "run_text"]
-
 Summary = Mapping[str, Any]
 
 # Settings whose numbers people want to know of a run; the JSON lists all of them

@@ -56,8 +56,6 @@ from plantar.sim.run.standing import stand
 from plantar.sim.run.touched import Touched
 from plantar.sim.sensing.sensors import SensorSuite
 
-__all__ = ["Simulation", "run_scene"]
-
 _MEMBERS = frozenset(Percept.members())
 _AROUND = 0.25  # leg around a sole within which an edge may be why a step is moved
 

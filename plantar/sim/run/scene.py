@@ -24,8 +24,6 @@ from plantar.sim.plant.settings import Plant
 from plantar.sim.sensing.settings import Sensing
 from plantar.sim.terrain import Flat, Terrain, terrain_kinds
 
-__all__ = ["SECTIONS", "Push", "Scene", "builtin_scenes", "load_scene", "override", "scene_file", "scene_of"]
-
 _FOLDER = Path(__file__).parent.parent / "scenes"
 
 

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from plantar.sim.companion.experiment import CompanionScene
     from plantar.sim.loop import Run
 
-__all__ = ["open_scene", "robot_file_of", "run", "simulation_of"]
-
 
 def open_scene(
     name: str | os.PathLike[str], settings: Sequence[str] = (), robot: str | None = None

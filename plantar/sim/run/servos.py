@@ -12,8 +12,6 @@ from plantar.sim.model.world import World
 from plantar.sim.plant.draw import TruePlant
 from plantar.sim.plant.drives import TorqueCurve, TrueDrives
 
-__all__ = ["LegServos"]
-
 _LOW_PASS = 0.0202  # beat, time constant of each of two stages at the servo's own rate: 5 ms on a leg of 0.6 m
 
 

@@ -10,8 +10,6 @@ from plantar.sim.companion.experiment import companion_tables, experiment_names
 from plantar.sim.run.scene import SECTIONS
 from plantar.sim.terrain import terrain_kinds
 
-__all__ = ["settings_listed", "settings_of_robot"]
-
 
 def settings_listed(name: str | None = None, body: BodyScale = REFERENCE_BODY) -> dict[str, Setting]:
     """The settings by their dotted names.

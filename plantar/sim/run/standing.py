@@ -17,8 +17,6 @@ from plantar.sim.model.world import World, check_stable
 from plantar.sim.run.motor_drives import MotorDrives
 from plantar.sim.run.servos import LegServos
 
-__all__ = ["stand"]
-
 _SETTLING = 500  # physics steps: half a second of H1
 _SINKING_MAX = 1 / 12  # leg, of the base while it settles; soft servos yield by less
 

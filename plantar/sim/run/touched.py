@@ -26,8 +26,6 @@ from plantar.sim.run.hand_pushing import hand_pushes
 from plantar.sim.run.pushing import direction_name
 from plantar.sim.run.scene import Scene
 
-__all__ = ["Touched"]
-
 
 class Touched:
     """Hands and partner, from plan to verdict.

@@ -10,8 +10,6 @@ from plantar.geometry.polygon import area as polygon_area
 from plantar.layouts.layout import SoleLayout
 from plantar.sim.sensing.contact_patch import Patches, patch_polygon
 
-__all__ = ["BlindRim"]
-
 _GRID = 1e-4  # m: patches that agree within this are the same patch
 _MOST_PATCHES = 256
 

@@ -10,8 +10,6 @@ from plantar.geometry.polygon import inner_offset
 from plantar.kernels.contacts.pressed_patch import patch_key
 from plantar.kernels.geometry.hull import convex_hull
 
-__all__ = ["Patches", "half_planes_of", "patch_polygon", "reach_of"]
-
 T = TypeVar("T")
 
 _POINT = 2.6  # widths of a line: half width of a point's square, which spreads as the disc under a pebble does

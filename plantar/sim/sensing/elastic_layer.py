@@ -21,8 +21,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg.lapack import dposv, dpotrf, dpotri
 
-__all__ = ["Contact", "LayerContact", "influence"]
-
 _FAR = 12.0  # Thicknesses from which a square moves nothing: the layer's surface gives way locally
 # Sides from which a square counts as a point: off by half a per cent there, and less with the distance's square
 _NEAR = 3.0

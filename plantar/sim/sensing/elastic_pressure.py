@@ -19,8 +19,6 @@ from plantar.sim.sensing.contact_patch import Patches, patch_polygon, reach_of
 from plantar.sim.sensing.elastic_layer import LayerContact, influence
 from plantar.sim.sensing.sole_pressure import SolePressure
 
-__all__ = ["ElasticPressure"]
-
 _GRID = 2.5e-4  # m: patches that agree within this are the same patch
 _MOST_PATCHES = 64
 _FINENESS = 0.4  # of a taxel's size: side of a square

@@ -18,8 +18,6 @@ from plantar.sim.plant.ground import GroundColours
 from plantar.sim.sensing.white_noise import white_noise
 from plantar.sim.terrain import GROUND_GROUP
 
-__all__ = ["ProximitySensor", "SoleProximity"]
-
 _LIFT = 0.02  # m inside the foot at which rays begin, so that a taxel that is pressed into the ground still sees it
 _GROUPS = np.array([1 if i == GROUND_GROUP else 0 for i in range(6)], dtype=np.uint8)
 _SIMPLE = tuple(

@@ -22,8 +22,6 @@ from plantar.sim.sensing.settings import Sensing
 from plantar.sim.sensing.skin import SkinSensor, SoleSkin
 from plantar.sim.sensing.white_noise import white_noise
 
-__all__ = ["SensorSuite"]
-
 _RUBBER = 0.013  # of a sole's length that its rubber is thick: 3 mm for H1
 
 

@@ -2,8 +2,6 @@
 
 from plantar.settings.schema import Settings, choice, number, share, switch, whole
 
-__all__ = ["Sensing"]
-
 
 class Sensing(Settings):
     """White noise (1 sigma), rates and delays, SI.

@@ -28,8 +28,6 @@ from plantar.sim.sensing.settings import Sensing
 from plantar.sim.sensing.sole_pressure import SolePressure
 from plantar.sim.sensing.white_noise import white_noise
 
-__all__ = ["SkinSensor", "SoleSkin"]
-
 
 class SoleSkin:
     """The skin of one sole.

@@ -25,8 +25,6 @@ from plantar.kernels.contacts.pressed_sole import PressedSole
 from plantar.layouts.layout import SoleLayout
 from plantar.sim.sensing.contact_patch import patch_polygon, reach_of
 
-__all__ = ["SolePressure"]
-
 _GRID = 1e-4  # m: patches that agree within this are the same patch
 _MOST_PATCHES = 256
 _LEAST_SHARE = 0.01  # of a cell: less cover than this carries nothing

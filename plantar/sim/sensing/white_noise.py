@@ -5,8 +5,6 @@ from numpy.typing import NDArray
 
 from plantar.kernels.sensors.noise_rows import NoiseRows
 
-__all__ = ["white_noise"]
-
 _TOGETHER = 64  # samples that are drawn at once: a draw of forty numbers costs twice as much alone
 
 

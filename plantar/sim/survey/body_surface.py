@@ -12,8 +12,6 @@ from scipy.spatial import ConvexHull, QhullError
 from plantar.geometry.hull_plane import hull_plane
 from plantar.mujoco.mesh_surface import mesh_surface
 
-__all__ = ["SHAPES", "convex_surface", "geom_triangles", "resting_plane", "shapes_of"]
-
 _AROUND, _ALONG = 32, 8  # of a round shape
 _MARKER, _BALL = 0.02, 0.5  # of the largest shape's size: smaller drawn shapes, and smaller balls, mark a place
 _PLANE, _SPHERE = mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_SPHERE

@@ -27,8 +27,6 @@ from plantar.sim.survey.servo_gains import LEAST_STIFFNESS, joint_inertia, servo
 from plantar.sim.survey.sole_frame import level_axes, rested
 from plantar.sim.survey.step_search import HELD, SPARE
 
-__all__ = ["Finding", "RobotCheck", "check_robot"]
-
 _STEPS = 8  # of a longer walk: the others are as these
 _BENT = math.radians(8.0)  # of a knee: below it inverse kinematics damps, and the CoM is no longer free
 _MISSED = 0.01  # m by which feet or CoM may miss the plan: the three G1s walk with 3 to 5 mm

@@ -11,8 +11,6 @@ from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
 from plantar.sides import SIDES, Side
 
-__all__ = ["SOLE_GAP", "bent_posture", "posture_height", "stance_width"]
-
 SOLE_GAP = 0.25
 """Share of the sole's width between two soles that stand side by side: h1 has 0.3."""
 

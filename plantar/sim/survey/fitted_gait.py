@@ -22,18 +22,6 @@ from plantar.sim.survey.servo_gains import JointInertia, joint_inertia, servo_ga
 from plantar.sim.survey.step_search import HELD, QUICK_STEPS, SPARE, TURN, best_steps, straight_walk
 from plantar.sim.survey.step_time import ankle_reach, has_ankle_roll
 
-__all__ = [
-    "APPROACH_HEIGHT",
-    "APPROACH_SPEED",
-    "QUICK_DOUBLE",
-    "QUICK_HELD",
-    "QUICK_SINGLE",
-    "QUICK_STEP",
-    "ROLL_MOST",
-    "FittedGait",
-    "fit_gait",
-]
-
 ROLL_MOST = math.radians(3.0)
 """Angle of a sole that carries alone against level ground up to which its taxels' soft pad lets it rest whole."""
 

@@ -29,8 +29,6 @@ from plantar.sim.survey.robot_text import robot_text
 from plantar.sim.survey.servo_gains import rotor_inertia
 from plantar.sim.survey.survey import Survey, survey_model
 
-__all__ = ["Introduced", "MakeShoes", "ShoesMade", "introduce"]
-
 _SHOE_DENSITY = 15.5  # kg/m^2 of a shoe that was not built: those built for feet of 130 and 230 mm have 15.3 and 15.5
 # With 1 the soles of light feet rattle on a beam's edges: G1, two iCubs and Romeo cross it with 5 of 20 fresh seeds,
 # with 2 they do with 19. With 4, soles creep while a foot swings, and G1 comes over no obstacle.

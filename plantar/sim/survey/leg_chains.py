@@ -12,8 +12,6 @@ from plantar.errors import RobotError
 from plantar.sides import Side
 from plantar.sim.survey.body_surface import geom_triangles, resting_plane, shapes_of
 
-__all__ = ["LEAST_JOINTS", "Leg", "Legs", "find_legs"]
-
 LEAST_JOINTS = 4
 """Hinges that a leg has at least: roll and pitch of the hip, knee and pitch of the ankle."""
 

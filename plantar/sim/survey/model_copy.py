@@ -17,8 +17,6 @@ from plantar.sim.survey.body_surface import SHAPES
 from plantar.sim.survey.leg_chains import Legs
 from plantar.sim.survey.surface_file import simplified, stl_bytes
 
-__all__ = ["MESH_FOLDER", "UPRIGHT", "add_rotors", "write_model_copy"]
-
 MESH_FOLDER = "meshes"
 """Folder of its meshes, next to the copy."""
 

@@ -17,8 +17,6 @@ from plantar.robots.model_file import forget_own_simulation
 from plantar.sim.survey.body_surface import SHAPES
 from plantar.sim.survey.surface_file import meshes_for_mujoco
 
-__all__ = ["ModelSource", "read_model"]
-
 # How MuJoCo must read a URDF: with what is drawn, link by link, and with links that have no mass
 _URDF_COMPILER = {
     "strippath": "false",

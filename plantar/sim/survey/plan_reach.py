@@ -24,8 +24,6 @@ from plantar.sides import SIDES, Side
 from plantar.sim.survey.servo_gains import floating_inertia
 from plantar.sim.terrain.ground import Terrain
 
-__all__ = ["PlanReach", "Walked", "plan_reach", "settled"]
-
 _INSTANTS = 24  # that are looked at in a single support; a swing foot moves by a twelfth of a step meanwhile at most
 _FIRST = 40  # Newton steps for the standing posture
 _ARRIVES = 0.94  # of a swing, after which its foot only descends

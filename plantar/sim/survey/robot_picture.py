@@ -15,8 +15,6 @@ from plantar.sim.model.world import World, build_world
 from plantar.sim.survey.plan_reach import settled
 from plantar.sim.terrain import Ground, Terrain
 
-__all__ = ["draw_robot"]
-
 _VIEWS = ((180.0, -8.0), (90.0, -8.0), (145.0, -30.0))  # azimuth and elevation in degrees: front, side, from above
 _WIDTH, _HEIGHT = 640, 900
 _BONE = (0.25, 0.27, 0.3, 1.0)

@@ -18,8 +18,6 @@ from plantar.sim.survey.step_search import KNEE_LEAST, STEP_SHARE
 from plantar.sim.survey.step_time import LEAN_MOST
 from plantar.sim.survey.survey import Survey
 
-__all__ = ["robot_text", "roll_pitch_yaw"]
-
 _WIDTH = 110  # characters of a comment
 
 

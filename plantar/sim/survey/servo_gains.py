@@ -13,17 +13,6 @@ from plantar.robots.kinematics.body import hanging_on
 from plantar.robots.robot import Robot
 from plantar.sides import SIDES
 
-__all__ = [
-    "LEAST_STIFFNESS",
-    "SAMPLED",
-    "STIFFNESS",
-    "JointInertia",
-    "floating_inertia",
-    "joint_inertia",
-    "rotor_inertia",
-    "servo_gains",
-]
-
 
 @dataclass(frozen=True)
 class JointInertia:

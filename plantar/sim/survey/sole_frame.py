@@ -13,8 +13,6 @@ from plantar.errors import RobotError
 from plantar.sim.survey.body_surface import convex_surface, geom_triangles, resting_plane, shapes_of
 from plantar.sim.survey.leg_chains import Leg
 
-__all__ = ["Rested", "Sole", "find_sole", "level_axes", "rested"]
-
 _RESTS = 0.25  # share of the silhouette that a plane must have to be what the foot rests on
 _LEVEL = math.radians(0.2)  # a sole that is tilted by less is taken as level: rounding of the model's numbers
 _BAND = 0.005  # m: the lowest part of a foot, which is its sole

@@ -17,19 +17,6 @@ from plantar.sim.survey.first_posture import SOLE_GAP
 from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach
 from plantar.sim.survey.step_time import rocking
 
-__all__ = [
-    "HELD",
-    "KNEE_LEAST",
-    "MISSED",
-    "QUICK_STEPS",
-    "SHIFT",
-    "SPARE",
-    "STEP_SHARE",
-    "TURN",
-    "best_steps",
-    "straight_walk",
-]
-
 KNEE_LEAST = math.radians(20.0)
 """Bend of the straightest knee over a walk of level steps: h1 walks with 14, hrp2kai with 24 degrees."""
 

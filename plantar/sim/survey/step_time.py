@@ -17,8 +17,6 @@ from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
 from plantar.sides import Side
 
-__all__ = ["LEAN_MOST", "ankle_reach", "has_ankle_roll", "rocking"]
-
 LEAN_MOST = math.radians(2.5)
 """Lean of a leg in the orbit. What a sole that stands flat does not lean, the body does."""
 

@@ -13,8 +13,6 @@ from plantar.errors import DependencyError, RobotError
 from plantar.files.gate import read_apart
 from plantar.files.input_file import check_input, open_input
 
-__all__ = ["meshes_for_mujoco", "simplified", "stl_bytes"]
-
 _READ_BY_MUJOCO, _CONVERTED = (".obj", ".msh"), (".dae", ".stl")
 _MOST_BYTES = 400_000_000
 _LARGEST = 200_000  # faces of an STL file that MuJoCo reads

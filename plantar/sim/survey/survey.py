@@ -15,8 +15,6 @@ from plantar.sim.survey.leg_chains import Legs, find_legs
 from plantar.sim.survey.model_source import ModelSource, read_model
 from plantar.sim.survey.sole_frame import Sole, find_sole
 
-__all__ = ["Survey", "survey_model"]
-
 _SPEEDS = (0.5, 100.0)  # rad/s: what a model states outside of them is a placeholder
 
 

@@ -17,8 +17,6 @@ from plantar.errors import InputError, PlantarError, WorkerError
 from plantar.optional_library import optional_library
 from plantar.sim.sweep.task import Row, Task, failed, run_task
 
-__all__ = ["ClusterWorkers", "check_address", "network_note", "tls_files"]
-
 _ADDRESS = re.compile(r"(?:(?P<scheme>[a-z]+)://)?(?P<host>\[[0-9a-fA-F:.]+\]|[A-Za-z0-9_.-]+):(?P<port>\d{1,5})/?")
 _THIS_PROCESS = re.compile(r"inproc://[0-9a-fA-F.:]+/\d+/\d+")  # as `LocalCluster(protocol="inproc://")` names itself
 _ALLOWED = "allowed: tcp://HOST:PORT, or tls://HOST:PORT with certificates"

@@ -11,8 +11,6 @@ from plantar.plotting import COLOURS, new_figure
 from plantar.sim.sweep.limit_search import LimitSearch
 from plantar.sim.sweep.plan import Plan, Rows, settings_of
 
-__all__ = ["bars_of", "figures_of"]
-
 _WIDEST = 40.0  # inches of a figure
 _GROUPS = 8  # of runs along a setting
 # Columns whose distributions are drawn, where a table has them

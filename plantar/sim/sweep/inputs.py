@@ -14,8 +14,6 @@ from plantar.robots import load_robot
 from plantar.sides import SIDES
 from plantar.sim.run.scene import scene_file
 
-__all__ = ["changes", "inputs_of"]
-
 _NAMED = re.compile(rb"""\b(?:file|filename)\s*=\s*["']([^"']+)["']""")
 _FOLDERS = re.compile(rb"""\b(?:meshdir|texturedir|assetdir)\s*=\s*["']([^"']+)["']""")
 

@@ -12,8 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtrc
 
-__all__ = ["LimitCurve", "limit_curve"]
-
 _LAPSES = (0.0, 0.02, 0.1)
 _WIDTHS = 12
 _NARROWEST, _WIDEST = 1e-3, 0.5  # widths of the logistic curve, in shares of the range

@@ -11,8 +11,6 @@ from plantar.sim.sweep.limit_curve import LimitCurve, limit_curve
 from plantar.sim.sweep.plan import Key, Rows, Run, Sweep, key_of, settings_of
 from plantar.sim.sweep.value_range import ValueRange
 
-__all__ = ["LimitSearch"]
-
 AHEAD = 8
 """A run is chosen by all outcomes but the newest of these, so that as many workers are at work. It is the same number
 everywhere: the runs of a search do not depend on who ran them."""

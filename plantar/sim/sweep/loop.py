@@ -18,8 +18,6 @@ from plantar.sim.sweep.results import open_results
 from plantar.sim.sweep.task import Row, Task, columns_of
 from plantar.sim.sweep.workers import LocalWorkers, Workers
 
-__all__ = ["StopNote", "SweepStopped", "run_sweep", "stop_noted"]
-
 _NAMES = {signal.SIGINT: "Ctrl-C", signal.SIGTERM: "SIGTERM"}
 
 

@@ -20,8 +20,6 @@ from plantar.sim.sweep.value_range import ValueRange, canonical, is_word, split_
 if TYPE_CHECKING:
     from plantar.sim.companion.experiment import CompanionScene
 
-__all__ = ["Key", "Plan", "Rows", "Run", "Sweep", "key_of", "point_result", "progress_of", "settings_of"]
-
 Key = tuple[tuple[str, ...], int]
 """Values of the axes, and the seed."""
 

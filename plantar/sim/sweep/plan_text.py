@@ -8,8 +8,6 @@ from plantar.sim.sweep.plan import Sweep
 from plantar.sim.sweep.random_search import RandomSearch
 from plantar.sim.sweep.value_range import ValueRange
 
-__all__ = ["plan_from_texts"]
-
 _MOST = 1000  # runs of a limit's search
 
 

@@ -11,8 +11,6 @@ from plantar.errors import InputError
 from plantar.sim.sweep.plan import Rows, Run, Sweep, key_of, point_result, progress_of
 from plantar.sim.sweep.value_range import ValueRange
 
-__all__ = ["RandomSearch"]
-
 
 @dataclass(frozen=True)
 class RandomSearch:

@@ -19,8 +19,6 @@ from plantar.sim.sweep.inputs import changes
 from plantar.sim.sweep.plan import Key
 from plantar.sim.sweep.value_range import canonical, is_word
 
-__all__ = ["Results", "locked", "open_results"]
-
 _NAME = ".sweep.lock"
 _PLACE = 1 << 20  # where Windows locks a byte: behind the owner's name, which stays readable
 

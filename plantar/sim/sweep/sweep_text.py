@@ -3,8 +3,6 @@
 from collections.abc import Mapping
 from typing import Any
 
-__all__ = ["sweep_errors", "sweep_text"]
-
 _ODD = 1e-3  # Agreement of the runs with one curve below which it is doubted: once in a thousand searches by chance
 
 

@@ -16,8 +16,6 @@ from plantar.sim.sweep.inputs import changes, inputs_of
 if TYPE_CHECKING:
     from plantar.sim.companion.experiment import CompanionScene
 
-__all__ = ["COLUMNS", "Row", "Task", "columns_of", "criteria_of", "failed", "run_one", "run_task"]
-
 _BETWEEN = " | "  # two reasons; their texts hold commas and semicolons
 
 Row = dict[str, Any]

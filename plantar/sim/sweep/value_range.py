@@ -9,8 +9,6 @@ from typing import Any
 from plantar.errors import InputError
 from plantar.files.structured_text import parse_toml
 
-__all__ = ["ValueRange", "canonical", "is_word", "split_values"]
-
 _OPENING = ("[", "{", '"', "'")  # what a value begins with that may hold commas
 
 

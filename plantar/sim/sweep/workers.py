@@ -11,8 +11,6 @@ from typing import Any, Protocol
 from plantar.errors import PlantarError, WorkerError
 from plantar.sim.sweep.task import Row, Task, failed, run_task
 
-__all__ = ["TRIES", "LocalWorkers", "Workers"]
-
 TRIES = 3
 """How often a run is begun before its row reports that its workers died."""
 

@@ -8,8 +8,6 @@ from plantar.settings.schema import number, share
 from plantar.sim.terrain.ground import Ground, PlannedFeet, Terrain
 from plantar.sim.terrain.way import Way, way_of
 
-__all__ = ["Beam"]
-
 
 class Beam(Terrain):
     """A beam between two platforms, along the walk (T 4.4.5.3).

@@ -9,8 +9,6 @@ from plantar.mechanics.rotation import rotation_from_angles
 from plantar.settings.schema import choice, number, share, whole
 from plantar.sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
 
-__all__ = ["Block"]
-
 _WAYS = ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))
 
 

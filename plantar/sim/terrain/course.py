@@ -12,8 +12,6 @@ from plantar.settings.schema import number, tables
 from plantar.settings.unknown_keys import refuse_unknown_keys
 from plantar.sim.terrain.ground import Ground, PlannedFeet, Solid, Terrain
 
-__all__ = ["Course"]
-
 _SHAPES = {"box": 3, "sphere": 1, "ellipsoid": 3, "cylinder": 2}
 
 

@@ -13,8 +13,6 @@ import mujoco
 from plantar.errors import InputError
 from plantar.kernels.contacts.face_contacts import FaceContacts
 
-__all__ = ["MARK", "install_face_contacts"]
-
 MARK = 1 << 29
 """Bit of `contype` of a geom whose flat faces carry soles; no geom's `conaffinity` answers to it."""
 

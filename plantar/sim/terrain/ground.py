@@ -15,9 +15,6 @@ from numpy.typing import NDArray
 from plantar.layouts.layout import Side
 from plantar.settings.schema import Settings, number, text
 
-__all__ = ["GROUND_GROUP", "Flat", "Footprint", "Ground", "Motion", "PlannedFeet", "Solid", "Terrain"]
-
-
 GROUND_GROUP = 2
 """Geom group of all ground, and only of ground: what proximity sensors see."""
 

@@ -8,8 +8,6 @@ from pathlib import Path
 from plantar.extensions import extensions
 from plantar.sim.terrain.ground import Terrain
 
-__all__ = ["terrain_kinds"]
-
 
 @cache
 def terrain_kinds() -> dict[str, type[Terrain]]:
@@ -21,10 +19,11 @@ def terrain_kinds() -> dict[str, type[Terrain]]:
     """
     package = Path(__file__).parent
     modules = [import_module(f"{__package__}.{module.name}") for module in pkgutil.iter_modules([str(package)])]
-    found = {
-        name.lower(): kind
+    defined = [
+        value
         for module in modules
-        for name in module.__all__
-        if isinstance(kind := getattr(module, name), type) and issubclass(kind, Terrain) and kind is not Terrain
-    }
+        for _, value in sorted(vars(module).items())
+        if isinstance(value, type) and value.__module__ == module.__name__
+    ]
+    found = {kind.__name__.lower(): kind for kind in defined if issubclass(kind, Terrain) and kind is not Terrain}
     return {"flat": found.pop("flat"), **found, **extensions("plantar.terrain", Terrain, ("flat", *found))}

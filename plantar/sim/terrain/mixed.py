@@ -11,8 +11,6 @@ from plantar.settings.schema import share as share_of_body
 from plantar.sim.terrain.ground import Footprint, PlannedFeet, Solid
 from plantar.sim.terrain.stones import Laid, drawn_slope, overlapping, stone_under
 
-__all__ = ["Mixed"]
-
 _PIECES = ("level", "part", "height", "slope", "slab", "beam")
 _PARTS = ("rear", "front", "inner", "outer")
 

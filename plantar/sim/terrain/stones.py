@@ -15,8 +15,6 @@ from plantar.settings.schema import share as share_of_body
 from plantar.sides import SIDES
 from plantar.sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
 
-__all__ = ["Laid", "Partial", "Pebbles", "Stones", "Uneven", "drawn_slope", "overlapping", "same_place", "stone_under"]
-
 _MARGIN = 0.433  # of the half length of the sole that a whole stone is larger than it, on each end: 54 mm of 250
 _GAP = 0.002  # m between the stones of two lanes
 _PARTS = ("rear", "front", "inner", "outer")

@@ -13,8 +13,6 @@ from plantar.mechanics.rotation import level_rotation, rotation_from_angles
 from plantar.settings.schema import number, share
 from plantar.sim.terrain.ground import Footprint, Ground, PlannedFeet, Solid, Terrain
 
-__all__ = ["Relief", "Slopes", "Stairs", "Way", "way_of"]
-
 _THICK = 0.1  # m, half height of a piece
 _HALF_WIDTH = 0.8  # m, of a piece
 _BEYOND = 1.2  # m of ground behind the start and ahead of the end

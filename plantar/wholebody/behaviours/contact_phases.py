@@ -5,8 +5,6 @@ from collections.abc import Sequence
 from plantar.wholebody.fusion.priority_transition import smooth_share
 from plantar.wholebody.tasks.task import Task
 
-__all__ = ["ContactPhases"]
-
 
 class ContactPhases:
     """Precontact and contact: tasks of each, entered when the user reports it.

@@ -10,8 +10,6 @@ from typing import ClassVar, Literal, NamedTuple
 from plantar.settings.schema import Settings, number
 from plantar.wholebody.tasks.task import Task
 
-__all__ = ["Arrangement", "ContactSettings", "ContactSigns", "IntentionalContact"]
-
 Arrangement = Literal["avoid", "approach", "retreat"]
 """T Table 1 a, b and c: obstacle avoidance, intentional approach and contact, hard contact reaction."""
 

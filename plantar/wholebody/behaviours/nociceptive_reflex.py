@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from plantar.settings.schema import Settings, number
 from plantar.wholebody.tasks.task import Task
 
-__all__ = ["NociceptiveReflex", "ReflexSettings"]
-
 
 class ReflexSettings(Settings):
     """Begin and end of the reflex.

@@ -12,8 +12,6 @@ from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.support import Support
 from plantar.wholebody.tasks.task import Demand
 
-__all__ = ["ContactForces"]
-
 
 class ContactForces:
     """Shares a free base's load among contacts, as `joint_torques`, within friction cones.

@@ -18,8 +18,6 @@ from plantar.wholebody.fusion.hierarchy import DAMPED, RANK, Fused, fuse, joint_
 from plantar.wholebody.fusion.null_space import mass_factor
 from plantar.wholebody.tasks.task import Demand
 
-__all__ = ["HierarchicalQP", "JointLimits"]
-
 
 @dataclass(frozen=True)
 class JointLimits:

@@ -20,8 +20,6 @@ from plantar.kernels.joints.task_space import TaskSpace
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand
 
-__all__ = ["DAMPED", "RANK", "Fused", "Split", "fuse", "joint_torques"]
-
 RANK = 1e-11
 """Share of its rows' size below which a direction is none of a task's: some orders above rounding."""
 

@@ -15,8 +15,6 @@ from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.fusion.hierarchy import RANK, Fused, joint_torques
 from plantar.wholebody.tasks.task import Demand
 
-__all__ = ["Projection", "mass_factor", "null_space_projector", "null_space_torques", "task_torque", "weighted_sum"]
-
 Projection = Literal["recursive", "augmented", "successive"]
 """How higher tasks count: projected one after another, all rows at once (T 3.9-3.10), or only the last (T 3.7)."""
 

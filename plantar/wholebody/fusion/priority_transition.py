@@ -9,8 +9,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["PriorityTransition", "smooth_share"]
-
 # delta_t of T 3.46 times half of the duration: tanh of it is 0.96, so little has to be stretched.
 STEEPNESS = 2.0
 

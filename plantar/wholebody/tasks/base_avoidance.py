@@ -9,8 +9,6 @@ from plantar.settings.schema import Settings, number
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
-__all__ = ["AvoidanceField", "BaseAvoidance"]
-
 
 class AvoidanceField(Settings):
     """The repulsive field (A 16).

@@ -9,8 +9,6 @@ from plantar.sensing.link_skin import SkinReading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
-__all__ = ["CenterOfMass"]
-
 
 class CenterOfMass(Task):
     """Draws the center of mass to its target: x''* = K (x_d - x) + D (x'_d - x') (T 3.25 corrected, A 4).

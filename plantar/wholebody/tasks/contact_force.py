@@ -8,8 +8,6 @@ from plantar.settings.schema import Settings, number
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
-__all__ = ["ContactForce", "ContactGains"]
-
 _FELT = 0.3  # Force in N up to which a patch counts as not touching: noise of 40 taxels adds up, as none reads below 0
 
 

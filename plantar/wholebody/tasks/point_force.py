@@ -7,8 +7,6 @@ from plantar.sensing.link_skin import SkinReading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
-__all__ = ["AlongForce", "PointForce"]
-
 
 class PointForce(Task):
     """Applies a force: tau = J_p^T f (T 3.29).

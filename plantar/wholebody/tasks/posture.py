@@ -9,8 +9,6 @@ from plantar.sensing.link_skin import SkinReading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
-__all__ = ["BodyCompliance", "Posture"]
-
 
 class Posture(Task):
     """Draws joints to a posture: accelerations q''* = K (q_d - q) + D (q'_d - q'), or such torques (A 18).

@@ -11,8 +11,6 @@ from plantar.sensing.link_skin import SkinReading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
-__all__ = ["SelfCollision", "Sphere"]
-
 
 class Sphere(NamedTuple):
     """A sphere on a link.

@@ -10,14 +10,6 @@ from plantar.sensing.link_skin import BodySkin, LinkWrench, SkinReading, link_wr
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task, wrench_demand
 
-__all__ = [
-    "DirectInteraction",
-    "PressureInteraction",
-    "ProximityInteraction",
-    "SkinInteraction",
-    "TemperatureInteraction",
-]
-
 
 class SkinInteraction(Task):
     """Yields to taxel forces: tau = sum J^T E w over links with active ones (T 3.22-3.24, 3.28, 3.33, 3.38).

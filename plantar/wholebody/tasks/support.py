@@ -12,9 +12,6 @@ from plantar.sensing.link_skin import SkinReading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
-__all__ = ["Standing", "Support"]
-
-
 _POINT = Rectangle(0.0, 0.0, 0.0, 0.0)
 
 

@@ -14,8 +14,6 @@ from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.skin_interaction import DirectInteraction
 from plantar.wholebody.tasks.task import Demand, Task
 
-__all__ = ["GuidanceGains", "TactileGuidance"]
-
 # Shares of an arm's length between which guidance away from the shoulder fades: of two links l as long as each other
 # the share s leaves the elbow l sqrt(1 - s^2) of lever along the arm, a half of l at first and a third at last
 _STRAIGHT = (0.85, 0.95)

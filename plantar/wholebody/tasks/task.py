@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 from plantar.sensing.link_skin import LinkWrench, SkinReading
 from plantar.wholebody.dynamics import RobotDynamics
 
-__all__ = ["Demand", "Task", "wrench_demand"]
-
 
 class Demand(NamedTuple):
     """A task's demand now: a force, or an acceleration with drift.

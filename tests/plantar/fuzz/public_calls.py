@@ -38,6 +38,8 @@ from plantar.sensing import (
 )
 from plantar.sensing.reading import Reading
 
+from ...public_names import public_names
+
 __all__ = ["INNER", "Argument", "Call", "array_functions", "public_calls"]
 
 Array = NDArray[Any]
@@ -160,7 +162,7 @@ def array_functions() -> Iterator[str]:
     rooms = [f"plantar.{room}" for room in ROOMS]
     inside = [f"{r}.{m.name}" for r in rooms for m in pkgutil.iter_modules(import_module(r).__path__)]
     for module in map(import_module, [*inside, "plantar.batch"]):
-        for name in getattr(module, "__all__", ()):
+        for name in public_names(module):
             value = getattr(module, name)
             if getattr(value, "__module__", None) != module.__name__:
                 continue

@@ -12,8 +12,6 @@ from plantar.plotting import save_figure
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side
 
-__all__ = ["draw_figures", "write_figures"]
-
 
 def write_figures(
     figures: Sequence[tuple[str, Any, str]], folder: Path, progress: Callable[[float, str], None] | None = None

@@ -21,8 +21,6 @@ from plantar.pages.page import Section, figures_of, number, page, row, scaled, t
 from plantar.plotting import COLOURS, draw_raster, new_figure
 from plantar.sides import SIDES, Side
 
-__all__ = ["analyse_image", "draw_footprints", "footprint_in_image", "footprint_page", "measures_of_footprint"]
-
 _MOST_PIXELS = 40_000  # Pixels a footprint is measured with; finer masks are thinned
 
 

@@ -13,17 +13,6 @@ from plantar.plotting import COLOURS, new_figure, thinned
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side
 
-__all__ = [
-    "STANCE",
-    "draw_sd",
-    "figure_force",
-    "figure_steps",
-    "figure_symmetry",
-    "figure_wrench",
-    "force_label",
-    "stance_curves",
-]
-
 STANCE = np.linspace(0.0, 100.0, 101)
 """Percent of stance at which force curves are given."""
 

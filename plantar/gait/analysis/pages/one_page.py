@@ -18,8 +18,6 @@ from plantar.plotting import COLOURS, new_figure
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side
 
-__all__ = ["figure_summary", "one_page"]
-
 # 95 % ranges of women and men of 18 to 49 years who walk freely, after Whittle 2007, Gait Analysis, 4th ed.; not yet
 # compared with the printed table.
 NORMS: Mapping[str, tuple[float, float]] = {

@@ -13,8 +13,6 @@ from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side
 
-__all__ = ["player_data"]
-
 LONGEST = 60.0  # Time in s that the player shows; of a longer recording the first part that is loaded
 USUAL_RATE = 25.0  # Frames a second that the player shows of a long recording
 # Frames that are shown at most, and that a recording of many cells is not thinned below.

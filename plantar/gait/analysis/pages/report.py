@@ -14,8 +14,6 @@ from plantar.gait.analysis.pages.tables import comparison_table, measures_table,
 from plantar.gravity import GRAVITY
 from plantar.pages.page import Section, embedded, figures_of, number, page, warning_list
 
-__all__ = ["analysis_text", "asset", "comparison_page", "facts_of", "facts_of_image", "report_page", "summary_text"]
-
 _GAIT = (
     ("cadence_steps_per_min", "Cadence", "steps/min", 1.0),
     ("steady_cadence_steps_per_min", "Cadence, steps in the means", "steps/min", 1.0),

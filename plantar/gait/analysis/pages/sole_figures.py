@@ -18,8 +18,6 @@ from plantar.plotting import COLOURS, draw_cells, draw_classes, new_figure
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side
 
-__all__ = ["axis_is_inside", "draw_lines", "figure_pair", "figure_pressure", "figure_regions", "stepped_on"]
-
 # CoP paths drawn a foot, thin, next to the mean one; of more steps every n-th: the map below has to be seen.
 MOST_PATHS = 12
 _FORWARD, _RIGHT = "forward (mm)", "to the right (mm)"

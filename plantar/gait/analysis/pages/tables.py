@@ -10,8 +10,6 @@ from plantar.gait.analysis.prints.regions import REGIONS
 from plantar.gravity import GRAVITY
 from plantar.pages.page import group_row, number, row, scaled, table, titled
 
-__all__ = ["EACH_STEP", "comparison_table", "measures_table", "regions_tables", "shown_as", "steps_table"]
-
 EACH_STEP = ("contact_time_s", "stride_time_s", "peak_force_N", "impulse_Ns", "peak_pressure_Pa", "contact_area_m2")
 """Measures that are shown of each step."""
 

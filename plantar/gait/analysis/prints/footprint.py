@@ -15,8 +15,6 @@ from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.polygon import convex_hull
 from plantar.layouts.layout import Side, SoleLayout
 
-__all__ = ["Footprint", "footprint_of_cells", "footprint_of_pixels"]
-
 # Shares of the length, toes included, in which the foot's axis halves the widths of heel and forefoot.
 _HEEL, _FOREFOOT = (0.0, 0.25), (0.55, 0.80)
 _ROUNDS = 4  # How often the axis is found again, in bands that turn with it

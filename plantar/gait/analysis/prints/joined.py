@@ -2,8 +2,6 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 
-__all__ = ["joined"]
-
 
 def joined(neighbours: Mapping[int, Iterable[int]]) -> Iterator[list[int]]:
     """Yields places that are joined, by the `neighbours` of each; others join none.

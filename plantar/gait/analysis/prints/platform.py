@@ -19,8 +19,6 @@ from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 from plantar.sides import SIDES, Side
 
-__all__ = ["PlatformPrint", "separated_feet"]
-
 _TRIGGER = 0.25  # Share of the peak up to which load in the first and last frame is the beginning and end of a contact
 
 

@@ -16,16 +16,6 @@ from plantar.gait.analysis.prints.joined import joined
 from plantar.layouts.layout import SoleLayout
 from plantar.sides import Side, other_side
 
-__all__ = [
-    "PlatformLoad",
-    "PlatformWalk",
-    "PrintCells",
-    "cells_of_prints",
-    "direction_of_walk",
-    "passes_over",
-    "sides_of_walk",
-]
-
 _LONGEST, _WIDEST = 0.36, 0.17  # Largest length and width in m of one footprint
 _BREAK = 0.25  # Time in s without load after which a part of the platform is stepped on again
 # Time in s by which two pieces of one footprint may miss each other: heel and toes are not always joined by load.

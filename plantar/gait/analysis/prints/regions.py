@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 
 from plantar.gait.analysis.prints.footprint import Footprint
 
-__all__ = ["REGIONS", "regions_of", "with_toe_line"]
-
 REGIONS: Mapping[str, str] = {
     "heel": "Heel",
     "midfoot": "Midfoot",

@@ -16,8 +16,6 @@ from plantar.gait.analysis.steps.swing_levels import SwingLevels, swing_levels
 from plantar.recordings.frame_table import blocks_of_frames, let_go, room
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, true_runs
 
-__all__ = ["RestingLevel", "resting_level", "without_baselines"]
-
 OFFSET = 0.10  # A level in swing of more than so much of the walk's range of force is an offset; shoes press less
 _REPORTED = 0.03  # A level in swing of more than so much of the range is reported, though it is not taken off
 # A level in swing of so much of the range below zero is an offset, too: no shoe pulls, and cells below zero take the

@@ -9,8 +9,6 @@ from plantar.gait.analysis.prints.footprint import Footprint
 from plantar.geometry.polygon import convex_hull
 from plantar.layouts.layout import SoleLayout
 
-__all__ = ["CHORD", "averaged_path", "chords", "cop_measures", "excursion_index", "margin_to_outline"]
-
 CHORD = 0.05
 """Time in s of the pieces that a path's length is the sum of."""
 

@@ -14,20 +14,6 @@ from numpy.typing import NDArray
 
 from plantar.recordings.pressure_recording import Kind, true_runs
 
-__all__ = [
-    "EVENT_LEVELS",
-    "MINIMUM_STANCE",
-    "MINIMUM_SWING",
-    "Contact",
-    "EventLevels",
-    "Levels",
-    "find_contacts",
-    "force_levels",
-    "measured_spans",
-    "run_together",
-    "smoothed",
-]
-
 
 @dataclass(frozen=True)
 class EventLevels:

@@ -12,8 +12,6 @@ from plantar.gait.analysis.steps.events import Contact, Levels
 from plantar.recordings.pressure_recording import FootRecording
 from plantar.sides import Side
 
-__all__ = ["FootGait", "Step"]
-
 
 @dataclass(frozen=True, eq=False)
 class Step:

@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 from plantar.recordings.frame_table import blocks_of_frames, let_go, room
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
-__all__ = ["LONGEST_GAP", "filled", "without_gaps"]
-
 LONGEST_GAP = 0.1
 """Longest gap in s that is filled."""
 

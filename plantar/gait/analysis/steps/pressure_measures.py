@@ -10,8 +10,6 @@ from plantar.gait.analysis.steps.step_load import StepLoad
 from plantar.geometry.polygon import signed_margin
 from plantar.layouts.layout import SoleLayout
 
-__all__ = ["pressure_measures", "region_measures", "robot_measures"]
-
 _MOST_FRAMES = 200  # Frames of a contact in which support polygons are looked at; of more, every n-th
 
 

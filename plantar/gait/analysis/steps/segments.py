@@ -11,8 +11,6 @@ from plantar.gait.analysis.steps.events import Contact
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 from plantar.sides import SIDES, Side
 
-__all__ = ["Segment", "segments_of", "with_activities", "without_standing"]
-
 # A contact over twice the median of the three before and the three after it, and over 1.2 s, is standing.
 _LONG, _LEAST, _BESIDE = 2.0, 1.2, 3
 # A step of a run has a flight of more than 0.01 s and a stance below half of its stride; of one foot, below 45 %.

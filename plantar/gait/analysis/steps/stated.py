@@ -9,8 +9,6 @@ from plantar.gait.analysis.steps.events import Contact
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.recordings.pressure_recording import StatedEvents
 
-__all__ = ["stated_beside_own", "stated_contacts"]
-
 _SAME = 0.25  # Longest time in s between a stated event and a found one that are the same: less than half of a swing
 
 

@@ -10,8 +10,6 @@ from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 from plantar.sides import Side
 
-__all__ = ["FEWEST_STEPS", "in_one_window", "with_used_steps"]
-
 FEWEST_STEPS = 12
 """Steps a foot that reliable means of in-shoe pressure take (Arts & Bus 2011, Clin. Biomech. 26:880)."""
 

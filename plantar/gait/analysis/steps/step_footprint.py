@@ -15,8 +15,6 @@ from plantar.gait.analysis.steps.step_load import StepLoads
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side
 
-__all__ = ["footprint_of_step", "print_of_contact", "with_picture"]
-
 
 def with_picture(recording: PressureRecording, gait: FootGait, loads: StepLoads) -> FootGait:
     """Returns foot's gait in a recording with maximum pressure picture by its loads, footprint and regions."""

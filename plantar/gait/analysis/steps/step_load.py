@@ -11,8 +11,6 @@ from plantar.gait.analysis.steps.events import Contact
 from plantar.recordings.frame_table import LARGE, let_go
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
-__all__ = ["StepLoad", "StepLoads", "cell_threshold"]
-
 _BLOCK = 1_000_000  # Values of cells that are looked at together
 NOISE_FRAMES = 5000  # Frames of swing from which a cell's noise is judged: enough for 2 %
 

@@ -14,8 +14,6 @@ from plantar.gait.analysis.steps.pressure_measures import robot_measures
 from plantar.gait.analysis.steps.step_load import StepLoad
 from plantar.recordings.pressure_recording import PressureRecording
 
-__all__ = ["force_measures", "landing_impact", "step_measures"]
-
 
 def step_measures(
     recording: PressureRecording,

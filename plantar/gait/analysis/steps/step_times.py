@@ -13,8 +13,6 @@ from plantar.gait.analysis.steps.events import Contact, measured_spans
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side
 
-__all__ = ["OtherFoot", "longest_stride", "stride_times", "time_measures"]
-
 PAUSE = 1.75  # A stride longer than so many times the median of its foot holds a pause or a step that was not recorded
 # Time in s after which the other foot's heel strike is not that of the next step: runners fly for 0.3 s.
 _LONGEST_FLIGHT = 0.6

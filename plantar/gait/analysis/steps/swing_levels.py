@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 from plantar.gait.analysis.steps.events import MINIMUM_SWING, smoothed
 from plantar.recordings.pressure_recording import true_runs
 
-__all__ = ["SwingLevels", "swing_levels"]
-
 # Longest contacts in s that are tried: a window longer than a contact follows the level under it, one that is much
 # longer follows only slow changes.
 _CONTACTS = (1.6, 0.9, 2.6)

@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from plantar.sides import Side, other_side
 
-__all__ = ["Place", "step_geometry"]
-
 _LEAST_STRIDE = 0.05  # Distance in m under which two footprints of one foot give no direction
 _LONGEST_STRIDE = 3.0  # Time in s after which a footprint is not the next one of a walk
 

@@ -13,8 +13,6 @@ from plantar.gait.analysis.study.one_recording import RecordingResult
 from plantar.gait.analysis.study.statistics import Effect, PermutationTest, effect_of, permutation_test
 from plantar.gravity import GRAVITY
 
-__all__ = ["COMPARED", "Comparison", "Outlier", "compare_conditions", "grid_neighbours", "mean_of", "outliers"]
-
 COMPARED = (
     "contact_time_s",
     "stride_time_s",

@@ -26,18 +26,6 @@ from plantar.gravity import GRAVITY
 from plantar.layouts.layout_file import layout_to_dict
 from plantar.sides import Side
 
-__all__ = [
-    "GRID",
-    "RecordingResult",
-    "digest_of",
-    "key_of",
-    "measure_recording",
-    "normalised",
-    "read_result",
-    "sampled",
-    "write_result",
-]
-
 GRID = (36, 14)
 """Places along and across a sole at which maps are compared: about 8 mm, the pitch of in-shoe sensors."""
 

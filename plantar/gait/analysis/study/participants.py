@@ -12,8 +12,6 @@ from plantar.formats.text import number
 from plantar.gait.analysis.subject import BODY_MASSES, FOOT_LENGTHS
 from plantar.sides import SIDES
 
-__all__ = ["Participation", "read_participants"]
-
 # Names that a column may have, by what it holds; other columns are carried through to the tables.
 _NAMES = {
     "file": ("file", "recording", "filename", "path"),

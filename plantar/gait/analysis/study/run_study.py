@@ -33,8 +33,6 @@ from plantar.gait.analysis.study.one_recording import (
 from plantar.gait.analysis.study.participants import Participation, read_participants
 from plantar.gait.analysis.study.study_page import study_figures, study_page
 
-__all__ = ["Study", "run_study"]
-
 _CACHE = "measured"  # Folder in the output folder that holds the result of each recording
 _SKIPPED_FORMATS = ("image",)
 

@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 
 from plantar.gait.analysis.prints.joined import joined
 
-__all__ = ["Effect", "PermutationTest", "effect_of", "permutation_test", "student_quantile"]
-
 # Permutations that are drawn where there are more: a p of 0.05 is then known to 0.005 (one standard deviation).
 PERMUTATIONS = 2000
 _SEED = 1

@@ -17,8 +17,6 @@ from plantar.gait.analysis.study.statistics import Effect, student_quantile
 from plantar.pages.page import Section, figures_of, number, page, row, scaled, table, titled, warning_list
 from plantar.plotting import COLOURS, new_figure
 
-__all__ = ["study_figures", "study_page"]
-
 _MOST = 200  # Rows of a table that the page shows; the CSV tables hold all
 
 

@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 from plantar.kernels.joints.task_step import ComRows, Rows
 from plantar.robots.kinematics.tasks.task import Target, Task, chain
 
-__all__ = ["ComTask"]
-
 
 class ComTask(Task):
     """A body and its descendants: CoM at a world point.

@@ -9,8 +9,6 @@ from plantar.kernels.mechanics.rotations import missing_pose, missing_turn
 from plantar.mechanics.rotation import rotation_error
 from plantar.robots.kinematics.tasks.task import Target, Task, chain
 
-__all__ = ["OrientationTask", "PoseTask", "RollingPoseTask"]
-
 
 class PoseTask(Task):
     """A site at a position and an orientation of the world.

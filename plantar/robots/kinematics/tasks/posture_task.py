@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from plantar.robots.kinematics.tasks.task import Task
 
-__all__ = ["PostureTask"]
-
 
 class PostureTask(Task):
     """Hinge and slide joints at given positions.

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 from plantar.kernels.joints.task_step import Rows
 
-__all__ = ["Target", "Task", "chain"]
-
 
 class Target:
     """A target array at a fixed place for kernels, of the first set shape."""

@@ -16,8 +16,6 @@ from plantar.sim.model.world import check_stable
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import Scene, scene_of
 
-__all__ = ["TRIALS", "FootholdResult", "Trial", "run_trial", "scene_of_trial"]
-
 _STEPS = 8
 _FORWARD = {"steps": _STEPS, "length": "1/3 leg"}
 _SIDEWAYS = {"steps": _STEPS, "length": 0.0, "sideways": "2/15 leg"}

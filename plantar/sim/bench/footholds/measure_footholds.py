@@ -12,8 +12,6 @@ from plantar.errors import InputError, SceneError
 from plantar.sim.bench.footholds.foothold_run import TRIALS, run_trial
 from plantar.sim.bench.footholds.policy import OwnController, load_policy
 
-__all__ = ["footholds_text", "measure_footholds"]
-
 _COLUMNS = ("policy", "robot", "kind", "value", "seed", "completed", "steps", "planned", "fell", "tilt_deg", "froude")
 _TABLE, _PAGE = "footholds.csv", "footholds.md"
 

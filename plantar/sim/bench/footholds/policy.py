@@ -17,8 +17,6 @@ from plantar.gait.plan.plan_change import MovedStep
 from plantar.robots.controller import JointTargets, RobotController, load_controller
 from plantar.sides import Side
 
-__all__ = ["Action", "OwnController", "Policy", "WalkTask", "load_policy"]
-
 
 @dataclass(frozen=True)
 class WalkTask:

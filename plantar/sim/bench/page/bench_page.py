@@ -9,8 +9,6 @@ from typing import Any, NamedTuple
 from plantar.pages.page import Section, figure, number, page, row, table
 from plantar.sim.bench.room_times import ROOMS
 
-__all__ = ["bench_page"]
-
 Row = Mapping[str, Any]
 
 # Kernels that are shown first, in this order

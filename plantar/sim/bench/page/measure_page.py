@@ -16,8 +16,6 @@ from plantar.sim.papers.experiments import EXPERIMENTS, PaperExperiment, figure_
 from plantar.sim.run.runner import run_scene
 from plantar.sim.run.scene import load_scene
 
-__all__ = ["measure_page", "measure_papers"]
-
 _SEED = 1000  # a fresh one: nothing was ever tuned on it
 
 

@@ -23,8 +23,6 @@ from plantar.sim.model.world import World
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 
-__all__ = ["PARTED", "SAMPLE", "ChangedRun", "Trace", "TraceError", "TracedRun", "trace_error"]
-
 SAMPLE = 0.01
 """Time in s that a sample of a trace is the mean of: a multiple of every physics step that is compared."""
 

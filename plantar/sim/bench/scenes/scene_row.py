@@ -8,8 +8,6 @@ from typing import Any, NamedTuple
 
 from plantar.sim.bench.scenes.scene_setting import OWN, SETTINGS, setting_named
 
-__all__ = ["NOISE", "KnobVerdict", "SceneRow", "knob_verdicts", "scene_rows"]
-
 NOISE = "sensor noise"
 """Name of the row of how far the scene's own noise moves a walk, which errors are compared with."""
 

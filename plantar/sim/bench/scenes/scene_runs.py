@@ -11,9 +11,7 @@ from plantar.errors import PlantarError
 from plantar.sim.bench.scenes.changed_run import ChangedRun, Trace, TracedRun, trace_error
 from plantar.sim.bench.scenes.scene_setting import OWN, SceneSetting, setting_named
 
-__all__ = ["COLUMNS", "SceneCase", "SceneRuns"]
-
-TABLE = "scene_runs.csv"
+TABLE = "scene_runs.csv"  # a row for each run
 
 COLUMNS = (
     *("scene", "robot", "walk", "setting", "against", "kind", "seed"),

@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass
 
-__all__ = ["OWN", "REFERENCE", "SETTINGS", "SceneSetting", "setting_named"]
-
 CONTACT_TIME = 0.005
 """Time constant in s of contacts at the scenes' own physics step of 1 ms."""
 

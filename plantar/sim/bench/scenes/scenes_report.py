@@ -13,8 +13,6 @@ from plantar.sim.bench.scenes.scene_row import NOISE, KnobVerdict, SceneRow, kno
 from plantar.sim.bench.scenes.scene_runs import TABLE, SceneCase, SceneRuns
 from plantar.sim.bench.scenes.scene_setting import OWN, SETTINGS
 
-__all__ = ["CASES", "measure_scenes", "pareto", "scenes_text", "write_scenes"]
-
 _WALKS = {"flat": "steps=4", "beam": "steps=6", "uneven": "steps=4"}
 
 CASES: tuple[SceneCase, ...] = tuple(

@@ -11,8 +11,6 @@ from plantar.gait.command import Sensors
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side
 
-__all__ = ["FAULTS", "Fault", "Faults", "FaultySensors"]
-
 Fault: TypeAlias = Callable[[Sensors, float], Sensors]
 """What arrives of a reading, some time in s after the fault began."""
 

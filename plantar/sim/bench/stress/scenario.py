@@ -11,8 +11,6 @@ from plantar.gait.controller_tables import CONTROLLER_TABLES, controller_keys
 from plantar.sim.bench.stress.faults import Faults
 from plantar.sim.sensing.settings import Sensing
 
-__all__ = ["ROBOTS", "SCENES", "Scenario", "draw_scenario"]
-
 ROBOTS = ("h1", "hrp2kai")
 """Robots that are drawn from."""
 

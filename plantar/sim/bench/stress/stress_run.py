@@ -23,8 +23,6 @@ from plantar.sim.bench.stress.scenario import Scenario, draw_scenario
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 
-__all__ = ["FAILURES", "LONGEST", "CommandCheck", "Outcome", "measure_stress", "run_scenario", "stress_loop_text"]
-
 _FASTEST = 12.0  # leg/beat of a foot's or the CoM's target, a step a beat long ten times over: beyond it, it jumps
 _FARTHEST = 3.0  # leg from the middle between the feet to the CoM's target: it cannot be meant
 _LIFTED = 0.02  # leg that a target may jump by at once: where a foot touches down its target is where it is

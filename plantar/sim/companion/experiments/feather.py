@@ -19,8 +19,6 @@ from plantar.sim.companion.standing.visitor import Visitor
 from plantar.wholebody.tasks.skin_interaction import DirectInteraction, ProximityInteraction
 from plantar.wholebody.tasks.task import Task
 
-__all__ = ["Feather", "FeatherControl", "FeatherSettings"]
-
 _LOOK_EVERY = 5  # physics steps between two looks at the distance
 _FARTHEST = 0.2  # m: beyond it no distance is looked for
 

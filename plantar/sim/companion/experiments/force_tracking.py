@@ -22,8 +22,6 @@ from plantar.sim.companion.handling.hand_controller import HandControl, HandCont
 from plantar.sim.companion.machine import Machine
 from plantar.sim.figures.render import View
 
-__all__ = ["ForceTracking", "ForceTrackingSettings"]
-
 _AFTER = 1.0  # s after an interaction that still count as disturbed by it
 _SETTLING = 4.0  # s after the sigmoid, or after coming near, from which force or distance count
 _ARM = {"forearm": (0.045, (0.1, 0.3)), "upper_arm": (0.055, (0.15, 0.35))}  # radius and places along it in m

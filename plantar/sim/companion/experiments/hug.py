@@ -5,8 +5,6 @@ from typing import Any
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.pressed import PressedExperiment
 
-__all__ = ["Hug"]
-
 _HANDS = ("hand palm", "hand back")
 
 

@@ -23,8 +23,6 @@ from plantar.sim.companion.reaching.reach_record import ReachRecord
 from plantar.sim.figures.render import View
 from plantar.sim.model.contact_truth import feet_contacts
 
-__all__ = ["IntentionalContactExperiment", "ReachSettings"]
-
 _EVERY = 0.02  # s between two records
 _DRAWS, _CLEAR = 100, 0.08  # of a layout; m from its posts to the links' ends and middles at first
 _TOUCHED = 1.0  # N on an obstacle, from which it counts as touched

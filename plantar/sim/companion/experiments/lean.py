@@ -20,8 +20,6 @@ from plantar.sim.companion.standing.lean_controller import HAND, PATCH, LeanCont
 from plantar.sim.companion.standing.standing import StandingExperiment
 from plantar.sim.model.contact_truth import feet_contacts
 
-__all__ = ["Lean", "LeanSettings"]
-
 _LOOK_EVERY = 5  # physics steps between two looks at the contacts
 _SEEN_LOWER = 0.008  # m below the ground where taxels see it: skin that would carry has no stiction
 _OUTSIDE = 0.01  # m: by which the centre of mass has to be outside the polygon of the feet

@@ -10,8 +10,6 @@ from plantar.sim.companion.standing.pressed import UPPER_BODY, PressedExperiment
 from plantar.wholebody.tasks.skin_interaction import ProximityInteraction
 from plantar.wholebody.tasks.task import Task
 
-__all__ = ["MultiContact", "MultiContactControl"]
-
 _LEG = {f"right {part.replace('_', ' ')}": (f"right_{part}",) for part in ("upper_leg", "lower_leg", "foot_sole")}
 
 

@@ -27,8 +27,6 @@ from plantar.wholebody.tasks.cartesian_pose import CartesianPose
 from plantar.wholebody.tasks.skin_interaction import PressureInteraction
 from plantar.wholebody.tasks.task import Task
 
-__all__ = ["Nociception", "NociceptionControl", "NociceptionSettings"]
-
 _PATCH, _LINK = "right_hand_back", "right_hand"
 _FACES = {"one": 0.010, "seven": 0.035}  # m: radius; seven taxels are one and the six about it
 _CHANGING = 0.1  # s after a change of priorities in which torques are looked at

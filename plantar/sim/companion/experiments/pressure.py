@@ -20,8 +20,6 @@ from plantar.sim.companion.standing.standing import StandingExperiment
 from plantar.wholebody.tasks.skin_interaction import DirectInteraction, PressureInteraction
 from plantar.wholebody.tasks.task import Task
 
-__all__ = ["Pressure", "PressureControl", "PressureSettings"]
-
 _PATCH, _JOINTS = "torso_front", ("waist_yaw", "waist_pitch")  # the joints that carry the torso
 _FACES = {"one": 0.010, "hundred": 0.148}  # m: radius; a taxel's inner radius is 14 mm
 # When a probe is measured, in s from its full force on. Noise of the gyro, 2 mrad/s in each tick, is damped like

@@ -28,8 +28,6 @@ from plantar.wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
 from plantar.wholebody.tasks.skin_interaction import TemperatureInteraction
 from plantar.wholebody.tasks.task import Task
 
-__all__ = ["Stove", "StoveControl", "StoveSettings"]
-
 _LINK, _PATCHES = "right_hand", ("right_hand_palm", "right_hand_back")
 _WARM_EVERY = 10  # physics steps
 _BEGIN, _WAY = 1.0, 2.0  # s: when the hand sets out for the plate, and how long it takes

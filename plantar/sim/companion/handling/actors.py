@@ -12,8 +12,6 @@ from plantar.mechanics.easing import minimum_jerk
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion.experiment import World
 
-__all__ = ["FIST", "PERSON", "Fist", "Push", "Visit", "Visitor", "come_and_go"]
-
 FIST = 0.03
 """Radius in m of the hand that pushes."""
 

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from plantar.plotting import COLOURS, new_figure, save_figure
 
-__all__ = ["ForceRecord"]
-
 _SHADES = {"touch": "#8fd19e", "person": "#f1a7a9", "turn": "#ffe08a", "circle": "#cfd8dc", "swing": "#b0bec5"}
 
 

@@ -24,8 +24,6 @@ from plantar.wholebody.tasks.skin_interaction import DirectInteraction
 from plantar.wholebody.tasks.tactile_guidance import GuidanceGains, TactileGuidance
 from plantar.wholebody.tasks.task import Demand, Task
 
-__all__ = ["HandControl", "HandController"]
-
 _ARM = ("upper_arm", "forearm", "wrist1")  # links from the shoulder to the wrist
 _TOUCHED = 0.3  # N on the hand from which it is in contact
 _TAKEN_OVER = 0.3  # s in which the wanted force is taken over into the joints after touching

@@ -10,8 +10,6 @@ from scipy import ndimage
 
 from plantar.sim.companion.reaching.layout import Post
 
-__all__ = ["Tip", "free_way"]
-
 _CELL, _AROUND = 0.01, 0.3  # m: of the grid, and how far beyond start, goal and obstacles it reaches
 _UPRIGHT = 0.999  # of an axis, from which it counts as vertical
 

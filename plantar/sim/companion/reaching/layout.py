@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from plantar.mechanics.lip import GRAVITY
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 
-__all__ = ["KINDS", "Layout", "Post", "random_layout"]
-
 KINDS = ("movable", "goal", "beside", "ring")
 """One where the goal is, also behind three on the way, of which one may be fixed (T Figures 24-27); a closed ring."""
 

@@ -22,8 +22,6 @@ from plantar.wholebody.tasks.posture import Posture
 from plantar.wholebody.tasks.skin_interaction import DirectInteraction, ProximityInteraction
 from plantar.wholebody.tasks.task import Task
 
-__all__ = ["ReachControl", "ReachController"]
-
 _SMOOTHED = 0.5  # s: time constant of what is smoothed
 _SEEN = 0.01  # N of virtual force from which something is near
 _ARRIVED = 0.01  # m from the goal

@@ -13,8 +13,6 @@ from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.reaching.layout import Layout
 from plantar.sim.companion.reaching.reach_controller import ReachController
 
-__all__ = ["ReachRecord"]
-
 _SHADES = {"approach": "#f3d9a4", "retreat": "#eeb4b4"}
 _POSES = 6  # of the arm that are drawn
 

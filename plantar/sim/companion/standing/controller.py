@@ -17,8 +17,6 @@ from plantar.wholebody.stack import TaskStack
 from plantar.wholebody.tasks.center_of_mass import CenterOfMass
 from plantar.wholebody.tasks.task import Task
 
-__all__ = ["StandingControl", "StandingController"]
-
 _WARMING = 0.2  # s: time constant of the filter of temperatures
 
 

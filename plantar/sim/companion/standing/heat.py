@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 
 from plantar.settings.schema import Settings, number
 
-__all__ = ["HotPlate", "PlateSettings"]
-
 _STEFAN_BOLTZMANN = 5.670374e-8  # W/(m^2 K^4)
 _KELVIN = 273.15
 _RINGS, _SECTORS = 4, 10

@@ -7,8 +7,6 @@ from plantar.sensing.link_skin import SkinReading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
-__all__ = ["JointRange"]
-
 
 class JointRange(Task):
     """Pushes back joints near an end of their range, one row each.

@@ -22,18 +22,16 @@ from plantar.wholebody.tasks.posture import Posture
 from plantar.wholebody.tasks.support import Standing
 from plantar.wholebody.tasks.task import Demand, Task
 
-__all__ = ["HAND", "PATCH", "Aim", "LeanControl", "LeanController"]
-
-ARM = "right_lower_arm"
+_ARM = "right_lower_arm"
 PATCH = "right_lower_arm"
 """Patch whose skin measures the table."""
-UNDERSIDE = np.array([-0.045, 0.0, -0.12])
+_UNDERSIDE = np.array([-0.045, 0.0, -0.12])
 # Rotation of a forearm that points forward, its underside down.
 LEVEL = np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
 HAND = np.array([0.0, 0.0, -0.09])
 """Point of the left hand that reaches, in its frame in m."""
 # How the load is shared where there is a choice: little on the foot that stands on an edge.
-SHARES = {"left_foot": 0.55, "right_foot": 0.3, ARM: 0.15}
+SHARES = {"left_foot": 0.55, "right_foot": 0.3, _ARM: 0.15}
 
 _NEAR = 0.02  # m: a taxel that sees ground nearer than this stands on it
 _CATCHING_UP = 1.0  # s in which what is aimed at makes up for what is missing: slower than a lean and its load
@@ -107,9 +105,9 @@ class LeanController:
         self._planned = ContactForces(self._all, base, self._weight, weights=leaning)
         self._com = CenterOfMass(experiment.com, self.control.balance)
         # A forearm has five joints: its orientation must not ask the trunk for a sixth.
-        self._arm = CartesianPose(ARM, UNDERSIDE, PoseGains(stiffness=80.0, damping=18.0), "position")
+        self._arm = CartesianPose(_ARM, _UNDERSIDE, PoseGains(stiffness=80.0, damping=18.0), "position")
         self._trunk = CartesianPose(base, None, PoseGains(turn_stiffness=60.0, turn_damping=15.0), "orientation")
-        self._turn = CartesianPose(ARM, None, PoseGains(turn_stiffness=60.0, turn_damping=15.0), "orientation")
+        self._turn = CartesianPose(_ARM, None, PoseGains(turn_stiffness=60.0, turn_damping=15.0), "orientation")
         self._hand = CartesianPose("left_hand", HAND, PoseGains(stiffness=40.0, damping=13.0), "position")
         self._measured = self.wanted = 0.0
         self._com_aim, self._hand_aim = Aim(np.array([1.0, 1.0, 0.0])), Aim(np.ones(3))
@@ -139,10 +137,10 @@ class LeanController:
     ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
         torque, carried = self._planned(robot, force, self._all.demand(robot, None))
         assert self._planned.last is not None
-        self.wanted = float(self._planned.last.wrenches[ARM][2])
+        self.wanted = float(self._planned.last.wrenches[_ARM][2])
         missing = self.wanted - self._measured
-        inward = robot.pose(ARM)[1][:, 0]
-        more = self.control.press_gain * missing * inward @ robot.jacobian(ARM, UNDERSIDE)[:3]
+        inward = robot.pose(_ARM)[1][:, 0]
+        more = self.control.press_gain * missing * inward @ robot.jacobian(_ARM, _UNDERSIDE)[:3]
         return torque - more[robot.joints], carried
 
     def _move(self, robot: Any, measured: float, time: float) -> None:
@@ -157,9 +155,9 @@ class LeanController:
             if time < 1.0:
                 return
             self.began["bring"] = time
-            origin, rotation = robot.pose(ARM)
+            origin, rotation = robot.pose(_ARM)
             over = self._middle + np.array([s.table_edge + 0.08, -0.27, s.table_height + 0.10])
-            self._paths["arm"] = (origin + rotation @ UNDERSIDE, over)
+            self._paths["arm"] = (origin + rotation @ _UNDERSIDE, over)
         if "lean" in self.began:
             share = (time - self.began["lean"] - 0.5) / 3.0
             planned = _along(*self._paths["com"], share)
@@ -180,13 +178,13 @@ class LeanController:
     def _start_leaning(self, robot: Any) -> None:
         s = self.settings
         self._posture.target = robot.joint_positions.copy()  # nothing turns back now that the forearm's angle is free
-        origin, rotation = robot.pose(ARM)
-        self._arm.target_position = origin + rotation @ UNDERSIDE
+        origin, rotation = robot.pose(_ARM)
+        self._arm.target_position = origin + rotation @ _UNDERSIDE
         frame = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # z into the forearm: its own x
-        self._all.contacts[ARM] = Standing(ARM, UNDERSIDE, flat=False, rotation=frame, friction=0.02)
+        self._all.contacts[_ARM] = Standing(_ARM, _UNDERSIDE, flat=False, rotation=frame, friction=0.02)
         self._planned.shares = SHARES
         # What the forearm takes over pulls the centre of pressure under the feet to the other side: they keep theirs.
-        aside = (1.0 - SHARES[ARM]) * self._between_feet()[1] + SHARES[ARM] * self._arm.target_position[1]
+        aside = (1.0 - SHARES[_ARM]) * self._between_feet()[1] + SHARES[_ARM] * self._arm.target_position[1]
         front = _foremost(self._ground_seen(), aside)
         com = robot.com()[0]
         self._paths["com"] = (com, np.array([front + s.beyond, aside, com[2]]))

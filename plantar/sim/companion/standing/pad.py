@@ -12,8 +12,6 @@ from plantar.sensing.link_skin import SkinPatch
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion.dynamics import MujocoDynamics
 
-__all__ = ["Pad", "PlannedContact", "outer_taxel"]
-
 _CLEAR = 0.03  # m off the skin while it does not press
 _APPROACH = 0.15  # m/s
 _SEARCH = 0.06  # m/s with which it comes near

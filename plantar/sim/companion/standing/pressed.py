@@ -20,8 +20,6 @@ from plantar.sim.companion.standing.standing import StandingExperiment, by_activ
 from plantar.wholebody.tasks.skin_interaction import DirectInteraction
 from plantar.wholebody.tasks.task import Task
 
-__all__ = ["UPPER_BODY", "PressedExperiment", "PressedSettings"]
-
 UPPER_BODY: Mapping[str, tuple[str, ...]] = {
     **{
         f"{side} {part.replace('_', ' ')}": (f"{side}_{part}",)

@@ -12,8 +12,6 @@ from plantar.mechanics.rotation import rotation_error
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.wholebody.tasks.support import Standing, Support
 
-__all__ = ["Stance", "add_floor", "sole_point"]
-
 _LEVEL = np.eye(3)
 # Name of the site that is a foot's sole frame in a machine's MJCF.
 SOLE_SITE = "{side}_sole"

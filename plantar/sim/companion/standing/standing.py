@@ -27,8 +27,6 @@ from plantar.wholebody.tasks.posture import Posture
 from plantar.wholebody.tasks.self_collision import SelfCollision, Sphere
 from plantar.wholebody.tasks.task import Task
 
-__all__ = ["StandingExperiment", "by_active"]
-
 _TILTED = math.cos(math.radians(35.0))  # of the base: it falls
 _SETTLING = 0.3  # s until the soles carry evenly
 _MARGIN = math.radians(5.0)

@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 
-__all__ = ["Visitor"]
-
 
 class Visitor:
     """A moved body without weight or collision, which only skin measures.
