@@ -86,19 +86,6 @@ def test_rectangle_is_the_best_of_a_search(seed):
     assert area(corners) == pytest.approx(rectangle_area(hull), rel=1e-9)
 
 
-@given(seeds, st.floats(0.1, 1e3), st.integers(1, 4))
-def test_circle_of_edges_almost_in_line_is_as_deep(seed, offset, parts):
-    # Points on the edges, off the line by what coordinates far from the origin resolve.
-    hull = random_hull(seed)
-    share = np.linspace(0.0, 1.0, parts + 1)[:-1, None]
-    between = [a + share * (b - a) for a, b in zip(hull, np.roll(hull, -1, axis=0), strict=True)]
-    far = np.concatenate(between) + np.array([offset, -offset])
-    resolved = 4.0 * float(np.spacing(offset))
-    circle = inscribed_circle(far)
-    assert circle.radius == pytest.approx(inscribed_circle(hull).radius, rel=1e-12, abs=16.0 * resolved)
-    assert gap_outside(hull, circle.center - [offset, -offset]) <= resolved
-
-
 @given(seeds)
 def test_rectangle_of_the_transposed_polygon_is_the_same(seed):
     """x and y go different ways through the kernel, so that their agreement bounds the error: 1e-12."""
@@ -164,26 +151,6 @@ def test_circle_of_degenerate_polygons():
     assert inscribed_circle([[1.0, 2.0]]).radius == 0.0
     center, radius = inscribed_circle([[0.0, 0.0], [1.0, 0.0], [0.5, 0.0]])
     assert (center.tolist(), radius) == ([0.5, 0.0], 0.0)
-
-
-@settings(max_examples=100 if is_compiled("shapes") else 10)
-@given(seeds, st.integers(-12, 9))
-def test_direction_repeats_offset_and_scale_change_nothing(seed, power):
-    hull = random_hull(seed)
-    spoilt = np.repeat(hull, 2, axis=0)
-    middles = np.stack([hull, 0.5 * (hull + np.roll(hull, -1, axis=0))], axis=1).reshape(-1, 2)  # collinear
-    scale = 10.0**power
-    for shape in (*CONVEX, lambda p: inscribed_circle(p).center + np.array([[1, 0], [0, 1], [-1, 0]]) * p_radius(p)):
-        expected = area(shape(hull))
-        tolerance = 1e-6 if shape is inscribed_rectangle_any_angle else 1e-11
-        for variant in (hull[::-1], spoilt, np.vstack([hull, hull[:1]]), middles):
-            assert area(shape(variant)) == pytest.approx(expected, rel=tolerance)
-        assert area(shape(hull * scale)) == pytest.approx(expected * scale**2, rel=tolerance)
-        assert area(shape(hull + 1e6)) == pytest.approx(expected, rel=1e-4)  # 1e6 m leaves 1e-10 m of a coordinate
-
-
-def p_radius(polygon):
-    return inscribed_circle(polygon).radius
 
 
 @given(st.lists(st.tuples(st.floats(), st.floats()), max_size=12))

@@ -3,7 +3,6 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-import shapely
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -17,13 +16,6 @@ SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 seeds = st.integers(0, 2**32 - 1)
 coordinates = st.floats(-2.0, 2.0).map(lambda v: round(v, 12))  # squares of less than a picometre may underflow
 points = st.tuples(coordinates, coordinates)
-
-
-def random_polygon(seed: int) -> np.ndarray:
-    """A convex polygon of 3 to 12 vertices, sole-sized, anywhere within a few metres."""
-    rng = np.random.default_rng(seed)
-    cloud = rng.normal(0.0, 0.1, (int(rng.integers(3, 13)), 2)) * [1.0, rng.uniform(0.05, 1.0)] + rng.normal(0, 3.0, 2)
-    return convex_hull(cloud)
 
 
 def cells_of_a_patch(seed: int) -> np.ndarray:
@@ -78,17 +70,6 @@ def test_hull_keeps_its_corners_beside_tiny_coordinates(seed, tiny):
 
 
 # --- area and centroid --------------------------------------------------------------------------------------------
-
-
-@given(seeds)
-def test_area_and_centroid_are_shapelys(seed):
-    polygon = random_polygon(seed)
-    reference = shapely.Polygon(polygon - polygon[0])
-    assert area(polygon) == pytest.approx(reference.area, rel=1e-9)
-    assert area(polygon[::-1]) == pytest.approx(-reference.area, rel=1e-9)
-    where = np.array(reference.centroid.coords[0]) + polygon[0]
-    assert centroid(polygon) == pytest.approx(where, abs=1e-9)
-    assert signed_margin(polygon, centroid(polygon)) > 0.0
 
 
 def test_area_and_centroid_without_area():
