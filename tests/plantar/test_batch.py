@@ -61,27 +61,6 @@ def test_polygons_are_found_without_walking_from_the_start():
         found.polygon(400)
 
 
-@pytest.mark.parametrize("kind", ["float32", "int64", "transposed", "every other", "big-endian", "read-only", "list"])
-def test_any_array_of_numbers_gives_the_same(kind, monkeypatch):
-    monkeypatch.setattr(batch, "BLOCK", 16)
-    force = np.round(np.nan_to_num(recording(2, frames=40), nan=0.0, posinf=0.0, neginf=0.0))
-    expected = wrenches(SOLE, force)
-    areas = support_polygons(SOLE, force).area
-    read_only = force.copy()
-    read_only.flags.writeable = False
-    other = {
-        "float32": force.astype(np.float32),
-        "int64": force.astype(np.int64),
-        "transposed": np.ascontiguousarray(force.T).T,
-        "every other": np.repeat(force, 2, axis=0)[::2],
-        "big-endian": force.astype(">f8"),
-        "read-only": read_only,
-        "list": force.tolist(),
-    }[kind]
-    assert wrenches(SOLE, other).tolist() == expected.tolist()
-    assert support_polygons(SOLE, other).area.tolist() == areas.tolist()
-
-
 def test_a_recording_streams_from_disk(tmp_path):
     force = np.nan_to_num(recording(4, frames=103), nan=0.0, posinf=0.0, neginf=0.0)
     np.save(tmp_path / "force.npy", force)
@@ -125,20 +104,6 @@ def test_the_empty_recording_and_the_unloaded_one():
 def test_a_threshold_of_minus_infinity_counts_every_finite_force():
     force = np.full((1, len(SOLE)), -1.0)
     assert wrenches(SOLE, force, -math.inf)[0, 2] == -len(SOLE)
-
-
-@pytest.mark.parametrize(
-    ("force", "message"),
-    [
-        (np.zeros(3), r"forces have shape \(3,\); expected \(..., "),
-        (np.zeros((2, 3)), r"forces have shape \(2, 3\); expected"),
-        ([["a"]], "forces are not numeric"),
-    ],
-)
-def test_bad_forces_are_named(force, message):
-    for function in (wrenches, loads, support_polygons):
-        with pytest.raises(ReadingError, match=message):
-            function(SOLE, force)
 
 
 def test_other_bad_input_is_named():
