@@ -102,44 +102,64 @@ def sides_of_contacts(
         return [plates[c.plate].side or "left" for c in contacts]
     if given is not None and len(plates) == 1:
         return [given] * len(contacts)
-    placed = all(p.placed for p in plates)
-    found: list[Side | None] = [_by_markers(plates[c.plate], c, markers) if placed else None for c in contacts]
-    why = "markers of the feet"
-    if not any(found):
-        found, why = [_by_events(c, rate, events) for c in contacts], "stated events"
-    if not any(found) and placed:
-        forward = _forward(plates, contacts, treadmill)
-        found, why = _by_push(plates, contacts, forward), "their push to the body's middle"
-        across = _by_place(plates, contacts, forward)
-        if treadmill and across:
-            found, why = list(across), "the belts' places across the direction of walking"
-        elif not all(found) and across:
-            found, why = list(across), "their places across the direction of walking"
+    found, why = _found(plates, contacts, treadmill, rate, markers, events)
     if treadmill and any(found):
         found = _by_belt(len(plates), contacts, found)
     elif _walks_on_one_foot(contacts, found):
         found = [None] * len(contacts)
+    if not any(found):
+        return _assumed(plates, contacts, treadmill, warnings)
+    out = _filled_in(contacts, found)
+    names = ", ".join(
+        f"{plates[i].name}: {' and '.join(sorted({s for c, s in zip(contacts, out, strict=True) if c.plate == i}))}"
+        for i in sorted({c.plate for c in contacts})
+    )
+    warnings.append(f"which foot steps on each plate follows from {why} ({names}; --plates overrides)")
+    return out
+
+
+def _found(
+    plates: Sequence[Plate],
+    contacts: Sequence[PlateContact],
+    treadmill: bool,
+    rate: float,
+    markers: Mapping[Side, NDArray[np.float64]] | None,
+    events: Mapping[Side, StatedEvents] | None,
+) -> tuple[Sequence[Side | None], str]:
+    """Foot of each contact by the first evidence that shows any, and what it is."""
+    placed = all(p.placed for p in plates)
+    found = [_by_markers(plates[c.plate], c, markers) if placed else None for c in contacts]
     if any(found):
-        out = _filled_in(contacts, found)
-        names = ", ".join(
-            f"{plates[i].name}: {' and '.join(sorted({s for c, s in zip(contacts, out, strict=True) if c.plate == i}))}"
-            for i in sorted({c.plate for c in contacts})
-        )
-        warnings.append(f"which foot steps on each plate follows from {why} ({names}; --plates overrides)")
-        return out
+        return found, "markers of the feet"
+    found = [_by_events(c, rate, events) for c in contacts]
+    if any(found) or not placed:
+        return found, "stated events"
+    forward = _forward(plates, contacts, treadmill)
+    across = _by_place(plates, contacts, forward)
+    if treadmill and across:
+        return across, "the belts' places across the direction of walking"
+    found = _by_push(plates, contacts, forward)
+    if across and not all(found):
+        return across, "their places across the direction of walking"
+    return found, "their push to the body's middle"
+
+
+def _assumed(
+    plates: Sequence[Plate], contacts: Sequence[PlateContact], treadmill: bool, warnings: list[str]
+) -> list[Side]:
+    """Foot of each contact where the file shows none."""
     if len(plates) == 1:
         text = "taken as the left one (--side or --plates overrides)"
         warnings.append(f"the file does not state which foot steps on the plate: {text}")
         return ["left"] * len(contacts)
-    order = sorted(range(len(contacts)), key=lambda i: contacts[i].begin)
-    turn: dict[int, Side] = {i: SIDES[k % 2] for k, i in enumerate(order)}
     if treadmill:
         warnings.append(
             "the file does not state which belt is which: the first is taken as the left foot's (--plates R,L)"
         )
         return [SIDES[c.plate % 2] for c in contacts]
     warnings.append("the plates lie in one line: taken as stepped on by left and right in turns (--plates overrides)")
-    return [turn[i] for i in range(len(contacts))]
+    order = sorted(range(len(contacts)), key=lambda i: contacts[i].begin)
+    return [SIDES[order.index(i) % 2] for i in range(len(contacts))]
 
 
 def _by_belt(count: int, contacts: Sequence[PlateContact], found: Sequence[Side | None]) -> list[Side | None]:

@@ -55,40 +55,49 @@ def feet_of_forces(
         stated: Unit in comments; FormatError if unknown, or no force is vertical.
         warnings: Assumptions are added.
     """
+    loaded = _by_plate(columns)
+    up = _vertical(table, loaded, warnings)
+    verticals = {key: a for key, own in loaded.items() if (a := _up(own["force"], up)) is not None}
+    _check_units(columns, loaded, options)
+    unit, relative = _unit(
+        table, columns, [loaded[k]["force"][a] for k, a in verticals.items()], options, stated, warnings
+    )
+    made = [_plate(table, columns, key, loaded[key], a, unit, warnings) for key, a in verticals.items()]
+    if not made:
+        raise FormatError("no column is a vertical force; allowed: Fz, a vertical GRF, or forces of all three axes")
+    scale = 100.0 / _NOMINAL if relative else 1.0
+    sides = [p.side for p in made if p.side]
+    named = len(sides) == len(made)
+    plates = any(columns[i].plate for own in loaded.values() for i in own["force"].values())
+    if named and not plates and len(made) <= 2:
+        totals = {s: _upward(p.force[:, 2] * scale, p.name, warnings) for s, p in zip(sides, made, strict=True)}
+        feet = {s: FootRecording(s, totals[s][:, None], None, total=totals[s]) for s in SIDES if s in totals}
+        warnings.append("one force a foot: no cells, so no pressures, areas and centres of pressure")
+        return feet, True, "insole", relative
+    if named and len(set(sides)) < len(made):
+        made = [replace(p, name=f"{p.name} {number}") for p, (_, number) in zip(made, verticals, strict=True)]
+    feet, every = feet_of_plates(made, rate, options, warnings)
+    if relative:
+        feet = {s: _scaled(f, scale) for s, f in feet.items()}
+    return feet, every or (named and len(made) == 2), "plate", relative
+
+
+def _by_plate(columns: Mapping[int, Heading]) -> dict[_Key, dict[str, dict[str, int]]]:
+    """Columns by axis and quantity of each plate or foot with a force."""
     groups: dict[_Key, dict[str, dict[str, int]]] = {}
     for i, h in columns.items():
         if h.quantity in ("force", "cop", "moment", "place"):
             own = groups.setdefault((h.side, h.number), {}).setdefault(h.quantity, {})
             own.setdefault(h.axis, i)
-    loaded = {key: own for key, own in groups.items() if "force" in own}
-    plates = any(columns[i].plate for own in loaded.values() for i in own["force"].values())
-    up = _vertical(table, loaded, warnings)
-    verticals = [own["force"][a] for own in loaded.values() if (a := _up(own["force"], up)) is not None]
+    return {key: own for key, own in groups.items() if "force" in own}
+
+
+def _check_units(
+    columns: Mapping[int, Heading], loaded: Mapping[_Key, dict[str, dict[str, int]]], options: ReadOptions
+) -> None:
     units = dict.fromkeys(columns[i].unit for own in loaded.values() for i in own["force"].values() if columns[i].unit)
     if len(set(map(plain, units))) > 1 and not options.unit:
         raise FormatError(f"the forces are in different units: {', '.join(units)}; allowed: one unit, or --unit")
-    unit, relative = _unit(table, columns, verticals, options, stated, warnings)
-    made, names = [], []
-    for key, parts in loaded.items():
-        vertical = _up(parts["force"], up)
-        if vertical is None:
-            continue
-        made.append(_plate(table, columns, key, parts, vertical, unit, warnings))
-        names.append(key)
-    if not made:
-        raise FormatError("no column is a vertical force; allowed: Fz, a vertical GRF, or forces of all three axes")
-    scale = 100.0 / _NOMINAL if relative else 1.0
-    if not plates and len(made) <= 2 and all(p.side for p in made):
-        totals = {p.side: _upward(p.force[:, 2] * scale, p.name, warnings) for p in made if p.side}
-        feet = {s: FootRecording(s, totals[s][:, None], None, total=totals[s]) for s in SIDES if s in totals}
-        warnings.append("one force a foot: no cells, so no pressures, areas and centres of pressure")
-        return feet, True, "insole", relative
-    if all(p.side for p in made) and len({p.side for p in made}) < len(made):
-        made = [replace(p, name=f"{p.name} {number}") for p, (_, number) in zip(made, names, strict=True)]
-    feet, every = feet_of_plates(made, rate, options, warnings)
-    if relative:
-        feet = {s: _scaled(f, scale) for s, f in feet.items()}
-    return feet, every or (all(p.side for p in made) and len(made) == 2), "plate", relative
 
 
 def _upward(force: NDArray[np.float64], name: str, warnings: list[str]) -> NDArray[np.float64]:

@@ -91,10 +91,71 @@ class _Sensor:
 
 @dataclass
 class _Scan:
+    """What the lines so far hold; `sensor` and `rows` are those whose matrix is being read."""
+
+    file_size: int
     facts: dict[str, str] = field(default_factory=dict)
     clock: list[float | None] = field(default_factory=list)
     numbers: list[float] = field(default_factory=list)
     sensors: dict[str, _Sensor] = field(default_factory=dict)
+    sensor: _Sensor | None = None
+    rows: list[NDArray[np.float64]] | None = None
+    delimiter: str = ","
+
+    def take_row(self, line: str) -> bool:
+        """Add a line to the matrix if it is one of its rows; returns whether it is."""
+        sensor, rows = self.sensor, self.rows
+        if rows is None or sensor is None or not _is_row(line, len(rows), sensor.rows):
+            return False
+        width = sensor.columns or (len(rows[0]) if rows else 1)
+        if len(rows) <= (sensor.rows or _LARGEST // max(1, width)):  # a matrix of too many rows is never taken
+            row = _row(line, self.delimiter, sensor.columns)
+            sensor.damaged += row is None
+            rows.append(np.full(width, np.nan) if row is None else row)
+        return True
+
+    def take_header(self, text: str) -> None:
+        """Take a line that is no row of a matrix."""
+        self.delimiter = _delimiter(text, self.delimiter)
+        parts = [p.strip().strip('"') for p in text.split(self.delimiter)]
+        key = parts[0].rstrip(":").strip()
+        value = next((p for p in parts[1:] if p), "")
+        word = key.upper()
+        if word in ("FRAME", "GROUP", "SENSOR"):
+            self.finish_matrix()
+            self.sensor = None
+        if word == "FRAME":
+            self._begin_frame(value)
+        elif word == "SENSOR":
+            self._begin_sensor(value[:_LONGEST_NAME])
+        elif word == "TIME" and self.clock:
+            self.clock[-1] = seconds_of_clock(value)
+        elif word == "SENSELS":
+            self.rows = [] if self.sensor is not None else None
+        elif self.sensor is not None:
+            _take_fact(self.facts, self.sensor, key, value)
+        elif word != "GROUP":
+            _keep(self.facts, key, value)
+
+    def finish_matrix(self) -> None:
+        """Hand the rows so far to their sensor."""
+        if self.rows and self.sensor is not None and self.clock:
+            self.sensor.add(len(self.clock) - 1, self.rows, self.file_size)
+        self.rows = None
+
+    def _begin_frame(self, value: str) -> None:
+        self.clock.append(None)
+        figure = number(value)
+        self.numbers.append(np.nan if figure is None else figure)
+        if len(self.clock) > _MOST_EMPTY + 5 * max((len(s.frames) for s in self.sensors.values()), default=0):
+            raise FormatError(f"fewer than one in five of {len(self.clock)} frames hold a matrix of SENSELS")
+
+    def _begin_sensor(self, name: str) -> None:
+        self.sensor = self.sensors.setdefault(name, _Sensor(name))
+        if len(self.sensors) > _MOST_SENSORS:
+            raise FormatError(f"more than {_MOST_SENSORS} sensors; one or two feet can be read")
+        self.sensor.load.append(np.nan)
+        self.sensor.contact.append(np.nan)
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
@@ -148,66 +209,21 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def _scan(stream: TextIO, file_size: int) -> _Scan:
-    scan = _Scan()
-    sensor: _Sensor | None = None
-    rows: list[NDArray[np.float64]] | None = None
-    delimiter = ","
-
-    def finish() -> None:
-        nonlocal rows
-        if rows and sensor is not None and len(scan.clock):
-            sensor.add(len(scan.clock) - 1, rows, file_size)
-        rows = None
-
+    scan = _Scan(file_size)
     for line in stream:
-        if rows is not None and sensor is not None and _is_row(line, len(rows), sensor.rows):
-            if len(rows) > (sensor.rows or _LARGEST // max(1, len(rows[0]) if rows else 1)):
-                continue  # a matrix of too many rows is never taken
-            row = _row(line, delimiter, sensor.columns)
-            if row is None:
-                sensor.damaged += 1
-                row = np.full(sensor.columns or (len(rows[0]) if rows else 1), np.nan)
-            rows.append(row)
-            continue
-        text = line.strip().strip("\ufeff")
-        if not text.strip(",;\t "):
-            continue
-        if ";" in text and "," not in text.split(";")[0]:
-            delimiter = ";"
-        elif "\t" in text or "," in text:  # a line without any of them, as SENSELS alone, is skipped
-            delimiter = "\t" if "\t" in text else ","
-        parts = [p.strip().strip('"') for p in text.split(delimiter)]
-        key = parts[0].rstrip(":").strip()
-        value = next((p for p in parts[1:] if p), "")
-        word = key.upper()
-        if word == "FRAME":
-            finish()
-            sensor = None
-            scan.clock.append(None)
-            figure = number(value)
-            scan.numbers.append(np.nan if figure is None else figure)
-            if len(scan.clock) > _MOST_EMPTY + 5 * max((len(s.frames) for s in scan.sensors.values()), default=0):
-                raise FormatError(f"fewer than one in five of {len(scan.clock)} frames hold a matrix of SENSELS")
-        elif word == "GROUP":
-            finish()
-            sensor = None
-        elif word == "TIME" and scan.clock:
-            scan.clock[-1] = seconds_of_clock(value)
-        elif word == "SENSOR":
-            finish()
-            sensor = scan.sensors.setdefault(value[:_LONGEST_NAME], _Sensor(value[:_LONGEST_NAME]))
-            if len(scan.sensors) > _MOST_SENSORS:
-                raise FormatError(f"more than {_MOST_SENSORS} sensors; one or two feet can be read")
-            sensor.load.append(np.nan)
-            sensor.contact.append(np.nan)
-        elif word == "SENSELS":
-            rows = [] if sensor is not None else None
-        elif sensor is None:
-            _keep(scan.facts, key, value)
-        else:
-            _take_fact(scan.facts, sensor, key, value)
-    finish()
+        if not scan.take_row(line):
+            text = line.strip().strip("\ufeff")
+            if text.strip(",;\t "):
+                scan.take_header(text)
+    scan.finish_matrix()
     return scan
+
+
+def _delimiter(text: str, before: str) -> str:
+    """Delimiter of a line; a line without any, such as SENSELS alone, has that of the line before."""
+    if ";" in text and "," not in text.split(";")[0]:
+        return ";"
+    return "\t" if "\t" in text else "," if "," in text else before
 
 
 def _is_row(line: str, taken: int, rows: int) -> bool:
