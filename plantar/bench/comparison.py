@@ -161,7 +161,6 @@ def compare(
 
 
 def _runs(route: Route) -> bool:
-    """Whether a route takes all its cases."""
     try:
         for case in route.cases:
             route.call(case)

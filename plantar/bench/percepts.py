@@ -83,7 +83,6 @@ def _tick(layout: SoleLayout, force: Array) -> tuple[Any, ...]:
 
 
 def _tick_of_percept(layout: SoleLayout, force: Array) -> tuple[Any, ...]:
-    """The same from a percept, member by member."""
     foot = Percept(layout, Reading(0.0, force))
     safe = polygon.inner_offset(foot.support_polygon_in_sole, OFFSET)
     return (

@@ -38,7 +38,7 @@ def bench(
     minutes.
 
     contact: ways to simulate a sole's contact and its taxels, against MuJoCo's exact contact wrench. Exit code 1 if the
-    chosen model is not as right as it must be (centre of pressure within 2 mm, tip-over edge within 1 mm).
+    chosen model is off by more than 2 mm in the centre of pressure or 1 mm in the tip-over edge.
 
     scenes: short walks over the settings that trade run time against error (physics step, contact, solver, skin and
     control rate, taxel size), next to a fine reference of the same walk: half an hour; --quick 3 minutes.
@@ -47,15 +47,15 @@ def bench(
     skip: short walks with what a scene needs and with everything: what was skipped, the time it saves, the time by
     room; 5 minutes. Exit code 1 if a motion is not the same to the last bit.
 
-    stress: the whole loop in random short scenarios (noise, lost packets, dead and stuck taxels, silent sensors, masses
-    and gains anywhere in their ranges): exit code 1 if one raises or commands what no robot can follow. A second or two
-    each; stress.csv goes on where it was left. Not part of all.
+    stress: the whole loop in random short scenarios (noise, lost packets, faulty taxels, silent sensors, any allowed
+    masses and gains): exit code 1 if one raises or commands what no robot can follow. A second or two each; stress.csv
+    goes on where it was left. Not part of all.
 
-    footholds: the built-in controller or a policy of your own on beams, stones, slopes, steps and under pushes that it
-    does not know of; a second or two a run. footholds.csv goes on where it was left, and a second policy adds its rows.
+    footholds: the built-in controller or your own policy on narrow and uneven ground and under pushes; a second or two
+    a run. footholds.csv goes on where it was left; another policy adds its rows.
 
-    all: kernels, contact, skip, quick scenes on flat ground and the papers' experiments, and bench.html, one page that
-    shows them; about 12 minutes of one core, --quick 4.
+    all: kernels, contact, skip, quick scenes on flat ground and the papers' experiments, shown by bench.html; about 12
+    minutes of one core, --quick 4.
 
     Example: plantar bench all -o out/bench
 

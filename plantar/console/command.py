@@ -104,7 +104,7 @@ def with_option_groups(command: Callable[..., T]) -> Callable[..., T]:
     """Replace a command's dataclass parameters by their options; returns the function of single options.
 
     Typer knows no groups. Fields with "help" in their metadata are options; "metavar" is shown for the value, "names"
-    replaces option names; all have defaults. So dataclasses need no typer. A TypeError if names repeat.
+    replaces option names; all have defaults. A TypeError if names repeat.
 
     Example:
         >>> from dataclasses import dataclass, field

@@ -46,8 +46,6 @@ def _recognises(head: bytes) -> bool:
 
 @dataclass
 class _Page:
-    """One frame on its pages."""
-
     picture: int
     columns: list[int] = field(default_factory=list)
     force: float | None = None

@@ -219,7 +219,6 @@ def _rate(text: str) -> float | None:
 
 
 def _sides(text: str, columns: list[int], options: ReadOptions, warnings: list[str]) -> list[tuple[Side, range]]:
-    """Columns of each foot, left first."""
     restarts = [i for i in range(1, len(columns)) if columns[i] <= columns[i - 1]]
     listed: dict[Side, int] = {}
     for name, cells in re.findall(r"(left|right)\s+insole:[ \t]*([\d,;\t ]*)", text, re.IGNORECASE):

@@ -84,16 +84,16 @@ def sides_of_contacts(
     markers: Mapping[Side, NDArray[np.float64]] | None = None,
     events: Mapping[Side, StatedEvents] | None = None,
 ) -> list[Side]:
-    """Returns foot of each contact.
+    """Returns foot of each of the plates' contacts; its reason is added to the warnings.
 
     Args:
         plates: May name their foot.
-        contacts: Of the plates.
+        contacts: Of any number.
         treadmill: Whether each plate is a one-foot belt.
         rate: Frames a second.
-        given: User's side of a one-foot file.
-        warnings: Reason is added.
-        markers: Each foot's (n, 2).
+        given: User's side.
+        warnings: Added to.
+        markers: Each foot's (n, 2) in m.
         events: Each foot's heel strikes in s.
     """
     if treadmill:
@@ -126,7 +126,7 @@ def _found(
     markers: Mapping[Side, NDArray[np.float64]] | None,
     events: Mapping[Side, StatedEvents] | None,
 ) -> tuple[Sequence[Side | None], str]:
-    """Foot of each contact by the first evidence that shows any, and what it is."""
+    """Feet by the first evidence, and its name."""
     placed = all(p.placed for p in plates)
     found = [_by_markers(plates[c.plate], c, markers) if placed else None for c in contacts]
     if any(found):
@@ -147,7 +147,6 @@ def _found(
 def _assumed(
     plates: Sequence[Plate], contacts: Sequence[PlateContact], treadmill: bool, warnings: list[str]
 ) -> list[Side]:
-    """Foot of each contact where the file shows none."""
     if len(plates) == 1:
         text = "taken as the left one (--side or --plates overrides)"
         warnings.append(f"the file does not state which foot steps on the plate: {text}")
@@ -228,7 +227,7 @@ def _forward(plates: Sequence[Plate], contacts: Sequence[PlateContact], treadmil
 def _by_push(
     plates: Sequence[Plate], contacts: Sequence[PlateContact], forward: NDArray[np.float64] | None
 ) -> list[Side | None]:
-    """Foot of each contact by its mid-stance push, inwards to the body."""
+    """Feet by their mid-stance push, inwards to the body."""
     out: list[Side | None] = []
     for contact in contacts:
         length = contact.end - contact.begin

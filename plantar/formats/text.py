@@ -37,7 +37,7 @@ def open_text(path: Path) -> TextIO:
 
 
 class _Lines(io.BufferedReader):
-    """Text bytes with lines of limited length."""
+    """Bytes of limited lines."""
 
     _without_end = 0
 

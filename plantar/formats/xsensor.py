@@ -91,7 +91,7 @@ class _Sensor:
 
 @dataclass
 class _Scan:
-    """What the lines so far hold; `sensor` and `rows` are those whose matrix is being read."""
+    """Lines so far, and the matrix at hand."""
 
     file_size: int
     facts: dict[str, str] = field(default_factory=dict)
@@ -103,7 +103,7 @@ class _Scan:
     delimiter: str = ","
 
     def take_row(self, line: str) -> bool:
-        """Add a line to the matrix if it is one of its rows; returns whether it is."""
+        """Returns whether a line is a row of the matrix, which it joins."""
         sensor, rows = self.sensor, self.rows
         if rows is None or sensor is None or not _is_row(line, len(rows), sensor.rows):
             return False
@@ -115,7 +115,6 @@ class _Scan:
         return True
 
     def take_header(self, text: str) -> None:
-        """Take a line that is no row of a matrix."""
         self.delimiter = _delimiter(text, self.delimiter)
         parts = [p.strip().strip('"') for p in text.split(self.delimiter)]
         key = parts[0].rstrip(":").strip()
@@ -138,7 +137,6 @@ class _Scan:
             _keep(self.facts, key, value)
 
     def finish_matrix(self) -> None:
-        """Hand the rows so far to their sensor."""
         if self.rows and self.sensor is not None and self.clock:
             self.sensor.add(len(self.clock) - 1, self.rows, self.file_size)
         self.rows = None
@@ -220,7 +218,7 @@ def _scan(stream: TextIO, file_size: int) -> _Scan:
 
 
 def _delimiter(text: str, before: str) -> str:
-    """Delimiter of a line; a line without any, such as SENSELS alone, has that of the line before."""
+    """Delimiter, or that of the line before."""
     if ";" in text and "," not in text.split(";")[0]:
         return ";"
     return "\t" if "\t" in text else "," if "," in text else before
