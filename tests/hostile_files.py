@@ -16,6 +16,8 @@ from typing import Any
 
 import numpy as np
 
+from .event_report import write_report
+
 Content = bytes | str | Callable[[Path], object]
 """A file's content, or a function that makes the file."""
 
@@ -466,9 +468,13 @@ def _beside_recordings() -> Iterator[tuple[str, str, Content]]:
     yield "events.csv", "a side that is none", head + "up,1,2\n"
     yield "events.csv", "zero bytes", head + "left,1\0,2\n"
     yield "events.csv", "a million columns", "side" + ",heel_strike_s" * 1_000_000 + "\nleft\n"
-    yield "events.xlsx", "3000 sheets", partial(_workbook, sheets=3000, rows=0)
-    yield "events.xlsx", "200,000 rows", partial(_workbook, sheets=1, rows=200_000)
-    yield "events.xlsx", "a part that unpacks to 900 MB", partial(_workbook, sheets=1, rows=1, padding=900_000_000)
+    yield "events.xlsx", "3000 sheets", partial(write_report, sheets=["Left Steps"] * 3000, rows=0)
+    yield "events.xlsx", "200,000 rows", partial(write_report, sheets=["Left Steps"], rows=200_000)
+    yield (
+        "events.xlsx",
+        "a part that unpacks to 900 MB",
+        partial(write_report, sheets=["Left Steps"], rows=1, padding=900),
+    )
     yield "participants.csv", "a file elsewhere twice", "file,participant,condition\n/dev/zero,a,b\n/dev/zero,a,b\n"
     yield "participants.csv", "a quote without an end", 'file,participant,condition\n"a,b,c\n'
     for name, inside in (
@@ -487,23 +493,6 @@ def _beside_recordings() -> Iterator[tuple[str, str, Content]]:
     )
     yield "robot.xml", "memory of a terabyte", _mjcf("", '</asset><size memory="1T"/><asset>')
     yield "view.mcap", "a record of 2^62 bytes", b"\x89MCAP0\r\n\x06" + struct.pack("<Q", 2**62) + bytes(999)
-
-
-def _workbook(path: Path, sheets: int, rows: int, padding: int = 0) -> None:
-    names = "".join(f'<sheet name="Left Steps" r:id="r{i}"/>' for i in range(sheets))
-    links = "".join(f'<Relationship Id="r{i}" Target="s{i}.xml"/>' for i in range(sheets))
-    space = 'xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"'
-    space += ' xmlns:r="http://schemas.openxmlformats.org/officeDocument/2006/relationships"'
-    cells = '<row><c r="B1"><v>1</v></c></row>' * rows
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("xl/workbook.xml", f"<workbook {space}><sheets>{names}</sheets></workbook>")
-        archive.writestr("xl/_rels/workbook.xml.rels", f"<Relationships>{links}</Relationships>")
-        for i in range(sheets):
-            with archive.open(f"xl/s{i}.xml", "w") as part:
-                part.write(f"<worksheet {space}><sheetData>{cells}".encode())
-                for _ in range(padding // 1_000_000):
-                    part.write(b" " * 1_000_000)
-                part.write(b"</sheetData></worksheet>")
 
 
 def _settings() -> Iterator[tuple[str, str, Content]]:

@@ -4,7 +4,6 @@ import io
 import json
 import os
 import struct
-import zipfile
 from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
@@ -25,6 +24,7 @@ from plantar.shoes.foot.mesh_file import read_mesh
 from plantar.shoes.foot.outline_file import read_outline
 from plantar.viewer.walk import read_walk
 
+from ..event_report import write_report
 from ..plantar.viewer.small_walk import soles, write_walk
 
 
@@ -55,20 +55,6 @@ def _real(pattern: str) -> list[bytes]:
 @cache
 def _walk(folder: Path) -> bytes:
     return write_walk(folder / "seed.mcap").read_bytes()
-
-
-def _sheet(folder: Path) -> bytes:
-    space = 'xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"'
-    space += ' xmlns:r="http://schemas.openxmlformats.org/officeDocument/2006/relationships"'
-    out = io.BytesIO()
-    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
-        sheet = '<sheet name="Left Steps" r:id="r0"/>'
-        archive.writestr("xl/workbook.xml", f"<workbook {space}><sheets>{sheet}</sheets></workbook>")
-        links = '<Relationship Id="r0" Target="s0.xml"/>'
-        archive.writestr("xl/_rels/workbook.xml.rels", f"<Relationships>{links}</Relationships>")
-        rows = '<row><c r="B1"><v>1</v></c><c r="C1"><v>1.6</v></c></row>'
-        archive.writestr("xl/s0.xml", f"<worksheet {space}><sheetData>{rows}</sheetData></worksheet>")
-    return out.getvalue()
 
 
 def _npz(folder: Path) -> bytes:
@@ -103,7 +89,15 @@ _TOML = 'title = "a"\n[walk]\nsteps = 4\nlengths = [0.1, 0.2]\n[walk.turn]\n"a b
 TARGETS: Mapping[str, Target] = {
     "view": Target(read_walk, lambda f: [_walk(f)], ".mcap"),
     "mcap": Target(read_mcap, lambda f: [_walk(f)], ".mcap"),
-    "events": Target(read_events, lambda f: [_EVENTS.encode(), _EVENTS.encode("utf-16"), _sheet(f)], ""),
+    "events": Target(
+        read_events,
+        lambda f: [
+            _EVENTS.encode(),
+            _EVENTS.encode("utf-16"),
+            write_report(f / "seed.xlsx", ["Left Steps"], 1).read_bytes(),
+        ],
+        "",
+    ),
     "participants": Target(read_participants, _made(_PEOPLE, _PEOPLE.encode("utf-16")), ".csv"),
     "layout": Target(read_layout, lambda f: [json.dumps(layout_to_dict(soles()["left"])).encode()], ".json"),
     "table": Target(read_recording, lambda f: [_TABLE.encode(), _TABLE.encode("utf-16"), *_real("*.csv")], ".csv"),

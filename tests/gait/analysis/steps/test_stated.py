@@ -1,9 +1,7 @@
 """Events that a file states: read, shown beside ours, and used."""
 
 import time
-import zipfile
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,6 +13,7 @@ from plantar.gait.analysis.parameters import analyse_feet
 from plantar.gait.analysis.steps.stated import stated_beside_own, stated_contacts
 from plantar.recordings.pressure_recording import StatedEvents
 
+from ....event_report import write_report
 from ....plantar.formats.corruption import refusals
 from ..walks import made_walk
 
@@ -61,26 +60,8 @@ def test_what_holds_no_events_is_refused(tmp_path):
             read_events(path)
 
 
-def report(path: Path, sheets: list[str], rows: int = 3, more: str = "") -> Path:
-    """A small vendor's report, whose rows are a second apart."""
-    names = "".join(f'<sheet name="{name}" r:id="r{i}"/>' for i, name in enumerate(sheets))
-    links = "".join(f'<Relationship Id="r{i}" Target="s{i}.xml"/>' for i in range(len(sheets)))
-    cells = "".join(f'<row><c r="B{i}"><v>{i}</v></c><c r="C{i}"><v>{i}.6</v></c></row>' for i in range(1, rows + 1))
-    spaces = (
-        'xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main" '
-        'xmlns:r="http://schemas.openxmlformats.org/officeDocument/2006/relationships"'
-    )
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("xl/workbook.xml", f"<workbook {spaces}><sheets>{names}</sheets></workbook>")
-        archive.writestr("xl/_rels/workbook.xml.rels", f"<Relationships>{links}</Relationships>")
-        for i in range(len(sheets)):
-            sheet = f"{more}<worksheet {spaces}><sheetData>{cells}</sheetData></worksheet>"
-            archive.writestr(f"xl/s{i}.xml", sheet)
-    return path
-
-
 def test_a_report_and_a_table_of_any_encoding_are_read(tmp_path):
-    found = read_events(report(tmp_path / "a.xlsx", ["Left Steps", "Right Steps", "Summary"]))
+    found = read_events(write_report(tmp_path / "a.xlsx", ["Left Steps", "Right Steps", "Summary"]))
     assert found["left"].heel_strikes.tolist() == [1.0, 2.0, 3.0]
     assert found["right"].toe_offs.tolist() == [1.6, 2.6, 3.6]
     text = "side;heel_strike_s;toe_off_s\nleft;1,0;1,6\nright;1,5;\n" + "left;2;2.6\n" * 20
@@ -100,10 +81,10 @@ def test_a_row_that_cannot_be_meant_is_refused(text, tmp_path):
 
 def test_reports_that_grow_are_refused_at_once(tmp_path):
     files = [
-        report(tmp_path / "sheets.xlsx", ["Left Steps"] * 3000, rows=0),
-        report(tmp_path / "rows.xlsx", ["Left Steps"], rows=150_000),
-        report(tmp_path / "entities.xlsx", ["Left Steps"], more='<!DOCTYPE a [<!ENTITY b "c">]>'),
-        report(tmp_path / "deep.xlsx", ["Left Steps"], more="<a>" * 1000),
+        write_report(tmp_path / "sheets.xlsx", ["Left Steps"] * 3000, rows=0),
+        write_report(tmp_path / "rows.xlsx", ["Left Steps"], rows=150_000),
+        write_report(tmp_path / "entities.xlsx", ["Left Steps"], head='<!DOCTYPE a [<!ENTITY b "c">]>'),
+        write_report(tmp_path / "deep.xlsx", ["Left Steps"], head="<a>" * 1000),
     ]
     (tmp_path / "cut.xlsx").write_bytes(files[1].read_bytes()[:5000])
     begun = time.process_time()
@@ -114,7 +95,7 @@ def test_reports_that_grow_are_refused_at_once(tmp_path):
 
 
 def test_no_damage_of_a_report_or_table_traces_back(tmp_path):
-    good = report(tmp_path / "a.xlsx", ["Left Steps", "Right Steps"]).read_bytes()
+    good = write_report(tmp_path / "a.xlsx", ["Left Steps", "Right Steps"]).read_bytes()
     table = b"side,heel_strike_s,toe_off_s\n" + b"left,1,1.6\nright,1.5,2.1\n" * 5
     path = tmp_path / "b"
     for whole in (good, table, table.decode().encode("utf-16")):
