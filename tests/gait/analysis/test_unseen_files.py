@@ -10,7 +10,7 @@ from plantar.formats.nominal_insole import moticon_insole
 from plantar.gait.analysis.analyse import Analysis, analyse
 from plantar.sides import SIDES
 
-from .vendor_texts import Writing, matrix_insoles, moticon, pedar, tekscan, xsensor
+from .vendor_texts import Writing, moticon, pedar
 from .walks import MadeWalk, made_walk
 
 WALK = made_walk(strides=3)
@@ -122,25 +122,6 @@ def test_frames_that_were_lost(tmp_path):
     found = analysed(tmp_path / "walk.asc", pedar(WALK, PLAIN, frames=kept))
     check(found, WALK)
     assert any("not evenly spaced" in warning for warning in found.metrics["warnings"])
-
-
-@pytest.mark.parametrize(
-    "changes", [{"sep": ",", "encoding": "utf-16"}, {"sep": ";", "comma": True, "end": "\r\n"}], ids=str
-)
-def test_tekscan(tmp_path, changes):
-    walk = made_walk(strides=2, rate=50.0, layouts=matrix_insoles(30, 11, 10.16e-3))
-    text = tekscan(walk, replace(PLAIN, sides=("right",), **changes), 30, 11, 10.16)
-    check_with_stance(analysed(tmp_path / "walk.asf", text), walk, ("right",))
-
-
-@pytest.mark.parametrize(
-    "changes",
-    [{"sep": ",", "unit": "mmhg"}, {"sep": ";", "comma": True, "encoding": "utf-16-le"}, {"sep": "\t", "end": "\r"}],
-    ids=str,
-)
-def test_xsensor(tmp_path, changes):
-    walk = made_walk(strides=2, rate=50.0, layouts=matrix_insoles(31, 11, 8.6e-3))
-    check_with_stance(analysed(tmp_path / "walk.csv", xsensor(walk, replace(PLAIN, **changes))), walk)
 
 
 @pytest.mark.parametrize(

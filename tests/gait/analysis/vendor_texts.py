@@ -83,40 +83,6 @@ def matrix_insoles(rows: int, columns: int, pitch: float) -> dict[Side, SoleLayo
     return {side: grid_cells(round_, pitch, pitch, side=side, name="made", threshold=1e3) for side in SIDES}
 
 
-def _matrices(walk: MadeWalk, side: Side, how: Writing, cells: int) -> NDArray[np.float64]:
-    """Pressures (n, cells) of a whole matrix; NaN where there is no cell."""
-    layout = walk.recording.feet[side].layout
-    out = np.full((len(walk.recording.time), cells), np.nan)
-    out[:, layout.ids - 1] = _pressures(walk, side, how)
-    return out
-
-
-def tekscan(walk: MadeWalk, how: Writing, rows: int = 60, columns: int = 21, spacing: float = 5.08) -> bytes:
-    """A Tekscan export of one foot, of cells of a spacing in mm."""
-    side, pitch = how.sides[0], how.number(spacing)
-    out = ["DATA_TYPE MOVIE", f"FILENAME {side}.fsx", f"ROWS {rows}", f"COLS {columns}", f"ROW_SPACING {pitch} mm"]
-    out += [f"COL_SPACING {pitch} mm", f"SECONDS_PER_FRAME {how.number(1 / walk.recording.rate_hz)}"]
-    out += [f"UNITS {how.unit}", "ASCII_DATA @@", ""]
-    for i, frame in enumerate(_matrices(walk, side, how, rows * columns).reshape(-1, rows, columns)):
-        out.append(f"Frame {i + 1}")
-        out += [how.sep.join("B" if np.isnan(v) else how.number(v) for v in row) for row in frame] + [""]
-    return how.bytes(out)
-
-
-def xsensor(walk: MadeWalk, how: Writing, rows: int = 31, columns: int = 11) -> bytes:
-    """An XSENSOR export."""
-    both = {s: _matrices(walk, s, how, rows * columns).reshape(-1, rows, columns) for s in how.sides}
-    out = [f"Units:{how.sep}{how.unit}"]
-    for i, time in enumerate(walk.recording.time):
-        out += [f"FRAME{how.sep}{i}", f"TIME{how.sep}08:21:{time:06.3f}"]
-        for side in how.sides:
-            facts = {"SENSOR": f"HX {side}", "Rows": rows, "Columns": columns, "Sensel Width (cm)": how.number(0.86)}
-            facts |= {"Sensel Height (cm)": how.number(0.86)}
-            out += [f"{name}{how.sep}{value}" for name, value in facts.items()] + ["SENSELS"]
-            out += [how.row(row) for row in np.nan_to_num(both[side][i])]
-    return how.bytes(out)
-
-
 def moticon(walk: MadeWalk, how: Writing) -> bytes:
     """A Moticon export."""
     of_foot = [*(f"pressure {i + 1}[N/cm2]" for i in range(16)), "total force[N]"]

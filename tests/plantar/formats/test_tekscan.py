@@ -69,6 +69,8 @@ def test_an_insole(tmp_path, frames):
     assert foot.vertical_force == pytest.approx(np.nansum(frames, axis=(1, 2)) * 1e3 * 5.08e-3**2)
     assert foot.layout.positions[0, 0] == pytest.approx(29.5 * 5.08e-3)  # the first row is the front
     assert foot.layout.positions[0, 1] == pytest.approx((5.5 - 4.5) * 5.08e-3)  # the fifth column, from the left
+    path.write_bytes(path.read_bytes().decode().encode("utf-16"))
+    assert (read_recording(path).feet["left"].force == foot.force).all()
 
 
 @pytest.mark.parametrize(

@@ -91,6 +91,8 @@ def test_two_insoles_with_their_stated_loads(tmp_path, feet):
         assert foot.vertical_force == pytest.approx(truth.sum(axis=(1, 2)) * MMHG * 0.7412e-4, rel=1e-3)
         pressure = foot.pressure()
         assert pressure.reshape(truth.shape) == pytest.approx(truth * MMHG, rel=1e-9)
+    path.write_bytes(path.read_bytes().decode("utf-8-sig").encode("utf-16-le"))
+    assert (read_recording(path).feet["left"].force == recording.feet["left"].force).all()
 
 
 @pytest.mark.parametrize(
@@ -98,6 +100,7 @@ def test_two_insoles_with_their_stated_loads(tmp_path, feet):
     [
         {"end": "\r\n"},
         {"delimiter": ";", "comma": True},
+        {"delimiter": "\t", "end": "\r"},
         {"blank_lines": False},
         {"groups": False},
         {"unit": "kPa", "factor": 1e3},
