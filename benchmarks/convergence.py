@@ -10,15 +10,14 @@ import mujoco
 import numpy as np
 from resumable import write_table
 
+from plantar.bench.tables import markdown_table
 from plantar.sim.model.world import _set_solver
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 
 SCENE, STEPS = "uneven", 100
-HEAD = (
-    "| setting | robot | impact, mean [N] | 90 % [N] | against the first row | force's ripple [% of weight] |"
-    " ZMP at an edge [%] | wall time over the first row's |"
-)
+HEAD = ("setting", "robot", "impact, mean [N]", "90 % [N]", "against the first row", "force's ripple [% of weight]")
+HEAD += ("ZMP at an edge [%]", "wall time over the first row's")
 
 Change = Callable[[Any], None]
 
@@ -64,7 +63,7 @@ def walk(robot: str, name: str) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    lines = [HEAD, "|---|---|---|---|---|---|---|---|"]
+    lines = []
     for robot in sys.argv[1:] or ("h1", "hrp2kai"):
         first: tuple[float, float, float] | None = None
         for name in CASES:
@@ -73,8 +72,8 @@ if __name__ == "__main__":
             mean, most = float(impacts.mean()), float(np.percentile(impacts, 90))
             first = first or (mean, most, found["wall_time_s"])
             against = f"{100 * (mean / first[0] - 1):+.0f} %, {100 * (most / first[1] - 1):+.0f} %"
-            rest = f"{100 * found['stance_force_rms']:.2f} | {100 * found['zmp_edge_share']:.2f}"
+            rest = f"{100 * found['stance_force_rms']:.2f}", f"{100 * found['zmp_edge_share']:.2f}"
             time = found["wall_time_s"] / first[2]
-            lines.append(f"| {name} | {robot} | {mean:.1f} | {most:.1f} | {against} | {rest} | {time:.1f} |")
-            print(lines[-1], len(impacts), "landings", flush=True)
-    write_table(Path(__file__).with_name("convergence.md"), lines)
+            lines.append((name, robot, f"{mean:.1f}", f"{most:.1f}", against, *rest, f"{time:.1f}"))
+            print(*lines[-1], len(impacts), "landings", flush=True)
+    write_table(Path(__file__).with_name("convergence.md"), [markdown_table(HEAD, lines)])

@@ -11,7 +11,6 @@ An outcome is `holds`; `refused`, not a foot; `reported`, a shoe whose checks do
 whose checks hold and the witness finds a fault; or `crashed`, any other exception.
 """
 
-import csv
 import sys
 import tempfile
 import time
@@ -21,8 +20,9 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from resumable import append_row, commit, write_table
+from resumable import append_row, commit, rows_of, write_table
 
+from plantar.bench.tables import markdown_table
 from plantar.errors import PlantarError
 from plantar.shoes import ShoeParameters, build_shoe, export_shoe
 from plantar.shoes.checks.check import check_plan
@@ -75,10 +75,7 @@ def shoe_of(name: str, turn: int) -> dict[str, Any]:
 
 
 def rows() -> dict[tuple[str, int], dict[str, str]]:
-    if not TABLE.exists():
-        return {}
-    with TABLE.open(encoding="utf-8", newline="") as file:
-        return {(row["foot"], int(row["turn"])): row for row in csv.DictReader(file)}
+    return {(row["foot"], int(row["turn"])): row for row in rows_of(TABLE)}
 
 
 def run(turns: int, names: list[str]) -> None:
@@ -117,13 +114,10 @@ def plans(turns: int, names: list[str]) -> None:
 
 
 def report() -> None:
-    lines = ["| foot | turns | holds | refused | reported | hidden | crashed | taxels / bound | flat, half % | s |"]
-    lines.append("|---|---|---|---|---|---|---|---|---|---|")
-    found = rows()
+    found, lines = rows(), []
     for name in sorted({name for name, _ in found}):
         own = [row for (foot, _), row in found.items() if foot == name]
         outcomes = Counter(row["outcome"] for row in own)
-        counts = " | ".join(str(outcomes[kind]) for kind in OUTCOMES)
         built = [row for row in own if row["taxels"]]
         cells = span = "-"
         if built:
@@ -131,8 +125,9 @@ def report() -> None:
             cells = f"{least} to {most} / {max(int(row['bound']) for row in built)}"
             span = ", ".join(f"{min(float(row[c]) for row in built):.0f}" for c in ("flat_percent", "half_percent"))
         spent = median(float(row["seconds"]) for row in own)
-        lines.append(f"| {name} | {len(own)} | {counts} | {cells} | {span} | {spent:.0f} |")
-    write_table(FOLDER / "difficult_feet.md", lines)
+        lines.append((name, len(own), *(outcomes[kind] for kind in OUTCOMES), cells, span, f"{spent:.0f}"))
+    head = ("foot", "turns", *OUTCOMES, "taxels / bound", "flat, half %", "s")
+    write_table(FOLDER / "difficult_feet.md", [markdown_table(head, lines)])
 
 
 if __name__ == "__main__":

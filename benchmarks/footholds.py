@@ -5,6 +5,8 @@ from statistics import median
 import numpy as np
 from resumable import FOLDER, HEADS, Benchmark, Case, counted, latest, of_now, origin, rows_of, values, write_table
 
+from plantar.bench.tables import markdown_table
+
 ROBOTS = ("h1", "hrp2kai")
 BLIND = {"pebbles": "conform=false"}
 """What switches the soles' part in a walk off, where it is not `footholds=off`."""
@@ -69,12 +71,7 @@ COLUMNS = {
 
 
 def report() -> None:
-    rows = latest(rows_of(BENCHMARK.path))
-    lines = [
-        f"| scene | robot | soles' view | {' | '.join(HEADS)} | smallest true share of the sole "
-        "| true ZMP margin of a step, median [mm] | centroid error, 95 % of a run [mm] |",
-        "|---|---|---|---|---|---|---|---|---|",
-    ]
+    rows, lines = latest(rows_of(BENCHMARK.path)), []
     for name, *_ in LINES:
         for robot in ROBOTS:
             mine, blind = (
@@ -87,16 +84,13 @@ def report() -> None:
             shares = [min(map(float, r["area_ratios"].split())) for r in good if r["area_ratios"]]
             margins = [float(v) for r in good for v in r["zmp_margins_mm"].split() if v != "-"]
             errors = values(mine, "foothold_error_p95_m", 1e3)
-            cells = (
-                "used",
-                *seen,
-                f"{min(shares):.2f}" if shares else "",
-                f"{round(median(margins))}" if margins else "",
-                f"{median(errors):.1f}" if errors else "",
-            )
-            lines.append(f"| {name} | {robot} | " + " | ".join(cells) + " |")
-            lines.append(f"| {name} | {robot} | off | {' | '.join(counted(blind))} | | | |")
-    write_table(FOLDER / "footholds.md", [*lines, "", origin(BENCHMARK)])
+            share = f"{min(shares):.2f}" if shares else ""
+            margin = f"{round(median(margins))}" if margins else ""
+            lines.append((name, robot, "used", *seen, share, margin, f"{median(errors):.1f}" if errors else ""))
+            lines.append((name, robot, "off", *counted(blind), "", "", ""))
+    head = ["scene", "robot", "soles' view", *HEADS, "smallest true share of the sole"]
+    head += ["true ZMP margin of a step, median [mm]", "centroid error, 95 % of a run [mm]"]
+    write_table(FOLDER / "footholds.md", [markdown_table(head, lines), "", origin(BENCHMARK)])
     _draw_map(rows)
 
 

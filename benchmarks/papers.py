@@ -82,12 +82,10 @@ def report() -> None:
         command = f"`plantar sim {one.scene}{robot} --set paper={one.source[0]}`"
         figure = one.figure + units.get(one.figure, "")
         without = " ".join(one.without) or "-"
-        lines.append(
-            f"| {one.name} | {one.source} | {command} | {figure} | {one.paper} | {' | '.join(cells)} | {without} |"
-        )
-    heads = "| experiment | source | command | figure | paper | as written | ours | without | left out |"
+        lines.append((one.name, one.source, command, figure, str(one.paper), *cells, without))
+    heads = ("experiment", "source", "command", "figure", "paper", "as written", "ours", "without", "left out")
     commits = ", ".join(f"{n} of {c}" for c, n in Counter(r["commit"] for r in rows).items())
-    write_table(FOLDER / "papers.md", [heads, "|" + "---|" * 9, *lines, "", f"Runs by commit: {commits}."])
+    write_table(FOLDER / "papers.md", [markdown_table(heads, lines), "", f"Runs by commit: {commits}."])
     names = "as written", *ONE_CHANGED
     of_a = [(one.name, one.figure, *cells_of(rows, one.name, names)) for one in EXPERIMENTS if one.source[0] == "A"]
     write_table(FOLDER / "papers.md", [markdown_table(("experiment", "figure", *names), of_a)], "one changed")

@@ -11,6 +11,7 @@ from typing import Any
 
 from resumable import FEW, FOLDER, HEADS, Benchmark, Case, counted, latest, origin, rows_of, write_table
 
+from plantar.bench.tables import markdown_table
 from plantar.sim.plant.draw import RANGES
 from plantar.sim.plant.settings import RANDOM, Plant
 
@@ -72,31 +73,28 @@ def limit_text(item: str) -> str:
     return f"{limit:.3g} {unit}".removesuffix(" 1")
 
 
-def table_alone(rows: Sequence[dict[str, str]]) -> list[str]:
-    lines = [f"| item, its limit at level 2 | walk | robot | {' | '.join(f'level {v:g}' for v in LEVELS)} |"]
-    lines.append("|---|---|---|" + "---|" * len(LEVELS))
+def table_alone(rows: Sequence[dict[str, str]]) -> str:
+    lines = []
     for item in Plant.items():
         for scene in ALONE:
             for robot in ROBOTS:
                 found = [outcome(rows, _alone(item, level, scene), robot) for level in LEVELS]
                 if any(runs for _, runs in found):
-                    cells = " | ".join(f"{good}/{runs}" if runs else "" for good, runs in found)
-                    lines.append(f"| `{item}`, {limit_text(item)} | `{scene}` | {robot} | {cells} |")
-    return lines
+                    cells = (f"{good}/{runs}" if runs else "" for good, runs in found)
+                    lines.append((f"`{item}`, {limit_text(item)}", f"`{scene}`", robot, *cells))
+    return markdown_table(("item, its limit at level 2", "walk", "robot", *(f"level {v:g}" for v in LEVELS)), lines)
 
 
-def table_together(rows: Sequence[dict[str, str]]) -> list[str]:
+def table_together(rows: Sequence[dict[str, str]]) -> str:
     """Completed runs with everything drawn together, by walk and robot."""
-    lines = [
-        f"| walk | robot | {' | '.join(HEADS).replace('older ground, exact', 'older ground, drawn')} |",
-        "|---|---|---|---|---|",
-    ]
+    lines = []
     for scene in TOGETHER:
         for robot in ROBOTS:
             mine = [r for r in rows if r["case"] == _together(scene) and r["robot"] == robot]
             if mine:
-                lines.append(f"| `{scene}` | {robot} | {' | '.join(counted(mine))} |")
-    return lines
+                lines.append((f"`{scene}`", robot, *counted(mine)))
+    heads = (head.replace("older ground, exact", "older ground, drawn") for head in HEADS)
+    return markdown_table(("walk", "robot", *heads), lines)
 
 
 def draw(rows: Sequence[dict[str, str]], path: Path) -> None:
@@ -138,8 +136,8 @@ def draw(rows: Sequence[dict[str, str]], path: Path) -> None:
 
 def report() -> None:
     rows = latest(rows_of(BENCHMARK.path))
-    write_table(FOLDER / "plant.md", [*table_alone(rows), "", origin(BENCHMARK)], "alone")
-    write_table(FOLDER / "plant.md", table_together(rows), "together")
+    write_table(FOLDER / "plant.md", [table_alone(rows), "", origin(BENCHMARK)], "alone")
+    write_table(FOLDER / "plant.md", [table_together(rows)], "together")
     if any(" alone " in r["case"] for r in rows):
         draw(rows, FOLDER / "plant.png")
 

@@ -21,6 +21,8 @@ from pathlib import Path
 
 from resumable import append_row, commit, drawn_seeds, rows_of, write_table
 
+from plantar.bench.tables import markdown_table
+
 FOLDER = Path(__file__).parent
 CSV, MADE = FOLDER / "public_robots.csv", FOLDER.parent / "out" / "public"
 COLUMNS = ("robot", "case", "seed", "predicted", "completed", "failed", "speed", "seconds", "commit")
@@ -115,7 +117,7 @@ def run(folder: Path, minutes: float) -> None:
 def report() -> None:
     rows = {(r["robot"], r["case"]): r for r in rows_of(CSV)}
     marks = {"True": "yes", "False": "no"}
-    lines = [f"| robot | introduced, s | {' | '.join(SCENES)} |", "|---" * (len(SCENES) + 2) + "|"]
+    lines = []
     for name in MODELS:
         first = rows.get((name, "introduce"))
         if first is None:
@@ -124,19 +126,21 @@ def report() -> None:
         for scene in SCENES:
             row = rows.get((name, scene))
             cells.append("" if row is None else f"{marks[row['completed']]} {row['failed']}".strip())
-        lines.append(f"| {name} | {' | '.join(cells)} |")
+        lines.append((name, *cells))
     counts = []
     for scene in SCENES:
         mine = [r for (_, case), r in rows.items() if case == scene]
         counts.append(f"{sum(r['completed'] == 'True' for r in mine)}/{len(mine)}")
     made = [r for (_, case), r in rows.items() if case == "introduce"]
-    lines.append(f"| completed | {sum(r['completed'] == 'True' for r in made)}/{len(made)} | {' | '.join(counts)} |")
-    table = ["| prediction of the check | completed | failed |", "|---|---|---|"]
+    lines.append(("completed", f"{sum(r['completed'] == 'True' for r in made)}/{len(made)}", *counts))
+    predictions = []
     for predicted in ("True", "False"):
         mine = [r["completed"] for r in rows.values() if r["predicted"] == predicted]
         words = "nothing would go wrong" if predicted == "True" else "something would"
-        table.append(f"| {words} | {mine.count('True')} | {mine.count('False')} |")
-    write_table(FOLDER / "public_robots.md", [*lines, "", *table])
+        predictions.append((words, mine.count("True"), mine.count("False")))
+    table = markdown_table(("robot", "introduced, s", *SCENES), lines)
+    counted = markdown_table(("prediction of the check", "completed", "failed"), predictions)
+    write_table(FOLDER / "public_robots.md", [table, "", counted])
 
 
 def main(arguments: Sequence[str]) -> None:

@@ -6,11 +6,11 @@ runs, so that a stopped benchmark continues.
 
 import json
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 from resumable import write_table
 
+from plantar.bench.tables import markdown_table
 from plantar.sim.bench.stress.faults import FAULTS
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "gait" / "safety"))
@@ -42,11 +42,10 @@ def shown(row: list[object]) -> str:
     return f"{jump}x, {how if upright else 'falls'}"
 
 
-def table(rows: dict[str, list[object]]) -> Iterator[str]:
-    yield f"| fault | {' | '.join(name for name, *_ in CASES)} |"
-    yield "|---|" + "---|" * len(CASES)
-    for fault in FAULTS:
-        yield f"| {fault} | {' | '.join(shown(rows[f'{name}: {fault}']) for name, *_ in CASES)} |"
+def table(rows: dict[str, list[object]]) -> str:
+    names = [name for name, *_ in CASES]
+    lines = [(fault, *(shown(rows[f"{name}: {fault}"]) for name in names)) for fault in FAULTS]
+    return markdown_table(("fault", *names), lines)
 
 
 def main(arguments: list[str]) -> None:
@@ -59,7 +58,7 @@ def main(arguments: list[str]) -> None:
                 rows[key] = run(fault, *case)
                 if path is not None:
                     path.write_text(json.dumps(rows))
-    write_table(Path(__file__).with_suffix(".md"), list(table(rows)))
+    write_table(Path(__file__).with_suffix(".md"), [table(rows)])
 
 
 if __name__ == "__main__":

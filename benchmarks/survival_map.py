@@ -18,6 +18,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from resumable import FOLDER, Benchmark, Case, latest, origin, rows_of, write_table
 
+from plantar.bench.tables import markdown_table
+
 DIRECTIONS = tuple(range(0, 360, 45))
 PHASES = tuple(k / 8 for k in range(8))
 IMPULSES = tuple(float(v) for v in np.arange(5.0, 60.1, 2.5))
@@ -212,9 +214,9 @@ def report() -> None:
 
     rows = rows_of(BENCHMARK.path)
     known = outcomes(rows)
-    lines = ["| variant | walk | cells at 85 % of the bound | median share of the bound | of the others, at 85 % with "]
-    lines[0] += "motors four times as strong | joints that end it |"
-    lines.append("|---|---|---|---|---|---|")
+    lines = []
+    head = ("variant", "walk", "cells at 85 % of the bound", "median share of the bound")
+    head += ("of the others, at 85 % with motors four times as strong", "joints that end it")
     figure, axes = new_figure(11.0, 4.5, 1, 2)
     for variant in VARIANTS:
         for axis, walk in zip(axes, LENGTHS, strict=True):
@@ -239,17 +241,15 @@ def report() -> None:
                 for joint, alone in held.items()
             )
             saved = f"{sum(strong)} of {len(strong)}" if strong else "-"
-            lines.append(
-                f"| {variant} | {walk} | {sum(reached)} of {len(cells)} | {middle} | {saved} | {ended_by or '-'} |"
-            )
+            lines.append((variant, walk, f"{sum(reached)} of {len(cells)}", middle, saved, ended_by or "-"))
             if variant == "as it is":
                 missed = {(c.angle, c.phase) for c, good in zip(cells, reached, strict=True) if not good}
                 known_shares = {(c.angle, c.phase): s for c, s in zip(asked, shares, strict=True)}
                 figure.colorbar(draw(axis, walk, known_shares, missed), ax=axis, shrink=0.8)
     save_figure(figure, FOLDER / "survival_map.png")
     left = sum(1 for _ in missing())
-    lines += ["", f"{origin(BENCHMARK, left)} That counts cells with runs still to come."]
-    write_table(FOLDER / "survival_map.md", lines)
+    note = f"{origin(BENCHMARK, left)} That counts cells with runs still to come."
+    write_table(FOLDER / "survival_map.md", [markdown_table(head, lines), "", note])
 
 
 def draw(axis: Any, walk: str, shares: dict[tuple[int, float], float], missed: set[tuple[int, float]]) -> Any:

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 from resumable import processor_time, write_table
 
+from plantar.bench.tables import markdown_table
 from plantar.sim.sweep import plan_from_texts, run_sweep
 
 FOLDER = Path(__file__).parent
@@ -45,31 +46,25 @@ def _busy() -> float:
 
 
 def main(rounds: int) -> None:
-    lines = [
-        "| round | one worker [s] | two [s] | efficiency | processor time, one [s] | two [s] | others' share |",
-        "|---|---|---|---|---|---|---|",
-    ]
-    pairs = []
+    pairs, lines = [], []
+    head = ("round", "one worker [s]", "two [s]", "efficiency", "processor time, one [s]", "two [s]", "others' share")
     for number in range(rounds):
         one, two = cost(1), cost(2)
         pairs.append((one, two))
         efficiency = one.wall / (2.0 * two.wall)
         numbers = (f"{v:.1f}" for v in (one.processor, two.processor))
         others = f"{max(one.others, two.others):.0%}"
-        lines.append(
-            f"| {number + 1} | {one.wall:.1f} | {two.wall:.1f} | {efficiency:.0%} | {' | '.join(numbers)} | {others} |"
-        )
-        print(lines[-1], file=sys.stderr, flush=True)
+        lines.append((number + 1, f"{one.wall:.1f}", f"{two.wall:.1f}", f"{efficiency:.0%}", *numbers, others))
+        print(*lines[-1], file=sys.stderr, flush=True)
     few = median(cost(1, 2).processor for _ in range(rounds))
     many, here = (median(v) for v in zip(*((one.processor, one.here) for one, _ in pairs), strict=True))
     a_run = (many - few) / (SEEDS - 2)
-    lines += [
-        "",
+    note = (
         f"Medians: efficiency {median(one.wall / (2.0 * two.wall) for one, two in pairs):.0%}; {a_run:.2f} s of a "
         f"processor for a run of `{SCENE}`, {many - SEEDS * a_run:.2f} s for everything else (a worker's start among "
-        f"it), {here:.2f} s of that in the sweep's own process.",
-    ]
-    write_table(FOLDER / "sweep_efficiency.md", lines)
+        f"it), {here:.2f} s of that in the sweep's own process."
+    )
+    write_table(FOLDER / "sweep_efficiency.md", [markdown_table(head, lines), "", note])
 
 
 if __name__ == "__main__":
