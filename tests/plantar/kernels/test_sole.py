@@ -1,4 +1,4 @@
-"""Kernels of one sole against sums by `math.fsum` and hulls in exact fractions."""
+"""Kernels of one sole against hulls in exact fractions; their sums are checked in tests/plantar/fuzz/members.py."""
 
 import itertools
 import math
@@ -72,39 +72,6 @@ def test_every_pattern_of_three_rows_has_the_exact_hull():
                 continue
             integers = keys[active].reshape(-1, 2).tolist()
             assert size == pytest.approx(hull_area_exact(integers) * unit, rel=1e-12)
-
-
-@given(seeds, layouts)
-def test_loads_are_the_sums(seed, name):
-    layout = LAYOUTS[name]
-    rng = np.random.default_rng(seed)
-    force = rng.uniform(-1.0, 60.0, len(layout)) * 10.0 ** rng.integers(-12, 9)
-    active = rng.random(len(layout)) < 0.5
-    got = layout.kernel.loads(force, active)
-    on = np.flatnonzero(active).tolist()
-    terms = [np.cross(layout.positions[i], [0.0, 0.0, force[i]]).tolist() for i in on]
-    scale = math.fsum(abs(float(force[i])) for i in on)
-    assert got[2] == pytest.approx(math.fsum(float(force[i]) for i in on), abs=1e-14 * scale)
-    for j in range(3):
-        assert got[3 + j] == pytest.approx(math.fsum(t[j] for t in terms), abs=1e-14 * scale)
-    assert got[6] == pytest.approx(math.fsum(float(layout.areas[i]) for i in on), rel=1e-14)
-    if got[2] > 0.0:
-        assert got[7] == pytest.approx(-got[4] / got[2])
-        assert got[8] == pytest.approx(got[3] / got[2])
-    else:
-        assert np.isnan(got[7:]).all()
-
-
-def test_a_curved_sole_counts_the_direction_of_each_taxel():
-    normal = np.array([[0.6, 0.0, 0.8], [0.0, 0.0, 1.0]])
-    positions = np.array([[0.1, 0.0, 0.02], [0.0, 0.1, 0.0]])
-    corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
-    kernel = SoleKernel(positions, normal, [1.0, 1.0], corners, [0, 3, 6], [0, 1, 2, 0, 1, 2])
-    got = kernel.loads(np.array([10.0, 5.0]), np.array([True, True]))
-    force = normal * np.array([[10.0], [5.0]])
-    assert got[:3] == pytest.approx(force.sum(axis=0))
-    assert got[3:6] == pytest.approx(np.cross(positions, force).sum(axis=0))
-    assert got[7:] == pytest.approx((force[:, 2:] * positions[:, :2]).sum(axis=0) / force[:, 2].sum())
 
 
 def test_cells_that_lie_on_each_other_hide_no_corner():
