@@ -516,12 +516,6 @@ def _of_net_wrench() -> Call:
     )
 
 
-def _plane(sole: SoleLayout) -> ground_plane.GroundPlane:
-    found = ground_plane.fit_ground_plane(sole, np.full(len(sole), 0.03125))
-    assert found is not None
-    return found
-
-
 def _of_batches(sole: SoleLayout) -> list[Call]:
     n = len(sole)
     frames = Argument(_reading(sole, frames=True).value, (..., n), "force", nan=True)
