@@ -54,6 +54,7 @@ INNER: frozenset[str] = frozenset(
         *(f"rotation.{name}" for name in ("sine_vector", "vector_from_rotation")),
         "reading.Reading.taken_over",
         "percept.Percept.summed",
+        "leg_inertia.LegInertia.base_acceleration",
         *("wrench.wrench_in_frame", "contact.Contact", "contact.Contact.wrench_in_world"),
         *("link_skin.LinkWrench", "link_skin.SkinReading", "link_skin.link_wrenches", "net_wrench.NetWrench"),
         *("within_limits.Box", "within_limits.Box.of", "within_limits.nearest_within"),
