@@ -9,6 +9,17 @@ from numpy.typing import NDArray
 
 from plantar.sim.companion.dynamics import MujocoDynamics
 
+HAND = """
+<mujoco>
+  <worldbody>
+    <body name="hand">
+      <joint name="x" type="slide" axis="1 0 0"/><joint name="y" type="slide" axis="0 1 0"/>
+      <joint name="yaw" axis="0 0 1"/><geom size="0.1" mass="2"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+
 
 @dataclass
 class RandomRobot:
@@ -62,6 +73,12 @@ def chain_xml(rng: np.random.Generator, joints: int, floating: bool, parallel: b
 
     alone = '<option><flag contact="disable"/></option>'
     return f'<mujoco>{alone}<worldbody><body name="base">{link(0)}</body></worldbody></mujoco>'
+
+
+@pytest.fixture
+def robot():
+    """A body that slides along x and y and turns about z."""
+    return MujocoDynamics(mujoco.MjModel.from_xml_string(HAND))
 
 
 @pytest.fixture

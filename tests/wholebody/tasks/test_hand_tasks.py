@@ -1,32 +1,15 @@
 """Tasks of a hand that works on surfaces: force or distance, posture with a velocity, a base that keeps clear."""
 
-import mujoco
 import numpy as np
 import pytest
 
 from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
-from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.wholebody.tasks.base_avoidance import AvoidanceField, BaseAvoidance
 from plantar.wholebody.tasks.compliant_wrist import CompliantWrist, WristGains
 from plantar.wholebody.tasks.contact_force import ContactForce, ContactGains
 from plantar.wholebody.tasks.posture import Posture
 
-HAND = """
-<mujoco>
-  <worldbody>
-    <body name="hand">
-      <joint name="x" type="slide" axis="1 0 0"/><joint name="y" type="slide" axis="0 1 0"/>
-      <joint name="yaw" axis="0 0 1"/><geom size="0.1" mass="2"/>
-    </body>
-  </worldbody>
-</mujoco>
-"""
 OUTWARD = np.array([1.0, 0.0, 0.0])
-
-
-@pytest.fixture
-def robot():
-    return MujocoDynamics(mujoco.MjModel.from_xml_string(HAND))
 
 
 @pytest.fixture

@@ -1,32 +1,18 @@
 """Tasks with a target pull towards it, brake what moves otherwise than wanted, and ask for no more at it."""
 
-import mujoco
 import numpy as np
 import pytest
 
-from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
 from plantar.wholebody.tasks.center_of_mass import CenterOfMass
 from plantar.wholebody.tasks.posture import Posture
 
-HAND = """
-<mujoco>
-  <worldbody>
-    <body name="hand">
-      <joint name="x" type="slide" axis="1 0 0"/><joint name="y" type="slide" axis="0 1 0"/>
-      <joint name="yaw" axis="0 0 1"/><geom size="0.1" mass="2"/>
-    </body>
-  </worldbody>
-</mujoco>
-"""
 PLACE, SPEED = np.array([0.3, -0.2, 0.0]), np.array([0.5, -0.7, 0.0])
 
 
-@pytest.fixture
-def robot():
-    made = MujocoDynamics(mujoco.MjModel.from_xml_string(HAND))
-    made.update(PLACE, SPEED, 0.1)
-    return made
+@pytest.fixture(autouse=True)
+def moving(robot):
+    robot.update(PLACE, SPEED, 0.1)
 
 
 def test_a_centre_of_mass_is_pulled_and_braked(robot):
@@ -54,8 +40,7 @@ def test_a_posture_is_pulled_and_braked(robot, torques):
     assert part.jacobian == pytest.approx(np.eye(3)[[2, 0]])
 
 
-def test_a_pose_is_pulled_no_faster_than_its_speed_and_braked():
-    robot = MujocoDynamics(mujoco.MjModel.from_xml_string(HAND))
+def test_a_pose_is_pulled_no_faster_than_its_speed_and_braked(robot):
     turning = np.array([0.5, -0.7, 0.4])
     robot.update(np.array([0.3, -0.2, 0.0]), turning, 0.1)
     gains = PoseGains(stiffness=100.0, damping=4.0, speed=0.5, turn_stiffness=30.0, turn_damping=6.0)
