@@ -11,8 +11,9 @@ cdef class Setpoints:
     cdef readonly double[::1] reference, velocity, goal, setpoint
     cdef double[::1] rate, between
     cpdef void hold(self, const double[:] joints, const double[:] torques) noexcept
-    @cython.locals(fastest=double, total=double, late=bint)
     cpdef void go_to(self) noexcept
+    @cython.locals(fastest=double, total=double, late=bint)
+    cdef void _go_on(self, Py_ssize_t begin, Py_ssize_t end) noexcept
     cpdef void load(self, const double[:] friction=*, offsets=*) except *
     cpdef void write(self) noexcept
     cpdef void advance(self) noexcept

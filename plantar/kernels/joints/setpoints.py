@@ -10,7 +10,7 @@ _NONE = float("nan")
 
 
 class Setpoints:
-    """Set-points of k joints, moving between control ticks without a jump.
+    """Set-points of k joints, half of them each leg's, moving between control ticks without a jump.
 
     They follow their goal by a critically damped low pass of second order; without lag they would exceed a joint's
     speed limit.
@@ -57,11 +57,15 @@ class Setpoints:
             self.goal[i] = self.between[i] = self.setpoint[i] = joints[i] + torques[i] / self.stiffness[i]
 
     def go_to(self):
-        """Set the next tick's reference, as far as the fastest joint may move."""
-        joints = self.joints
+        """Set the next tick's reference, each leg's as far as its fastest joint may move."""
         count = self.servos.shape[0]
+        self._go_on(0, count // 2)
+        self._go_on(count // 2, count)
+
+    def _go_on(self, begin, end):
+        joints = self.joints
         fastest = total = 0.0
-        for i in range(self.per_way.shape[0]):
+        for i in range(begin, end if self.per_way.shape[0] else begin):
             share = (joints[i] - self.reference[i]) * self.per_way[i]
             total += share * share
             if share < 0.0:
@@ -69,7 +73,7 @@ class Setpoints:
             if share > fastest:
                 fastest = share
         late = fastest > 1.0 and total == total
-        for i in range(count):
+        for i in range(begin, end):
             last = self.reference[i]
             if last != last:
                 last = joints[i]

@@ -34,7 +34,8 @@ def test_it_writes_what_numpy_would(limited, seed):
         held = tick == 2
         last = joints if last is None or held else last
         shares = np.abs(joints - last) * per_way if limited else np.zeros(k)
-        goal = last + (joints - last) / shares.max() if shares.max() > 1.0 else joints
+        fastest = np.repeat([shares[: k // 2].max(initial=0.0), shares[k // 2 :].max()], [k // 2, k - k // 2])
+        goal = np.where(fastest > 1.0, last + (joints - last) / np.maximum(fastest, 1.0), joints)
         velocity = np.zeros(k) if held else (goal - last) / PERIOD
         held_up = torques if friction is None else torques + friction
         wanted = goal + (damping * velocity + held_up) / stiffness
