@@ -26,7 +26,9 @@ from plantar.sides import Side
 _YAW_ON_UNKNOWN_GROUND = 0.1
 
 _NO_LEGS = LegInertia()
-_QUICK_HEIGHT = 1 / 12  # Leg, clearance of the swing foot of quick steps at most
+_QUICK_HEIGHT = 1 / 12  # Leg, clearance of the swing foot of commanded steps at most,
+# and of steps whose time is stated: in leg/pace what a knee bends of its leg's length, for clearance and for a step
+_QUICK_BEND, _STEP_BEND, _LEAST_HEIGHT = 0.058, 0.35, 1 / 30
 
 
 class Task(Protocol):
@@ -82,8 +84,10 @@ def controller_settings(
     walk = scene.walk
     _refuse_unused(scene, robot)
     control = _possible(scene.control, robot)
-    # Quick steps have no time to go high.
-    swing_height = min(walk.swing_height, _QUICK_HEIGHT * body.leg) if walk.commanded else walk.swing_height
+    swing_height = walk.swing_height
+    if walk.commanded or walk.single_support:  # quick steps have no time to go high
+        bend = _QUICK_BEND * walk.single_support / body.pace - _STEP_BEND * (walk.length / body.leg) ** 2
+        swing_height = min(swing_height, (_QUICK_HEIGHT if walk.commanded else max(_LEAST_HEIGHT, bend)) * body.leg)
     # A slow approach takes longer than quick swings, and a robot that rocks comes down as it rocks.
     approach = 0.0 if robot.rocks or walk.commanded else walk.approach_height
     defaults: Mapping[str, Mapping[str, Any]] = {

@@ -51,6 +51,22 @@ def test_a_scene_goes_before_the_robot_and_the_robot_before_the_default():
 
 
 @pytest.mark.parametrize(
+    ("settings", "height"),
+    [
+        ([], 0.08),
+        (["single_support=0.9"], 0.08),
+        (["single_support=0.6", "length=0.24"], 0.051),
+        (["single_support=0.6", "length=0.3"], 0.032),
+        (["single_support=0.4", "length=0.3"], 0.02),
+        (["walk.velocity=[0.1, 0, 0]"], 0.05),
+    ],
+)
+def test_quick_and_long_steps_clear_less(settings, height):
+    made = controller_settings(load_scene("flat", settings), load_robot("h1"), REFERENCE_BODY, {})
+    assert made.swing_height == pytest.approx(height, abs=1e-3)
+
+
+@pytest.mark.parametrize(
     ("settings", "words"),
     [
         (["dcm_gian=2"], "nearest: balance.dcm_gain"),

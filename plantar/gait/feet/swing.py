@@ -9,19 +9,13 @@ from numpy.typing import NDArray
 from plantar.kernels.base.vectors import vector
 from plantar.mechanics.easing import minimum_jerk
 
-_APPROACH_SHARE = 0.44  # Share of a swing, at its end, that a slow approach takes
-
-_ARRIVED_SHARE = 0.61  # Share of such a swing after which the foot moves only downwards
-
-# Largest share of such a swing spent rising: the next stone may be 30 mm higher, and the toe is soon above it
-_RISE_SHARE = 0.28
-
-# Share of such a swing after which it comes down: what moves under the foot meanwhile has to pass below it
-_HIGH_SHARE = 0.34
-
-_FIRST_SHARE = 0.14  # Share of a swing after which one that rises first moves horizontally: half of its height
-
-_SKEW = 0.8  # Exponent below 1 that moves the horizontal motion of such a swing forward, so that it brakes gently
+# Shares of a swing with slow approach:
+_APPROACH_SHARE = 0.44  # that it takes at the end
+_ARRIVED_SHARE = 0.61  # after which the foot moves only downwards
+_RISE_SHARE = 0.28  # spent rising at most: the next stone may be 30 mm higher, and the toe is soon above it
+_HIGH_SHARE = 0.34  # after which it comes down: what moves under the foot meanwhile has to pass below it
+_FIRST_SHARE = 0.14  # after which one that rises first moves horizontally: half of its height
+_SKEW = 0.8  # Exponent below 1 that moves its horizontal motion forward, so that it brakes gently
 
 
 @dataclass(frozen=True)
@@ -39,9 +33,8 @@ class SwingTrajectory:
         lateral_hold: First share of the duration, upwards only.
         lateral_end: Last share, downwards only.
         spare: Share left when the foot is down.
-        approach_height: Height in m above the end of slow approach, begun 0.44 of the duration before its end; 0 is one
-            move.
-        approach_speed: Its speed in m/s, also below the end; raised if it would not reach it.
+        approach_height: Height in m above the end of a slow approach; 0 is one move.
+        approach_speed: Its speed in m/s; raised if it would not reach the end.
         rises_first: Whether the foot rises before it moves horizontally, for an obstacle.
     """
 

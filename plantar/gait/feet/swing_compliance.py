@@ -1,8 +1,4 @@
-"""Preemptive foot compliance: a swing that sees the ground (T 4.4.1, Fig. 49).
-
-Law "wrench" damps the swing by w_sole's force (T 4.30, corrected), turns by its moment and stops at epsilon_stop (T
-4.31). Law "plane" slows with a fitted plane's distance to a crawl.
-"""
+"""Preemptive foot compliance: a swing that sees the ground (T 4.4.1, Fig. 49), by the laws of `ComplianceGains`."""
 
 import math
 
@@ -24,6 +20,7 @@ _LARGEST_DRIFT = 0.00206  # leg/beat that a body moves up or down above a foot t
 _LARGEST_YIELD = 0.00824  # leg/beat at which a foot that has touched gives way
 _LARGEST_CHANGE = 2.0  # leg/beat^2 by which the speed of a sole in the air changes: sight comes in steps
 _LARGEST_TURN_CHANGE = 2.75  # rad/beat^2 of its turn, likewise
+_SOONER = 0.45  # share of its time in which a hasty descent comes to the ground sooner
 _SLOPE_OF_NOISE = 0.015  # tangent of the slope that level ground may seem to have
 
 
@@ -51,27 +48,22 @@ class SwingCompliance:
         self.touchdown = touchdown
         self.ground = GroundMap(layout, ground)
         self.switch = SoleWrenchSwitch(touchdown.contact_force)
-        self.force = 0.0
         self._leg, self._speed_unit = gains.body.in_si("leg"), gains.body.in_si("leg/beat")
         self._change = _LARGEST_CHANGE * gains.body.in_si("leg/beat^2")
         self._turn_change = _LARGEST_TURN_CHANGE * gains.body.in_si("rad/beat^2")
         self._arm = 0.5 * float(np.linalg.norm(np.ptp(layout.outline, axis=0)))  # m from the middle to an edge
-        self._speed = self._drift = self._rate = 0.0
+        self.by_wrench = gains.law == "wrench"
+        self._whole = len(layout) * PROXIMITY_GAIN * ground.sensing_range  # N of a sole that touches everywhere
+        self.begin()
+
+    def begin(self, haste: float = 0.0) -> None:
+        """A swing begins, with `haste` 0..1 (`plantar.gait.plan.leg_momentum`)."""
+        self._haste = haste
+        self.ground.begin()
+        self.switch.reset()
+        self.force = self._speed = self._drift = self._rate = 0.0
         self._turn = (0.0, 0.0)
         self._aim: float | None = None
-        self.by_wrench = gains.law == "wrench"
-        self.stopped = False
-        self._whole = len(layout) * PROXIMITY_GAIN * ground.sensing_range  # N of a sole that touches everywhere
-        self._wrench = np.zeros(6)
-
-    def begin(self) -> None:
-        """A swing begins."""
-        self.ground.begin()
-        self._speed = self._drift = self._rate = 0.0
-        self._turn = (0.0, 0.0)
-        self._aim = None
-        self.switch.reset()
-        self.force = 0.0
         self._wrench, self.stopped = np.zeros(6), False
 
     def update_load(self, load: float) -> bool:
@@ -87,7 +79,7 @@ class SwingCompliance:
         return self.switch.landed
 
     def damped(self, planned: float, time_left: float, period: float) -> float:
-        """Descent in m in a tick: its plan, damped by the virtual force (T 4.4.1).
+        """Returns the descent in m in a tick: its plan, damped by the virtual force (T 4.4.1).
 
         A stopped foot (T 4.31) descends by what it lacks of a touching sole.
 
@@ -95,9 +87,6 @@ class SwingCompliance:
             planned: Swing plan's downward speed in m/s.
             time_left: Until the plan puts weight on it, in s.
             period: Of control in s.
-
-        Returns:
-            The distance.
         """
         g, force = self.gains, float(self._wrench[2])
         self.stopped = self.stopped or bool(early_stop(self._wrench, g.stop * self._whole))
@@ -113,17 +102,14 @@ class SwingCompliance:
     def descent(
         self, view: GroundView | None, planned: float, remaining: float, time_left: float, period: float
     ) -> float:
-        """Descent in m in a tick; negative: up.
+        """Returns the descent in m in a tick; negative: up.
 
         Args:
             view: Of the sole.
-            planned: Swing plan's downward speed in m/s, used without seen ground.
+            planned: Swing plan's downward speed in m/s.
             remaining: Horizontal distance in m.
             time_left: Until the plan puts weight on it, in s; negative if it does.
             period: Of control in s.
-
-        Returns:
-            The distance.
         """
         g = self.gains
         if view is None:
@@ -134,16 +120,22 @@ class SwingCompliance:
             self._aim = view.distance
         above = remaining < _THERE * self._leg
         left = self._aim - (g.margin if above else min(g.clearance, _KEPT * self._leg + g.clearance_slope * remaining))
+        quick = 1.0 - _SOONER * self._haste
+        time_left /= quick
         hurry = min(1.0, max(0.0, 2.0 - time_left / g.reserve))
         doubt = max(0.0, -view.distance) / (_DOUBT * self._leg)  # it should have touched already
         crawl = g.touch_speed * (1.0 + (g.late_speed_ratio - 1.0) * hurry + doubt)
-        damping = max(g.damping, (time_left - g.crawl_time) / g.steepness)
+        damping = quick * max(g.damping, (time_left - g.crawl_time) / g.steepness)
         rise = -_LARGEST_RISE * self._speed_unit
         wanted = left / damping + crawl if left > 0.0 else max(rise, left / g.damping)
+        behind = view.distance - self._aim
         if above:
             wanted = max(wanted, crawl)
+        elif planned < wanted:  # a hasty foot comes down as it comes to its place
+            wanted += self._haste * (planned - wanted)
+            self._aim += self._haste * behind
+            behind = view.distance - self._aim
         self._speed = min(wanted, g.top_speed, self._speed + g.acceleration * period)
-        behind = view.distance - self._aim
         self._aim -= self._speed * period
         return self._moved(min(g.top_speed, max(rise, self._speed + behind / g.correction)), period)
 
@@ -198,16 +190,13 @@ class SwingCompliance:
         return t.touch_force + min(1.0, since / t.load_time) * (t.hold_force - t.touch_force)
 
     def yielding(self, load: float, target: float, above: float, period: float) -> float:
-        """Descent in m in a tick of a foot on ground, for a force; negative: up.
+        """Returns the descent in m in a tick of a foot on ground, for a force; negative: up.
 
         Args:
             load: Vertical in N on the sole.
             target: Desired force in N.
             above: Height in m above touchdown, from which a lost foot returns.
             period: Of control in s.
-
-        Returns:
-            The distance.
         """
         g, t = self.gains, self.touchdown
         missing = t.admittance * (target - load)

@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 
 from plantar.gait.feet.swing import SwingTrajectory
 from plantar.gait.feet.swing_kind import SwingKind, SwingStart
+from plantar.gait.plan.leg_momentum import haste
 from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.same_time import SAME_TIME
 
-_EARLY = {"lateral_end": 0.25, "spare": 0.12}  # of a swing that should be near to the ground early
-_EARLY_LIFT = 0.28  # share of such a swing spent rising,
-_LIFT = 0.45  # and of others
+_END, _EARLY_END = 0.06, 0.25  # shares of a swing that only descends, blind or seeing the ground early
+_SPARE = 0.12  # share left of a seeing one
+_LIFT, _EARLY_LIFT = 0.45, 0.28  # and spent rising
 _QUICKEST = 0.26  # leg/beat at most of a rise, which the knee's speed bounds, unless it would last as long as others'
 _PEAK = 1.875  # largest speed of a minimum-jerk motion over its mean
 _RAMP = 0.2  # share of the time left in which the clock comes to its new rate
@@ -180,6 +181,8 @@ class PolynomialSwing(SwingKind):
         """Flight at its begin."""
         rise = start.height + max(0.0, (start.end - start.position).item(2))
         lasts = _PEAK * rise / (_QUICKEST * self.body.in_si("leg/beat") * start.duration)
+        way = math.dist(start.position[:2], start.end[:2])
+        early = 1.0 - haste(way, start.duration) if start.sees_ground else 0.0
         path = SwingTrajectory(
             start.position,
             start.end,
@@ -187,8 +190,9 @@ class PolynomialSwing(SwingKind):
             start.yaw_end,
             start.height,
             start.duration,
-            **_EARLY if start.sees_ground else {},
-            lift_share=min(_LIFT, max(_EARLY_LIFT, lasts)) if start.sees_ground else _LIFT,
+            lift_share=min(_LIFT, max(_LIFT - early * (_LIFT - _EARLY_LIFT), lasts)),
+            lateral_end=_END + early * (_EARLY_END - _END),
+            spare=early * _SPARE,
             approach_height=start.approach_height,
             approach_speed=start.approach_speed,
             rises_first=start.rises_first,

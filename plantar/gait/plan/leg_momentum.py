@@ -20,12 +20,21 @@ from numpy.typing import NDArray
 
 from plantar.gait.plan.vrp_plan import LipReference, VrpPlan
 from plantar.gait.plan.walk_plan import PlanView, WalkPlan
+from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.same_time import SAME_TIME
 
 _AHEAD = 4  # steps that count: later ones move the CoM by micrometres
 _HELD = 0.06  # of a swing, at its start, in which the foot only rises
 _KNOTS = tuple((k / 6, 60 * (k / 6) - 180 * (k / 6) ** 2 + 120 * (k / 6) ** 3) for k in range(7))  # minimum-jerk s''
+_EARLY, _LATEST = 0.75, 0.94  # shares of a swing after which its foot only descends: with time to spare, and at most
+_BRISK = 0.07 * math.sqrt(3.0) * GRAVITY  # m of way over s^2 of time, of a minimum jerk whose peak a hip takes: 0.7 g
 _FADES = 1.0  # s after the last swing in which nothing is left
+
+
+def haste(way: float, duration: float) -> float:
+    """Returns the share 0..1 of its time after arrival that a swing of `duration` in s takes for a `way` in m."""
+    needed = _HELD + math.sqrt(way / _BRISK) / duration
+    return min(1.0, max(0.0, (needed - _EARLY) / (_LATEST - _EARLY)))
 
 
 class LegMomentum:
@@ -35,7 +44,7 @@ class LegMomentum:
         plan: The walk's.
         omega: Frequency of the pendulum with legs in rad/s.
         inertia: D in s^2; 0 shifts nothing.
-        arrived: Share of a swing after which its foot only descends.
+        arrived: Share of a swing without `haste` after which its foot only descends.
     """
 
     def __init__(self, plan: WalkPlan, omega: float, inertia: float, arrived: float) -> None:
@@ -67,9 +76,10 @@ class LegMomentum:
                 break
             if phase.step == first + 1:
                 self._until = phase.end
-            lasts = (self._arrived - _HELD) * (phase.touchdown - phase.start)
-            begin = phase.start + _HELD * (phase.touchdown - phase.start)
-            way = view.vrp(phase.step) - view.vrp_before(phase.step, phase.swing)
+            lasts, way = phase.touchdown - phase.start, view.vrp(phase.step) - view.vrp_before(phase.step, phase.swing)
+            begin = phase.start + _HELD * lasts
+            late = haste(math.hypot(*way.tolist()), lasts)
+            lasts *= self._arrived + late * (_LATEST - self._arrived) - _HELD
             for share, acceleration in _KNOTS:
                 if begin + share * lasts > times[-1] + SAME_TIME:
                     times.append(begin + share * lasts)

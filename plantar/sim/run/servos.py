@@ -21,7 +21,7 @@ class LegServos:
     A servo computes torque = kp (u - q) - kv q'. With u = q_d + ((kv + d) q'_d + tau_ff) / kp, d the joint's damping
     and friction a load, it follows q_d without lag. Between ticks u moves at q'_d, and a tick's changes are low-passed:
     held set-points would make a saw tooth of kp q'_d dt in torque. At a speed limit all joints of a leg move by the
-    same share of their way, and the other leg goes on.
+    same share of their way.
 
     Args:
         world: The world.

@@ -56,6 +56,15 @@ def test_a_foot_that_still_moves_forward_keeps_its_clearance() -> None:
     assert height == pytest.approx(gains.clearance, abs=1e-3)
 
 
+@pytest.mark.parametrize(("haste", "late"), [(0.0, False), (1.0, True)])
+def test_only_a_hasty_foot_waits_for_its_plan_to_come_down(haste: float, late: bool) -> None:
+    compliance, height, planned = swing(ComplianceGains()), 0.04, 0.1
+    compliance.begin(haste)
+    for _ in range(40):
+        height -= compliance.descent(GroundView(height, height, None), planned, 0.1, 0.3, PERIOD)
+    assert (height > 0.018) == late  # 20 mm by the plan
+
+
 def test_touchdown_has_hysteresis_and_the_load_is_held() -> None:
     gains = ComplianceGains()
     compliance = swing(gains)

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from plantar.gait.feet.swing import SwingTrajectory
+from plantar.gait.feet.swing_flight import PolynomialSwing
+from plantar.gait.feet.swing_kind import SwingStart
 from plantar.gait.plan import leg_momentum
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.gait.plan.leg_momentum import LegMomentum
@@ -127,3 +129,18 @@ def test_legs_without_inertia_shift_nothing():
     reference = plan.at(1.0)
     assert not any(part.any() for part in (shift.vrp, shift.dcm, shift.com))
     assert reference.plus(shift).com.tolist() == reference.com.tolist()
+
+
+@pytest.mark.parametrize(("length", "single"), [(0.2, 0.9), (0.2, 0.8), (0.24, 0.6)])
+def test_a_foot_moves_as_the_plan_counts_on_and_as_gently_as_there_is_time_for(length, single):
+    plan = WalkPlan(*straight_plan(6, length=length), Timing(single, 0.2), MIDDLES, OMEGA, 0.5)
+    momentum = LegMomentum(plan, OMEGA, 5e-3, 0.75)
+    phase = next(p for p in plan.schedule.phases if p.swing is not None and p.step == 2)
+    start, end = np.zeros(3), np.array([2.0 * length, 0.0, 0.0])
+    swing = PolynomialSwing().begin(SwingStart(start, 0.0, end, 0.0, 0.05, single, PERIOD, 0.1, sees_ground=True))
+    times = np.arange(0.0, single, PERIOD)
+    counted = np.array([momentum.foot_acceleration(momentum.at(phase.start + t))[0] for t in times])
+    moved = np.gradient(np.gradient([swing.at(t)[0][0] for t in times], times), times)
+    assert np.sqrt(np.mean((counted - moved) ** 2)) < 0.1 * np.abs(moved).max()
+    latest = 10.0 / np.sqrt(3.0) * 2.0 * length / (0.88 * single) ** 2
+    assert np.abs(moved).max() < 1.02 * max(0.7 * 9.81, latest)

@@ -1,4 +1,4 @@
-"""Scenes of a load that the controller does not know, and of a long walk, cut to a few steps."""
+"""A load that the controller does not know, a long walk and a quick one, cut to a few steps."""
 
 import pytest
 
@@ -24,3 +24,12 @@ def test_a_long_walk_keeps_its_height():
     assert summary["completed"], summary["reasons"]
     assert summary["steps_taken"] == 5
     assert summary["estimate"]["com_error_max_m"][2] < 2e-3
+
+
+def test_a_quick_walk_is_within_its_torques_and_lands_softly():
+    pace = ["length=0.4 leg", "single_support=2.42 beat", "double_support=0.5 beat"]
+    run = Simulation(load_scene("flat", ["steps=8", "settle=0.5", *pace]), seed=1)
+    summary = run.run()
+    assert summary["completed"], summary["reasons"]
+    assert summary["torque_limit"]["share_of_time"] < 0.05  # a third of the time if its feet hurry
+    assert max(summary["impacts_N"]) < run.body.weight
