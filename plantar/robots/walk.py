@@ -41,7 +41,7 @@ class Walk(Settings):
         first: Foot that moves first.
         single_support: t_ss; 0 for the robot's own.
         double_support: t_ds; 0 for the robot's own.
-        swing_height: Clearance of the swing foot.
+        swing_height: Clearance of the swing foot; less in quick steps.
         lean: Whether the trunk leans over the stance foot, which unloads hip roll (`trunk_lean`).
         crouch: How much lower than its own CoM height the robot walks, to reach further and lower ground; up to
             `largest_crouch`, or `largest_crouch_partial` on parts of its soles.
