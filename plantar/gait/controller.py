@@ -220,7 +220,7 @@ class WalkingController:
         reference = self.plan.at(time)
         law = self.balance if feedback else self._open_loop
         aim, region = footing.regulated(phase, time, tick.pendulum, region if feedback else _UNBOUNDED_REGION)
-        balanced = law.update(aim, dcm, state.zmp, region)
+        balanced = law.update(aim, dcm, state.zmp, region, tick.firm)
         if feedback:
             footing.conform(phase, balanced.zmp_desired, state, sensed)
         acceleration = balanced.com_acceleration + legs.com_acceleration

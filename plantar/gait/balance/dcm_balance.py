@@ -17,6 +17,8 @@ from plantar.settings.schema import fixed, share
 from plantar.sides import Side
 
 _LARGEST_OFFSET = 0.5  # leg that the CoM's reference may be off its plan: no foot reaches both from there
+_HELD = 0.22  # sole that ankles move the ZMP by: half a sole's width less the margin; beyond, the CoM goes along
+_PRESS = 0.5  # 1/beat at which it then brings the ZMP to the desired one; four times that rattles
 _ZMP_SHARE = 0.3  # of the ZMP's error, which feet that stand give way to; all of it lets a push tip the robot over
 
 
@@ -69,7 +71,8 @@ class DcmBalance:
         com = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period, largest)
         # At xi = xi_r the desired ZMP is the planned VRP; a DCM that is off has its error driven to zero at the rate
         # k_xi (T 4.18, 4.28). An integral forgets, and rests while the region holds the desired ZMP back.
-        self._feedback = DcmFeedback(omega, gains.dcm_gain, integral, period, com, True, self._offset_first)
+        along = _HELD * gains.body.sole, _PRESS / gains.body.beat
+        self._feedback = DcmFeedback(omega, gains.dcm_gain, integral, period, com, self._offset_first, *along)
 
     def update(
         self,
@@ -77,12 +80,15 @@ class DcmBalance:
         dcm: NDArray[np.float64],
         zmp: NDArray[np.float64] | None,
         region: NDArray[np.float64],
+        firm: bool = True,
     ) -> BalanceState:
         """Returns the desired ZMP by `reference` and measured `dcm`, kept in `region` (T 4.28), and the CoM
-        that tracks it by `zmp` (T 4.29).
+        that tracks it by `zmp` (T 4.29), or, where `firm`, falls along.
         """
         plan, self._zmp = reference, zmp
-        return BalanceState(*self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region))
+        return BalanceState(
+            *self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region, firm)
+        )
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
         """Returns each foot's load by `balanced`; `feet` at rest yield to mutual pressure and part of the ZMP error."""

@@ -102,6 +102,7 @@ class BalanceLaw(Protocol):
         dcm: NDArray[np.float64],
         zmp: NDArray[np.float64] | None,
         region: NDArray[np.float64],
+        firm: bool = True,
     ) -> BalanceState:
         """Decide on CoM and ZMP.
 
@@ -110,6 +111,7 @@ class BalanceLaw(Protocol):
             dcm: Measured (2,) in m.
             zmp: Measured (2,) in m; None if no foot is loaded.
             region: For the desired ZMP: convex (k, 2), world, in m; empty for no limit.
+            firm: Whether feet can go anywhere.
 
         Returns:
             The decision.

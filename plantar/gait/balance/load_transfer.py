@@ -54,8 +54,9 @@ class OpenLoop:
         dcm: NDArray[np.float64],
         zmp: NDArray[np.float64] | None,
         region: NDArray[np.float64],
+        firm: bool = True,
     ) -> BalanceState:
-        """Returns the plan at `reference`; `dcm`, `zmp` and `region` are unused."""
+        """Returns the plan at `reference`; `dcm`, `zmp` and `region`, `firm` are unused."""
         return BalanceState(reference.vrp, reference.com, reference.com_velocity, reference.com_acceleration)
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:

@@ -14,15 +14,17 @@ cdef class ComAdmittance:
 
 @cython.final
 cdef class DcmFeedback:
-    cdef double stiffness, factor, integral_gain, forgetting, largest, period
+    cdef double omega, held, press, factor, integral_gain, forgetting, largest, period
     cdef ComAdmittance admittance
-    cdef bint yields, after
-    cdef double integral_x, integral_y
-    cpdef object desired(self, vrp, planned, dcm, region)
-    cpdef tuple decide(self, vrp, planned, com, com_velocity, dcm, zmp, region)
+    cdef bint after
+    cdef double integral_x, integral_y, away_x, away_y
+    @cython.locals(stiffness=double)
+    cpdef tuple decide(self, vrp, planned, com, com_velocity, dcm, zmp, region, bint firm)
     cdef (double, double) _desired(
-        self, const double* vrp, const double* planned, const double* dcm, region, bint integrates
+        self, const double* vrp, const double* planned, const double* dcm, region
     ) except *
+    @cython.locals(share=double, size=double, offset=ComAdmittance)
+    cdef (double, double) _go_along(self, const double* planned, const double* dcm, bint may) noexcept
     cdef double _integrated(self, double integral, double error) noexcept
 
 cdef int _LEFT, _RIGHT

@@ -64,68 +64,74 @@ class DcmFeedback:
         integral: Integral of DCM error: gain in 1/s, decay in 1/s, limit in m.
         period: Control period in s.
         admittance: Offset of CoM reference.
-        yields: Whether offset follows ZMP's error.
         after: Whether acceleration uses offset after this tick, or before.
+        held: Largest ZMP offset in m by ankles; for more the CoM reference goes along.
+        press: Its rate in 1/s from ZMP error then.
     """
 
-    def __init__(self, omega, gain, integral, period, admittance, yields, after):
-        self.stiffness = omega**2
+    def __init__(self, omega, gain, integral, period, admittance, after, held=math.inf, press=0.0):
+        self.omega, self.held, self.press = omega, held, press
         self.factor = 1.0 + gain / omega
         self.integral_gain, self.forgetting, self.largest = integral
         self.period = period
         self.admittance = admittance
-        self.yields = yields
         self.after = after
-        self.integral_x = self.integral_y = 0.0
+        self.integral_x = self.integral_y = self.away_x = self.away_y = 0.0
 
-    def desired(self, vrp, planned, dcm, region):
-        """Desired ZMP (2,) in m, p_r + (1 + k_xi / w) (xi - xi_r) with the integral, kept in a region (T 4.28,
-        Algorithm 1).
-
-        Args:
-            vrp: Planned VRP p_r (2,) in m.
-            planned: Planned DCM xi_r (2,) in m.
-            dcm: Measured DCM xi (2,) in m.
-            region: Convex polygon (k, 2) in m; empty for no limit.
-        """
-        x, y = self._desired(memory.values(vrp), memory.values(planned), memory.values(dcm), region, False)
-        return vectors.vector2(x, y)
-
-    def decide(self, vrp, planned, com, com_velocity, dcm, zmp, region):
-        """Advance by one control tick.
+    def decide(self, vrp, planned, com, com_velocity, dcm, zmp, region, firm):
+        """Advance by a tick: desired ZMP p_r + (1 + k_xi / w) (xi - xi_r) with the integral, kept in a region (T 4.28,
+        Algorithm 1), and CoM reference (T 4.29).
 
         Args:
             vrp: Planned VRP (2,) in m; `planned` DCM and `com` likewise.
             com_velocity: Planned velocity (2,) of CoM in m/s.
             dcm: Measured DCM (2,) in m.
             zmp: Measured ZMP (2,) in m; None without load.
-            region: As in `desired`.
+            region: Convex polygon (k, 2) in m; empty for no limit.
+            firm: Whether a step can catch a fall, so that the CoM may go along.
 
         Returns:
             Desired ZMP (2,) in m; CoM reference (2,) in m, its velocity in m/s and acceleration in m/s^2.
         """
         offset, at, velocity = self.admittance, memory.values(com), memory.values(com_velocity)
-        x, y = self._desired(memory.values(vrp), memory.values(planned), memory.values(dcm), region, True)
-        cx, cy = at[0] + offset.x, at[1] + offset.y
-        if self.yields:
-            if zmp is None:
-                offset.follow(0.0, 0.0)
-            else:
-                now = memory.values(zmp)
-                offset.follow(now[0] - x, now[1] - y)
-        px, py = at[0] + offset.x, at[1] + offset.y
+        x, y = self._desired(memory.values(vrp), memory.values(planned), memory.values(dcm), region)
+        cx, cy = at[0] + offset.x + self.away_x, at[1] + offset.y + self.away_y
+        if zmp is None:
+            offset.follow(0.0, 0.0)
+        else:
+            now = memory.values(zmp)
+            offset.follow(now[0] - x, now[1] - y)
+        rx, ry = self._go_along(memory.values(planned), memory.values(dcm), firm and len(region) > 0)
+        px, py = at[0] + offset.x + self.away_x, at[1] + offset.y + self.away_y
         if self.after:
             cx, cy = px, py
         # The linear inverted pendulum, w^2 (c - p): what the feet should give, not the derivative of the offset.
+        stiffness = self.omega * self.omega
         return (
             vectors.vector2(x, y),
             vectors.vector2(px, py),
-            vectors.vector2(velocity[0] + offset.rate_x, velocity[1] + offset.rate_y),
-            vectors.vector2(self.stiffness * (cx - x), self.stiffness * (cy - y)),
+            vectors.vector2(velocity[0] + offset.rate_x + rx, velocity[1] + offset.rate_y + ry),
+            vectors.vector2(stiffness * (cx - x), stiffness * (cy - y)),
         )
 
-    def _desired(self, vrp, planned, dcm, region, integrates):
-        """`desired`'s two numbers, and the integral after this tick."""
+    def _go_along(self, planned, dcm, may):
+        """Rate in m/s of the CoM reference along a fall."""
+        # A pendulum whose DCM is off by e leaves its plan with c' = w (e - c). Stiff joints would hold the posture, and
+        # the whole body would tip over the stance foot's edge: no foot would land flat. What the ankle brings back is
+        # left to it. Along the fall any ZMP fits, so the second term asks for the desired one.
+        ex, ey = dcm[0] - planned[0], dcm[1] - planned[1]
+        size = self.factor * math.sqrt(ex * ex + ey * ey)
+        rx, ry = -self.omega * self.away_x, -self.omega * self.away_y
+        if may and size > self.held:
+            share, offset = 1.0 - self.held / size, self.admittance
+            rx += share * (self.omega * ex + self.press * offset.error_x)
+            ry += share * (self.omega * ey + self.press * offset.error_y)
+        self.away_x += self.period * rx
+        self.away_y += self.period * ry
+        return rx, ry
+
+    def _desired(self, vrp, planned, dcm, region):
+        """Desired ZMP's two numbers, and the integral after this tick."""
         ex, ey = dcm[0] - planned[0], dcm[1] - planned[1]
         x = vrp[0] + self.factor * ex + self.integral_x
         y = vrp[1] + self.factor * ey + self.integral_y
@@ -134,7 +140,7 @@ class DcmFeedback:
         # No foot can press outside its contact: what is wanted there is cut to what the ground can give.
         px, py = convex.nearest(region, x, y)
         # The integral stands still while the region holds the desired ZMP back.
-        if integrates and self.integral_gain > 0.0 and (px - x) * (px - x) + (py - y) * (py - y) < _SAME * _SAME:
+        if self.integral_gain > 0.0 and (px - x) * (px - x) + (py - y) * (py - y) < _SAME * _SAME:
             self.integral_x = self._integrated(self.integral_x, ex)
             self.integral_y = self._integrated(self.integral_y, ey)
         return px, py
