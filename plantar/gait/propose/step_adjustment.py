@@ -64,6 +64,7 @@ class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_ad
     shortest: float = number(0.45, "1", 0, 0.9)
     longest: float = number(0.3, "1", 0, 5)
     least_left: float = fixed(0.404, "beat")  # Time in s before touchdown from which a foot is not aimed
+    quick: float = fixed(3.64, "beat")  # Single support in s from which a slower walk's is shortened, too
     pause: float = share(0.081, "beat", 0, 5)
     price_time: float = fixed(0.0206, "leg/beat")  # Cost of a second earlier in m/s of DCM error
     # The same in m/s of a second later, in which an error in the expected DCM of 20 to 35 mm grows on
@@ -160,9 +161,20 @@ class StepAdjustment:
         )
         if left < 2.0 * self._period or off * math.exp(pendulum.omega * left) < self._rules.least_error:
             return None
-        if math.hypot(*_missed(pendulum, left)) < self._rules.least_error:
+        if math.hypot(*_missed(pendulum, left)) < self._allowed(tick, pendulum):
             return self._go_along(tick, pendulum, foot, left)
         return self._step_elsewhere(tick, pendulum, foot, left, swing)
+
+    def _allowed(self, tick: Tick, pendulum: Pendulum) -> float:
+        """Final DCM error in m that moves no step; at first b (1 - e^(-w T)), as a ZMP b off its plan takes up in the
+        next double support T.
+        """
+        phase, most = tick.phase, self._rules.least_error
+        if self._adjusted == phase.step:
+            return most
+        following = tick.plan.schedule.following(phase)
+        kept = math.exp(-pendulum.omega * (following.end - following.start))
+        return max(most, (1.0 - kept) * signed_margin(pendulum.zmp_region, tick.plan.stance_vrp(phase.step)))
 
     def _step_elsewhere(
         self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, swing: Side
@@ -263,7 +275,8 @@ class StepAdjustment:
         """Soonest and latest single support end in s from now."""
         rules = self._rules
         usual, begun = tick.plan.schedule.timing.single_support, tick.time - tick.phase.start
-        soonest = min(left, max(rules.least_left, (1.0 - rules.shortest) * (usual - begun)))
+        rest = (1.0 - rules.shortest) * min(1.0, rules.quick / usual) * (usual - begun)
+        soonest = min(left, max(rules.least_left, rest))
         return soonest, max(left, (1.0 + rules.longest) * usual - begun)
 
     def _searched(

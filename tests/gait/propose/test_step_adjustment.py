@@ -7,6 +7,8 @@ import pytest
 import shapely
 
 from plantar.gait.balance.ankle_strategy import AnkleRules
+from plantar.gait.plan.footsteps import straight_plan
+from plantar.gait.plan.phases import Timing
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.walk_plan import WalkPlan
 from plantar.gait.propose.proposer import Pendulum, Tick
@@ -88,6 +90,16 @@ def test_what_the_zmp_can_do_is_left_to_it(method, pushed):
     assert proposed(pushed((0.0, 0.1), room=0.5 * SQUARE)[1], method=method) is None
 
 
+def test_what_the_next_double_support_takes_up_moves_no_step(pushed):
+    left, both = 0.45, 0.3
+    growth = math.expm1(3.5 * left)
+    taken_up = 0.03 * -math.expm1(-3.5 * both)  # by the room on each side of the VRP
+    for missed, steps in ((0.8 * taken_up, False), (1.2 * taken_up, True)):
+        assert missed > RULES.least_error
+        by = (0.03 + missed / growth) / (1.0 + 1.0 / growth)
+        assert (proposed(pushed((by, 0.0))[1]) is not None) == steps
+
+
 @pytest.mark.parametrize("seed", range(60))
 def test_the_footstep_stays_in_its_region_and_where_the_foot_gets_to(pushed, seed):
     rng = np.random.default_rng(seed)
@@ -140,6 +152,22 @@ def test_the_search_is_as_good_as_trying_everything(pushed, seed):
     found = cost(left + change.longer, np.array(change.shift))
     assert found <= still + 2e-3
     assert found < cost(left, np.zeros(2))
+
+
+def test_a_slow_walk_steps_as_fast_as_another(tick_at):
+    """The DCM does not wait for it: the time to land follows from the leg, not from the walk's tempo."""
+    soonest = []
+    for single in (0.9, 1.4, 2.0):
+        feet, steps = straight_plan(6)
+        plan = WalkPlan(feet, steps, Timing(single_support=single), dict.fromkeys(feet, np.zeros(2)), 3.5, 1.0)
+        phase = next(p for p in plan.schedule.phases if p.step == 1 and p.swing is not None)
+        time = phase.start + 0.4 * single
+        pushed = plan.at(time).dcm + np.array([0.3, 0.0])  # more than any step makes up for
+        pendulum = Pendulum(3.5, pushed, plan.at(time), plan.dcm_after(phase), plan.at(time).vrp + ROOM)
+        tick = tick_at(plan, time, pendulum=pendulum)
+        change = proposed(tick.changed(feet=tick.feet.changed(side=phase.swing, landed=False)))
+        soonest.append(phase.end - time + change.longer)
+    assert soonest == pytest.approx([0.6 * 0.55 * 0.9] * 3, abs=2 * PERIOD)
 
 
 def test_a_push_that_goes_on_is_reckoned_with(pushed):

@@ -33,11 +33,12 @@ def test_a_step_catches_the_push_that_ankles_do_not():
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 @pytest.mark.parametrize("seed", range(4))
-def test_small_pushes_move_no_step_and_large_ones_do(seed):
-    _, out = run("push-step", seed)
+def test_small_pushes_move_no_step_and_large_ones_do(seed, robot):
+    _, out = run("push-step", seed, robot=robot)
     assert out["completed"], out["reasons"]
-    _, ankles = run("push-step", seed, "control.step_adjustment=false", "control.push_estimate=off")
+    _, ankles = run("push-step", seed, "control.step_adjustment=false", "control.push_estimate=off", robot=robot)
     assert not ankles["completed"]
 
 
