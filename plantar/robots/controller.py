@@ -111,7 +111,7 @@ def load_controller(
     task: Any = SimpleNamespace(
         name="load_controller", walk=walk, control=control, controller=parts, proximity_range=sees
     )
-    limits = ankle_limits(own, legs.model, body.weight, min(walk.crouch, own.largest_crouch_partial))
+    limits = ankle_limits(own, legs.model, body.weight, min(walk.lowered, own.largest_crouch_partial))
     inertia = leg_inertia(own, legs, com_height_of(walk, own))
     settings = controller_settings(task, own, body, ankle_sensors(legs.model, own), limits, inertia=inertia)
     start = start_of_walk(walk, own, settings.com_height, velocities=walk.velocities(seed))

@@ -108,7 +108,7 @@ def controller_settings(
         parts[name] = kind.from_table(tables[name], f"[{name}]", SceneError) if runs else None
     found = ControllerSettings(
         com_height=com_height_of(walk, robot),
-        partial_rise=min(walk.crouch, robot.largest_crouch) - min(walk.crouch, robot.largest_crouch_partial),
+        partial_rise=min(walk.lowered, robot.largest_crouch) - min(walk.lowered, robot.largest_crouch_partial),
         mass=body.mass,
         trunk_lean=robot.trunk_lean if walk.lean else 0.0,
         period=_period(control),
@@ -138,7 +138,7 @@ def com_height_of(walk: Walk, robot: Robot) -> float:
         walk: The gait.
         robot: The robot, which crouches as far as it can.
     """
-    return robot.com_height - min(walk.crouch, robot.largest_crouch)
+    return robot.com_height - min(walk.lowered, robot.largest_crouch)
 
 
 def _period(control: Control) -> float:

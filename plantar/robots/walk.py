@@ -43,8 +43,8 @@ class Walk(Settings):
         double_support: t_ds; 0 for the robot's own.
         swing_height: Clearance of the swing foot; less in quick steps.
         lean: Whether the trunk leans over the stance foot, which unloads hip roll (`trunk_lean`).
-        crouch: How much lower than its own CoM height the robot walks, to reach further and lower ground; up to
-            `largest_crouch`, or `largest_crouch_partial` on parts of its soles.
+        crouch: How much lower than its own CoM height the robot walks, to reach further and lower ground; at most as
+            its steps need (`lowered`), and `largest_crouch`, or `largest_crouch_partial` on parts of its soles.
         approach_height: Height above the expected ground from which a blind swing foot goes down slowly, after ground
             that was elsewhere; it then aims as far below.
         approach_speed: Its speed in m/s.
@@ -102,6 +102,14 @@ class Walk(Settings):
     def commanded(self) -> bool:
         """Whether a velocity is commanded, rather than a number of steps."""
         return bool(self.velocity or self.commands or self.wander)
+
+    @property
+    def lowered(self) -> float:
+        """Crouch in m: a leg that is a step s off the vertical reaches s^2 / (2 leg) less deep; all of `crouch` where
+        steps are unknown or climb.
+        """
+        whole = self.commanded or self.climb != 0.0
+        return self.crouch if whole else min(self.crouch, (self.length**2 + self.sideways**2) / (2.0 * self.body.leg))
 
     def velocities(self, seed: int) -> VelocityTable | None:
         """Commanded velocities over time in s; None for a number of steps."""

@@ -50,6 +50,20 @@ def test_a_scene_goes_before_the_robot_and_the_robot_before_the_default():
     assert controller_settings(load_scene("flat", ["dcm_gain=2"]), robot, REFERENCE_BODY, {}).balance.dcm_gain == 2.0
 
 
+def test_a_robot_walks_as_low_as_its_steps_need():
+    robot = load_robot("h1")
+
+    def crouch(*settings: str) -> float:
+        made = controller_settings(load_scene("flat", settings), robot, REFERENCE_BODY, {})
+        return round(robot.com_height - made.com_height, 6)
+
+    # A leg of 0.6 m that is 0.1 m off the vertical reaches sqrt(0.6^2 - 0.1^2) down: 8.4 mm less.
+    assert crouch("walk.length=0.1") == pytest.approx(0.6 - (0.6**2 - 0.1**2) ** 0.5, rel=0.02)
+    assert crouch("walk.length=0") == crouch("walk.crouch=0") == 0.0
+    assert crouch() == crouch("walk.length=0", "walk.velocity=[0, 0, 0]") == crouch("length=0", "climb=0.02") == 0.03
+    assert crouch("walk.length=0", "walk.sideways=0.2", "walk.crouch=0.02") == 0.02
+
+
 @pytest.mark.parametrize(
     ("settings", "height"),
     [

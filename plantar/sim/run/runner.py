@@ -95,7 +95,7 @@ class Simulation(Run):
             robot,
             self.body,
             ankle_sensors(self.legs.model, robot),
-            ankle_limits(robot, self.legs.model, self.body.weight, min(walk.crouch, robot.largest_crouch_partial)),
+            ankle_limits(robot, self.legs.model, self.body.weight, min(walk.lowered, robot.largest_crouch_partial)),
             skin if scene.sensing.body_skin else None,
             leg_inertia(robot, self.legs, com_height_of(walk, robot)),
         )
