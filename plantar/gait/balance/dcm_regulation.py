@@ -15,14 +15,8 @@ from plantar.gait.plan.walk_plan import PlanView
 def phase_goal(plan: PlanView, phase: Phase, offset: NDArray[np.float64], omega: float) -> NDArray[np.float64] | None:
     """DCM (2,) in m at a phase's end that lets the walk rest over its next step (K 21-24).
 
-    Args:
-        plan: The plan.
-        phase: Present phase.
-        offset: u_w (2,) in m by a push.
-        omega: Pendulum's in rad/s.
-
-    Returns:
-        The goal; None in a walk's first and last phases, whose goal is the plan's.
+    Returns it in the present `phase` of a `plan`, by a push's u_w, `offset` (2,) in m, and `omega` in rad/s; None in a
+    walk's first and last phases, whose goal is the plan's.
     """
     step, schedule = phase.step, plan.schedule
     if phase.kind == PhaseKind.SINGLE_SUPPORT and step + 1 < plan.count:
@@ -47,17 +41,8 @@ def regulated_vrp(
 ) -> AnkleVrp | None:
     """VRP u* that brings the DCM to its goal by the phase's end (K 25-26), unlimited (K 27).
 
-    Args:
-        plan: The plan.
-        phase: Present phase.
-        time: In s.
-        dcm: (2,) in m.
-        goal: (2,) in m (`phase_goal`).
-        offset: u_w (2,) in m.
-        omega: Pendulum's in rad/s.
-
-    Returns:
-        u*; None in a walk's first and last phases.
+    Returns u* by `plan`, its `phase` at a `time` in s, `dcm`, `goal` (`phase_goal`) and u_w, `offset`, each (2,) in m,
+    and `omega` in rad/s; None in a walk's first and last phases.
     """
     if phase.kind == PhaseKind.SINGLE_SUPPORT:
         return single_support_vrp(dcm, goal, phase.end - time, offset, omega)

@@ -56,15 +56,8 @@ class FootAdmittance:
         measured: Mapping[Side, NDArray[np.float64]],
         rests: bool = False,
     ) -> Mapping[Side, SoleAdmittance]:
-        """`corrections` after a control tick; those of a foot in the air fade.
-
-        Args:
-            wanted: Desired wrench (6,), by the world, on each standing foot in its sole frame.
-            measured: Same feet's measured wrench (6,).
-            rests: Whether the robot stands: corrections do not decay, so no wrench error remains.
-
-        Returns:
-            The corrections.
+        """Returns `corrections` after a tick by each standing foot's wrench (6,) by the world, sole frame, `wanted` and
+        `measured`; those in the air fade, and none decays where the robot `rests`.
         """
         errors: list[float] = []
         for side, foot in self.corrections.items():

@@ -19,13 +19,7 @@ def transferred(balanced: BalanceState, mass: float, feet: Feet) -> dict[Side, F
     In double support the ZMP along the line of the feet's centers gives the shares; its distance from it moves each
     center of pressure.
 
-    Args:
-        balanced: Desired ZMP and CoM acceleration.
-        mass: Robot's in kg.
-        feet: Both.
-
-    Returns:
-        For each foot.
+    Returns it for each of the `feet` of a robot of a `mass` in kg, by the desired ZMP and CoM acceleration, `balanced`.
     """
     left, right, zmp = feet.states["left"], feet.states["right"], feet.frame.to_command(balanced.zmp_desired)
     stance = 0 if feet.stance is None else 1 if feet.stance == "left" else 2

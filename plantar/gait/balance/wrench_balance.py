@@ -54,17 +54,7 @@ class WrenchBalanceGains(Part, table="balance"):
 
     @classmethod
     def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:
-        """Gains of the law and the feet from one table.
-
-        Args:
-            table: Of either class, by name.
-            where: Table's name, for messages.
-            error: Error class.
-            note: What decides on allowed keys, for messages.
-
-        Returns:
-            The gains.
-        """
+        """Returns gains of the law and the feet from one `table`; `where`, `error` and `note` are for messages."""
         refuse_unknown_keys(table, cls.names(), where, error, note)
         feet = {k: v for k, v in table.items() if k in AdmittanceGains.names()}
         own = {k: v for k, v in table.items() if k not in feet}
@@ -119,14 +109,8 @@ class WrenchBalance(DcmBalance):
         return actions
 
     def distributed(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, NDArray[np.float64]]:
-        """World's wrench (6,) on each standing foot about its sole frame's origin; their sum is the pendulum's.
-
-        Args:
-            balanced: From `update`.
-            feet: Both.
-
-        Returns:
-            The wrenches.
+        """Returns the world's wrench (6,) on each standing one of `feet` about its sole frame's origin; their sum is
+        the pendulum's by `balanced`.
         """
         contacts: dict[str, Contact] = {
             side: foot.contact for side, foot in feet.states.items() if foot.contact is not None

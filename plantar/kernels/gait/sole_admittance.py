@@ -88,13 +88,8 @@ def turned(level, x, y):
 
 
 def risen(position, center, roll, pitch, shift):
-    """Position (3,) in m of a turned, shifted sole; its center rises by the shift.
-
-    Args:
-        position: Origin (3,) of its frame in m.
-        center: Center (2,) in its frame in m.
-        roll: Turn about its x axis in rad; `pitch` about y.
-        shift: Shift upwards in m.
+    """Returns `position` (3,) in m of a sole that turns by `roll` and `pitch` in rad about its frame's origin; its
+    `center` (2,) rises by `shift` in m.
     """
     place, middle = memory.values(position), memory.values(center)
     rise = shift + pitch * middle[0] - roll * middle[1]
@@ -102,16 +97,8 @@ def risen(position, center, roll, pitch, shift):
 
 
 def pressed(wrench, level, position, center):
-    """Wrench on a sole as a force at its center of pressure.
-
-    Args:
-        wrench: Wrench (6,) in sole frame about its origin in N and N m.
-        level: Rotation (3, 3) from sole.
-        position: Origin (3,) of its frame in m.
-        center: Point of attack (2,) in sole frame in m without pressure.
-
-    Returns:
-        Force (3,) in N, and point (2,) in m, seen from above, at which it acts.
+    """Returns force (3,) in N of a `wrench` (6,) about a sole's origin, and point (2,) in m, seen from above, at which
+    it acts: `center` (2,) without pressure. The sole's frame turns by `level` (3, 3), from a `position` (3,).
     """
     w, r, place, middle = memory.values(wrench), memory.values(level), memory.values(position), memory.values(center)
     x, y = (-w[4] / w[2], w[3] / w[2]) if w[2] > 0.0 else (middle[0], middle[1])
