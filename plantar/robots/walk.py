@@ -105,9 +105,7 @@ class Walk(Settings):
 
     @property
     def lowered(self) -> float:
-        """Crouch in m: a leg that is a step s off the vertical reaches s^2 / (2 leg) less deep; all of `crouch` where
-        steps are unknown or climb.
-        """
+        """Crouch in m: a leg a step s off the vertical reaches s^2 / (2 leg) less deep; all if unknown or climbing."""
         whole = self.commanded or self.climb != 0.0
         return self.crouch if whole else min(self.crouch, (self.length**2 + self.sideways**2) / (2.0 * self.body.leg))
 

@@ -166,9 +166,7 @@ class StepAdjustment:
         return self._step_elsewhere(tick, pendulum, foot, left, swing)
 
     def _allowed(self, tick: Tick, pendulum: Pendulum) -> float:
-        """Final DCM error in m that moves no step; at first b (1 - e^(-w T)), as a ZMP b off its plan takes up in the
-        next double support T.
-        """
+        """Final DCM error in m that moves no step: at first what a ZMP b off takes up in a double support."""
         phase, most = tick.phase, self._rules.least_error
         if self._adjusted == phase.step:
             return most
