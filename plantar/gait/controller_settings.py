@@ -20,8 +20,8 @@ from plantar.gait.estimate.identification import IdentificationRules
 from plantar.gait.estimate.push_estimate import PushRules
 from plantar.gait.estimate.wrench_filter import WrenchFilterRules
 from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
-from plantar.gait.feet.foot_motion import Landing
 from plantar.gait.feet.ground_conformity import ConformityGains
+from plantar.gait.feet.landing import Landing
 from plantar.gait.feet.swing_flight import PolynomialSwing
 from plantar.gait.feet.swing_kind import SwingKind
 from plantar.gait.plan.phases import Timing
@@ -44,12 +44,12 @@ from plantar.sides import Side
 class ControllerSettings(Settings):
     """Settings of a walk: numbers, and parts under their tables' names.
 
-    A part that is None does not run. Its class declares its table's name and switches (`plantar.settings.part.Part`);
-    `plantar.gait.controller_tables` derives all lists from the field types.
+    A part that is None does not run; `plantar.gait.controller_tables` derives all lists from the field types.
 
     Attributes:
         com_height: CoM over the soles in m.
         partial_rise: CoM rise in m over a partial foothold.
+        spare_crouch: How much lower than that in m it may walk.
         mass: In kg.
         period: Control period in s.
         timing: Phase durations.
@@ -61,7 +61,7 @@ class ControllerSettings(Settings):
         feedback: False walks in open loop, for comparison.
         zmp_source: Source of loads and ZMP: "skin", or "force_torque" at the ankles.
         ankles: Their force-torque sensors, if any.
-        ankle_limits: Strips (m, 4) of each sole where the weight can act on that foot alone within its ankle's torques
+        ankle_limits: Strips (m, 4) of each sole where weight can act on that foot alone
             (`plantar.gait.contact.ankle_limits`); empty without limits.
         leg_inertia: Of a leg that swings, for plan and estimate.
         footholds: How footholds are found: "off" assumes whole soles, for comparison; "force" uses forces, "skin" also
@@ -72,6 +72,7 @@ class ControllerSettings(Settings):
     com_height: float
     mass: float
     partial_rise: float = number(0.0, "m", 0.0, 0.5)
+    spare_crouch: float = number(0.0, "m", 0.0, 0.5)
     period: float = number(0.005, "s", 1e-4, 0.1)
     timing: Timing = field(default_factory=Timing)
     swing_height: float = share(1 / 12, "leg", 0.0, 1.0)

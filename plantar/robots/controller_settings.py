@@ -109,6 +109,7 @@ def controller_settings(
     found = ControllerSettings(
         com_height=com_height_of(walk, robot),
         partial_rise=min(walk.lowered, robot.largest_crouch) - min(walk.lowered, robot.largest_crouch_partial),
+        spare_crouch=max(0.0, robot.largest_crouch - walk.lowered),
         mass=body.mass,
         trunk_lean=robot.trunk_lean if walk.lean else 0.0,
         period=_period(control),

@@ -47,7 +47,7 @@ def test_the_trunk_leans_over_the_foot_that_the_com_moves_to(controller, yaw, as
 def test_a_swing_foot_of_a_body_that_leans_comes_to_its_place_in_the_world(controller, lean):
     """What is commanded, seen from the body and turned by its lean, is the place that was wanted."""
     side = "left"
-    controller.footing.motion = SimpleNamespace(last_side=side)
+    controller.footing.motion = SimpleNamespace(last_side=side, landed=False)
     place, com = np.array([0.1, 0.085, 0.03]), np.array([0.02, -0.05, 0.8])
     state: Any = BaseState(
         rotation_base_to_world=rolled(lean),
@@ -69,6 +69,13 @@ def test_a_swing_foot_of_a_body_that_leans_comes_to_its_place_in_the_world(contr
     assert np.linalg.norm(target.position - place) > 0.01  # it is no small thing
     sole = rolled(lean) @ target.rotation
     assert sole == pytest.approx(np.eye(3), abs=5e-3)
+    # Landed, it carries: it does not make way for the body that leans onto it.
+    controller.footing.motion.landed = True
+    lower = state.changed(com=com - np.array([0.0, 0.0, 0.05]))
+    controller.foot_targets.compensate(
+        feet := {side: FootTarget(place, np.eye(3), np.zeros(3), np.zeros(2))}, phase, com, 0.0, np.eye(3), lower
+    )
+    assert feet[side].position.tolist() == target.position.tolist()
 
 
 def first_tick(robot: str = "h1", settings: tuple[str, ...] = (), body: Any = None) -> tuple[Simulation, Command]:

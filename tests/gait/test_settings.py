@@ -15,8 +15,8 @@ from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table, controller_keys
 from plantar.gait.estimate.estimator import EstimatorGains
 from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
-from plantar.gait.feet.foot_motion import Landing
 from plantar.gait.feet.ground_conformity import ConformityGains
+from plantar.gait.feet.landing import Landing
 from plantar.gait.plan.phases import Timing
 from plantar.gait.propose.feasibility import FeasibilityRules
 from plantar.gait.propose.foothold_rules import FootholdRules

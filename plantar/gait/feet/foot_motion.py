@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from plantar.gait.contact.ground_map import GroundView
 from plantar.gait.estimate.command_frame import CommandFrame
+from plantar.gait.feet.landing import Landing
 from plantar.gait.feet.swing_compliance import SwingCompliance
 from plantar.gait.feet.swing_flight import PolynomialSwing
 from plantar.gait.feet.swing_kind import Swing, SwingKind, SwingStart
@@ -20,8 +21,6 @@ from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vec
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.percepts.percept import Percept
 from plantar.record import Record
-from plantar.settings.part import Part
-from plantar.settings.schema import number, share, switch
 from plantar.sides import SIDES, Side, other_side
 
 # Distances as shares of the leg:
@@ -44,41 +43,6 @@ class SoleSense(Record, frozen=True):
     percept: Percept
     position: NDArray[np.float64]
     rotation: NDArray[np.float64]
-
-
-class Landing(Part, table="landing", given_by={n: f"walk.{n}" for n in ("approach_height", "approach_speed")}):
-    """How a foot lands.
-
-    Attributes:
-        contact_force: Vertical touchdown force in N (the papers' 70 N).
-        press_force: Vertical force in N up to which a touching foot is pressed down.
-        depth: Aimed depth in m below the expected ground, so that the foot rests on it.
-        speed: Downwards in m/s while no ground is met.
-        acceleration: Its acceleration in m/s^2.
-        reach: Most that it goes down in m.
-        relax_time: Time constant in s with which a standing robot's last foot approaches its estimated height; 0 leaves
-            it.
-        ground_share: Share of a new foothold's height expected for the next, 0..1.
-        levelling: Rate in 1/s at which a blind foot turns parallel to the stance foot; 0 leaves it.
-        probing: Whether such a foot, once loaded, turns until its center of pressure is amid its believed foothold, a
-            test before the body's weight.
-        approach_height: Height in m above expected ground from which it descends slowly for some steps after unexpected
-            ground (`SwingTrajectory`); 0 is one move.
-        approach_speed: Its speed in m/s.
-    """
-
-    contact_force: float = share(0.083, "weight", 0, 10000)
-    press_force: float = share(0.237, "weight", 0.1, 100000)
-    depth: float = share(1 / 1500, "leg", 0, 0.05)
-    speed: float = share(0.0124, "leg/beat", 0.0001, 1)
-    acceleration: float = share(0.102, "leg/beat^2", 0.01, 100)
-    reach: float = share(0.05, "leg", 0, 0.2)
-    relax_time: float = number(0.0, "s", 0, 100)
-    ground_share: float = number(0.3, "1", 0, 1)
-    levelling: float = share(10.0, "1/beat", 0, 200)
-    probing: bool = switch(True)
-    approach_height: float = number(0.0, "m", 0, 0.2)
-    approach_speed: float = share(0.0247, "leg/beat", 0.001, 1)
 
 
 class FootMotion:
@@ -154,6 +118,13 @@ class FootMotion:
             return np.zeros(2)
         (x, y, _), (here_x, here_y, _) = self._swing.end.tolist(), self.footholds[self._side][0].tolist()
         return vector2(x - here_x, y - here_y)
+
+    @property
+    def comes_to(self) -> float:
+        """Height in m of the last swing's end as now expected, command frame; infinite before."""
+        if self._swing is None:
+            return math.inf
+        return self._expected + min(0.0, self.surprise)
 
     @property
     def view(self) -> FeetView:
@@ -310,10 +281,12 @@ class FootMotion:
             # Where the other foot found the ground is the best guess of where this one will.
             landed = float(self.footholds[other_side(side)][0][2])
             self._expected += self._landing.ground_share * (landed - self._expected)
-        # By the plan it is as much higher or lower as that has its steps.
-        self._expected, self._planned = self._expected + target.z - self._planned, target.z
         position, yaw = self.footholds[side]
-        place = np.array([*frame.to_command(target.position[:2]), self._expected - self._landing.depth])
+        x, y = frame.to_command(target.position[:2]).tolist()
+        # By the plan it is as much higher or lower as that has its steps; by itself, if it slopes on.
+        rise = target.z - self._planned or self._rise(other_side(side), position, x - position[0], y - position[1])
+        self._expected, self._planned = self._expected + rise, target.z
+        place = np.array([x, y, self._expected - self._landing.depth])
         sees = self._compliance is not None
         start = SwingStart(
             position=position.copy(),
@@ -342,6 +315,19 @@ class FootMotion:
             late = 0.0 if again else haste(math.dist(position[:2], place[:2]), start.duration)
             self._compliance[side].begin(late)
             self._lifted_tilt = vector_from_rotation(self._tilts[side])
+
+    def _rise(self, stance: Side, lifted: NDArray[np.float64], way_x: float, way_y: float) -> float:
+        """Rise in m from the standing foot to the swing's end, by the slope that its sole and the last step share."""
+        way = math.hypot(way_x, way_y)
+        if self._compliance is None or way < _NEARLY_THERE * self._leg:
+            return 0.0
+        x, y, z = (self.footholds[stance][0] - lifted).tolist()
+        gone = float(way_x * x + way_y * y) / way
+        normal_x, normal_y, normal_z = self.rotation(stance)[:, 2].tolist()
+        slope = -(way_x * normal_x + way_y * normal_y) / (way * normal_z)
+        if gone < _NEARLY_THERE * self._leg or slope * z <= 0.0:
+            return 0.0
+        return math.copysign(min(abs(slope), abs(float(z) / gone)), slope) * (way - gone)
 
     def _retake(self, time: float, touchdown: float, target: Footstep, frame: CommandFrame) -> None:
         """Lift a landed foot and repeat its step elsewhere."""
@@ -390,6 +376,8 @@ class FootMotion:
             if time_left <= 0.0:
                 falling = self._landing.speed
             remaining = math.hypot(*(swing.end[:2] - planned[:2]).tolist())
+            if view is None and remaining < _NEARLY_THERE * self._leg:  # ground is lower than expected, and far
+                falling = max(falling, self._landing.approach_speed)
             if compliance.by_wrench:
                 drop = compliance.damped(falling, time_left, period)
                 if compliance.stopped:

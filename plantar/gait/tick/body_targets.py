@@ -63,7 +63,11 @@ class BodyTargets:
         """Height in m over the stance foot, blended in double support, higher over partial footholds."""
         footing, rise = self._footing, self._settings.partial_rise
         heights = {side: footing.motion.footholds[side][0].item(2) for side in SIDES}
-        target = heights[phase.stance] if phase.stance is not None else 0.5 * (heights["left"] + heights["right"])
+        target = 0.5 * (heights["left"] + heights["right"])
+        if phase.stance is not None:
+            target = heights[phase.stance]
+            # A leg that steps down has to reach the ground: the body comes down before its foot.
+            target -= min(max(0.0, target - footing.motion.comes_to), self._settings.spare_crouch)
         if rise and any(footing.contacts.partial(side) for side in SIDES):
             target += rise
         return self._ground.update(target) + self._settings.com_height

@@ -91,25 +91,21 @@ class FootTargets:
             posture: Commanded torso rotation (3, 3).
             state: The body's.
         """
-        side, frame = self._footing.motion.last_side, self._footing.frame
+        side, frame, compensation = self._footing.motion.last_side, self._footing.frame, self._footing.compensation
         if side is None:
             return
         foot = feet[side]
-        (x, y, z), (cx, cy, _) = frame.to_world(foot.position).tolist(), state.com.tolist()
-        # The world's heading differs from the command frame's by the alignment; only the lean is corrected here.
-        c, s = math.cos(frame.turn), math.sin(frame.turn)
-        aligned = vector(cx + c * (x - cx) + s * (y - cy), cy - s * (x - cx) + c * (y - cy), z)
-        shift, turn = self._footing.compensation.update(
-            phase.swing == side,
-            foot.position,
-            aligned,
-            com,
-            state.com,
-            posture,
-            lean_correction.headed(state.rotation_base_to_world, torso),
-        )
-        rotation = lean_correction.turned(turn, foot.rotation)
-        feet[side] = FootTarget(foot.position + shift, rotation, foot.force, foot.center_of_pressure)
+        if phase.swing != side or not self._footing.motion.landed:
+            (x, y, z), (cx, cy, _) = frame.to_world(foot.position).tolist(), state.com.tolist()
+            # The world's heading differs from the command frame's by the alignment; only the lean is corrected here.
+            c, s = math.cos(frame.turn), math.sin(frame.turn)
+            aligned = vector(cx + c * (x - cx) + s * (y - cy), cy - s * (x - cx) + c * (y - cy), z)
+            measured = lean_correction.headed(state.rotation_base_to_world, torso)
+            compensation.update(phase.swing == side, foot.position, aligned, com, state.com, posture, measured)
+        # A foot that has landed before its support's end keeps its correction: one that followed the body as it leans
+        # onto the foot would take the load off it.
+        rotation = lean_correction.turned(compensation.turn, foot.rotation)
+        feet[side] = FootTarget(foot.position + compensation.shift, rotation, foot.force, foot.center_of_pressure)
 
     def _crept(self) -> tuple[int, ...]:
         """Command frame's creep, in 1/6000 of the leg (0.1 mm for H1) and 0.1 mrad."""

@@ -10,7 +10,8 @@ from plantar import Percept, Reading, hex_layout
 from plantar.gait.contact.ground_map import GroundMapSettings
 from plantar.gait.estimate.command_frame import CommandFrame
 from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
-from plantar.gait.feet.foot_motion import FootMotion, Landing, SoleSense
+from plantar.gait.feet.foot_motion import FootMotion, SoleSense
+from plantar.gait.feet.landing import Landing
 from plantar.gait.feet.swing_compliance import SwingCompliance
 from plantar.gait.feet.swing_fit import SwingFitRules
 from plantar.gait.plan.footsteps import Footstep, straight_plan
@@ -278,3 +279,49 @@ def test_a_foot_that_sees_the_ground_presses_as_it_is_told():
     assert held[None] == pytest.approx(TouchdownGains().hold_force, rel=0.1)
     assert held[80.0] == pytest.approx(80.0, rel=0.1)
     assert held[130.0] == pytest.approx(130.0, rel=0.1)
+
+
+def seeing(ground, tilt=0.0, rise=0.0, until=3.28):
+    """Motion and heights of a seeing right foot over `ground`, where the left sole tilts and stands higher."""
+    layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
+    feet, steps = straight_plan(3)
+    schedule = WalkSchedule.of([step.side for step in steps], Timing())
+    compliance = {s: SwingCompliance(layout, ComplianceGains(), TouchdownGains(), GroundMapSettings()) for s in feet}
+    motion = FootMotion(feet, PERIOD, 0.05, LANDING, compliance)
+    frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
+    heights = []
+    for k in range(round(until / PERIOD)):
+        time = k * PERIOD
+        phase = schedule.at(time)
+        if phase.step == 1 and phase.swing == "right" and not heights:
+            motion.turn_standing("left", np.array([0.0, -tilt]), np.zeros(2))
+            place, yaw = motion.footholds["left"]
+            motion.stand_at("left", place + np.array([0.0, 0.0, rise]), yaw)
+        senses = {}
+        for side in feet:
+            position, _ = motion.footholds[side]
+            above = max(0.0, float(position[2]) - ground)
+            seen = np.full(len(layout), above if above < 0.05 else np.inf)
+            percept = Percept(layout, Reading(time=time, force=np.zeros(len(layout)), proximity=seen))
+            senses[side] = SoleSense(percept, position, np.eye(3))
+        loads = {"left": 800.0 if phase.swing != "left" else 0.0, "right": 800.0 if phase.swing != "right" else 0.0}
+        motion.update(phase, time, taken(steps, phase), loads, frame, senses)
+        if phase.step == 1 and phase.swing == "right":
+            heights.append(float(motion.footholds["right"][0][2]))
+    return motion, np.array(heights)
+
+
+@pytest.mark.parametrize(
+    ("tilt", "rise", "expected"),
+    [(0.1, 0.02, 0.02), (0.1, 0.01, 0.01), (0.05, 0.02, 0.01), (-0.1, -0.02, -0.02), (0.1, -0.02, 0.0)],
+    ids=["both", "less risen", "less tilted", "down", "differ"],
+)
+def test_ground_slopes_on_as_far_as_sole_and_step_agree(tilt, rise, expected):
+    level, sloping = (seeing(0.0, t, rise, until=2.45)[0] for t in (0.0, tilt))
+    assert sloping.comes_to - level.comes_to == pytest.approx(expected, abs=1e-3)  # a landed foot is pressed down
+
+
+def test_a_foot_that_sees_no_ground_at_its_place_goes_down_to_look():
+    (_, low), (_, level) = seeing(-0.08), seeing(0.0)
+    assert level.min() == pytest.approx(-LANDING.depth, abs=2e-3)
+    assert low[-1] < level.min() - 0.01

@@ -7,8 +7,9 @@ from plantar import Percept, Reading
 from plantar.errors import InputError
 from plantar.gait.contact.ground_map import GroundMapSettings
 from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
-from plantar.gait.feet.foot_motion import FootMotion, Landing
+from plantar.gait.feet.foot_motion import FootMotion
 from plantar.gait.feet.ground_conformity import ConformityGains, FootTurn, GroundConformity
+from plantar.gait.feet.landing import Landing
 from plantar.gait.feet.swing_compliance import SwingCompliance
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.gait.plan.phases import Phase, PhaseKind

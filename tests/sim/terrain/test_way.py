@@ -90,7 +90,7 @@ def test_stairs_are_walked_with_both_feet_on_each_tread():
 
 
 def test_slopes_are_walked():
-    summary = run_scene(load_scene("slopes", ["steps=8", "slope=3", "settle=0.5"]), 1)
+    summary = run_scene(load_scene("slopes", ["steps=8", "slope=10", "settle=0.5"]), 1)
     assert summary["completed"], summary["reasons"]
 
 
