@@ -25,10 +25,11 @@ def test_a_level_foot_finds_the_rear_half_that_carries(robot):
 def test_a_foot_that_comes_as_it_does_finds_less_than_carries_it():
     """Neither levelled nor given the slope of the other sole, it finds the part next to the edge that it met.
 
-    Nor does it come slowly, from as high as over rough ground, or does the robot crouch or move its steps.
+    Nor does it come slowly, from as high as over rough ground, or does the robot crouch, move its steps or count on its
+    legs, by which it comes as level as it left.
     """
     off = ("landing.levelling=0", "contact.level=0.5", "approach_height=0", "swing_height=1/12 leg", "crouch=0")
-    off += ("pfc=false", "step_adjustment=false")
+    off += ("pfc=false", "step_adjustment=false", "leg_momentum=false")
     runs = [run_scene(load_scene("partial-rear", ["footholds=force", *off]), seed)["footholds"] for seed in range(4)]
     found, true = (np.mean([run[f"area_ratio_{which}"][2] for run in runs]) for which in ("found", "true"))
     assert found < 0.75 * true

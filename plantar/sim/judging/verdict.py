@@ -62,7 +62,7 @@ def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[
 
     if ending.fall is not None:
         value, limit, text = ending.fall
-        add("fall", round(value, 3), round(limit, 3), text)
+        add("fall", round(value, 6), round(limit, 6), text)
     if ending.stopped is not None:
         add("emergency_stop", 1, 0, f"the controller stopped for good: {ending.stopped}")
     raised, error = ending.raised

@@ -30,7 +30,7 @@ def test_a_good_end_has_no_reasons():
 @pytest.mark.parametrize(
     ("changes", "found"),
     [
-        ({"fall": (41.2345, 40.0, "the robot fell")}, ("fall", 41.234, 40.0)),
+        ({"fall": (41.2345, 40.0, "the robot fell")}, ("fall", 41.2345, 40.0)),
         ({"stopped": "sensors froze"}, ("emergency_stop", 1, 0)),
         ({"raised": (3, "InputError: x")}, ("controller_error", 3, 0)),
         ({"overrun": (60.0, 12.0)}, ("overrun", 60.0, 12.0)),
