@@ -376,7 +376,9 @@ class FootMotion:
             if time_left <= 0.0:
                 falling = self._landing.speed
             remaining = math.hypot(*(swing.end[:2] - planned[:2]).tolist())
-            if view is None and remaining < _NEARLY_THERE * self._leg:  # ground is lower than expected, and far
+            # A sole that sees, and sees no ground at its place, is above ground that is lower than expected.
+            sees = view is None and sense.percept.reading.proximity is not None
+            if sees and remaining < _NEARLY_THERE * self._leg:
                 falling = max(falling, self._landing.approach_speed)
             if compliance.by_wrench:
                 drop = compliance.damped(falling, time_left, period)

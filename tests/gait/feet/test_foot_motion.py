@@ -1,5 +1,6 @@
 """Footholds, swing and landing against made-up loads."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -300,8 +301,8 @@ def seeing(ground, tilt=0.0, rise=0.0, until=3.28):
         senses = {}
         for side in feet:
             position, _ = motion.footholds[side]
-            above = max(0.0, float(position[2]) - ground)
-            seen = np.full(len(layout), above if above < 0.05 else np.inf)
+            above = math.inf if ground is None else max(0.0, float(position[2]) - ground)
+            seen = None if ground is None else np.full(len(layout), above if above < 0.05 else np.inf)
             percept = Percept(layout, Reading(time=time, force=np.zeros(len(layout)), proximity=seen))
             senses[side] = SoleSense(percept, position, np.eye(3))
         loads = {"left": 800.0 if phase.swing != "left" else 0.0, "right": 800.0 if phase.swing != "right" else 0.0}
@@ -322,6 +323,7 @@ def test_ground_slopes_on_as_far_as_sole_and_step_agree(tilt, rise, expected):
 
 
 def test_a_foot_that_sees_no_ground_at_its_place_goes_down_to_look():
-    (_, low), (_, level) = seeing(-0.08), seeing(0.0)
+    (_, low), (_, level), (_, missing) = seeing(-0.08), seeing(0.0), seeing(None)
     assert level.min() == pytest.approx(-LANDING.depth, abs=2e-3)
     assert low[-1] < level.min() - 0.01
+    assert missing.min() > level.min() - 0.002  # a sole that is missing shows nothing
