@@ -139,7 +139,8 @@ if __name__ == "__main__":
     path = Path(sys.argv[1])
     rows = rows_of(path)
     for scene, robot in product(sys.argv[2:] or SCENES, ("h1", "hrp2kai")):
-        if not any((r["scene"], r["robot"]) == (scene, robot) for r in rows):
+        known = any((r["scene"], r["robot"]) == (scene, robot) for r in rows)
+        if not known and (scene, robot) != ("guide", "hrp2kai"):  # which has no arms
             append_row(path, tuple(HEADS), row := row_of(scene, robot))
             print(row, file=sys.stderr, flush=True)
     cells = [[r[name] or "-" for name in HEADS] for r in rows_of(path)]
