@@ -22,6 +22,7 @@ from plantar.sim.run.scene import Scene, builtin_scenes, load_scene
 from plantar.sim.run.scene_kind import open_scene
 
 SCENES = [name for name in builtin_scenes() if isinstance(open_scene(name), Scene)]
+RUNS = [run for run in product(SCENES, ("h1", "hrp2kai")) if run != ("guide", "hrp2kai")]  # which has no arms
 COPLANAR = ("flat", "beam", "partial")  # kinds of terrain on which all contacts lie in one plane
 CARRIES = 1.0  # N on a contact point, so that points that touch and carry nothing do not count
 SETTLES = 10  # ms after a contact point starts or stops to carry, in which its impulse reaches the joints
@@ -138,9 +139,8 @@ def marked(value: float, form: str, beyond: bool) -> str:
 if __name__ == "__main__":
     path = Path(sys.argv[1])
     rows = rows_of(path)
-    for scene, robot in product(sys.argv[2:] or SCENES, ("h1", "hrp2kai")):
-        known = any((r["scene"], r["robot"]) == (scene, robot) for r in rows)
-        if not known and (scene, robot) != ("guide", "hrp2kai"):  # which has no arms
+    for scene, robot in (run for run in RUNS if run[0] in (sys.argv[2:] or SCENES)):
+        if not any((r["scene"], r["robot"]) == (scene, robot) for r in rows):
             append_row(path, tuple(HEADS), row := row_of(scene, robot))
             print(row, file=sys.stderr, flush=True)
     cells = [[r[name] or "-" for name in HEADS] for r in rows_of(path)]

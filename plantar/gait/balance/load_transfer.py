@@ -50,7 +50,7 @@ class OpenLoop:
         region: NDArray[np.float64],
         firm: bool = True,
     ) -> BalanceState:
-        """Returns the plan at `reference`; `dcm`, `zmp` and `region`, `firm` are unused."""
+        """Returns the plan at `reference`; `dcm`, `zmp`, `region` and `firm` are unused."""
         return BalanceState(reference.vrp, reference.com, reference.com_velocity, reference.com_acceleration)
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:

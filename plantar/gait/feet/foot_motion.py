@@ -14,7 +14,6 @@ from plantar.gait.feet.swing_flight import PolynomialSwing
 from plantar.gait.feet.swing_kind import Swing, SwingKind, SwingStart
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.footsteps import Footstep
-from plantar.gait.plan.leg_momentum import haste
 from plantar.gait.plan.phases import Phase, PhaseKind
 from plantar.kernels.base.vectors import close, vector, vector2
 from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
@@ -312,8 +311,7 @@ class FootMotion:
         self._distance = None
         self._lowered = self._lowering = 0.0
         if self._compliance is not None:
-            late = 0.0 if again else haste(math.dist(position[:2], place[:2]), start.duration)
-            self._compliance[side].begin(late)
+            self._compliance[side].begin(start.haste)
             self._lifted_tilt = vector_from_rotation(self._tilts[side])
 
     def _rise(self, stance: Side, lifted: NDArray[np.float64], way_x: float, way_y: float) -> float:

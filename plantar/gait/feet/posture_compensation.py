@@ -26,6 +26,8 @@ class PostureCompensation:
         fade: Time in s of its coming and going.
         largest_shift: Position correction's limit in m.
         largest_turn: Orientation correction's limit in rad.
+        shift: Correction (3,) in m, command frame.
+        turn: Rotation vector (3,) in rad.
     """
 
     period: float
@@ -74,8 +76,8 @@ class PostureCompensation:
         com_estimated: NDArray[np.float64],
         rotation_command: NDArray[np.float64],
         rotation_estimated: NDArray[np.float64],
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Sole's corrections: position (3,) in m, rotation vector (3,) in rad, command frame.
+    ) -> None:
+        """Advance by a tick.
 
         Args:
             swings: Whether still in its single support.
@@ -85,9 +87,6 @@ class PostureCompensation:
             com_estimated: Estimated CoM (3,), world frame, in m.
             rotation_command: Commanded torso (3, 3).
             rotation_estimated: Estimated torso (3, 3), heading as commanded.
-
-        Returns:
-            The corrections at this tick.
         """
         step = self.period / self.fade
         # Fades: at lift-off and touchdown the foot is on the ground, and a jump of its target would push it.
@@ -98,4 +97,3 @@ class PostureCompensation:
             *(self._kept, self.largest_shift, self.largest_turn, self._weight),
             *(min(1.0, self.period / self.time_constant), self.shift, self.turn),
         )
-        return self.shift.copy(), self.turn.copy()

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from plantar.gait.feet.swing import SwingTrajectory
 from plantar.gait.feet.swing_kind import SwingKind, SwingStart
-from plantar.gait.plan.leg_momentum import haste
 from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.same_time import SAME_TIME
 
@@ -181,8 +180,7 @@ class PolynomialSwing(SwingKind):
         """Flight at its begin."""
         rise = start.height + max(0.0, (start.end - start.position).item(2))
         lasts = _PEAK * rise / (_QUICKEST * self.body.in_si("leg/beat") * start.duration)
-        way = math.dist(start.position[:2], start.end[:2])
-        early = 1.0 - haste(way, start.duration) if start.sees_ground else 0.0
+        early = 1.0 - start.haste if start.sees_ground else 0.0
         path = SwingTrajectory(
             start.position,
             start.end,

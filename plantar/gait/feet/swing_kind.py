@@ -1,10 +1,12 @@
 """Kinds of swing: interface; own kinds use the entry points "plantar.swings"."""
 
+import math
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.gait.plan.leg_momentum import haste
 from plantar.record import Record
 from plantar.settings.part import Part
 
@@ -37,6 +39,11 @@ class SwingStart(Record, frozen=True):
     approach_height: float = 0.0
     approach_speed: float = 0.06
     rises_first: bool = False
+
+    @property
+    def haste(self) -> float:
+        """`plantar.gait.plan.leg_momentum.haste` if it sees the ground, else 0."""
+        return haste(math.dist(self.position[:2], self.end[:2]), self.duration) if self.sees_ground else 0.0
 
 
 class Swing(Protocol):

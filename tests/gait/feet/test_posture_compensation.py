@@ -9,9 +9,15 @@ FOOT = np.array([0.1, 0.2, 0.05])
 LEVEL = np.eye(3)
 
 
+def updated(compensation: PostureCompensation, *now: object) -> tuple[np.ndarray, np.ndarray]:
+    """Corrections after a tick."""
+    compensation.update(*now)
+    return compensation.shift.copy(), compensation.turn.copy()
+
+
 def settle(compensation: PostureCompensation, airborne: bool, lean: np.ndarray, ticks: int = 400) -> tuple:
     for _ in range(ticks):
-        result = compensation.update(airborne, FOOT, FOOT, COM, COM, LEVEL, lean)
+        result = updated(compensation, airborne, FOOT, FOOT, COM, COM, LEVEL, lean)
     return result
 
 
@@ -32,7 +38,7 @@ def test_a_leaning_body_puts_its_foot_where_it_is_wanted_in_the_world() -> None:
 def test_a_sagging_body_lifts_its_foot() -> None:
     compensation = PostureCompensation(0.005)
     for _ in range(400):
-        shift, _ = compensation.update(True, FOOT, FOOT, COM, COM - [0.0, 0.0, 0.01], LEVEL, LEVEL)
+        shift, _ = updated(compensation, True, FOOT, FOOT, COM, COM - [0.0, 0.0, 0.01], LEVEL, LEVEL)
     assert shift == pytest.approx([0.0, 0.0, 0.01])
 
 
@@ -53,7 +59,7 @@ def test_corrections_are_limited_fade_out_on_the_ground_and_start_anew() -> None
 def test_a_correction_comes_without_a_jump_in_speed() -> None:
     compensation = PostureCompensation(0.005)
     lean = np.asarray(Rotation.from_rotvec([0.05, 0.0, 0.0]).as_matrix())
-    shifts = [compensation.update(k < 200, FOOT, FOOT, COM, COM, LEVEL, lean)[0] for k in range(400)]
+    shifts = [updated(compensation, k < 200, FOOT, FOOT, COM, COM, LEVEL, lean)[0] for k in range(400)]
     assert np.abs(shifts).max() > 0.03
     assert np.abs(np.diff(shifts, axis=0)).max() < 2.5e-3
     airborne = np.diff(shifts, n=2, axis=0)[10:190]  # m/tick^2; at both ends the foot is on the ground
@@ -68,14 +74,14 @@ def test_a_foot_that_stands_beside_its_place_is_not_pulled_there_at_once() -> No
     compensation.keep(beside)
     targets = []
     for _ in range(100):
-        shift, _ = compensation.update(False, stands, stands, COM, COM, LEVEL, lean)
+        shift, _ = updated(compensation, False, stands, stands, COM, COM, LEVEL, lean)
         targets.append(stands + shift)
     steps = np.diff([commanded, *targets], axis=0)
     way = float(np.abs(commanded - stands).max())
     assert np.abs(steps).max() < 2.0 * way * 0.005 / compensation.fade  # an even fade takes half of that a tick
     assert targets[-1] == pytest.approx(stands, abs=1e-6)
     compensation.start()
-    assert compensation.update(True, FOOT, FOOT, COM, COM, LEVEL, LEVEL)[0] == pytest.approx(np.zeros(3), abs=1e-12)
+    assert updated(compensation, True, FOOT, FOOT, COM, COM, LEVEL, LEVEL)[0] == pytest.approx(np.zeros(3), abs=1e-12)
 
 
 @pytest.mark.parametrize("ticks", [0, 1, 20, 41])
@@ -83,12 +89,12 @@ def test_a_foot_that_lands_before_the_correction_counts_is_not_commanded_away_at
     compensation, beside = PostureCompensation(0.005), np.array([0.0, 0.06, 0.02])
     shift = np.zeros(3)
     for _ in range(ticks):
-        shift, _ = compensation.update(True, FOOT, FOOT, COM, COM, LEVEL, LEVEL)
+        shift, _ = updated(compensation, True, FOOT, FOOT, COM, COM, LEVEL, LEVEL)
     commanded, stands = FOOT + shift, FOOT - beside
     compensation.keep(beside)
     targets = [commanded]
     for _ in range(200):
-        targets.append(stands + compensation.update(False, stands, stands, COM, COM, LEVEL, LEVEL)[0])
+        targets.append(stands + updated(compensation, False, stands, stands, COM, COM, LEVEL, LEVEL)[0])
     # What does not count yet goes out with the low pass, which takes a sixth a tick; a jump would be all of it.
     assert np.abs(np.diff(targets, axis=0)).max() < 0.2 * beside.max()
     assert targets[-1] == pytest.approx(stands, abs=1e-6)
