@@ -6,10 +6,10 @@ cdef class Setpoints:
     cdef double[:] controls
     cdef const Py_ssize_t[::1] servos
     cdef const double[::1] stiffness, damping, per_way
-    cdef double period, step, share
+    cdef double period, step, share, left
     cdef const double[::1] joints, torques
     cdef readonly double[::1] reference, velocity, goal, setpoint
-    cdef double[::1] rate, between
+    cdef double[::1] rate, between, behind
     cpdef void hold(self, const double[:] joints, const double[:] torques) noexcept
     cpdef void go_to(self) noexcept
     @cython.locals(fastest=double, total=double, late=bint)

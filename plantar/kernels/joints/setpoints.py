@@ -23,6 +23,7 @@ class Setpoints:
         per_way: One over largest change (k,) per control period in 1/rad; empty without limits.
         period: Control period in s; `step` that of `advance`.
         share: Share of way per step of each low-pass stage, above 0 to 1.
+        left: Share left of a leg's lag per control period.
         joints: Desired joint angles (k,) in rad, and holding `torques` (k,) in N m, written by caller.
 
     Attributes:
@@ -31,7 +32,7 @@ class Setpoints:
         setpoint: Written set-points (k,) in rad.
     """
 
-    def __init__(self, controls, servos, stiffness, damping, per_way, period, step, share, joints, torques):
+    def __init__(self, controls, servos, stiffness, damping, per_way, period, step, share, left, joints, torques):
         self.controls = controls
         self.servos = servos
         self.stiffness = stiffness
@@ -40,10 +41,12 @@ class Setpoints:
         self.period = period
         self.step = step
         self.share = share
+        self.left = left
         self.joints, self.torques = joints, torques
         count = len(servos)
         self.reference = np.full(count, _NONE)
         self.velocity = np.zeros(count)
+        self.behind = np.zeros(count)
         self.goal = np.zeros(count)
         self.between = np.zeros(count)
         self.setpoint = np.zeros(count)
@@ -53,7 +56,7 @@ class Setpoints:
         """Hold joint angles (k,) in rad that take torques (k,) in N m."""
         for i in range(self.servos.shape[0]):
             self.reference[i] = joints[i]
-            self.velocity[i] = self.rate[i] = 0.0
+            self.velocity[i] = self.rate[i] = self.behind[i] = 0.0
             self.goal[i] = self.between[i] = self.setpoint[i] = joints[i] + torques[i] / self.stiffness[i]
 
     def go_to(self):
@@ -66,7 +69,9 @@ class Setpoints:
         joints = self.joints
         fastest = total = 0.0
         for i in range(begin, end if self.per_way.shape[0] else begin):
-            share = (joints[i] - self.reference[i]) * self.per_way[i]
+            if self.behind[i] != self.behind[i]:
+                self.behind[i] = 0.0
+            share = (joints[i] - self.left * self.behind[i] - self.reference[i]) * self.per_way[i]
             total += share * share
             if share < 0.0:
                 share = -share
@@ -77,7 +82,10 @@ class Setpoints:
             last = self.reference[i]
             if last != last:
                 last = joints[i]
-            goal = last + (joints[i] - last) / fastest if late else joints[i]
+            goal = joints[i] - self.left * self.behind[i]
+            if late:
+                goal = last + (goal - last) / fastest
+            self.behind[i] = joints[i] - goal
             self.velocity[i] = (goal - last) / self.period
             self.reference[i] = goal
             self.rate[i] = self.velocity[i] * self.step

@@ -14,6 +14,8 @@ from plantar.sim.plant.drives import TorqueCurve, TrueDrives
 
 _LOW_PASS = 0.0202  # beat, time constant of each of two stages at the servo's own rate: 5 ms on a leg of 0.6 m
 
+_CATCHES_UP = 0.08  # beat, time constant in which a leg slowed to a joint's speed limit catches up: 20 ms
+
 
 class LegServos:
     """Turns walking commands into servo set-points.
@@ -49,6 +51,7 @@ class LegServos:
             period,
             world.period,
             world.period / (_LOW_PASS * world.body.beat + world.period),
+            1.0 - period / (_CATCHES_UP * world.body.beat + period),
             *(legs.joints, legs.torques),
         )
         self._true = world.stiffness * (1.0 if plant is None else plant.stiffness_ratio)
