@@ -20,7 +20,7 @@ class ContactMemory:
         layout: Of the sole.
         least_force: Running mean in N of a carrying cell.
         gap: Rise in m of a lifted cell.
-        least_share: Of the foot's load on a carrying cell.
+        least_share: Carrying cell's load over an even share.
         smoothing: New reading's weight in the running mean.
     """
 
@@ -29,12 +29,12 @@ class ContactMemory:
         layout: SoleLayout,
         least_force: float,
         gap: float,
-        least_share: float = 0.04,
+        least_share: float = 0.5,
         smoothing: float = 0.3,
     ) -> None:
         self._places = layout.positions[:, :2]
         self._least_force = least_force
-        self._least_share = least_share
+        self._least_share = least_share / len(self._places)
         self._smoothing = smoothing
         self._gap = gap
         self.lift()

@@ -45,7 +45,7 @@ class ConformityGains(Part, table="conformity", needs={"control.pfc": (True,), "
     follows: float = fixed(4.0, "sole/rad")
     watch: ClassVar[int] = 16  # Control ticks over which rolling is judged
     least_turn: ClassVar[float] = 0.0016  # Turn in rad, in the first half of them, from which it is
-    carries: float = fixed(0.00948, "weight")  # Mean force in N from which a cell touches
+    carries: float = fixed(0.398, "weight")  # Mean force in N from which a cell touches, times cells
     gap: float = share(1 / 300, "leg", 0, 0.05)
 
 
@@ -86,9 +86,6 @@ class FootTurn:
             load: Vertical on it in N.
             center_of_pressure: (2,), sole frame, in m.
             target: Its wanted place (2,), sole frame, in m.
-
-        Returns:
-            The turn.
         """
         g = self.gains
         away = math.dist(center_of_pressure, target)
@@ -108,9 +105,6 @@ class FootTurn:
             load: Vertical on it in N.
             center_of_pressure: (2,), sole frame, in m.
             target: Desired ZMP (2,), sole frame, in m.
-
-        Returns:
-            The turn.
         """
         return self._turn(self._rate(load, center_of_pressure, target), center_of_pressure, target)
 
@@ -167,7 +161,8 @@ class GroundConformity:
         self._middles = middles
         self._turns = {side: FootTurn(gains, period) for side in SIDES}
         self._contacts = {
-            side: ContactMemory(layouts[side], least_force=gains.carries, gap=gains.gap) for side in SIDES
+            side: ContactMemory(layouts[side], gains.carries / len(layouts[side].positions), gap=gains.gap)
+            for side in SIDES
         }
 
     def update(

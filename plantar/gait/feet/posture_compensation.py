@@ -42,15 +42,12 @@ class PostureCompensation:
 
     @classmethod
     def for_body(cls, body: BodyScale, period: float, fade: float) -> "PostureCompensation":
-        """No correction yet, limited to shares of a robot's leg.
+        """Returns no correction yet, limited to shares of a robot's leg.
 
         Args:
             body: Robot's dimensions.
             period: Of control in s.
             fade: Time in s of its coming and going.
-
-        Returns:
-            The compensation.
         """
         return cls(period, _TIME_CONSTANT * body.beat, fade, _LARGEST_SHIFT * body.leg)
 

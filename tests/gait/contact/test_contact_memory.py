@@ -62,3 +62,13 @@ def test_a_line_of_bumps_is_no_place_to_stand(sole):
     assert not memory.encloses(np.array([0.0, 0.02]))
     memory.lift()
     assert len(memory.polygon) == 0
+
+
+@pytest.mark.parametrize("cell", [4e-5, 2e-4, 1e-3])
+def test_a_sole_of_any_density_that_is_evenly_loaded_encloses_its_middle(cell):
+    sole = hex_layout([[-0.11, -0.08], [0.11, -0.08], [0.11, 0.08], [-0.11, 0.08]], cell_area=cell)
+    memory = ContactMemory(sole, least_force=300.0 / len(sole), gap=0.002)
+    force = np.full(len(sole), 800.0 / len(sole))
+    for k in range(10):
+        memory.update(Reading(0.004 * k, force), np.eye(3), np.zeros(2))
+    assert memory.encloses(np.array([0.05, 0.02]))
