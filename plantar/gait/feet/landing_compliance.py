@@ -21,6 +21,7 @@ class DampingGains(Settings):
     admittance: float = fixed(0.261, "rad/beat/weight/sole")  # A in rad/s per N m
     largest_rate: float = fixed(0.0247, "rad/beat")  # Largest rate of a turn
     largest_turn: ClassVar[float] = 0.004  # Largest turn in rad: the error of a levelled sole
+    release: float = fixed(8.24, "1/beat")  # Rate in 1/s at which it ends in the air
     # Vertical force in N of a foot that carries the body and no longer yields
     largest_force: float = fixed(0.415, "weight")
 
@@ -39,9 +40,9 @@ class LandingCompliance:
     gains: DampingGains = field(default_factory=DampingGains)
     turn: NDArray[np.float64] = field(default_factory=lambda: np.zeros(2))
 
-    def reset(self) -> None:
-        """Lift-off: the next landing begins level."""
-        self.turn = np.zeros(2)
+    def fade(self) -> None:
+        """A tick in the air: the next landing begins level."""
+        self.turn = self.turn * (1.0 - min(1.0, self.gains.release * self.period))
 
     def update(self, force: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> None:
         """A tick of a loaded foot.

@@ -136,7 +136,8 @@ class Footing:
         if feet.lift_off and feet.side is not None:
             self.compensation.start()
             self.contacts.lift_off(feet.side, phase.step)
-            self.damping[feet.side].reset()
+        if phase.swing is not None and not motion.landed and not motion.comes_down:
+            self.damping[phase.swing].fade()
         inward = 0.0
         if feet.touchdown and feet.side is not None and s.compliance is not None:
             if s.footholds == "skin":
@@ -282,7 +283,6 @@ class Footing:
             self.motion.aim(phase, time, self._plan.view.foothold(phase.step), self.frame)
             if landed and not self.motion.landed:  # it takes its step once more
                 self.contacts.lift_off(phase.swing, phase.step)
-                self.damping[phase.swing].reset()
         return self.motion.view
 
     def conform(self, phase: Phase, zmp: NDArray[np.float64], state: BaseState, sensed: Sensed) -> None:

@@ -9,10 +9,22 @@ def test_a_sole_on_its_toes_turns_its_heel_down():
     foot.update(200.0, np.array([0.1, 0.0]), np.zeros(2))
     assert foot.turn[1] < 0.0  # about +y the toes go down
     assert foot.turn[0] == 0.0
-    foot.reset()
+    foot = LandingCompliance(0.005)
     foot.update(200.0, np.array([0.0, 0.05]), np.zeros(2))
     assert foot.turn[0] > 0.0  # about +x the left edge goes up
     assert foot.turn[1] == 0.0
+
+
+def test_in_the_air_the_turn_ends_without_a_jump():
+    foot = LandingCompliance(0.005)
+    for _ in range(500):
+        foot.update(300.0, np.array([0.3, 0.0]), np.zeros(2))
+    before, most = foot.turn, foot.gains.largest_turn
+    for _ in range(60):
+        last = foot.turn
+        foot.fade()
+        assert np.hypot(*(foot.turn - last)) < 0.2 * most
+    assert np.hypot(*foot.turn) < 1e-3 * np.hypot(*before)
 
 
 def test_it_settles_on_an_elastic_ground_where_the_load_acts_in_the_middle():
