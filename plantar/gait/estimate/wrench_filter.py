@@ -30,7 +30,7 @@ class WrenchFilterRules(Part, table="push_expected", needs={"control.push_estima
     """
 
     time_constant: float = share(4.04, "beat", 0, 10)
-    lasts: float = share(2.02, "beat", 0.001, 1e6)
+    lasts: float = share(1.8, "beat", 0.001, 1e6)
 
 
 class WrenchFilter:
