@@ -22,7 +22,7 @@ from introduced_robots import introduce
 from resumable import Benchmark, Case, add_row, commit, differences, latest, rows_of, run_row, wanted
 
 TABLES = ("push_steps", "push", "footholds", "stones", "unknown_ground", "force_only", "velocity", "introduced_robots")
-TABLES += ("guide", "balance", "reactive_options", "survival_map", "plant", "grounds", "speed")
+TABLES += ("walks", "guide", "balance", "reactive_options", "survival_map", "plant", "grounds", "speed")
 
 
 def missing(script: ModuleType) -> Iterator[tuple[int, Case, tuple[str, int]]]:
