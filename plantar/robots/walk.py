@@ -201,17 +201,19 @@ CONTROL_PERIOD = Control().period
 
 
 def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
-    """Durations of a walk's phases: the scene's, else the robot's, else equal beats.
-
-    Takes `body`; returns the durations.
-    """
-    stated = (0.0, 0.0) if robot.rocks else (walk.single_support, walk.double_support)
+    """Returns phase durations by scene, robot or equal beats; InputError: a scene times a rocking robot."""
+    stated = walk.single_support, walk.double_support
+    if robot.rocks and any(stated):
+        raise InputError(
+            f"walk.single_support = {stated[0]:g} s, double_support = {stated[1]:g} s: robot '{robot.name}' rocks from "
+            "foot to foot in its own time; allowed: 0 for both"
+        )
     if walk.commanded and not robot.rocks:
         single, double = stated[0] or _QUICK_SINGLE * body.pace, stated[1] or _QUICK_DOUBLE * body.pace
     else:
         single = stated[0] or robot.single_support or _SINGLE_SUPPORT * body.beat
         double = stated[1] or robot.double_support or _DOUBLE_SUPPORT * body.beat
-        if walk.approach_height > 0.0 and not robot.rocks:
+        if walk.approach_height > 0.0 and not robot.rocks and not stated[0]:
             single = max(single, robot.approach_support)
     start, end = (max(_LEAST_START, double), single + double) if robot.rocks else (walk.start, walk.end)
     return Timing(single, double, start, end, walk.settle)

@@ -67,7 +67,7 @@ class WrenchBalanceGains(Part, table="balance"):
 
     @classmethod
     def described(cls, body: BodyScale = REFERENCE_BODY) -> tuple[Setting, ...]:
-        """All settings for a body, described."""
+        """All described settings."""
         return (*super().described(body), *AdmittanceGains.described(body))
 
 

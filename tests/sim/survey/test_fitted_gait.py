@@ -5,10 +5,12 @@ from dataclasses import replace
 
 import pytest
 
+from plantar.errors import InputError
 from plantar.robots import load_robot
 from plantar.robots.controller_settings import controller_settings
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.robot_model import build_leg_model
+from plantar.robots.walk import walk_timing
 from plantar.settings.body_scale import BodyScale
 from plantar.sim.run.scene import load_scene
 from plantar.sim.survey.fitted_gait import (
@@ -75,3 +77,11 @@ def test_a_swing_that_comes_down_slowly_gets_the_time_that_its_motors_need():
     weak = replace(load_robot("h1"), single_support=0.8, approach_support=1.1)
     for scene, single in ((uneven, 1.1), (load_scene("flat", ["approach_height=0"]).for_body(SLOW), 0.8)):
         assert controller_settings(scene, weak, SLOW, {}).timing.single_support == pytest.approx(single)
+
+
+def test_a_time_that_a_scene_states_is_kept_or_refused():
+    stated = load_scene("uneven", ["single_support=0.9"]).for_body(SLOW)
+    weak = replace(load_robot("h1"), single_support=0.8, approach_support=1.1)
+    assert controller_settings(stated, weak, SLOW, {}).timing.single_support == pytest.approx(0.9)
+    with pytest.raises(InputError, match=r"single_support = 0\.9 s.* rocks .* allowed: 0"):
+        walk_timing(stated.walk, replace(weak, rocks=True), SLOW)
