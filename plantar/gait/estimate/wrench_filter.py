@@ -26,7 +26,7 @@ class WrenchFilterRules(Part, table="push_expected", needs={"control.push_estima
 
     Attributes:
         time_constant: Low pass in s (K 19).
-        lasts: Expected decay's time constant in s; 1e6 stays (K 18).
+        lasts: Expected decay's time constant in s, also without push; 1e6 stays (K 18).
     """
 
     time_constant: float = share(4.04, "beat", 0, 10)
@@ -49,6 +49,7 @@ class WrenchFilter:
         # Exact for an offset that is constant over a tick; K 19's alpha is its first order.
         self._share = 1.0 if rules.time_constant == 0.0 else -math.expm1(-tick / rules.time_constant)
         self._decay = 1.0 / rules.lasts
+        self._ended = max(self._share, -math.expm1(-tick / rules.lasts))
         self._x = self._y = 0.0
 
     @property
@@ -62,8 +63,8 @@ class WrenchFilter:
         return self._x != 0.0 or self._y != 0.0
 
     def update(self, offset: ArrayLike) -> NDArray[np.float64]:
-        """Expected offset (2,) in m after a tick (K 19), by the VRP's measured u_w (2,) in m, cut to `MOST_OFFSET`,
-        zero where not finite; an InputError if misshaped.
+        """Expected offset (2,) in m after a tick (K 19), by the VRP's measured u_w (2,), cut to `MOST_OFFSET`, zero
+        where not finite; InputError if misshaped.
         """
         x, y = array(offset, "VRP offset", (2,)).tolist()
         size = math.hypot(x, y)
@@ -71,8 +72,9 @@ class WrenchFilter:
             x = y = 0.0
         elif size > MOST_OFFSET:
             x, y = x * (MOST_OFFSET / size), y * (MOST_OFFSET / size)
-        self._x += self._share * (x - self._x)
-        self._y += self._share * (y - self._y)
+        share = self._share if x or y else self._ended
+        self._x += share * (x - self._x)
+        self._y += share * (y - self._y)
         # A low pass never ends by itself. Below a nanometre nothing follows from it any more.
         if x == 0.0 and y == 0.0 and math.hypot(self._x, self._y) < 1e-9:
             self._x = self._y = 0.0

@@ -63,6 +63,20 @@ def test_a_push_is_over_some_time_after_it_ends():
     assert not made.acts
 
 
+def test_what_is_expected_decays_as_a_push_does_once_none_is_measured():
+    made = WrenchFilter(WrenchFilterRules(time_constant=1.0, lasts=0.5), OMEGA, PERIOD)
+    for _ in range(100):
+        before = made.update([0.05, 0.0])[0]
+    for _ in range(100):
+        made.update([0.0, 0.0])
+    assert made.expected[0] == pytest.approx(before * math.exp(-1.0), rel=1e-9)
+    slow = WrenchFilter(WrenchFilterRules(time_constant=0.2, lasts=1e6), OMEGA, PERIOD)
+    slow.update([0.05, 0.0])
+    after = slow.expected[0]
+    slow.update([0.0, 0.0])
+    assert slow.expected[0] == pytest.approx(after * math.exp(-PERIOD / 0.2), rel=1e-9)
+
+
 def test_wrong_arguments_are_named():
     with pytest.raises(InputError, match="VRP offset"):
         filled([0.0, 0.0, 0.0], 0.5)
