@@ -8,8 +8,6 @@ from typing import Any, NamedTuple
 from plantar.errors import PlantarError
 
 _ON_SLAB = 4  # which landing of `obstacle`
-_PUSHED = slice(6, 22)  # steps of `box-step` along which a partner pushes
-_LONGER = 0.01  # m by which a stride is longer
 _NONE: Mapping[str, float] = MappingProxyType({})
 
 
@@ -169,7 +167,8 @@ def figure_of(name: str, summary: Mapping[str, Any]) -> float | None:
         case "steps":
             return float(summary["steps_taken"])
         case "strides":
-            return float(sum(change > _LONGER for change in summary["push"]["step_changes_m"][_PUSHED]))
+            longer = [r["value"] for r in summary["reasons"] if r["criterion"] == "strides"]
+            return float(longer[0] if longer else len(summary["push"]["pushes"]))
         case "largest difference":
             return round(1e3 * float(summary["balance"]["skin_against_force_torque"]["max_m"]), 2)
     if name in summary:
