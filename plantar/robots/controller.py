@@ -30,7 +30,7 @@ from plantar.robots.motors.torque_control import command_motors
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
 from plantar.robots.start import start_of_walk
-from plantar.robots.walk import Control, Walk
+from plantar.robots.walk import Control, Walk, crouches
 from plantar.settings.unknown_keys import refuse_unknown_keys
 
 __all__ = ["JointTargets", "RobotController", "load_controller"]
@@ -111,7 +111,7 @@ def load_controller(
     task: Any = SimpleNamespace(
         name="load_controller", walk=walk, control=control, controller=parts, proximity_range=sees
     )
-    limits = ankle_limits(own, legs.model, body.weight, min(walk.lowered, own.largest_crouch_partial))
+    limits = ankle_limits(own, legs.model, body.weight, crouches(walk, own)[1])
     inertia = leg_inertia(own, legs, com_height_of(walk, own))
     settings = controller_settings(task, own, body, ankle_sensors(legs.model, own), limits, inertia=inertia)
     start = start_of_walk(walk, own, settings.com_height, velocities=walk.velocities(seed))

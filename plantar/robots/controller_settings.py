@@ -15,7 +15,7 @@ from plantar.gait.estimate.ankle_sensor import AnkleSensor
 from plantar.gait.feet.swing_kinds import swing_kinds
 from plantar.mechanics.leg_inertia import LegInertia
 from plantar.robots.robot import Robot
-from plantar.robots.walk import Control, Walk, walk_timing
+from plantar.robots.walk import Control, Walk, crouches, walk_timing
 from plantar.sensing.link_skin import BodySkin
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import Side
@@ -106,9 +106,10 @@ def controller_settings(
         (kind,) = CONTROLLER_TABLES[name]
         runs = name not in OPTIONAL_PARTS or kind.unmet(lambda key: _value(key, control, tables)) is None
         parts[name] = kind.from_table(tables[name], f"[{name}]", SceneError) if runs else None
+    whole, partial = crouches(walk, robot)
     found = ControllerSettings(
         com_height=com_height_of(walk, robot),
-        partial_rise=min(walk.lowered, robot.largest_crouch) - min(walk.lowered, robot.largest_crouch_partial),
+        partial_rise=whole - partial,
         spare_crouch=max(0.0, robot.largest_crouch - walk.lowered),
         mass=body.mass,
         trunk_lean=robot.trunk_lean if walk.lean else 0.0,
@@ -133,13 +134,8 @@ def controller_settings(
 
 
 def com_height_of(walk: Walk, robot: Robot) -> float:
-    """CoM height in m above fully carrying soles; returns it.
-
-    Args:
-        walk: The gait.
-        robot: The robot, which crouches as far as it can.
-    """
-    return robot.com_height - min(walk.lowered, robot.largest_crouch)
+    """Returns the CoM's height in m above fully carrying soles."""
+    return robot.com_height - crouches(walk, robot)[0]
 
 
 def _period(control: Control) -> float:

@@ -200,6 +200,11 @@ CONTROL_PERIOD = Control().period
 """Control period in s of a scene that does not state one."""
 
 
+def crouches(walk: Walk, robot: Robot) -> tuple[float, float]:
+    """Returns a robot's crouch in m on whole soles and on parts."""
+    return min(walk.lowered, robot.largest_crouch), min(walk.lowered, robot.largest_crouch_partial)
+
+
 def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
     """Returns phase durations by scene, robot or equal beats; InputError: a scene times a rocking robot."""
     stated = walk.single_support, walk.double_support

@@ -28,6 +28,7 @@ from plantar.robots.motors.torque_control import command_motors
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
 from plantar.robots.start import start_of_walk
+from plantar.robots.walk import crouches
 from plantar.sensing.link_skin import BodySkin
 from plantar.sides import SIDES
 from plantar.sim.arms.compliant_arm import CompliantArm
@@ -95,7 +96,7 @@ class Simulation(Run):
             robot,
             self.body,
             ankle_sensors(self.legs.model, robot),
-            ankle_limits(robot, self.legs.model, self.body.weight, min(walk.lowered, robot.largest_crouch_partial)),
+            ankle_limits(robot, self.legs.model, self.body.weight, crouches(walk, robot)[1]),
             skin if scene.sensing.body_skin else None,
             leg_inertia(robot, self.legs, com_height_of(walk, robot)),
         )
