@@ -26,7 +26,7 @@ def robot(
 ) -> None:
     """Make a robot that walks of its model: robot.toml, a copy of the model, layouts of its shoes and a picture.
 
-    Finds legs (two chains of five hinges or more), soles, IMU and limits, and fits height, stance, pace and servo gains
+    Finds legs (two chains of four hinges or more), soles, IMU and limits, and fits height, stance, pace and servo gains
     to them. Each value in robot.toml describes how it was found.
 
     With check, measures what would go wrong in a scene, and names which value works; exit code 1 if something would.
