@@ -23,7 +23,7 @@ from plantar.sim.run.scene import Scene, load_scene
 from plantar.sim.survey.fitted_gait import ROLL_MOST
 from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled
 from plantar.sim.survey.robot_text import roll_pitch_yaw
-from plantar.sim.survey.servo_gains import LEAST_STIFFNESS, joint_inertia, servo_gains
+from plantar.sim.survey.servo_gains import CHATTERS, DAMPED, LEAST_STIFFNESS, joint_inertia, servo_gains
 from plantar.sim.survey.sole_frame import level_axes, rested
 from plantar.sim.survey.step_search import HELD, SPARE
 
@@ -34,8 +34,6 @@ _TILT = math.radians(2.0)  # of a sole against the foot that it hangs on: a shoe
 _BELOW = 2e-3  # m of a foot below its shoe's inner face: printer tolerance and rounded edges
 _APART = 0.05  # of the sole's width between two soles side by side
 _HIGHEST = 1.0  # of a torque limit
-_CHATTERS = 2.0  # rad of a free swing in a control period: a third of a turn, which answers steps with blows
-_DAMPED = 0.4  # of critical: less rings on after each landing
 _ROCKING = 1.5  # the same of quick steps that rock: H1 walks with 1.4, at its ankles' limit for a tenth of the time
 _MOVING = 1.2  # of a torque limit: what is missing for some ticks, the other joints make up for
 
@@ -204,7 +202,7 @@ class _Checked:
         stiffness, damping = np.array(robot.stiffness), np.array(robot.damping)
         works, damped = servo_gains(inertia, body.mass, robot.com_height, body.beat, CONTROL_PERIOD)
         swing = np.sqrt(stiffness / inertia.swing) * CONTROL_PERIOD
-        allowed = _CHATTERS * np.maximum(1.0, np.sqrt(works / stiffness))
+        allowed = CHATTERS * np.maximum(1.0, np.sqrt(works / stiffness))
         quick = np.where(stiffness <= 1.05 * works, 0.0, swing)
         j = int(quick.argmax() if quick.any() else swing.argmax())
         holds = bool(quick[j] <= allowed[j])
@@ -213,7 +211,7 @@ class _Checked:
             + _unless(
                 holds,
                 f" ({stiffness[j]:g} N m/rad on {inertia.swing[j]:.3g} kg m^2): it chatters; allowed: "
-                f"{_CHATTERS:g} rad; stiffness = {works[j]:g} and damping = {damped[j]:g} work",
+                f"{CHATTERS:g} rad; stiffness = {works[j]:g} and damping = {damped[j]:g} work",
             )
         )
         least = LEAST_STIFFNESS * body.weight * robot.com_height
@@ -225,14 +223,14 @@ class _Checked:
         )
         ratio = (damping + inertia.damping) / (2.0 * np.sqrt(stiffness * inertia.swing))
         d = int(ratio.argmin())
-        calm = bool(ratio[d] >= _DAMPED)
+        calm = bool(ratio[d] >= DAMPED)
         damping_text = f"{self.names[d]} is damped by {ratio[d]:.2f} of critical while it swings" + _unless(
-            calm, f"; allowed: {_DAMPED:g} or more; damping = {damped[d]:g} works"
+            calm, f"; allowed: {DAMPED:g} or more; damping = {damped[d]:g} works"
         )
         return [
-            Finding("stiff servos", round(float(swing[j]), 3), _CHATTERS, "rad", holds, text),
+            Finding("stiff servos", round(float(swing[j]), 3), CHATTERS, "rad", holds, text),
             Finding("soft servos", float(stiffness[k]), round(least, 2), "N m/rad", held, soft_text),
-            Finding("damping", round(float(ratio[d]), 3), _DAMPED, "1", calm, damping_text),
+            Finding("damping", round(float(ratio[d]), 3), DAMPED, "1", calm, damping_text),
         ]
 
     def _soles(self, model: Any) -> list[Finding]:

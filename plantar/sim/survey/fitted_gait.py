@@ -18,7 +18,7 @@ from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES
 from plantar.sim.survey.first_posture import bent_posture, posture_height, stance_width
 from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled
-from plantar.sim.survey.servo_gains import JointInertia, joint_inertia, servo_gains
+from plantar.sim.survey.servo_gains import CHATTERS, DAMPED, JointInertia, joint_inertia, servo_gains
 from plantar.sim.survey.step_search import HELD, QUICK_STEPS, SPARE, TURN, best_steps, straight_walk
 from plantar.sim.survey.step_time import ankle_reach, has_ankle_roll
 
@@ -149,7 +149,10 @@ def _gains(
     stiffness, damping = servo_gains(inertia, legs.mass, height, body.beat, CONTROL_PERIOD, limits)
     if gains:
         own, unit = _own_gains(inertia, gains), body.weight * height
-        kept = bool((own[0] >= _OWN_STIFFNESS * unit).all())
+        works, _ = servo_gains(inertia, legs.mass, height, body.beat, CONTROL_PERIOD)
+        fits = (own[0] <= 1.05 * works) | (CONTROL_PERIOD * np.sqrt(own[0] / inertia.swing) <= CHATTERS)
+        fits &= own[1] + inertia.damping >= 2.0 * DAMPED * np.sqrt(own[0] * inertia.swing)
+        kept = bool((fits & (own[0] >= _OWN_STIFFNESS * unit)).all())
         least, most = own[0].min(), own[0].max()
         notes.append(
             f"the model's own servos have {least:.3g} to {most:.3g} N m/rad; "
@@ -157,7 +160,8 @@ def _gains(
                 "they are kept"
                 if kept
                 else f"they are replaced, as position servos that hold the robot need {_OWN_STIFFNESS:g} m g h = "
-                f"{_OWN_STIFFNESS * unit:.3g}"
+                f"{_OWN_STIFFNESS * unit:.3g}, {DAMPED:g} of critical damping, and a swing of at most {CHATTERS:g} rad "
+                "in a control period"
             )
         )
         if kept:

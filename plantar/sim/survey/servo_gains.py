@@ -87,6 +87,12 @@ LEAST_STIFFNESS = 3.0
 SAMPLED = 1.5
 """Phase in rad by which a joint swings on its servo in a control period at most; h1's ankle does so by 1.46."""
 
+CHATTERS = 2.0
+"""The same from which a servo chatters: a third of a turn, which answers steps with blows."""
+
+DAMPED = 0.4
+"""Damping over critical below which a joint rings on after each landing."""
+
 _LEAD = 0.076  # damping over stiffness, in beats of the leg; h1 has 0.01875 s
 
 

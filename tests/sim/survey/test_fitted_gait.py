@@ -57,6 +57,14 @@ def test_weak_motors_make_a_walk_slower():
     assert max(weak.reach.carrying / weak.robot.effort_limits) < 1.0
 
 
+@pytest.mark.parametrize(("own", "kept"), [((8e3, 150.0), True), ((1e6, 1e3), False), ((8e3, 0.0), False)])
+def test_servos_that_chatter_or_ring_are_replaced(own, kept):
+    found = fit_gait(load_robot("h1"), [own] * 6)
+    assert (found.robot.stiffness == (own[0],) * 6) == kept
+    assert any(note.endswith("they are kept") for note in found.notes) == kept
+    assert found.robot.own_stiffness == (own[0],) * 6
+
+
 def test_a_walk_is_looked_at_for_as_long_as_it_bears():
     robot = load_robot("h1")
     legs = build_leg_model(robot)
