@@ -9,7 +9,6 @@ from xml.etree import ElementTree
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from plantar.errors import RobotError
 from plantar.files.model_files import check_model, mesh_of_urdf, parsed_model
@@ -27,6 +26,7 @@ _URDF_COMPILER = {
     "boundinertia": "1e-12",
 }
 
+_COORDINATES = {mujoco.mjtJoint.mjJNT_FREE: 7, mujoco.mjtJoint.mjJNT_BALL: 4}  # of a keyframe; other joints have one
 _LOOPS = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
 
 
@@ -72,31 +72,24 @@ def read_model(file: Path, folder: Path) -> ModelSource:
     """Read a robot's model.
 
     Args:
-        file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) of robot or a scene with it.
-        folder: For meshes that have to be converted.
-
-    Returns:
-        The model.
+        file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) of a robot or scene.
+        folder: For converted meshes.
 
     Raises:
         RobotError: If unreadable, or with files outside its place.
     """
     check_model(file, RobotError)
     stated = _Stated()
+    root = parsed_model(file, RobotError)
+    urdf = _urdf_text(root, file, folder, stated) if root.tag == "robot" else ""
     try:
-        root = parsed_model(file, RobotError)
-        if root.tag == "robot":
-            spec = mujoco.MjSpec.from_string(_urdf_text(root, file, folder, stated))
-        else:
-            spec = mujoco.MjSpec.from_file(str(file))
-    except RobotError:
-        raise
+        spec = mujoco.MjSpec.from_string(urdf) if urdf else mujoco.MjSpec.from_file(str(file))
     except Exception as error:  # MuJoCo's parser raises ValueError, OSError and its own errors
         raise RobotError(f"{file}: cannot be read: {' '.join(str(error).split())}") from None
     _name_all(spec)
+    posture = _first_keyframe(spec)
     _drop_other_things(spec, stated.notes)
     _drop_unreadable(spec, file, folder, stated.notes)
-    keyframe = next((np.array(key.qpos) for key in spec.keys if len(key.qpos)), None)
     loops = [(e.name1, e.name2) for e in spec.equalities if e.type in _LOOPS]
     stated.coupled += [(e.name1, e.name2) for e in spec.equalities if e.type == mujoco.mjtEq.mjEQ_JOINT and e.name2]
     _collect_motors(spec, stated)
@@ -112,8 +105,8 @@ def read_model(file: Path, folder: Path) -> ModelSource:
         gains=stated.gains,
         imus=imus,
         coupled=tuple(stated.coupled),
-        loops=tuple(_bodies_of(model, pair) for pair in loops),
-        upper_posture=_angles_of(model, keyframe),
+        loops=tuple((_body_of(model, a), _body_of(model, b)) for a, b in loops),
+        upper_posture=posture,
         notes=tuple(stated.notes),
     )
 
@@ -220,10 +213,12 @@ def _drop_unreadable(spec: Any, file: Path, folder: Path, notes: list[str]) -> N
         notes.append(f"{len(empty)} shapes without a size are left out")
     for geom in empty:
         spec.delete(geom)
-    for mesh in list(spec.meshes):
-        if mesh.inertia == mujoco.mjtMeshInertia.mjMESH_INERTIA_LEGACY:  # holds for open surfaces, too
+    weighing = {g.meshname for g in spec.geoms if not g.parent.explicitinertial}
+    for mesh in list(spec.meshes):  # a hull holds for open surfaces, too, but weighs more
+        if mesh.inertia == mujoco.mjtMeshInertia.mjMESH_INERTIA_LEGACY and mesh.name not in weighing:
             mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX
-    drawn = [(mesh, file.parent / spec.meshdir / mesh.file) for mesh in spec.meshes if mesh.file]
+    place = file.parent / spec.meshdir
+    drawn = [(m, place / (Path(m.file).name if spec.strippath else m.file)) for m in spec.meshes if m.file]
     meshes = meshes_for_mujoco((path for _, path in drawn), folder, file)
     for mesh, path in drawn:
         found = meshes[path]
@@ -245,14 +240,17 @@ def _is_empty(geom: Any) -> bool:
     return not geom.meshname and not bool((geom.size[:sizes] > 0.0).all())
 
 
-def _angles_of(model: Any, qpos: NDArray[np.float64] | None) -> dict[str, float]:
-    if qpos is None or len(qpos) != model.nq or not np.isfinite(qpos).all():
+def _first_keyframe(spec: Any) -> dict[str, float]:
+    qpos = next((np.array(key.qpos) for key in spec.keys if len(key.qpos)), np.zeros(0))
+    places = np.cumsum([0, *(_COORDINATES.get(j.type, 1) for j in spec.joints)])
+    if len(qpos) != places[-1] or not np.isfinite(qpos).all():
         return {}
-    hinges = [i for i in range(model.njnt) if model.jnt_type[i] == mujoco.mjtJoint.mjJNT_HINGE]
-    return {model.joint(i).name: float(qpos[model.jnt_qposadr[i]]) for i in hinges}
+    hinges = [(j.name, at) for j, at in zip(spec.joints, places, strict=False) if j.type == mujoco.mjtJoint.mjJNT_HINGE]
+    return {name: float(qpos[at]) for name, at in hinges}
 
 
 def _collect_motors(spec: Any, stated: _Stated) -> None:
+    rates: dict[str, float] = {}
     for joint in spec.joints:
         limited = joint.actfrclimited != mujoco.mjtLimited.mjLIMITED_FALSE
         if limited and joint.actfrcrange[0] < joint.actfrcrange[1]:
@@ -261,8 +259,11 @@ def _collect_motors(spec: Any, stated: _Stated) -> None:
         if motor.trntype not in (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT):
             continue
         gear = abs(float(motor.gear[0])) or 1.0
-        if motor.gainprm[0] > 0.0 and motor.biasprm[1] == -motor.gainprm[0]:
-            stated.gains[motor.target] = (gear**2 * float(motor.gainprm[0]), -(gear**2) * float(motor.biasprm[2]))
+        gain, rate = float(motor.gainprm[0]), float(motor.biasprm[2])
+        if gain > 0.0 and motor.biasprm[1] == -gain:  # a rate above 0 is a ratio of critical, whatever the gear
+            stated.gains[motor.target] = (gear**2 * gain, -rate if rate > 0.0 else -(gear**2) * rate)
+        elif gain > 0.0 and rate == -gain and motor.biasprm[1] == 0.0:
+            rates[motor.target] = gear**2 * gain
         limits = []
         if motor.forcelimited != mujoco.mjtLimited.mjLIMITED_FALSE and motor.forcerange[0] < motor.forcerange[1]:
             limits.append(gear * float(np.abs(motor.forcerange).max()))
@@ -275,6 +276,9 @@ def _collect_motors(spec: Any, stated: _Stated) -> None:
             limits.append(gear * abs(float(motor.gainprm[0])) * float(np.abs(motor.ctrlrange).max()))
         if limits:
             stated.efforts[motor.target] = min([*limits, stated.efforts.get(motor.target, math.inf)])
+    for name in rates.keys() & stated.gains.keys():  # a position servo that a velocity servo damps
+        stiffness, damping = stated.gains[name]
+        stated.gains[name] = (stiffness, damping + rates[name] if damping >= 0.0 else damping)
 
 
 def _imus_of(spec: Any) -> tuple[tuple[str, str], ...]:
@@ -298,10 +302,7 @@ def _compiled(spec: Any, file: Path) -> Any:
     raise RobotError(f"{file}: cannot be simulated: {' '.join(str(problem).split())}") from None
 
 
-def _bodies_of(model: Any, pair: tuple[str, str]) -> tuple[str, str]:
-    names = []
-    for name in pair:
-        site = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, name) if name else -1
-        body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name) if name else 0
-        names.append(model.body(body if body >= 0 else int(model.site_bodyid[site])).name)
-    return names[0], names[1]
+def _body_of(model: Any, name: str) -> str:
+    site = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, name) if name else -1
+    body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name) if name else 0
+    return str(model.body(body if body >= 0 else int(model.site_bodyid[site])).name)

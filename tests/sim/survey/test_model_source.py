@@ -1,6 +1,7 @@
 """What a model's file holds beside the robot, and joints of a URDF that cannot turn."""
 
 import mujoco
+import numpy as np
 import pytest
 
 from plantar import RobotError
@@ -22,8 +23,11 @@ def test_what_else_is_in_a_scene_is_no_part_of_the_robot(seed, tmp_path):
     truth = random_biped(seed, tmp_path)
     alone = survey_model(truth.file, tmp_path)
     text = truth.file.read_text().replace("</worldbody>", f"{THINGS}</worldbody>")
-    truth.file.write_text(text.replace("</mujoco>", '<sensor><gyro site="inside"/></sensor></mujoco>'))
+    posture = " ".join(["0.3"] * (alone.source.model.nq + 8))
+    sensor = f'<sensor><gyro site="inside"/></sensor><keyframe><key qpos="{posture}"/></keyframe>'
+    truth.file.write_text(text.replace("</mujoco>", f"{sensor}</mujoco>"))
     found = survey_model(truth.file, tmp_path)
+    assert set(found.held.values()) == {0.3}
     assert found.mass == pytest.approx(alone.mass, rel=1e-12)
     assert found.joint_names("left") == alone.joint_names("left")
     assert (found.legs.rotation == alone.legs.rotation).all()
@@ -86,9 +90,30 @@ def test_markers_shapes_without_a_size_and_the_authors_inertia_are_no_obstacles(
     assert not colliding
 
 
-def test_gains_of_position_servos_are_read(tmp_path):
+@pytest.mark.parametrize(
+    ("motors", "gains"),
+    [
+        ("<position joint='a' kp='30' kv='2' gear='2'/>", (120.0, 8.0)),
+        ("<position joint='a' kp='30' dampratio='1' gear='2'/>", (120.0, -1.0)),  # a ratio of critical
+        ("<velocity joint='a' kv='2' gear='2'/><position joint='a' kp='30' gear='2'/>", (120.0, 8.0)),
+    ],
+)
+def test_gains_of_position_servos_are_read(tmp_path, motors, gains):
     file = tmp_path / "servo.xml"
     body = "<body><joint name='a'/><geom size='.1'/></body>"
-    motor = "<position joint='a' kp='30' kv='2' gear='2'/>"
-    file.write_text(f"<mujoco><worldbody>{body}</worldbody><actuator>{motor}</actuator></mujoco>")
-    assert read_model(file, tmp_path).gains == {"a": (120.0, 8.0)}
+    file.write_text(f"<mujoco><worldbody>{body}</worldbody><actuator>{motors}</actuator></mujoco>")
+    assert read_model(file, tmp_path).gains == {"a": gains}
+
+
+def test_a_mesh_is_found_and_weighs_as_in_mujoco(tmp_path):
+    """Of two tetrahedra at a corner, whose hull weighs more; MuJoCo strips the folder."""
+    corners = "".join(f"v {x} {y} {z}\n" for x, y, z in np.array([[0, 0, 0], *np.eye(3), *-np.eye(3)]))
+    (tmp_path / "two.obj").write_text(
+        f"{corners}f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 1 5 6\nf 1 7 5\nf 1 6 7\nf 5 7 6\n"
+    )
+    file = tmp_path / "meshes.xml"
+    body = "<body><joint/><geom type='mesh' mesh='two'/></body>"
+    head = "<compiler strippath='true'/><asset><mesh name='two' file='cad/two.obj'/></asset>"
+    file.write_text(f"<mujoco>{head}<worldbody>{body}</worldbody></mujoco>")
+    mass = mujoco.mj_getTotalmass(read_model(file, tmp_path).model)
+    assert mass == pytest.approx(mujoco.mj_getTotalmass(mujoco.MjModel.from_xml_path(str(file))))
