@@ -27,7 +27,7 @@ from plantar.sim.survey.model_copy import add_rotors, write_model_copy
 from plantar.sim.survey.robot_picture import draw_robot
 from plantar.sim.survey.robot_text import robot_text
 from plantar.sim.survey.servo_gains import rotor_inertia
-from plantar.sim.survey.survey import Survey, survey_model
+from plantar.sim.survey.survey import Survey, explained, survey_model
 
 _SHOE_DENSITY = 15.5  # kg/m^2 of a shoe that was not built: those built for feet of 130 and 230 mm have 15.3 and 15.5
 # With 1 the soles of light feet rattle on a beam's edges: G1, two iCubs and Romeo cross it with 5 of 20 fresh seeds,
@@ -152,13 +152,18 @@ def introduce(
     shoes = make_shoes(name, survey.soles["left"].triangles, folder, survey.mass)
     report(0.6, "fitting the walk")
     draft = _draft(survey, shoes, folder, name, upright)
-    fitted = _fitted(draft, survey.gains)
+    try:
+        fitted = _fitted(draft, survey.gains)
+    except RobotError as error:
+        raise explained(error, survey.notes) from None
     write_text(folder / "robot.toml", robot_text(survey, fitted, shoes.notes, shoes.mass is not None))
     _copy_licences(path, folder)
     robot = load_robot(folder / "robot.toml")
     checked = check_robot(folder / "robot.toml", "flat")
     if not checked.holds:
-        raise RobotError(f"{path}: no walk was found that the check allows; the best fails by {checked.failures[0]}")
+        # Where motors are too weak, the search straightens the knees: that is no cause.
+        why = next((f for f in checked.failures if f.startswith("torque")), checked.failures[0])
+        raise RobotError(f"{path}: no walk was found that the check allows; the best fails by {why}")
     report(0.9, "drawing the robot")
     draw_robot(robot, folder / "robot.png")
     files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())

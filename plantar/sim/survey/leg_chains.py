@@ -204,11 +204,16 @@ def _leg(tree: _Tree, up: Array, chain: list[int], where: str) -> Leg:
             break
         last -= 1
     links, foot = chain[: last + 1], chain[last]
-    names = [model.joint(j).name for i in links for j in tree.joints(i)]
     hinges = tree.hinges(links)
-    if len(hinges) != len(names):
-        other = next(n for n in names if n not in [model.joint(j).name for j in hinges])
-        raise RobotError(f"{where}: joint '{other}' of a leg is no hinge; allowed: hinges")
+    other = next((j for i in links for j in tree.joints(i) if j not in hinges), None)
+    if other is not None:
+        raise RobotError(f"{where}: joint '{model.joint(other).name}' of a leg is no hinge; allowed: hinges")
+    bare = [i for i in tree.below(foot) if tree.joints(i) and not any(b in tree.points for b in tree.below(i))]
+    if bare:
+        raise RobotError(
+            f"{where}: '{model.body(bare[-1]).name}', which moves below '{model.body(foot).name}', has no shape; "
+            "allowed: feet of a mesh, box or sphere, and fixed joints of what has no shape below a foot"
+        )
     parts = frozenset(b for i in tree.below(foot) for b in tree.bodies[i])
     toes = tuple(model.joint(j).name for i in tree.below(foot) if i != foot for j in tree.joints(i))
     return Leg(tuple(hinges), foot, parts, toes, _ankle(data, hinges, tree.points[foot]))

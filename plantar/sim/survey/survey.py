@@ -1,6 +1,6 @@
 """Legs, feet, torso and motors of a robot's model."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -46,7 +46,7 @@ class Survey:
         return float(mujoco.mj_getTotalmass(self.source.model))
 
     def joint_names(self, side: Side) -> list[str]:
-        """Names of the hinges of a leg from hip to ankle."""
+        """Hinges of a leg from hip to ankle."""
         return [self.source.model.joint(j).name for j in self.legs.by_side[side].joints]
 
     def foot_name(self, side: Side) -> str:
@@ -67,12 +67,12 @@ def survey_model(file: Path, folder: Path) -> Survey:
     mujoco.mj_comPos(model, data)
     try:
         legs = find_legs(model, data, str(file))
+        left, right = (len(legs.by_side[s].joints) for s in SIDES)
+        if left != right:
+            raise RobotError(f"{file}: the left leg has {left} hinges, the right {right}; allowed: as many")
+        soles = {s: find_sole(model, data, legs.by_side[s], legs.rotation, str(file)) for s in SIDES}
     except RobotError as error:
-        raise RobotError("; ".join([str(error), *(n for n in source.notes if n.startswith("held, "))])) from None
-    left, right = (len(legs.by_side[s].joints) for s in SIDES)
-    if left != right:
-        raise RobotError(f"{file}: the left leg has {left} hinges, the right {right}; allowed: as many")
-    soles = {s: find_sole(model, data, legs.by_side[s], legs.rotation, str(file)) for s in SIDES}
+        raise explained(error, source.notes) from None
     held, held_notes = _held(source, legs)
     imu = next((i for i in source.imus if _on_body(model, legs, i)), None)
     names = {s: [model.joint(j).name for j in legs.by_side[s].joints] for s in SIDES}
@@ -91,18 +91,19 @@ def survey_model(file: Path, folder: Path) -> Survey:
     )
 
 
+def explained(error: RobotError, notes: Iterable[str]) -> RobotError:
+    """Returns an `error` with `notes` that may explain it."""
+    causes = [note for note in notes if note.startswith("held, ") or "cannot be read" in note]
+    return RobotError("; ".join([str(error), *causes[:3]]))
+
+
 def _loop_notes(source: ModelSource, legs: Legs) -> list[str]:
     model = source.model
-    moved = {int(model.jnt_bodyid[j]) for leg in legs.by_side.values() for j in leg.joints}
-
-    def on_leg(body: int) -> bool:
-        return body > 0 and (body in moved or on_leg(int(model.body_parentid[body])))
-
     return [
         f"a leg is a closed chain: '{a}' and '{b}' are tied together apart from its joints; here each joint has "
         "a motor of its own, and what closes the loop is rigid"
         for a, b in source.loops
-        if on_leg(model.body(a).id) or on_leg(model.body(b).id)
+        if any(_on_leg(model, legs, model.body(name).id) for name in (a, b))
     ]
 
 
@@ -132,11 +133,12 @@ def _held(source: ModelSource, legs: Legs) -> tuple[dict[str, float], list[str]]
 
 def _on_body(model: Any, legs: Legs, imu: tuple[str, str]) -> bool:
     kind, name = imu
-    body = model.body(name).id if kind == "body" else int(model.site(name).bodyid[0])
+    return not _on_leg(model, legs, model.body(name).id if kind == "body" else int(model.site(name).bodyid[0]))
+
+
+def _on_leg(model: Any, legs: Legs, body: int) -> bool:
     moved = {int(model.jnt_bodyid[j]) for leg in legs.by_side.values() for j in leg.joints}
-    while body > 0 and body not in moved:
-        body = int(model.body_parentid[body])
-    return body == 0
+    return body > 0 and (body in moved or _on_leg(model, legs, int(model.body_parentid[body])))
 
 
 def _lesser(limits: Mapping[str, float], pair: tuple[str, str]) -> float | None:

@@ -117,3 +117,20 @@ def test_a_mesh_is_found_and_weighs_as_in_mujoco(tmp_path):
     file.write_text(f"<mujoco>{head}<worldbody>{body}</worldbody></mujoco>")
     mass = mujoco.mj_getTotalmass(read_model(file, tmp_path).model)
     assert mass == pytest.approx(mujoco.mj_getTotalmass(mujoco.MjModel.from_xml_path(str(file))))
+
+
+def test_a_foot_without_a_shape_is_refused_by_its_name(tmp_path):
+    truth = random_biped(10, tmp_path)
+    spec = mujoco.MjSpec.from_file(str(truth.file))
+    for foot in map(spec.body, truth.feet.values()):
+        for geom in foot.geoms:
+            spec.delete(geom)
+        foot.parent.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=[0.1, 0.05, 0.02], mass=0.0)
+    spec.compile()
+    missing = "<asset><mesh name='foot' file='foot.stl'/></asset></mujoco>"
+    truth.file.write_text(spec.to_xml().replace("</mujoco>", missing))
+    with pytest.raises(
+        RobotError, match=r"'.*', which moves below .* has no shape; .*; mesh foot.stl cannot be read"
+    ) as caught:
+        survey_model(truth.file, tmp_path)
+    assert any(f"'{name}', which moves" in str(caught.value) for name in truth.feet.values())
