@@ -134,7 +134,7 @@ def controller_settings(
 
 
 def com_height_of(walk: Walk, robot: Robot) -> float:
-    """Returns the CoM's height in m above fully carrying soles."""
+    """Returns a `robot`'s CoM height in m above carrying soles in a `walk`."""
     return robot.com_height - crouches(walk, robot)[0]
 
 

@@ -201,12 +201,12 @@ CONTROL_PERIOD = Control().period
 
 
 def crouches(walk: Walk, robot: Robot) -> tuple[float, float]:
-    """Returns a robot's crouch in m on whole soles and on parts."""
+    """Returns a `robot`'s crouch in a `walk` in m on whole soles and parts."""
     return min(walk.lowered, robot.largest_crouch), min(walk.lowered, robot.largest_crouch_partial)
 
 
 def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
-    """Returns phase durations by scene, robot or equal beats; InputError: a scene times a rocking robot."""
+    """Returns phase durations by `walk`, `robot` or beats of `body`; InputError: `walk` times a rocking robot."""
     stated = walk.single_support, walk.double_support
     if robot.rocks and any(stated):
         raise InputError(

@@ -80,7 +80,7 @@ class FootTurn:
     def incoming(
         self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """Turn (2,) in rad about x, y of a foot taking weight over, in a tick.
+        """Returns the turn (2,) in rad about x, y of a foot taking weight over, a tick.
 
         Args:
             load: Vertical on it in N.
@@ -99,7 +99,7 @@ class FootTurn:
     def stance(
         self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """Turn (2,) in rad about x, y of the carrying foot, in a tick.
+        """Returns the turn (2,) in rad about x, y of the carrying foot, a tick.
 
         Args:
             load: Vertical on it in N.
