@@ -69,7 +69,7 @@ class _Stated:
 
 
 def read_model(file: Path, folder: Path) -> ModelSource:
-    """Read a robot's model.
+    """Returns a robot's model, read.
 
     Args:
         file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) of a robot or scene.
@@ -188,8 +188,7 @@ def _drop_other_things(spec: Any, notes: list[str]) -> None:
     things = list(spec.worldbody.bodies)
     if len(things) < 2:
         return
-    hinges = [sum(j.type == mujoco.mjtJoint.mjJNT_HINGE for j in _joints_below(thing)) for thing in things]
-    robot = things[hinges.index(max(hinges))]
+    robot = max(things, key=lambda t: sum(j.type == mujoco.mjtJoint.mjJNT_HINGE for j in _joints_below(t)))
     others = [thing for thing in things if thing is not robot]
     notes.append(f"left out, as they are no part of the robot: {', '.join(thing.name for thing in others)}")
     for thing in others:
@@ -245,8 +244,8 @@ def _first_keyframe(spec: Any) -> dict[str, float]:
     places = np.cumsum([0, *(_COORDINATES.get(j.type, 1) for j in spec.joints)])
     if len(qpos) != places[-1] or not np.isfinite(qpos).all():
         return {}
-    hinges = [(j.name, at) for j, at in zip(spec.joints, places, strict=False) if j.type == mujoco.mjtJoint.mjJNT_HINGE]
-    return {name: float(qpos[at]) for name, at in hinges}
+    placed = zip(spec.joints, places, strict=False)
+    return {j.name: float(qpos[at]) for j, at in placed if j.type == mujoco.mjtJoint.mjJNT_HINGE}
 
 
 def _collect_motors(spec: Any, stated: _Stated) -> None:

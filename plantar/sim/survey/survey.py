@@ -92,9 +92,8 @@ def survey_model(file: Path, folder: Path) -> Survey:
 
 
 def explained(error: RobotError, notes: Iterable[str]) -> RobotError:
-    """Returns an `error` with `notes` that may explain it."""
-    causes = [note for note in notes if note.startswith("held, ") or "cannot be read" in note]
-    return RobotError("; ".join([str(error), *causes[:3]]))
+    """Returns an `error` with explaining `notes`."""
+    return RobotError("; ".join([str(error), *[n for n in notes if n.startswith("held, ") or "cannot be" in n][:3]]))
 
 
 def _loop_notes(source: ModelSource, legs: Legs) -> list[str]:
@@ -123,9 +122,8 @@ def _held(source: ModelSource, legs: Legs) -> tuple[dict[str, float], list[str]]
                 angle = min(high, max(low, angle))
         if abs(angle - zero) > 1e-9:
             held[name] = angle
-    notes = []
-    if source.upper_posture and held:
-        notes.append(f"arms, head and waist are held as in the model's first keyframe ({len(held)} joints off zero)")
+    keyframe = f"arms, head and waist are held as in the model's first keyframe ({len(held)} joints off zero)"
+    notes = [keyframe] if source.upper_posture and held else []
     if outside:
         notes.append(f"held at their limits, which leave zero out: {', '.join(outside[:6])}")
     return held, notes
