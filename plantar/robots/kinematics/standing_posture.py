@@ -36,13 +36,7 @@ def solve_standing(
     Raises:
         RobotError, SceneError: If an argument is invalid.
     """
-    posture = np.array([*robot.posture["left"], *robot.posture["right"]])
-    stands = legs.posture(posture).positions
-    if not stands["left"][1] > stands["right"][1]:
-        raise RobotError(
-            f"robot '{robot.name}': the foot of [legs.left] is to the right of [legs.right]'s in [posture]; "
-            "x points forward, y to the left"
-        )
+    posture = posture_of(robot, legs)
     ground = float(np.mean([feet[s].z for s in SIDES]))
     middle = np.mean([centers[s] for s in SIDES], axis=0)
     com = np.array([middle[0], middle[1], ground + com_height])
@@ -64,3 +58,15 @@ def solve_standing(
     half = np.array([0.0, 0.0, 0.5 * legs.mass * GRAVITY])
     legs.carry(dict.fromkeys(SIDES, half), {s: np.array([*centers[s], ground]) for s in SIDES})
     return legs.joints.copy(), legs.torques.copy()
+
+
+def posture_of(robot: Robot, legs: LegModel) -> NDArray[np.float64]:
+    """Returns the posture (k,) in rad of a `robot`'s `legs`; RobotError: feet swapped."""
+    posture = np.array([*robot.posture["left"], *robot.posture["right"]])
+    stands = legs.posture(posture).positions
+    if not stands["left"][1] > stands["right"][1]:
+        raise RobotError(
+            f"robot '{robot.name}': the foot of [legs.left] is to the right of [legs.right]'s in [posture]; "
+            "x points forward, y to the left"
+        )
+    return posture

@@ -19,6 +19,7 @@ from plantar.mechanics.rotation import rotation_from_angles
 from plantar.robots.kinematics.body import pitching_joints, stood
 from plantar.robots.kinematics.leg_inertia import angular_momentum, leg_inertia
 from plantar.robots.kinematics.leg_model import LegModel
+from plantar.robots.kinematics.standing_posture import posture_of
 from plantar.robots.robot import Robot
 from plantar.sides import SIDES, Side
 from plantar.sim.survey.servo_gains import floating_inertia
@@ -96,8 +97,7 @@ def settled(robot: Robot, legs: LegModel, feet: Mapping[Side, Footstep], com_hei
     """Stand the `legs` of a `robot` on `feet`, CoM at `com_height` in m; returns the error in m or rad."""
     middle = np.mean([vrp_of_step(feet[s], middle_of_sole(robot.layouts[s], robot.ankle_reach)) for s in SIDES], axis=0)
     com = np.array([middle[0], middle[1], feet["left"].z + com_height])
-    posture = np.array([*robot.posture["left"], *robot.posture["right"]])
-    legs.set_configuration(com, np.array([1.0, 0.0, 0.0, 0.0]), posture)
+    legs.set_configuration(com, np.array([1.0, 0.0, 0.0, 0.0]), posture_of(robot, legs))
     return legs.follow(
         com,
         np.eye(3),

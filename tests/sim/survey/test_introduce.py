@@ -89,6 +89,14 @@ def test_the_check_names_what_is_spoilt(made, field, factor, shift, name, words)
     assert words in wrong[name]
 
 
+def test_swapped_legs_are_refused_as_a_run_does(made):
+    text = (made[2] / "robot.toml").read_text()
+    swapped = re.sub(r"\[legs\.(left|right)\]", lambda m: f"[legs.{'left' if m[1] == 'right' else 'right'}]", text)
+    (made[2] / "swapped.toml").write_text(swapped)
+    with pytest.raises(RobotError, match=r"\[legs.left\] is to the right of"):
+        check_robot(made[2] / "swapped.toml", "flat")
+
+
 def test_it_walks(made):
     summary = run_scene(load_scene("flat", ["steps=4"], robot=str(made[2] / "robot.toml")))
     assert summary["completed"], summary["reasons"]
