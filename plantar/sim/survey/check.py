@@ -58,7 +58,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class RobotCheck:
-    """What was measured of a robot in a scene."""
+    """Measured of a robot in a scene."""
 
     robot: str
     scene: str
@@ -66,21 +66,21 @@ class RobotCheck:
 
     @property
     def holds(self) -> bool:
-        """Whether all is within its limits."""
+        """Whether all hold."""
         return all(f.holds for f in self.findings)
 
     @property
     def failures(self) -> list[str]:
-        """The findings that do not hold, a line each."""
+        """Findings that do not hold, a line each."""
         return [f"{f.name}: {f.text}" for f in self.findings if not f.holds]
 
     def as_dict(self) -> dict[str, Any]:
         """Plain JSON values."""
-        found = [asdict(f) for f in self.findings]
+        found = [{k: None if v in (math.inf, -math.inf) else v for k, v in asdict(f).items()} for f in self.findings]
         return {"robot": self.robot, "scene": self.scene, "holds": self.holds, "findings": found}
 
     def text(self) -> str:
-        """The same as text."""
+        """As text."""
         lines = [f"  {'ok  ' if f.holds else 'FAIL'} {f.name}: {f.text}" for f in self.findings]
         end = "nothing found that would go wrong" if self.holds else "something would go wrong"
         return "\n".join([f"{self.robot} in {self.scene}: {end}", *lines])
@@ -90,8 +90,7 @@ def check_robot(file: str | os.PathLike[str], scene: str) -> RobotCheck:
     """Returns what was measured of a robot `file` or name for a `scene`'s plan.
 
     Raises:
-        RobotError: If the robot is invalid.
-        SceneError: If the scene is invalid.
+        RobotError, SceneError: If an argument is invalid.
     """
     robot = load_robot(file)
     return _Checked(robot, load_scene(scene, robot=str(file))).result()
@@ -115,8 +114,7 @@ class _Checked:
 
     def _walked(self) -> Walked:
         walk, robot = self.scene.walk, self.robot
-        steps = walk.steps if walk.velocities(0) is None else _STEPS
-        feet, plan = self._planned(min(steps, _STEPS), 1.0)
+        feet, plan = self._planned(min(walk.steps if walk.velocities(0) is None else _STEPS, _STEPS), 1.0)
         settings = controller_settings(self.scene, robot, self.body, ankle_sensors(self.legs.model, robot))
         return Walked(
             feet,
@@ -142,22 +140,25 @@ class _Checked:
     def _reach(self, reach: PlanReach, stands: float) -> list[Finding]:
         holds = max(reach.missed, stands) <= _MISSED and reach.knee >= _BENT
         bend = math.degrees(reach.knee)
-        text = f"the straightest knee is bent by {bend:.0f} degrees {reach.straightest:.1f} s into the walk"
-        text += f", feet and CoM are missed by {1e3 * reach.missed:.1f} mm or mrad"
-        if not holds:
+        text = (
+            f"the straightest knee is bent by {bend:.0f} degrees {reach.straightest:.1f} s into the walk, feet and CoM "
+            f"are missed by {1e3 * reach.missed:.1f} mm or mrad"
+        )
+        if not holds:  # joints and soles were not followed to the end
             works = self._working_height()
             text += f"; allowed: {math.degrees(_BENT):.0f} degrees or more and {1e3 * _MISSED:.0f} mm; "
             text += self._working_length() if works is None else f"com_height = {works:.3f} works"
+            return [Finding("reach", round(bend, 2), math.degrees(_BENT), "degrees", holds, text)]
         spare = min(float(reach.spare.min()), math.pi)
         joint = self.names[int(reach.spare.argmin())]
-        held = spare >= SPARE or not holds
+        held = spare >= SPARE
         range_text = f"{joint} comes within {math.degrees(spare):.2f} degrees of its limit" + _unless(
             held, f"; allowed: {math.degrees(SPARE):.1f} or more: another com_height or stance_width, or a wider range"
         )
         # Rocking legs lean with their soles until the CoM is over the sole's middle.
         half = 0.5 * (self.walked.feet["left"].y - self.walked.feet["right"].y)
         most = math.atan(half / self.walked.com_height) if self.robot.rocks else ROLL_MOST
-        roll, level = math.degrees(reach.roll), reach.roll <= most or not holds
+        roll, level = math.degrees(reach.roll), reach.roll <= most
         roll_text = f"a sole that carries alone is off level by {roll:.1f} degrees" + _unless(
             level, f"; allowed: {math.degrees(most):.3g}; legs with an ankle that rolls work, or a scene that stands"
         )
@@ -250,16 +251,14 @@ class _Checked:
             tilt = math.acos(min(1.0, -float(foot.normal[2]))) if foot.share >= 0.25 else 0.0
             text = f"it is tilted by {math.degrees(tilt):.1f} degrees against the foot"
             if tilt > _TILT:
-                turn = np.array(self.robot.sole_rotations[side]) @ level_axes(foot.normal)
-                field = "rotation" if side == "left" else "rotation_right"
-                text += f"; allowed: {math.degrees(_TILT):g}; {field} = {roll_pitch_yaw(turn)} works"
+                turn = roll_pitch_yaw(np.array(self.robot.sole_rotations[side]) @ level_axes(foot.normal))
+                text += f"; allowed: {math.degrees(_TILT):g}; rotation{'_right' * (side == 'right')} = {turn} works"
             found.append(
                 Finding(
                     f"{side} sole", round(math.degrees(tilt), 2), math.degrees(_TILT), "degrees", tilt <= _TILT, text
                 )
             )
-            place = float((to_sole @ data.site_xpos[site])[2])
-            inner = place + self.robot.shoe_thickness
+            inner = float((to_sole @ data.site_xpos[site])[2]) + self.robot.shoe_thickness
             below = inner - (lowest if tilt <= _TILT else float(foot.surface[..., 2].min()))
             below_text = f"the foot reaches {1e3 * below:.1f} mm below the shoe's inner face"
             if below > _BELOW:
@@ -297,8 +296,9 @@ class _Checked:
                 text += f", {100.0 * (share[j] - _HIGHEST):.0f} % too much; {self._relief(now, other, limits, j, name)}"
             elif share[j] > HELD and asked:
                 text += f": more than {100.0 * HELD:.0f} % leaves little to balance with"
-            value = round(float(now.carrying[j]), 3)
-            found.append(Finding(f"torque {name}", value, float(limits[j]), "N m", holds, text))
+            found.append(
+                Finding(f"torque {name}", round(float(now.carrying[j]), 3), float(limits[j]), "N m", holds, text)
+            )
         moving = reach.torque / limits
         m = int(moving.argmax())
         most = _ROCKING if self.robot.rocks else _MOVING
