@@ -102,14 +102,15 @@ class Introduced:
         }
 
     def text(self, output: Path) -> str:
-        """The same as text."""
+        """As text."""
         robot, survey, body = self.robot, self.survey, self.fitted.body
         turns = " and ".join(f"{np.degrees(survey.soles[s].turn):.1f}" for s in SIDES)
         joints, taxels, file = robot.legs["left"].joints, len(robot.layouts["left"]), output / "robot.toml"
         size = f"{1e3 * body.sole:.0f} x {1e3 * body.sole_width:.0f} mm"
         return "\n".join(
             [
-                f"{robot.name}: {body.mass:.3g} kg, {len(joints)} joints a leg; paced as a leg of {body.leg:.3f} m",
+                f"{robot.name}: {body.mass:.3g} kg with shoes, {len(joints)} joints a leg; paced as a leg of "
+                f"{body.leg:.3f} m",
                 *(f"  {s} leg: {' '.join(robot.legs[s].joints)}, foot {robot.legs[s].foot_body}" for s in SIDES),
                 f"  soles: {size}, {taxels} taxels each; turned in their bodies by {turns} degrees",
                 f"  walks with its CoM at {robot.com_height:.3f} m, feet {robot.stance_width:.3f} m apart, "
