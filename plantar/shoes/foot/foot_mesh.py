@@ -122,9 +122,7 @@ def foot_from_triangles(
         raise InputError(f"sole plane is at {sole_z} mm; allowed: a finite height")
     scale, note = unit_scale(float(np.ptp(triangles.reshape(-1, 3), axis=0).max()), unit, file_unit, where)
     read, triangles = triangles, triangles * scale
-    notes = [note]
-    if not is_closed(triangles):
-        notes.append("the mesh is not closed; only its outline is used")
+    notes = [note, *([] if is_closed(triangles) else ["the mesh is not closed; only its outline is used"])]
     settings: dict[str, Any] = {
         "where": where, "mesh_side": mesh_side, "sole_z": sole_z, "forward": forward, "sole_band": sole_band,
         "read": read, "links": links,
@@ -138,9 +136,12 @@ def foot_from_triangles(
             )
             return _standing(name, triangles @ rotation_up(thin).T, notes=notes, up_given=True, **settings)
     else:
-        given = [f"the mesh's {up} axis points up, as given"] if up != "z" else []
-        return _standing(name, triangles @ rotation_up(up).T, notes=notes + given, up_given=True, **settings)
+        notes += [f"the mesh's {up} axis points up, as given"] if up != "z" else []
+        return _standing(name, triangles @ rotation_up(up).T, notes=notes, up_given=True, **settings)
     above = None if links is None else links.mean(axis=0) - read.mean(axis=(0, 1))
+    if above is not None and above[2] < -0.7 * np.linalg.norm(above):
+        notes.append("the robot's links are below its foot, seen along z: the mesh's -z axis is taken to point up")
+        return _standing(name, triangles @ rotation_up("-z").T, notes=notes, up_given=True, **settings)
     try:
         return _standing(name, triangles, notes=notes, **settings)
     except FootError as error:
@@ -200,9 +201,8 @@ def _standing(
     sole = _checked_sole(triangles, sole_band, forward, where)
     box = sole.bounds
     if not _box_holds(box, 0.5):
-        middle = np.array([0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3])]).round(3)
-        triangles = triangles - np.array([*middle, 0.0])
-        links = None if links is None else links - np.array([*middle, 0.0])
+        middle = np.array([0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3]), 0.0]).round(3)
+        triangles, links = triangles - middle, None if links is None else links - middle
         sole = _checked_sole(triangles, sole_band, forward, where)
         notes.append("the mesh's origin lies far from the sole: the layout's origin is the middle of the sole instead")
     notes.append(f"sole {box[2] - box[0]:.1f} x {box[3] - box[1]:.1f} mm (lowest {sole_band:g} mm of the mesh)")

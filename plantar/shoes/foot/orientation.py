@@ -208,7 +208,7 @@ def check_one_body(triangles: Array, where: str) -> None:
     if len(areas) > 1 and areas[1] > _SECOND * areas[0]:
         raise FootError(
             f"{where}: holds {sum(v > _SECOND * areas[0] for v in areas)} bodies apart from each other, "
-            "two feet maybe; give a file of one foot"
+            "two feet maybe; give a file of one foot, or the forward axis of a foot in parts"
         )
 
 

@@ -155,6 +155,14 @@ def test_a_foot_that_lies_on_its_side_is_put_up(stl, prism):
     assert lying.sole.bounds == pytest.approx(foot.sole.bounds)
 
 
+def test_a_foot_that_hangs_upside_down_is_put_up_by_the_links_above_it(box):
+    foot, shin = box((-80, 140), (-45, 55), (-80, -50)), np.array([[0.0, 0.0, 10.0], [10.0, 0.0, 30.0]])
+    down = np.array([1.0, -1.0, -1.0])
+    upright, turned = (foot_from_triangles("a", foot * d, where="a", links=shin * d) for d in (np.ones(3), down))
+    assert turned.sole.equals_exact(upright.sole, 1e-6)
+    assert turned.notes[1].startswith("the robot's links are below its foot")
+
+
 def test_a_foot_that_rests_on_a_slanted_side_is_put_up(prism, box, stl):
     # Levelled on its outer side, which is 6 degrees askew, origin and ankle would contradict each other.
     outline = np.array([[-75, -36], [60, -50], [130, -12], [138, 26], [118, 54], [40, 60], [-72, 34]], dtype=float)
