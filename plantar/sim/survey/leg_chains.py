@@ -19,6 +19,7 @@ _NEAR_FLOOR = 0.15  # of the height of its joint: how far a part of the foot may
 _FLAT = 0.25  # share of its silhouette that the plane has that a foot rests on
 _AS_LOW = 0.1  # of the robot's height: how far two feet of a pair may differ
 _AXES_APART = math.cos(math.radians(20.0))  # how far the line between the feet may be off an axis
+_ON_AXIS, _ALONG = math.cos(math.radians(2.0)), math.cos(math.radians(0.5))  # it may be so far, and off the hips' line
 _AHEAD = 0.03  # of the foot's length: what shows toes from heel
 
 Array = NDArray[np.float64]
@@ -105,11 +106,8 @@ class _Tree:
         return [i for i in self.links if link in self.chain(i)]
 
     def pelvis(self, pair: tuple[list[int], list[int]]) -> int:
-        top = self.above[pair[0][0]]
-        if top > 0:
-            return top
-        moving = [int(self.model.body_parentid[chain[0]]) for chain in pair]
-        return next((b for b in moving if b > 0), pair[0][0])
+        above = [self.above[pair[0][0]], *(int(self.model.body_parentid[chain[0]]) for chain in pair)]
+        return next((b for b in above if b > 0), pair[0][0])
 
 
 def _upwards(tree: _Tree, where: str) -> tuple[Array, tuple[str, ...]]:
@@ -244,22 +242,24 @@ def _ankle(data: Any, hinges: list[int], foot: Array) -> Array:
 def _facing(tree: _Tree, up: Array, legs: list[Leg], where: str) -> tuple[Array, tuple[str, ...]]:
     data = tree.data
     hips = [data.xanchor[leg.joints[0]] for leg in legs]
-    apart = max((legs[0].ankle - legs[1].ankle, hips[0] - hips[1]), key=lambda d: float(np.linalg.norm(d)))
-    apart = apart - (apart @ up) * up
+    lines = [d - (d @ up) * up for d in (legs[0].ankle - legs[1].ankle, hips[0] - hips[1])]
+    apart = max(lines, key=lambda d: float(np.linalg.norm(d)))
     size = float(np.linalg.norm(apart))
     best = int(np.abs(apart).argmax())
-    if size < 1e-6 or abs(apart[best]) < _AXES_APART * size:
-        raise RobotError(f"{where}: the feet stand neither along x nor along y next to each other; turn the model")
     across = np.eye(3)[best]
+    if abs(apart[best]) < _ON_AXIS * size and all(abs(d @ apart) > _ALONG * size * np.linalg.norm(d) for d in lines):
+        across = apart / size  # hips and feet are on one line: the whole model is turned
+    elif size < 1e-6 or abs(apart[best]) < _AXES_APART * size:
+        raise RobotError(f"{where}: the feet stand neither along x nor along y next to each other; turn the model")
     forward = np.cross(across, up)
     votes, reason = _forward_votes(tree, legs, forward, up)
-    if votes == 0.0 and abs(forward[0]) > 0.5:
-        votes = float(forward[0])
-    forward = forward if votes >= 0.0 else -forward
+    forward = forward if (votes or float(forward[0]) * (abs(forward[0]) > 0.5)) >= 0.0 else -forward
     rotation = np.stack([forward, np.cross(up, forward), up])
     if np.allclose(rotation, np.eye(3)):
         return np.eye(3), ()
-    return rotation, (f"the robot looks along the model's {_axis_name(forward)} axis ({reason})",)
+    off = math.degrees(math.acos(min(1.0, float(np.abs(forward).max()))))
+    turned = f", turned by {off:.0f} degrees," if off > 1.0 else ""
+    return rotation, (f"the robot looks along the model's {_axis_name(forward)} axis{turned} ({reason})",)
 
 
 def _forward_votes(tree: _Tree, legs: list[Leg], forward: Array, up: Array) -> tuple[float, str]:
@@ -267,9 +267,8 @@ def _forward_votes(tree: _Tree, legs: list[Leg], forward: Array, up: Array) -> t
     toes = knees = 0.0
     for leg in legs:
         foot = np.concatenate([tree.points[i] for i in tree.below(leg.foot) if i in tree.points]) @ forward
-        length = float(np.ptp(foot))
         ahead = 0.5 * float(foot.min() + foot.max()) - float(leg.ankle @ forward)
-        toes += 0.0 if abs(ahead) < _AHEAD * length else math.copysign(1.0, ahead)
+        toes += 0.0 if abs(ahead) < _AHEAD * float(np.ptp(foot)) else math.copysign(1.0, ahead)
         knees += _knee_vote(tree, leg, np.cross(up, forward))
     return 2.0 * toes + knees, "the toes are farther from the ankle than the heel" if toes else "the knees bend so"
 

@@ -1,7 +1,9 @@
 """Bipeds that are drawn by lot are found right: legs, sides, feet, soles and how they lie, IMU."""
 
+import mujoco
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from plantar.sim.survey.survey import survey_model
 
@@ -41,10 +43,22 @@ def test_legs_of_four_joints_are_found(seed, tmp_path):
     assert len(truth.joints["left"]) == 4
 
 
+@pytest.mark.parametrize("degrees", [10.0, -30.0, 150.0])
+def test_a_model_that_is_turned_about_z_is_turned_back(degrees, tmp_path):
+    truth = random_biped(10, tmp_path)
+    spec = mujoco.MjSpec.from_file(str(truth.file))
+    turn, trunk = Rotation.from_euler("z", degrees, True), spec.body("trunk")
+    trunk.pos = turn.apply(trunk.pos)
+    trunk.quat = np.roll((turn * Rotation.from_quat(np.roll(trunk.quat, -1))).as_quat(), 1)
+    spec.compile()
+    truth.file.write_text(spec.to_xml())
+    found = survey_model(truth.file, tmp_path)
+    np.testing.assert_allclose(found.legs.rotation, truth.rotation.T @ turn.inv().as_matrix(), atol=1e-4)
+    assert any("turned by" in note for note in found.notes)
+
+
 def _origin(model, body: int) -> np.ndarray:
     """Where a body's frame is in the posture of the file."""
-    import mujoco
-
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     return data.xpos[body].copy()
