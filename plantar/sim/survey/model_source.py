@@ -251,9 +251,9 @@ def _first_keyframe(spec: Any) -> dict[str, float]:
 def _collect_motors(spec: Any, stated: _Stated) -> None:
     rates: dict[str, float] = {}
     for joint in spec.joints:
-        limited = joint.actfrclimited != mujoco.mjtLimited.mjLIMITED_FALSE
-        if limited and joint.actfrcrange[0] < joint.actfrcrange[1]:
-            stated.efforts[joint.name] = float(np.abs(joint.actfrcrange).max())
+        bound = _bound(joint.actfrclimited, joint.actfrcrange)
+        if bound < math.inf:
+            stated.efforts[joint.name] = bound
     for motor in spec.actuators:
         if motor.trntype not in (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT):
             continue
@@ -263,21 +263,20 @@ def _collect_motors(spec: Any, stated: _Stated) -> None:
             stated.gains[motor.target] = (gear**2 * gain, -rate if rate > 0.0 else -(gear**2) * rate)
         elif gain > 0.0 and rate == -gain and motor.biasprm[1] == 0.0:
             rates[motor.target] = gear**2 * gain
-        limits = []
-        if motor.forcelimited != mujoco.mjtLimited.mjLIMITED_FALSE and motor.forcerange[0] < motor.forcerange[1]:
-            limits.append(gear * float(np.abs(motor.forcerange).max()))
-        direct = motor.biastype == mujoco.mjtBias.mjBIAS_NONE and motor.gaintype == mujoco.mjtGain.mjGAIN_FIXED
-        if (
-            direct
-            and motor.ctrllimited != mujoco.mjtLimited.mjLIMITED_FALSE
-            and motor.ctrlrange[0] < motor.ctrlrange[1]
-        ):
-            limits.append(gear * abs(float(motor.gainprm[0])) * float(np.abs(motor.ctrlrange).max()))
-        if limits:
-            stated.efforts[motor.target] = min([*limits, stated.efforts.get(motor.target, math.inf)])
+        limits = [stated.efforts.get(motor.target, math.inf), gear * _bound(motor.forcelimited, motor.forcerange)]
+        if gain and motor.biastype == mujoco.mjtBias.mjBIAS_NONE and motor.gaintype == mujoco.mjtGain.mjGAIN_FIXED:
+            limits.append(gear * abs(gain) * _bound(motor.ctrllimited, motor.ctrlrange))
+        if min(limits) < math.inf:
+            stated.efforts[motor.target] = min(limits)
     for name in rates.keys() & stated.gains.keys():  # a position servo that a velocity servo damps
         stiffness, damping = stated.gains[name]
         stated.gains[name] = (stiffness, damping + rates[name] if damping >= 0.0 else damping)
+
+
+def _bound(limited: Any, span: Any) -> float:
+    both = -float(span[0]), float(span[1])
+    known = limited != mujoco.mjtLimited.mjLIMITED_FALSE and -both[0] < both[1]
+    return math.inf if not known else min(both) if min(both) > 0.0 else max(map(abs, both))  # of the weaker direction
 
 
 def _imus_of(spec: Any) -> tuple[tuple[str, str], ...]:

@@ -105,6 +105,23 @@ def test_gains_of_position_servos_are_read(tmp_path, motors, gains):
     assert read_model(file, tmp_path).gains == {"a": gains}
 
 
+@pytest.mark.parametrize(
+    ("motor", "effort"),
+    [
+        ("<motor joint='a' ctrlrange='-2 2' gear='-50'/>", 100.0),
+        ("<motor joint='a' ctrlrange='-80 20'/>", 20.0),  # of the weaker direction
+        ("<motor joint='a' ctrlrange='0 80'/>", 80.0),
+        ("<position joint='a' kp='9' forcerange='-30 40' gear='2' ctrlrange='-1 1'/>", 60.0),
+        ("<position joint='a' kp='9' ctrlrange='-1 1'/>", 90.0),
+    ],
+)
+def test_torque_limits_are_those_of_joint_and_motor(tmp_path, motor, effort):
+    file = tmp_path / "motor.xml"
+    body = "<body><joint name='a' actuatorfrcrange='-90 110'/><geom size='.1'/></body>"
+    file.write_text(f"<mujoco><worldbody>{body}</worldbody><actuator>{motor}</actuator></mujoco>")
+    assert read_model(file, tmp_path).efforts == {"a": min(effort, 90.0)}
+
+
 def test_a_mesh_is_found_and_weighs_as_in_mujoco(tmp_path):
     """Of two tetrahedra at a corner, whose hull weighs more; MuJoCo strips the folder."""
     corners = "".join(f"v {x} {y} {z}\n" for x, y, z in np.array([[0, 0, 0], *np.eye(3), *-np.eye(3)]))
