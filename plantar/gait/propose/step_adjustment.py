@@ -66,6 +66,7 @@ class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_ad
     least_left: float = fixed(0.404, "beat")  # Time in s before touchdown from which a foot is not aimed
     quick: float = fixed(3.64, "beat")  # Single support in s from which a slower walk's is shortened, too
     pause: float = share(0.081, "beat", 0, 5)
+    lasting: float = fixed(0.202, "beat")  # Time in s for which a small push's miss has to last
     price_time: float = fixed(0.0206, "leg/beat")  # Cost of a second earlier in m/s of DCM error
     # The same in m/s of a second later, in which an error in the expected DCM of 20 to 35 mm grows on
     price_later: float = fixed(0.165, "leg/beat")
@@ -131,22 +132,20 @@ class StepAdjustment:
         c, (forward, sideways) = rules.confidence if ankle.confident else 0.0, (ankle.forward, ankle.sideways)
         self._ankle = replace(ankle, forward=forward + c * (1.0 - forward), sideways=sideways + c * (1.0 - sideways))
         self._period = period
-        self._changed = -math.inf
-        self._adjusted = -1
-        self._stands = -1
+        self._changed = self._kept = -math.inf
+        self._adjusted = self._stands = -1
         self._foot: _Foot | None = None
         self._along: _Along | None = None
 
     def propose(self, tick: Tick) -> PlanChange | None:
         """Another footstep where that helps, or its place now."""
-        pendulum = tick.pendulum
+        pendulum, swing = tick.pendulum, tick.phase.swing
         if pendulum is None or tick.feet.side is None:
             return None
         if not tick.firm:
             return None if self._timing is None else self._timing.propose(tick)
         if tick.feet.landed:
             return self._landed(tick, tick.feet.side)
-        swing = tick.phase.swing
         if swing is None or tick.phase.wait:
             return None
         foot = self._follow(tick, swing)
@@ -161,8 +160,14 @@ class StepAdjustment:
         )
         if left < 2.0 * self._period or off * math.exp(pendulum.omega * left) < self._rules.least_error:
             return None
-        if math.hypot(*_missed(pendulum, left)) < self._allowed(tick, pendulum):
-            return self._go_along(tick, pendulum, foot, left)
+        missed, most = math.hypot(*_missed(pendulum, left)), self._allowed(tick, pendulum)
+        if missed < most:
+            self._kept = tick.time
+            return self._go_along(tick, pendulum, foot, left, swing)
+        # What is expected of a small push is over soon: a step moves at once for a large miss only.
+        small = pendulum.pushed.any() and missed < 2.0 * most and self._adjusted != tick.phase.step
+        if small and tick.time < self._kept + self._rules.lasting:
+            return None
         return self._step_elsewhere(tick, pendulum, foot, left, swing)
 
     def _allowed(self, tick: Tick, pendulum: Pendulum) -> float:
@@ -171,8 +176,8 @@ class StepAdjustment:
         if self._adjusted == phase.step:
             return most
         following = tick.plan.schedule.following(phase)
-        kept = math.exp(-pendulum.omega * (following.end - following.start))
-        return max(most, (1.0 - kept) * signed_margin(pendulum.zmp_region, tick.plan.stance_vrp(phase.step)))
+        taken = 1.0 - math.exp(-pendulum.omega * (following.end - following.start))
+        return max(most, taken * signed_margin(pendulum.zmp_region, tick.plan.stance_vrp(phase.step)))
 
     def _step_elsewhere(
         self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, swing: Side
@@ -194,7 +199,7 @@ class StepAdjustment:
             return None
         return self._step_elsewhere(tick, pendulum, foot, left, swing)
 
-    def _go_along(self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float) -> PlanChange | None:
+    def _go_along(self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, swing: Side) -> PlanChange | None:
         """The step farther along a push, beyond its moves so far; it never returns by itself."""
         step, planned = tick.phase.step, tick.plan.foothold(tick.phase.step)
         if self._along is None or self._along.step != step:
@@ -208,9 +213,7 @@ class StepAdjustment:
             or more[0] * px + more[1] * py <= self._rules.least_error * size
         ):
             return None
-        assert tick.phase.swing is not None
-        region = self._region(tick, tick.phase.swing)
-        (x, y), _ = self._landing(foot, (planned.x + more[0], planned.y + more[1]), left, region)
+        (x, y), _ = self._landing(foot, (planned.x + more[0], planned.y + more[1]), left, self._region(tick, swing))
         dx, dy = x - planned.x, y - planned.y
         if dx * px + dy * py <= 0.5 * self._rules.least_error * size:
             return None
@@ -274,8 +277,7 @@ class StepAdjustment:
         rules = self._rules
         usual, begun = tick.plan.schedule.timing.single_support, tick.time - tick.phase.start
         rest = (1.0 - rules.shortest) * min(1.0, rules.quick / usual) * (usual - begun)
-        soonest = min(left, max(rules.least_left, rest))
-        return soonest, max(left, (1.0 + rules.longest) * usual - begun)
+        return min(left, max(rules.least_left, rest)), max(left, (1.0 + rules.longest) * usual - begun)
 
     def _searched(
         self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, region: NDArray[np.float64]
@@ -336,10 +338,9 @@ class StepAdjustment:
         )
         if found is None:
             return None
-        time = found.time - begun
+        time, (tx, ty) = found.time - begun, target.tolist()
         px, py = (found.place - vrp + target).tolist()
         (x, y), _ = self._landing(foot, (px, py), time, region)
-        tx, ty = target.tolist()
         return _Choice(time, (x - tx, y - ty), 0.0)
 
     def _landing(

@@ -167,8 +167,8 @@ def figure_of(name: str, summary: Mapping[str, Any]) -> float | None:
         case "steps":
             return float(summary["steps_taken"])
         case "strides":
-            longer = [r["value"] for r in summary["reasons"] if r["criterion"] == "strides"]
-            return float(longer[0] if longer else len(summary["push"]["pushes"]))
+            longer = (r["value"] for r in summary["reasons"] if r["criterion"] == "strides")
+            return float(next(longer, len(summary["push"]["pushes"])))
         case "largest difference":
             return round(1e3 * float(summary["balance"]["skin_against_force_torque"]["max_m"]), 2)
     if name in summary:

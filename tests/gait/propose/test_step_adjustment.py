@@ -100,6 +100,17 @@ def test_what_the_next_double_support_takes_up_moves_no_step(pushed):
         assert (proposed(pushed((by, 0.0))[1]) is not None) == steps
 
 
+def test_a_small_pushs_miss_has_to_last_and_a_large_one_does_not(pushed):
+    growth = math.expm1(3.5 * 0.45)
+    by = lambda missed: ((0.03 + missed / growth) / (1.0 + 1.0 / growth), 0.0)  # noqa: E731
+    push = np.array([0.02, 0.0])
+    for missed, late, steps in ((0.03, 0.0, False), (0.03, 1.1 * RULES.lasting, True), (0.1, 0.0, True)):
+        stepper = adjustment()
+        assert stepper.propose(pushed((0.015, 0.0), NOW - max(PERIOD, late))[1]) is None
+        assert (stepper.propose(pushed(by(missed), pushed=push)[1]) is not None) == steps
+    assert proposed(pushed(by(0.03), pushed=push)[1]) is not None  # as a step begins, or lastingly
+
+
 @pytest.mark.parametrize("seed", range(60))
 def test_the_footstep_stays_in_its_region_and_where_the_foot_gets_to(pushed, seed):
     rng = np.random.default_rng(seed)
