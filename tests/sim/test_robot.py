@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from plantar.errors import RobotError
+from plantar.errors import InputError, RobotError
 from plantar.robots import load_robot
 from plantar.robots.controller_settings import controller_settings
 from plantar.robots.kinematics.robot_model import robot_spec
@@ -86,12 +86,15 @@ def test_the_pace_of_a_robot_is_its_own_or_the_default(tmp_path):
 
 def test_a_robot_that_rocks_keeps_its_own_time_and_lands_without_a_slow_approach():
     h1 = load_robot("h1")
-    scene = load_scene("uneven", ["t_ss=0.9", "t_ds=0.3"]).for_body(REFERENCE_BODY)
+    scene = load_scene("uneven").for_body(REFERENCE_BODY)
     rocks = replace(h1, rocks=True, single_support=0.27, double_support=0.16)
     own = controller_settings(scene, rocks, REFERENCE_BODY, {})
     assert (own.timing.single_support, own.timing.double_support) == (0.27, 0.16)
     assert (own.timing.start, own.timing.end) == (pytest.approx(0.2), pytest.approx(0.43))
     assert own.landing.approach_height == 0.0
-    usual = controller_settings(scene, h1, REFERENCE_BODY, {})
+    stated = load_scene("uneven", ["t_ss=0.9", "t_ds=0.3"]).for_body(REFERENCE_BODY)
+    with pytest.raises(InputError, match="rocks from foot to foot in its own time; allowed: 0"):
+        controller_settings(stated, rocks, REFERENCE_BODY, {})
+    usual = controller_settings(stated, h1, REFERENCE_BODY, {})
     assert (usual.timing.single_support, usual.timing.double_support) == (0.9, 0.3)
     assert usual.landing.approach_height == scene.walk.approach_height > 0.0
