@@ -70,15 +70,13 @@ def encoder_offsets(
             x, y, z, yaw = feet[side]
             arm = rotation @ posture.positions[side]
             rows.append(np.hstack([-rotation @ moved[side], -_cross(arm), np.eye(3)]) / tolerances.place)
-            errors.append((position + arm - np.array([x, y, z])) / tolerances.place)
-            lean = sine_vector(rotation @ posture.rotations[side] @ level_rotation(yaw).T)
             rows.append(np.hstack([-rotation @ turned[side], np.eye(3), np.zeros((3, 3))]) / tolerances.turn)
-            errors.append(lean / tolerances.turn)
+            lean = sine_vector(rotation @ posture.rotations[side] @ level_rotation(yaw).T)
+            errors += [(position + arm - np.array([x, y, z])) / tolerances.place, lean / tolerances.turn]
         above = rotation @ up
         rows.append(np.hstack([np.zeros((2, k)), -_cross(above)[:2], np.zeros((2, 3))]) / tolerances.turn)
-        errors.append(above[:2] / tolerances.turn)
         rows.append(np.hstack([np.eye(k), np.zeros((k, 6))]) / tolerances.offset)
-        errors.append(offsets / tolerances.offset)
+        errors += [above[:2] / tolerances.turn, offsets / tolerances.offset]
         step = np.asarray(np.linalg.lstsq(np.vstack(rows), -np.concatenate(errors), rcond=None)[0], dtype=np.float64)
         offsets = offsets + step[:k]
         rotation = orthonormalised(rotation_from_vector(step[k : k + 3]) @ rotation)

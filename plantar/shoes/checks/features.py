@@ -125,13 +125,10 @@ def _rails(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature
     yield Feature("slot for the board", "connection board", solid.free(board, *levels))
     stops = []
     for side in (-1.0, 1.0):
-        ends, over = (
-            sorted((side * (half + gap), side * (half + gap + POST))),
-            sorted((side * half, side * (half - POST))),
-        )
-        stops.append(solid.filled(place(slot, (ends[0], ends[1])), *levels))
-        stops.append(solid.filled(place((back, slot[0]), (over[0], over[1])), *levels))
-        stops.append(solid.filled(place((slot[1], 0.0), (over[0], over[1])), *levels))
+        ends = sorted((side * (half + gap), side * (half + gap + POST)))
+        over = sorted((side * half, side * (half - POST)))
+        rails = ((slot, ends), ((back, slot[0]), over), ((slot[1], 0.0), over))
+        stops += [solid.filled(place(along, (across[0], across[1])), *levels) for along, across in rails]
     yield Feature("rails at both ends of the board", "connection board", min(stops))
     shelf = place((back, -p.board_gap), (-half - POST, half + POST)).difference(hole_outline(plan, p).buffer(0.05))
     yield Feature("shelf below the board", "connection board", solid.filled(shelf, p.thickness - 0.5))

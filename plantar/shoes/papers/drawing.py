@@ -265,17 +265,16 @@ def _features(sheet: Sheet, shoe: Shoe, build: ShoeBuild) -> None:
         rows.append(
             (f"board slot, {np.degrees(plan.heel.turn):.0f}°", f"{plan.heel.x:.2f}", f"{plan.heel.y:.2f}", "0.3 B C")
         )
-    for name in ("contact face", "inner wall") if build.kind == "shoe" else ("contact face",):
-        rows.append((name, "STEP", "STEP", "prof. 0.3 A B C"))
+    faces = ("contact face", "inner wall") if build.kind == "shoe" else ("contact face",)
+    rows += [(name, "STEP", "STEP", "prof. 0.3 A B C") for name in faces]
     columns = -(-len(rows) // _ROWS)
     step = 3.4 * 0.9 * 2.0 / max(2, columns)
     per = -(-len(rows) // columns)
     wide = 124.0 / max(2, columns)
     for n in range(columns):
-        part = rows[n * per : (n + 1) * per]
         widths = [0.33 * wide, 0.17 * wide, 0.17 * wide, 0.33 * wide]
         at = (410.0 - wide * (columns - n), 284.0)
-        sheet.table(at, widths, [("Feature", "x to C", "y to B", "position"), *part], step)
+        sheet.table(at, widths, [("Feature", "x to C", "y to B", "position"), *rows[n * per : (n + 1) * per]], step)
 
 
 def _inspection(sheet: Sheet, shoe: Shoe, build: ShoeBuild) -> None:
@@ -289,8 +288,10 @@ def _inspection(sheet: Sheet, shoe: Shoe, build: ShoeBuild) -> None:
         ("rib", f"{p.rib:g}", f"±{made.press:g}", "caliper"),
     ]
     if build.kind == "shoe":
-        rows.append(("wall, thickness x height", f"{p.rim_thickness:g} x {p.rim_height:g}", "±0.3", "caliper"))
-        rows.append(("gap of foot and wall", f"{p.clearance:g}", "±0.3", "feeler gauge"))
+        rows += [
+            ("wall, thickness x height", f"{p.rim_thickness:g} x {p.rim_height:g}", "±0.3", "caliper"),
+            ("gap of foot and wall", f"{p.clearance:g}", "±0.3", "feeler gauge"),
+        ]
     if plan.heel.board:
         rows.append(("slot of the board", f"{p.board_length + 2 * made.slide:g}", f"+{made.slide:g} 0", "the board"))
     if build.retention is not None and build.retention.kind == "straps":

@@ -278,9 +278,8 @@ def _lugs(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -
         lug = outer.intersection(window)
         blocks.append(Block(tidy(lug), p.bottom, p.thickness + top))
         slot = _window(place.x, place.side, 0.5 * (retention.width + _SLOT_PLAY), middle)
-        cuts.append(Block(slot, slot_low, slot_high))
-        for end in (-1, 1):
-            cuts.append(_bevel(place, end, half, bevel, middle, p.thickness + top))
+        bevels = (_bevel(place, end, half, bevel, middle, p.thickness + top) for end in (-1, 1))
+        cuts += [Block(slot, slot_low, slot_high), *bevels]
     room = Block(inner, p.rim_top, p.thickness + top + 1.0)
     return blocks, [Step("cut", "room and slots of the straps", (room, *cuts))]
 
@@ -315,18 +314,15 @@ def _arms(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -
 
         root = plate(inner - side * _ROOT, outer)  # to the plate, where the foot is wider above than below
         low = p.ceiling + p.scribe  # above the pockets, which reach below the wall
-        arms.append(Block(root, low, p.thickness - p.mark_depth))
-        arms.append(Block(plate(inner, outer), low, top))
+        arms += [Block(root, low, p.thickness - p.mark_depth), Block(plate(inner, outer), low, top)]
         reach = p.clip_hook + p.clearance
         # The foot's edge touches the 45 degree face where it has come in by the clearance.
         low = p.thickness + place.edge + _PLAY - p.clearance
         bite = 0.5 * p.clip_thickness * side
         tip = inner - side * reach
-        arms.append(Block(plate(inner, inner + bite), low, low + reach, plate(tip, inner + bite)))
-        arms.append(Block(plate(tip, inner + bite), low + reach, low + reach + 1.0))
-        arms.append(
-            Block(plate(tip, inner + bite), low + reach + 1.0, low + 2.0 * reach + 1.0, plate(inner, inner + bite))
-        )
+        thin, thick, high = plate(inner, inner + bite), plate(tip, inner + bite), low + reach
+        arms += [Block(thin, low, high, thick), Block(thick, high, high + 1.0)]
+        arms.append(Block(thick, high + 1.0, low + 2.0 * reach + 1.0, thin))
     return [Step("cut", "windows of the clips", tuple(gaps)), Step("add", "clips", tuple(arms))]
 
 

@@ -42,7 +42,7 @@ class PlatformPrint:
 
 
 def separated_feet(recording: PressureRecording) -> tuple[PressureRecording, tuple[PlatformPrint, ...]]:
-    """Platform's recording with each foot's footprints under its side, and the footprints; others unchanged.
+    """Platform's recording by foot, and its footprints; others unchanged.
 
     The first pass walks along x. Ends that carry little get unloaded frames.
     """
@@ -72,8 +72,7 @@ def separated_feet(recording: PressureRecording) -> tuple[PressureRecording, tup
 def _feet(force: NDArray[np.float64], layout: SoleLayout, prints: Sequence[PlatformPrint]) -> dict[Side, FootRecording]:
     feet: dict[Side, FootRecording] = {}
     for side in SIDES:
-        own = [p for p in prints if p.side == side]
-        if own:
+        if own := [p for p in prints if p.side == side]:
             part = np.zeros_like(force)
             for p in own:
                 part[p.begin : p.end, p.cells] = force[p.begin : p.end, p.cells]
@@ -88,8 +87,8 @@ def _prints(
     out: list[PlatformPrint] = []
     for walk in passes_over(load, cells):
         forward = direction_of_walk(walk, notes)
-        for own, side in zip(walk.prints, sides_of_walk(walk, forward, stated, notes), strict=True):
-            out.append(PlatformPrint(side, own.begin, own.end, own.cells, forward))
+        sides = zip(walk.prints, sides_of_walk(walk, forward, stated, notes), strict=True)
+        out += [PlatformPrint(side, own.begin, own.end, own.cells, forward) for own, side in sides]
     return out, list(dict.fromkeys(notes))
 
 

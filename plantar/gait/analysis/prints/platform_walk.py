@@ -7,6 +7,7 @@ larger than a foot are one footprint.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -132,6 +133,9 @@ _ALIKE = 0.02  # Distance in m to the line of walking from which it separates le
 # Distance in m between the first and the last of three or more footprints from which they show the direction.
 _TRAVEL = 0.5
 _STANDING = 0.01  # Path of the CoP in m under which a footprint is one of standing
+# Cosine of the angle to the platform's edge from which the mean axis of two whole footprints or more, whose toes point
+# outwards alike, is the line of walking; share of the longest one's length from which a footprint is whole.
+_TURNED, _WHOLE = 0.985, 0.85
 # Shares of a footprint's length: the waist, heel and forefoot around it, the ball, and where the toes begin.
 _WAIST, _TRUNK, _BALL, _TOES = (0.33, 0.55), (0.25, 0.60), (0.60, 0.80), 0.82
 
@@ -152,7 +156,7 @@ class PlatformWalk:
 
 
 def passes_over(load: PlatformLoad, prints: Sequence[PrintCells]) -> list[PlatformWalk]:
-    """Returns platform passes, separated by times without load, by cell load and prints in order."""
+    """Returns platform passes of prints in order, separated by times without load."""
     passes: list[list[PrintCells]] = []
     for cells in prints:
         if passes and load.time[cells.begin] - max(load.time[p.end - 1] for p in passes[-1]) < _PAUSE:
@@ -174,13 +178,19 @@ def direction_of_walk(walk: PlatformWalk, notes: list[str]) -> NDArray[np.float6
         long, wide = np.ptp(walk.load.layout.positions[walk.prints[0].cells, :2], axis=0)
         path = np.array([1.0, 0.0] if long >= wide else [0.0, 1.0])
         notes.append("the centre of pressure hardly moves: the direction of walking is assumed along the platform")
-    along = int(np.argmax(np.abs(path)))
-    forward = np.zeros(2)
-    forward[along] = np.sign(path[along])
-    notes.append(
-        "the line of walking is taken as parallel to the platform's edge, in the direction in which the CoP moves"
-    )
-    return forward
+    forward = np.where(np.eye(2)[np.argmax(np.abs(path))] > 0.0, np.sign(path), 0.0)
+    ahead = _mean_axis(walk, forward)
+    straight = ahead @ forward >= _TURNED
+    edge = "parallel to the platform's edge, in the direction in which the CoP moves"
+    notes.append(f"the line of walking is taken as {edge if straight else 'the mean axis of the footprints'}")
+    return forward if straight else ahead
+
+
+def _mean_axis(walk: PlatformWalk, forward: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Mean axis (2,) of whole footprints; `forward` of one."""
+    prints = [_footprint(walk.load, cells, forward) for cells in walk.prints]
+    whole = [p.axis for p in prints if p.length >= _WHOLE * max(q.length for q in prints)]
+    return np.asarray(np.sum(whole, axis=0) / np.hypot(*np.sum(whole, axis=0)) if len(whole) > 1 else forward)
 
 
 def sides_of_walk(
@@ -191,7 +201,7 @@ def sides_of_walk(
     Args:
         walk: Pass.
         forward: Walking direction (2,).
-        stated: Foot that the file names; used if footprints lie in one line. Else arch and hallux show it.
+        stated: Foot in the file, used if footprints lie in one line; else arch and hallux show it.
         notes: Assumptions are added.
     """
     count = len(walk.prints)
@@ -210,18 +220,17 @@ def sides_of_walk(
 
 
 def _centroid(load: PlatformLoad, cells: PrintCells) -> NDArray[np.float64]:
-    weight = load.force[cells.begin : cells.end][:, cells.cells].max(axis=0)
-    return np.asarray(np.average(load.layout.positions[cells.cells, :2], axis=0, weights=weight + 1e-12))
+    weights = load.force[cells.begin : cells.end][:, cells.cells].max(axis=0) + 1e-12
+    return np.asarray(np.average(load.layout.positions[cells.cells, :2], axis=0, weights=weights))
 
 
 def _path(load: PlatformLoad, cells: PrintCells) -> NDArray[np.float64]:
     """Displacement (2,) of the CoP in a contact."""
     part = load.force[cells.begin : cells.end][:, cells.cells]
     total = part.sum(axis=1)
-    part, total = part[total > 0.02 * total.max()], total[total > 0.02 * total.max()]
-    path = (part @ load.layout.positions[cells.cells, :2]) / total[:, None]
-    few = max(1, len(path) // 8)
-    return np.asarray(path[-few:].mean(axis=0) - path[:few].mean(axis=0))
+    loaded = total > 0.02 * total.max()
+    path = (part[loaded] @ load.layout.positions[cells.cells, :2]) / total[loaded, None]
+    return np.asarray(path[-max(1, len(path) // 8) :].mean(axis=0) - path[: max(1, len(path) // 8)].mean(axis=0))
 
 
 def _line_of_walking(along: NDArray[np.float64], offset: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -233,17 +242,22 @@ def _line_of_walking(along: NDArray[np.float64], offset: NDArray[np.float64]) ->
 
 def _side_by_shape(load: PlatformLoad, cells: PrintCells, forward: NDArray[np.float64]) -> Side:
     """Side of a single footprint: a left foot's arch and hallux lie to the right."""
-    highest = load.force[cells.begin : cells.end].max(axis=0)
-    chosen = np.zeros(len(load.layout), dtype=bool)
-    chosen[cells.cells] = highest[cells.cells] > 0.0
-    print_ = footprint_of_cells(load.layout, highest / load.layout.areas, chosen, "right", forward)
-    if print_ is None:
-        return "left"
+    print_ = _footprint(load, cells, forward)
     u, v = print_.centres.T / print_.length  # of a right foot v runs to the left, which is medial
-    waist = _mean_where((u > _WAIST[0]) & (u < _WAIST[1]), v, print_.areas)
-    rest = (u < _TRUNK[0]) | ((u > _TRUNK[1]) & (u < _BALL[1]))
-    trunk = _mean_where(rest, v, print_.areas)
-    return "right" if (trunk - waist) + 0.5 * _hallux_offset(print_, trunk) >= 0.0 else "left"
+    trunk = _mean_where((u < _TRUNK[0]) | ((u > _TRUNK[1]) & (u < _BALL[1])), v, print_.areas)
+    return (
+        "right"
+        if (trunk - _mean_where((u > _WAIST[0]) & (u < _WAIST[1]), v, print_.areas))
+        + 0.5 * _hallux_offset(print_, trunk)
+        >= 0.0
+        else "left"
+    )
+
+
+def _footprint(load: PlatformLoad, cells: PrintCells, forward: NDArray[np.float64]) -> Footprint:
+    highest = load.force[cells.begin : cells.end].max(axis=0)
+    chosen = np.isin(np.arange(len(load.layout)), cells.cells) & (highest > 0.0)
+    return cast(Footprint, footprint_of_cells(load.layout, highest / load.layout.areas, chosen, "right", forward))
 
 
 def _mean_where(chosen: NDArray[np.bool_], values: NDArray[np.float64], weights: NDArray[np.float64]) -> float:

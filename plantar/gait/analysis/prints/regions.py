@@ -81,8 +81,8 @@ def _valley(print_: Footprint, strip: NDArray[np.bool_], pitch: float) -> float 
     peak = int(np.flatnonzero(fore)[np.argmax(height[fore])])
     within = (places >= 0.62 * print_.length) & (places <= 0.92 * print_.length)
     beyond = np.maximum.accumulate(height[::-1])[::-1]
-    inner = (i for i in range(peak + 1, len(places) - 1) if within[i])
-    candidates = [i for i in inner if _is_valley(height, i, peak, beyond[i + 1])]
+    inner = range(peak + 1, len(places) - 1)
+    candidates = [i for i in inner if within[i] and _is_valley(height, i, peak, beyond[i + 1])]
     if not candidates:
         return None
     lowest = min(candidates, key=lambda i: float(height[i]))

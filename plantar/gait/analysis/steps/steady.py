@@ -63,9 +63,8 @@ def with_used_steps(
         replace(step, used=bool(u and w), unused=reason if not u else "" if w else "outside --from and --to", odd=o)
         for step, u, w, o in zip(steps, used, within, odd, strict=True)
     ]
-    for step in out:
-        if step.used and step.odd:
-            notes.append(f"step {step.number} of the {side} foot is odd and in the means: {step.odd}")
+    odd_used = (step for step in out if step.used and step.odd)
+    notes += [f"step {step.number} of the {side} foot is odd and in the means: {step.odd}" for step in odd_used]
     count = sum(step.used for step in out)
     if count == 0:
         notes.append(f"no step of the {side} foot is among those that were asked for: it has {len(steps)}")

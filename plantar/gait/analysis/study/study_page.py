@@ -40,12 +40,12 @@ def study_page(
         HTML without other files or network.
     """
     sections = [Section("summary", "Summary", _summary(summary, comparisons))]
-    for i, one in enumerate(comparisons, 1):
-        sections.append(Section(f"comparison-{i}", f"{html.escape(one.a)} and {html.escape(one.b)}", _comparison(one)))
+    pairs = ((one, f"{html.escape(one.a)} and {html.escape(one.b)}") for one in comparisons)
+    sections += [Section(f"comparison-{i}", title, _comparison(one)) for i, (one, title) in enumerate(pairs, 1)]
     if figures:
         sections.append(figures_of(figures))
-    sections.append(Section("look", "To look at", _look(summary)))
-    sections.append(Section("recordings", "Recordings", _recordings(results)))
+    recordings = Section("recordings", "Recordings", _recordings(results))
+    sections += [Section("look", "To look at", _look(summary)), recordings]
     about = (
         f'<p class="about">{summary["measured"]} of {summary["recordings"]} recordings of {summary["participants"]} '
         f"participants were measured: {summary['steps']} steps. Plantar {html.escape(str(summary['version']))}.</p>"
@@ -204,8 +204,7 @@ def study_figures(comparisons: Sequence[Comparison]) -> list[tuple[str, Any, str
                 f"effects{end}",
                 _draw_effects(one),
                 f"Effect sizes between {names}: Hedges' g with its 95 % confidence interval; filled where p, "
-                "corrected for all "
-                "measures, is below 0.05",
+                "corrected for all measures, is below 0.05",
             )
         )
         out.append(

@@ -31,11 +31,12 @@ def shape(u: np.ndarray, v: np.ndarray) -> np.ndarray:
     return inside | disc(0.165, 0.0, 0.04, 0.045) | disc(0.232, 0.02, 0.018, 0.014)
 
 
-def walkway(steps=6, first="left", reverse=False, across=False, cut=False):
+def walkway(steps=6, first="left", reverse=False, across=False, cut=False, heading=0.0):
     """Feet that walk over a platform of cells of 1 cm, and the truth: side and heel strike of each step."""
-    rows, columns = round(STEP * steps / PITCH) + 30, 50
+    rows, columns = round(STEP * steps / PITCH) + 30, 150 if heading else 50
     layout = grid_cells(np.ones((rows, columns), dtype=bool), PITCH, PITCH, side="left", name="way", threshold=1e3)
-    x, y = layout.positions[:, 0], layout.positions[:, 1]
+    turned = (layout.positions[:, 0] + 1j * layout.positions[:, 1]) * np.exp(-1j * np.radians(heading))
+    x, y = turned.real, turned.imag
     time = np.arange(0.0, 0.5 + steps * (STANCE - DOUBLE) + 1.0, 0.01)
     force = np.zeros((len(time), len(layout)))
     truth: list[tuple[Side, float]] = []
@@ -69,6 +70,7 @@ def walkway(steps=6, first="left", reverse=False, across=False, cut=False):
         {"steps": 4},
         {"steps": 2},
         {"steps": 3, "reverse": True},
+        {"steps": 2, "heading": 20.0},
         pytest.param({"first": "right"}, marks=pytest.mark.long),
         pytest.param({"reverse": True}, marks=pytest.mark.long),
         pytest.param({"across": True}, marks=pytest.mark.long),
