@@ -81,7 +81,7 @@ def survey_model(file: Path, folder: Path) -> Survey:
     kept = [v for v in speeds if v is not None and _SPEEDS[0] <= v <= _SPEEDS[1]]
     notes = [*source.notes, *legs.notes, *held_notes, *_coupled_notes(source, names), *_loop_notes(source, legs)]
     toes = {side: ", ".join(legs.by_side[side].toes) for side in SIDES}
-    notes += [f"{names}: below the {side} foot, held (toes)" for side, names in toes.items() if names]
+    notes += [f"{toes[side]}: below the {side} foot, held (toes)" for side in SIDES if toes[side]]
     notes += _unlike(soles)
     gains = [source.gains[name] for name in names["left"] if name in source.gains]
     return Survey(

@@ -102,7 +102,10 @@ def test_what_the_next_double_support_takes_up_moves_no_step(pushed):
 
 def test_a_small_pushs_miss_has_to_last_and_a_large_one_does_not(pushed):
     growth = math.expm1(3.5 * 0.45)
-    by = lambda missed: ((0.03 + missed / growth) / (1.0 + 1.0 / growth), 0.0)  # noqa: E731
+
+    def by(missed):
+        return (0.03 + missed / growth) / (1.0 + 1.0 / growth), 0.0
+
     push = np.array([0.02, 0.0])
     for missed, late, steps in ((0.03, 0.0, False), (0.03, 1.1 * RULES.lasting, True), (0.1, 0.0, True)):
         stepper = adjustment()

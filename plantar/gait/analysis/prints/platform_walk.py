@@ -7,7 +7,6 @@ larger than a foot are one footprint.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -188,9 +187,10 @@ def direction_of_walk(walk: PlatformWalk, notes: list[str]) -> NDArray[np.float6
 
 def _mean_axis(walk: PlatformWalk, forward: NDArray[np.float64]) -> NDArray[np.float64]:
     """Mean axis (2,) of whole footprints; `forward` of one."""
-    prints = [_footprint(walk.load, cells, forward) for cells in walk.prints]
+    prints = [p for cells in walk.prints if (p := _footprint(walk.load, cells, forward)) is not None]
     whole = [p.axis for p in prints if p.length >= _WHOLE * max(q.length for q in prints)]
-    return np.asarray(np.sum(whole, axis=0) / np.hypot(*np.sum(whole, axis=0)) if len(whole) > 1 else forward)
+    mean = np.sum(whole, axis=0) if len(whole) > 1 else forward
+    return np.asarray(mean / np.hypot(*mean))
 
 
 def sides_of_walk(
@@ -230,7 +230,8 @@ def _path(load: PlatformLoad, cells: PrintCells) -> NDArray[np.float64]:
     total = part.sum(axis=1)
     loaded = total > 0.02 * total.max()
     path = (part[loaded] @ load.layout.positions[cells.cells, :2]) / total[loaded, None]
-    return np.asarray(path[-max(1, len(path) // 8) :].mean(axis=0) - path[: max(1, len(path) // 8)].mean(axis=0))
+    few = max(1, len(path) // 8)
+    return np.asarray(path[-few:].mean(axis=0) - path[:few].mean(axis=0))
 
 
 def _line_of_walking(along: NDArray[np.float64], offset: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -243,21 +244,18 @@ def _line_of_walking(along: NDArray[np.float64], offset: NDArray[np.float64]) ->
 def _side_by_shape(load: PlatformLoad, cells: PrintCells, forward: NDArray[np.float64]) -> Side:
     """Side of a single footprint: a left foot's arch and hallux lie to the right."""
     print_ = _footprint(load, cells, forward)
+    if print_ is None:
+        return "left"
     u, v = print_.centres.T / print_.length  # of a right foot v runs to the left, which is medial
     trunk = _mean_where((u < _TRUNK[0]) | ((u > _TRUNK[1]) & (u < _BALL[1])), v, print_.areas)
-    return (
-        "right"
-        if (trunk - _mean_where((u > _WAIST[0]) & (u < _WAIST[1]), v, print_.areas))
-        + 0.5 * _hallux_offset(print_, trunk)
-        >= 0.0
-        else "left"
-    )
+    waist = _mean_where((u > _WAIST[0]) & (u < _WAIST[1]), v, print_.areas)
+    return "right" if (trunk - waist) + 0.5 * _hallux_offset(print_, trunk) >= 0.0 else "left"
 
 
-def _footprint(load: PlatformLoad, cells: PrintCells, forward: NDArray[np.float64]) -> Footprint:
+def _footprint(load: PlatformLoad, cells: PrintCells, forward: NDArray[np.float64]) -> Footprint | None:
     highest = load.force[cells.begin : cells.end].max(axis=0)
     chosen = np.isin(np.arange(len(load.layout)), cells.cells) & (highest > 0.0)
-    return cast(Footprint, footprint_of_cells(load.layout, highest / load.layout.areas, chosen, "right", forward))
+    return footprint_of_cells(load.layout, highest / load.layout.areas, chosen, "right", forward)
 
 
 def _mean_where(chosen: NDArray[np.bool_], values: NDArray[np.float64], weights: NDArray[np.float64]) -> float:

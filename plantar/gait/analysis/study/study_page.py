@@ -40,8 +40,8 @@ def study_page(
         HTML without other files or network.
     """
     sections = [Section("summary", "Summary", _summary(summary, comparisons))]
-    pairs = ((one, f"{html.escape(one.a)} and {html.escape(one.b)}") for one in comparisons)
-    sections += [Section(f"comparison-{i}", title, _comparison(one)) for i, (one, title) in enumerate(pairs, 1)]
+    for i, one in enumerate(comparisons, 1):
+        sections.append(Section(f"comparison-{i}", f"{html.escape(one.a)} and {html.escape(one.b)}", _comparison(one)))
     if figures:
         sections.append(figures_of(figures))
     recordings = Section("recordings", "Recordings", _recordings(results))
