@@ -135,7 +135,6 @@ def _kind(arrays: dict[str, _Array]) -> Kind:
 
 
 def _one_platform(feet: dict[Side, FootRecording]) -> dict[Side, FootRecording]:
-    """Platform from its feet's loads: no cell carries both."""
     if len(feet) < 2 or feet["left"].force.shape != feet["right"].force.shape:
         return feet
     return {"left": replace(feet["left"], force=feet["left"].force + feet["right"].force)}
@@ -211,11 +210,7 @@ def _layout(arrays: dict[str, _Array], side: Side, warnings: list[str]) -> SoleL
 
 
 def _times(
-    arrays: dict[str, _Array],
-    clock: str,
-    frames: int,
-    options: ReadOptions,
-    warnings: list[str],
+    arrays: dict[str, _Array], clock: str, frames: int, options: ReadOptions, warnings: list[str]
 ) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
     rate = options.rate_hz
     for key in ("rate_hz", "rate", "frequency", "fs"):

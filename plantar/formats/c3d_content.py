@@ -134,7 +134,6 @@ def _of_plate(values: NDArray[np.float64], shape: tuple[int, ...], i: int) -> ND
 
 
 def _events(content: Any) -> dict[str, NDArray[np.float64]]:
-    """Each foot's strikes and lifts in s from the first frame."""
     out = {f"{kind}_{side}": np.zeros(0) for kind in ("strikes", "lifts") for side in SIDES}
     parameters = content["parameters"]
     labels, contexts = (_values(parameters, "EVENT", name) for name in ("LABELS", "CONTEXTS"))

@@ -19,11 +19,7 @@ from plantar.formats.side import side_of
 from plantar.formats.text import cells_of_row, frames_of_lines, head_text, number, open_text, row_of_numbers
 from plantar.formats.units import find_unit
 from plantar.recordings.frame_table import FrameTable
-from plantar.recordings.pressure_recording import (
-    PressureRecording,
-    possible_rate,
-    sampling,
-)
+from plantar.recordings.pressure_recording import PressureRecording, possible_rate, sampling
 
 _FRAME = re.compile(r"\W*frame\s*(\d{1,9})\s*\(\s*([\d.,]{1,15})\s*ms\s*\)", re.IGNORECASE)
 _ACROSS, _ALONG = 5.08e-3, 7.62e-3  # Size of a cell in m across and along the plate

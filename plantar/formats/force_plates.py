@@ -98,7 +98,6 @@ def feet_of_plates(
 
 
 def _zeroed(plate: Plate, rate: float, warnings: list[str]) -> Plate:
-    """Plate with zero load when empty and positive load under a foot."""
     vertical = plate.force[:, 2]
     empty = _empty_frames(vertical, rate)
     force, moment, free = plate.force, plate.moment, plate.free
@@ -264,7 +263,6 @@ def _weights(
 
 
 def _foot(side: Side, plates: Sequence[Plate], masks: Sequence[NDArray[np.bool_]]) -> FootRecording:
-    """One foot from its frames on plates: sum, and load-weighted CoP."""
     known = [p for p, mask in zip(plates, masks, strict=True) if mask.any()]
     own = [mask for mask in masks if mask.any()]
     force = np.sum([np.where(m[:, None], np.nan_to_num(p.force), 0.0) for p, m in zip(known, own, strict=True)], axis=0)

@@ -67,7 +67,6 @@ def _columns(frame: Any) -> tuple[np.ndarray[Any, Any], list[str]]:
 
 
 def _numbers(column: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-    """Column (n,) as numbers: dates and durations in s, NaN for no number."""
     if column.dtype.kind in "mM":
         return (column - column[:1]) / np.timedelta64(1, "s") if len(column) else column.astype(float)
     if column.dtype.kind in "iufb":

@@ -195,7 +195,6 @@ def _layout(
 def _device_cop(
     columns: dict[str, tuple[int, str]], table: NDArray[np.float64], size: int | None, side: Side
 ) -> NDArray[np.float64] | None:
-    """Device's CoP, from insole shares to m in the sole frame."""
     if "center of pressure x" not in columns or "center of pressure y" not in columns:
         return None
     along, across = (table[:, columns[f"center of pressure {axis}"][0]] for axis in "xy")

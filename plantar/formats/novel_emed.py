@@ -253,13 +253,8 @@ def _sensor_size(facts: dict[str, str], warnings: list[str]) -> tuple[float, flo
 
 
 def _unit(
-    options: ReadOptions,
-    pressure: NDArray[np.float64],
-    stated: NDArray[np.float64],
-    area: float,
-    warnings: list[str],
+    options: ReadOptions, pressure: NDArray[np.float64], stated: NDArray[np.float64], area: float, warnings: list[str]
 ) -> Unit:
-    """Table unit: of the options, or by the file's forces."""
     if options.unit is not None:
         unit = find_unit(options.unit)
         if unit is None or unit.kind == "force":

@@ -180,7 +180,6 @@ def _plain_frames(block: list[str], delimiter: str | None, cells: int) -> NDArra
 
 
 def _damaged_frames(block: list[str], delimiter: str | None, cells: int) -> NDArray[np.float64]:
-    """Numbers (lines, 1 + cells); NaN in lines without as many finite numbers."""
     out = np.full((len(block), 1 + cells), np.nan)
     for i, line in enumerate(block):
         row, _ = row_of_numbers(line.rstrip(f"{delimiter or ' '}\n").split(delimiter))

@@ -126,7 +126,6 @@ def _found(
     markers: Mapping[Side, NDArray[np.float64]] | None,
     events: Mapping[Side, StatedEvents] | None,
 ) -> tuple[Sequence[Side | None], str]:
-    """Feet by the first evidence, and its name."""
     placed = all(p.placed for p in plates)
     found = [_by_markers(plates[c.plate], c, markers) if placed else None for c in contacts]
     if any(found):
@@ -195,7 +194,6 @@ def _by_markers(plate: Plate, contact: PlateContact, markers: Mapping[Side, NDAr
 
 
 def _by_events(contact: PlateContact, rate: float, events: Mapping[Side, StatedEvents] | None) -> Side | None:
-    """Foot with the stated heel strike nearest a contact's begin."""
     away = {
         side: float(np.abs(own.heel_strikes - contact.begin / rate).min())
         for side, own in (events or {}).items()

@@ -97,7 +97,6 @@ def _at_times(
     series: dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]],
     warnings: list[str],
 ) -> list[tuple[Side, NDArray[np.float64]]]:
-    """Each foot's values at stamps (n,), from its own times and values."""
     out = []
     for side, (own, values) in series.items():
         if len(own) != len(stamps) or np.abs(own - stamps).max() > 1e-6:

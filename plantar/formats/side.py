@@ -132,7 +132,6 @@ def _usual(time: NDArray[np.float64]) -> float:
 def _without_ends(
     time: NDArray[np.float64], alone: NDArray[np.float64], others: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Times (n,) of a foot within a shift of the other's."""
     most = _SHIFT * _usual(time)
     low = others[0] if 0.0 < others[0] - time[0] <= most else -np.inf
     high = others[-1] if 0.0 < time[-1] - others[-1] <= most else np.inf
@@ -151,7 +150,6 @@ def _covered(wanted: NDArray[np.float64], time: NDArray[np.float64]) -> NDArray[
 def _at_times(
     wanted: NDArray[np.float64], time: NDArray[np.float64], values: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Values (m, k) at wanted times (m,), linear between (n, k) of times (n,); NaN in gaps."""
     out = np.column_stack([np.interp(wanted, time, column) for column in values.T])
     out[~_covered(wanted, time)] = np.nan
     return out

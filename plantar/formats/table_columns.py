@@ -155,7 +155,6 @@ def _side_by_side(
 
 
 def _taken(table: NDArray[np.float64], columns: list[int]) -> NDArray[np.float64]:
-    """Some columns of a table, uncopied if adjacent."""
     if columns == list(range(columns[0], columns[0] + len(columns))):
         return table[:, columns[0] : columns[0] + len(columns)]
     return table[:, columns]

@@ -83,7 +83,6 @@ def feet_of_forces(
 
 
 def _by_plate(columns: Mapping[int, Heading]) -> dict[_Key, dict[str, dict[str, int]]]:
-    """Columns of each plate or foot, by quantity and axis."""
     groups: dict[_Key, dict[str, dict[str, int]]] = {}
     for i, h in columns.items():
         if h.quantity in ("force", "cop", "moment", "place"):

@@ -139,7 +139,6 @@ def _wider_names(above: str, rows: Sequence[str], width: int) -> tuple[list[str]
 
 
 def _is_cell(text: str) -> bool:
-    """Whether a cell holds a number, blank, foot name, or time of day."""
     if number(text) is not None or not text.strip() or seconds_of_time(text[:40]) is not None:
         return True
     stripped = text.strip(' "').lower()

@@ -28,12 +28,7 @@ from plantar.formats.text import (
 )
 from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.recordings.frame_table import FrameTable, blocks_of_frames
-from plantar.recordings.pressure_recording import (
-    Kind,
-    PressureRecording,
-    possible_rate,
-    sampling,
-)
+from plantar.recordings.pressure_recording import Kind, PressureRecording, possible_rate, sampling
 
 _KEY = re.compile(r"\s*\"?([A-Z][A-Z0-9_]+)\"?[\s,;:]*(.*)$")
 _FRAME = re.compile(r"\s*\"?frame\s*[,;:]?\s*(\d+)", re.IGNORECASE)
@@ -187,7 +182,6 @@ def _shape(header: dict[str, str], rows: int | None, bodies: list[list[str]]) ->
 
 
 def _matrix(body: list[str], delimiter: str | None, rows: int, columns: int) -> tuple[NDArray[np.float64], int]:
-    """Whole matrix (rows, columns), and its count of cells neither number nor "B"."""
     values = _fast(body, delimiter, rows, columns)
     if values is not None:
         return values, 0
@@ -202,7 +196,6 @@ def _matrix(body: list[str], delimiter: str | None, rows: int, columns: int) -> 
 
 
 def _fast(body: list[str], delimiter: str | None, rows: int, columns: int) -> NDArray[np.float64] | None:
-    """Whole matrix at once; None where anything is odd."""
     if delimiter is None or len(body) != rows:
         return None
     text = "\n".join(body)

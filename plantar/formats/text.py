@@ -37,8 +37,6 @@ def open_text(path: Path) -> TextIO:
 
 
 class _Lines(io.BufferedReader):
-    """Bytes of limited lines."""
-
     _without_end = 0
 
     def read1(self, size: int = -1, /) -> bytes:

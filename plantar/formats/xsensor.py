@@ -17,15 +17,7 @@ from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import foot_of_matrix, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
-from plantar.formats.text import (
-    cells_of_row,
-    head_text,
-    number,
-    number_in,
-    open_text,
-    row_of_numbers,
-    seconds_of_clock,
-)
+from plantar.formats.text import cells_of_row, head_text, number, number_in, open_text, row_of_numbers, seconds_of_clock
 from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import FrameTable
@@ -91,8 +83,6 @@ class _Sensor:
 
 @dataclass
 class _Scan:
-    """Lines so far, and the matrix at hand."""
-
     file_size: int
     facts: dict[str, str] = field(default_factory=dict)
     clock: list[float | None] = field(default_factory=list)
@@ -218,7 +208,6 @@ def _scan(stream: TextIO, file_size: int) -> _Scan:
 
 
 def _delimiter(text: str, before: str) -> str:
-    """Delimiter, or that of the line before."""
     if ";" in text and "," not in text.split(";")[0]:
         return ";"
     return "\t" if "\t" in text else "," if "," in text else before
@@ -336,12 +325,7 @@ def _sides(sensors: dict[str, _Sensor], options: ReadOptions, warnings: list[str
 
 
 def _cell(
-    facts: dict[str, str],
-    sensor: _Sensor,
-    values: NDArray[np.float64],
-    unit: Unit,
-    side: Side,
-    warnings: list[str],
+    facts: dict[str, str], sensor: _Sensor, values: NDArray[np.float64], unit: Unit, side: Side, warnings: list[str]
 ) -> tuple[float, float]:
     sides: list[float] = []
     for name in ("sensel height", "sensel width"):

@@ -160,7 +160,6 @@ def _xyz(values: Iterable[float], names: str = "xyzw") -> dict[str, float]:
 
 
 def _primitive(kind: str, colour: Numbers, **fields: Any) -> Message:
-    """SceneEntity with a primitive of a kind, the name of its list."""
     return _classes()["foxglove.SceneEntity"](**{kind: [{**fields, "color": _xyz(colour, "rgba")}]})
 
 

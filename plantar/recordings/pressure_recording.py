@@ -260,7 +260,6 @@ def _checked_times(
 
 
 def _begun_again(time: NDArray[np.float64], rate: float) -> str:
-    """Note where times (n,) jump back by a second or more."""
     known = np.flatnonzero(np.isfinite(time))
     steps = np.diff(time[known])
     back = np.flatnonzero(steps < -max(1.0, _BEGUN / rate))

@@ -103,8 +103,6 @@ class Channel(Generic[_Message]):
 
 
 class _NumbersChannel(Channel[NDArray[np.float64]]):
-    """Topic of `width` numbers a message, copied."""
-
     def __init__(self, recorder: "Recorder", number: int, topic: str, width: int) -> None:
         super().__init__(recorder, number, topic, _as_cdr)
         self._width = width

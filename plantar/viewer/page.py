@@ -80,7 +80,6 @@ def view_text(written: Mapping[str, Any]) -> str:
 
 
 def _pieces(walks: Sequence[Walk]) -> Iterator[str]:
-    """Page in pieces: an hour of measured soles is large."""
     parts = {
         "TITLE": html.escape(" and ".join(walk.name for walk in walks)),
         "STYLE": _asset("view.css"),
@@ -113,7 +112,6 @@ def _three() -> str:
 
 
 def _view(number: int, walk: Walk, alone: bool) -> str:
-    """Page's part for a walk; the page's title names a single one."""
     name = html.escape(walk.name)
     warnings = "".join(f"<li>{html.escape(line)}</li>" for line in walk.warnings)
     lines = "".join(

@@ -209,7 +209,6 @@ class _Drawn:
         self.events.append(Event(time, line.message[:_LONGEST_LINE], names.get(line.level, "info")))
 
     def _counted(self, found: list[Entity]) -> list[Entity]:
-        """Entities, as far as the page has room."""
         count = sum(1 + len(shape.points) + len(shape.indices) // 3 for e in found for shape in e.shapes)
         if self._shapes + count > _MOST_SHAPES:
             self._dropped += 1
@@ -219,8 +218,6 @@ class _Drawn:
 
 
 class _Shown:
-    """Second reading: values at each shown time."""
-
     def __init__(self, drawn: _Drawn, layouts: Mapping[Side, SoleLayout], time: NDArray[np.float64]) -> None:
         n = len(time)
         self._damaged = 0
@@ -283,7 +280,6 @@ class _Shown:
         self._latest["/scene/balance"].take(time, lambda: message)
 
     def _keep_balance(self, rows: slice, message: bytes) -> None:
-        """ZMP and support polygon; absent without colour."""
         try:
             found = entities(message)
         except ValueError:
@@ -309,7 +305,6 @@ class _Shown:
 
 
 def _span(fields: Fields, wanted: str) -> tuple[int, int] | None:
-    """Place of a field's numbers in a message, or None."""
     start = 0
     for name, width in fields or ():
         if name == wanted:

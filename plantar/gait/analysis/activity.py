@@ -148,7 +148,6 @@ def _without_heel_strike(feet: Mapping[Side, FootGait], landing: float) -> Activ
 
 
 def _by_times(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity:
-    """Activity by times on the ground; of all steps where none is in the means."""
     steps = [step for gait in feet.values() for step in gait.used or gait.steps]
     flights = [v for step in steps if np.isfinite(v := step["flight_time_s"])]
     stances = [v for step in steps if np.isfinite(v := step["stance_percent"])]

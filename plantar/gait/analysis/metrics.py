@@ -139,7 +139,6 @@ def _lowest(gait: FootGait) -> str:
 
 
 def _sway(recording: PressureRecording, gait: FootGait, standing: bool) -> dict[str, float] | None:
-    """Sway of a foot's CoP in standing and its load share, else None."""
     if not standing:
         return None
     load = {side: float(np.nanmean(foot.vertical_force)) for side, foot in recording.feet.items()}
@@ -203,7 +202,6 @@ def _step(step: Step, named: Callable[[str], str]) -> dict[str, Any]:
 
 
 def _events(gait: FootGait, complete: bool) -> list[dict[str, float | None]]:
-    """Heel strike and toe off in s of complete contacts, or of the others."""
     return [{"heel_strike_s": c.heel_strike, "toe_off_s": c.toe_off} for c in gait.contacts if c.complete == complete]
 
 

@@ -256,12 +256,10 @@ def _doubts(recording: PressureRecording, gait: FootGait) -> list[str]:
 
 
 def _release_share(levels: Levels) -> float:
-    """Heel strike level as a share of the force range."""
     return (levels.release - levels.rest) / (levels.peak - levels.rest)
 
 
 def _travel_of_steps(gait: FootGait) -> list[float]:
-    """Forward travel in m of the CoP in complete steps with 4 known frames or more."""
     if gait.cop is None:
         return []
     ahead = [gait.cop[c.begin : c.end, 0] for c in gait.contacts if c.complete]

@@ -86,10 +86,7 @@ def as_data_frame(columns: Mapping[str, NDArray[Any]]) -> Any:
 
 
 def write_analysis(
-    analysis: Analysis,
-    folder: Path,
-    progress: Callable[[float, str], None] | None = None,
-    figures: bool = True,
+    analysis: Analysis, folder: Path, progress: Callable[[float, str], None] | None = None, figures: bool = True
 ) -> None:
     """Write an analysis' metrics.json, steps.csv and regions.csv into a folder; with figures these and two pages.
 

@@ -97,7 +97,6 @@ def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]
 
 
 def _mean(feet: Mapping[Side, FootGait], key: str) -> float | None:
-    """Mean of a measure over all feet's used steps, or None."""
     return spread([value for gait in feet.values() for value in gait.columns.get(key, ())]).mean
 
 

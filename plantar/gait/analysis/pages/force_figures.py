@@ -56,7 +56,6 @@ def figure_force(recording: PressureRecording, feet: Mapping[Side, FootGait]) ->
 
 
 def _draw_events(panel: Any, gait: FootGait, levels: Levels) -> None:
-    """Draw event levels as lines, each event as a mark."""
     for level in sorted({levels.release, levels.lift}):
         name = "event level" if level == levels.release else None
         panel.axhline(level, color=COLOURS["reference"], linewidth=0.8, linestyle="--", label=name)

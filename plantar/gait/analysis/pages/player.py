@@ -76,12 +76,10 @@ def _frames(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> NDAr
 
 
 def _highest(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64]) -> float:
-    """Largest value in some frames of a foot, in the shown unit."""
     return float(_shown(recording, gait, np.nan_to_num(gait.foot.force[chosen])).max(initial=0.0))
 
 
 def _shown(recording: PressureRecording, gait: FootGait, force: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Counts, or pressure in kPa, of forces (n, k)."""
     assert gait.foot.layout is not None
     return force if recording.raw else force / gait.foot.layout.areas / 1e3
 

@@ -27,10 +27,7 @@ _GAIT = (
 
 
 def report_page(
-    metrics: Mapping[str, Any],
-    figures: Sequence[tuple[Path, str]],
-    title: str,
-    player: Mapping[str, Any] | None = None,
+    metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], title: str, player: Mapping[str, Any] | None = None
 ) -> str:
     """Returns page of one recording as HTML without other files or network.
 
@@ -201,7 +198,6 @@ def _mass(metrics: Mapping[str, Any]) -> str:
 
 
 def _size(feet: Mapping[str, Mapping[str, Any]]) -> str:
-    """Extent, cells and layout of each sole; listed once if equal."""
     sizes = {
         side: f"{1e3 * foot['length_m']:.0f} x {1e3 * foot['width_m']:.0f} mm, {foot['cells']} cells ({foot['layout']})"
         for side, foot in feet.items()

@@ -55,7 +55,6 @@ def _panels(shown: Mapping[Side, _Cells], extra: float) -> tuple[Any, Any]:
 def _draw_pictures(
     figure: Any, axes: Any, panels: Sequence[tuple[str, FootGait, _Cells]], what: str, raw: bool
 ) -> None:
-    """Draw feet's maximum pressure pictures on one scale, each under a title."""
     factor = 1.0 if raw else 1e-3
     pictures = [gait.picture[cells.chosen] * factor for _, gait, cells in panels if gait.picture is not None]
     highest = max(float(values.max()) for values in pictures)

@@ -110,7 +110,6 @@ def _with_quiet_ends(
 
 
 def _rotation(forward: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rotation (2, 2) of a direction to x."""
     return np.array([[forward[0], forward[1]], [-forward[1], forward[0]]])
 
 

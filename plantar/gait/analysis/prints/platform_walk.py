@@ -225,7 +225,6 @@ def _centroid(load: PlatformLoad, cells: PrintCells) -> NDArray[np.float64]:
 
 
 def _path(load: PlatformLoad, cells: PrintCells) -> NDArray[np.float64]:
-    """Displacement (2,) of the CoP in a contact."""
     part = load.force[cells.begin : cells.end][:, cells.cells]
     total = part.sum(axis=1)
     loaded = total > 0.02 * total.max()
@@ -263,7 +262,6 @@ def _mean_where(chosen: NDArray[np.bool_], values: NDArray[np.float64], weights:
 
 
 def _hallux_offset(print_: Footprint, trunk: float) -> float:
-    """Toes' load medial of the ball (else trunk), as share of length."""
     u, v = print_.centres.T / print_.length
     front, ball = u > _TOES, (u > _BALL[0]) & (u < _BALL[1])
     if not front.any():

@@ -79,7 +79,6 @@ def resting_level(force: NDArray[np.float64], rate: float) -> RestingLevel | Non
 
 
 def _usual_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None:
-    """Level of stretches of ten or five strides."""
     n = len(force)
     tried = []
     for window in _WINDOWS:
@@ -197,7 +196,6 @@ def _frames(mask: NDArray[np.bool_]) -> NDArray[np.int64]:
 
 
 def _in_swing(foot: FootRecording, frames: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Mean reading (k,) of each cell in some frames; 0 if none measured."""
     part = foot.force[frames]
     let_go(foot.force)
     known = np.isfinite(part)
@@ -247,7 +245,6 @@ def _per_stretch(rest: RestingLevel) -> int:
 
 
 def _hot_cells(foot: FootRecording, rest: RestingLevel) -> NDArray[np.int64]:
-    """Cells (k,) that read in swing more than a share of their load and their threshold."""
     if foot.force.shape[1] == 0:
         return np.zeros(0, dtype=np.int64)
     air = _in_swing(foot, _frames(rest.swing))

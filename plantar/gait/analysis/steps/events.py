@@ -152,7 +152,6 @@ def smoothed(force: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _peak_above_noise(measured: NDArray[np.float64], smooth: NDArray[np.float64]) -> float | None:
-    """Robust peak in N of a force and its smoothed course; None if just noise."""
     top = float(smooth.max())
     if not top > 0.0:
         return None
@@ -173,7 +172,6 @@ def _peak_of_contacts(smooth: NDArray[np.float64], floor: float) -> float:
 def _rest_and_noise(
     force: NDArray[np.float64], smooth: NDArray[np.float64], peak: float, contact: float, kind: Kind
 ) -> tuple[float, float]:
-    """Swing load of a foot and its standard deviation, in N."""
     rest = float(np.percentile(smooth, 5.0))
     if rest > 0.3 * peak or kind == "platform":  # never off the ground, or nothing rests on it when it is
         rest = 0.0
@@ -243,11 +241,7 @@ def measured_spans(time: NDArray[np.float64], force: NDArray[np.float64]) -> lis
 
 
 def _contacts_of_span(
-    time: NDArray[np.float64],
-    force: NDArray[np.float64],
-    levels: Levels,
-    offset: int,
-    minimum_stance: float,
+    time: NDArray[np.float64], force: NDArray[np.float64], levels: Levels, offset: int, minimum_stance: float
 ) -> list[Contact]:
     """Contacts in frames without a long gap; `offset` is the first one's number."""
     found = [
@@ -258,10 +252,7 @@ def _contacts_of_span(
 
 
 def _merged(
-    time: NDArray[np.float64],
-    force: NDArray[np.float64],
-    levels: Levels,
-    spans: list[tuple[int, int]],
+    time: NDArray[np.float64], force: NDArray[np.float64], levels: Levels, spans: list[tuple[int, int]]
 ) -> list[tuple[int, int]]:
     """Spans reaching the contact level, merged where the foot stays on the ground between."""
     reaching = [k for k, (a, b) in enumerate(spans) if force[a:b].max() >= levels.contact]
@@ -279,7 +270,6 @@ def _merged(
 def _contact(
     time: NDArray[np.float64], force: NDArray[np.float64], levels: Levels, span: tuple[int, int], offset: int
 ) -> Contact:
-    """Contact of a span, with event times where not cut."""
     begin, end = span
     jump = 0.5 * (levels.peak - levels.rest)
     strike = _crossing(time, force, begin, levels.release, jump) if begin > 0 else None

@@ -128,7 +128,6 @@ def _odd(steps: Sequence[Step], raw: bool) -> list[str]:
 
 
 def _ends(odd: Sequence[str]) -> NDArray[np.bool_]:
-    """Odd steps at either end; none if over half of all."""
     bad = np.array([bool(text) for text in odd])
     ends = np.logical_and.accumulate(bad) | np.logical_and.accumulate(bad[::-1])[::-1]
     return ends if ends.sum() <= 0.5 * len(ends) else np.zeros(len(ends), dtype=bool)

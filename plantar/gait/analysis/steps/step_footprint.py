@@ -47,7 +47,6 @@ def _highest_of_steps(recording: PressureRecording, gait: FootGait, loads: StepL
 def _with_regions(
     print_: Footprint, loaded: NDArray[np.bool_], of_sole: float | None = None
 ) -> tuple[Footprint, NDArray[np.int64]]:
-    """Footprint with its toe line, and region (k,) of each cell, -1 if not loaded."""
     print_ = with_toe_line(print_)
     region = np.full(len(loaded), -1)
     region[loaded] = regions_of(print_, of_sole)
@@ -55,11 +54,7 @@ def _with_regions(
 
 
 def footprint_of_step(
-    recording: PressureRecording,
-    gait: FootGait,
-    loads: StepLoads,
-    contact: Contact,
-    prints: Sequence[PlatformPrint],
+    recording: PressureRecording, gait: FootGait, loads: StepLoads, contact: Contact, prints: Sequence[PlatformPrint]
 ) -> tuple[Footprint | None, NDArray[np.int64] | None]:
     """Returns footprint and region (k,) of each cell (-1 for none) of a contact's step; None without geometry.
 

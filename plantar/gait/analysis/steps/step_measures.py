@@ -59,7 +59,6 @@ def _cop_measures(
     cop: NDArray[np.float64],
     print_: Footprint | None,
 ) -> dict[str, float]:
-    """CoP (m, 2) measures of one step: path, and margins to the edges."""
     kind, layout = recording.kind, gait.foot.layout
     # On a platform the foot's own axis is forward, in a sole the sole's.
     out = cop_measures(time, print_.in_foot(cop) if print_ is not None and kind == "platform" else cop)

@@ -34,7 +34,6 @@ def longest_stride(contacts: Sequence[Contact]) -> float:
 
 
 def _raw_strides(contacts: Sequence[Contact]) -> list[float]:
-    """Time in s between complete contacts, pauses included."""
     raw = _strides(contacts, whole=True)
     return raw if np.isfinite(raw).any() else _strides(contacts, whole=False)
 

@@ -166,7 +166,6 @@ def _least(values: NDArray[np.float64], width: int) -> NDArray[np.float64]:
 
 
 def _usual_range(course: NDArray[np.float64], rate: float) -> float:
-    """Median force range in stretches of some strides."""
     rows = min(max(1, round(_STRETCH * rate)), len(course))
     parts = course[: len(course) // rows * rows].reshape(-1, rows)
     low, high = np.percentile(parts, (3.0, 92.0), axis=1)

@@ -150,7 +150,6 @@ def run_study(
 def _others(
     root: Path, target: Path, participants: str | os.PathLike[str] | None, listed: set[str]
 ) -> list[Participation]:
-    """Files missing in the table with recordings' suffixes."""
     endings = tuple(s for f in formats().values() if f.name not in _SKIPPED_FORMATS for s in f.suffixes)
     apart = {target.resolve()} if target.exists() else set()
     table = Path(participants).resolve() if participants is not None else None
@@ -229,7 +228,6 @@ def _effect_rows(study: Study) -> list[dict[str, Any]]:
 
 
 def _names(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    """Columns of all rows in order, provenance last."""
     names: dict[str, None] = {}
     for row in rows:
         if not names.keys() >= row.keys():
