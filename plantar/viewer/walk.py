@@ -335,7 +335,6 @@ def _sole_poses(count: int, layouts: Mapping[Side, SoleLayout]) -> dict[str, NDA
 
 
 def _quaternions(turns: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Quaternions (n, 4), x, y, z, w, of rotations (n, 3, 3)."""
     # Of w, x, y and z the one that is largest is found first, and the others by it (Shepperd, 1978).
     xx, yy, zz = turns[:, 0, 0], turns[:, 1, 1], turns[:, 2, 2]
     skew = np.column_stack(

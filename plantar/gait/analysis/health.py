@@ -292,7 +292,6 @@ def inward_of_toes(gait: FootGait) -> float:
 def _inward(
     y: NDArray[np.float64], areas: NDArray[np.float64], pressure: NDArray[np.float64], part: NDArray[np.bool_]
 ) -> float:
-    """Distance in m of some cells' load inside of their middle; NaN without load."""
     load = pressure[part] * areas[part]
     if not load.sum() > 0.0:
         return float("nan")

@@ -83,7 +83,6 @@ def _forces(recording: PressureRecording, gait: FootGait, middle: Mapping[str, f
 
 
 def _fall_beside_peak(gait: FootGait) -> float:
-    """Mean fall in N from the largest frame to its neighbours."""
     falls = []
     for step in gait.used[:50]:
         force = gait.foot.vertical_force[step.contact.begin : step.contact.end]

@@ -1,7 +1,9 @@
 """Gait parameters: measures of each step (docs/metrics.md)."""
 
+from bisect import bisect
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import accumulate
 from typing import cast
 
 import numpy as np
@@ -11,6 +13,7 @@ from plantar.errors import InputError
 from plantar.gait.analysis.health import unequal_strides
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.prints.platform import PlatformPrint
+from plantar.gait.analysis.prints.platform_walk import PAUSE
 from plantar.gait.analysis.prints.regions import REGIONS
 from plantar.gait.analysis.steps.baseline import resting_level
 from plantar.gait.analysis.steps.cop_path import averaged_path
@@ -30,6 +33,7 @@ from plantar.sides import Side, other_side
 
 # Time in s over which the centre of pressure is averaged, weighted by force: a path of noise has no length.
 COP_WINDOW = 0.05
+_Events = Mapping[Side, tuple[Levels | None, list[Contact]]]
 _CARRIED = 0.2  # Share of a foot's peak that shoes and creases do not press in swing
 # How many times its usual height the level of heel strikes is from which events move by more than 20 and 35 ms.
 _RAISED = 1.4
@@ -101,14 +105,15 @@ def _check_clock(recording: PressureRecording) -> None:
 
 
 def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint], stated: bool) -> dict[Side, FootGait]:
-    events = {side: _events_of(recording, side, stated) for side in recording.feet}
+    events = _by_passes(recording, prints, {side: _events_of(recording, side, stated) for side in recording.feet})
     feet = {side: analyse_foot(recording, side, prints, stated, events) for side in recording.feet}
-    places = {side: [_place(recording, gait, step, prints) for step in gait.steps] for side, gait in feet.items()}
+    placed = {side: [c for c in gait.contacts if c.complete or c.cut] for side, gait in feet.items()}
+    places = {side: [_place(recording, gait, c, prints) for c in placed[side]] for side, gait in feet.items()}
     known = {side: [p for p in own if p is not None] for side, own in places.items()}
     if known != places:  # a step without a place would make a stride longer
         return feet
-    geometry = step_geometry(known)
-    return {side: _with_measures(gait, geometry[side]) for side, gait in feet.items()}
+    rows = {s: zip(placed[s], own, strict=True) for s, own in step_geometry(known).items()}
+    return {side: _with_measures(gait, [row for c, row in rows[side] if c.complete]) for side, gait in feet.items()}
 
 
 def _with_measures(gait: FootGait, extra: Sequence[Mapping[str, float]]) -> FootGait:
@@ -116,12 +121,28 @@ def _with_measures(gait: FootGait, extra: Sequence[Mapping[str, float]]) -> Foot
     return replace(gait, steps=tuple(steps))
 
 
+def _by_passes(recording: PressureRecording, prints: Sequence[PlatformPrint], events: _Events) -> _Events:
+    """Events whose contacts know their pass over a platform or plates, and whether the platform's edge cuts them."""
+    if recording.kind != "platform" and recording.metadata.get("sees_every_step", True):
+        return events
+    spans = sorted((recording.time[c.begin], recording.time[c.end - 1]) for _, own in events.values() for c in own)
+    ends = [-np.inf, *accumulate((end for _, end in spans), max)]
+    begins = [begin for (begin, _), last in zip(spans, ends, strict=False) if begin - last > PAUSE]
+
+    def of_pass(contact: Contact, side: Side) -> Contact:
+        found = print_of_contact(contact, side, prints)
+        number = bisect(begins, recording.time[contact.begin])
+        return replace(contact, walk=number, cut=found is not None and found.cut)
+
+    return {side: (levels, [of_pass(c, side) for c in own]) for side, (levels, own) in events.items()}
+
+
 def analyse_foot(
     recording: PressureRecording,
     side: Side,
     prints: Sequence[PlatformPrint] = (),
     stated: bool = False,
-    events: Mapping[Side, tuple[Levels | None, list[Contact]]] | None = None,
+    events: _Events | None = None,
 ) -> FootGait:
     """Returns gait of a side's foot of a recording; measures of both feet use the other's contacts.
 
@@ -168,9 +189,7 @@ def _with_events(
     return FootGait(foot, levels, tuple(contacts), (), cop, cell_threshold(recording, foot, contacts))
 
 
-def _other_foot(
-    recording: PressureRecording, side: Side, events: Mapping[Side, tuple[Levels | None, list[Contact]]]
-) -> OtherFoot | None:
+def _other_foot(recording: PressureRecording, side: Side, events: _Events) -> OtherFoot | None:
     other = other_side(side)
     if other not in recording.feet or not recording.metadata.get("sees_every_step", True):
         return None  # plates in a walkway do not see what the other foot does next to them
@@ -208,17 +227,20 @@ def _regions(
     return region_measures(load, region, list(REGIONS), lasts)
 
 
-def _place(recording: PressureRecording, gait: FootGait, step: Step, prints: Sequence[PlatformPrint]) -> Place | None:
-    placement = gait.foot.placement
+def _place(
+    recording: PressureRecording, gait: FootGait, contact: Contact, prints: Sequence[PlatformPrint]
+) -> Place | None:
+    if contact.cut:
+        return Place(float(recording.time[contact.begin]), np.full(2, np.nan), np.full(2, np.nan), walk=contact.walk)
+    step, placement = next(s for s in gait.steps if s.contact is contact), gait.foot.placement
     if placement is not None:
-        middle = (step.contact.begin + step.contact.end) // 2
-        x, y, turn = placement[middle]
+        x, y, turn = placement[(contact.begin + contact.end) // 2]
         return Place(step.heel_strike_s, np.array([x, y]), np.array([np.cos(turn), np.sin(turn)]))
     if recording.kind != "platform" or step.footprint is None:
         return None
-    of_step = print_of_contact(step.contact, step.side, prints)
+    of_step = print_of_contact(contact, step.side, prints)
     forward = None if of_step is None else of_step.forward
-    return Place(step.heel_strike_s, step.footprint.origin, step.footprint.axis, forward)
+    return Place(step.heel_strike_s, step.footprint.origin, step.footprint.axis, forward, contact.walk)
 
 
 def _doubts(recording: PressureRecording, gait: FootGait) -> list[str]:

@@ -173,8 +173,6 @@ def _csv(feet: dict[Side, dict[str, Any]]) -> str:
 
 @dataclass(frozen=True)
 class _Scale:
-    """Scale of lengths in the figure: mm if known, else pixels."""
-
     name: str
     of_pixel: float
     of_length: float

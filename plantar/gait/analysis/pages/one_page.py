@@ -56,7 +56,6 @@ def one_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], ti
 
 
 def _table(metrics: Mapping[str, Any]) -> str:
-    """Main measures of both feet with a step's error, and norm if any."""
     feet, gait, raw = metrics["feet"], metrics["gait"], bool(metrics.get("raw"))
     norms = metrics["kind"] != "robot"
     rows = []
@@ -93,7 +92,6 @@ def _with_error(spread: Mapping[str, Any] | None, factor: float) -> str:
 
 
 def _band(key: str, means: Mapping[str, float], factor: float) -> str:
-    """Norm as a band with a mark a foot; empty without norm."""
     if key not in NORMS:
         return ""
     low, high = NORMS[key]

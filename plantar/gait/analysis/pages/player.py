@@ -85,7 +85,6 @@ def _shown(recording: PressureRecording, gait: FootGait, force: NDArray[np.float
 
 
 def _foot(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64], most: float) -> dict[str, Any]:
-    """Player data of one foot; the largest value of both is the colours' upper end."""
     layout = gait.foot.layout
     assert layout is not None
     force = np.nan_to_num(gait.foot.force[chosen])

@@ -1,5 +1,6 @@
 """Platforms and walkways: footprints, their feet, and the walking direction."""
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import cast
@@ -7,11 +8,16 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.errors import FormatError
+from plantar.gait.analysis.prints.footprint import Footprint
 from plantar.gait.analysis.prints.platform_walk import (
+    LONGEST,
     PlatformLoad,
     PrintCells,
     cells_of_prints,
     direction_of_walk,
+    extent_of,
+    footprint_on,
     passes_over,
     sides_of_walk,
 )
@@ -19,6 +25,8 @@ from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 from plantar.sides import SIDES, Side
 
+# Cells by which a footprint at the edge is shorter than the others, and the share of their width, where it is cut off.
+_SHORTER, _NARROWER = 1.5, 0.8
 _TRIGGER = 0.25  # Share of the peak up to which load in the first and last frame is the beginning and end of a contact
 
 
@@ -32,6 +40,7 @@ class PlatformPrint:
         end: Frame after the last.
         cells: Platform indices (n,).
         forward: Walking direction (2,) in the platform's frame.
+        cut: Whether cut off by the platform's edge.
     """
 
     side: Side
@@ -39,6 +48,7 @@ class PlatformPrint:
     end: int
     cells: NDArray[np.int64]
     forward: NDArray[np.float64]
+    cut: bool = False
 
 
 def separated_feet(recording: PressureRecording) -> tuple[PressureRecording, tuple[PlatformPrint, ...]]:
@@ -85,11 +95,47 @@ def _prints(
 ) -> tuple[list[PlatformPrint], list[str]]:
     notes: list[str] = []
     out: list[PlatformPrint] = []
+    shapes: list[Footprint] = []
     for walk in passes_over(load, cells):
+        longest = max(extent_of(load.layout, p.cells)[1] for p in walk.prints)
+        three = any(
+            load.time[c.begin] < load.time[a.end - 1] for a, c in zip(walk.prints, walk.prints[2:], strict=False)
+        )
+        if longest > LONGEST or three:
+            what = f"a footprint of {longest:.2g} m" if longest > LONGEST else "three footprints at once"
+            when = f"{load.time[walk.prints[0].begin]:.1f} s"
+            notes.append(f"{what}: two people, or feet that touch? The pass over the platform at {when} is left out")
+            continue
         forward = direction_of_walk(walk, notes)
         sides = zip(walk.prints, sides_of_walk(walk, forward, stated, notes), strict=True)
         out += [PlatformPrint(side, own.begin, own.end, own.cells, forward) for own, side in sides]
-    return out, list(dict.fromkeys(notes))
+        shapes += [footprint_on(load, own, forward) for own in walk.prints]
+    if not out:
+        raise FormatError(f"{notes[0]}; allowed: one person, whose footprints lie apart")
+    return _with_cuts(load, out, shapes, notes), list(dict.fromkeys(notes))
+
+
+def _with_cuts(
+    load: PlatformLoad, prints: list[PlatformPrint], shapes: Sequence[Footprint], notes: list[str]
+) -> list[PlatformPrint]:
+    """Prints of shapes, marked where the edge cuts them off: shorter or narrower than those that lie inside."""
+    beside = np.array([len(near) for near in load.layout.neighbours])
+    at_edge = np.array([(beside[p.cells] < beside.max()).any() for p in prints])
+    sizes = np.array([(shape.length, shape.width) for shape in shapes])
+    if at_edge.all():
+        notes.append(
+            "no footprint lies inside the platform: its edge may cut them off, so that all of them is too small"
+        )
+        return prints
+    length, width = sizes[~at_edge].max(axis=0)
+    short = sizes[:, 0] < length - _SHORTER * np.sqrt(load.layout.areas.max())
+    cut = at_edge & (short | (sizes[:, 1] < _NARROWER * width))
+    for p, size in zip(itertools.compress(prints, cut), sizes[cut], strict=True):
+        notes.append(
+            f"the platform's edge cuts off the {p.side} footprint at {load.time[p.begin]:.1f} s ({size[0]:.2g} x "
+            f"{size[1]:.2g} m, others {length:.2g} x {width:.2g} m): it is no step, and no length is measured to it"
+        )
+    return [replace(p, cut=bool(c)) for p, c in zip(prints, cut, strict=True)]
 
 
 def _with_quiet_ends(

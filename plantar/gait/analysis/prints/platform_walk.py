@@ -7,6 +7,7 @@ larger than a foot are one footprint.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +17,10 @@ from plantar.gait.analysis.prints.joined import joined
 from plantar.layouts.layout import SoleLayout
 from plantar.sides import Side, other_side
 
-_LONGEST, _WIDEST = 0.36, 0.17  # Largest length and width in m of one footprint
+LONGEST, PAUSE = 0.36, 1.0
+"""Largest length in m of one footprint, and time in s without load that ends a pass over the platform."""
+
+_WIDEST = 0.17  # Largest width in m of one footprint
 _BREAK = 0.25  # Time in s without load after which a part of the platform is stepped on again
 # Time in s by which two pieces of one footprint may miss each other: heel and toes are not always joined by load.
 _SAME_TIME = 0.1
@@ -96,12 +100,21 @@ def cells_of_prints(load: PlatformLoad, threshold: float) -> list[PrintCells]:
 
 
 def _pieces(load: PlatformLoad, loaded: NDArray[np.bool_]) -> Iterator[_Piece]:
-    for cells in _components(load.layout, np.asarray(loaded.any(axis=0))):
-        frames = np.flatnonzero(loaded[:, cells].any(axis=1))
-        cuts = np.flatnonzero(np.diff(load.time[frames]) > _BREAK)
-        for a, b in zip([0, *(cuts + 1).tolist()], [*cuts.tolist(), len(frames) - 1], strict=True):
-            begin, end = int(frames[a]), int(frames[b]) + 1
-            yield _Piece(cells, begin, end, float(load.force[begin:end][:, cells].sum(axis=1).max()))
+    for first, after in _without_breaks(
+        load.time, np.asarray(loaded.any(axis=1))
+    ):  # a later pass loads the same cells again
+        part = loaded[first:after]
+        for cells in _components(load.layout, np.asarray(part.any(axis=0))):
+            for a, b in _without_breaks(load.time[first:after], np.asarray(part[:, cells].any(axis=1))):
+                highest = float(load.force[first + a : first + b][:, cells].sum(axis=1).max())
+                yield _Piece(cells, first + a, first + b, highest)
+
+
+def _without_breaks(time: NDArray[np.float64], loaded: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """First and end frames of loaded ones (n,), parted by breaks."""
+    frames = np.flatnonzero(loaded)
+    parts = np.split(frames, np.flatnonzero(np.diff(time[frames]) > _BREAK) + 1)
+    return [(int(part[0]), int(part[-1]) + 1) for part in parts if len(part)]
 
 
 def _components(layout: SoleLayout, active: NDArray[np.bool_]) -> list[list[int]]:
@@ -121,13 +134,18 @@ def _one_foot(load: PlatformLoad, group: PrintCells, piece: _Piece) -> bool:
     time = load.time
     if time[piece.begin] > time[group.end - 1] + _SAME_TIME or time[piece.end - 1] < time[group.begin] - _SAME_TIME:
         return False
-    points = load.layout.positions[[c for p in [*group.pieces, piece] for c in p.cells], :2]
-    values, vectors = np.linalg.eigh(np.cov(points.T) if len(points) > 2 else np.eye(2))
-    extent = np.ptp(points @ vectors[:, np.argsort(values)], axis=0)
-    return bool(extent[1] <= _LONGEST and extent[0] <= _WIDEST)
+    width, length = extent_of(load.layout, [c for p in [*group.pieces, piece] for c in p.cells])
+    return length <= LONGEST and width <= _WIDEST
 
 
-_PAUSE = 1.0  # Time in s without load that ends a pass over the platform
+def extent_of(layout: SoleLayout, cells: Sequence[int] | NDArray[np.int64]) -> tuple[float, float]:
+    """Returns width and length in m of a layout's cells along their main axes."""
+    points = layout.positions[cells, :2]
+    _, axes = np.linalg.eigh(np.cov(points.T) if len(points) > 2 else np.eye(2))
+    width, length = np.ptp(points @ axes, axis=0).tolist()
+    return width, length
+
+
 _ALIKE = 0.02  # Distance in m to the line of walking from which it separates left from right
 # Distance in m between the first and the last of three or more footprints from which they show the direction.
 _TRAVEL = 0.5
@@ -158,7 +176,7 @@ def passes_over(load: PlatformLoad, prints: Sequence[PrintCells]) -> list[Platfo
     """Returns platform passes of prints in order, separated by times without load."""
     passes: list[list[PrintCells]] = []
     for cells in prints:
-        if passes and load.time[cells.begin] - max(load.time[p.end - 1] for p in passes[-1]) < _PAUSE:
+        if passes and load.time[cells.begin] - max(load.time[p.end - 1] for p in passes[-1]) < PAUSE:
             passes[-1].append(cells)
         else:
             passes.append([cells])
@@ -187,7 +205,7 @@ def direction_of_walk(walk: PlatformWalk, notes: list[str]) -> NDArray[np.float6
 
 def _mean_axis(walk: PlatformWalk, forward: NDArray[np.float64]) -> NDArray[np.float64]:
     """Mean axis (2,) of whole footprints; `forward` of one."""
-    prints = [p for cells in walk.prints if (p := _footprint(walk.load, cells, forward)) is not None]
+    prints = [footprint_on(walk.load, cells, forward) for cells in walk.prints]
     whole = [p.axis for p in prints if p.length >= _WHOLE * max(q.length for q in prints)]
     mean = np.sum(whole, axis=0) if len(whole) > 1 else forward
     return np.asarray(mean / np.hypot(*mean))
@@ -242,19 +260,18 @@ def _line_of_walking(along: NDArray[np.float64], offset: NDArray[np.float64]) ->
 
 def _side_by_shape(load: PlatformLoad, cells: PrintCells, forward: NDArray[np.float64]) -> Side:
     """Side of a single footprint: a left foot's arch and hallux lie to the right."""
-    print_ = _footprint(load, cells, forward)
-    if print_ is None:
-        return "left"
+    print_ = footprint_on(load, cells, forward)
     u, v = print_.centres.T / print_.length  # of a right foot v runs to the left, which is medial
     trunk = _mean_where((u < _TRUNK[0]) | ((u > _TRUNK[1]) & (u < _BALL[1])), v, print_.areas)
     waist = _mean_where((u > _WAIST[0]) & (u < _WAIST[1]), v, print_.areas)
     return "right" if (trunk - waist) + 0.5 * _hallux_offset(print_, trunk) >= 0.0 else "left"
 
 
-def _footprint(load: PlatformLoad, cells: PrintCells, forward: NDArray[np.float64]) -> Footprint | None:
+def footprint_on(load: PlatformLoad, cells: PrintCells, forward: NDArray[np.float64]) -> Footprint:
+    """Returns footprint of cells with their load, taken as a right one that points `forward` (2,)."""
     highest = load.force[cells.begin : cells.end].max(axis=0)
     chosen = np.isin(np.arange(len(load.layout)), cells.cells) & (highest > 0.0)
-    return footprint_of_cells(load.layout, highest / load.layout.areas, chosen, "right", forward)
+    return cast(Footprint, footprint_of_cells(load.layout, highest / load.layout.areas, chosen, "right", forward))
 
 
 def _mean_where(chosen: NDArray[np.bool_], values: NDArray[np.float64], weights: NDArray[np.float64]) -> float:

@@ -99,6 +99,8 @@ class Contact:
         begin: First frame.
         end: Frame after the last.
         standing: Whether too long for a step.
+        walk: Number of the pass over a platform or plates, which no stride leaves.
+        cut: Whether a platform's edge cuts its footprint off.
     """
 
     heel_strike: float | None
@@ -106,11 +108,13 @@ class Contact:
     begin: int
     end: int
     standing: bool = False
+    walk: int = 0
+    cut: bool = False
 
     @property
     def complete(self) -> bool:
-        """Whether it is a step with both ends recorded."""
-        return self.heel_strike is not None and self.toe_off is not None and not self.standing
+        """Whether it is a step with both ends and the whole footprint recorded."""
+        return self.heel_strike is not None and self.toe_off is not None and not self.standing and not self.cut
 
 
 def force_levels(force: NDArray[np.float64], kind: Kind = "robot", lifted: bool = True) -> Levels | None:

@@ -58,7 +58,6 @@ def stated_beside_own(events: StatedEvents | None, gait: FootGait) -> dict[str, 
 
 
 def _difference(at: float, own: NDArray[np.float64]) -> float | None:
-    """Time in s from a stated event to the nearest found one; None where another's."""
     if len(own) == 0:
         return None
     nearest = float(own[np.argmin(np.abs(own - at))]) - at

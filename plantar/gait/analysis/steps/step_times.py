@@ -44,7 +44,7 @@ def _strides(contacts: Sequence[Contact], whole: bool) -> list[float]:
     for contact, after in zip_longest(contacts, contacts[1:]):
         if not contact.complete:
             continue
-        if after is None or after.heel_strike is None or (whole and not after.complete):
+        if after is None or after.heel_strike is None or after.walk != contact.walk or (whole and not after.complete):
             out.append(np.nan)
         else:
             out.append(after.heel_strike - cast(float, contact.heel_strike))
@@ -74,7 +74,7 @@ def time_measures(
         "swing_percent": 100.0 - share,
     }
     if others is not None:
-        last = None if previous is None else previous.heel_strike
+        last = None if previous is None or previous.walk != contact.walk else previous.heel_strike
         if last is not None and strike - last <= longest and others.was_measured(last, strike):
             between = others.strikes_between(last, strike)
             if len(between) == 1:

@@ -173,7 +173,6 @@ def _usual_range(course: NDArray[np.float64], rate: float) -> float:
 
 
 def _range(under: NDArray[np.float64]) -> float:
-    """Walk's force range above its level: 90th percentile in contact."""
     top = float(np.percentile(under, 98.0))
     return float(np.percentile(under[under >= 0.2 * top], 90.0)) if top > 0.0 else 0.0
 

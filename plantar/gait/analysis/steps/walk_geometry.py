@@ -21,12 +21,14 @@ class Place:
         heel: Back of the heel (2,) on the ground in m.
         axis: Foot direction (2,), heel to toes.
         forward: Walking direction (2,), if known apart from the steps.
+        walk: Number of the pass, which no length leaves.
     """
 
     time: float
     heel: NDArray[np.float64]
     axis: NDArray[np.float64]
     forward: NDArray[np.float64] | None = None
+    walk: int = 0
 
 
 def step_geometry(places: Mapping[Side, Sequence[Place]]) -> dict[Side, list[dict[str, float]]]:
@@ -63,7 +65,7 @@ def _step(side: Side, place: Place, before: Place | None, others: Sequence[Place
     left = np.array([-forward[1], forward[0]])
     outward = 1.0 if side == "left" else -1.0
     out["foot_progression_deg"] = outward * float(np.degrees(np.arctan2(place.axis @ left, place.axis @ forward)))
-    earlier = [o for o in others if o.time < place.time and place.time - o.time <= _LONGEST_STRIDE]
+    earlier = [o for o in others if 0.0 < place.time - o.time <= _LONGEST_STRIDE and o.walk == place.walk]
     if earlier and (before is None or earlier[-1].time > before.time):
         step = place.heel - earlier[-1].heel
         out["step_length_m"] = float(step @ forward)
@@ -72,8 +74,7 @@ def _step(side: Side, place: Place, before: Place | None, others: Sequence[Place
 
 
 def _stride(place: Place, after: Place) -> tuple[dict[str, float], NDArray[np.float64] | None]:
-    """Measures of the stride from a place, and its walking direction (2,)."""
-    if after.time - place.time > _LONGEST_STRIDE:
+    if after.time - place.time > _LONGEST_STRIDE or after.walk != place.walk:
         return {}, after.forward
     stride = after.heel - place.heel
     length = float(np.hypot(*stride))

@@ -256,7 +256,6 @@ def _independent_t(both: NDArray[np.float64], first: NDArray[np.float64]) -> NDA
 
 
 def _ratio(mean: NDArray[np.float64], error: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Mean over its error; without error, 0 or very large t."""
     least = 1e-12 * np.maximum(np.abs(mean), 1e-300)
     return np.asarray(np.where(mean == 0.0, 0.0, mean / np.maximum(error, least)))
 

@@ -1,10 +1,12 @@
 """Footprints on a walkway, told apart and measured where they were set."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from plantar.errors import FormatError
 from plantar.formats import detect_format
 from plantar.formats.recorded_layouts import grid_cells
 from plantar.gait.analysis.analyse import Analysis, analyse
@@ -151,3 +153,67 @@ def test_an_empty_platform_and_a_sole():
     assert analyse_feet(told, prints)["left"].steps == ()
     sole = PressureRecording(Path("x"), "x", 100.0, recording.time, {"left": empty})
     assert separated_feet(sole) == (sole, ())
+
+
+def trimmed(recording, begin, end):
+    """The part of a walkway between two distances in m."""
+    foot = recording.feet["left"]
+    along = foot.layout.positions[:, 0]
+    keep = (along > along.min() + begin) & (along < along.min() + end)
+    layout = grid_cells(np.ones((keep.sum() // 50, 50), dtype=bool), PITCH, PITCH, side="left", name="x", threshold=1e3)
+    return replace(recording, feet={"left": FootRecording("left", foot.force[:, keep].copy(), layout)})
+
+
+@pytest.mark.parametrize(("begin", "end", "steps"), [(0.12, 9.0, 3), (0.0, 0.05 + 3 * STEP + 0.16, 3)])
+def test_a_footprint_cut_off_by_the_edge_gives_no_length(begin, end, steps):
+    told, prints = separated_feet(trimmed(walkway(4)[0], begin, end))
+    assert [p.cut for p in prints].count(True) == 1
+    assert any("the platform's edge cuts off the" in w for w in told.warnings)
+    feet = analyse_feet(told, prints)
+    found = [step for gait in feet.values() for step in gait.steps]
+    assert len(found) == steps
+    for key, right in (("step_length_m", STEP), ("stride_length_m", 2 * STEP), ("foot_length_m", 0.25)):
+        known = [step[key] for step in found if np.isfinite(step[key])]
+        assert known == pytest.approx([right] * len(known), abs=PITCH)
+        assert known
+
+
+def test_a_single_footprint_at_the_edge_is_doubted():
+    told, prints = separated_feet(trimmed(walkway(1)[0], 0.12, 9.0))
+    assert not prints[0].cut
+    assert any("its edge may cut them off" in w for w in told.warnings)
+
+
+def passes(*shifts):
+    """Passes of three steps over one walkway, one after the other, each moved by cells forward and to the side."""
+    recording, _ = walkway(3)
+    foot, n = recording.feet["left"], len(recording.time)
+    force = foot.force.reshape(n, -1, 50)
+    moved = [np.roll(force, (-ahead, side), axis=(1, 2)).reshape(n, -1) for ahead, side in shifts]
+    feet: dict[Side, FootRecording] = {"left": FootRecording("left", np.concatenate(moved), foot.layout)}
+    return replace(recording, feet=feet, time=0.01 * np.arange(n * len(shifts)))
+
+
+def test_passes_over_the_same_cells_are_walks_of_their_own():
+    told, prints = separated_feet(passes((0, 0), (20, 6), (40, 12), (30, 10)))
+    feet = analyse_feet(told, prints)
+    assert {side: len(gait.steps) for side, gait in feet.items()} == {"left": 8, "right": 4}
+    for step in (step for gait in feet.values() for step in gait.steps):
+        assert step["foot_length_m"] == pytest.approx(0.25, abs=PITCH)
+        for key, right in (("step_length_m", STEP), ("stride_time_s", 2 * (STANCE - DOUBLE))):
+            assert np.isnan(step[key]) or step[key] == pytest.approx(right, abs=PITCH)
+
+
+@pytest.mark.parametrize(("apart", "text"), [((20, 0), "a footprint of 0.39 m"), ((0, 24), "three footprints at once")])
+def test_two_people_at_once_are_no_one(apart, text):
+    one, two = passes((0, 0), (0, 0)), passes(apart, apart)
+    force = one.feet["left"].force.copy()
+    half = len(force) // 2
+    force[half:] += two.feet["left"].force[half:]
+    both = replace(one, feet={"left": replace(one.feet["left"], force=force)})
+    told, prints = separated_feet(both)
+    assert len(prints) == 3
+    assert any(text in w and "The pass over the platform at 3.8 s is left out" in w for w in told.warnings)
+    late = replace(both, feet={"left": replace(one.feet["left"], force=force[half:])}, time=both.time[half:])
+    with pytest.raises(FormatError, match="one person, whose footprints lie apart"):
+        separated_feet(late)
