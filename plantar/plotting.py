@@ -34,7 +34,7 @@ _EDGES: dict[str, Any] = {"edgecolors": "#ffffff", "linewidths": 0.6}
 
 
 def new_figure(
-    width: float = 8.0, height: float = 5.0, rows: int = 1, columns: int = 1, **options: Any
+    width: float = 8.0, height: float = 5.0, rows: int = 1, columns: int = 1, *, grid: bool = False, **options: Any
 ) -> tuple[Any, Any]:
     """Make a figure with axes, without a display.
 
@@ -43,6 +43,7 @@ def new_figure(
         height: Height in inches.
         rows: Rows of axes.
         columns: Columns of axes.
+        grid: Draw the ticks' grid, faintly.
         options: Passed to `Figure.subplots`, e.g. `sharex=True` or `squeeze=False`.
 
     Returns:
@@ -52,6 +53,8 @@ def new_figure(
 
     figure = Figure(figsize=(width, height), layout="constrained", dpi=130)
     axes = figure.subplots(rows, columns, **options)
+    for axis in np.ravel(axes) if grid else ():
+        axis.grid(alpha=0.3)
     return figure, axes
 
 

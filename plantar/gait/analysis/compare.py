@@ -176,17 +176,15 @@ def _curves(a: Analysis, b: Analysis, pairs: Mapping[str, tuple[Side, Side]]) ->
     shown = {n: p for n, p in pairs.items() if a.feet[p[0]].used and b.feet[p[1]].used}
     if not shown:
         return None
-    figure, axes = new_figure(5.0 * len(shown), 3.6, columns=len(shown), sharey=True, squeeze=False)
+    figure, axes = new_figure(5.0 * len(shown), 3.6, columns=len(shown), grid=True, sharey=True, squeeze=False)
     for panel, (name, sides) in zip(axes[0], shown.items(), strict=True):
         for key, analysis, side, colour in (("A", a, sides[0], COLOURS["left"]), ("B", b, sides[1], COLOURS["cop"])):
             curves = stance_curves(analysis.recording, analysis.feet[side])
             name_of_mean = f"{key}, {side}: mean of {len(curves)}"
             panel.plot(STANCE, curves.mean(axis=0), color=colour, linewidth=1.8, label=name_of_mean)
             draw_sd(panel, curves, color=colour, alpha=0.2)
-        panel.set_title(f"{name} foot" if sides[0] == sides[1] else name)
-        panel.set_xlabel("stance (%)")
+        panel.set(title=f"{name} foot" if sides[0] == sides[1] else name, xlabel="stance (%)")
         panel.legend(fontsize=8, loc="lower center")
-        panel.grid(alpha=0.3)
     axes[0][0].set_ylabel(force_label(a.recording))
     return figure
 

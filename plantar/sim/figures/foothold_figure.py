@@ -41,8 +41,7 @@ class WalkPlane:
     def frame(self, axis: Any) -> None:
         """Set limits, labels and the legend of a plot."""
         (x, y), low, high = self.turn, self.low, self.high
-        axis.set_xlim(low[x], high[x])
-        axis.set_ylim(*((high[y], low[y]) if x else (low[y], high[y])))
+        axis.set(xlim=(low[x], high[x]), ylim=(high[y], low[y]) if x else (low[y], high[y]))
         axis.set(aspect="equal", xlabel=AXES[x], ylabel=AXES[y])
         axis.legend(ncol=7, fontsize=7, loc="lower center", bbox_to_anchor=(0.5, 1.01), frameon=False)
 
@@ -124,15 +123,14 @@ def _draw_time(axis: Any, run: Recording, view: _View) -> None:
     clock = run.topics["/reference"].time
     swing = run.values("/reference", "phase")[:, 0] == 2
     step = run.values("/reference", "step")[:, 0].astype(int)
-    drawn = False
+    label: str | None = "support in single support"
     for k, ring in view.rings.items():
         stance = np.flatnonzero(swing & (step == k + 1))
         if len(stance):
-            ends = clock[stance[[0, -1]]]
             low, high = float(ring[:, along].min()), float(ring[:, along].max())
-            label = None if drawn else "support in single support"
-            axis.fill_between(ends, low, high, color=COLOURS["edge"], alpha=0.22, lw=0.0, label=label)
-            drawn = True
+            spread = {"color": COLOURS["edge"], "alpha": 0.22, "lw": 0.0}
+            axis.fill_between(clock[stance[[0, -1]]], low, high, label=label, **spread)
+            label = None
     axis.plot(clock, zmp, color=COLOURS["left"], lw=0.6, label="ZMP true $p$")
     axis.plot(clock, wanted, color=COLOURS["active"], lw=0.9, label="ZMP desired $p_d$")
     axis.set(xlabel="time [s]", ylabel=AXES[along], xlim=(clock[0], clock[-1]))
@@ -154,7 +152,7 @@ def draw_zmps(run: Recording) -> Any:
     counts = topic.time >= _FROM
     time = topic.time[counts]
     skin, ankles = topic.fields["skin"][counts], topic.fields["force_torque"][counts]
-    figure, axes = new_figure(11.0, 8.0, 4, 1, sharex=True)
+    figure, axes = new_figure(11.0, 8.0, 4, 1, grid=True, sharex=True)
     for i, name in enumerate(("x", "y")):
         value, difference = axes[2 * i], axes[2 * i + 1]
         value.plot(time, ankles[:, i], color=COLOURS["left"], lw=1.2, label="ankle force-torque sensors")
@@ -164,9 +162,8 @@ def draw_zmps(run: Recording) -> Any:
         rms = float(np.sqrt(np.nanmean(error**2)))
         difference.plot(time, error, color=COLOURS["truth"], lw=0.7, label=f"ankles - skin, RMS {rms:.2f} mm")
         difference.set_ylabel(f"difference {name}\n[mm]")
-        for axis in (value, difference):
-            axis.grid(alpha=0.3)
-            axis.legend(fontsize=8, loc="upper right", ncol=2)
+    for axis in axes:
+        axis.legend(fontsize=8, loc="upper right", ncol=2)
     axes[-1].set_xlabel("time [s]")
     return figure
 
@@ -175,7 +172,7 @@ def draw_zmp_plane(run: Recording) -> Any:
     """Figure of a standing robot's ZMPs with soles and support polygon, from a recording with /zmp."""
     topic = run.topics["/zmp"]
     counts = topic.time >= _FROM
-    figure, axis = new_figure(6.0, 6.0)
+    figure, axis = new_figure(6.0, 6.0, grid=True)
     soles = []
     for side in SIDES:
         truth = run.topics[f"/truth/{side}"].fields
@@ -190,5 +187,4 @@ def draw_zmp_plane(run: Recording) -> Any:
         axis.plot(*topic.fields[name][counts].T, color=colour, lw=width, label=label)
     axis.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
     axis.legend(fontsize=8)
-    axis.grid(alpha=0.3)
     return figure

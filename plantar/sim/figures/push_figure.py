@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from plantar.gait.plan.phases import PhaseKind
 from plantar.plotting import COLOURS, new_figure
+from plantar.recordings.pressure_recording import true_runs
 from plantar.recordings.recording import Recording
 from plantar.sides import SIDES
 
@@ -19,7 +20,7 @@ _STEPS_A_PANEL = 6
 
 def draw_pushes(run: Recording) -> Any:
     """Figure of CoM, DCM, VRP, ZMP, footsteps and skin force over time (K Fig. 7, 14), from "/touch"."""
-    figure, axes = new_figure(11.0, 7.0, 2, 1, sharex=True)
+    figure, axes = new_figure(11.0, 7.0, 2, 1, grid=True, sharex=True)
     time = run.topics["/truth/body"].time
     for i, axis in enumerate(axes):
         axis.plot(time, run.values("/truth/body", "zmp")[:, i], color=COLOURS["truth"], lw=0.5, label="ZMP")
@@ -27,13 +28,13 @@ def draw_pushes(run: Recording) -> Any:
         axis.plot(plan.time, plan.fields["zmp"][:, i], "--", color=COLOURS["reference"], lw=1.0, label="VRP, planned")
         _draw_body(axis, run, i)
         _draw_force(axis, run, i)
-    _finish(axes, [f"{name} [m]" for name in _AXES])
+    _name(axes, [f"{name} [m]" for name in _AXES])
     return figure
 
 
 def draw_swing(run: Recording) -> Any:
     """Figure of the swing foot's commanded and true path (K Fig. 8), from "/touch"."""
-    figure, axes = new_figure(11.0, 8.0, 3, 1, sharex=True)
+    figure, axes = new_figure(11.0, 8.0, 3, 1, grid=True, sharex=True)
     for side in SIDES:
         true = run.topics[f"/truth/{side}"]
         for i, axis in enumerate(axes):
@@ -43,13 +44,13 @@ def draw_swing(run: Recording) -> Any:
     for axis in axes:
         for begin, end in _pushed_spans(run):
             axis.axvspan(begin, end, color=COLOURS["active"], alpha=0.25, lw=0)
-    _finish(axes, [f"{name} [m]" for name in (*_AXES, "z (up)")])
+    _name(axes, [f"{name} [m]" for name in (*_AXES, "z (up)")])
     return figure
 
 
 def draw_partner(run: Recording) -> Any:
     """Figure of robot and partner: ways, force, support durations (K Fig. 10), from "/partner"."""
-    figure, axes = new_figure(11.0, 8.0, 3, 1, sharex=True)
+    figure, axes = new_figure(11.0, 8.0, 3, 1, grid=True, sharex=True)
     _draw_body(axes[0], run, 0)
     partner = run.topics["/partner"]
     axes[1].plot(partner.time, -partner.fields["moved"][:, 0], color=_PARTNER, label="partner")
@@ -62,7 +63,7 @@ def draw_partner(run: Recording) -> Any:
         begins, lasts = _durations(run, kind)
         axes[2].plot(begins, lasts, mark, ms=5, label=name)
     axes[2].legend(ncol=2, fontsize=8)
-    _finish(axes, ("robot, x [m]", "partner, x [m]", "duration [s]"))
+    _name(axes, ("robot, x [m]", "partner, x [m]", "duration [s]"))
     return figure
 
 
@@ -72,7 +73,8 @@ def draw_strides(run: Recording) -> Any:
     rounds = (int(step.max()) + 1) // _STEPS_A_PANEL
     columns = max(1, min(rounds, 4))
     rows = max(1, -(-rounds // columns))
-    figure, axes = new_figure(3.4 * columns, 5.2 * rows, rows, columns, squeeze=False, sharex=True, sharey=True)
+    shared: dict[str, bool] = {"squeeze": False, "sharex": True, "sharey": True}
+    figure, axes = new_figure(3.4 * columns, 5.2 * rows, rows, columns, **shared)
     time, com = run.topics["/truth/body"].time, run.values("/truth/body", "com")[:, :2]
     force, when = run.values("/touch", "force")[:, :2], run.topics["/touch"].time
     largest = float(np.linalg.norm(force, axis=1).max(initial=0.0))
@@ -88,9 +90,8 @@ def draw_strides(run: Recording) -> Any:
             dx, dy = 0.12 * force[i] / largest
             axis.annotate("", (y, x), (y - dy, x - dx), arrowprops={"arrowstyle": "-|>", "color": COLOURS["active"]})
         axis.set_title(f"steps {k * _STEPS_A_PANEL} to {(k + 1) * _STEPS_A_PANEL - 1}", fontsize=9)
-        axis.set_aspect("equal")
+        axis.set(aspect="equal", xlabel="y (left) [m]")
         axis.grid(alpha=0.3)
-        axis.set_xlabel("y (left) [m]")
     axes[0, 0].invert_xaxis()  # left is to the left
     axes[0, 0].set_ylabel("x (forward) [m]")
     return figure
@@ -104,11 +105,11 @@ def _draw_body(axis: Any, run: Recording, i: int) -> None:
         axis.plot(time, _standing(run, side)[:, i], color=COLOURS[side], lw=2.5, alpha=0.7, label=f"{side} foot")
 
 
-def _finish(axes: Any, names: Sequence[str]) -> None:
+def _name(axes: Any, names: Sequence[str], columns: int = 6) -> None:
+    """Name axes over time, with a legend of some columns above the first ones."""
     for axis, name in zip(axes, names, strict=True):
         axis.set_ylabel(name)
-        axis.grid(alpha=0.3)
-    axes[0].legend(ncol=6, fontsize=8, loc="lower left", bbox_to_anchor=(0.0, 1.0))
+    axes[0].legend(ncol=columns, fontsize=8, loc="lower left", bbox_to_anchor=(0.0, 1.0))
     axes[-1].set_xlabel("time [s]")
 
 
@@ -116,8 +117,7 @@ def _draw_footholds(axis: Any, run: Recording, side: Any, begin: float, end: flo
     topic = run.topics[f"/truth/{side}"]
     outline = np.vstack([run.layouts[side].outline, run.layouts[side].outline[:1]])
     force = topic.fields["normal_force"][:, 0]
-    loaded = np.concatenate([[0], (force > 0.4 * force.max()).astype(int), [0]])
-    for first, last in zip(np.flatnonzero(np.diff(loaded) == 1), np.flatnonzero(np.diff(loaded) == -1), strict=True):
+    for first, last in true_runs(force > 0.4 * force.max()):
         i = (first + last) // 2
         if begin <= topic.time[i] <= end:
             turn = topic.fields["rotation"][i].reshape(3, 3)[:2, :2]
@@ -138,10 +138,8 @@ def _draw_force(axis: Any, run: Recording, i: int) -> None:
 def _pushed_spans(run: Recording) -> list[tuple[float, float]]:
     touch = run.topics["/touch"]
     force = np.linalg.norm(touch.fields["force"], axis=1)
-    on = np.concatenate([[0], (force > _PUSHED * max(float(force.max(initial=0.0)), 1e-9)).astype(int), [0]])
-    edges = np.diff(on)
-    starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1) - 1
-    return [(float(touch.time[a]), float(touch.time[b])) for a, b in zip(starts, ends, strict=True)]
+    on = force > _PUSHED * max(float(force.max(initial=0.0)), 1e-9)
+    return [(float(touch.time[a]), float(touch.time[b - 1])) for a, b in true_runs(on)]
 
 
 def _standing(run: Recording, side: Any) -> NDArray[np.float64]:
@@ -170,7 +168,7 @@ def draw_guide(run: Recording) -> Any:
 
     The `run` is a recording with "/guide" and "/arm".
     """
-    figure, axes = new_figure(11.0, 8.0, 3, 1, sharex=True)
+    figure, axes = new_figure(11.0, 8.0, 3, 1, grid=True, sharex=True)
     guide, body = run.topics["/guide"], run.topics["/truth/body"]
     place, held = guide.fields["place"][:, 0], guide.fields["held"][:, 0]
     com = body.fields["com"][:, 0]
@@ -181,23 +179,19 @@ def draw_guide(run: Recording) -> Any:
         foot = run.topics[f"/truth/{side}"]
         moved = _standing(run, side)[:, 0] - foot.fields["position"][0, 0]
         axes[0].plot(foot.time, moved, color=COLOURS[side], lw=2.5, alpha=0.7, label=f"{side} foot")
-    axes[0].set_ylabel("from the start, x [m]")
-    axes[0].legend(ncol=5, fontsize=8, loc="lower left", bbox_to_anchor=(0.0, 1.0))
     touch = run.topics["/touch"]
     measured = touch.fields["felt"][:, :2]
     for i, name in enumerate(_AXES):
         colour = COLOURS["cop"] if i == 0 else COLOURS["left"]
         axes[1].plot(touch.time, measured[:, i], color=colour, lw=1.4, alpha=0.6, label=f"measured, {name}")
         axes[1].plot(touch.time, touch.fields["force"][:, i], color=COLOURS["truth"], lw=0.5)
-    axes[1].set_ylabel("force on the arm [N]\n(thin: true)")
     axes[1].legend(ncol=2, fontsize=8)
     arm = run.topics["/arm"]
     turned = np.degrees(arm.fields["position"] - arm.fields["posture"])
     for k in np.flatnonzero(np.abs(turned).max(axis=0) > _TURNED).tolist():
         axes[2].plot(arm.time, turned[:, k], lw=1.0, label=f"joint {k + 1}")
-    axes[2].set(ylabel="arm, out of its posture [deg]", xlabel="time [s]")
     if axes[2].lines:
         axes[2].legend(ncol=7, fontsize=8, title="from the shoulder", title_fontsize=8)
-    for axis in axes:
-        axis.grid(alpha=0.3)
+    names = ("from the start, x [m]", "force on the arm [N]\n(thin: true)", "arm, out of its posture [deg]")
+    _name(axes, names, columns=5)
     return figure

@@ -1,5 +1,6 @@
 """Figures of a run, drawn from its recording."""
 
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -7,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.recordings.pressure_recording import true_runs
 from plantar.recordings.recording import Recording, read_mcap
 from plantar.sides import SIDES
 from plantar.sim.figures.foothold_figure import AXES, WalkPlane, draw_footholds, draw_zmp_plane, draw_zmps
@@ -23,22 +25,13 @@ def plot_run(recording: str | Path | Recording, folder: str | Path) -> list[Path
     """
     run = recording if isinstance(recording, Recording) else read_mcap(recording)
     folder = Path(folder)
-    drawn = {"balance": _balance(run), "plane": _plane(run), "feet": _feet(run)}
-    if "/foothold" in run.topics and len(run.topics["/foothold"].time):
-        drawn["footholds"] = draw_footholds(run)
-    if "/zmp" in run.topics and len(run.topics["/zmp"].time):
-        drawn |= {"zmp": draw_zmps(run), "zmp_plane": draw_zmp_plane(run)}
-    if "/touch" in run.topics and len(run.topics["/touch"].time):
-        drawn |= {"pushes": draw_pushes(run), "swing": draw_swing(run), "strides": draw_strides(run)}
-    if "/partner" in run.topics and len(run.topics["/partner"].time):
-        drawn["partner"] = draw_partner(run)
-    if "/guide" in run.topics and len(run.topics["/guide"].time):
-        drawn["guide"] = draw_guide(run)
-    return [save_figure(figure, folder / f"{name}.png") for name, figure in drawn.items()]
+    known = {"", *(name for name, topic in run.topics.items() if len(topic.time))}
+    wanted = {name: draw for topic, figures in _FIGURES.items() if topic in known for name, draw in figures.items()}
+    return [save_figure(draw(run), folder / f"{name}.png") for name, draw in wanted.items()]
 
 
 def _balance(run: Recording) -> Any:
-    figure, axes = new_figure(11.0, 8.0, 3, 1, sharex=True)
+    figure, axes = new_figure(11.0, 8.0, 3, 1, grid=True, sharex=True)
     time = run.topics["/truth/body"].time
     lines = (
         ("/reference", "zmp", "-", "reference", 1.5, "VRP reference"),
@@ -53,14 +46,12 @@ def _balance(run: Recording) -> Any:
         for topic, field, style, colour, width, label in lines:
             axis.plot(time, run.values(topic, field)[:, i], style, color=COLOURS[colour], lw=width, label=label)
         axis.set_ylabel(AXES[i])
-        axis.grid(alpha=0.3)
     axes[0].legend(ncol=4, fontsize=8)
     tilt = np.degrees(np.arccos(np.clip(run.values("/truth/body", "rotation")[:, 8], -1.0, 1.0)))
     axes[2].plot(time, tilt, color=COLOURS["truth"], label="torso tilt [deg]")
     margin = 100.0 * run.values("/truth/body", "zmp_margin")[:, 0]
     axes[2].plot(time, margin, color=COLOURS["polygon"], lw=0.8, label="true ZMP margin [cm]")
     axes[2].set(xlabel="time [s]", ylabel="deg, cm")
-    axes[2].grid(alpha=0.3)
     axes[2].legend(fontsize=8)
     return figure
 
@@ -74,7 +65,7 @@ def _plane(run: Recording) -> Any:
     )
     paths = [run.values(topic, name)[:, :2] for topic, name, *_ in lines]
     plane = WalkPlane.around(np.vstack([*(ring for _, ring in rings), *paths]), _PAD)
-    figure, axis = new_figure(11.0, float(np.clip(1.2 + 9.5 * plane.slenderness, 2.2, 9.0)))
+    figure, axis = new_figure(11.0, float(np.clip(1.2 + 9.5 * plane.slenderness, 2.2, 9.0)), grid=True)
     labelled = set()
     for side, ring in rings:
         label = None if side in labelled else f"{side} foothold"
@@ -83,7 +74,6 @@ def _plane(run: Recording) -> Any:
     for path, (_, _, colour, width, label) in zip(paths, lines, strict=True):
         axis.plot(*path[:, plane.turn].T, color=COLOURS[colour], lw=width, label=label)
     plane.frame(axis)
-    axis.grid(alpha=0.3)
     return figure
 
 
@@ -91,14 +81,12 @@ def _footholds(run: Recording, side: str) -> list[NDArray[np.float64]]:
     position = run.values(f"/truth/{side}", "position")
     rotation = run.values(f"/truth/{side}", "rotation").reshape(-1, 3, 3)
     force = run.values(f"/truth/{side}", "normal_force")[:, 0]
-    loaded = (force > 0.4 * force.max()).astype(int)
-    starts = np.flatnonzero(np.diff(np.concatenate([[0], loaded])) == 1)
     outline = run.layouts[side].outline
-    return [outline @ rotation[i, :2, :2].T + position[i, :2] for i in starts]
+    return [outline @ rotation[i, :2, :2].T + position[i, :2] for i, _ in true_runs(force > 0.4 * force.max())]
 
 
 def _feet(run: Recording) -> Any:
-    figure, axes = new_figure(11.0, 5.0, 2, 1, sharex=True)
+    figure, axes = new_figure(11.0, 5.0, 2, 1, grid=True, sharex=True)
     for side in SIDES:
         time = run.topics[f"/truth/{side}"].time
         axes[0].plot(time, run.values(f"/truth/{side}", "normal_force")[:, 0], color=COLOURS[side], lw=0.8, label=side)
@@ -110,6 +98,16 @@ def _feet(run: Recording) -> Any:
     axes[0].set_ylabel("ground force [N]\n(thin: as the taxels measure it)")
     axes[1].set(ylabel="sole height [mm]", xlabel="time [s]")
     for axis in axes:
-        axis.grid(alpha=0.3)
         axis.legend(fontsize=8)
     return figure
+
+
+_FIGURES: Mapping[str, Mapping[str, Callable[[Recording], Any]]] = {
+    "": {"balance": _balance, "plane": _plane, "feet": _feet},
+    "/foothold": {"footholds": draw_footholds},
+    "/zmp": {"zmp": draw_zmps, "zmp_plane": draw_zmp_plane},
+    "/touch": {"pushes": draw_pushes, "swing": draw_swing, "strides": draw_strides},
+    "/partner": {"partner": draw_partner},
+    "/guide": {"guide": draw_guide},
+}
+"""What is drawn of each topic that holds messages; "" is any recording."""

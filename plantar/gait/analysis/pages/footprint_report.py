@@ -192,8 +192,7 @@ def draw_footprints(image: FootprintImage, prints: Mapping[Side, Footprint]) -> 
     axes.plot([], [], ":", color="#111111", label="thirds without toes")
     if any(p.toe_line is not None for p in prints.values()):
         axes.plot([], [], "--", color=COLOURS["polygon"], label="toe line")
-    axes.set_xlabel(f"to the right ({scale.name})")
-    axes.set_ylabel(f"up ({scale.name})")
+    axes.set(xlabel=f"to the right ({scale.name})", ylabel=f"up ({scale.name})")
     figure.legend(loc="outside right upper", fontsize=8)
     return figure
 

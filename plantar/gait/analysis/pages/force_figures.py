@@ -38,7 +38,8 @@ _COMPARED = (
 
 def figure_force(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any:
     """Returns figure of vertical force and events of a recording's feet over time."""
-    figure, axes = new_figure(10.0, 2.6 * len(feet) + 0.6, rows=len(feet), sharex=True, sharey=True, squeeze=False)
+    shared: dict[str, bool] = {"sharex": True, "sharey": True, "squeeze": False}
+    figure, axes = new_figure(10.0, 2.6 * len(feet) + 0.6, rows=len(feet), grid=True, **shared)
     for panel, (side, gait) in zip(axes[:, 0], feet.items(), strict=True):
         force = gait.foot.vertical_force
         panel.plot(*thinned(recording.time, force), color=COLOURS[side], linewidth=1.0, label=f"{side} foot")
@@ -47,7 +48,6 @@ def figure_force(recording: PressureRecording, feet: Mapping[Side, FootGait]) ->
         _shade_cut_contacts(panel, recording, gait)
         panel.set_ylabel(force_label(recording))
         panel.legend(loc="upper right", fontsize=8, ncols=4, framealpha=0.9)
-        panel.grid(alpha=0.3)
         panel.margins(x=0.01)
     low, high = axes[0, 0].get_ylim()
     axes[0, 0].set_ylim(low, high + 0.22 * (high - low))  # room for the legend
@@ -79,17 +79,15 @@ def figure_steps(recording: PressureRecording, feet: Mapping[Side, FootGait]) ->
     shown = {side: gait for side, gait in feet.items() if gait.used}
     if not shown:
         return None
-    figure, axes = new_figure(10.0, 3.6, columns=len(shown), sharey=True, squeeze=False)
+    figure, axes = new_figure(10.0, 3.6, columns=len(shown), grid=True, sharey=True, squeeze=False)
     for panel, (side, gait) in zip(axes[0], shown.items(), strict=True):
         curves = stance_curves(recording, gait)
         for i, curve in enumerate(curves[:: -(-len(curves) // MOST_CURVES)]):
             panel.plot(STANCE, curve, color=COLOURS[side], linewidth=0.6, alpha=0.4, label=None if i else "one step")
         panel.plot(STANCE, curves.mean(axis=0), color="#111111", linewidth=1.6, label=f"mean of {len(curves)}")
         draw_sd(panel, curves, color=COLOURS[side], alpha=0.25, label="± 1 SD")
-        panel.set_title(f"{side} foot")
-        panel.set_xlabel("stance (%)")
+        panel.set(title=f"{side} foot", xlabel="stance (%)")
         panel.legend(fontsize=8, loc="lower center")
-        panel.grid(alpha=0.3)
     axes[0][0].set_ylabel(force_label(recording))
     return figure
 
@@ -122,7 +120,7 @@ def figure_wrench(recording: PressureRecording, feet: Mapping[Side, FootGait]) -
     shown = {side: gait.foot for side, gait in feet.items() if gait.foot.layout is not None}
     if not shown:
         return None
-    figure, axes = new_figure(10.0, 5.6, rows=3, sharex=True)
+    figure, axes = new_figure(10.0, 5.6, rows=3, grid=True, sharex=True)
     for side, foot in shown.items():
         assert foot.layout is not None
         wrench = foot.measured @ foot.layout.wrench_map.T
@@ -132,7 +130,6 @@ def figure_wrench(recording: PressureRecording, feet: Mapping[Side, FootGait]) -
             )
     for panel, name in zip(axes, ("fz (N)", "tx (N·m)", "ty (N·m)"), strict=True):
         panel.set_ylabel(name)
-        panel.grid(alpha=0.3)
         panel.margins(x=0.01)
     axes[0].legend(loc="upper right", fontsize=8, ncols=2, framealpha=0.9)
     axes[-1].set_xlabel("time (s); wrench of the ground on the sole about the sole frame's origin")
@@ -153,8 +150,7 @@ def figure_symmetry(symmetry: Mapping[str, float | None]) -> Any | None:
     axes.axvline(0.0, color="#111111", linewidth=0.8)
     axes.set_yticks(places, names)
     reach = max(20.0, 1.15 * float(np.abs(values).max()))
-    axes.set_xlim(-reach, reach)
-    axes.set_xlabel("symmetry index (%): above 0 larger on the left; grey: within 10 %")
+    axes.set(xlim=(-reach, reach), xlabel="symmetry index (%): above 0 larger on the left; grey: within 10 %")
     return figure
 
 

@@ -117,7 +117,7 @@ def figure_summary(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
     shown = {side: gait for side, gait in feet.items() if gait.used}
     if not shown:
         return None
-    figure, (curves, wings, trend) = new_figure(10.0, 3.2, columns=3)
+    figure, (curves, wings, trend) = new_figure(10.0, 3.2, columns=3, grid=True)
     for side, gait in shown.items():
         own = stance_curves(recording, gait)
         curves.plot(STANCE, own.mean(axis=0), color=COLOURS[side], linewidth=1.8, label=f"{side}, {len(own)} steps")
@@ -137,7 +137,6 @@ def figure_summary(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
         panel.set_title(name, fontsize=9)
         panel.set_xlabel(across, fontsize=8)
         panel.set_ylabel(up, fontsize=8)
-        panel.grid(alpha=0.3)
     curves.legend(fontsize=7, loc="lower center")
     return figure
 

@@ -60,8 +60,7 @@ def _draw_pictures(
     highest = max(float(values.max()) for values in pictures)
     for panel, (title, _, cells), values in zip(axes[0], panels, pictures, strict=True):
         drawn = draw_cells(panel, cells.layout, np.where(values > 0.0, values, np.nan), highest)
-        panel.set_title(title)
-        panel.set_xlabel(_RIGHT)
+        panel.set(title=title, xlabel=_RIGHT)
     axes[0][0].set_ylabel(_FORWARD)
     figure.colorbar(drawn, ax=list(axes[0]), label=f"{what} ({'counts' if raw else 'kPa'})", shrink=0.8)
 
@@ -168,8 +167,7 @@ def figure_regions(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
         layout, chosen = shown[side]
         draw_classes(panel, layout, own.region[chosen], REGION_COLOURS)
         draw_lines(panel, own.print_, axis=axis_is_inside(own.print_), color="#111111", label="foot axis")
-        panel.set_title(f"{side} foot")
-        panel.set_xlabel(_RIGHT)
+        panel.set(title=f"{side} foot", xlabel=_RIGHT)
     axes[0][0].set_ylabel(_FORWARD)
     _list_regions(axes[0][-1], {int(i) for own in drawn.values() for i in own.region})
     _legend(figure, axes[0], "outside right center")

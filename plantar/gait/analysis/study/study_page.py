@@ -248,7 +248,7 @@ def _draw_effects(one: Comparison) -> Any | None:
 def _draw_curves(one: Comparison) -> Any | None:
     if one.curves is None or one.curve_test is None:
         return None
-    figure, axes = new_figure(7.0, 3.8)
+    figure, axes = new_figure(7.0, 3.8, grid=True)
     for name, curves, colour, line in ((one.a, one.curves[0], _A, "-"), (one.b, one.curves[1], _B, "--")):
         mean = curves.mean(axis=0)
         reach = student_quantile(0.975, len(curves) - 1) * curves.std(axis=0, ddof=1) / np.sqrt(len(curves))
@@ -260,10 +260,8 @@ def _draw_curves(one: Comparison) -> Any | None:
             axes.axvspan(
                 STANCE[places[0]], STANCE[places[-1]], color=_FOUND, alpha=0.35, zorder=0, label=f"p = {p:.3g}"
             )
-    axes.set_xlabel("stance (%)")
-    axes.set_ylabel(f"vertical force ({one.curve_unit})")
+    axes.set(xlabel="stance (%)", ylabel=f"vertical force ({one.curve_unit})")
     axes.legend(fontsize=8, loc="lower center")
-    axes.grid(alpha=0.3)
     axes.margins(x=0.0)
     return figure
 
@@ -293,8 +291,7 @@ def _draw_maps(one: Comparison) -> Any | None:
         axes[2].contour(columns, rows, differs[:, ::-1].astype(float), levels=[0.5], colors="#111111", linewidths=1.4)
     axes[0].set_ylabel("length of the sole (share), toes up")
     for panel in axes:
-        panel.set_xlabel("medial to lateral")
-        panel.set_xticks([])
+        panel.set(xlabel="medial to lateral", xticks=[])
     return figure
 
 
