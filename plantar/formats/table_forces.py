@@ -19,6 +19,7 @@ from plantar.sides import SIDES, Side
 _Key = tuple[Side | None, int | None]
 # The two horizontal axes, right-handed with each vertical one.
 _UPRIGHT = {"z": ("x", "y"), "y": ("z", "x"), "x": ("y", "z")}
+_FEWEST, _LEVELS = 3, 10  # How often a mark for missing values is there at least, and different values of its column
 _WEIGHTS = (0.7, 4.0)  # Largest vertical forces without a unit that are body weights and no N
 # Weight in N that forces in body weights are read with, so that levels in N hold; they are divided by it again.
 _NOMINAL = 700.0
@@ -55,6 +56,7 @@ def feet_of_forces(
         stated: Unit in comments; FormatError if unknown, or no force is vertical.
         warnings: Assumptions are added.
     """
+    _take_out_marks(table, columns, warnings)
     loaded = _by_plate(columns)
     up = _vertical(table, loaded, warnings)
     verticals = {key: a for key, own in loaded.items() if (a := _up(own["force"], up)) is not None}
@@ -80,6 +82,23 @@ def feet_of_forces(
     if relative:
         feet = {s: _scaled(f, scale) for s, f in feet.items()}
     return feet, every or (named and len(made) == 2), "plate", relative
+
+
+def _take_out_marks(table: NDArray[np.float64], columns: Mapping[int, Heading], warnings: list[str]) -> None:
+    """NaN for a repeated value that is farther from all others than half of what these range over, such as -999."""
+    count, marks = 0, dict[float, None]()
+    for i, h in columns.items():
+        value, times = np.unique(table[np.isfinite(table[:, i]), i], return_counts=True)
+        if h.quantity not in ("force", "cop", "moment", "place") or len(value) < _LEVELS:
+            continue
+        least = 0.5 * (value[-2] - value[1])
+        for mark, near, often in ((value[0], value[1], times[0]), (value[-1], value[-2], times[-1])):
+            if mark != 0.0 and often >= _FEWEST and abs(mark - near) > least:
+                table[table[:, i] == mark, i] = np.nan
+                count, marks = count + int(often), {**marks, float(mark): None}
+    if marks:
+        shown = ", ".join(f"{mark:g}" for mark in marks)
+        warnings.append(f"{count} value(s) are {shown}, far from all others: taken as marks for what was not measured")
 
 
 def _by_plate(columns: Mapping[int, Heading]) -> dict[_Key, dict[str, dict[str, int]]]:
@@ -207,7 +226,6 @@ def _plate(
 
 
 def _length(unit: str, cop: NDArray[np.float64], vertical: NDArray[np.float64], warnings: list[str]) -> float:
-    """m in one CoP unit: a plate is at most some metres long."""
     known = LENGTHS.get(plain(unit))
     if known is not None:
         return known

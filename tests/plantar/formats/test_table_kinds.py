@@ -285,3 +285,18 @@ def test_exports_without_a_public_description_are_refused_by_name(tmp_path, make
     with pytest.raises(FormatError, match=rf"an export of {maker}, whose format has no public description"):
         analyse(path)
     check(analyse(path, format="csv"))
+
+
+@pytest.mark.parametrize("names", ["Left Fz (N),Right Fz (N)", "FP1_Fz,FP2_Fz"])
+@pytest.mark.parametrize("mark", [-999.0, 9999.0])
+def test_a_mark_among_forces_counts_as_not_measured(tmp_path, names, mark):
+    path, rng = tmp_path / "walk.csv", np.random.default_rng(5)
+    columns = [force + rng.normal(0.0, 1.0, len(TIME)) for force in (LEFT, RIGHT)]
+    path.write_text(f"time (s),{names}\n" + rows([TIME, *columns], ","))
+    whole = analyse(path).steps["impulse_Ns"]
+    for force in columns:
+        force[rng.choice(len(TIME), 20, replace=False)] = mark
+    path.write_text(f"time (s),{names}\n" + rows([TIME, *columns], ","))
+    found = analyse(path)
+    assert found.steps["impulse_Ns"] == pytest.approx(whole, rel=0.01)
+    assert f"40 value(s) are {mark:g}, far from all others: taken as marks for what was not measured" in found.warnings
