@@ -44,7 +44,7 @@ def read_text_table(path: str | os.PathLike[str], error: type[PlantarError]) -> 
         plantar.errors.PlantarError: none.csv: cannot be read (No such file or directory)
     """
     data = read_input(path, error, TABLE_MOST)
-    text = data.decode(encoding_of(data), errors="replace").removeprefix("\ufeff")
+    text = data.decode(encoding_of(data), errors="replace").lstrip("\ufeff")
     if "\0" in text:
         raise error(f"{path}: not a table of text (it holds zero bytes)")
     head = text.partition("\n")[0]

@@ -19,6 +19,7 @@ from plantar.recordings.frame_table import FrameTable
 _LONGEST_LINE, _CHUNK = 1_000_000, 1 << 17
 _BLOCK, _BLOCK_VALUES, _FIRST = 2048, 4_000_000, 32
 _ZEROS = 0.01  # Share of zeros that damage may put into a text
+_MARKED_AGAIN = re.compile(rb"(?:(\xff\xfe|\xfe\xff|\xef\xbb\xbf)(?=\1))+")  # byte order marks before the last one
 _NUMBER = re.compile(r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?")
 
 
@@ -28,8 +29,9 @@ def open_text(path: Path) -> TextIO:
     Encoding is found from its beginning; a line over 1 MB is an error when read.
     """
     stream = open_input(path, FormatError)
-    encoding = encoding_of(stream.read(1 << 20))
-    stream.seek(0)
+    head = stream.read(1 << 20)
+    encoding, marks = encoding_of(head), _MARKED_AGAIN.match(head)
+    stream.seek(marks.end() if marks else 0)
     lines = _Lines(stream.detach(), _CHUNK)  # type: ignore[attr-defined]
     text = io.TextIOWrapper(lines, encoding=encoding, errors="replace", newline=None)
     text._CHUNK_SIZE = _CHUNK  # type: ignore[attr-defined]  # of 8 kB, an hour of insoles is 70,000 calls
@@ -98,7 +100,7 @@ def head_text(head: bytes) -> str | None:
     text = head.decode(encoding_of(head), errors="replace")
     if text.count("\0") > _ZEROS * len(text):
         return None
-    return text.replace("\0", "").replace("\r\n", "\n").replace("\r", "\n")
+    return text.replace("\0", "").lstrip("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
 
 
 def cells_of_row(line: str, delimiter: str | None) -> list[str]:

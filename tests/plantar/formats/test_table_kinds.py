@@ -300,3 +300,11 @@ def test_a_mark_among_forces_counts_as_not_measured(tmp_path, names, mark):
     found = analyse(path)
     assert found.steps["impulse_Ns"] == pytest.approx(whole, rel=0.01)
     assert f"40 value(s) are {mark:g}, far from all others: taken as marks for what was not measured" in found.warnings
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16-le", "utf-16-be"])
+def test_a_table_that_is_marked_twice_keeps_its_clock(tmp_path, encoding):
+    path = tmp_path / "walk.csv"
+    text = "\ufeff\ufefftime (s),Left Fz (N),Right Fz (N)\n" + rows([0.8 * TIME, LEFT, RIGHT], ",")
+    path.write_bytes(text.encode(encoding))
+    assert analyse(path).recording.rate_hz == pytest.approx(125.0)
