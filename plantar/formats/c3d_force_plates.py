@@ -123,7 +123,6 @@ def _vertical_axis(corners: list[NDArray[np.float64]], warnings: list[str]) -> i
 
 
 def _plate(held: Mapping[str, NDArray[Any]], number: int, up: int, length: float, warnings: list[str]) -> Plate:
-    """One plate's channels as force and moment about its surface's middle, z up."""
     kind, channels, name = int(held[f"type_{number}"]), held[f"channels_{number}"], f"plate {number + 1}"
     if not 1 <= kind <= 5 or not len(channels):
         raise FormatError(f"{name} is of type {kind} or lacks channels; allowed: types 1 to 5 with all their channels")

@@ -89,7 +89,6 @@ def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintI
 
 
 def _decoded(path: Path, data: bytes) -> tuple[NDArray[np.uint8], float]:
-    """Upright image as BGR over white, any bit depth, and its reduction factor."""
     _refuse_large(path, data)
     held = read_apart("image", path, FormatError)
     image = np.asarray(held["image"])
@@ -139,7 +138,6 @@ def _refuse_large(path: Path, data: bytes) -> None:
 
 
 def _reduced(cv2: Any, image: NDArray[Any]) -> tuple[NDArray[Any], float]:
-    """Image just large enough to outline a foot, and its reduction factor."""
     factor = min(1.0, _WORKING / max(image.shape[:2]))
     if factor == 1.0:
         return image, 1.0

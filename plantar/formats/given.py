@@ -55,7 +55,6 @@ def _array(given: Any) -> np.ndarray[Any, Any]:
 
 
 def _columns(frame: Any) -> tuple[np.ndarray[Any, Any], list[str]]:
-    """Numbers (n, k) and column names of a data frame; an index of times becomes the first column."""
     names, at = [str(name) for name in frame.columns], getattr(frame, "iloc", None)  # pandas has columns of one name
     columns = [np.asarray(frame[n] if at is None else at[:, i]) for i, n in enumerate(frame.columns)]
     index = getattr(frame, "index", None)

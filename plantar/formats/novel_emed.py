@@ -215,7 +215,6 @@ def _frames(pages: list[_Page], warnings: list[str]) -> list[_Page]:
 
 
 def _matrix(facts: dict[str, str], needed: tuple[int, int], warnings: list[str]) -> tuple[int, int]:
-    """Platform columns and rows that the tables need."""
     match = re.match(r"(\d+)\s*x\s*(\d+)", facts.get("matrix", ""))
     if match is None:
         warnings.append(f"the file states no size of the matrix: {needed[1]} rows and {needed[0]} columns are shown")

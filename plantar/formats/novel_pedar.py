@@ -150,7 +150,6 @@ def _take_rows(
 
 
 def _blocks(stream: TextIO, most: int) -> Iterator[list[str]]:
-    """Up to most lines of a stream at a time, without a step of Python for each."""
     while lines := stream.readlines(_CHARACTERS):
         for begin in range(0, len(lines), most):
             yield lines[begin : begin + most]

@@ -264,7 +264,6 @@ def _by_place(
 
 
 def _filled_in(contacts: Sequence[PlateContact], found: Sequence[Side | None]) -> list[Side]:
-    """Contacts of unknown feet as the other foot than the known one next in time."""
     order = sorted(range(len(contacts)), key=lambda i: contacts[i].begin)
     sides: dict[int, Side | None] = dict(enumerate(found))
     for way in (order, order[::-1]):

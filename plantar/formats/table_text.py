@@ -184,7 +184,6 @@ def _names_columns(cells: Sequence[str], width: int) -> bool:
 
 
 def _are_numbered(cells: Sequence[str]) -> bool:
-    """Whether names are a time and the cells' numbers."""
     return len(cells) > 2 and time_unit(cells[0]) is not None and all(c.isdigit() for c in cells[1:])
 
 

@@ -259,7 +259,6 @@ def _unpacked(chunk: Any) -> bytes:
 
 
 def _float_fields(channel: Any, schema: Any) -> list[tuple[str, int]] | None:
-    """Field names and widths of a message type, None if not all float64."""
     if schema is None or schema.encoding != "ros2msg" or channel.message_encoding != "cdr":
         return None
     out: list[tuple[str, int]] = []

@@ -102,7 +102,6 @@ def _asset(name: str) -> str:
 
 
 def _three() -> str:
-    """three.js inside a script: exports become members of a constant."""
     code = _asset("three.module.min.js")
     exported = _EXPORT.search(code)
     assert exported is not None, "three.module.min.js ends with its exports"
@@ -138,7 +137,6 @@ aria-label="{name} in 3D; drag to turn, arrow keys to step in time"></canvas>
 
 
 def _walk(walk: Walk) -> dict[str, Any]:
-    """Walk as JSON; arrays as base64 of little-endian numbers."""
     frames = list(walk.poses)
     poses = np.stack([walk.poses[name] for name in frames], axis=1)
     return {

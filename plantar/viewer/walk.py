@@ -128,16 +128,12 @@ def _name(path: str | os.PathLike[str], metadata: Mapping[str, Any]) -> str:
 
 @dataclass
 class _Skin:
-    """Messages of a sole: number count, and first and last time in s."""
-
     width: int
     first: float
     last: float
 
 
 class _Drawn:
-    """First reading: times, frame names, and what is drawn once or seldom."""
-
     def __init__(self) -> None:
         self.skin: dict[Side, _Skin] = {}
         self.frame_times = array("d")
@@ -315,7 +311,6 @@ def _span(fields: Fields, wanted: str) -> tuple[int, int] | None:
 
 
 def _times(drawn: _Drawn, layouts: Mapping[Side, SoleLayout]) -> NDArray[np.float64]:
-    """Times of shown frames, else evenly spaced over the walk."""
     frames = np.unique(np.array(drawn.frame_times))
     if len(frames) > 1:
         return np.asarray(frames[:: -(-len(frames) // _MOST)])
@@ -325,7 +320,6 @@ def _times(drawn: _Drawn, layouts: Mapping[Side, SoleLayout]) -> NDArray[np.floa
 
 
 def _sole_poses(count: int, layouts: Mapping[Side, SoleLayout]) -> dict[str, NDArray[np.float64]]:
-    """Soles side by side, for recordings without poses."""
     poses = {}
     for number, side in enumerate(SIDES):
         if side in layouts:

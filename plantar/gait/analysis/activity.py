@@ -18,7 +18,8 @@ _FLIGHT = 0.01
 _RUNNING_STANCE = 45.0
 # Stance in % of the stride of both feet above which they cannot both be in the air, with 2 % for what events err.
 _HALF = 52.0
-_STEADY = 0.5  # Share of the usual load that a standing body keeps on the ground
+# Shares of its load that a standing body keeps on the ground, and from which it has stepped on.
+_STEADY, _WHOLE = 0.5, 0.9
 _STRIDE = 1.0  # Time in s of a stride: less does not show whether a foot is lifted
 # Part of a contact that is its landing, or its lift-off; then shares of the sole's length: the CoP lands in front of
 # 0.6 on the forefoot (the heads of the metatarsals are at 0.7; a heel strike is below 0.33), stays in front of 0.55
@@ -168,15 +169,24 @@ def _by_times(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Ac
                 name, f"single steps of {contact:.2g} s: those of a run last less than {_RUN:g} s, of a walk more"
             )
         return Activity("unknown", f"single steps of {contact:.2g} s are those of a walk or a run")
-    load = np.sum([foot.vertical_force for foot in recording.feet.values()], axis=0)
+    span = loaded_frames(recording)
+    load = np.sum([foot.vertical_force[span] for foot in recording.feet.values()], axis=0)
     load = load[np.isfinite(load)]  # what was not measured is no load, and no lack of it
     usual = float(np.median(load)) if len(load) else 0.0
     if any(_is_lifted(gait.foot.vertical_force, usual) for gait in feet.values()):
         return Activity("unknown", "feet are lifted and set down again, but no step is complete")
-    lasts = float(np.ptp(recording.time)) if len(recording.time) else 0.0
+    lasts = float(np.ptp(recording.time[span])) if len(load) else 0.0
     if lasts >= _STRIDE and usual > 0.0 and float(np.percentile(load, 2.0)) > _STEADY * usual:
         return Activity("standing", "the load stays on the ground and no foot is lifted")
     return Activity("unknown", "no foot is lifted and set down again")
+
+
+def loaded_frames(recording: PressureRecording) -> slice:
+    """Frames of a recording from the first to the last with its whole load: who stands may step on and off."""
+    load = np.sum([foot.vertical_force for foot in recording.feet.values()], axis=0)
+    known = load[np.isfinite(load)]
+    on = np.flatnonzero(load > _WHOLE * np.percentile(known, 95.0)) if len(known) else known
+    return slice(int(on[0]), int(on[-1]) + 1) if len(on) else slice(0, 0)
 
 
 def _is_lifted(force: NDArray[np.float64], usual: float) -> bool:

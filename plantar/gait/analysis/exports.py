@@ -180,7 +180,6 @@ def _events(analysis: Analysis) -> list[tuple[str, str, float]]:
 
 
 def _sidecar(analysis: Analysis, target: Path) -> dict[str, Any]:
-    """Export description, in BIDS sidecar keys where it has them."""
     recording = analysis.recording
     return {
         "SamplingFrequency": recording.rate_hz,

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from plantar.gait.analysis.activity import activity_of, progression_doubts, sway_measures
+from plantar.gait.analysis.activity import activity_of, loaded_frames, progression_doubts, sway_measures
 from plantar.gait.analysis.health import (
     creep_doubts,
     implied_weight,
@@ -141,9 +141,10 @@ def _lowest(gait: FootGait) -> str:
 def _sway(recording: PressureRecording, gait: FootGait, standing: bool) -> dict[str, float] | None:
     if not standing:
         return None
-    load = {side: float(np.nanmean(foot.vertical_force)) for side, foot in recording.feet.items()}
+    span = loaded_frames(recording)
+    load = {side: float(np.nanmean(foot.vertical_force[span])) for side, foot in recording.feet.items()}
     share = 100.0 * load[gait.foot.side] / sum(load.values())
-    return {"load_percent": share, **({} if gait.cop is None else sway_measures(recording.time, gait.cop))}
+    return {"load_percent": share, **({} if gait.cop is None else sway_measures(recording.time[span], gait.cop[span]))}
 
 
 def not_given(kind: str) -> dict[str, str]:

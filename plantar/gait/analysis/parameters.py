@@ -34,6 +34,7 @@ from plantar.sides import Side, other_side
 # Time in s over which the centre of pressure is averaged, weighted by force: a path of noise has no length.
 COP_WINDOW = 0.05
 _Events = Mapping[Side, tuple[Levels | None, list[Contact]]]
+_LONGEST = 3.0  # Longest contact in s of a person's single steps: patients who walk at 0.2 m/s have 2.5
 _CARRIED = 0.2  # Share of a foot's peak that shoes and creases do not press in swing
 # How many times its usual height the level of heel strikes is from which events move by more than 20 and 35 ms.
 _RAISED = 1.4
@@ -207,7 +208,9 @@ def _contacts(recording: PressureRecording, side: Side, stated: bool, levels: Le
     force = recording.feet[side].vertical_force
     found = find_contacts(recording.time, force, levels)
     joined = [run_together(force, recording.rate_hz, levels, c) > 1 for c in found]
-    return without_standing([replace(c, standing=True) if many else c for c, many in zip(found, joined, strict=True)])
+    most = np.inf if recording.kind == "robot" else _LONGEST
+    found = [replace(c, standing=True) if many else c for c, many in zip(found, joined, strict=True)]
+    return without_standing(found, most)
 
 
 def _levels(recording: PressureRecording, side: Side) -> Levels | None:

@@ -200,3 +200,24 @@ def test_the_ellipse_holds_95_of_100_points():
     inside = np.einsum("ni,ij,nj->n", points, inverse, points) < scale
     assert inside.mean() == pytest.approx(0.95, abs=0.01)
     assert sway_measures(np.arange(100) * 0.01, points[:100]) == {}
+
+
+@pytest.mark.parametrize(("on", "off"), [(0.3, 99.0), (0.3, 19.5), (6.0, 99.0)])
+def test_who_steps_on_or_off_a_sensor_stands_between(on, off):
+    """What is measured is the time between: neither one long step, nor sway of the way up."""
+    layout = nominal_insole("x", "left")
+    time = np.arange(0.0, 20.0, 0.01)
+    load = 350.0 * np.clip(np.minimum(time - on, off - time) / 0.1, 0.0, 1.0)
+    shift = layout.positions[:, 0] * 0.4 * np.sin(2.0 * np.pi * time / 2.5)[:, None]
+    rise = 30.0 * (0.13 - layout.positions[:, 0]) * (load < 170.0)[:, None]  # the heel first
+    share = 1.0 + shift + rise
+    force = load[:, None] * np.maximum(share, 0.0) / np.maximum(share, 0.0).sum(axis=1, keepdims=True)
+    feet = {s: FootRecording(s, force, nominal_insole("x", s)) for s in SIDES}
+    recording = PressureRecording(Path("x"), "x", 100.0, time, feet)
+    gaits = analyse_feet(recording)
+    assert not any(gait.steps for gait in gaits.values())
+    metrics = metrics_of(recording, gaits)
+    assert metrics["activity"]["name"] == "standing"
+    within = slice(int(np.argmax(load > 340.0)), len(time) - int(np.argmax(load[::-1] > 340.0)))
+    sway = sway_measures(time[within], gaits["left"].cop[within])
+    assert metrics["feet"]["left"]["sway"]["sway_ap_m"] == pytest.approx(sway["sway_ap_m"], rel=0.05)

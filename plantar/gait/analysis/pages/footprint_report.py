@@ -119,7 +119,6 @@ def _centres(part: Print, pixel: float) -> NDArray[np.float64]:
 
 
 def _side_by_shape(print_: Footprint) -> Side:
-    """Side of a print seen as a right foot: the waist lies lateral of heel and ball."""
     u, v = print_.centres.T / print_.length
     middle, rest = (u > 0.35) & (u < 0.55), (u < 0.25) | ((u > 0.60) & (u < 0.78))
     toes, ball = u > 0.9, (u > 0.60) & (u < 0.78)

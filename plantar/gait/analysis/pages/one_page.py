@@ -142,7 +142,6 @@ def figure_summary(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
 
 
 def _draw_butterfly(panel: Any, recording: PressureRecording, feet: Mapping[Side, FootGait]) -> None:
-    """Draw both feet's CoP together; insoles side by side, plates where they are."""
     known = {s: g for s, g in feet.items() if g.cop is not None}
     if len(known) < 2:
         panel.text(0.5, 0.5, "takes both feet with cells", ha="center", va="center", transform=panel.transAxes)

@@ -112,5 +112,4 @@ def _bytes(value: NDArray[np.float64], loaded: NDArray[np.bool_], highest: float
 
 
 def _seen(ring: NDArray[np.float64]) -> list[list[float]]:
-    """Ring from above, toes up: right and forward, in mm."""
     return np.round(1e3 * ring[:, ::-1] * (-1.0, 1.0), 1).tolist()  # type: ignore[no-any-return]

@@ -27,8 +27,6 @@ REGION_COLOURS = ("#4477aa", "#66ccee", "#228833", "#ccbb44", "#ee6677", "#aa337
 
 
 class _Cells(NamedTuple):
-    """Shown cells: their layout, and indices in the foot's own."""
-
     layout: SoleLayout
     chosen: NDArray[np.int64]
 
@@ -83,7 +81,6 @@ def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait])
 
 
 def _steps_of_picture(gait: FootGait) -> str:
-    """Steps of a picture: complete ones, or all frames without any."""
     if not gait.steps:
         return "no complete step:\nlargest of all frames"
     return f"{len(gait.steps)} step{'' if len(gait.steps) == 1 else 's'}"

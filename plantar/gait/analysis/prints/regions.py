@@ -98,7 +98,6 @@ def _is_valley(height: NDArray[np.float64], at: int, peak: int, beyond: float) -
 
 
 def _whole_gap(print_: Footprint, pitch: float) -> bool:
-    """Whether a gap separates the toes over the full width."""
     places, height = _profile(print_, np.ones(len(print_.areas), dtype=bool), pitch)
     front = height[places > 0.6 * print_.length]
     return bool(len(front) and (front[: -1 if len(front) > 1 else None] == 0.0).any())

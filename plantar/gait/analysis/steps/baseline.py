@@ -188,7 +188,6 @@ def _cells(ids: Sequence[int]) -> str:
 
 
 def _frames(mask: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """Frames of a mask, of very many runs at 40 places: they lie together in a file."""
     index = np.flatnonzero(mask)
     if len(index) <= _FRAMES:
         return index
@@ -239,7 +238,6 @@ def _stretches(rest: RestingLevel) -> tuple[list[float], list[tuple[int, int]]]:
 
 
 def _per_stretch(rest: RestingLevel) -> int:
-    """Frames of a stretch with several swings: a tenth of all, 20 at most."""
     begins = np.flatnonzero(np.diff(rest.swing.astype(np.int8)) == 1)
     return len(rest.swing) // min(20, max(1, len(begins) // 5))
 

@@ -247,7 +247,6 @@ def measured_spans(time: NDArray[np.float64], force: NDArray[np.float64]) -> lis
 def _contacts_of_span(
     time: NDArray[np.float64], force: NDArray[np.float64], levels: Levels, offset: int, minimum_stance: float
 ) -> list[Contact]:
-    """Contacts in frames without a long gap; `offset` is the first one's number."""
     found = [
         _contact(time, force, levels, span, offset)
         for span in _merged(time, force, levels, true_runs(force >= levels.release))

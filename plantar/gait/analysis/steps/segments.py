@@ -1,5 +1,6 @@
 """Parts of a recording with one activity."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -48,14 +49,14 @@ class Segment:
         return sum(len(own) for own in self.steps.values())
 
 
-def without_standing(contacts: Sequence[Contact]) -> list[Contact]:
-    """Contacts, with those too long for a step among their neighbours marked as standing."""
+def without_standing(contacts: Sequence[Contact], most: float = math.inf) -> list[Contact]:
+    """Contacts, with those too long for a step marked as standing: among their neighbours, or above most s without."""
     known = [i for i, c in enumerate(contacts) if c.complete]
     lasts = {i: cast(float, contacts[i].toe_off) - cast(float, contacts[i].heel_strike) for i in known}
     out = list(contacts)
     for at, i in enumerate(known):
         around = [lasts[k] for k in known[max(0, at - _BESIDE) : at] + known[at + 1 : at + 1 + _BESIDE]]
-        if len(around) >= 2 and lasts[i] > max(_LEAST, _LONG * float(np.median(around))):
+        if lasts[i] > (max(_LEAST, _LONG * float(np.median(around))) if len(around) >= 2 else most):
             out[i] = replace(contacts[i], standing=True)
     return out
 

@@ -102,7 +102,6 @@ def _middle(values: NDArray[np.float64]) -> float:
 
 
 def _measured(found: Sequence[tuple[int, int]], force: NDArray[np.float64], rate: float) -> list[tuple[int, int]]:
-    """Measured parts of swings; interpolated parts are no swing."""
     out = []
     for a, b in found:
         known = a + np.flatnonzero(np.isfinite(force[a:b]))
@@ -149,7 +148,6 @@ def _jump(force: NDArray[np.float64], change: float) -> int | None:
 
 
 def _opened(course: NDArray[np.float64], longest: float, rate: float) -> NDArray[np.float64]:
-    """Level under contacts of up to `longest` s."""
     width = max(3, round(longest * rate))
     eroded = _least(np.pad(course, width, mode="edge"), width)
     return -_least(-eroded, width)[1 : len(course) + 1]

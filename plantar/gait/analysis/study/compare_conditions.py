@@ -141,7 +141,6 @@ def _effects(
 def _curves(
     a: Sequence[Sequence[RecordingResult]], b: Sequence[Sequence[RecordingResult]]
 ) -> tuple[str, tuple[NDArray[np.float64], NDArray[np.float64]] | None]:
-    """Participants' mean curves, in body weights if all known; raw counts and newtons are not mixed."""
     everyone = [r for own in (*a, *b) for r in own]
     if not all(any(r.curves for r in own) for own in (*a, *b)) or len({r.raw for r in everyone}) > 1:
         return "N", None
