@@ -115,8 +115,6 @@ def nominal_insole(size: str, side: Side) -> SoleLayout:
 
 
 def _neighbours(spans: list[tuple[int, float, float]]) -> tuple[tuple[int, ...], ...]:
-    """Cells sharing part of an edge, in a row or in adjacent rows."""
-
     def touch(p: tuple[int, float, float], q: tuple[int, float, float]) -> bool:
         if p[0] == q[0]:
             return abs(p[1] - q[2]) < 1e-9 or abs(p[2] - q[1]) < 1e-9
@@ -160,8 +158,7 @@ _AREA_SIZE = 7
 def moticon_insole(size: int | None, side: Side, areas: NDArray[np.float64] | None = None) -> SoleLayout:
     """Returns insole of a size (7 if unknown) and side, cut into the parts nearest to each cell.
 
-    Origin in the middle of the heel edge, ids 1 to 16. Areas (16,) in m^2 are the recording's, if known, slightly
-    unlike the drawn parts'.
+    Origin in the middle of the heel edge, ids 1 to 16. Areas (16,) in m^2 are the recording's, if known.
 
     Example:
         >>> layout = moticon_insole(7, "left")
@@ -184,8 +181,11 @@ def moticon_insole(size: int | None, side: Side, areas: NDArray[np.float64] | No
     parts = shapely.get_parts(shapely.voronoi_polygons(shapely.MultiPoint(centre), extend_to=sole))
     points = shapely.points(centre)
     nearest = [next(p for p in parts if p.intersects(point)) for point in points]
-    cells = [shapely.geometry.polygon.orient(shapely.intersection(p, sole)) for p in nearest]
-    rings = [shapely.get_coordinates(c.convex_hull.exterior)[-2::-1][::-1] for c in cells]
+    cells = [shapely.geometry.polygon.orient(shapely.intersection(p, sole).convex_hull) for p in nearest]
+    rings = [shapely.get_coordinates(c.exterior)[:-1] for c in cells]
+    neighbours = edge_neighbours(shared_vertices(rings, tolerance=1e-6)[1])
+    scales = np.sqrt(area / shapely.area(cells))  # each is drawn as large as it counts
+    rings = [at + scale * (ring - at) for at, scale, ring in zip(centre, scales, rings, strict=True)]
     vertices, corners = shared_vertices(rings, tolerance=1e-6)
     n = len(centre)
     right = SoleLayout(  # y to the left is the medial side of a right foot
@@ -195,7 +195,7 @@ def moticon_insole(size: int | None, side: Side, areas: NDArray[np.float64] | No
         rotations=np.broadcast_to(np.eye(3), (n, 3, 3)),
         vertices=np.column_stack([vertices, np.zeros(len(vertices))]),
         corners=tuple(corners),
-        neighbours=edge_neighbours(corners),
+        neighbours=neighbours,
         areas=area,
         outline=outline,
         ids=np.arange(1, n + 1),

@@ -21,6 +21,7 @@ from plantar.errors import InputError
 from plantar.gait.analysis.results import Analysis
 from plantar.layouts.layout_file import layout_to_dict
 from plantar.optional_library import optional_library
+from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side
 
 
@@ -226,16 +227,24 @@ def _write_csv(analysis: Analysis, path: Path) -> None:
             write_csv_rows(stream, ([None if v != v else f"{v:.9g}" for v in row] for row in block.tolist()))
 
 
+def _even_frames(recording: PressureRecording) -> tuple[int, NDArray[np.int64], NDArray[np.bool_]]:
+    """Count of evenly spaced frames, the nearest recorded one (n,) of each, and which (n,) lie in a gap."""
+    time, rate = recording.time, recording.rate_hz
+    even = time[0] + np.arange(round(float(time[-1] - time[0]) * rate) + 1) / rate
+    at = np.searchsorted(0.5 * (time[1:] + time[:-1]), even)
+    return len(even), at, np.abs(time[at] - even) > 0.75 / rate
+
+
 def _write_c3d(analysis: Analysis, path: Path) -> None:
     with optional_library("ezc3d", "formats"):
         import ezc3d
     recording = analysis.recording
-    frames = len(recording.time)
+    frames, at, lost = _even_frames(recording)
     cops = {f"{side}.CoP": gait.cop for side, gait in analysis.feet.items() if gait.cop is not None}
     points = np.zeros((4, max(1, len(cops)), frames))  # the format has no file without points
     for i, cop in enumerate(cops.values()):
-        points[:2, i] = np.nan_to_num(cop).T
-    unknown = np.array([np.isnan(cop[:, 0]) for cop in cops.values()]) if cops else np.ones((1, frames), dtype=bool)
+        points[:2, i] = np.nan_to_num(cop[at]).T
+    unknown = np.array([np.isnan(cop[at, 0]) | lost for cop in cops.values()] or [np.ones(frames, dtype=bool)])
     file = ezc3d.c3d()
     parameters = file["parameters"]
     parameters["POINT"]["RATE"]["value"] = [recording.rate_hz]
@@ -252,11 +261,13 @@ def _write_c3d(analysis: Analysis, path: Path) -> None:
     analog["SCALE"]["value"] = [1.0] * (6 * len(reactions))
     analog["OFFSET"]["value"] = [0] * (6 * len(reactions))
     channels, corners = [], []
-    for reaction in reactions.values():
+    for side, reaction in reactions.items():
         low, high = reaction.cop.min(axis=0) - 0.05, reaction.cop.max(axis=0) + 0.05
         x, y = (reaction.cop - 0.5 * (low + high)).T  # moments are about the middle of the plate
         fx, fy, fz = reaction.force.T
-        channels += [fx, fy, fz, y * fz, -x * fz, x * fy - y * fx + reaction.free]
+        gone = lost | ~np.isfinite(analysis.feet[side].foot.vertical_force[at])
+        six = np.array([fx, fy, fz, y * fz, -x * fz, x * fy - y * fx + reaction.free])[:, at]
+        channels.append(np.where(gone, np.nan, six))
         corners.append([[high[0], high[1], 0.0], [low[0], high[1], 0.0], [low[0], low[1], 0.0], [high[0], low[1], 0.0]])
     plates = parameters["FORCE_PLATFORM"]
     for name, value in (
@@ -273,7 +284,7 @@ def _write_c3d(analysis: Analysis, path: Path) -> None:
         "residuals": np.where(unknown, -1.0, 0.0)[None],
         "camera_masks": np.zeros((7, len(unknown), frames), dtype=bool),
     }
-    file["data"]["analogs"] = np.array(channels)[None]
+    file["data"]["analogs"] = np.concatenate(channels)[None]
     events = _events(analysis)
     if events:
         names = {"heel_strike": "Foot Strike", "toe_off": "Foot Off"}

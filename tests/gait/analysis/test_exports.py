@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,11 +12,12 @@ from typer.testing import CliRunner
 from plantar import InputError
 from plantar.cli import app
 from plantar.formats.format import ReadOptions
-from plantar.formats.nominal_insole import nominal_insole
+from plantar.formats.nominal_insole import moticon_insole, nominal_insole
 from plantar.gait.analysis.analyse import Analysis, analyse
 from plantar.gait.analysis.exports import export_analysis
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.parameters import analyse_feet
+from plantar.sides import SIDES
 
 from .walks import made_walk
 
@@ -25,6 +27,32 @@ def analysis():
     recording = made_walk(strides=3, rate=50.0).recording
     feet = analyse_feet(recording)
     return Analysis(recording, feet, metrics_of(recording, feet))
+
+
+def test_cells_cut_from_an_outline_are_read_again(tmp_path):
+    """Moticon's insole has corners that go round as those of any layout file."""
+    recording = made_walk(strides=3, layouts={side: moticon_insole(7, side) for side in SIDES}).recording
+    feet = analyse_feet(recording)
+    path, _ = export_analysis(Analysis(recording, feet, metrics_of(recording, feet)), tmp_path / "walk.npz")
+    again = analyse(path)
+    assert not any("layout" in line for line in again.warnings)
+    for side, gait in feet.items():
+        assert again.feet[side].steps[0]["cop_path_m"] == pytest.approx(gait.steps[0]["cop_path_m"])
+
+
+def test_a_gap_in_time_is_a_gap_of_a_c3d_file(tmp_path, analysis):
+    """The format has no times: half a second that was not recorded must not make all after it early."""
+    pytest.importorskip("ezc3d", reason="ezc3d is not installed")
+    keep = np.r_[0:100, 125 : len(analysis.recording.time)]
+    soles = {s: replace(f, force=f.force[keep]) for s, f in analysis.recording.feet.items()}
+    recording = replace(analysis.recording, time=analysis.recording.time[keep], feet=soles)
+    feet = analyse_feet(recording)
+    path, _ = export_analysis(Analysis(recording, feet, metrics_of(recording, feet)), tmp_path / "walk.c3d")
+    again = analyse(path, options=ReadOptions(plates=("left", "right")))
+    for side, gait in feet.items():
+        steps = again.feet[side].steps
+        assert [s.heel_strike_s for s in steps] == pytest.approx([s.heel_strike_s for s in gait.steps], abs=0.03)
+        assert [s["peak_force_N"] for s in steps] == pytest.approx([s["peak_force_N"] for s in gait.steps], rel=0.01)
 
 
 @pytest.mark.parametrize("suffix", [".npz", ".csv"])
