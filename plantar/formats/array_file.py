@@ -41,8 +41,6 @@ def _recognises(head: bytes) -> bool:
 
 @dataclass(frozen=True)
 class _Array:
-    """Array of the file with only its header read."""
-
     shape: tuple[int, ...]
     dtype: np.dtype[Any]
     read: Callable[[], NDArray[Any]]

@@ -133,7 +133,6 @@ def halves(
 
 
 def _in_turns(values: NDArray[np.float64]) -> bool:
-    """Whether each half of columns (n, k) is unloaded for some time while the other is loaded."""
     half = values.shape[1] // 2
     one, other = np.nansum(values[:, :half], axis=1), np.nansum(values[:, half:], axis=1)
     loaded = [x > _IN_AIR * float(np.percentile(x, 98.0)) for x in (one, other)]

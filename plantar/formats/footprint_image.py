@@ -162,7 +162,6 @@ def _stated_resolution(data: bytes) -> float | None:
 
 
 def _foreground(cv2: Any, image: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Pixels with colours far from the image border's, by Otsu's threshold."""
     smooth = cv2.GaussianBlur(image, (0, 0), max(1.0, max(image.shape[:2]) / 500.0))
     lab = cv2.cvtColor(smooth, cv2.COLOR_BGR2LAB).astype(np.float32)
     rim = max(2, min(image.shape[:2]) // 60)

@@ -67,7 +67,6 @@ def _once(table: Table) -> Table:
 
 
 def _placement(recording: Recording, side: Side, time: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    """Sole pose on the ground (n, 3) from the simulator's "/truth/<side>", or None."""
     truth = recording.topics.get(f"/truth/{side}")
     if truth is None or not {"position", "rotation"} <= set(truth.fields) or len(truth) < 2:
         return None

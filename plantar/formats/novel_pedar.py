@@ -259,7 +259,6 @@ def _sides(text: str, columns: list[int], options: ReadOptions, warnings: list[s
 
 
 def _sensor_type(text: str) -> str:
-    """Header's sensors in lower case, such as "y-1865l-1870r"."""
     return (_field(text, r"(?:sensor|mat)\s+type:?[ \t]*([^\n]*)") or "").lower()
 
 
@@ -297,7 +296,6 @@ def _layout(
 
 
 def _size(text: str, given: str | None) -> tuple[str, str]:
-    """Insole size, of the options or the sensor type's first letters; and a note."""
     if given is not None:
         return given, " (--insole-size)"
     stated = (_field(text, r"sensor\s+type:?[ \t]*([a-z]{1,2})(?![a-z])") or "").lower()

@@ -19,7 +19,8 @@ from plantar.sides import SIDES, Side
 _Key = tuple[Side | None, int | None]
 # The two horizontal axes, right-handed with each vertical one.
 _UPRIGHT = {"z": ("x", "y"), "y": ("z", "x"), "x": ("y", "z")}
-_FEWEST, _LEVELS = 3, 10  # How often a mark for missing values is there at least, and different values of its column
+# How often a mark for missing values is there at least, different values of its column, and its smallest magnitude.
+_FEWEST, _LEVELS, _LEAST = 3, 10, 9.0
 _WEIGHTS = (0.7, 4.0)  # Largest vertical forces without a unit that are body weights and no N
 # Weight in N that forces in body weights are read with, so that levels in N hold; they are divided by it again.
 _NOMINAL = 700.0
@@ -93,7 +94,7 @@ def _take_out_marks(table: NDArray[np.float64], columns: Mapping[int, Heading], 
             continue
         least = 0.5 * (value[-2] - value[1])
         for mark, near, often in ((value[0], value[1], times[0]), (value[-1], value[-2], times[-1])):
-            if mark != 0.0 and often >= _FEWEST and abs(mark - near) > least:
+            if abs(mark) >= _LEAST and mark == round(mark) and often >= _FEWEST and abs(mark - near) > least:
                 table[table[:, i] == mark, i] = np.nan
                 count, marks = count + int(often), {**marks, float(mark): None}
     if marks:

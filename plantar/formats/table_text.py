@@ -88,7 +88,6 @@ def head_of_table(lines: Sequence[str]) -> TableHead | None:
 
 
 def _name_alone(above: Sequence[str]) -> str | None:
-    """Name of a single force column, with any unit of a line below; None of others."""
     texts = [x.strip('"# ') for x in above[-2:]]
     if len(texts) == 2 and plain(texts[1]) in _UNITS:
         texts = [f"{texts[0]} [{texts[1]}]"]
@@ -96,7 +95,6 @@ def _name_alone(above: Sequence[str]) -> str | None:
 
 
 def _delimiter(lines: Sequence[str]) -> str | None:
-    """Sign between cells that most lines share; None for blanks."""
     if not lines:
         return None
     best = max("\t;,", key=lambda d: (min(x.count(d) for x in lines) > 0, d != ","))

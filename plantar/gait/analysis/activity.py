@@ -135,7 +135,6 @@ def _by_landing(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
 
 
 def _without_heel_strike(feet: Mapping[Side, FootGait], landing: float) -> Activity:
-    """Activity of landings in front of the heel: up stairs where forces and times agree."""
     rows = [[s["second_peak_N"] / s["first_peak_N"], s["stance_percent"]] for g in feet.values() for s in g.used]
     known = [[v for v in column if np.isfinite(v)] for column in zip(*rows, strict=True)]
     humps, stance = (float(np.median(v)) if v else float("nan") for v in known)

@@ -248,7 +248,6 @@ def weight_doubts(recording: PressureRecording, weight: float | None) -> list[st
 
 
 def _overload(recording: PressureRecording, side: Side) -> str:
-    """Note on a robot's foot with taxels beyond their range, or empty."""
     foot = recording.feet[side]
     if foot.layout is None or recording.raw or "force" not in foot.layout.ranges or not len(foot.force):
         return ""

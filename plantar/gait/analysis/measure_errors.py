@@ -60,7 +60,6 @@ def _times(recording: PressureRecording, gait: FootGait, middle: Mapping[str, fl
 
 
 def _forces(recording: PressureRecording, gait: FootGait, middle: Mapping[str, float]) -> dict[str, float]:
-    """Errors of forces: noise of the foot's sum, and peaks between frames."""
     assert gait.levels is not None
     noise, step = gait.levels.noise, 1.0 / recording.rate_hz
     peak = middle["peak_force_N"]
@@ -93,7 +92,6 @@ def _fall_beside_peak(gait: FootGait) -> float:
 
 
 def _places(gait: FootGait, middle: Mapping[str, float]) -> dict[str, float]:
-    """Errors of the CoP: cell noise times distance, over force; and cell width."""
     layout, levels = gait.foot.layout, gait.levels
     assert layout is not None
     assert levels is not None
@@ -125,7 +123,6 @@ def _places(gait: FootGait, middle: Mapping[str, float]) -> dict[str, float]:
 
 
 def _pressures(gait: FootGait, middle: Mapping[str, float]) -> dict[str, float]:
-    """Errors of pressures and areas: cell noise, fall over a cell, cells at the print's edge."""
     layout, levels, picture = gait.foot.layout, gait.levels, gait.picture
     assert layout is not None
     assert levels is not None

@@ -123,8 +123,11 @@ def _with_measures(gait: FootGait, extra: Sequence[Mapping[str, float]]) -> Foot
 
 
 def _by_passes(recording: PressureRecording, prints: Sequence[PlatformPrint], events: _Events) -> _Events:
-    """Events whose contacts know their pass over a platform or plates, and whether the platform's edge cuts them."""
-    if recording.kind != "platform" and recording.metadata.get("sees_every_step", True):
+    """Events whose contacts know the pass they belong to, and whether a platform's edge cuts them.
+
+    Passes are parted by times in which no foot is on the ground; robots and single soles have one.
+    """
+    if recording.kind == "robot" or (recording.kind == "insole" and len(events) < 2):
         return events
     spans = sorted((recording.time[c.begin], recording.time[c.end - 1]) for _, own in events.values() for c in own)
     ends = [-np.inf, *accumulate((end for _, end in spans), max)]

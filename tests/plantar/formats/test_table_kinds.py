@@ -308,3 +308,35 @@ def test_a_table_that_is_marked_twice_keeps_its_clock(tmp_path, encoding):
     text = "\ufeff\ufefftime (s),Left Fz (N),Right Fz (N)\n" + rows([0.8 * TIME, LEFT, RIGHT], ",")
     path.write_bytes(text.encode(encoding))
     assert analyse(path).recording.rate_hz == pytest.approx(125.0)
+
+
+def trials(begins: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
+    """Force (n,) of a foot that steps on a plate at some times, and how far each contact has gone."""
+    share = np.sum([np.where((t < TIME) & (t + 0.7 > TIME), (TIME - t) / 0.7, 0.0) for t in begins], axis=0)
+    return 800.0 * np.sin(np.pi * share), share
+
+
+@pytest.mark.parametrize("names", ["Left Fz (N),Right Fz (N)", "left (N),right (N)", "FP1_Fz,FP2_Fz"])
+def test_no_stride_leads_from_one_trial_to_the_next(tmp_path, names):
+    path = tmp_path / "walk.csv"
+    columns = [trials(begins)[0] for begins in ((0.5, 3.2, 5.9), (1.05, 3.75, 6.45))]
+    path.write_text(f"time (s),{names}\n" + rows([TIME, *columns], ","))
+    found = analyse(path)
+    assert {side: len(gait.steps) for side, gait in found.feet.items()} == {"left": 3, "right": 3}
+    assert np.isnan([found.steps["stride_time_s"], found.steps["stance_percent"]]).all()
+    assert np.nanmax(found.steps["step_time_s"], initial=0.0) < 0.6
+
+
+@pytest.mark.parametrize("across", [False, True])
+def test_excursions_on_a_plate_are_along_the_walk(tmp_path, across):
+    """Whatever axis of the laboratory people walk along."""
+    path = tmp_path / "walk.csv"
+    force, gone = trials((0.5, 3.2, 5.9))
+    ahead, left = (0.2 * force * (gone - 0.5), 0.1 + 0.2 * gone), (-0.04 * force, 0.3 + 0.02 * np.sin(np.pi * gone))
+    (fx, x), (fy, y) = (left, ahead) if across else (ahead, left)
+    path.write_text(
+        "time (s),FP1_Fx,FP1_Fy,FP1_Fz,FP1_COPx (m),FP1_COPy (m)\n" + rows([TIME, fx, fy, force, x, y], ",")
+    )
+    steps = analyse(path).steps
+    assert steps["cop_excursion_ap_m"] == pytest.approx([0.19] * 3, abs=0.01)
+    assert steps["cop_excursion_ml_m"] == pytest.approx([0.02] * 3, abs=0.005)

@@ -82,7 +82,6 @@ def footprint_in_image(part: Print, pixel: float, side: Side) -> Footprint:
 
 
 def _forward(centres: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Direction from heel to toes: along the longest extent to the wider end."""
     values, vectors = np.linalg.eigh(np.cov((centres - centres.mean(axis=0)).T))
     axis = vectors[:, int(np.argmax(values))]
     if axis[0] < 0.0:
@@ -113,7 +112,6 @@ def _sides(image: FootprintImage, pixel: float, stated: Side | None) -> tuple[li
 
 
 def _centres(part: Print, pixel: float) -> NDArray[np.float64]:
-    """Pixels (n, 2) of a print in m: as in the sole frame x is up the image and y to its left."""
     rows, columns = np.nonzero(part.mask)
     return np.column_stack([part.mask.shape[0] - rows - 0.5, -columns - 0.5]) * pixel
 

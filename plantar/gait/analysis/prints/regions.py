@@ -64,7 +64,6 @@ def _valleys(print_: Footprint, pitch: float) -> list[tuple[float, float]]:
 def _profile(
     print_: Footprint, strip: NDArray[np.bool_], pitch: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Largest cell pressure at each place along a strip; 0 in gaps."""
     places = np.arange(0.40 * print_.length, print_.length, 0.5 * max(pitch, print_.length / 200.0))
     rings, pressure = print_.rings[strip], print_.pressure[strip]
     first, last = rings[:, :, 0].min(axis=1), rings[:, :, 0].max(axis=1)

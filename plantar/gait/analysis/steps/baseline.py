@@ -217,7 +217,6 @@ def _without_offset(foot: FootRecording, rest: RestingLevel) -> FootRecording:
 
 
 def _between(index: NDArray[np.int64], at: NDArray[np.float64], table: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rows (n, k) of a table at some places, linear between them and level beyond."""
     if len(at) == 1:
         return table
     after = np.clip(np.searchsorted(at, index), 1, len(at) - 1)

@@ -50,7 +50,7 @@ class Segment:
 
 
 def without_standing(contacts: Sequence[Contact], most: float = math.inf) -> list[Contact]:
-    """Contacts, with those too long for a step marked as standing: among their neighbours, or above most s without."""
+    """Returns contacts, those too long for a step marked as standing: for their neighbours, or alone above `most` s."""
     known = [i for i, c in enumerate(contacts) if c.complete]
     lasts = {i: cast(float, contacts[i].toe_off) - cast(float, contacts[i].heel_strike) for i in known}
     out = list(contacts)

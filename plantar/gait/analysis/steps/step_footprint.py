@@ -38,7 +38,6 @@ def with_picture(recording: PressureRecording, gait: FootGait, loads: StepLoads)
 
 
 def _highest_of_steps(recording: PressureRecording, gait: FootGait, loads: StepLoads) -> NDArray[np.float64]:
-    """Largest force (k,) of each cell in N: mean over complete steps, of a platform the largest."""
     highest = loads.highest([c for c in gait.contacts if c.complete])
     highest = highest if len(highest) else gait.foot.measured.max(axis=0, initial=0.0)[None]
     return np.asarray(np.max(highest, axis=0) if recording.kind == "platform" else np.mean(highest, axis=0))

@@ -122,7 +122,6 @@ class StepLoads:
 
 
 def _filled(time: NDArray[np.float64], force: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Forces with each cell's missing values interpolated in time; 0 for unmeasured cells."""
     out = force.copy()
     for cell in np.flatnonzero(np.isnan(force).any(axis=0)):
         known = np.isfinite(force[:, cell])

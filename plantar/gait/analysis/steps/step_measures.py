@@ -60,8 +60,9 @@ def _cop_measures(
     print_: Footprint | None,
 ) -> dict[str, float]:
     kind, layout = recording.kind, gait.foot.layout
-    # On a platform the foot's own axis is forward, in a sole the sole's.
-    out = cop_measures(time, print_.in_foot(cop) if print_ is not None and kind == "platform" else cop)
+    # On a platform the foot's own axis is forward, in a sole the sole's, on a plate the way of the CoP.
+    seen = _along_its_way(cop) if kind == "plate" else cop
+    out = cop_measures(time, print_.in_foot(cop) if print_ is not None and kind == "platform" else seen)
     across = gait.sole if kind == "insole" else print_
     if across is not None and kind != "robot":
         out["cpei_percent"] = excursion_index(across, cop)
@@ -70,6 +71,14 @@ def _cop_measures(
         if kind in ("insole", "robot") and len(inside):
             out["cop_margin_m"] = margin_to_outline(layout, inside)
     return out
+
+
+def _along_its_way(cop: NDArray[np.float64]) -> NDArray[np.float64]:
+    known = cop[np.isfinite(cop[:, 0])]
+    few = max(1, len(known) // 8)
+    way = known[-few:].mean(axis=0) - known[:few].mean(axis=0) if len(known) else np.zeros(2)
+    x, y = way / np.hypot(*way) if way.any() else (1.0, 0.0)
+    return np.asarray(cop @ np.array([[x, -y], [y, x]]))
 
 
 def _wrench_measures(recording: PressureRecording, wrench: NDArray[np.float64]) -> dict[str, float]:

@@ -79,7 +79,7 @@ def time_measures(
             between = others.strikes_between(last, strike)
             if len(between) == 1:
                 out["step_time_s"] = strike - float(between[0])
-        both = 100.0 * others.overlap(strike, lift) / stride
+        both = 100.0 * others.overlap(strike, lift, contact.walk) / stride
         out["flight_time_s"] = others.flight(lift)
         out["double_support_percent"] = both
         out["single_support_percent"] = share - both
@@ -102,7 +102,7 @@ class OtherFoot:
         self._measured = [(float(time[first]), float(time[after - 1])) for first, after in spans]
         begin = [float(time[c.begin]) if c.heel_strike is None else c.heel_strike for c in contacts]
         end = [float(time[c.end - 1]) if c.toe_off is None else c.toe_off for c in contacts]
-        self._begin, self._end = np.array(begin), np.array(end)
+        self._begin, self._end, self._walk = np.array(begin), np.array(end), np.array([c.walk for c in contacts])
 
     def was_measured(self, begin: float, end: float) -> bool:
         """Returns whether the foot was measured from begin to end in s, without long gaps."""
@@ -121,9 +121,15 @@ class OtherFoot:
         follows = len(after) > 0 and after[0] - lift < _LONGEST_FLIGHT and self.was_measured(lift, float(after[0]))
         return float(after[0]) - lift if follows else float("nan")
 
-    def overlap(self, strike: float, lift: float) -> float:
-        """Returns time in s with the other foot on the ground from strike to lift in s; NaN if unmeasured."""
-        if not self.was_measured(strike, lift):
+    def overlap(self, strike: float, lift: float, walk: int = 0) -> float:
+        """Returns time in s with the other foot on the ground from strike to lift in s; NaN if unmeasured.
+
+        As is one without a contact before and after in its walk, which may have been beside the platform.
+        """
+        own = self._walk == walk
+        if not (
+            self.was_measured(strike, lift) and (self._begin[own] < strike).any() and (self._end[own] > lift).any()
+        ):
             return float("nan")
         first, last = np.searchsorted(self._end, strike, "right"), np.searchsorted(self._begin, lift, "left")
         begin, end = self._begin[first:last], self._end[first:last]

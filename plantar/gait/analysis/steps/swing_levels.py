@@ -227,7 +227,6 @@ def _stand_out(levels: NDArray[np.float64], least: float) -> NDArray[np.bool_]:
 
 
 def _quick_ends(contact: NDArray[np.float64], span: float, rate: float) -> tuple[bool, bool]:
-    """Whether a foot carrying half the range lands and lifts at once."""
     half = np.flatnonzero(contact > 0.5 * span)
     if not len(half):
         return False, False

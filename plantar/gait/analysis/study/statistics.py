@@ -241,7 +241,6 @@ def _labels(n: int, m: int, paired: bool, most: int) -> Iterator[NDArray[np.floa
 
 
 def _paired_t(change: NDArray[np.float64]) -> NDArray[np.float64]:
-    """t (k,) of differences (n, k); 0 where they do not vary."""
     n = len(change)
     mean, sd = change.mean(axis=0), change.std(axis=0, ddof=1)
     return _ratio(mean, sd / math.sqrt(n))

@@ -90,6 +90,11 @@ def test_a_walkway(options):
             assert step.heel_strike_s == pytest.approx(strike, abs=0.011)
             assert step["foot_length_m"] == pytest.approx(0.25, abs=2 * PITCH)
             assert step["foot_progression_deg"] == pytest.approx(TOE_OUT, abs=5.0)
+            # Of the first footprint the other foot stands beside the platform: no share of it may be given.
+            double = 200.0 * DOUBLE / 2.0 / (STANCE - DOUBLE)
+            assert np.isnan(step["double_support_percent"]) or step["double_support_percent"] == pytest.approx(
+                double, 0.03
+            )
             if k:
                 assert step["step_length_m"] == pytest.approx(STEP, abs=PITCH)
                 assert step["step_width_m"] == pytest.approx(WIDTH, abs=2 * PITCH)
