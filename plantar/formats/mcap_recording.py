@@ -2,15 +2,16 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import cast
+from typing import cast, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import DependencyError, FormatError
 from plantar.formats.format import Format, ReadOptions
+from plantar.formats.side import at_times, common_times
 from plantar.recordings.mcap_content import MCAP_MAGIC
-from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
+from plantar.recordings.pressure_recording import FootRecording, Kind, PressureRecording, layout_for, sampling
 from plantar.recordings.recording import Recording, Table, read_mcap
 from plantar.sides import SIDES, Side
 
@@ -30,19 +31,22 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
             tables[side] = _once(table)
     if not tables:
         return _other_bag(path, options, ", ".join(recording.topics) or "none")
-    first = next(iter(tables.values()))
-    time, rate, notes = sampling(first.time, None, options.rate_hz)
+    times = {side: table.time for side, table in tables.items()}
+    base = next(iter(times.values()))
+    shifted = any(len(own) != len(base) or np.abs(own - base).max() > 1e-6 for own in times.values())
+    base = common_times(times) if shifted else base
+    time, rate, notes = sampling(base, None, options.rate_hz)
     warnings += notes
     feet: dict[Side, FootRecording] = {}
     for side, table in tables.items():
         force = table.fields["force"]
-        if len(table.time) != len(first.time) or np.abs(table.time - first.time).max() > 1e-6:
-            warnings.append(f"the {side} sole has its own frame times: interpolated to those of the other")
-            force = np.column_stack([np.interp(time, table.time, column) for column in force.T])
+        force = at_times(base, table.time, force) if shifted else force
         own = layout_for(side, options.layout) or recording.layouts.get(side)
         if own is None:
             warnings.append(f"no layout of the {side} sole: forces only, give one with --layout for pressures and CoP")
         feet[side] = FootRecording(side, force, own, placement=_placement(recording, side, time))
+    if shifted:
+        warnings.append("the soles have frame times of their own: interpolated to those of the left one")
     missing = [side for side in SIDES if side not in feet]
     if missing:
         warnings.append(f"no taxel forces of the {cast(str, missing[0])} foot: one foot is analysed")
@@ -54,7 +58,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         feet=feet,
         metadata=dict(recording.metadata),
         warnings=tuple(warnings),
-        kind="robot",
+        kind=next((kind for kind in get_args(Kind) if kind == recording.metadata.get("kind")), "robot"),
     )
 
 

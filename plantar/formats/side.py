@@ -1,7 +1,7 @@
 """Foot of a one-sensor recording, force plate or table row."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -116,13 +116,18 @@ def on_one_time(
             raise FormatError(f"no row of the {side} foot has a time")
         timed[side] = known[np.argsort(time[known], kind="stable")]
     times = {side: time[timed[side]] for side in SIDES}
+    base = common_times(times)
+    feet = {side: at_times(base, times[side], np.column_stack([c[timed[side]] for c in columns])) for side in SIDES}
+    return base, feet, True
+
+
+def common_times(times: Mapping[Side, NDArray[np.float64]]) -> NDArray[np.float64]:
+    """Returns the time (m,) that both feet's `times` have in common: the left one's, and the right one's alone."""
     # The left foot's times, and the right one's where the left foot has no rows; what one has more at the ends is left
     # out where it is no more than the rows' shift.
     alone = {side: times[side][~_covered(times[side], times[other_side(side)])] for side in SIDES}
     mine, more = (_without_ends(times[s], alone[s], times[other_side(s)]) for s in SIDES)
-    base = np.union1d(mine, more[np.isin(more, alone["right"])])
-    feet = {side: _at_times(base, times[side], np.column_stack([c[timed[side]] for c in columns])) for side in SIDES}
-    return base, feet, True
+    return np.asarray(np.union1d(mine, more[np.isin(more, alone["right"])]))
 
 
 def _usual(time: NDArray[np.float64]) -> float:
@@ -147,9 +152,10 @@ def _covered(wanted: NDArray[np.float64], time: NDArray[np.float64]) -> NDArray[
     return np.asarray(covered)
 
 
-def _at_times(
+def at_times(
     wanted: NDArray[np.float64], time: NDArray[np.float64], values: NDArray[np.float64]
 ) -> NDArray[np.float64]:
+    """Returns values (m, k) at wanted times (m,), linear between values (n, k) of a time (n,); NaN in gaps."""
     out = np.column_stack([np.interp(wanted, time, column) for column in values.T])
     out[~_covered(wanted, time)] = np.nan
     return out

@@ -6,12 +6,12 @@ A line is "left,0.01,3.2,0,..."; a force that is missing is empty or nan.
 import math
 import sys
 from collections.abc import Iterator, Mapping
-from typing import BinaryIO
+from typing import BinaryIO, get_args
 
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 from plantar.live.source import LiveSource, LiveStream
-from plantar.recordings.pressure_recording import layout_for
+from plantar.recordings.pressure_recording import Kind, layout_for
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side
 
@@ -19,10 +19,12 @@ _LONGEST = 1 << 20  # bytes of a line: 50,000 taxels
 
 
 def _open(address: str, layout: SoleLayout | None) -> LiveStream:
-    if address or layout is None:
-        raise InputError("lines come on stdin, for a sole that is known; allowed: lines, with --layout FILE")
+    kind = next((kind for kind in get_args(Kind) if kind == (address or "robot")), None)
+    if kind is None or layout is None:
+        ways = ", ".join(f"lines:{kind}" for kind in get_args(Kind))
+        raise InputError(f"lines come on stdin, for a sole that is known; allowed: lines, {ways}, with --layout FILE")
     soles = {side: found for side in SIDES if (found := layout_for(side, layout)) is not None}
-    return LiveStream(soles, _readings(sys.stdin.buffer, soles))
+    return LiveStream(soles, _readings(sys.stdin.buffer, soles), kind)
 
 
 def _readings(stream: BinaryIO, soles: Mapping[Side, SoleLayout]) -> Iterator[tuple[Side, Reading]]:

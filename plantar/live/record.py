@@ -48,7 +48,9 @@ def record(
     start, shown, latest = first[1].time, -math.inf, 0.0
     times: dict[Side, list[float]] = {side: [] for side in stream.soles}
     seen: dict[Side, Reading] = {}
-    with Recorder(path, {"source": "live"}, {str(s): sole for s, sole in stream.soles.items()}) as recorder:
+    with Recorder(
+        path, {"source": "live", "kind": stream.kind}, {str(s): sole for s, sole in stream.soles.items()}
+    ) as recorder:
         skins = {side: recorder.channel(f"/skin/{side}", [("force", len(s))]) for side, s in stream.soles.items()}
         try:
             for side, reading in chain([first], stream.readings):

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from plantar.errors import InputError
 from plantar.extensions import extensions
 from plantar.layouts.layout import SoleLayout
+from plantar.recordings.pressure_recording import Kind
 from plantar.sensing.reading import Reading
 from plantar.sides import Side
 
@@ -20,10 +21,12 @@ class LiveStream(NamedTuple):
     Attributes:
         soles: Layout of each side that comes.
         readings: A side and its reading each, in order of time; ends with the device, closed when no longer read.
+        kind: What measures: a robot's soles, a person's insoles, or a platform.
     """
 
     soles: Mapping[Side, SoleLayout]
     readings: Iterator[tuple[Side, Reading]]
+    kind: Kind = "robot"
 
 
 @dataclass(frozen=True)

@@ -38,6 +38,23 @@ def test_two_soles(tmp_path, layout):
     assert recording.feet["left"].vertical_force == pytest.approx(force.sum(axis=1))
 
 
+def test_a_sole_that_joins_late_and_pauses_was_not_measured_then(tmp_path, layout):
+    n = len(layout)
+    with Recorder(tmp_path / "run.mcap", {"kind": "insole"}, {"left": layout, "right": mirrored(layout)}) as recorder:
+        left, right = (recorder.channel(f"/skin/{side}", [("force", n)]) for side in ("left", "right"))
+        for i in range(100):
+            if i < 80:
+                left.write(0.01 * i, np.full(n, 1.0))
+            if i >= 30 and not 50 <= i < 60:
+                right.write(0.01 * i + 0.004, np.full(n, 2.0))
+    recording = read_recording(tmp_path / "run.mcap")
+    assert recording.kind == "insole"
+    time, left, right = recording.time, *(recording.feet[side].vertical_force for side in ("left", "right"))
+    assert time[-1] == pytest.approx(0.994)
+    assert (np.isfinite(left) == (time < 0.792)).all()
+    assert (np.isfinite(right) == ((time > 0.303) & ~((time > 0.495) & (time < 0.603)))).all()
+
+
 def test_one_sole_without_layout_says_so(tmp_path, layout):
     write(tmp_path / "run.mcap", {}, ("right",), len(layout))
     recording = read_recording(tmp_path / "run.mcap")

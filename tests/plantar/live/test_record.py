@@ -90,6 +90,19 @@ def test_a_recording_is_replayed_at_its_pace(tmp_path):
         assert time.monotonic() - began >= 0.1 * k
 
 
+def test_what_measured_is_kept(tmp_path, monkeypatch):
+    record(LiveStream({"left": SOLE}, readings([0.0, 0.01]), "platform"), tmp_path / "run.mcap")
+    assert read_recording(tmp_path / "run.mcap").kind == open_live(f"replay:{tmp_path / 'run.mcap'}").kind == "platform"
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO()))
+    assert open_live("lines:insole", SOLE).kind == "insole"
+
+
+def test_raw_counts_are_not_replayed_as_newtons(tmp_path):
+    np.savez(tmp_path / "raw.npz", left=np.ones((50, len(SOLE))), rate_hz=50.0)
+    with pytest.raises(InputError, match="raw counts are no forces in N"):
+        open_live(f"replay:{tmp_path / 'raw.npz'}", SOLE)
+
+
 def test_ctrl_c_ends_a_recording(tmp_path):
     def stopped():
         yield from readings([0.0, 0.25])
