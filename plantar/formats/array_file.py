@@ -31,6 +31,7 @@ from plantar.recordings.pressure_recording import FootRecording, Kind, PressureR
 from plantar.sides import SIDES
 
 _USUAL_RATE = 100.0
+_MILLISECONDS = (1.0, 50.0)  # Steps of times that are ms: a frame a second is no gait, and devices have 20 a second
 _LARGEST = 4e9  # Largest size of all arrays in bytes
 _SHOWN = 20  # arrays in a message
 
@@ -81,6 +82,8 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
     if not tables:
         held = ", ".join(f"{k} {a.shape}" for k, a in islice(arrays.items(), _SHOWN)) or "nothing"
         raise FormatError(f"no array of frames and cells; the file holds {held}")
+    if other := next((k for k, a in arrays.items() if side_of(k) and a.dtype.kind not in "iufbUS"), None):
+        raise FormatError(f"the array {other!r} holds what is no real number; allowed: numbers, a row a frame")
     force_like = {k: t for k, t in tables.items() if k.split("/")[-1] in ("force", "pressure")}
     by_side: dict[Side, tuple[str, _Array]] = {}
     for key, array in (force_like or tables).items():
@@ -212,11 +215,20 @@ def _times(
 ) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
     rate = options.rate_hz
     for key in ("rate_hz", "rate", "frequency", "fs"):
-        if rate is None and key in arrays and arrays[key].size == 1 and arrays[key].dtype.kind in "iuf":
+        if rate is None and key in arrays:
+            if arrays[key].size != 1 or arrays[key].dtype.kind not in "iuf":
+                raise FormatError(f"the array {key!r} is no number; allowed: frames a second")
             rate = possible_rate(float(arrays[key].read().reshape(-1)[0]), f"{key} states")
     for key in (clock, "time", "time_s", "t", "times", "timestamps"):
-        if options.rate_hz is None and key in arrays and arrays[key].dtype.kind in "iuf" and arrays[key].size == frames:
-            return sampling(np.asarray(arrays[key].read(), dtype=float).reshape(-1), rate)
+        if options.rate_hz is None and key in arrays and arrays[key].dtype.kind in "iuf":
+            if arrays[key].size != frames:
+                raise FormatError(f"the array {key!r} holds {arrays[key].size} times for {frames} frames")
+            time = np.asarray(arrays[key].read(), dtype=float).reshape(-1)
+            steps = np.diff(time[np.isfinite(time)])
+            if rate is None and len(steps) and _MILLISECONDS[0] <= np.median(steps) <= _MILLISECONDS[1]:
+                time = 1e-3 * time
+                warnings.append("the times rise by 1 and more a frame: ms are assumed")
+            return sampling(time, rate)
     if rate is None:
         warnings.append(f"the file holds no times and no rate: {_USUAL_RATE:g} Hz is assumed (--rate overrides)")
         rate = _USUAL_RATE

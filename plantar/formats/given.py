@@ -25,11 +25,15 @@ def recording_of(given: Any, format: str | None = None, options: ReadOptions | N
         options: What else is known: layout, unit, rate, side. Arrays without unit are raw counts.
 
     Raises:
-        InputError: For another type.
+        InputError: For another type, or an empty recording.
         FormatError: Without frames of load.
     """
     known = options or ReadOptions()
     if isinstance(given, PressureRecording):
+        if not given.feet or not len(given.time):
+            raise InputError("a recording without feet or frames; allowed: a foot and a frame at least")
+        if any(np.isinf(foot.vertical_force).any() for foot in given.feet.values()):
+            raise InputError("a recording holds infinite forces; allowed: numbers, NaN for what was not measured")
         return given
     if isinstance(given, str | os.PathLike):
         return read_recording(given, format, options=known)

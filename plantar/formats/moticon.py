@@ -150,7 +150,7 @@ def _size(header: dict[str, str], warnings: list[str]) -> int | None:
 def _total(
     columns: dict[str, tuple[int, str]], table: NDArray[np.float64], side: Side, warnings: list[str]
 ) -> NDArray[np.float64] | None:
-    if "total force" not in columns:
+    if "total force" not in columns or not np.nan_to_num(table[:, columns["total force"][0]]).any():
         warnings.append(f"the file holds no total force of the {side} foot: it is the sum over the cells")
         return None
     index, stated = columns["total force"]
@@ -203,7 +203,7 @@ def _device_cop(
     out = np.column_stack([(along + 0.5) * length, outward * across * MOTICON_WIDTH * length])
     out[(np.abs(along) > 0.75) | (np.abs(across) > 0.75) | ((along == 0.0) & (across == 0.0))] = np.nan
     out[np.isnan(out).any(axis=1)] = np.nan
-    return out
+    return out if np.isfinite(out).any() else None  # an empty column, or shares of something else
 
 
 FORMAT = Format(

@@ -1,5 +1,6 @@
 """Recordings from what a program holds: arrays, mappings and data frames."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -41,6 +42,34 @@ def test_arrays_keep_their_values_and_are_not_changed():
 def test_what_holds_no_frames_is_refused(given):
     with pytest.raises((InputError, FormatError)):
         recording_of(given)
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ({"time": np.arange(190) / 50.0}, "'time' holds 190 times for 200 frames"),
+        ({"rate_hz": np.array([50.0, 60.0])}, "'rate_hz' is no number"),
+        ({"left": np.full((200, 3), 1.0 + 2.0j)}, "'left' holds what is no real number"),
+    ],
+)
+def test_arrays_that_are_there_and_cannot_be_used_are_refused(more, words):
+    """Left out, they would make another rate, or one foot of two."""
+    with pytest.raises(FormatError, match=words):
+        recording_of({"right": np.full((200, 3), 2.0), "unit": "N", **more})
+
+
+def test_times_in_milliseconds():
+    recording = recording_of({"right": np.full((200, 3), 2.0), "unit": "N", "time": 10.0 * np.arange(200)})
+    assert recording.rate_hz == pytest.approx(100.0)
+    assert "the times rise by 1 and more a frame: ms are assumed" in recording.warnings
+
+
+def test_a_recording_that_measures_nothing_is_refused():
+    whole = recording_of({"right": np.full((200, 3), 2.0), "unit": "N", "rate_hz": 50.0})
+    foot = whole.feet["right"]
+    for feet, words in (({}, "without feet"), ({"right": replace(foot, force=foot.force + np.inf)}, "infinite forces")):
+        with pytest.raises(InputError, match=words):
+            recording_of(replace(whole, feet=feet))
 
 
 @pytest.mark.parametrize(

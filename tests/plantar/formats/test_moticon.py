@@ -142,6 +142,21 @@ def test_one_foot_and_units(tmp_path, feet):
     assert raw.feet["left"].vertical_force == pytest.approx(feet["left"].sum(axis=1))
 
 
+@pytest.mark.parametrize("value", ["", "0"])
+def test_an_empty_column_of_the_total_force_is_none(tmp_path, feet, value):
+    path = tmp_path / "walk.txt"
+    export(path, feet)
+    lines = path.read_text().splitlines()
+    first = next(i for i, line in enumerate(lines) if "left pressure 1" in line)
+    at = next(i for i, name in enumerate(lines[first].split("\t")) if "left total force" in name)
+    rows = [line.split("\t") for line in lines[first + 1 :]]
+    text = ["\t".join([*row[:at], value, *row[at + 1 :]]) for row in rows]
+    path.write_text("\n".join([*lines[: first + 1], *text]) + "\n")
+    recording = read_recording(path)
+    assert any("no total force of the left foot" in w for w in recording.warnings)
+    assert recording.feet["left"].vertical_force == pytest.approx(recording.feet["right"].vertical_force, rel=1.0)
+
+
 def test_a_cut_end_and_damaged_values(tmp_path, feet):
     path = tmp_path / "walk.txt"
     export(path, feet)
