@@ -6,7 +6,7 @@ platform of the footprint.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 import shapely
@@ -17,7 +17,10 @@ from plantar.gait.analysis.results import Analysis
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 from plantar.gait.analysis.steps.pressure_measures import region_measures
 from plantar.gait.analysis.steps.step_load import StepLoad, StepLoads
+from plantar.plane_points import plane_points
 from plantar.sides import Side
+
+_FARTHEST = 2.0  # Largest distance of a mask's corner from the middle of the foot, in shares of its length or width
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,13 +47,21 @@ def custom_measures(
 
     Args:
         analysis: Analysis.
-        measures: Functions by name; each gives a number, NaN if unknown.
+        measures: Functions by name; each gives a number, NaN if unknown, else an InputError.
     """
     out: dict[Side, dict[str, NDArray[np.float64]]] = {}
     for side, gait in analysis.feet.items():
         views = list(_views(analysis, gait))
-        out[side] = {name: np.array([float(function(v)) for v in views]) for name, function in measures.items()}
+        out[side] = {name: np.array([_value(name, f(v), v.step) for v in views]) for name, f in measures.items()}
     return out
+
+
+def _value(name: str, value: Any, step: Step) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        shown = f"measure {name} of step {step.number} of the {step.side} foot gave {str(value)[:40]!r}"
+        raise InputError(f"{shown}; allowed: a number, NaN if unknown") from None
 
 
 def mask_measures(analysis: Analysis, masks: Mapping[str, ArrayLike]) -> dict[Side, list[dict[str, dict[str, float]]]]:
@@ -80,9 +91,12 @@ def mask_measures(analysis: Analysis, masks: Mapping[str, ArrayLike]) -> dict[Si
 
 
 def _ring(name: str, corners: ArrayLike) -> shapely.Polygon:
-    ring = np.asarray(corners, dtype=float)
-    if ring.ndim != 2 or ring.shape[1] != 2 or len(ring) < 3 or not np.isfinite(ring).all():
-        raise InputError(f"{name} has corners of shape {ring.shape}; allowed: three or more finite points (u, v)")
+    ring = plane_points(corners, f"mask {name}")
+    if len(ring) < 3 or np.abs(ring - 0.5).max() > _FARTHEST or not shapely.Polygon(ring).is_valid:
+        raise InputError(
+            f"mask {name} crosses itself, has less than three corners, or some far from a foot; allowed: shares of its "
+            "length and width, from heel (0) to toes (1) and from lateral (0) to medial (1)"
+        )
     return shapely.Polygon(ring)
 
 

@@ -48,9 +48,17 @@ def test_a_measure_of_ones_own(analysis):
         assert np.isnan(found[side]["none"]).all()
 
 
-def test_what_is_no_mask_is_refused(analysis):
-    with pytest.raises(InputError, match=r"mine has corners of shape \(2, 2\); allowed: three or more"):
-        mask_measures(analysis, {"mine": [[0, 0], [1, 1]]})
+@pytest.mark.parametrize(
+    "corners", [[[0, 0], [1, 1]], [[0, 0], [1, 1], [1, 0], [0, 1]], [[0, 0], [100, 0], [100, 100]], "heel"]
+)
+def test_what_is_no_mask_is_refused(analysis, corners):
+    with pytest.raises(InputError, match="mask mine (crosses itself, has less than three corners|is not numeric)"):
+        mask_measures(analysis, {"mine": corners})
+
+
+def test_a_measure_that_is_no_number_is_named(analysis):
+    with pytest.raises(InputError, match="measure mine of step 1 of the left foot gave 'None'; allowed: a number"):
+        custom_measures(analysis, {"mine": lambda view: None})
 
 
 def test_an_axis_beside_the_print_is_not_drawn(analysis):
