@@ -23,9 +23,9 @@ BODY_WEIGHTS: dict[str, float] = {
 """Units of force relative to the body's weight; N/kg is apart, since it is of the mass."""
 
 _WORDS_OF_KIND = {
-    "left": "l left links linker linke gauche izquierdo izquierda izq lt",
-    "right": "r right rechts rechter rechte droit droite derecho derecha rt",
-    "force": "f force forces for kraft grf grfs load last fuerza forza reaction vgrf",
+    "left": "l left links linker linke gauche izquierdo izquierda izq sinistro sinistra lt",
+    "right": "r right rechts rechter rechte droit droite derecho derecha destro destra rt",
+    "force": "f force forces for kraft kracht grf grfs load last fuerza forza reaction vgrf",
     "pressure": "pressure druck press pression presion kpa",
     "cop": "cop copp pressurecenter copposition",
     "moment": "m mom moment moments torque t tz free drehmoment",

@@ -11,8 +11,10 @@ from plantar.errors import FormatError, InputError
 from plantar.sides import SIDES, Side, other_side
 
 _MARKS: dict[Side, re.Pattern[str]] = {
-    "left": re.compile(r"left|links|gauche|izquierd|(?:(?<=[\W_\d])|^)(?:l|lf|lt)(?=[\W_\d]|$)", re.IGNORECASE),
-    "right": re.compile(r"right|rechts|droit|derech|(?:(?<=[\W_\d])|^)(?:r|rf|rt)(?=[\W_\d]|$)", re.IGNORECASE),
+    "left": re.compile(r"left|links|gauche|izquierd|sinistr|(?:(?<=[\W_\d])|^)(?:l|lf|lt)(?=[\W_\d]|$)", re.IGNORECASE),
+    "right": re.compile(
+        r"right|rechts|droit|derech|destr[oa]|(?:(?<=[\W_\d])|^)(?:r|rf|rt)(?=[\W_\d]|$)", re.IGNORECASE
+    ),
 }
 
 

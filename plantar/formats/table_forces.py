@@ -35,6 +35,8 @@ def is_force_table(headings: Sequence[Heading]) -> bool:
     if any(h.axis or h.plate for h in forces) and not (len(cells) > 2 * len(forces)):
         return True
     own = [(h.side, h.number) for h in forces]
+    if any(h.side and h.quantity == "number" for h in headings) and not any(side for side, _ in own):
+        return False  # the sum of two feet, beside them
     one_a_foot = bool(own) and all(n is None for _, n in own) and len(set(own)) == len(own) and len(own) <= 2
     return one_a_foot and not cells
 

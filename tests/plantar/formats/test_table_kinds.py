@@ -53,6 +53,8 @@ HEADINGS = (
     "Plate 1 Vertical (N)|Plate 2 Vertical (N)",
     "fz_left_newton|fz_right_newton",
     "force_sum_left|force_sum_right",
+    "Forza sinistra (N)|Forza destra (N)",
+    "Kracht links (N)|Kracht rechts (N)",
 )
 
 
@@ -80,6 +82,12 @@ def check(walk: Analysis, sides: Sequence[str] = ("left", "right"), weight: floa
 def test_headings_of_two_feet(tmp_path, names):
     path = tmp_path / "walk.csv"
     path.write_text("Time (s)," + names.replace("|", ",") + "\n" + rows([TIME, LEFT, RIGHT], ","))
+    check(analyse(path))
+
+
+def test_the_sum_of_two_feet_beside_them_is_no_plate(tmp_path):
+    path = tmp_path / "walk.csv"
+    path.write_text("Time (s),left (N),right (N),total (N)\n" + rows([TIME, LEFT, RIGHT, LEFT + RIGHT], ","))
     check(analyse(path))
 
 
