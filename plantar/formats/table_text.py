@@ -13,25 +13,8 @@ from plantar.formats.units import FORCES, LENGTHS, MOMENTS, PASCALS, plain
 
 _ROWS = 10  # Rows of numbers in a row from which a table begins, where there are so many
 _LONGEST_NAME = 200
-_UNITS = {
-    *FORCES,
-    *PASCALS,
-    *LENGTHS,
-    *MOMENTS,
-    "s",
-    "sec",
-    "secs",
-    "ms",
-    "hz",
-    "-",
-    "",
-    "%",
-    "%bw",
-    "bw",
-    "raw",
-    "v",
-    "deg",
-}
+_OTHERS = "s sec secs ms hz - % %bw bw raw v deg"
+_UNITS = {*FORCES, *PASCALS, *LENGTHS, *MOMENTS, *_OTHERS.split(), ""}
 
 
 @dataclass(frozen=True)
@@ -107,7 +90,6 @@ def _cells(line: str, delimiter: str | None) -> list[str]:
 
 
 def _width(rows: Sequence[str], delimiter: str | None) -> int:
-    """Commonest cell count, without end cells that are empty in all rows."""
     counts = [len(_cells(x, delimiter)) for x in rows]
     width = max(set(counts), key=counts.count, default=0)
     while width > 1 and all(len(c) >= width and not c[width - 1].strip() for c in (_cells(x, delimiter) for x in rows)):

@@ -111,7 +111,6 @@ def _draw_paths(panel: Any, gait: FootGait) -> None:
 
 
 def _mean_path(paths: Sequence[NDArray[np.float64]]) -> NDArray[np.float64] | None:
-    """Mean (51, 2) of paths (m, 2) over the stance; None without two points."""
     known = [path[np.isfinite(path[:, 0])] for path in paths]
     known = [path for path in known if len(path) >= 2]
     if not known:

@@ -96,19 +96,10 @@ _DEPTH = 0.02  # How deep a valley has to be, as a share of the lower peak, to s
 # Share of the largest force of its half of the stance that a peak has; the transient of a heel strike has less.
 _HUMP = 0.75
 _ALIKE = 0.95  # A hump lower than this share of another one of its half is a shoulder of the loading
-_UNKNOWN = dict.fromkeys(
-    (
-        "first_peak_N",
-        "valley_N",
-        "second_peak_N",
-        "first_peak_percent",
-        "valley_percent",
-        "second_peak_percent",
-        "loading_rate_N_s",
-        "loading_rate_max_N_s",
-    ),
-    float("nan"),
-)
+_UNKNOWN = {
+    f"{name}_{unit}": float("nan") for name in ("first_peak", "valley", "second_peak") for unit in ("N", "percent")
+}
+_UNKNOWN |= {"loading_rate_N_s": float("nan"), "loading_rate_max_N_s": float("nan")}
 
 
 def force_measures(
