@@ -123,7 +123,10 @@ def read_recording(
         check_input(path, FormatError)
         raise FormatError(f"{path}: a footprint image is no recording over time")
     try:
-        return checked(chosen.read(Path(path), known))
+        found = checked(chosen.read(Path(path), known))
+        if known.plates and found.kind != "plate":
+            raise InputError(f"--plates is for force plates; {path} is a recording of kind {found.kind}")
+        return found
     except FormatError as error:
         text = str(error)
         raise FormatError(text if text.startswith(str(path)) else f"{path}: {text}") from None

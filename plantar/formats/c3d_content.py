@@ -124,7 +124,6 @@ def _plates(parameters: Any, analogs: NDArray[np.float64]) -> dict[str, Any]:
 
 
 def _of_plate(values: NDArray[np.float64], shape: tuple[int, ...], i: int) -> NDArray[np.float64] | None:
-    """Plate i's array of values that are stored plate after plate; None without."""
     size = math.prod(shape)
     return (
         values.ravel("F")[i * size : (i + 1) * size].reshape(shape, order="F")

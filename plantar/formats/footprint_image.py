@@ -181,7 +181,6 @@ def _foreground(cv2: Any, image: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def _prints(cv2: Any, mask: NDArray[np.uint8], pixel: float | None, warnings: list[str]) -> list[Print]:
-    """Foreground parts grouped to feet: separate toes and heels join the part they are near."""
     count, labels, stats, centres = cv2.connectedComponentsWithStats(mask, connectivity=8)
     areas = stats[1:, cv2.CC_STAT_AREA].astype(float)
     if not len(areas):

@@ -86,7 +86,6 @@ def _times(stated: list[float], options: ReadOptions, warnings: list[str]) -> tu
 def _take_frames(
     path: Path, lines: Iterator[str], warnings: list[str]
 ) -> tuple[list[float], tuple[int, int], FrameTable]:
-    """Frame times in ms, plate rows and columns, and readings, front row first."""
     times: list[float] = []
     table: FrameTable | None = None
     shape, odd, last_is_odd = (0, 0), 0, False

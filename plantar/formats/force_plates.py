@@ -174,7 +174,6 @@ def _empty_frames(vertical: NDArray[np.float64], rate: float) -> NDArray[np.bool
 
 
 def _level(values: NDArray[np.float64], reach: float, about: float, peak: float) -> tuple[float, float]:
-    """Commonest level within reach of a place, and its noise extent."""
     counts, edges = np.histogram(values, bins=60, range=(about - reach, about + reach))
     smooth = np.convolve(counts, [1, 2, 1], mode="same")
     level = 0.5 * float(edges[np.argmax(smooth)] + edges[np.argmax(smooth) + 1])

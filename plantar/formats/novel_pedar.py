@@ -80,7 +80,6 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def _take_header(lines: Iterable[str]) -> tuple[list[str], list[int], str | None]:
-    """Lines before the column names, their cells, and the delimiter; None for blanks."""
     header: list[str] = []
     for line in lines:
         if _COLUMNS.match(line):

@@ -225,7 +225,6 @@ def _forward(plates: Sequence[Plate], contacts: Sequence[PlateContact], treadmil
 def _by_push(
     plates: Sequence[Plate], contacts: Sequence[PlateContact], forward: NDArray[np.float64] | None
 ) -> list[Side | None]:
-    """Feet by their mid-stance push, inwards to the body."""
     out: list[Side | None] = []
     for contact in contacts:
         length = contact.end - contact.begin

@@ -139,7 +139,6 @@ def _refuse_curves(headings: Sequence[Heading], at: int | None) -> None:
 def _side_by_side(
     table: NDArray[np.float64], names: list[str], at: int | None, of_side: int, warnings: list[str]
 ) -> tuple[NDArray[np.float64], list[str]]:
-    """Table of both feet in columns, times first, from rows of either foot."""
     rows = rows_of_sides(table[:, of_side], warnings)
     cells = [i for i in range(table.shape[1]) if i not in (at, of_side)]
     time = np.arange(len(table), dtype=float) if at is None else table[:, at]

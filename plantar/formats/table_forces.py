@@ -136,7 +136,6 @@ def _scaled(foot: FootRecording, scale: float) -> FootRecording:
 
 
 def _up(axes: Mapping[str, int], up: str) -> str | None:
-    """Axis of a plate's vertical force, or None."""
     return next((a for a in ("vertical", up, "") if a in axes), None)
 
 

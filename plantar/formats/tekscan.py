@@ -130,7 +130,6 @@ def _take_header(lines: Iterator[str]) -> tuple[dict[str, str], re.Match[str]]:
 def _take_frames(
     path: Path, first: re.Match[str], lines: Iterator[str], header: dict[str, str], warnings: list[str]
 ) -> tuple[list[int], tuple[int, int], FrameTable]:
-    """Frame numbers, matrix rows and columns, and readings, a frame a row."""
     stated = _stated(header, "ROWS")
     frames = frames_of_lines(lines, _FRAME, first, (stated or _LARGEST) + _MOST_EXTRA)
     bodies = ((int(match[1][-18:]), [line.strip() for line in body]) for match, body in frames)

@@ -191,7 +191,6 @@ def table_of_lines(
 def _rows(
     block: list[str], delimiter: str | None, width: int, wanted: Sequence[int]
 ) -> tuple[NDArray[np.float64], int, int]:
-    """Numbers of lines, and counts of bad cells and of lines of another width."""
     goes = np.full(width, -1)
     goes[wanted] = np.arange(len(wanted))
     rows = number_rows(block, delimiter, goes.tolist())

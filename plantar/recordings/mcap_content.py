@@ -38,8 +38,6 @@ _LARGEST = {0x05: _LARGEST_CHUNK, 0x06: _LARGEST_CHUNK}
 
 
 class _Topic:
-    """One topic's messages, with names and widths of float64 fields."""
-
     def __init__(self, name: str, fields: list[tuple[str, int]]) -> None:
         self.name = name
         self.fields = fields

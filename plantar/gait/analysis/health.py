@@ -106,7 +106,6 @@ def _neighbours(layout: SoleLayout) -> list[NDArray[np.int64]]:
 
 
 def _at_mirrored(layout: SoleLayout, other: SoleLayout, marked: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Which cells (n,) mirror a marked one (k,) of the other foot; none of another shape."""
     away = np.abs(layout.positions[:, None, :2] * [1.0, -1.0] - other.positions[None, :, :2]).max(axis=2)
     alike = away.min(axis=1).max() < 0.5 * float(np.sqrt(layout.areas.mean()))
     return marked[away.argmin(axis=1)] if alike else np.zeros(len(layout), dtype=bool)

@@ -37,7 +37,6 @@ def errors_of_foot(recording: PressureRecording, gait: FootGait) -> dict[str, fl
 
 
 def _times(recording: PressureRecording, gait: FootGait, middle: Mapping[str, float]) -> dict[str, float]:
-    """Errors of times: frames, noise over the force's slope, the event's definition."""
     assert gait.levels is not None
     slope = max(1e-9, middle.get("loading_rate_N_s", 0.0) or 10.0 * gait.levels.peak)
     frame = _FRAME / recording.rate_hz

@@ -191,7 +191,6 @@ def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
 
 
 def _missing_percent(recording: PressureRecording, foot: FootRecording) -> float:
-    """Share of a foot's values missing in the file; gaps may have been filled."""
     known: Mapping[Side, float] = recording.metadata.get("missing_percent", {})
     return known.get(foot.side, 0.0 if foot.missing is None else 100.0 * float(foot.missing.mean()))
 

@@ -1,8 +1,9 @@
 """Options of an analysis: steps in the means, events and baselines."""
 
+import math
 import re
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, cast
 
 from plantar.errors import InputError
 
@@ -37,8 +38,13 @@ class AnalysisOptions:
             raise InputError(f"--baseline is {self.baseline!r}; allowed: auto, keep")
         if self.segment not in (None, *ACTIVITIES):
             raise InputError(f"--segment is {self.segment!r}; allowed: {', '.join(ACTIVITIES)}")
-        if self.begin is not None and self.end is not None and not self.begin < self.end:
-            raise InputError(f"--from {self.begin:g} is not before --to {self.end:g}")
+        begin, end = -math.inf if self.begin is None else self.begin, math.inf if self.end is None else self.end
+        if not begin < end:
+            raise InputError(f"--from {begin:g} is not before --to {end:g}")
+        known = self.steps in ("steady", "all")
+        first, last = cast(tuple[int, int], self.steps) if len(self.steps) == 2 else (1, int(known))
+        if not 1 <= first <= last:
+            raise InputError(f"steps are {self.steps!r}; allowed: first and last from 1 on, steady, all")
 
     @property
     def events_file(self) -> str | None:

@@ -35,6 +35,7 @@ from plantar.sides import Side, other_side
 COP_WINDOW = 0.05
 _Events = Mapping[Side, tuple[Levels | None, list[Contact]]]
 _LONGEST = 3.0  # Longest contact in s of a person's single steps: patients who walk at 0.2 m/s have 2.5
+_FEWEST, _AWAY = 3, 0.15  # Heel strikes that show how far stated ones are, and the distance in s that is reported
 _CARRIED = 0.2  # Share of a foot's peak that shoes and creases do not press in swing
 # How many times its usual height the level of heel strikes is from which events move by more than 20 and 35 ms.
 _RAISED = 1.4
@@ -108,6 +109,8 @@ def _check_clock(recording: PressureRecording) -> None:
 def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint], stated: bool) -> dict[Side, FootGait]:
     events = _by_passes(recording, prints, {side: _events_of(recording, side, stated) for side in recording.feet})
     feet = {side: analyse_foot(recording, side, prints, stated, events) for side in recording.feet}
+    if stated:
+        feet = {side: replace(g, warnings=(*g.warnings, *_away(recording, g))) for side, g in feet.items()}
     placed = {side: [c for c in gait.contacts if c.complete or c.cut] for side, gait in feet.items()}
     places = {side: [_place(recording, gait, c, prints) for c in placed[side]] for side, gait in feet.items()}
     known = {side: [p for p in own if p is not None] for side, own in places.items()}
@@ -115,6 +118,17 @@ def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint]
         return feet
     rows = {s: zip(placed[s], own, strict=True) for s, own in step_geometry(known).items()}
     return {side: _with_measures(gait, [row for c, row in rows[side] if c.complete]) for side, gait in feet.items()}
+
+
+def _away(recording: PressureRecording, gait: FootGait) -> list[str]:
+    """Warning of stated heel strikes far from those in the force: another clock, or toe offs."""
+    own = _contacts(recording, gait.foot.side, False, gait.levels)
+    strikes = np.array([c.heel_strike for c in own if c.heel_strike is not None])
+    if min(len(strikes), len(gait.heel_strikes)) < _FEWEST:
+        return []
+    away = float(np.median(np.abs(np.subtract.outer(gait.heel_strikes, strikes)).min(axis=1)))
+    text = f"stated heel strikes of the {gait.foot.side} foot lie {away:.2g} s from those in its force"
+    return [f"{text}: by another clock, or toe offs?"] if away > _AWAY else []
 
 
 def _with_measures(gait: FootGait, extra: Sequence[Mapping[str, float]]) -> FootGait:

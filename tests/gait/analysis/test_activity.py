@@ -1,5 +1,6 @@
 """Walking, running and standing told apart, and the sway of standing against closed forms."""
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -170,6 +171,25 @@ def test_events_by_another_clock_are_refused():
         events = {s: StatedEvents(made.strikes[s] * factor + offset, made.lifts[s] * factor + offset) for s in SIDES}
         with pytest.raises(InputError, match=r"events of the left foot are stated from .* by the recording's clock"):
             analyse_feet(replace(made.recording, events=events), options=AnalysisOptions(events="vendor"))
+
+
+def test_events_far_from_those_in_the_force_are_doubted():
+    """By another clock, or with toe offs for heel strikes: the walk in them is none."""
+    made = made_walk(strides=7)
+    for strikes, lifts, doubt in ((0.0, 0.0, False), (0.3, 0.3, True), (0.682, 0.418, True)):
+        events = {s: StatedEvents(made.strikes[s] + strikes, made.lifts[s] + lifts) for s in SIDES}
+        recording = replace(made.recording, events=events)
+        feet = analyse_feet(recording, options=AnalysisOptions(events="vendor"))
+        warnings = metrics_of(recording, feet)["warnings"]
+        assert any("from those in its force: by another clock, or toe offs?" in w for w in warnings) == doubt
+
+
+@pytest.mark.parametrize(
+    "options", [{"begin": math.nan}, {"end": math.nan}, {"steps": (5, 3)}, {"steps": (0, 3)}, {"steps": "some"}]
+)
+def test_options_that_leave_no_step_are_refused(options):
+    with pytest.raises(InputError, match=r"allowed: first and last|is not before"):
+        AnalysisOptions(**options)
 
 
 @pytest.mark.parametrize("period", [2.5, 4.0, 8.0])

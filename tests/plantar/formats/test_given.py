@@ -58,6 +58,12 @@ def test_arrays_that_are_there_and_cannot_be_used_are_refused(more, words):
         recording_of({"right": np.full((200, 3), 2.0), "unit": "N", **more})
 
 
+def test_feet_of_plates_are_for_plates(tmp_path):
+    np.savez(tmp_path / "walk.npz", left=np.full((200, 3), 2.0), unit="N", rate_hz=50.0)
+    with pytest.raises(InputError, match="--plates is for force plates"):
+        recording_of(tmp_path / "walk.npz", options=ReadOptions(plates=("left",)))
+
+
 def test_times_in_milliseconds():
     recording = recording_of({"right": np.full((200, 3), 2.0), "unit": "N", "time": 10.0 * np.arange(200)})
     assert recording.rate_hz == pytest.approx(100.0)

@@ -32,7 +32,6 @@ class _Cells(NamedTuple):
 
 
 def _shown(gait: FootGait, platform: bool) -> _Cells:
-    """All cells of a sole; of a platform those stepped on, framed."""
     layout = gait.foot.layout
     assert layout is not None
     if not platform or gait.picture is None or not (gait.picture > 0.0).any():
@@ -140,8 +139,6 @@ def figure_pair(recordings: Sequence[tuple[str, PressureRecording, Mapping[Side,
 
 
 class _Regions(NamedTuple):
-    """Footprint and region (k,) of each cell."""
-
     gait: FootGait
     print_: Footprint
     region: NDArray[np.int64]

@@ -21,8 +21,6 @@ _UNITS_OF_COUNTS = {"_Ns": "counts·s", "_Pas": "counts·s", "_N_s": "counts/s",
 
 
 class _Shown(NamedTuple):
-    """Measure's key, title with unit, and factor to that unit."""
-
     key: str
     title: str
     factor: float

@@ -204,7 +204,6 @@ def direction_of_walk(walk: PlatformWalk, notes: list[str]) -> NDArray[np.float6
 
 
 def _mean_axis(walk: PlatformWalk, forward: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Mean axis (2,) of whole footprints; `forward` of one."""
     prints = [footprint_on(walk.load, cells, forward) for cells in walk.prints]
     whole = [p.axis for p in prints if p.length >= _WHOLE * max(q.length for q in prints)]
     mean = np.sum(whole, axis=0) if len(whole) > 1 else forward

@@ -202,7 +202,6 @@ def _in_swing(foot: FootRecording, frames: NDArray[np.int64]) -> NDArray[np.floa
 
 
 def _without_offset(foot: FootRecording, rest: RestingLevel) -> FootRecording:
-    """Foot without swing readings of each cell, which follow a drifting level."""
     total = None if foot.total is None else foot.total - rest.level
     if foot.force.shape[1] == 0:
         return replace(foot, total=total)

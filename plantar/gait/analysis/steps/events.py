@@ -257,7 +257,6 @@ def _contacts_of_span(
 def _merged(
     time: NDArray[np.float64], force: NDArray[np.float64], levels: Levels, spans: list[tuple[int, int]]
 ) -> list[tuple[int, int]]:
-    """Spans reaching the contact level, merged where the foot stays on the ground between."""
     reaching = [k for k, (a, b) in enumerate(spans) if force[a:b].max() >= levels.contact]
     merged: list[tuple[int, int]] = []
     for i, k in enumerate(reaching):

@@ -208,7 +208,6 @@ def _swings(
 
 
 def _level_at_end(course: NDArray[np.float64], a: int, b: int, span: float, least: int) -> tuple[int, int]:
-    """Swing frames a to b, at an end of the recording only those level next to the contact."""
     if a > 0 and b < len(course):
         return a, b
     beside = _middle(course[b - least : b] if a == 0 else course[a : a + least])

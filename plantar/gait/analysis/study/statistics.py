@@ -247,7 +247,6 @@ def _paired_t(change: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _independent_t(both: NDArray[np.float64], first: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Pooled-variance t (k,) of samples (n + m, k), not first less first."""
     n, m = first.sum(), len(first) - first.sum()
     mean_a, mean_b = first @ both / n, (1.0 - first) @ both / m
     rest = ((both - np.where(first[:, None] > 0.5, mean_a, mean_b)) ** 2).sum(axis=0)
