@@ -13,6 +13,7 @@ cpdef double area_of(polygon) except? -1.0
 cpdef (double, double, double) area_and_centroid(const double[:, :] polygon) noexcept nogil
 @cython.locals(inside=bint, deepest=double, span=double)
 cdef (double, double, double) _nearest(const double[:, :] polygon, double turn, double x, double y) noexcept
+cpdef double margin_of_clean(const double[:, :] polygon, double x, double y) noexcept
 @cython.locals(corners="double[:, ::1]")
 cdef (double, double, double) _nearest_of_any(const double[:, :] polygon, double x, double y) except *
 

@@ -16,6 +16,7 @@ __all__ = [
     "area_of",
     "closest_point",
     "inner_offset",
+    "margin_of_clean",
     "nearest",
     "offset",
     "seen_from_above",
@@ -129,6 +130,12 @@ def _nearest(polygon, turn, x, y):
             qx, qy = px, py
         ax, ay = bx, by
     return -math.sqrt((x - qx) * (x - qx) + (y - qy) * (y - qy)), qx, qy
+
+
+def margin_of_clean(polygon, x, y):
+    """`signed_margin` of a counter-clockwise clean ring (k, 2), or of 1 or 2 vertices."""
+    margin, _qx, _qy = _nearest(polygon, 1.0, x, y)
+    return margin
 
 
 def _nearest_of_any(polygon, x, y):

@@ -1,6 +1,5 @@
 cimport cython
-from libc cimport math
-from . cimport hull
+from . cimport convex, hull
 
 cdef double _INFINITE
 
@@ -18,9 +17,7 @@ cdef class FewPoints:
     cpdef int add_some(self, FewPoints other, Py_ssize_t first, Py_ssize_t end) except -1
     @cython.locals(chosen="double[:, ::1]")
     cpdef int hull(self, Py_ssize_t first, Py_ssize_t end) except -1
-    @cython.locals(inner=double)
     cpdef double margin(self, double x, double y) noexcept
-    @cython.locals(total=double)
     cpdef double area(self) noexcept
     cpdef list points_of(self, Py_ssize_t first, Py_ssize_t end)
     cpdef list corners_of(self)

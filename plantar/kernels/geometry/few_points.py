@@ -1,10 +1,8 @@
 """Convex hull of a few points, without arrays."""
 
-import math
-
 import numpy as np
 
-from . import hull
+from . import convex, hull
 
 __all__ = ["FewPoints"]
 
@@ -61,37 +59,13 @@ class FewPoints:
 
     def margin(self, x, y):
         """Signed distance in m of x, y in m to the hull's edge, positive inside; -inf if empty."""
-        count = self.corners
-        if count == 0:
+        if self.corners == 0:
             return -_INFINITE
-        inner = outer = _INFINITE
-        ax, ay = self.ring[count - 1, 0], self.ring[count - 1, 1]
-        if count == 1:
-            return -math.sqrt((x - ax) * (x - ax) + (y - ay) * (y - ay))
-        for i in range(count):
-            bx, by = self.ring[i, 0], self.ring[i, 1]
-            lx, ly, dx, dy = bx - ax, by - ay, x - ax, y - ay
-            length = math.sqrt(lx * lx + ly * ly)
-            depth = (lx * dy - ly * dx) / length
-            inner = min(inner, depth)
-            if depth <= 0.0 or count == 2:
-                t = min(1.0, max(0.0, (dx * lx + dy * ly) / (length * length)))
-                px, py = dx - t * lx, dy - t * ly
-                outer = min(outer, math.sqrt(px * px + py * py))
-            ax, ay = bx, by
-        return inner if inner > 0.0 and count > 2 else -outer
+        return convex.margin_of_clean(self.ring[: self.corners], x, y)
 
     def area(self):
         """Area of the hull in m^2."""
-        total = 0.0
-        if self.corners > 2:
-            x, y = self.ring[0, 0], self.ring[0, 1]
-            ax, ay = self.ring[1, 0] - x, self.ring[1, 1] - y
-            for i in range(2, self.corners):
-                bx, by = self.ring[i, 0] - x, self.ring[i, 1] - y
-                total += ax * by - bx * ay
-                ax, ay = bx, by
-        return 0.5 * total
+        return convex.area(self.ring[: self.corners])
 
     def points_of(self, first, end):
         """Points `first` to `end`, exclusive, as tuples (x, y) in m."""

@@ -29,7 +29,6 @@ cdef class EdgeTable:
         path=Py_ssize_t[::1], place=Py_ssize_t[::1], points=double[:, ::1]
     )
     cdef object _trace(self, bytes active, list starts, list areas)
-    cpdef walk(self, bytes active)
     @cython.locals(found=Rings)
     cpdef rings(self, bytes active, object kind)
     @cython.locals(twice=double)

@@ -105,22 +105,11 @@ class EdgeTable:
         edges = tuple([np.array(t) for t in tables])
         return type(self), (edges, np.array(self.vertices), self.straight, self.reuse)
 
-    def walk(self, active):
-        """Rings around the active cells (nonzero bytes), the contact on their left.
-
-        Returns:
-            Points (k, 2) of all rings in m; offsets (r + 1) of rings; their signed areas (r) in m^2, below 0 for a
-            hole.
-        """
-        starts = [0]
-        areas = []
-        return self._trace(active, starts, areas), starts, areas
-
     def rings(self, active, kind):
-        """Rings around the `active` cells as an object; None where there are not n bytes.
+        """Rings around the active cells, the contact on their left, as an object; None where there are not n bytes.
 
         Args:
-            active: As in `walk`.
+            active: Nonzero bytes of active cells.
             kind: `Rings` or a derived class; its `__init__` is not called.
         """
         if len(active) != len(self.cell_start) - 1:

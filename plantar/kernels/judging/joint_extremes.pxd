@@ -12,7 +12,4 @@ cdef class JointExtremes:
     cdef readonly double[::1] high, low
     cdef Py_ssize_t[::1] over
     cdef readonly Py_ssize_t[::1] longest, held
-    cdef Py_ssize_t[::1] since
-    cdef readonly list stays
     cpdef int step(self) except -1
-    cpdef list all_stays(self)

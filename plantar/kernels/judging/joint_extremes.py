@@ -19,7 +19,6 @@ class JointExtremes:
         high: Largest speed (k,) in rad/s, 0 at least; `low` the least one, 0 at most.
         longest: Most steps in a row (k,) above speed limit.
         held: Steps (k,) at torque limit; `any_held` those of any joint.
-        stays: Each past stay at torque limit: joint, first and last step, counted from 1.
     """
 
     def __init__(self, speeds, places, per_speed, torques, servos, per_torque):
@@ -37,8 +36,6 @@ class JointExtremes:
         self.over = np.zeros(count, dtype=np.intp)
         self.longest = np.zeros(count, dtype=np.intp)
         self.held = np.zeros(count, dtype=np.intp)
-        self.since = np.zeros(count, dtype=np.intp)
-        self.stays = []
 
     def step(self):
         """Add present speeds and torques; NaN counts as beyond."""
@@ -61,18 +58,5 @@ class JointExtremes:
             if not -1.0 < share < 1.0:
                 any_held = True
                 self.held[i] += 1
-                if self.since[i] == 0:
-                    self.since[i] = self.steps
-            elif self.since[i] > 0:
-                self.stays.append((i, self.since[i], self.steps - 1))
-                self.since[i] = 0
         if any_held:
             self.any_held += 1
-
-    def all_stays(self):
-        """`stays` with those that still last."""
-        lasting = []
-        for i in range(self.places.shape[0]):
-            if self.since[i] > 0:
-                lasting.append((i, self.since[i], self.steps))
-        return self.stays + lasting

@@ -95,29 +95,6 @@ def test_hulls_are_those_in_exact_fractions(drawn):
                 assert outside <= room
 
 
-@settings(max_examples=100)
-@given(near_equal(), st.tuples(st.floats(-0.2, 0.2), st.floats(-0.2, 0.2)))
-def test_margins_and_areas_of_few_points_are_those_of_exact_hulls(drawn, off):
-    _, points, _ = drawn
-    hull, wanted = few_hull(points), exact_hull((Fraction(x), Fraction(y)) for x, y in points.tolist())
-    assert hull.area() == pytest.approx(float(exact_area(wanted)), abs=1e-14)
-    if len(wanted) < 3 or float(exact_area(wanted)) < 1e-4:
-        return
-    x, y = (points.mean(axis=0) + off).tolist()
-    at, edges = (Fraction(x), Fraction(y)), list(zip(wanted, wanted[1:] + wanted[:1], strict=True))
-    inside = all(turn(a, b, at) >= 0 for a, b in edges)
-    distance = min(distance_to_edge(a, b, at) for a, b in edges)
-    assert hull.margin(x, y) == pytest.approx(distance if inside else -distance, abs=1e-12)
-    assert signed_margin(np.array(wanted, dtype=float), (x, y)) == pytest.approx(hull.margin(x, y), abs=1e-12)
-
-
-def distance_to_edge(a, b, at):
-    way = (b[0] - a[0], b[1] - a[1])
-    along = ((at[0] - a[0]) * way[0] + (at[1] - a[1]) * way[1]) / (way[0] ** 2 + way[1] ** 2)
-    share = min(Fraction(1), max(Fraction(0), along))
-    return float((at[0] - a[0] - share * way[0]) ** 2 + (at[1] - a[1] - share * way[1]) ** 2) ** 0.5
-
-
 def cut_area(ring):
     """Area of what a polygon's edges leave of a square around it."""
     edge = np.roll(ring, -1, axis=0) - ring

@@ -62,10 +62,11 @@ def test_outlines_and_their_rectangles_agree_to_the_last_bit(seed, share, angle)
     arguments = table.__reduce__()[1]
     oracle = python_form("outline").EdgeTable(*arguments[:-1], False)
     cells = (np.random.default_rng(seed).random(len(SOLE)) < share).tobytes()
-    points, starts, areas = table.walk(cells)
-    assert same(points, oracle.walk(cells)[0])
-    assert (starts, areas) == oracle.walk(cells)[1:]
-    assert (starts, areas) == table.walk(cells)[1:]  # the work arrays are as they were
+    found, again = (table.rings(cells, outline.Rings) for _ in range(2))  # the work arrays are as they were
+    points, starts = found.points, found.starts
+    for other in (again, oracle.rings(cells, python_form("outline").Rings)):
+        assert same(points, other.points)
+        assert (starts, found.ring_areas) == (other.starts, other.ring_areas)
     if len(points):
         moments = python_form("outline").area_and_centroid(points, starts)
         assert outline.area_and_centroid(points, starts) == moments

@@ -77,9 +77,6 @@ def test_extremes_and_limits_are_those_of_all_steps(forms):
     assert np.array_equal(joints.held, held.sum(axis=0))
     assert joints.any_held == held.any(axis=1).sum()
     assert joints.steps == 400
-    stays = [(i, run[0] + 1, run[-1] + 1) for i, column in enumerate(held.T) for run in runs_of(column) if run]
-    assert sorted(joints.all_stays()) == sorted(stays)
-    assert len(stays) > 5
 
 
 def runs_of(flags):

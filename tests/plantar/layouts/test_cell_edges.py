@@ -3,6 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from plantar.geometry.outline import Outline
 from plantar.layouts.cell_edges import cells_overlap, edge_table
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
@@ -24,8 +25,8 @@ def test_an_edge_is_cut_at_the_corner_of_another_cell():
 
 
 def test_no_cells_make_an_empty_table():
-    points, starts, areas = edge_table(np.empty((0, 2)), []).walk(b"")
-    assert (points.shape, list(starts), list(areas)) == ((0, 2), [0], [])
+    found = edge_table(np.empty((0, 2)), []).rings(b"", Outline)
+    assert (found.points.shape, found.starts, found.ring_areas) == ((0, 2), (0,), ())
 
 
 @given(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0))
