@@ -108,35 +108,6 @@ def array(
     return given
 
 
-def own_array(
-    value: object,
-    name: str,
-    shape: tuple[object, ...],
-    error: type[PlantarError] = InputError,
-    *,
-    finite: bool = False,
-) -> NDArray[np.float64]:
-    """`array`, copied and read-only.
-
-    Args:
-        value: Argument.
-        name: Name in errors.
-        shape: As in `array`.
-        error: Error class.
-        finite: As in `array`.
-
-    Returns:
-        Copy.
-
-    Example:
-        >>> given = np.zeros(2)
-        >>> kept = own_array(given, "forces", ("n",))
-        >>> kept is given, kept.flags.writeable
-        (False, False)
-    """
-    return own(array(value, name, shape, error, finite=finite))
-
-
 def own(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Read-only copy.
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.arguments import instance, integer, items, number
-from plantar.arrays import array, integers, numbers, own_array, read_only
+from plantar.arrays import array, integers, numbers, own, read_only
 from plantar.errors import LayoutError
 from plantar.kernels.skin.sole import SoleKernel
 from plantar.mechanics.lip import GRAVITY
@@ -117,7 +117,7 @@ class SoleLayout:
             given = numbers(getattr(self, name), what, LayoutError)
             if n == 0 and given.size == 0:
                 given = np.empty([0 if isinstance(s, str) else s for s in shape])
-            kept[name] = own_array(given, what, shape, LayoutError)
+            kept[name] = own(array(given, what, shape, LayoutError))
             if not np.isfinite(kept[name]).all():
                 raise LayoutError(f"{what} holds a value that is not finite")
             far = float(np.abs(kept[name]).max(initial=0.0))

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar.arguments import LARGEST
-from plantar.arrays import array, integers, is_finite, mask, numbers, own_array, read_only
+from plantar.arrays import array, integers, is_finite, mask, numbers, own, read_only
 from plantar.errors import InputError, ReadingError
 from plantar.kernels import python_form
 from plantar.plane_points import plane_points
@@ -70,7 +70,7 @@ def test_every_form_of_numbers_is_the_same(kind):
 def test_an_array_of_float64_is_not_copied_unless_it_is_kept():
     given = np.array(SQUARE, dtype=float)
     assert numbers(given, "x") is array(given, "x", ("k", 2)) is plane_points(given) is given
-    kept = own_array(given, "x", ("k", 2))
+    kept = own(given)
     given[:] = 7.0
     assert kept.tolist() == np.array(SQUARE, dtype=float).tolist()
     with pytest.raises(ValueError, match="read-only"):
