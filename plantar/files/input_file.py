@@ -1,5 +1,6 @@
 """Opens foreign files: regular and limited in size, or one line why not."""
 
+import hashlib
 import os
 import stat
 from typing import BinaryIO
@@ -93,6 +94,15 @@ def read_input(path: Name, error: type[PlantarError], most: float, where: str | 
     if len(data) > most:
         raise error(f"{where} holds more than {_size(most)}; allowed: up to {_size(most)}")
     return data
+
+
+def sha256_of(path: Name, error: type[PlantarError]) -> str:
+    """Returns the SHA-256 in hexadecimal of a regular file; path and error as of `check_input`."""
+    found = hashlib.sha256()
+    with open_input(path, error) as stream:
+        while block := stream.read(1 << 20):
+            found.update(block)
+    return found.hexdigest()
 
 
 def _refuse_others(mode: int, error: type[PlantarError], where: str) -> None:

@@ -1,14 +1,13 @@
 """File contents and versions that sweep rows depend on."""
 
-import hashlib
 import re
 from collections.abc import Iterator, Mapping
 from importlib.metadata import version
 from pathlib import Path
 
 from plantar import __version__
-from plantar.errors import PlantarError, RobotError, SceneError
-from plantar.files.input_file import is_file, open_input
+from plantar.errors import RobotError, SceneError
+from plantar.files.input_file import is_file, open_input, sha256_of
 from plantar.files.structured_text import read_toml
 from plantar.robots import load_robot
 from plantar.sides import SIDES
@@ -31,10 +30,10 @@ def inputs_of(scene: str, robot: str) -> dict[str, str]:
     """
     path = scene_file(scene)
     found = {"plantar": __version__, "mujoco": version("mujoco")}
-    found[f"scene file {path.name}"] = _digest(path, SceneError)
+    found[f"scene file {path.name}"] = sha256_of(path, SceneError)
     companion = "experiment" in read_toml(path, SceneError, f"scene file {path}")
     files = _files_of_machine(robot) if companion else _files_of(robot)
-    return found | {label: _digest(file, RobotError) for label, file in files}
+    return found | {label: sha256_of(file, RobotError) for label, file in files}
 
 
 def changes(before: Mapping[str, str], now: Mapping[str, str]) -> str:
@@ -56,14 +55,6 @@ def changes(before: Mapping[str, str], now: Mapping[str, str]) -> str:
                 f"{label} was {old} and is {new}" if label in ("plantar", "mujoco") else f"{label} has changed"
             )
     return ", ".join(found)
-
-
-def _digest(path: Path, error: type[PlantarError]) -> str:
-    digest = hashlib.sha256()
-    with open_input(path, error) as stream:
-        while block := stream.read(1 << 20):
-            digest.update(block)
-    return digest.hexdigest()
 
 
 def _files_of(robot: str) -> Iterator[tuple[str, Path]]:

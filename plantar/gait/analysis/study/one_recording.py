@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from plantar import __version__
 from plantar.atomic import replacing
 from plantar.errors import FormatError
-from plantar.files.input_file import open_input
+from plantar.files.input_file import sha256_of
 from plantar.formats import ReadOptions
 from plantar.gait.analysis.analyse_one import analyse_one, with_layout
 from plantar.gait.analysis.options import AnalysisOptions
@@ -74,14 +74,10 @@ class RecordingResult:
 
 def digest_of(path: Path) -> str:
     """SHA-256 of a file in hexadecimal; empty if unreadable."""
-    found = hashlib.sha256()
     try:
-        with open_input(path, FormatError) as stream:
-            while block := stream.read(1 << 20):
-                found.update(block)
+        return sha256_of(path, FormatError)
     except (OSError, FormatError):
         return ""
-    return found.hexdigest()
 
 
 def key_of(
