@@ -285,19 +285,10 @@ def build_insole(
     layout_only: bool = False,
     progress: Progress | None = None,
 ) -> ShoeBuild:
-    """Fit taxels to a foot's outline in a flat insole; options as in `build_shoe`.
+    """Fit taxels to the outline of a left `foot` (scan, last or outline) in a flat insole.
 
-    Args:
-        foot: Left, of a scan, last or outline.
-        thickness: From the pad's ground face to the foot's face, in mm.
-        side: "left", "right" or "both".
-        cell_area: Taxel in mm^2.
-        rim: "fine" or "whole".
-        cell: Other cells than skin hexagons.
-        parameters: Dimensions.
-        name: Layout's.
-        layout_only: Leave out the solid.
-        progress: Receives fraction and text.
+    Its `thickness` in mm is from the pad's ground face to the foot's face; `side`, `cell_area`, `rim`, `cell`,
+    `parameters`, `name`, `layout_only` and `progress` are as in `build_shoe`.
 
     Returns:
         Insoles with layouts and solids.
