@@ -88,14 +88,6 @@ def test_a_bad_file_is_refused_in_one_line(tmp_path, name, text, message):
     assert name in str(caught.value)
 
 
-def test_a_missing_or_binary_file_is_refused(tmp_path):
-    with pytest.raises(InputError, match="cannot be read"):
-        read_parameters(tmp_path / "none.toml")
-    (tmp_path / "b.toml").write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(InputError, match="not a text file"):
-        read_parameters(tmp_path / "b.toml")
-
-
 def test_the_guide_names_every_parameter_with_its_default(repository):
     guide = (repository / "docs" / "shoes.md").read_text(encoding="utf-8")
     for row in ShoeParameters.table():

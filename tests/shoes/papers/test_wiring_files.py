@@ -3,9 +3,7 @@
 import csv
 import json
 import re
-from collections import Counter
 
-import ezdxf
 import numpy as np
 import pytest
 import shapely
@@ -14,10 +12,8 @@ import trimesh
 from plantar.shoes import ShoeParameters, build_shoe, export_shoe, foot_from_dimensions
 from plantar.shoes.build import build_insole
 from plantar.shoes.cells.cell import read_cell
-from plantar.shoes.foot.mesh_file import read_mesh
 from plantar.shoes.papers.wiring_files import board_nets, board_outlines, net_list_text
 from plantar.shoes.plan.wiring import cable_outlines, hole_outline
-from plantar.shoes.solid.pad import taxel_surfaces
 from plantar.shoes.units import to_mm
 
 
@@ -38,40 +34,6 @@ def test_each_cell_is_wired_once_from_one_that_is(exported):
             assert edge.distance(shapely.Point(port)) < 0.01
         else:
             assert row["hop"] == "0"
-
-
-@pytest.mark.parametrize("side", [0, 1])
-def test_cells_come_back_from_the_dxf(exported, side):
-    report, folder = exported
-    shoe = report.build.shoes[side]
-    found = ezdxf.readfile(folder / f"cells_{shoe.side}.dxf").modelspace().query("POLYLINE")
-    count = Counter(line.dxf.layer for line in found)
-    assert count["CELLS"] == count["POCKETS"] == len(shoe.layout)
-    assert count["OUTLINE"] == 1
-    assert count["KEEPOUT"] >= len(shoe.plan.route) + 1
-    heads = [line for line in found if line.dxf.layer == "CELLS"]
-    cells = [shapely.Polygon([v.dxf.location.vec2 for v in line.vertices]) for line in heads]
-    assert sum(c.area for c in cells) == pytest.approx(1e6 * shoe.layout.areas.sum(), rel=1e-4)
-
-
-def test_the_assembly_holds_all_parts_by_name_in_their_places(exported):
-    import zipfile
-
-    report, folder = exported
-    triangles, unit = read_mesh(folder / "assembly_left.3mf")
-    shoe, p = report.build.shoes[0], report.build.parameters
-    assert unit == "mm"
-    assert triangles[..., 2].min() == 0.0
-    with zipfile.ZipFile(folder / "assembly_left.3mf") as package:
-        model = package.read("3D/3dmodel.model").decode()
-    for name in ('name="shoe left"', 'name="taxel 0"', 'name="pad"', 'base name="PA12"', 'base name="skin"'):
-        assert name in model
-    taxels = [trimesh.Trimesh(**trimesh.triangles.to_kwargs(t)) for t in taxel_surfaces(shoe.plan, p)]
-    assert all(t.is_watertight for t in taxels)
-    cells, pockets = (sum(s.area for s in shapes) for shapes in (shoe.plan.cells, shoe.plan.pockets))
-    assert sum(t.volume for t in taxels) == pytest.approx(
-        cells * p.taxel_protrusion + pockets * p.pocket_depth, rel=1e-6
-    )
 
 
 def test_cells_that_are_wired_by_themselves_have_no_route(small_foot):
