@@ -1,6 +1,6 @@
 """Unknown keys of tables."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 
 from plantar.errors import InputError, PlantarError
@@ -22,6 +22,16 @@ def refuse_unknown_keys(
     known = list(allowed)
     for key in given:
         if key not in known:
-            near = ", ".join(get_close_matches(str(key), known))
-            hint = f"nearest: {near}; " if near else ""
+            hint = nearest(str(key), known)
             raise error(f"{where} has an unknown key '{key}'; {hint}allowed{note}: {', '.join(known)}")
+
+
+def nearest(name: str, known: Sequence[str]) -> str:
+    """Returns which of `known` an unknown `name` may mean, for a message; empty where none is near.
+
+    Example:
+        >>> nearest("heigth", ["height", "width"]), nearest("a", ["height"])
+        ('nearest: height; ', '')
+    """
+    near = ", ".join(get_close_matches(name, known))
+    return f"nearest: {near}; " if near else ""

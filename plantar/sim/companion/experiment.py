@@ -4,7 +4,6 @@ import math
 import pkgutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
 from typing import Any, ClassVar, NamedTuple, Protocol, cast
@@ -17,7 +16,7 @@ from plantar.extensions import extensions
 from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.overrides import owner_of, split_setting, value_of
 from plantar.settings.schema import Settings, choice, number
-from plantar.settings.unknown_keys import refuse_unknown_keys
+from plantar.settings.unknown_keys import nearest, refuse_unknown_keys
 from plantar.sim.body_skin.sensing import SkinSensing, SkinSensor
 from plantar.sim.companion.lidar import LidarSettings
 from plantar.sim.companion.machine import Machine
@@ -182,9 +181,7 @@ def experiment_class(name: str) -> type[Experiment]:
     """
     known = experiment_names()
     if name not in known:
-        near = ", ".join(get_close_matches(name, known))
-        hint = f"nearest: {near}; " if near else ""
-        raise SceneError(f"unknown experiment '{name}'; {hint}allowed: {', '.join(known)}")
+        raise SceneError(f"unknown experiment '{name}'; {nearest(name, known)}allowed: {', '.join(known)}")
     if name in (others := _of_others()):
         return cast(type[Experiment], others[name])
     module = import_module(f"plantar.sim.companion.experiments.{name.replace('-', '_')}")

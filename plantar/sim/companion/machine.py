@@ -4,7 +4,6 @@ import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +17,7 @@ from plantar.files.model_files import check_model, named_file
 from plantar.files.structured_text import read_toml
 from plantar.mechanics.lip import GRAVITY
 from plantar.settings.schema import Settings, choice, number, tables, text
-from plantar.settings.unknown_keys import refuse_unknown_keys
+from plantar.settings.unknown_keys import nearest, refuse_unknown_keys
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 
 _FOLDER = Path(__file__).parent / "machines"
@@ -288,5 +287,4 @@ def _patches(source: Mapping[str, Any], spec: Any, where: str) -> tuple[Mapping[
 
 
 def _unknown(what: str, name: Any, known: list[str]) -> str:
-    near = ", ".join(get_close_matches(str(name), known))
-    return f"the model has no {what} '{name}'; {f'nearest: {near}; ' if near else ''}it has {', '.join(known)}"
+    return f"the model has no {what} '{name}'; {nearest(str(name), known)}it has {', '.join(known)}"

@@ -43,7 +43,7 @@ def measures_table(metrics: Mapping[str, Any]) -> str:
     """HTML table of each foot's measures, with spread and symmetry."""
     feet: Mapping[str, Any] = metrics["feet"]
     both = len(feet) == 2
-    rows = list(_rows_of_measures(metrics, both))
+    rows = list(filter(None, _rows_of_measures(metrics, both)))
     if not rows:
         return "<p>The recording holds no complete step.</p>"
     head = ["Measure", *(name for side in feet for name in (f"{side}: mean ± SD", "error", "median", "CV (%)"))]
@@ -56,24 +56,29 @@ def measures_table(metrics: Mapping[str, Any]) -> str:
 
 
 def _rows_of_measures(metrics: Mapping[str, Any], both: bool) -> Iterator[str]:
-    feet = metrics["feet"].values()
-    columns = 4 * len(feet) + 1 + both
+    columns = 4 * len(metrics["feet"]) + 1 + both
     group = ""
-    for plain, measure in MEASURES.items():
-        key, title, factor = shown_as(plain, measure, bool(metrics.get("raw")))
-        spreads = [foot["measures"].get(key) for foot in feet]
-        if all(s is None or s["mean"] is None for s in spreads):
-            continue
-        if measure.group != group:
+    for key, measure in MEASURES.items():
+        line = _row_of_measure(metrics, *shown_as(key, measure, bool(metrics.get("raw"))))
+        if line and measure.group != group:
             if group == MEASURES["peak_force_N"].group:
-                yield from _rows_of_body_weight(metrics, columns, both)
+                yield from _rows_of_body_weight(metrics, columns)
             group = measure.group
             yield group_row(group, columns)
-        cells = [cell for s in spreads for cell in _spread_cells(s, factor)]
-        yield row(title, [*cells, number(metrics["gait"]["symmetry_percent"].get(key), 2)] if both else cells)
+        yield line
 
 
-def _rows_of_body_weight(metrics: Mapping[str, Any], columns: int, both: bool) -> Iterator[str]:
+def _row_of_measure(metrics: Mapping[str, Any], key: str, title: str, factor: float) -> str:
+    """Empty where no foot has the measure."""
+    spreads = [foot["measures"].get(key) for foot in metrics["feet"].values()]
+    if all(s is None or s["mean"] is None for s in spreads):
+        return ""
+    cells = [cell for s in spreads for cell in _spread_cells(s, factor)]
+    index = [number(metrics["gait"]["symmetry_percent"].get(key), 2)] if len(spreads) == 2 else []
+    return row(title, [*cells, *index])
+
+
+def _rows_of_body_weight(metrics: Mapping[str, Any], columns: int) -> Iterator[str]:
     weight = metrics["gait"].get("body_weight_N")
     if not weight:
         return
@@ -81,12 +86,7 @@ def _rows_of_body_weight(metrics: Mapping[str, Any], columns: int, both: bool) -
     of = f"{weight / GRAVITY:.3g} kg, {'as stated' if stated else 'which the forces imply'}"
     yield group_row(f"Vertical force, % of body weight ({of})", columns)
     for key in _OF_BODY_WEIGHT:
-        spreads = [foot["measures"].get(key) for foot in metrics["feet"].values()]
-        if all(s is None or s["mean"] is None for s in spreads):
-            continue
-        cells = [cell for s in spreads for cell in _spread_cells(s, 100.0 / weight)]
-        index = [number(metrics["gait"]["symmetry_percent"].get(key), 2)] if both else []
-        yield row(f"{MEASURES[key].title} (% of body weight)", [*cells, *index])
+        yield _row_of_measure(metrics, key, f"{MEASURES[key].title} (% of body weight)", 100.0 / weight)
 
 
 def _spread_cells(spread: Mapping[str, Any] | None, factor: float) -> tuple[str, str, str, str]:

@@ -199,32 +199,20 @@ def study_figures(comparisons: Sequence[Comparison]) -> list[tuple[str, Any, str
     for count, one in enumerate(comparisons, 1):
         end = "" if len(comparisons) == 1 else f"-{count}"
         names = f"{one.a} (A) and {one.b} (B)"
-        out.append(
-            (
-                f"effects{end}",
-                _draw_effects(one),
-                f"Effect sizes between {names}: Hedges' g with its 95 % confidence interval; filled where p, "
-                "corrected for all measures, is below 0.05",
-            )
+        differs = "where a cluster differs (permutation of the largest cluster, p below 0.05)"
+        effects = (
+            f"Effect sizes between {names}: Hedges' g with its 95 % confidence interval; filled where p, corrected for "
+            "all measures, is below 0.05"
         )
-        out.append(
-            (
-                f"curves{end}",
-                _draw_curves(one),
-                f"Mean vertical force of {names} over the stance with 95 % confidence bands; shaded where a "
-                "cluster differs "
-                "(permutation of the largest cluster, p below 0.05)",
-            )
+        curves = f"Mean vertical force of {names} over the stance with 95 % confidence bands; shaded {differs}"
+        maps = (
+            f"Mean maximum pressure pictures of {names} in one frame, their difference B less A, and outlined {differs}"
         )
-        out.append(
-            (
-                f"maps{end}",
-                _draw_maps(one),
-                f"Mean maximum pressure pictures of {names} in one frame, their difference B less A, and outlined "
-                "where a "
-                "cluster differs (permutation of the largest cluster, p below 0.05)",
-            )
-        )
+        out += [
+            (f"effects{end}", _draw_effects(one), effects),
+            (f"curves{end}", _draw_curves(one), curves),
+            (f"maps{end}", _draw_maps(one), maps),
+        ]
     return out
 
 
