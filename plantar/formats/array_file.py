@@ -159,7 +159,6 @@ def _arrays(path: Path) -> Iterator[dict[str, _Array]]:
 
 
 def _array(path: Path, name: str, opened: Callable[[], IO[bytes]], size: int) -> _Array:
-    """Array's stated shape, compared with the bytes there are."""
     with opened() as stream:
         version = np.lib.format.read_magic(stream)
         if version not in ((1, 0), (2, 0)):

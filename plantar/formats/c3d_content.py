@@ -84,7 +84,6 @@ def content_of_file(path: Path) -> dict[str, Any]:
 
 
 def _values(parameters: Any, group: str, *names: str) -> list[Any]:
-    """First existing parameter's values with continuations (LABELS2, ...), or empty."""
     held = parameters.get(group, {})
     for name in names:
         if name in held:

@@ -245,7 +245,6 @@ def _sees_all(contacts: Sequence[PlateContact], plates: int) -> bool:
 def _weights(
     plates: Sequence[Plate], contacts: Sequence[PlateContact], sides: Sequence[Side | None], reach: int
 ) -> dict[Side, list[NDArray[np.bool_]]]:
-    """Frames (n,) of each plate by foot: contacts, and up to `reach` frames around."""
     n = len(plates[0].force)
     out: dict[Side, list[NDArray[np.bool_]]] = {side: [np.zeros(n, dtype=bool) for _ in plates] for side in SIDES}
     for i, plate in enumerate(plates):

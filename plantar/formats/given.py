@@ -3,7 +3,7 @@
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from plantar.formats import ReadOptions, read_recording
 from plantar.formats.array_file import recording_of_arrays
 from plantar.formats.plausibility import checked
 from plantar.formats.table_columns import recording_of_columns
-from plantar.recordings.pressure_recording import PressureRecording
+from plantar.recordings.pressure_recording import Kind, PressureRecording, possible_rate
 
 
 def recording_of(given: Any, format: str | None = None, options: ReadOptions | None = None) -> PressureRecording:
@@ -25,16 +25,12 @@ def recording_of(given: Any, format: str | None = None, options: ReadOptions | N
         options: What else is known: layout, unit, rate, side. Arrays without unit are raw counts.
 
     Raises:
-        InputError: For another type, or an empty recording.
+        InputError: For another type, or a recording whose parts disagree.
         FormatError: Without frames of load.
     """
     known = options or ReadOptions()
     if isinstance(given, PressureRecording):
-        if not given.feet or not len(given.time):
-            raise InputError("a recording without feet or frames; allowed: a foot and a frame at least")
-        if any(np.isinf(foot.vertical_force).any() for foot in given.feet.values()):
-            raise InputError("a recording holds infinite forces; allowed: numbers, NaN for what was not measured")
-        return given
+        return _whole(given)
     if isinstance(given, str | os.PathLike):
         return read_recording(given, format, options=known)
     if hasattr(given, "columns") and not isinstance(given, Mapping):
@@ -49,6 +45,25 @@ def recording_of(given: Any, format: str | None = None, options: ReadOptions | N
             "cells, a mapping of arrays, a data frame"
         )
     return checked(found)
+
+
+def _whole(recording: PressureRecording) -> PressureRecording:
+    time, rate = recording.time, possible_rate(recording.rate_hz, "the recording states")
+    if not recording.feet or not len(time):
+        raise InputError("a recording without feet or frames; allowed: a foot and a frame at least")
+    steps = np.diff(time)
+    if not (steps > 0.0).all() or (len(steps) and not 0.8 <= float(np.median(steps)) * rate <= 1.25):
+        raise InputError(f"a recording's times do not increase by 1 / {rate:g} s a frame, as its rate states")
+    if recording.kind not in get_args(Kind):
+        raise InputError(f"a recording's kind is {recording.kind!r}; allowed: {', '.join(get_args(Kind))}")
+    for side, foot in recording.feet.items():
+        if side != foot.side or {len(foot.force), len(foot.vertical_force)} != {len(time)}:
+            raise InputError(
+                f"the {side} foot is not {foot.side!r}, or does not have a force for each of {len(time)} times"
+            )
+        if np.isinf(foot.vertical_force).any():
+            raise InputError(f"the {side} foot holds infinite forces; allowed: numbers, NaN for what was not measured")
+    return recording
 
 
 def _array(given: Any) -> np.ndarray[Any, Any]:

@@ -105,7 +105,6 @@ class _Rows:
 def _take_rows(
     path: Path, stream: TextIO, delimiter: str | None, cells: int, spans: Sequence[range]
 ) -> tuple[_Rows, list[str]]:
-    """Frames up to the next section, and following lines that may give cell corners."""
     times, values = FrameTable(1, 0), [FrameTable(len(span), 0) for span in spans]
     bad, lost, tail = 0, [], list[str]()
     blocks = _blocks(stream, max(1, min(_BLOCK, _BLOCK_VALUES // (cells + 1))))

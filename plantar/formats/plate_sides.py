@@ -276,7 +276,6 @@ def _filled_in(contacts: Sequence[PlateContact], found: Sequence[Side | None]) -
 def _report_crossings(
     plates: Sequence[Plate], contacts: Sequence[PlateContact], rate: float, warnings: list[str]
 ) -> None:
-    """Warn of contacts with both feet on one belt while the other is empty too long."""
     for i, plate in enumerate(plates):
         own = [c for c in contacts if c.plate == i]
         others = [c for c in contacts if c.plate != i]

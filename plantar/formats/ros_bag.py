@@ -114,8 +114,6 @@ def _size(path: Path) -> int:
 
 
 class _Series:
-    """One array's messages: times, and rows of each occurring length."""
-
     def __init__(self) -> None:
         self.times: list[float] = []
         self.widths: list[int] = []

@@ -110,7 +110,6 @@ def _numbers(line: str, delimiter: str | None) -> bool:
 
 
 def _wider_names(above: str, rows: Sequence[str], width: int) -> tuple[list[str], str | None] | None:
-    """Damaged names of many more columns than the rows have; None of others."""
     delimiter = _delimiter([above])
     names = [c[:_LONGEST_NAME] for c in names_of_row(above.lstrip("#"), delimiter)]
     words = sum(bool(re.search(r"[^\W\d_]", c)) for c in names[:1000])
@@ -126,7 +125,6 @@ def _is_cell(text: str) -> bool:
 
 
 def _names(above: Sequence[str], delimiter: str | None, width: int) -> tuple[list[str], int]:
-    """Column names from the lines above the rows, and the count of other lines."""
     at = len(above) - 1
     rows = []
     for line in above[-3:]:

@@ -9,6 +9,7 @@ import pytest
 from plantar import FormatError, InputError
 from plantar.formats import ReadOptions
 from plantar.formats.given import recording_of
+from plantar.recordings.pressure_recording import FootRecording
 
 
 class Frame:
@@ -70,12 +71,23 @@ def test_times_in_milliseconds():
     assert "the times rise by 1 and more a frame: ms are assumed" in recording.warnings
 
 
-def test_a_recording_that_measures_nothing_is_refused():
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"feet": {}}, "without feet"),
+        ({"rate_hz": 25.0}, "do not increase by 1 / 25 s"),
+        ({"time": np.arange(200)[::-1] / 50.0}, "do not increase by 1 / 50 s"),
+        ({"time": np.arange(190) / 50.0}, "a force for each of 190 times"),
+        ({"kind": "sofa"}, "kind is 'sofa'; allowed: insole, platform"),
+        ({"feet": {"left": FootRecording("right", np.ones((200, 3)), None)}}, "the left foot is not 'right'"),
+        ({"feet": {"left": FootRecording("left", np.full((200, 3), np.inf), None)}}, "infinite forces"),
+    ],
+)
+def test_a_recording_whose_parts_disagree_is_refused(change, words):
     whole = recording_of({"right": np.full((200, 3), 2.0), "unit": "N", "rate_hz": 50.0})
-    foot = whole.feet["right"]
-    for feet, words in (({}, "without feet"), ({"right": replace(foot, force=foot.force + np.inf)}, "infinite forces")):
-        with pytest.raises(InputError, match=words):
-            recording_of(replace(whole, feet=feet))
+    assert recording_of(whole) is whole
+    with pytest.raises(InputError, match=words):
+        recording_of(replace(whole, **change))
 
 
 @pytest.mark.parametrize(

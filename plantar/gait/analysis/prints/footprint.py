@@ -191,7 +191,6 @@ def _axis(
 def _middle_of_band(
     rings: NDArray[np.float64], axis: NDArray[np.float64], low: float, high: float
 ) -> NDArray[np.float64] | None:
-    """Midpoint of medial-most and lateral-most cells between two lines across an axis."""
     across = rings @ np.array([-axis[1], axis[0]])
     along = rings @ axis
     centre = 0.5 * (along.min(axis=1) + along.max(axis=1))

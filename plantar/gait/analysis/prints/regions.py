@@ -50,7 +50,6 @@ def with_toe_line(print_: Footprint) -> Footprint:
 
 
 def _valleys(print_: Footprint, pitch: float) -> list[tuple[float, float]]:
-    """v of the middle of each strip with a valley, and the valley's u."""
     v = print_.centres[:, 1]
     found: list[tuple[float, float]] = []
     for a, b in pairwise(np.linspace(float(v.min()) - 1e-9, float(v.max()) + 1e-9, _STRIPS + 1)):

@@ -137,7 +137,6 @@ def _known_places(
 
 
 def _jump(force: NDArray[np.float64], change: float) -> int | None:
-    """Frame after which force jumps by about `change` in one frame, or None."""
     if len(force) < 6 or not np.isfinite(force).all():
         return None
     steps = np.diff(force)
@@ -178,7 +177,6 @@ def _range(under: NDArray[np.float64]) -> float:
 def _swings(
     under: NDArray[np.float64], course: NDArray[np.float64], span: float, rate: float
 ) -> tuple[list[tuple[int, int]], float]:
-    """Frames of each swing without its ends, and their share of contact gaps; none without a walk."""
     n, near = len(under), under <= _NEAR * span
     if (~near & (under <= _ABOVE * span)).sum() > _SPARSE * near.sum():
         return [], 0.0
