@@ -19,6 +19,7 @@ _NEARER = 0.1  # How much nearer in m one foot's markers are to the CoP than the
 _REACH = 0.2  # Time in s between a contact's begin and a stated heel strike of its foot, at most
 # Mean push to the middle in mid-stance, as a share of the peak, from which it shows the foot; walking has 0.03.
 _INWARD = 0.01
+_PAUSE = 1.0  # Time in s without load that ends a pass over the plates
 _ACROSS = 0.02  # Distance in m of plates or contacts across the direction of walking that shows which are the left ones
 _LONG = 1.4  # Contacts and gaps on a treadmill's belt of so many medians show that a foot was on the other belt
 
@@ -133,6 +134,12 @@ def _found(
     found = [_by_events(c, rate, events) for c in contacts]
     if any(found) or not placed:
         return found, "stated events"
+    back = [] if treadmill else _walking_back(plates, contacts, rate)
+    if any(back):
+        one, other = ([c for c, b in zip(contacts, back, strict=True) if b == way] for way in (False, True))
+        (sides, why), (turned, _) = (_found(plates, part, treadmill, rate, None, None) for part in (one, other))
+        ways = iter(sides), iter(turned)
+        return [next(ways[b]) for b in back], why
     forward = _forward(plates, contacts, treadmill)
     across = _by_place(plates, contacts, forward)
     if treadmill and across:
@@ -182,8 +189,7 @@ def _walks_on_one_foot(contacts: Sequence[PlateContact], found: Sequence[Side | 
 def _by_markers(plate: Plate, contact: PlateContact, markers: Mapping[Side, NDArray[np.float64]] | None) -> Side | None:
     if not markers or plate.cop is None:
         return None
-    span = slice(contact.begin, contact.end)
-    away = {}
+    span, away = slice(contact.begin, contact.end), {}
     for side, track in markers.items():
         gap = np.hypot(*(track[span] - plate.cop[span]).T)
         away[side] = float(np.median(gap[np.isfinite(gap)])) if np.isfinite(gap).any() else np.inf
@@ -203,19 +209,38 @@ def _by_events(contact: PlateContact, rate: float, events: Mapping[Side, StatedE
     return near if near is not None and away[near] <= _REACH else None
 
 
+def _walking_back(plates: Sequence[Plate], contacts: Sequence[PlateContact], rate: float) -> list[bool]:
+    """Whether each contact is of a pass against the direction of the first one."""
+    passes: list[list[PlateContact]] = []
+    for contact in sorted(contacts, key=lambda c: c.begin):
+        if not passes or contact.begin - max(c.end for c in passes[-1]) > _PAUSE * rate:
+            passes.append([])
+        passes[-1].append(contact)
+    ways = [(own, way) for own in passes if np.hypot(*(way := _way(plates, own))) > _ACROSS]
+    turned = {id(c) for own, way in ways for c in own if way @ ways[0][1] < 0.0}
+    return [id(c) in turned for c in contacts]
+
+
+def _way(plates: Sequence[Plate], contacts: Sequence[PlateContact]) -> NDArray[np.float64]:
+    """Sum (2,) of the ways of the CoP in contacts in m."""
+    way = np.zeros(2)
+    for contact in contacts:
+        cop = plates[contact.plate].cop
+        cop = np.zeros((0, 2)) if cop is None else cop[contact.begin : contact.end]
+        cop = cop[np.isfinite(cop).all(axis=1)]
+        if len(cop) > 4:
+            way += cop[-1 - len(cop) // 10] - cop[len(cop) // 10]
+    return way
+
+
 def _forward(plates: Sequence[Plate], contacts: Sequence[PlateContact], treadmill: bool) -> NDArray[np.float64] | None:
     """Walking direction (2,): a foot brakes first and pushes off last; else the CoP's."""
-    push, way = np.zeros(2), np.zeros(2)
+    push = np.zeros(2)
     for contact in contacts:
         plate, length = plates[contact.plate], contact.end - contact.begin
         span = np.nan_to_num(plate.force[contact.begin : contact.end, :2])
         push += span[int(0.6 * length) :].sum(axis=0) - span[: int(0.4 * length)].sum(axis=0)
-        if plate.cop is not None:
-            cop = plate.cop[contact.begin : contact.end]
-            cop = cop[np.isfinite(cop).all(axis=1)]
-            if len(cop) > 4:
-                way += cop[-1 - len(cop) // 10] - cop[len(cop) // 10]
-    way = -way if treadmill else way
+    way = _way(plates, contacts) * (-1.0 if treadmill else 1.0)
     total = sum(float(np.nansum(plates[c.plate].force[c.begin : c.end, 2])) for c in contacts)
     vector = push if np.hypot(*push) > 0.02 * total > 0.0 else way
     size = float(np.hypot(*vector))

@@ -348,3 +348,25 @@ def test_excursions_on_a_plate_are_along_the_walk(tmp_path, across):
     steps = analyse(path).steps
     assert steps["cop_excursion_ap_m"] == pytest.approx([0.19] * 3, abs=0.01)
     assert steps["cop_excursion_ml_m"] == pytest.approx([0.02] * 3, abs=0.005)
+
+
+def test_people_who_walk_back_over_the_plates_keep_their_feet(tmp_path):
+    """Left and right follow from the direction of each pass, not from that of all."""
+    plates = [np.zeros((5, len(TIME))) for _ in range(2)]
+    true = {"left": [0.5, 3.75, 5.9], "right": [1.05, 3.2, 6.45]}
+    for side, begins in true.items():
+        for k, begin in enumerate(begins):
+            way = -1.0 if k == 1 else 1.0  # the second pass goes back, over the second plate first
+            plate = (side == "right") if way > 0.0 else (begin == 3.2)
+            force, gone = trials([begin])
+            x = 0.7 * plate + (0.1 + 0.2 * gone if way > 0.0 else 0.3 - 0.2 * gone)
+            y = (0.06 if side == "left" else -0.06) * way
+            inward = (-0.04 if side == "left" else 0.04) * way
+            on = force > 0.0
+            plates[plate] += np.array([way * 0.2 * force * (gone - 0.5), inward * force, force, x * on, y * on])
+    names = [f"FP{i}_{name}" for i in (1, 2) for name in ("Fx (N)", "Fy (N)", "Fz (N)", "COPx (m)", "COPy (m)")]
+    path = tmp_path / "walk.csv"
+    path.write_text(f"time (s),{','.join(names)}\n" + rows([TIME, *plates[0], *plates[1]], ","))
+    found = analyse(path)
+    for side, begins in true.items():
+        assert [s.heel_strike_s for s in found.feet[side].steps] == pytest.approx(begins, abs=0.02)
