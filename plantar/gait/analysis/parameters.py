@@ -26,7 +26,7 @@ from plantar.gait.analysis.steps.steady import in_one_window, with_used_steps
 from plantar.gait.analysis.steps.step_footprint import footprint_of_step, print_of_contact, with_picture
 from plantar.gait.analysis.steps.step_load import StepLoad, StepLoads, cell_threshold
 from plantar.gait.analysis.steps.step_measures import step_measures
-from plantar.gait.analysis.steps.step_times import OtherFoot, longest_stride, stride_times, time_measures
+from plantar.gait.analysis.steps.step_times import OtherFoot, longest_strides, stride_times, time_measures
 from plantar.gait.analysis.steps.walk_geometry import Place, step_geometry
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side, other_side
@@ -171,7 +171,7 @@ def analyse_foot(
     loads = StepLoads(recording, gait.foot, gait.cell_threshold)
     gait = with_picture(recording, gait, loads)
     others = _other_foot(recording, side, events)
-    strides, longest = iter(stride_times(gait.contacts)), longest_stride(gait.contacts)
+    strides, longest = iter(stride_times(gait.contacts)), iter(longest_strides(gait.contacts))
     complete = [c for c in gait.contacts if c.complete]
     before = dict(zip(map(id, gait.contacts), [None, *gait.contacts], strict=False))
     steps: list[Step] = []
@@ -183,7 +183,7 @@ def analyse_foot(
         regions = _regions(load, region, lasts)
         pressures = [{}] * len(group) if load.pressure is None else pressure_measures(load, gait.foot.layout)
         for contact, pressure, own in zip(group, pressures, regions, strict=True):
-            times = time_measures(contact, before[id(contact)], next(strides), longest, others)
+            times = time_measures(contact, before[id(contact)], next(strides), next(longest), others)
             part = loads.of(contact) if robot else None
             measures = {**times, **step_measures(recording, gait, contact, print_, pressure, part)}
             strike, lift = cast(float, contact.heel_strike), cast(float, contact.toe_off)

@@ -13,7 +13,8 @@ from plantar.gait.analysis.steps.events import Contact, measured_spans
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side
 
-PAUSE = 1.75  # A stride longer than so many times the median of its foot holds a pause or a step that was not recorded
+# A stride longer than so many times the median of this many before or after it holds a pause or an unrecorded step.
+PAUSE, _BESIDE = 1.75, 7
 # Time in s after which the other foot's heel strike is not that of the next step: runners fly for 0.3 s.
 _LONGEST_FLIGHT = 0.6
 
@@ -23,14 +24,26 @@ def stride_times(contacts: Sequence[Contact]) -> list[float]:
 
     Strides join complete contacts, as a cut one may be standing; without any, cut ones.
     """
-    raw, limit = _raw_strides(contacts), longest_stride(contacts)
-    return [s if s <= limit else np.nan for s in raw]
+    return [
+        s if s <= most else np.nan for s, most in zip(_raw_strides(contacts), longest_strides(contacts), strict=True)
+    ]
 
 
-def longest_stride(contacts: Sequence[Contact]) -> float:
-    """Time in s above which a stride holds a pause or missing step; inf below three strides."""
-    known = [s for s in _raw_strides(contacts) if np.isfinite(s)]
-    return PAUSE * float(np.median(known)) if len(known) >= 3 else np.inf
+def longest_strides(contacts: Sequence[Contact]) -> list[float]:
+    """Time in s above which each complete contact's stride holds a pause or missing step; inf below three strides.
+
+    By the strides before and after it: a walk may become a run.
+    """
+    raw = np.array(_raw_strides(contacts))
+    known = np.flatnonzero(np.isfinite(raw))
+    if len(known) < 3:
+        return [np.inf] * len(raw)
+    out = []
+    for i in range(len(raw)):
+        first, last = np.searchsorted(known, (i, i + 1))
+        beside = (known[max(0, first - _BESIDE) : first], known[last : last + _BESIDE])
+        out.append(PAUSE * max(float(np.median(raw[part])) for part in beside if len(part)))
+    return out
 
 
 def _raw_strides(contacts: Sequence[Contact]) -> list[float]:
@@ -60,7 +73,7 @@ def time_measures(
         contact: Complete one.
         previous: Same foot's contact before it.
         stride: Stride time in s, or NaN.
-        longest: Strike interval in s that holds a pause (`longest_stride`).
+        longest: Strike interval in s that holds a pause (`longest_strides`).
         others: Other foot's contacts, None if not recorded.
     """
     strike, lift = cast(float, contact.heel_strike), cast(float, contact.toe_off)

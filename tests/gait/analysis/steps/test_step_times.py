@@ -8,6 +8,8 @@ import pytest
 
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.parameters import analyse_feet
+from plantar.gait.analysis.steps.events import Contact
+from plantar.gait.analysis.steps.step_times import stride_times
 from plantar.recordings.pressure_recording import PressureRecording
 
 from ..walks import made_walk
@@ -80,3 +82,13 @@ def test_what_both_feet_carry_and_one_alone_make_up_the_stance():
             assert step["stance_percent"] == pytest.approx(100.0 * step["contact_time_s"] / step["stride_time_s"])
             assert step["swing_time_s"] == pytest.approx(step["stride_time_s"] - step["contact_time_s"])
     assert seen >= 8
+
+
+def test_a_walk_that_becomes_a_longer_run_keeps_its_strides():
+    """A pause is long beside the strides around it, not beside those of another activity."""
+    strides = np.array([1.3] * 6 + [2.6] + [1.3] * 3 + [0.7] * 20 + [1.4] + [0.7] * 6)
+    strikes = np.concatenate([[0.0], np.cumsum(strides)])
+    contacts = [Contact(float(t), float(t) + 0.3, 10 * i, 10 * i + 5) for i, t in enumerate(strikes)]
+    found = np.array(stride_times(contacts)[:-1])
+    assert np.flatnonzero(np.isnan(found)).tolist() == [6, 30]
+    assert found[np.isfinite(found)] == pytest.approx(strides[np.isfinite(found)])
