@@ -87,6 +87,10 @@ def detect_format(path: str | os.PathLike[str]) -> Format:
                     f"{path}: an export of {maker}, whose format has no public description; allowed: a table of forces "
                     "or pressures with named columns (--format csv reads this file as one)"
                 )
+    if head.startswith(b"PK\x03\x04") and b"xl/" in head:
+        raise FormatError(
+            f"{path}: an Excel workbook (.xlsx); allowed: its sheet saved as CSV (a report of steps: --events)"
+        )
     raise FormatError(f"{path}: not a recording of a known format; known: {names}")
 
 
@@ -112,8 +116,7 @@ def read_recording(
         FormatError: If unknown or mismatched.
         InputError: If an option is invalid.
     """
-    chosen = named_format(path, format)
-    known = options or ReadOptions()
+    chosen, known = named_format(path, format), options or ReadOptions()
     known = known if layout is None else replace(known, layout=instance(layout, SoleLayout, "layout"))
     if known.unit is not None and find_unit(known.unit) is None:
         raise InputError(f"unknown unit {known.unit!r}; allowed: kPa, N/cm2, mmHg, psi, N, kg, raw and their like")

@@ -19,7 +19,7 @@ from plantar.files.input_file import check_input, is_file
 from plantar.files.structured_text import JSON_MOST
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.side import side_of
+from plantar.formats.side import at_times, side_of
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
@@ -101,7 +101,7 @@ def _at_times(
     for side, (own, values) in series.items():
         if len(own) != len(stamps) or np.abs(own - stamps).max() > 1e-6:
             warnings.append(f"the {side} foot has its own times: interpolated to those of the other")
-            values = np.column_stack([np.interp(stamps, own, v, left=np.nan, right=np.nan) for v in values.T])
+            values = at_times(stamps, own, values)
         out.append((side, values))
     return out
 
@@ -151,8 +151,7 @@ def series_of_bag(path: Path) -> dict[str, Any]:
             if connection.topic in skipped:
                 continue
             message = reader.deserialize(data, connection.msgtype)
-            found = False
-            stamp = getattr(getattr(message, "header", None), "stamp", None)
+            found, stamp = False, getattr(getattr(message, "header", None), "stamp", None)
             seconds = nanoseconds * 1e-9 if stamp is None else float(stamp.sec) + 1e-9 * float(stamp.nanosec)
             for name, values in _arrays(message, _DEPTH):
                 found = True

@@ -1,5 +1,7 @@
 """The registry of formats."""
 
+import zipfile
+
 import pytest
 
 from plantar import FormatError
@@ -27,3 +29,10 @@ def test_unreadable_files_are_named(tmp_path):
         for name in formats():
             with pytest.raises(FormatError, match="cannot be read"):
                 read_recording(path, name)
+
+
+def test_an_excel_workbook_is_named(tmp_path):
+    with zipfile.ZipFile(tmp_path / "walk.xlsx", "w") as archive:
+        archive.writestr("xl/workbook.xml", "<workbook/>")
+    with pytest.raises(FormatError, match=r"an Excel workbook \(.xlsx\); allowed: its sheet saved as CSV"):
+        detect_format(tmp_path / "walk.xlsx")

@@ -33,6 +33,8 @@ def write_bag(path: Path, topics: dict[str, np.ndarray], kind: str = "sqlite3", 
         for topic, values in topics.items():
             connection = writer.add_connection(topic, array.__msgtype__, typestore=store)
             for i, row in enumerate(values):
+                if np.isnan(row).all():
+                    continue  # no message then
                 message = array(layout=shape(dim=[], data_offset=0), data=np.asarray(row, dtype=np.float64))
                 stamp = 1_700_000_000_000_000_000 + round(i / rate * 1e9)
                 writer.write(connection, stamp, store.serialize_cdr(message, array.__msgtype__))
@@ -53,6 +55,15 @@ def test_a_bag_of_two_feet(tmp_path, layout, kind):
         assert any("N is assumed from their names" in w for w in recording.warnings)
     raw = read_recording(tmp_path / "bag", options=ReadOptions(layout=layout, unit="raw"))
     assert raw.raw
+
+
+def test_a_foot_that_pauses_was_not_measured_then(tmp_path):
+    values = np.full((80, 8), 5.0)
+    part = np.where((np.arange(80) // 20 == 1)[:, None], np.nan, values)
+    write_bag(tmp_path / "bag", {"/left_foot/forces": values, "/right_foot/forces": part})
+    recording = read_recording(tmp_path / "bag")
+    assert np.isnan(recording.feet["right"].force).sum() == 20 * 8
+    assert np.isfinite(recording.feet["left"].force).all()
 
 
 def test_names_that_say_nothing_are_raw(tmp_path):
