@@ -47,8 +47,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     if len(head) < 512 or head[1] != 0x50:
         raise FormatError("not a C3D file that can be read (no C3D header)")
     held = read_apart("c3d", path, FormatError)
-    rate = options.rate_hz or float(held["rate"])
-    count = int(held["plates"])
+    rate, count = options.rate_hz or float(held["rate"]), int(held["plates"])
     if count == 0:
         raise FormatError("the C3D file holds no force plate (group FORCE_PLATFORM)")
     possible_rate(rate, "its analog channels state")
@@ -83,8 +82,7 @@ def _cut_short(head: bytes, held: Mapping[str, NDArray[Any]]) -> list[str]:
     first, last = struct.unpack_from("<HH", head, 6)
     (samples,) = struct.unpack_from("<H", head, 18)
     read = int(held["frames"])
-    stated = (last - first + 1) * samples
-    processor = (head[0] - 1) * 512 + 3
+    stated, processor = (last - first + 1) * samples, (head[0] - 1) * 512 + 3
     other_order = processor >= len(head) or head[processor] == 86  # SGI: bytes the other way round
     if (
         other_order or last == 65535 or last < first or not read < stated
@@ -146,8 +144,7 @@ def _plate(held: Mapping[str, NDArray[Any]], number: int, up: int, length: float
     if len(corners) != 4 or not np.isfinite(corners).all():
         corners = np.array([[1.0, 1.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0], [1.0, -1.0, 0.0]]) * 1e-9
     axes, order = _axes(corners), _TO_Z_UP[up]
-    known = float(np.ptp(corners)) > 1e-6
-    ground = length * corners[:, order][:, :2]
+    known, ground = float(np.ptp(corners)) > 1e-6, length * corners[:, order][:, :2]
     middle = ground.mean(axis=0)
     cop = free = None
     if kind == 1:  # which states the CoP itself, and the free moment about its own z axis

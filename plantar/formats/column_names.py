@@ -94,8 +94,7 @@ def heading_of(text: str) -> Heading:
         stated = match[1] if match[1] is not None else match[2]
         known = plain(stated) in _STATED or find_unit(stated) is not None or "/" in stated or "%" in stated
         if known or not _words(stated):
-            unit = unit or stated
-            name = name[: match.start()] + " " + name[match.end() :]
+            unit, name = unit or stated, name[: match.start()] + " " + name[match.end() :]
         else:
             name = name[: match.start()] + " " + stated + " " + name[match.end() :]
         match = _UNIT.search(name)
@@ -139,8 +138,7 @@ def _fewest(text: str) -> list[str] | None:
 
 
 def _heading(name: str, unit: str) -> Heading:
-    words = _words(name)
-    last = re.findall(r"\d+", name)
+    words, last = _words(name), re.findall(r"\d+", name)
     number = int(last[-1][-9:]) if last else None
     if words is None:
         letters = "".join(re.findall(r"[^\W\d_]+", name)).lower()

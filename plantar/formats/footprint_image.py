@@ -172,8 +172,7 @@ def _foreground(cv2: Any, image: NDArray[np.uint8]) -> NDArray[np.uint8]:
     if float(distance.max()) < 12.0:
         return np.zeros(image.shape[:2], dtype=np.uint8)
     level, _ = cv2.threshold(scaled, 0, 255, cv2.THRESH_BINARY + cv2.THRESH_OTSU)
-    noise = float(np.percentile(scaled[:rim], 99.0))
-    inside = scaled[scaled > 0.7 * level]
+    noise, inside = float(np.percentile(scaled[:rim], 99.0)), scaled[scaled > 0.7 * level]
     edge = min(level, 0.5 * float(np.median(inside)) if inside.size else level)  # halfway: where the edge is
     mask = (scaled > max(edge, min(noise + 6.0, level))).astype(np.uint8)
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (3, 3))
@@ -226,8 +225,7 @@ def _belongs(
     """Whether a part is of a group's foot: in line, and apart by under 0.4 of the foot (a high arch)."""
     across, along = (0, 1) if upright else (1, 0)
     low = min(boxes[i][across] for i in group)
-    high = max(boxes[i][across] + boxes[i][across + 2] for i in group)
-    box = boxes[part]
+    high, box = max(boxes[i][across] + boxes[i][across + 2] for i in group), boxes[part]
     middle = box[across] + 0.5 * box[across + 2]
     if not low - 0.25 * (high - low) <= middle <= high + 0.25 * (high - low):
         return False

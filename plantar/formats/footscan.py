@@ -49,8 +49,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     warnings.append(
         f"the file states no size of its cells: {_ACROSS * 1e3:g} x {_ALONG * 1e3:g} mm, as plates have them"
     )
-    side = options.side or side_of(path.stem)
-    unit = find_unit(options.unit or "N")
+    side, unit = options.side or side_of(path.stem), find_unit(options.unit or "N")
     assert unit is not None
     whole, name = np.ones((rows, columns), dtype=bool), f"platform of {rows} x {columns} cells"
     foot = foot_of_matrix(side or "left", table.rows, unit, options, whole, pitch, name, _THRESHOLD)
@@ -102,8 +101,7 @@ def _take_frames(
             usual = sum(len(line) + 1 for line in body)
             table = FrameTable(shape[0] * shape[1], path.stat().st_size * 5 // (3 * usual))
         odd += last_is_odd
-        values = np.full(shape, np.nan)
-        last_is_odd = len(body) != shape[0]
+        values, last_is_odd = np.full(shape, np.nan), len(body) != shape[0]
         for r, line in enumerate(() if last_is_odd else body):
             row, wrong = row_of_numbers(cells_of_row(line, delimiter)[: shape[1]])
             last_is_odd |= wrong > 0 or len(row) != shape[1]

@@ -51,8 +51,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         sides = _sides(text, columns, options, notes)
         rows, tail = _take_rows(path, stream, delimiter, len(columns), [span for _, span in sides])
     warnings = [*rows.warnings, *notes]
-    layout = options.layout
-    unit = _unit(text, options, warnings)
+    layout, unit = options.layout, _unit(text, options, warnings)
     time, rate, doubts = sampling(rows.time, None if options.rate_hz else _rate(text), options.rate_hz)
     warnings += doubts
     geometry = corner_table(tail, len(columns), warnings) if layout is None else None

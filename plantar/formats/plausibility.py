@@ -119,8 +119,7 @@ def _clipped_or_held(foot: FootRecording, rate: float) -> list[str]:
         return []
     assert foot.layout is not None
     value = part / foot.layout.areas
-    out = _switched_on(foot.side, value)
-    highest = float(value.max())
+    out, highest = _switched_on(foot.side, value), float(value.max())
     full = value >= highest * (1.0 - 1e-9)
     runs = full[_FLAT - 1 :].copy()
     for shift in range(_FLAT - 1):
@@ -210,8 +209,7 @@ def _marks(force: NDArray[np.float64], per: NDArray[np.float64], are_pressures: 
     let_go(force)
     sample = np.unique(sample[np.isfinite(sample)])
     lowest, highest = _ends(force, per)
-    found = []
-    others = sample[(sample > 0.0) & ~_is(sample, highest)]
+    found, others = [], sample[(sample > 0.0) & ~_is(sample, highest)]
     if len(others) >= _LEVELS and highest >= _BEYOND * others[-1]:  # as of all that were read, or more
         count, next_one = 0, 0.0
         for rows in blocks_of_frames(force):

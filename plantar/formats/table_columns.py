@@ -231,8 +231,7 @@ def _without_totals(
     if n < 5:
         return columns, {}
     values = table[:: max(1, len(table) // 2000)][:, columns]
-    values = values[np.isfinite(values).all(axis=1)]
-    half = (n - 2) // 2
+    values, half = values[np.isfinite(values).all(axis=1)], (n - 2) // 2
 
     def is_sum(total: NDArray[np.float64], parts: NDArray[np.float64]) -> bool:
         top = float(np.abs(total).max(initial=0.0))

@@ -140,8 +140,7 @@ def _up(axes: Mapping[str, int], up: str) -> str | None:
 
 
 def _vertical(table: NDArray[np.float64], groups: Mapping[_Key, dict[str, dict[str, int]]], warnings: list[str]) -> str:
-    load = dict.fromkeys("xyz", 0.0)
-    named = False
+    load, named = dict.fromkeys("xyz", 0.0), False
     for own in groups.values():
         named = named or "vertical" in own["force"]
         for axis in "xyz":

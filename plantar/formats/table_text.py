@@ -125,8 +125,7 @@ def _is_cell(text: str) -> bool:
 
 
 def _names(above: Sequence[str], delimiter: str | None, width: int) -> tuple[list[str], int]:
-    at = len(above) - 1
-    rows = []
+    at, rows = len(above) - 1, []
     for line in above[-3:]:
         cells = names_of_row(line.lstrip("#").rstrip("\r\n"), delimiter)
         cells = [c[:_LONGEST_NAME] for c in cells]

@@ -56,10 +56,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         lines = iter(stream)
         header, first = _take_header(lines)
         numbers, (rows, columns), table = _take_frames(path, first, lines, header, warnings)
-    unit = _unit(header, options, warnings)
-    pitch = _pitch(header, warnings)
-    rate = options.rate_hz or _rate(header, warnings)
-    steps = np.diff(numbers)
+    unit, pitch = _unit(header, options, warnings), _pitch(header, warnings)
+    rate, steps = options.rate_hz or _rate(header, warnings), np.diff(numbers)
     if len(steps) and (steps > 0).all():
         time = (np.array(numbers, dtype=float) - numbers[0]) / rate
         if (steps > 1).any():
@@ -140,8 +138,7 @@ def _take_frames(
     usual = sum(len(line) + 1 for _, body in known for line in body) // len(known)
     table = FrameTable(shape[0] * shape[1], path.stat().st_size * 5 // max(3 * usual, 1))  # frames may be shorter
     numbers: list[int] = []
-    odd = 0
-    last_is_cut = False
+    odd, last_is_cut = 0, False
     for number_of_frame, body in chain(known, bodies):
         odd += last_is_cut  # which was not the last one
         last_is_cut = len(body) != shape[0]
@@ -168,8 +165,7 @@ def _take_frames(
 
 
 def _shape(header: dict[str, str], rows: int | None, bodies: list[list[str]]) -> tuple[tuple[int, int], str | None]:
-    first = bodies[0]
-    rows = rows or int(np.median([len(b) for b in bodies]))
+    first, rows = bodies[0], rows or int(np.median([len(b) for b in bodies]))
     delimiter = next((d for d in ";\t," if first and d in first[0]), None)
     widths = [len([c for c in cells_of_row(line, delimiter) if c.strip()]) for line in first] or [0]
     columns = _stated(header, "COLS") or int(np.median(widths))
@@ -184,8 +180,7 @@ def _matrix(body: list[str], delimiter: str | None, rows: int, columns: int) -> 
     values = _fast(body, delimiter, rows, columns)
     if values is not None:
         return values, 0
-    bad = 0
-    values = np.full((rows, columns), np.nan)
+    bad, values = 0, np.full((rows, columns), np.nan)
     for r, line in enumerate(body):
         cells = cells_of_row(line, delimiter)[:columns]
         row, wrong = row_of_numbers(["" if c.strip().upper() == "B" else c for c in cells])
@@ -224,8 +219,7 @@ def _unit(header: dict[str, str], options: ReadOptions, warnings: list[str]) -> 
 def _pitch(header: dict[str, str], warnings: list[str]) -> tuple[float, float]:
     def length(key: str) -> float | None:
         text = header.get(key, "")
-        value = number_in(text)
-        words = re.findall(r"[a-z]+", text.lower())
+        value, words = number_in(text), re.findall(r"[a-z]+", text.lower())
         unit = next((LENGTHS[w] for w in words if w in LENGTHS), None)
         if value is not None and value > 0.0 and unit is None:
             warnings.append(f"{key} states no unit of length: mm is assumed")

@@ -216,8 +216,7 @@ def row_of_numbers(cells: Sequence[str]) -> tuple[NDArray[np.float64], int]:
             return values, 0
     except ValueError:
         pass
-    out = np.full(len(cells), np.nan)
-    bad = 0
+    out, bad = np.full(len(cells), np.nan), 0
     for i, cell in enumerate(cells):
         value = number(cell)
         if value is not None:

@@ -85,8 +85,7 @@ def find_unit(text: str) -> Unit | None:
         >>> find_unit("Raw").kind, find_unit("parsec")
         ('raw', None)
     """
-    name = plain(text)
-    stated = text.strip()
+    name, stated = plain(text), text.strip()
     if name in PASCALS and not (name == "mpa" and stated.strip("[]() ").startswith("m")):  # millipascal: a misprint
         return Unit("pressure", PASCALS[name], stated)
     if name in FORCES and not stated.strip("[]() ").startswith("MN"):

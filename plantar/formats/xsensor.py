@@ -56,8 +56,7 @@ class _Sensor:
         if self.frames[-1:] == [frame]:
             self.repeated += 1
             return
-        stated = self.rows or len(rows)
-        widths = {len(r) for r in rows}
+        stated, widths = self.rows or len(rows), {len(r) for r in rows}
         if len(rows) != stated or len(widths) != 1 or stated * len(rows[0]) > _LARGEST:
             return
         if not self.frames:
@@ -108,8 +107,7 @@ class _Scan:
         self.delimiter = _delimiter(text, self.delimiter)
         parts = [p.strip().strip('"') for p in text.split(self.delimiter)]
         key = parts[0].rstrip(":").strip()
-        value = next((p for p in parts[1:] if p), "")
-        word = key.upper()
+        value, word = next((p for p in parts[1:] if p), ""), key.upper()
         if word in ("FRAME", "GROUP", "SENSOR"):
             self.finish_matrix()
             self.sensor = None
@@ -224,8 +222,7 @@ def _is_row(line: str, taken: int, rows: int) -> bool:
 
 
 def _take_fact(facts: dict[str, str], sensor: _Sensor, key: str, value: str) -> None:
-    low = key.lower()
-    figure = number(value)
+    low, figure = key.lower(), number(value)
     if low in ("rows", "columns") and figure is not None and 0 < figure <= _LARGEST and figure == int(figure):
         if low == "rows":
             sensor.rows = sensor.rows or int(figure)
@@ -330,8 +327,7 @@ def _cell(
     sides: list[float] = []
     for name in ("sensel height", "sensel width"):
         text = next((v for k, v in facts.items() if k.startswith(name)), "")
-        value = number_in(text)
-        length = re.search(r"\((\w+)\)", text)
+        value, length = number_in(text), re.search(r"\((\w+)\)", text)
         factor = LENGTHS.get(length[1].lower()) if length else None
         if value is not None and value > 0.0 and factor is not None:
             sides.append(value * factor)

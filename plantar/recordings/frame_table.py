@@ -123,8 +123,7 @@ class FrameTable:
 
     def columns(self, kept: NDArray[np.bool_]) -> NDArray[np.float64]:
         """Rows (n, k) of columns in mask `kept` (width,), compacted in place; uses up the table."""
-        count = int(kept.sum())
-        flat = self._values.reshape(-1)
+        count, flat = int(kept.sum()), self._values.reshape(-1)
         for rows in blocks_of_frames(self.rows):  # a row never lands behind where it is read from
             block = self._values[rows][:, kept]
             flat[rows.start * count : rows.start * count + block.size] = block.ravel()

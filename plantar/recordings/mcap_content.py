@@ -208,8 +208,7 @@ class McapContent:
             raise FormatError(
                 f"{self._size / 1e6:.3g} MB that unpack to more than {self._unpacked / 1e6:.0f} MB; allowed: {ALLOWED}"
             )
-        inside = _unpacked(chunk)
-        position = 0
+        inside, position = _unpacked(chunk), 0
         try:
             while position + 9 <= len(inside):
                 opcode, length = struct.unpack_from("<BQ", inside, position)

@@ -216,8 +216,7 @@ def _checked_times(
             time = time / stated
             warnings.append(f"the frames' times count them: taken from the rate of {stated:g} Hz that the file states")
     steps = np.diff(time)
-    forward = steps[np.isfinite(steps) & (steps > 0.0)]
-    measured = None
+    forward, measured = steps[np.isfinite(steps) & (steps > 0.0)], None
     if len(forward):  # the mean of the usual steps: times may be rounded to ms, and frames may be lost
         usual = forward[np.abs(forward / np.median(forward) - 1.0) <= 0.5]
         measured = 1.0 / float(usual.mean())

@@ -44,8 +44,7 @@ def analyse_one(
         choices: Steps in the means, and events used.
         subject: Person. FormatError if unreadable.
     """
-    report = progress or (lambda fraction, text: None)
-    known = options or ReadOptions()
+    report, known = progress or (lambda fraction, text: None), options or ReadOptions()
     if subject is not None and known.mass_kg is None:
         known = dataclasses.replace(known, mass_kg=subject.mass_kg)
     recording, prints = separated_feet(recording_of(given, format, known))
@@ -100,8 +99,7 @@ def analyse_recording(
     """
     report = progress or (lambda fraction, text: None)
     report(0.0, "reading")
-    known = with_layout(options, layout)
-    image = named_format(path, format).read is None
+    known, image = with_layout(options, layout), named_format(path, format).read is None
     if mm_per_pixel is not None and not image:
         raise InputError(f"--mm-per-pixel is for footprint images; {path} is a recording")
     if also is not None and image:

@@ -137,8 +137,7 @@ def difference_of(analyses: Mapping[str, Analysis], one: Side, other: Side) -> d
         x, y = first[key], second.get(key)
         if x["mean"] is None or y is None or y["mean"] is None:
             continue
-        change = y["mean"] - x["mean"]
-        pooled = _pooled_sd(x, y)
+        change, pooled = y["mean"] - x["mean"], _pooled_sd(x, y)
         out[key] = {
             "a": x,
             "b": y,
@@ -200,8 +199,7 @@ def _bars(analyses: Mapping[str, Analysis], pairs: Mapping[str, tuple[Side, Side
     if not keys:
         return None
     figure, axes = new_figure(8.0, 1.0 + 0.4 * len(keys))
-    places = np.arange(len(keys))[::-1]
-    height = 0.8 / max(len(rows), 1)
+    places, height = np.arange(len(keys))[::-1], 0.8 / max(len(rows), 1)
     for i, (name, values) in enumerate(rows.items()):
         colour = COLOURS["right"] if name == "right" else COLOURS["left"]
         heights = [values.get(k, 0.0) for k in keys]

@@ -101,8 +101,7 @@ def _ring(name: str, corners: ArrayLike) -> shapely.Polygon:
 
 
 def _views(analysis: Analysis, gait: FootGait) -> Sequence[StepView]:
-    loads = StepLoads(analysis.recording, gait.foot, gait.cell_threshold)
-    cop = gait.cop
+    loads, cop = StepLoads(analysis.recording, gait.foot, gait.cell_threshold), gait.cop
     return [
         StepView(
             step,

@@ -46,8 +46,7 @@ def ground_reactions(analysis: Analysis) -> dict[Side, GroundReaction]:
         foot = gait.foot
         vertical = np.nan_to_num(foot.vertical_force)
         force = np.column_stack([np.zeros((len(vertical), 2)), vertical])
-        free = np.zeros(len(vertical))
-        known = foot.center_of_pressure(1e-6)
+        free, known = np.zeros(len(vertical)), foot.center_of_pressure(1e-6)
         cop = np.zeros((len(vertical), 2)) if known is None else np.nan_to_num(known)
         if foot.wrench is not None:
             wrench = np.nan_to_num(foot.wrench)
@@ -251,8 +250,7 @@ def _write_c3d(analysis: Analysis, path: Path) -> None:
     parameters["POINT"]["UNITS"]["value"] = ["m"]
     parameters["POINT"]["LABELS"]["value"] = list(cops) or ["none"]
     reactions = ground_reactions(analysis)
-    analog = parameters["ANALOG"]
-    unit = _unit(analysis)
+    analog, unit = parameters["ANALOG"], _unit(analysis)
     analog["RATE"]["value"] = [recording.rate_hz]
     analog["LABELS"]["value"] = [
         f"{side}.{axis}" for side in reactions for axis in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")

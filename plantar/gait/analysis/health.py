@@ -47,8 +47,7 @@ def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> Sil
 
     A silent cell lacks its loaded neighbours' mean pressure; the other foot's mirrored cells show load at the edge.
     """
-    layout = foot.layout
-    none = SilentCells(np.zeros(0, dtype=np.int64), 0.0)
+    layout, none = foot.layout, SilentCells(np.zeros(0, dtype=np.int64), 0.0)
     if layout is None or len(layout) < 8 or not len(foot.force):
         return none
     top = column_maxima(foot.force) / layout.areas
@@ -281,8 +280,7 @@ def inward_of_toes(gait: FootGait) -> float:
         return float("nan")
     x, y = layout.positions[:, 0], layout.positions[:, 1] * (1.0 if gait.foot.side == "right" else -1.0)
     back, front = (float(v) for v in (layout.outline[:, 0].min(), layout.outline[:, 0].max()))
-    along = (x - back) / (front - back)
-    half = 0.5 * float(np.ptp(layout.outline[:, 1]))
+    along, half = (x - back) / (front - back), 0.5 * float(np.ptp(layout.outline[:, 1]))
     toes, midfoot = (_inward(y, layout.areas, picture, (along >= a) & (along < b)) for a, b in (_TOES, _MIDFOOT))
     return (toes - midfoot) / half
 

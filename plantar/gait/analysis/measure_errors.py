@@ -61,10 +61,8 @@ def _times(recording: PressureRecording, gait: FootGait, middle: Mapping[str, fl
 def _forces(recording: PressureRecording, gait: FootGait, middle: Mapping[str, float]) -> dict[str, float]:
     assert gait.levels is not None
     noise, step = gait.levels.noise, 1.0 / recording.rate_hz
-    peak = middle["peak_force_N"]
-    contact = middle["contact_time_s"]
-    force = float(np.hypot(noise, _FRAME * _fall_beside_peak(gait)))
-    rise = 0.15 * contact
+    peak, contact = middle["peak_force_N"], middle["contact_time_s"]
+    force, rise = float(np.hypot(noise, _FRAME * _fall_beside_peak(gait))), 0.15 * contact
     impulse = float(np.hypot(noise * np.sqrt(contact * step), 0.02 * peak * _EVENTS[recording.kind][1]))
     return {
         **dict.fromkeys(("peak_force_N", "first_peak_N", "valley_N", "second_peak_N"), force),

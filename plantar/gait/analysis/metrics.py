@@ -42,8 +42,7 @@ def metrics_of(
         feet: Gait of each foot.
         subject: Person.
     """
-    warnings = list(recording.warnings)
-    activity = activity_of(recording, feet)
+    warnings, activity = list(recording.warnings), activity_of(recording, feet)
     standing = activity.name == "standing"
     if standing:
         warnings.append(f"this is standing: {activity.why}; sway is measured, steps are not")
@@ -59,8 +58,7 @@ def metrics_of(
                 f"the {side} foot has no complete step: each contact is cut by the recording{_lowest(gait)}"
             )
         warnings += gait.warnings
-    weight = implied_weight(recording, feet)
-    subject = subject_of(recording, subject)
+    weight, subject = implied_weight(recording, feet), subject_of(recording, subject)
     segments = () if standing else segments_of(feet)
     warnings += _segment_notes(segments, feet)
     warnings += silent_cell_doubts(recording) + scrambled_doubts(recording) + creep_doubts(feet)

@@ -43,8 +43,7 @@ class Analysis:
         side, number, heel_strike_s, toe_off_s, every measure of `MEASURES` (NaN if unknown), used (in the means) and
         note (why not, or what is odd).
         """
-        steps = _in_order(self.feet)
-        named = naming(self.recording.raw)
+        steps, named = _in_order(self.feet), naming(self.recording.raw)
         return {
             "side": np.array([s.side for s in steps], dtype=object),
             "number": np.array([s.number for s in steps], dtype=int),

@@ -58,8 +58,7 @@ def one_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], ti
 def _table(metrics: Mapping[str, Any]) -> str:
     feet, gait, raw = metrics["feet"], metrics["gait"], bool(metrics.get("raw"))
     norms = metrics["kind"] != "robot"
-    rows = []
-    cadence = gait.get("steady_cadence_steps_per_min")
+    rows, cadence = [], gait.get("steady_cadence_steps_per_min")
     if cadence is not None:
         both = [f"{number(cadence)} (both feet)", *[""] * (len(feet) - 1)]
         band = [_band("cadence_steps_per_min", {"both": cadence}, 1.0)] if norms else []

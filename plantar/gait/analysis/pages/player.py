@@ -62,14 +62,12 @@ def _events(feet: Mapping[Side, FootGait], begin: float, end: float) -> list[tup
 
 
 def _frames(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> NDArray[np.int64]:
-    time = recording.time
-    begin = 0
+    time, begin = recording.time, 0
     if time[-1] - time[0] > LONGEST:
         first = [c.begin for gait in feet.values() for c in gait.contacts if c.complete]
         if first:
             begin = max(0, int(np.searchsorted(time, time[min(first)] - 1.0)))
-    end = int(np.searchsorted(time, time[begin] + LONGEST, side="right"))
-    every = 1
+    end, every = int(np.searchsorted(time, time[begin] + LONGEST, side="right")), 1
     if end - begin > MOST_FRAMES:
         every = max(1, round(recording.rate_hz / USUAL_RATE), -(-(end - begin) // MOST_FRAMES))
     return np.arange(begin, end, every)

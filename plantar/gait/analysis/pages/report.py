@@ -151,8 +151,7 @@ def _player(data: Mapping[str, Any]) -> str:
 
 def facts_of(metrics: Mapping[str, Any], file: str) -> str:
     """Returns a report's HTML heading, from metrics and the name of its file."""
-    robot = metrics["kind"] == "robot"
-    length = metrics["subject"]["foot_length_m"]
+    robot, length = metrics["kind"] == "robot", metrics["subject"]["foot_length_m"]
     facts = [
         ("Robot" if robot else "Participant", _participant(metrics)),
         ("Body mass", _mass(metrics)),

@@ -191,8 +191,7 @@ def _axis(
 def _middle_of_band(
     rings: NDArray[np.float64], axis: NDArray[np.float64], low: float, high: float
 ) -> NDArray[np.float64] | None:
-    across = rings @ np.array([-axis[1], axis[0]])
-    along = rings @ axis
+    across, along = rings @ np.array([-axis[1], axis[0]]), rings @ axis
     centre = 0.5 * (along.min(axis=1) + along.max(axis=1))
     inside = (centre >= low) & (centre <= high)
     if not inside.any():

@@ -120,7 +120,7 @@ def _with_cuts(
 ) -> list[PlatformPrint]:
     """Prints of shapes, marked where the edge cuts them off: shorter or narrower than those that lie inside."""
     beside = np.array([len(near) for near in load.layout.neighbours])
-    at_edge = np.array([(beside[p.cells] < beside.max()).any() for p in prints])
+    at_edge = np.array([(beside[p.cells] < np.median(beside)).any() for p in prints])
     sizes = np.array([(shape.length, shape.width) for shape in shapes])
     if at_edge.all():
         notes.append(

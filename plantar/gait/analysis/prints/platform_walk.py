@@ -221,8 +221,7 @@ def sides_of_walk(
         stated: Foot in the file, used if footprints lie in one line; else arch and hallux show it.
         notes: Assumptions are added.
     """
-    count = len(walk.prints)
-    offset = walk.centres @ np.array([-forward[1], forward[0]])
+    count, offset = len(walk.prints), walk.centres @ np.array([-forward[1], forward[0]])
     if count >= 2 and np.ptp(offset) >= 2.0 * _ALIKE:
         middle = _line_of_walking(walk.centres @ forward, offset)
         return ["left" if o > m else "right" for o, m in zip(offset, middle, strict=True)]

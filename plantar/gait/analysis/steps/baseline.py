@@ -79,8 +79,7 @@ def resting_level(force: NDArray[np.float64], rate: float) -> RestingLevel | Non
 
 
 def _usual_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None:
-    n = len(force)
-    tried = []
+    n, tried = len(force), []
     for window in _WINDOWS:
         edges = np.linspace(0, n, max(1, int(n / rate / window)) + 1).astype(int)
         found = [_level(force[a:b], rate) for a, b in pairwise(edges)]
@@ -151,8 +150,7 @@ def without_baselines(recording: PressureRecording) -> PressureRecording:
         if rest is None:
             continue
         offset = float(np.median(rest.level))
-        drift = float(np.ptp(rest.level))
-        pulls = rest.level.min() < -_PULL * rest.span
+        drift, pulls = float(np.ptp(rest.level)), rest.level.min() < -_PULL * rest.span
         if drift > FOLLOWED * rest.span or np.abs(rest.level).max() > OFFSET * rest.span or pulls:
             feet[side] = _without_offset(foot, rest)
             unit = "counts" if recording.raw else "N"
@@ -227,8 +225,7 @@ def _stretches(rest: RestingLevel) -> tuple[list[float], list[tuple[int, int]]]:
     """Places (frames) where cells have their own baseline, and each one's stretch of frames."""
     if rest.each is not None:
         return rest.each.places.tolist(), [(int(a), int(b)) for a, b in rest.each.spans]
-    n = len(rest.level)
-    drifts = float(np.ptp(rest.level)) > 0.05 * rest.span
+    n, drifts = len(rest.level), float(np.ptp(rest.level)) > 0.05 * rest.span
     count = max(1, n // max(1, _per_stretch(rest))) if drifts else 1
     edges = np.unique(np.linspace(0, n, 1 + count).astype(int)).tolist()
     stretches = [(a, b) for a, b in pairwise(edges) if rest.swing[a:b].any()]

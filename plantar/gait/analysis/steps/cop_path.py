@@ -28,8 +28,7 @@ def averaged_path(points: NDArray[np.float64], weight: NDArray[np.float64], fram
     after = np.minimum.accumulate(np.where(known, n, index)[::-1])[::-1] - index
     half = np.minimum(frames // 2, np.minimum(before, after) - 1).clip(0)
     load = np.where(known, weight, 0.0)
-    total = np.concatenate([[0.0], np.cumsum(load)])
-    out = np.full_like(points, np.nan)
+    total, out = np.concatenate([[0.0], np.cumsum(load)]), np.full_like(points, np.nan)
     first, last = (index - half)[known], (index + half + 1)[known]
     for axis in range(2):
         moment = np.concatenate([[0.0], np.cumsum(load * np.where(known, points[:, axis], 0.0))])

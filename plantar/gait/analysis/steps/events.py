@@ -216,8 +216,7 @@ def find_contacts(
         return []
     contacts: list[Contact] = []
     for start, stop in measured_spans(time, force):
-        gap = ~np.isfinite(force[start:stop])
-        part = force[start:stop].copy()
+        gap, part = ~np.isfinite(force[start:stop]), force[start:stop].copy()
         if gap.any():
             part[gap] = np.interp(time[start:stop][gap], time[start:stop][~gap], part[~gap])
         contacts += _contacts_of_span(time[start:stop], part, levels, start, minimum_stance)
@@ -318,8 +317,7 @@ def _end_of_push_off(
     """End of push-off, continued straight: after `lift`, not after the force is clear."""
     begin, end = span
     assert levels.clear is not None
-    after = force[end : int(np.searchsorted(time, time[end] + _BESIDE)) + 1]
-    at = []
+    after, at = force[end : int(np.searchsorted(time, time[end] + _BESIDE)) + 1], []
     for share in _FALL:
         level = levels.rest + share * (levels.peak - levels.rest)
         loaded = np.flatnonzero(force[begin:end] >= level)

@@ -40,8 +40,7 @@ def with_used_steps(
         return replace(gait, steps=left) if left else gait
     odd = _odd(steps, raw) if len(steps) >= _FEWEST_TO_JUDGE and kind in ("insole", "robot") else [""] * len(steps)
     used, notes = np.ones(len(steps), dtype=bool), list(gait.warnings)
-    side = gait.foot.side
-    reason = ""
+    side, reason = gait.foot.side, ""
     if options.steps == "steady":
         ends = _ends(odd)
         if ends.any():

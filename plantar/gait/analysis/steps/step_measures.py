@@ -35,8 +35,7 @@ def step_measures(
     """
     foot, span = gait.foot, slice(contact.begin, contact.end)
     force, time = foot.vertical_force[span], recording.time[span]
-    known = np.isfinite(force)
-    strike = cast(float, contact.heel_strike)
+    known, strike = np.isfinite(force), cast(float, contact.heel_strike)
     out = force_measures(time[known], force[known], strike, cast(float, contact.toe_off)) | dict(pressures)
     out["landing_impact_N"] = landing_impact(recording.time, foot.vertical_force, strike)
     if out.get("footprint_area_m2", 0.0) > 0.0:
@@ -122,8 +121,7 @@ def force_measures(
         >>> round(m["first_peak_percent"]), round(m["valley_N"]), round(m["impulse_Ns"], 1)
         (28, 600, 551.7)
     """
-    duration = lift - strike
-    impulse = float(np.trapezoid(force, time))
+    duration, impulse = lift - strike, float(np.trapezoid(force, time))
     impulse += 0.5 * max(0.0, float(time[0]) - strike) * float(force[0])
     impulse += 0.5 * max(0.0, lift - float(time[-1])) * float(force[-1])
     top = int(np.argmax(force))

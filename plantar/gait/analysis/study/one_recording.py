@@ -120,8 +120,7 @@ def measure_recording(
     known = with_layout(known, folder / who.layout) if who.layout else known
     subject = Subject(who.participant, who.mass_kg, who.foot_length_m)
     analysis = analyse_one(folder / who.file, None, known, choices=choices, subject=subject)
-    recording = analysis.recording
-    rows = _rows(analysis, who)
+    recording, rows = analysis.recording, _rows(analysis, who)
     return RecordingResult(
         who=who,
         digest=digest,
