@@ -54,9 +54,7 @@ def metrics_of(
         elif not gait.contacts:
             warnings.append(f"the {side} foot {_why_no_contact(recording, gait)}: no steps")
         elif not gait.steps:
-            warnings.append(
-                f"the {side} foot has no complete step: each contact is cut by the recording{_lowest(gait)}"
-            )
+            warnings.append(f"the {side} foot has no complete step: each contact is cut off{_lowest(gait)}")
         warnings += gait.warnings
     weight, subject = implied_weight(recording, feet), subject_of(recording, subject)
     segments = () if standing else segments_of(feet)
