@@ -170,8 +170,8 @@ def test_hulls_of_gathered_points_are_those_of_a_list_and_their_measures_those_o
         assert hull.margin(0.0, 0.0) == -np.inf
     else:
         ring, point = np.array(hull.corners_of()), rng.uniform(-5.0, 5.0, 2)
-        assert hull.margin(*point.tolist()) == convex.signed_margin(ring, *point.tolist())
-        assert hull.area() == convex.area(ring)
+        assert hull.margin(*point.tolist()) == pytest.approx(convex.signed_margin(ring, *point.tolist()), abs=1e-12)
+        assert hull.area() == pytest.approx(convex.area(ring))
 
 
 @settings(max_examples=60)
