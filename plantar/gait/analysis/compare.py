@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from plantar.atomic import output_folder
+from plantar.console.progress import part_of
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, named_format
 from plantar.gait.analysis.analyse_one import analyse_one, with_layout
@@ -84,7 +85,7 @@ def compare_recordings(
             report(0.4 * i, f"reading {key}")
             analyses[key] = analyse_one(path, format, known, choices=choices, subject=subject)
             (folder / key).mkdir()
-            write_analysis(analyses[key], folder / key, _later(report, 0.4 * i + 0.1, 0.3))
+            write_analysis(analyses[key], folder / key, part_of(report, 0.4 * i + 0.1, 0.3))
         if analyses["a"].recording.raw != analyses["b"].recording.raw:
             raise InputError(
                 "one recording is calibrated and the other is of raw counts: their values cannot be compared"
@@ -104,10 +105,6 @@ def _write_comparison(analyses: Mapping[str, Analysis], folder: Path, names: tup
     page = comparison_page(metrics, embedded, names, ("a/report.html", "b/report.html"))
     (folder / "report.html").write_text(page, encoding="utf-8")
     return metrics
-
-
-def _later(report: Callable[[float, str], None], begin: float, share: float) -> Callable[[float, str], None]:
-    return lambda fraction, text: report(begin + share * fraction, text)
 
 
 def _pairs(a: Analysis, b: Analysis) -> dict[str, tuple[Side, Side]]:

@@ -15,6 +15,7 @@ from plantar.shoes.geometry.outline import ring
 _PRINTED = (0.36, 0.55, 0.72)
 _PAD = (0.30, 0.31, 0.33)
 _EDGE = 0.35  # brightness of an edge
+_WIDTH = 1120  # pixels of a view, before it is halved
 
 Array = NDArray[np.float64]
 Picture = NDArray[np.float32]
@@ -25,7 +26,7 @@ def render(
     *,
     azimuth: float,
     elevation: float,
-    width: int = 1200,
+    width: int,
     margin: float = 0.04,
 ) -> Picture:
     """Render triangles in parallel projection.
@@ -132,11 +133,9 @@ def rendered_png(
     return png_of(_halved(seen).astype(np.float64))
 
 
-def draw_picture(
-    surface: Array, pad: Array | None, title: str, path: str | os.PathLike[str], *, width: int = 560
-) -> Path:
+def draw_picture(surface: Array, pad: Array | None, title: str, path: str | os.PathLike[str]) -> Path:
     """Draw a printed surface (n, 3, 3) in mm from above and, its pad or None apart, from below, with a title, to a
-    path, each view of a width in pixels; returns the path.
+    path; returns the path.
     """
     low, high = surface.reshape(-1, 3).min(axis=0), surface.reshape(-1, 3).max(axis=0)
     apart = np.array([0.0, 0.0, 0.28 * (high[1] - low[1]) + 12.0])
@@ -146,15 +145,12 @@ def draw_picture(
         above.append((pad, _PAD))
         below.append((pad - apart, _PAD))
     views = [
-        ("from above, toes to the right", render(above, azimuth=-62.0, elevation=38.0, width=2 * width)),
-        (
-            "from below: pockets, ports, cable channel",
-            render(above[:1], azimuth=-62.0, elevation=-48.0, width=2 * width),
-        ),
-        ("with its pad", render(below, azimuth=-148.0, elevation=24.0, width=2 * width)),
+        ("from above, toes to the right", render(above, azimuth=-62.0, elevation=38.0, width=_WIDTH)),
+        ("from below: pockets, ports, cable channel", render(above[:1], azimuth=-62.0, elevation=-48.0, width=_WIDTH)),
+        ("with its pad", render(below, azimuth=-148.0, elevation=24.0, width=_WIDTH)),
     ]
     heights = [v.shape[0] for _, v in views]
-    figure, axes = new_figure(9.0, 9.0 * sum(heights) / (2 * width) + 1.0, rows=3, height_ratios=heights)
+    figure, axes = new_figure(9.0, 9.0 * sum(heights) / _WIDTH + 1.0, rows=3, height_ratios=heights)
     for ax, (text, view) in zip(axes, views, strict=True):
         ax.imshow(_halved(view), interpolation="nearest")
         ax.set_title(text, fontsize=9, loc="left")

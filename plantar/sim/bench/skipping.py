@@ -127,29 +127,27 @@ class SkipRow:
     computed: dict[str, int]
 
 
-def compare_skipping(
-    scene: str, robot: str, settings: Sequence[str] = (), rounds: int = 3, seed: int = _SEED
-) -> SkipRow:
+def compare_skipping(scene: str, robot: str, settings: Sequence[str] = (), rounds: int = 3) -> SkipRow:
     """Returns the comparison of a `scene` without pushes and moving ground as needed, with everything, and its physics
     alone.
 
-    Of a `robot` with `settings` as `key=value`, in medians of `rounds`, 1 or more, with a `seed`. A SceneError if
-    scene or setting is unknown, an InputError without a timer signal (see `RoomTimes`).
+    Of a `robot` with `settings` as `key=value`, in medians of `rounds`, 1 or more. A SceneError if scene or setting is
+    unknown, an InputError without a timer signal (see `RoomTimes`).
     """
     needed, everything = load_scene(scene, tuple(settings), robot), load_scene(scene, (*settings, _NONE), robot)
-    watched, full = WatchedSimulation(needed, seed), WatchedSimulation(everything, seed)
+    watched, full = WatchedSimulation(needed, _SEED), WatchedSimulation(everything, _SEED)
     summary = watched.run()
     full.run()
     motions = {watched.motion, full.motion}
     times: dict[str, list[float]] = {"run": [], "everything": [], "physics": []}
     for _ in range(rounds):
-        times["run"].append(_cpu_time(needed, seed))
+        times["run"].append(_cpu_time(needed))
         with TemporaryDirectory() as folder:
-            times["everything"].append(_cpu_time(everything, seed, Path(folder) / "run.mcap"))
+            times["everything"].append(_cpu_time(everything, Path(folder) / "run.mcap"))
         used, motion = replay_physics(watched)
         times["physics"].append(used)
         motions.add(motion)
-    simulation = Simulation(needed, seed)
+    simulation = Simulation(needed, _SEED)
     with RoomTimes() as rooms:
         simulation.run()
     physics = median(times["physics"])
@@ -159,7 +157,7 @@ def compare_skipping(
         scene=scene,
         robot=robot,
         settings=" ".join(settings),
-        seed=seed,
+        seed=_SEED,
         sim_s=round(float(summary["sim_time_s"]), 3),
         run_s=median(times["run"]),
         everything_s=median(times["everything"]),
@@ -173,8 +171,8 @@ def compare_skipping(
     )
 
 
-def _cpu_time(scene: Scene, seed: int, record: Path | None = None) -> float:
-    simulation = Simulation(scene, seed)
+def _cpu_time(scene: Scene, record: Path | None = None) -> float:
+    simulation = Simulation(scene, _SEED)
     start = time.process_time()
     simulation.run(record=record)
     return time.process_time() - start

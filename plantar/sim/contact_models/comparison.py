@@ -17,11 +17,10 @@ from plantar.geometry.polygon import area, convex_hull
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
 from plantar.sensing.force import center_of_pressure
-from plantar.sim.contact_models.sole import Sole, build_sole
-from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Candidate, Contact
+from plantar.sim.contact_models.sole import MASS, Sole, build_sole
+from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Candidate
 from plantar.sim.model.contact_truth import contact_wrench_in_frame, foot_contacts, support_polygon_of_contacts
 
-MASS = 43.0  # kg
 PLANE = '<geom name="ground" type="plane" size="2 2 0.1" {contact}/>'  # the ground
 INNER = 0.7  # part of the half size within which loads are balanced
 _BEAMS = (0.12, 0.06)  # widths in m
@@ -123,17 +122,16 @@ def compare_contact_models(
     *,
     candidates: Iterable[Candidate] = CANDIDATES,
     seeds: int = 2,
-    contact: Contact | None = None,
     progress: Callable[[float, str], None],
 ) -> list[ContactRow]:
     """Returns a row a candidate of contact models against MuJoCo's contact wrench.
 
     The `layout`'s bounding rectangle is the true edge; `seeds` are random load cases at each of 25 CoPs in full-sole
-    stance, `candidates` what is compared, `contact` the parameters; `progress` gets fraction and text.
+    stance, `candidates` what is compared; `progress` gets fraction and text.
     """
     rows = []
     candidates = tuple(candidates)
-    soles = [build_sole(candidate, layout, PLANE, mass=MASS, contact=contact) for candidate in candidates]
+    soles = [build_sole(candidate, layout, PLANE) for candidate in candidates]
     times = _run_times(soles, layout)
     for i, (candidate, sole) in enumerate(zip(candidates, soles, strict=True)):
         progress(i / len(candidates), candidate.name)
@@ -142,7 +140,7 @@ def compare_contact_models(
                 name=candidate.name,
                 **full_stance(sole, layout, seeds),
                 **tip_over(sole, layout),
-                **_on_beams(candidate, layout, contact),
+                **_on_beams(candidate, layout),
                 **times[i],
             )
         )
@@ -234,7 +232,7 @@ def _edge(sole: Sole, layout: SoleLayout, direction: NDArray[np.float64]) -> tup
     return (pivot - half) * 1e3 if rig.tilt() >= _TIPPED else math.inf, (shown - half) * 1e3
 
 
-def _on_beams(candidate: Candidate, layout: SoleLayout, contact: Contact | None) -> dict[str, Any]:
+def _on_beams(candidate: Candidate, layout: SoleLayout) -> dict[str, Any]:
     import shapely
 
     middle, half = _rectangle(layout)
@@ -247,7 +245,7 @@ def _on_beams(candidate: Candidate, layout: SoleLayout, contact: Contact | None)
                 f'<geom name="beam" type="box" size="{0.5 * width} 1 0.05" pos="{middle[0] + offset} 0 -0.05" '
                 "{contact}/>"
             )
-            rig = Rig(build_sole(candidate, layout, ground, mass=MASS, contact=contact), layout)
+            rig = Rig(build_sole(candidate, layout, ground), layout)
             for _ in range(20):
                 rig.push(600.0, middle + np.array([offset, 0.0]))
                 rig.step(10)
@@ -269,14 +267,14 @@ def _on_beams(candidate: Candidate, layout: SoleLayout, contact: Contact | None)
     }
 
 
-def _run_times(soles: Sequence[Sole], layout: SoleLayout, count: int = 300) -> list[dict[str, Any]]:
+def _run_times(soles: Sequence[Sole], layout: SoleLayout) -> list[dict[str, Any]]:
     middle, half = _rectangle(layout)
     rigs = [Rig(sole, layout) for sole in soles]
     for rig in rigs:
         rig.push(MASS * GRAVITY, middle + 0.1 * half)
         rig.step(100)
-    steps, reads = np.zeros((2, len(rigs), count))
-    for k in range(count):
+    steps, reads = np.zeros((2, len(rigs), 300))
+    for k in range(300):
         for i, rig in enumerate(rigs):
             start = time.perf_counter()
             rig.step()

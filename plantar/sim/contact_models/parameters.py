@@ -11,8 +11,8 @@ import numpy as np
 
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
-from plantar.sim.contact_models.comparison import MASS, PLANE, Rig
-from plantar.sim.contact_models.sole import build_sole
+from plantar.sim.contact_models.comparison import PLANE, Rig
+from plantar.sim.contact_models.sole import MASS, build_sole
 from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Contact
 from plantar.sim.model.contact_truth import contact_wrench_in_world, foot_contacts
 
@@ -70,7 +70,7 @@ def study_contact_parameters(layout: SoleLayout, progress: Callable[[float, str]
 
 
 def _measure(name: str, contact: Contact, layout: SoleLayout) -> ParameterRow:
-    sole = build_sole(CANDIDATES[0], layout, PLANE, mass=MASS, contact=contact)
+    sole = build_sole(CANDIDATES[0], layout, PLANE, contact)
     middle = 0.5 * (layout.outline.min(axis=0) + layout.outline.max(axis=0))
     weight = MASS * GRAVITY
 

@@ -7,12 +7,14 @@ from typing import Any
 
 from plantar.atomic import write_text
 from plantar.bench.tables import Mark, draw_errors, made_on, markdown_table, write_rows
+from plantar.console.progress import part_of
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import read_layout
 from plantar.layouts.tiling import hex_layout
 from plantar.plotting import COLOURS, new_figure, save_figure
-from plantar.sim.contact_models.comparison import INNER, MASS, ContactRow, compare_contact_models
+from plantar.sim.contact_models.comparison import INNER, ContactRow, compare_contact_models
 from plantar.sim.contact_models.parameters import ParameterRow, study_contact_parameters
+from plantar.sim.contact_models.sole import MASS
 from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Contact
 
 COP_LIMIT_MM, EDGE_LIMIT_MM = 2.0, 1.0
@@ -39,8 +41,8 @@ def measure_contact(folder: Path, layout: Path | None, progress: Callable[[float
     the file is invalid.
     """
     sole = hex_layout(_SOLE) if layout is None else read_layout(layout)
-    rows = compare_contact_models(sole, progress=lambda share, text: progress(0.9 * share, text))
-    parameters = study_contact_parameters(sole, progress=lambda share, text: progress(0.9 + 0.1 * share, text))
+    rows = compare_contact_models(sole, progress=part_of(progress, 0.0, 0.9))
+    parameters = study_contact_parameters(sole, part_of(progress, 0.9, 0.1))
     return {
         "chosen": rows[0].name,
         "holds": holds(rows[0]),

@@ -15,6 +15,7 @@ from plantar.sim.sensing.skin import SoleSkin
 Reader = Callable[[Any], NDArray[np.float64]]
 """Taxel forces (n,) in N from the MjData."""
 
+MASS = 43.0  # kg: of the body
 _ROUNDS = 8  # How often cells that would pull are left out of the fit to the wrench
 
 
@@ -33,20 +34,11 @@ class Sole(NamedTuple):
     read: Reader
 
 
-def build_sole(
-    candidate: Candidate,
-    layout: SoleLayout,
-    ground: str,
-    *,
-    mass: float = 43.0,
-    com_height: float = 0.05,
-    contact: Contact | None = None,
-) -> Sole:
+def build_sole(candidate: Candidate, layout: SoleLayout, ground: str, contact: Contact | None = None) -> Sole:
     """Returns the compiled rig of a free body with one sole over some ground.
 
     Of a contact model `candidate`, a `layout`, whose bounding rectangle is the box, MJCF of `ground` geoms with
-    placeholder {contact}, `mass` in kg, `com_height` above the sole in m, and `contact` parameters. An InputError if
-    kind or reading is unknown.
+    placeholder {contact}, and `contact` parameters. An InputError if kind or reading is unknown.
     """
     contact = contact or Contact()
     attributes = contact.geom_attributes()
@@ -57,7 +49,7 @@ def build_sole(
         <asset>{assets}</asset>
         <worldbody>{ground.format(contact=attributes)}
           <body name="left_foot"><freejoint/>
-            <inertial pos="0 0 {com_height}" mass="{mass}" diaginertia="{mass / 20} {mass / 20} {mass / 40}"/>
+            <inertial pos="0 0 0.05" mass="{MASS}" diaginertia="{MASS / 20} {MASS / 20} {MASS / 40}"/>
             {geoms}<site name="left_sole"/>
           </body>
         </worldbody><sensor>{sensors}</sensor></mujoco>"""

@@ -20,6 +20,9 @@ FILTER_TIME = 0.02
 """Time constant in s of both low-pass filters: that of the balance laws' own."""
 
 
+_BEGIN = 1.0  # s from which it counts
+
+
 class ZmpComparison:
     """Follows both ZMPs through a run.
 
@@ -27,15 +30,13 @@ class ZmpComparison:
         layouts: Of each side.
         noise: Standard deviation of a taxel in N.
         period: Control period in s.
-        begin: Time in s from which it counts.
 
     Attributes:
         latest: World ZMP (2,) in m from the skin and from the ankles, None without load.
     """
 
-    def __init__(self, layouts: Mapping[Side, SoleLayout], noise: float, period: float, begin: float = 1.0) -> None:
+    def __init__(self, layouts: Mapping[Side, SoleLayout], noise: float, period: float) -> None:
         self._share = period / (FILTER_TIME + period)
-        self._begin = begin
         self._skins = {s: SkinLoad(layouts[s], noise, self._share) for s in SIDES}
         self._wrenches: dict[Side, NDArray[np.float64]] = {}
         self._differences: list[NDArray[np.float64]] = []
@@ -61,7 +62,7 @@ class ZmpComparison:
                 loads.append(sole.vertical_force)
                 points.append(None if cop is None else place + turn @ cop)
         one, other = zmp_of_feet(skin, skin_loads), zmp_of_feet(ankle, ankle_loads)
-        if one is not None and other is not None and time >= self._begin:
+        if one is not None and other is not None and time >= _BEGIN:
             self._differences.append(one - other)
         self.latest = (one, other)
 

@@ -8,10 +8,7 @@ from numpy.typing import NDArray
 from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.polygon import area as polygon_area
 from plantar.layouts.layout import SoleLayout
-from plantar.sim.sensing.contact_patch import Patches, patch_polygon
-
-_GRID = 1e-4  # m: patches that agree within this are the same patch
-_MOST_PATCHES = 256
+from plantar.sim.sensing.contact_patch import MOST_PATCHES, PATCH_GRID, Patches, patch_polygon
 
 
 class BlindRim:
@@ -36,7 +33,7 @@ class BlindRim:
         self.stiffness = stiffness
         self._rubber = rubber
         self._cutter = CellCutter(layout)
-        self._patches = Patches(self._make_share, _GRID, _MOST_PATCHES)
+        self._patches = Patches(self._make_share, PATCH_GRID, MOST_PATCHES)
 
     def share(self, patch: Sequence[tuple[float, float]]) -> float:
         """Share 0..1 of a load that the taxels carry under contact points (k, 2) in m."""

@@ -16,6 +16,10 @@ _POINT = 2.6  # widths of a line: half width of a point's square, which spreads 
 _INSIDE = 2e-3  # of a patch's half extent: how far inside its outermost cells a load acts, so that several carry it
 
 
+PATCH_GRID, MOST_PATCHES = 1e-4, 256
+"""Distance in m within which patches of springs are the same, and how many are kept."""
+
+
 class Patches(Generic[T]):
     """Keeps results of the latest patches.
 

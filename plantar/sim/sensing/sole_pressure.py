@@ -23,10 +23,8 @@ from plantar.geometry.polygon import convex_hull
 from plantar.kernels.contacts.pressed_patch import PressedPatch
 from plantar.kernels.contacts.pressed_sole import PressedSole
 from plantar.layouts.layout import SoleLayout
-from plantar.sim.sensing.contact_patch import patch_polygon, reach_of
+from plantar.sim.sensing.contact_patch import MOST_PATCHES, PATCH_GRID, patch_polygon, reach_of
 
-_GRID = 1e-4  # m: patches that agree within this are the same patch
-_MOST_PATCHES = 256
 _LEAST_SHARE = 0.01  # of a cell: less cover than this carries nothing
 
 
@@ -69,7 +67,7 @@ class SolePressure:
         self._cutter = CellCutter(layout)
         self._gain = None if (facing == 1.0).all() else 1.0 / facing
         gains = np.ones(len(layout)) if self._gain is None else self._gain
-        self.springs = PressedSole(gains, _GRID, _MOST_PATCHES, self._make_patch)
+        self.springs = PressedSole(gains, PATCH_GRID, MOST_PATCHES, self._make_patch)
 
     def spread(
         self, patch: Sequence[tuple[float, float]], force: float, center_of_pressure: tuple[float, float]

@@ -12,6 +12,8 @@ from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.support import Support
 from plantar.wholebody.tasks.task import Demand
 
+_LEAST = 0.01  # least normal force of a contact, as a share of the weight
+
 
 class ContactForces:
     """Shares a free base's load among contacts, as `joint_torques`, within friction cones.
@@ -20,7 +22,6 @@ class ContactForces:
         support: Task of the carrying contacts.
         base: Link of the free coordinates.
         weight: Robot's in N.
-        least: Contact's least normal force, share of that.
         weights: Of the distribution.
 
     Attributes:
@@ -28,19 +29,12 @@ class ContactForces:
         last: Last wrench of each contact, own frame.
     """
 
-    def __init__(
-        self,
-        support: Support,
-        base: str,
-        weight: float,
-        least: float = 0.01,
-        weights: DistributionWeights | None = None,
-    ) -> None:
+    def __init__(self, support: Support, base: str, weight: float, weights: DistributionWeights | None = None) -> None:
         self.shares: Mapping[str, float] | None = None
         self.last: WrenchShare | None = None
         self._support, self._base = support, base
         self._free: NDArray[np.int64] | None = None  # coordinates that no joint drives
-        self._distribution = WrenchDistribution(weight, weights, minimum_force=least * weight)
+        self._distribution = WrenchDistribution(weight, weights, minimum_force=_LEAST * weight)
 
     def __call__(
         self, robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None

@@ -3,7 +3,7 @@
 import platform
 import shutil
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,17 +12,15 @@ from plantar.atomic import write_text
 from plantar.sim.bench.page.bench_page import bench_page
 from plantar.sim.bench.scenes.scene_runs import TABLE
 from plantar.sim.bench.scenes.scenes_report import measure_scenes
-from plantar.sim.papers.experiments import EXPERIMENTS, PaperExperiment, figure_of
+from plantar.sim.papers.experiments import EXPERIMENTS, figure_of
 from plantar.sim.run.runner import run_scene
 from plantar.sim.run.scene import load_scene
 
 _SEED = 1000  # a fresh one: nothing was ever tuned on it
 
 
-def measure_papers(
-    progress: Callable[[float, str], None], experiments: Sequence[PaperExperiment] = EXPERIMENTS, quick: bool = False
-) -> dict[str, Any]:
-    """Run the `experiments` with printed figures, without long ones if `quick`; `progress` gets fraction and text.
+def measure_papers(progress: Callable[[float, str], None], quick: bool = False) -> dict[str, Any]:
+    """Run the experiments with printed figures, without long ones if `quick`; `progress` gets fraction and text.
 
     Returns:
         "experiments": each with the paper's figures and source, ours by the same names, and whether each robot fell;
@@ -30,7 +28,7 @@ def measure_papers(
     """
     kept = [
         (e, e.settings + ablation, printed, fell)
-        for e in experiments
+        for e in EXPERIMENTS
         if not (quick and e.long)
         for ablation, printed, fell in (((), e.printed, False), (e.without, e.printed_without, e.fell_without))
         if printed

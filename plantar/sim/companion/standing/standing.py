@@ -106,13 +106,13 @@ class StandingExperiment(Experiment):
     def start(self, world: World) -> None:
         world.data.qpos[world.positions] = self.first
 
-    def balance_tasks(self, axes: Sequence[int] = (0, 1, 2)) -> list[Task]:
-        """Keep the centre of mass's `axes` in place and the base upright."""
+    def balance_tasks(self) -> list[Task]:
+        """Keep the centre of mass in place and the base upright."""
         stiff = self.control.balance
         gains = PoseGains(turn_stiffness=stiff, turn_damping=2.0 * math.sqrt(stiff))
         upright = CartesianPose(self.machine.base.link, gains=gains, rows="orientation")
         upright.target_rotation = rotation_from_angles(0.0, roll=math.radians(self.roll))
-        self.balance = CenterOfMass(self.com.copy(), stiff, axes=axes)
+        self.balance = CenterOfMass(self.com.copy(), stiff)
         return [self.balance, upright]
 
     def base_task(self) -> CartesianPose:
@@ -121,12 +121,10 @@ class StandingExperiment(Experiment):
         damp = 2.0 * math.sqrt(stiff)
         return CartesianPose(self.machine.base.link, gains=PoseGains(stiff, damp, stiff, damp))
 
-    def posture_task(self, share: float = 1.0, stiffness: float = 1.0) -> Posture:
-        """Returns springs and dampers towards the first posture, by motor torque: a `share` of the settings', further
-        of the `stiffness`.
-        """
-        strength = share * self.machine.efforts / 75.0
-        stiff, damp = self.control.posture * stiffness * strength, self.control.posture_damping * strength
+    def posture_task(self) -> Posture:
+        """Springs and dampers towards the first posture, by motor torque."""
+        strength = self.machine.efforts / 75.0
+        stiff, damp = self.control.posture * strength, self.control.posture_damping * strength
         return Posture(self.first[7:], stiff, damp, torques=True)
 
     def joint_range_task(self) -> JointRange:
