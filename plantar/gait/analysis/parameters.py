@@ -36,6 +36,8 @@ COP_WINDOW = 0.05
 _Events = Mapping[Side, tuple[Levels | None, list[Contact]]]
 _LONGEST = 3.0  # Longest contact in s of a person's single steps: patients who walk at 0.2 m/s have 2.5
 _FEWEST, _AWAY = 3, 0.15  # Heel strikes that show how far stated ones are, and the distance in s that is reported
+# Share of both feet's contacts that is common where they step on and off at once, and time in s from which they stand.
+_TOGETHER, _STAND = 0.8, 1.2
 _CARRIED = 0.2  # Share of a foot's peak that shoes and creases do not press in swing
 # How many times its usual height the level of heel strikes is from which events move by more than 20 and 35 ms.
 _RAISED = 1.4
@@ -150,9 +152,17 @@ def _by_passes(recording: PressureRecording, prints: Sequence[PlatformPrint], ev
     def of_pass(contact: Contact, side: Side) -> Contact:
         found = print_of_contact(contact, side, prints)
         number = bisect(begins, recording.time[contact.begin])
-        return replace(contact, walk=number, cut=found is not None and found.cut)
+        others = [] if other_side(side) not in events else events[other_side(side)][1]
+        long = contact.complete and contact.end - contact.begin > _STAND * recording.rate_hz
+        stands = contact.standing or (long and any(_together(contact, other) for other in others))
+        return replace(contact, walk=number, cut=found is not None and found.cut, standing=stands)
 
     return {side: (levels, [of_pass(c, side) for c in own]) for side, (levels, own) in events.items()}
+
+
+def _together(one: Contact, other: Contact) -> bool:
+    common = min(one.end, other.end) - max(one.begin, other.begin)
+    return common > _TOGETHER * (max(one.end, other.end) - min(one.begin, other.begin))
 
 
 def analyse_foot(

@@ -222,7 +222,7 @@ def test_the_ellipse_holds_95_of_100_points():
     assert sway_measures(np.arange(100) * 0.01, points[:100]) == {}
 
 
-@pytest.mark.parametrize(("on", "off"), [(0.3, 99.0), (0.3, 19.5), (6.0, 99.0)])
+@pytest.mark.parametrize(("on", "off"), [(0.3, 99.0), (0.3, 19.5), (6.0, 99.0), (9.0, 15.5)])
 def test_who_steps_on_or_off_a_sensor_stands_between(on, off):
     """What is measured is the time between: neither one long step, nor sway of the way up."""
     layout = nominal_insole("x", "left")
@@ -241,3 +241,13 @@ def test_who_steps_on_or_off_a_sensor_stands_between(on, off):
     within = slice(int(np.argmax(load > 340.0)), len(time) - int(np.argmax(load[::-1] > 340.0)))
     sway = sway_measures(time[within], gaits["left"].cop[within])
     assert metrics["feet"]["left"]["sway"]["sway_ap_m"] == pytest.approx(sway["sway_ap_m"], rel=0.05)
+
+
+def test_both_feet_on_a_sensor_for_two_seconds_are_no_step():
+    time = np.arange(0.0, 10.0, 0.01)
+    load = 350.0 * np.clip(np.minimum(time - 5.0, 7.0 - time) / 0.1, 0.0, 1.0)
+    feet = {s: FootRecording(s, load[:, None].copy(), None) for s in SIDES}
+    recording = PressureRecording(Path("x"), "x", 100.0, time, feet)
+    gaits = analyse_feet(recording)
+    assert not any(gait.steps for gait in gaits.values())
+    assert activity_of(recording, gaits).name == "standing"
