@@ -72,10 +72,7 @@ def is_compiled(name: str) -> bool:
 
 
 def outdated(folder: Path) -> list[str]:
-    """Kernels whose source changed after they were compiled.
-
-    Args:
-        folder: Folder of rooms.
+    """Kernels in a folder of rooms whose source changed after they were compiled.
 
     Returns:
         Their names, such as "geometry.convex".

@@ -35,15 +35,9 @@ class TaskStack:
     def step(
         self, robot: RobotDynamics, skin: SkinReading | None = None, external: NDArray[np.float64] | None = None
     ) -> Fused:
-        """Ask every task, and fuse.
+        """Ask every task for a `robot`'s dynamics now and the latest `skin` reading, and fuse.
 
-        Args:
-            robot: Its dynamics now.
-            skin: Latest reading.
-            external: Known generalized (n,); None for none.
-
-        Returns:
-            Torques, acceleration, support force.
+        Returns torques, acceleration and support force; `external` is a known generalized force (n,), None for none.
         """
         demands = [[task.demand(robot, skin) for task in level] for level in self.levels]
         self.silent += sum(demand is None for level in demands for demand in level)

@@ -80,13 +80,7 @@ def write_mot(analysis: Analysis, path: Path) -> None:
 
 
 def write_external_loads(analysis: Analysis, path: Path, motion: str) -> None:
-    """Write OpenSim's description (.xml) of a motion file's columns and bodies.
-
-    Args:
-        analysis: Analysis.
-        path: File.
-        motion: Name of the motion file next to it.
-    """
+    """Write OpenSim's description (.xml) at `path` of the columns and bodies of a `motion` file of an `analysis`."""
     root = ElementTree.Element("OpenSimDocument", Version="40000")
     loads = ElementTree.SubElement(root, "ExternalLoads", name="externalloads")
     objects = ElementTree.SubElement(loads, "objects")

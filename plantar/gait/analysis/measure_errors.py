@@ -15,14 +15,10 @@ _EDGE = 3.5  # Cells at the edge of a print of n cells are about this times the 
 
 
 def errors_of_foot(recording: PressureRecording, gait: FootGait) -> dict[str, float]:
-    """Returns standard errors of one step's measures by key in SI, by noise, rate, cells and events, without
-    calibration.
+    """Returns standard errors of one step's measures of a foot's `gait`, its steps measured, in a `recording`: by key
+    in SI, by noise, rate, cells and events, without calibration.
 
     A mean over n steps errs by 1 / sqrt(n) of noise and frames, and fully of cells and definitions.
-
-    Args:
-        recording: Recording.
-        gait: One foot, its steps measured.
     """
     levels, used = gait.levels, gait.used
     if levels is None or not used:

@@ -33,14 +33,10 @@ from plantar.recordings.pressure_recording import FootRecording, PressureRecordi
 def metrics_of(
     recording: PressureRecording, feet: Mapping[Side, FootGait], subject: Subject | None = None
 ) -> dict[str, Any]:
-    """Returns analysis as plain JSON values (docs/metrics.md); None if unknown.
+    """Returns analysis of a `recording`, the gait of each of its `feet` and a `subject` as plain JSON values
+    (docs/metrics.md); None if unknown.
 
     Raw counts' keys end in "_raw" in place of a unit of force or pressure.
-
-    Args:
-        recording: Recording.
-        feet: Gait of each foot.
-        subject: Person.
     """
     warnings, activity = list(recording.warnings), activity_of(recording, feet)
     standing = activity.name == "standing"

@@ -55,15 +55,8 @@ class _Print:
 
 
 def printed_features(shoe: Shoe, build: ShoeBuild, surface: Array) -> tuple[Feature, ...]:
-    """Look for every feature in the shoe's papers.
-
-    Args:
-        shoe: Shoe.
-        build: Its own.
-        surface: STL triangles (n, 3, 3) in mm.
-
-    Returns:
-        Features.
+    """Returns every feature in the papers of a `shoe` of its `build`, looked for in its `surface`, STL triangles
+    (n, 3, 3) in mm.
     """
     solid, p, plan = _Print(surface), build.parameters, shoe.plan
     found = [*_seats(solid, plan, p), *_cable(solid, plan, p)]

@@ -34,10 +34,7 @@ def paper_files() -> dict[str, Path]:
 
 
 def paper_settings(paper: str) -> tuple[PaperSettings, ...]:
-    """What a paper states, in order.
-
-    Args:
-        paper: Its mark.
+    """What a paper, named by its mark, states, in order.
 
     Raises:
         SceneError: If it is unknown.

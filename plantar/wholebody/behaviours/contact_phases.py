@@ -34,14 +34,9 @@ class ContactPhases:
         return self._arrangements[self.in_contact]
 
     def enter(self, in_contact: bool, time: float) -> bool:
-        """Enter a phase; the weight continues from its value.
+        """Enter a phase at a `time` in s, that of contact if `in_contact`; the weight continues from its value.
 
-        Args:
-            in_contact: Whether the contact phase.
-            time: In s.
-
-        Returns:
-            Whether the phase changed: begin a priority transition.
+        Returns whether the phase changed: begin a priority transition.
         """
         if in_contact == self.in_contact:
             return False

@@ -90,14 +90,9 @@ class IntentionalContact:
         return self._levels[self.arrangement]
 
     def update(self, signs: ContactSigns, time: float) -> bool:
-        """Update with new measurements; a force over the limit counts at once.
+        """Update with new measurements `signs` at a `time` in s; a force over the limit counts at once.
 
-        Args:
-            signs: The measurements.
-            time: In s.
-
-        Returns:
-            Whether the arrangement changed: begin a priority transition.
+        Returns whether the arrangement changed: begin a priority transition.
         """
         s, before = self.settings, self.arrangement
         period = max(0.0, time - self._time) if math.isfinite(self._time) else 0.0

@@ -55,15 +55,7 @@ class ContactForces:
         return force[robot.joints] - support.jacobian[:, robot.joints].T @ carried, carried
 
     def share(self, robot: RobotDynamics, force: NDArray[np.float64]) -> WrenchShare:
-        """Each contact's wrench, own frame, under a generalized force on the base.
-
-        Args:
-            robot: The robot.
-            force: Generalized (n,).
-
-        Returns:
-            The wrenches.
-        """
+        """Returns each contact's wrench, own frame, under a generalized `force` (n,) on the base of a `robot`."""
         return self._shared(robot, force, self._contacts(robot))
 
     def _shared(self, robot: RobotDynamics, force: NDArray[np.float64], contacts: Mapping[str, Contact]) -> WrenchShare:

@@ -32,14 +32,8 @@ def mass_factor(mass_matrix: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def task_torque(robot: RobotDynamics, demand: Demand) -> NDArray[np.float64]:
-    """A task's generalized force (n,): J^T f (T 3.4), f = Lambda (x''* - J' q') for motion, without bias.
-
-    Args:
-        robot: The robot.
-        demand: Task's.
-
-    Returns:
-        The force.
+    """Returns the generalized force (n,) of a task's `demand` of a `robot`: J^T f (T 3.4), f = Lambda (x''* - J' q')
+    for motion, without bias.
     """
     if demand.acceleration is None:
         return np.asarray(demand.jacobian.T @ np.asarray(demand.force))

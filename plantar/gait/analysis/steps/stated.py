@@ -13,12 +13,8 @@ _SAME = 0.25  # Longest time in s between a stated event and a found one that ar
 
 
 def stated_contacts(time: NDArray[np.float64], events: StatedEvents) -> list[Contact]:
-    """Returns contacts of stated events, from each heel strike to the last toe off before the next; incomplete at the
-    ends.
-
-    Args:
-        time: Frame times (n,) in s.
-        events: Events.
+    """Returns contacts of stated `events` at frame times `time` (n,) in s, from each heel strike to the last toe off
+    before the next; incomplete at the ends.
     """
     strikes, lifts = events.heel_strikes, events.toe_offs
     ends = np.append(strikes[1:], np.inf)[: len(strikes)]

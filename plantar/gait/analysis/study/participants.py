@@ -66,9 +66,6 @@ def read_participants(path: str | os.PathLike[str]) -> list[Participation]:
     Columns file, participant and condition; optionally mass_kg, foot_length_m (or _mm, _cm), side, insole_size, unit,
     rate_hz and layout; others are carried through.
 
-    Args:
-        path: Table.
-
     Raises:
         FormatError: Without rows, columns, unique files.
         InputError: If a value is impossible.
