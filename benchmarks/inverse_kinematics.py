@@ -14,6 +14,7 @@ import mujoco
 import numpy as np
 
 from plantar.atomic import write_text
+from plantar.bench.tables import markdown_table
 from plantar.robots import load_robot
 from plantar.robots.kinematics.robot_model import build_leg_model, robot_spec
 from plantar.sim.run.runner import Simulation
@@ -37,18 +38,13 @@ def walk_commands():
     return commands, start
 
 
-def upright(heading):
-    c, s = math.cos(heading), math.sin(heading)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-
-
 def task_error(model, data, qpos, command):
     """Largest error of CoM, torso and soles in m or rad."""
     data.qpos[:] = qpos
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
     worst = np.abs(data.subtree_com[0] - command.com).max()
-    pairs = [(data.body("base").xmat, upright(command.heading))]
+    pairs = [(data.body("base").xmat, command.rotation_torso)]
     for side in SIDES:
         site, foot = data.site(f"{side}_sole"), command.feet[side]
         worst = max(worst, np.abs(site.xpos - foot.position).max())
@@ -65,11 +61,10 @@ def ours(robot, commands, start, iterations):
     legs.set_configuration(start[:3], start[3:7], start[7:])
     times, errors = [], []
     for c in commands:
-        torso = upright(c.heading)
         positions = {s: c.feet[s].position for s in SIDES}
         rotations = {s: c.feet[s].rotation for s in SIDES}
         begin = time.perf_counter()
-        legs.follow(c.com, torso, positions, rotations, iterations)
+        legs.follow(c.com, c.rotation_torso, positions, rotations, iterations)
         times.append(1e6 * (time.perf_counter() - begin))
         errors.append(task_error(legs.model, probe, legs.configuration, c))
     return times, errors
@@ -88,7 +83,7 @@ def with_mink(robot, commands, start, solver):
     for c in commands:
         begin = time.perf_counter()
         center.set_target(c.com)
-        torso.set_target(mink.SE3.from_rotation(mink.SO3.from_matrix(upright(c.heading))))
+        torso.set_target(mink.SE3.from_rotation(mink.SO3.from_matrix(c.rotation_torso)))
         for s in SIDES:
             rotation = mink.SO3.from_matrix(c.feet[s].rotation)
             soles[s].set_target(mink.SE3.from_rotation_and_translation(rotation, c.feet[s].position))
@@ -117,14 +112,13 @@ def main() -> None:
         "solution. Error: largest deviation of CoM, torso and soles from the command after the tick (m or rad).",
         "Written by `python benchmarks/inverse_kinematics.py`.",
         "",
-        "| method | median time of a tick [us] | ratio | median error | 99 % error |",
-        "|---|---|---|---|---|",
     ]
+    cells = []
     for name, times, errors in rows:
-        t = float(np.median(times))
-        lines.append(
-            f"| {name} | {t:.0f} | {t / base:.1f} | {np.median(errors):.1e} | {np.percentile(errors, 99):.1e} |"
-        )
+        t, low, high = float(np.median(times)), np.median(errors), np.percentile(errors, 99)
+        cells.append((name, f"{t:.0f}", f"{t / base:.1f}", f"{low:.1e}", f"{high:.1e}"))
+    head = ("method", "median time of a tick [us]", "ratio", "median error", "99 % error")
+    lines.append(markdown_table(head, cells))
     print(write_text(Path(__file__).with_suffix(".md"), "\n".join(lines) + "\n").read_text())
 
 
