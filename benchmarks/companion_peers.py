@@ -14,7 +14,6 @@ mink is one of the project's tools. tsid gets its own environment:
 
 import importlib
 import importlib.metadata
-import time
 import warnings
 from pathlib import Path
 
@@ -22,6 +21,8 @@ import mujoco
 import numpy as np
 
 from plantar.atomic import write_text
+from plantar.bench.comparison import time_routes
+from plantar.bench.tables import markdown_table
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.machine import load_machine
 from plantar.wholebody.fusion.hierarchical_qp import HierarchicalQP, JointLimits
@@ -248,13 +249,9 @@ class Tsid:
 
 def alternating(*calls):
     """Median time in us of each call, timed in turn."""
-    times = np.zeros((ROUNDS, len(calls)))
-    for row in times:
-        for i, call in enumerate(calls):
-            start = time.perf_counter()
-            call()
-            row[i] = time.perf_counter() - start
-    return np.median(times, axis=0) * 1e6
+    routes = {str(i): lambda _, call=call: call() for i, call in enumerate(calls)}
+    found = time_routes(routes, {name: [None] for name in routes}, ROUNDS, most=10.0)
+    return [1e6 * found[name].median for name in routes]
 
 
 def against_tsid(case, tsid, pin):
@@ -376,29 +373,22 @@ def named(case):
 
 def torque_table(cases, tsid, pin):
     version = f"tsid {importlib.metadata.version('tsid')}, pinocchio {pin.__version__}"
-    head = "| robot | accelerations differ by | torques by | tick | tsid | with limits, none acts | one acts |"
-    lines = [f"## Torques: {version}", "", head, "|---|---|---|---|---|---|---|"]
+    head = ("robot", "accelerations differ by", "torques by", "tick", "tsid", "with limits, none acts", "one acts")
+    lines = []
     for case in cases:
-        (a, t), (own, peer, qp, held) = against_tsid(case, tsid, pin)
+        (a, t), times = against_tsid(case, tsid, pin)
         torque = f"{t:.0e}" if len(case.feet) < 2 else "-"
-        lines.append(
-            f"| {named(case)} | {a:.0e} | {torque} | {own:.0f} us | {peer:.0f} us | {qp:.0f} us | {held:.0f} us |"
-        )
-    return [*lines, ""]
+        lines.append((named(case), f"{a:.0e}", torque, *(f"{taken:.0f} us" for taken in times)))
+    return [f"## Torques: {version}", "", markdown_table(head, lines), ""]
 
 
 def velocity_table(cases, mink):
-    head = "| robot | velocities differ by | tick | mink |"
-    lines = [
-        f"## Velocities: mink {importlib.metadata.version('mink')}, compared by quadprog, timed with daqp",
-        "",
-        head,
-        "|---|---|---|---|",
-    ]
+    title = f"## Velocities: mink {importlib.metadata.version('mink')}, compared by quadprog, timed with daqp"
+    lines = []
     for case in cases:
         worst, (own, peer) = against_mink(case, mink)
-        lines.append(f"| {named(case)} | {worst:.0e} | {own:.0f} us | {peer:.0f} us |")
-    return [*lines, ""]
+        lines.append((named(case), f"{worst:.0e}", f"{own:.0f} us", f"{peer:.0f} us"))
+    return [title, "", markdown_table(("robot", "velocities differ by", "tick", "mink"), lines), ""]
 
 
 if __name__ == "__main__":

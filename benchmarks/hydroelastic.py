@@ -30,6 +30,7 @@ from pydrake.math import RigidTransform, RotationMatrix
 from resumable import write_table
 
 from plantar import load_robot
+from plantar.bench.tables import markdown_table
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.sim.model.contact_truth import REACH, foot_contacts
@@ -223,14 +224,13 @@ if __name__ == "__main__":
         "springs": SolePressure(layout),
         "elastic layer": ElasticPressure(layout, thickness=THICKNESS),
     }
-    lines = ["| ground | taxels | CoP error, median [mm] | largest [mm] | taxel error, median | largest |"]
-    lines.append("|---|---|---|---|---|---|")
-    examples = {}
+    lines, examples = [], {}
     for shape in SHAPES:
         rows, examples[shape] = errors(shape, layout, models)
         for model, error in rows.items():
             (a, c), (b, d) = np.median(error, axis=0), error.max(axis=0)
-            lines.append(f"| {shape} | {model} | {a:.2f} | {b:.2f} | {100 * c:.1f} % | {100 * d:.1f} % |")
-            print(lines[-1], flush=True)
-    write_table(Path(__file__).with_name("hydroelastic.md"), lines)
+            lines.append((shape, model, f"{a:.2f}", f"{b:.2f}", f"{100 * c:.1f} %", f"{100 * d:.1f} %"))
+            print(*lines[-1], flush=True)
+    head = ("ground", "taxels", "CoP error, median [mm]", "largest [mm]", "taxel error, median", "largest")
+    write_table(Path(__file__).with_name("hydroelastic.md"), [markdown_table(head, lines)])
     draw(layout, examples)

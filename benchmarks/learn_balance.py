@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from plantar.bench.tables import markdown_table
 from plantar.sim.environments.walker import PlantarEnv
 
 DIFFICULTY = 1.0  # the board tilts by up to 5 degrees
@@ -100,9 +101,8 @@ def main() -> None:
         f"Return of {STEPS} steps (at most {STEPS}), mean of {TESTS} test episodes; {options.seeds} seeds of training, "
         f"{GENERATIONS} generations of {POPULATION}; {spent:.0f} s of processor time.",
         "",
-        "| observed | before | after, mean of seeds | 95 % interval | each seed |",
-        "|---|---|---|---|---|",
     ]
+    rows = []
     for skin in (False, True):
         before, after, _ = np.array([found[skin, seed] for seed in range(options.seeds)]).T
         rng = np.random.default_rng(0)
@@ -110,7 +110,8 @@ def main() -> None:
         low, high = np.percentile(means, [2.5, 97.5])
         name = "IMU, joints, skin" if skin else "IMU, joints"
         each = ", ".join(f"{value:.1f}" for value in after)
-        lines.append(f"| {name} | {before.mean():.1f} | {after.mean():.1f} | {low:.1f} to {high:.1f} | {each} |")
+        rows.append((name, f"{before.mean():.1f}", f"{after.mean():.1f}", f"{low:.1f} to {high:.1f}", each))
+    lines.append(markdown_table(("observed", "before", "after, mean of seeds", "95 % interval", "each seed"), rows))
     text = "\n".join(lines) + "\n"
     options.output.write_text(text)
     print(text)

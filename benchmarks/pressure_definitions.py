@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from plantar.bench.tables import markdown_table
 from plantar.errors import PlantarError
 from plantar.gait.analysis.analyse import Analysis, analyse
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
@@ -85,7 +86,7 @@ def reason(key: str, ours: float, other: float, cut: float, gait: FootGait) -> s
     return "; ".join(f"{100.0 * share:+.1f} %: {text}" for share, text in parts if abs(share) > 0.003)
 
 
-def rows_of(path: Path) -> list[str]:
+def rows_of(path: Path) -> list[tuple[str, ...]]:
     analysis, out = analyse(path), []
     for side, gait in analysis.feet.items():
         if gait.foot.layout is None:
@@ -99,7 +100,7 @@ def rows_of(path: Path) -> list[str]:
             ours, other, cut = (float(v) for v in np.mean(known, axis=0))
             cells = [path.name, side, str(len(known)), title, *(f"{v * factor:.4g}" for v in (other, cut, ours))]
             cells += [f"{100.0 * (ours / other - 1.0):+.1f} %", reason(key, ours, other, cut, gait)]
-            out.append("| " + " | ".join(cells) + " |")
+            out.append(tuple(cells))
     return out
 
 
@@ -108,12 +109,13 @@ def main() -> None:
     parser.add_argument("recordings", type=Path)
     parser.add_argument("-o", type=Path, default=Path(__file__).with_suffix(".md"))
     asked = parser.parse_args()
-    rows: list[str] = []
+    rows: list[tuple[str, ...]] = []
     for path in sorted(asked.recordings.iterdir()):
         try:
             rows += rows_of(path)
         except PlantarError:
             continue  # a licence, or a report without frames
+    head = ("recording", "foot", "steps", "measure", "pressuRe's")
     lines = [
         "# Measures compared with pressuRe's definitions",
         "",
@@ -122,9 +124,7 @@ def main() -> None:
         "For every difference above 1 %, the value with steps cut at our events is listed, and what the rest",
         "comes from.",
         "",
-        "| recording | foot | steps | measure | pressuRe's | between our events | ours | difference | why |",
-        "|---|---|---|---|---|---|---|---|---|",
-        *rows,
+        markdown_table((*head, "between our events", "ours", "difference", "why"), rows),
     ]
     asked.o.write_text("\n".join(lines) + "\n", encoding="utf-8")
     print(asked.o)

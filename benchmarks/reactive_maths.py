@@ -14,6 +14,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize
 
 from plantar.atomic import write_text
+from plantar.bench.tables import markdown_table
 from plantar.gait.balance.ankle_strategy import (
     AnkleRules,
     double_support_pull,
@@ -285,13 +286,12 @@ def main() -> None:
         "Equations of K (docs/references.md). Times are the least of three calls a case, 2,000 cases, on one core of a",
         "2-core x86-64. Written by `python benchmarks/reactive_maths.py`.",
         "",
-        "| part of a tick | median [us] | 99 % [us] |",
-        "|---|---|---|",
     ]
+    parts = []
     total = searched = 0.0
     for name, function, cases in layer(rng):
         times = timed(function, cases)
-        lines.append(f"| {name} | {np.median(times):.1f} | {np.percentile(times, 99):.1f} |")
+        parts.append((name, f"{np.median(times):.1f}", f"{np.percentile(times, 99):.1f}"))
         if "step adjustment" in name:
             searched = float(np.median(times))
         elif not any(w in name for w in ("none active", "double", "new at each")):
@@ -326,13 +326,12 @@ def main() -> None:
     for name, rows in tables:
         for who, (times, excess, residual) in zip(("here", "scipy's L-BFGS-B"), rows, strict=True):
             worse = float(np.mean(excess > 1e-6))
-            shown = "-" if residual is None else f"{residual:.0e}"
-            solved.append(
-                f"| {name} | {who} | {np.median(times):.1f} | {np.percentile(times, 99):.1f} | {100 * worse:.1f} % | "
-                f"{excess.max():.1e} | {shown} |"
-            )
+            shown = None if residual is None else f"{residual:.0e}"
+            taken = (f"{np.median(times):.1f}", f"{np.percentile(times, 99):.1f}")
+            solved.append((name, who, *taken, f"{100 * worse:.1f} %", f"{excess.max():.1e}", shown))
             solves = float(np.median(times)) if who == "here" and name.startswith("SSP") else solves
     lines += [
+        markdown_table(("part of a tick", "median [us]", "99 % [us]"), parts),
         "",
         f"The whole layer in a single support under a push, with skin: {total + searched:.0f} us where the footstep is",
         f"searched for, {total + solves:.0f} us with SSP-Opt's solution in the search's place.",
@@ -342,9 +341,7 @@ def main() -> None:
         "over the gradient's largest term. L-BFGS-B starts from the tick before, with its usual tolerances; for",
         "SSP-Opt it gets the exact gradient.",
         "",
-        "| optimum | by | median [us] | 99 % [us] | worse | excess | residual |",
-        "|---|---|---|---|---|---|---|",
-        *solved,
+        markdown_table(("optimum", "by", "median [us]", "99 % [us]", "worse", "excess", "residual"), solved),
     ]
     single, double = closed_form_errors(rng)
     lines += [
@@ -355,13 +352,13 @@ def main() -> None:
         "Capture maps, 8 directions and 8 phases, in place and at 0.2 m/s (128 cells), of a robot of 86 kg whose swing",
         "foot is accelerated by 8 m/s^2:",
         "",
-        "| steps | durations tried | time [s] | least [N s] | mean [N s] | most [N s] |",
-        "|---|---|---|---|---|---|",
     ]
-    for steps, times, taken, cells in capture_times():
-        lines.append(
-            f"| {steps} | {times} | {taken:.1f} | {cells.min():.1f} | {cells.mean():.1f} | {cells.max():.1f} |"
-        )
+    maps = [
+        (steps, times, *(f"{value:.1f}" for value in (taken, cells.min(), cells.mean(), cells.max())))
+        for steps, times, taken, cells in capture_times()
+    ]
+    head = ("steps", "durations tried", "time [s]", "least [N s]", "mean [N s]", "most [N s]")
+    lines.append(markdown_table(head, maps))
     print(write_text(Path(__file__).with_suffix(".md"), "\n".join(lines) + "\n").read_text())
 
 

@@ -19,6 +19,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from plantar.bench.tables import markdown_table
 from plantar.mujoco import Skin
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -140,22 +141,22 @@ def main() -> None:
         "model", "taxels", "skin: force, relative", "skin: CoP mm", "carried", "skin us", "touch grid: force",
         "touch grid: CoP mm", "touch grid us", "skin: deep taxels", "tactile: lit", "tactile us", "mj_forward us",
     ]  # fmt: skip
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    rows = []
     cases: dict[str, tuple[Callable[[], Any], Skin]] = {
         name: (partial(mujoco.MjSpec.from_string, text), Skin(body="foot")) for name, text in models["KINDS"].items()
     }
     for path, body, *geoms in [own.split(":") for own in options.own]:
         cases[f"{Path(path).stem}, {body}"] = partial(on_floor, path), Skin(body=body, geoms=geoms or None)
     for name, (spec_of, skin) in cases.items():
-        lines.append("| " + " | ".join(row(name, spec_of, skin, truth)) + " |")
-        print(lines[-1], flush=True)
+        rows.append(row(name, spec_of, skin, truth))
+        print(*rows[-1], flush=True)
     text = "# Skin next to MuJoCo's own sensors\n\nMade by `python benchmarks/skin_models.py`.\n\n"
     text += (
         f"After {STEPS} steps of each model. Processor times, medians of 60 rounds; a sensor's is what it adds to "
         "`mj_forward`. Where `carried` is no, the centre of pressure lies beyond the outermost taxels. The touch "
         "grid's cells are as large as taxels, so its centre of pressure is off by a part of a cell.\n\n"
     )
-    options.output.write_text(text + "\n".join(lines) + "\n")
+    options.output.write_text(f"{text}{markdown_table(head, rows)}\n")
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.bench.tables import markdown_table
 from plantar.gait.analysis.analyse import analyse
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.study.compare_conditions import Comparison, compare_conditions
@@ -102,17 +103,17 @@ def found(comparison: Comparison) -> tuple[bool, bool, bool]:
     return table, bool(curve.significant.any()), bool(area.significant.any())
 
 
-def null_rows(strides: Strides, folder: Path, draws: int) -> list[str]:
+def null_rows(strides: Strides, folder: Path, draws: int) -> list[tuple[str, ...]]:
     hits = []
     for seed in range(1000, 1000 + draws):
         hits.append(found(draw(strides, folder, seed, effect=False)))
         print(f"null {len(hits)}: {np.sum(hits, axis=0)}", flush=True)
     counts = np.sum(hits, axis=0)
     names = ("a measure of the table (p of all)", "the force curves", "the pressure maps")
-    return [f"| {name} | {count} of {draws} |" for name, count in zip(names, counts, strict=True)]
+    return [(name, f"{count} of {draws}") for name, count in zip(names, counts, strict=True)]
 
 
-def effect_rows(strides: Strides, folder: Path) -> list[str]:
+def effect_rows(strides: Strides, folder: Path) -> list[tuple[str, ...]]:
     """Rows of the table of draws with the effect: true change, found on average, in the interval, found at all."""
     comparisons = [draw(strides, folder, 2000 + n, effect=True) for n in range(EFFECTS)]
     rows = []
@@ -129,9 +130,8 @@ def effect_rows(strides: Strides, folder: Path) -> list[str]:
         inside = sum(e.low <= (true - 1.0) * e.mean_a <= e.high for e in effects)
         called = sum(e.p_all <= 0.05 for e in effects)
         wrong = sum(e.p_all <= 0.05 and (e.difference > 0.0) != (true > 1.0) for e in effects)
-        rows.append(
-            f"| {title} | {100.0 * (true - 1.0):+.1f} % | {100.0 * change:+.1f} % | {inside} | {called} | {wrong} |"
-        )
+        counts = map(str, (inside, called, wrong))
+        rows.append((title, f"{100.0 * (true - 1.0):+.1f} %", f"{100.0 * change:+.1f} %", *counts))
     return rows
 
 
@@ -140,9 +140,10 @@ def main() -> None:
     with TemporaryDirectory() as name:
         folder = Path(name)
         strides = strides_of(Path(sys.argv[1]), folder)
-        effects = effect_rows(strides, folder)
-        print("\n".join(effects), flush=True)
-        nulls = null_rows(strides, folder, draws)
+        head = ("measure", "true", "found, mean", "truth in the 95 % interval", "called (p of all up to 0.05)")
+        effects = markdown_table((*head, "of wrong sign"), effect_rows(strides, folder))
+        print(effects, flush=True)
+        nulls = markdown_table(("what", "studies"), null_rows(strides, folder, draws))
     lines = [
         "# Studies with and without a true difference",
         "",
@@ -151,16 +152,12 @@ def main() -> None:
         "",
         "Without a difference but chance, one was reported in",
         "",
-        "| what | studies |",
-        "|---|---|",
-        *nulls,
+        nulls,
         "",
         f"{EFFECTS} studies in which the second condition takes {100 * (1 - LIGHTER):.0f} % off all pressures and "
         f"prolongs strides by {100 * (LONGER - 1):.0f} %:",
         "",
-        "| measure | true | found, mean | truth in the 95 % interval | called (p of all up to 0.05) | of wrong sign |",
-        "|---|---|---|---|---|---|",
-        *effects,
+        effects,
         "",
     ]
     (FOLDER / "study_draws.md").write_text("\n".join(lines), encoding="utf-8")
