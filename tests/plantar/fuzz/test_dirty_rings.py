@@ -1,23 +1,9 @@
-import math
-
 import numpy as np
 import pytest
 
 from plantar.bench.references import area_exact
 
-from .dirty_rings import ExactRing, chamfered_rectangle, convex_ring, dirty_ring, vanishing_depths
-
-
-def test_a_ring_stands_for_its_hull():
-    eps = math.ulp(1.0)
-    ring = np.array([[2.0, 1.0], [4.0, 1.0], [4.0, 2.0], [4.0, 2.0 - eps], [3.0, 2.0 - eps], [2.0, 2.0]])
-    exact = ExactRing.of(ring[::-1])
-    assert exact.polygon.tolist() == [[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.0, 0.5]]
-    assert (exact.origin, exact.size) == ((2, 1), 2)
-    assert exact.local(ring[:2]).tolist() == [[0.0, 0.0], [1.0, 0.0]]
-    assert exact.place(np.array([1.0, 0.5])).tolist() == [4.0, 2.0]
-    assert exact.depth(np.array([[0.5, 0.25], [0.5, 1.0]])).tolist() == [0.25, -0.5]
-    assert exact.step == 2.0 * eps
+from .dirty_rings import ExactRing, convex_ring, dirty_ring
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -43,11 +29,3 @@ def test_rings_of_all_kinds_come():
     narrow = [float(np.ptp(e.polygon @ [[0.0], [1.0]])) for e in exact]
     assert min(narrow) < 1e-5
     assert any(len(convex_ring(np.random.default_rng(seed))) > 10 for seed in range(20))
-
-
-def test_edges_vanish_where_three_lines_meet():
-    square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]])
-    assert vanishing_depths(square).tolist() == [0.5, 0.5, 1.0, 1.0]
-    cut = chamfered_rectangle(np.random.default_rng(8))
-    assert len(cut) == 8
-    assert 0.0 < vanishing_depths(cut)[0] < 0.5
