@@ -20,6 +20,7 @@ from plantar.mechanics.same_time import SAME_TIME
 _END, _EARLY_END = 0.06, 0.25  # shares of a swing that only descends, blind or seeing the ground early
 _SPARE = 0.12  # share left of a seeing one
 _LIFT, _EARLY_LIFT = 0.45, 0.28  # and spent rising
+_LONG_LIFT = 0.42  # from which on a seeing swing arrives as late as a blind one, wholly from _LIFT on
 _QUICKEST = 0.26  # leg/beat at most of a rise, which the knee's speed bounds, unless it would last as long as others'
 _PEAK = 1.875  # largest speed of a minimum-jerk motion over its mean
 _RAMP = 0.2  # share of the time left in which the clock comes to its new rate
@@ -180,7 +181,9 @@ class PolynomialSwing(SwingKind):
         """Flight at its begin."""
         rise = start.height + max(0.0, (start.end - start.position).item(2))
         lasts = _PEAK * rise / (_QUICKEST * self.body.in_si("leg/beat") * start.duration)
-        early = 1.0 - start.haste if start.sees_ground else 0.0
+        # A rise that lasts as long as others' do by their share of time leaves none for an early arrival.
+        late = max(start.haste, min(1.0, (lasts - _LONG_LIFT) / (_LIFT - _LONG_LIFT)))
+        early = 1.0 - late if start.sees_ground else 0.0
         path = SwingTrajectory(
             start.position,
             start.end,
