@@ -14,6 +14,7 @@ from plantar.gait.contact.stance_contact import ContactSettings, StanceContact
 from plantar.gait.estimate.sole_slope import SoleSlope
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.phases import Phase, PhaseKind
+from plantar.geometry.inscribed import inscribed_circle
 from plantar.geometry.polygon import area, convex_hull, inner_offset
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
@@ -23,6 +24,7 @@ from plantar.percepts.sole_pose import feet_support_polygon, polygon_in_world
 from plantar.sides import SIDES, Side
 
 _FORGETS = 4  # steps after which a foothold that carried a part of the sole is no evidence of the ground ahead
+_NARROW = 0.5  # of a support's inscribed circle that the margin takes at most: all of it leaves one ZMP
 
 
 def middle_of_sole(layout: SoleLayout, reach: float = math.inf) -> NDArray[np.float64]:
@@ -297,7 +299,10 @@ class FootContacts:
                         np.array([position[0], position[1], 0.0]) + np.array(frame_offset),
                     )
                 parts.append(support)
-            self._region = inner_offset(feet_support_polygon(parts), margin)
+            support = feet_support_polygon(parts)
+            circle = inscribed_circle(support)
+            narrow = 0.0 if circle is None else _NARROW * circle.radius
+            self._region = inner_offset(support, min(margin, narrow))
             self._region.flags.writeable = False
             self._region_of = places
         return self._region

@@ -29,12 +29,16 @@ class PushEstimate:
     Args:
         rules: Thresholds.
         period: Of control in s.
+
+    Attributes:
+        disagreement: Of the last tick, low-passed, (2,) in m/s^2, a push's or not.
+        acts: Whether it is a push's.
     """
 
     def __init__(self, rules: PushRules, period: float) -> None:
         self._rules = rules
         self._share = 1.0 if rules.time_constant == 0.0 else -math.expm1(-period / rules.time_constant)
-        self._acceleration = np.zeros(2)
+        self.disagreement = np.zeros(2)
         self.acts = False
 
     def update(self, measured: NDArray[np.float64], pendulum: NDArray[np.float64] | None) -> NDArray[np.float64]:
@@ -44,9 +48,9 @@ class PushEstimate:
         None without load.
         """
         if pendulum is None:
-            self._acceleration, self.acts = np.zeros(2), False
+            self.disagreement, self.acts = np.zeros(2), False
             return np.zeros(2)
-        self._acceleration = self._acceleration + self._share * (measured - pendulum - self._acceleration)
-        size = math.hypot(*self._acceleration.tolist())
+        self.disagreement = self.disagreement + self._share * (measured - pendulum - self.disagreement)
+        size = math.hypot(*self.disagreement.tolist())
         self.acts = size > (self._rules.ends if self.acts else self._rules.begins)
-        return self._acceleration if self.acts else np.zeros(2)
+        return self.disagreement if self.acts else np.zeros(2)

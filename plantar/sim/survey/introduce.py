@@ -28,6 +28,7 @@ from plantar.sim.survey.robot_picture import draw_robot
 from plantar.sim.survey.robot_text import robot_text
 from plantar.sim.survey.servo_gains import rotor_inertia
 from plantar.sim.survey.survey import Survey, explained, survey_model
+from plantar.sim.survey.trial_walk import push_text, trial_walk
 
 _SHOE_DENSITY = 15.5  # kg/m^2 of a shoe that was not built: those built for feet of 130 and 230 mm have 15.3 and 15.5
 # With 1 the soles of light feet rattle on a beam's edges: G1, two iCubs and Romeo cross it with 5 of 20 fresh seeds,
@@ -69,6 +70,7 @@ class Introduced:
         survey: Findings in its model.
         fitted: Its walk.
         files: Names of written files.
+        missed: Criteria that its first steps on level ground missed, in simulation.
     """
 
     robot: Robot
@@ -76,6 +78,13 @@ class Introduced:
     fitted: FittedGait
     shoes: ShoesMade
     files: tuple[str, ...]
+    missed: tuple[str, ...]
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Notes on model, fit and first steps."""
+        first = (f"its first steps on level ground missed {', '.join(self.missed)} in simulation",)
+        return (*self.survey.notes, *self.fitted.notes, *(first if self.missed else ()))
 
     def as_dict(self, output: Path) -> dict[str, Any]:
         """Plain JSON values, with files below a folder."""
@@ -97,7 +106,7 @@ class Introduced:
             "stiffness": list(robot.stiffness),
             "damping": list(robot.damping),
             "effort_limits": list(robot.effort_limits),
-            "notes": [*survey.notes, *self.fitted.notes, *self.shoes.notes],
+            "notes": [*self.notes, *self.shoes.notes],
             "files": [str(output / name) for name in self.files],
         }
 
@@ -115,7 +124,7 @@ class Introduced:
                 f"  soles: {size}, {taxels} taxels each; turned in their bodies by {turns} degrees",
                 f"  walks with its CoM at {robot.com_height:.3f} m, feet {robot.stance_width:.3f} m apart, "
                 f"{robot.single_support:g} + {robot.double_support:g} s a step",
-                *(f"  note: {note}" for note in (*survey.notes, *self.fitted.notes)),
+                *(f"  note: {note}" for note in self.notes),
                 f"made {file}: look at {output / 'robot.png'}, then",
                 f"  plantar robot check {file}",
                 f"  plantar sim flat --robot {file}",
@@ -157,18 +166,23 @@ def introduce(
         fitted = _fitted(draft, survey.gains)
     except RobotError as error:
         raise explained(error, survey.notes) from None
-    write_text(folder / "robot.toml", robot_text(survey, fitted, shoes.notes, shoes.mass is not None))
+    file = folder / "robot.toml"
+    text = robot_text(survey, fitted, shoes.notes, shoes.mass is not None)
+    write_text(file, text)
     _copy_licences(path, folder)
-    robot = load_robot(folder / "robot.toml")
-    checked = check_robot(folder / "robot.toml", "flat")
+    checked = check_robot(file, "flat")
     if not checked.holds:
         # Where motors are too weak, the search straightens the knees: that is no cause.
         why = next((f for f in checked.failures if f.startswith("torque")), checked.failures[0])
         raise RobotError(f"{path}: no walk was found that the check allows; the best fails by {why}")
+    report(0.8, "walking in simulation")
+    level, missed = trial_walk(file)
+    write_text(file, text + push_text(level))
+    robot = load_robot(file)
     report(0.9, "drawing the robot")
     draw_robot(robot, folder / "robot.png")
     files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
-    return Introduced(robot, survey, fitted, shoes, tuple(files))
+    return Introduced(robot, survey, fitted, shoes, tuple(files), tuple(missed))
 
 
 def _fitted(draft: Robot, gains: Sequence[tuple[float, float]]) -> FittedGait:

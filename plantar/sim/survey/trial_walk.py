@@ -1,0 +1,53 @@
+"""A new robot's first steps in simulation: what walking alone leaves to its push estimate."""
+
+import math
+import os
+
+from plantar.gait.estimate.push_estimate import PushRules
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
+
+_STEPS = 8
+_STANDS_OUT = 1.5  # of what level ground leaves: other ground leaves more, and a push has to stand out of it
+_SILENT = 90  # m/s^2, above which a push would be
+_RULES = PushRules()
+
+
+class _Trial(Simulation):
+    """Steps on level ground; `level` is the largest disagreement of ZMP and acceleration in m/s^2."""
+
+    level = 0.0
+
+    def control(self) -> float:
+        used = super().control()
+        push = self.controller.estimation.estimator.push
+        assert push is not None
+        self.level = max(self.level, math.hypot(*push.disagreement.tolist()))
+        return used
+
+
+def trial_walk(robot_file: str | os.PathLike[str]) -> tuple[float, list[str]]:
+    """Walk level ground undisturbed, in simulation.
+
+    Args:
+        robot_file: The robot's file.
+
+    Returns:
+        Largest acceleration in m/s^2 that ZMP and IMU disagreed by, and criteria that were missed.
+    """
+    trial = _Trial(load_scene("flat", [f"walk.steps={_STEPS}", f"push_estimate.begins={_SILENT}"], robot_file), 0)
+    missed = [str(reason["criterion"]) for reason in trial.run()["reasons"]]
+    return trial.level, missed
+
+
+def push_text(level: float) -> str:
+    """Robot file's table of thresholds that a push has to exceed, by what walking leaves in m/s^2; "" for others'."""
+    begins = math.ceil(10.0 * _STANDS_OUT * level) / 10.0
+    if begins <= _RULES.begins:
+        return ""
+    ends = begins * _RULES.ends / _RULES.begins
+    return (
+        "\n[push_estimate]\n"
+        f"# ZMP and IMU disagree by up to {level:.2g} m/s^2 as it walks level ground, in simulation: no push yet.\n"
+        f"begins = {begins:g}  # m/s^2\nends = {ends:.2g}  # m/s^2\n"
+    )
