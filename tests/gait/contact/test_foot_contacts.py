@@ -43,3 +43,15 @@ def test_a_sole_with_a_waist_is_loaded_where_its_hull_is(reach):
     waisted = replace(SOLE, outline=ring)
     assert on_its_hull(SOLE) is SOLE
     assert middle_of_sole(waisted, reach) == pytest.approx(middle_of_sole(SOLE, reach), abs=1e-12)
+
+
+@pytest.mark.parametrize(("half_width", "left"), [(0.012, 0.006), (0.075, 0.06)])
+def test_a_narrow_sole_leaves_the_zmp_half_of_its_width(half_width, left):
+    ring = [[-0.125, -half_width], [0.125, -half_width], [0.125, half_width], [-0.125, half_width]]
+    sole = hex_layout(ring, cell_area=1e-4)
+    contacts = FootContacts(ContactSettings(), {"left": sole, "right": sole})
+    phase, place = Phase(PhaseKind.SINGLE_SUPPORT, 0, 1.0, 2.0, "right"), (np.zeros(3), 0.0)
+    region = contacts.zmp_region(
+        phase, FeetView({"left": place, "right": place}, "right", landed=False), [0.0] * 3, 0.015
+    )
+    assert np.ptp(region[:, 1]) == pytest.approx(2.0 * left, abs=1e-6)
