@@ -147,7 +147,6 @@ class _Pass:
         self.seen: list[tuple[Array, ...]] = []
         self.feet = dict(walked.feet)
         self.ground = float(np.mean([foot.z for foot in walked.feet.values()]))
-        self.centre = 0.5 * (walked.feet["left"].y + walked.feet["right"].y)
 
     def look(self, time: float) -> None:
         walked, legs, feet = self.walked, self.legs, self.feet
@@ -167,7 +166,8 @@ class _Pass:
         else:
             share = _shares(reference.vrp, feet, self.middles)
         com = np.array([*reference.com, self.ground + walked.com_height])
-        torso = rotation_from_angles(0.0, roll=-walked.lean * (float(reference.com[1]) - self.centre))
+        middle = 0.5 * (positions["left"] + positions["right"])  # of where the feet are: steps aside move it
+        torso = rotation_from_angles(0.0, roll=-walked.lean * float(reference.com[1] - middle[1]))
         carrying = [s for s in SIDES if share[s] > 0.0]
         yielding = [s for s in SIDES if share[s] == 0.0]
         legs.follow(com, torso, positions, rotations, iterations=_EACH, yielding=yielding, largest_step=_STEP)

@@ -7,6 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.gait.plan.footsteps import straight_plan
 from plantar.gravity import GRAVITY
 from plantar.robots import builtin_robots, load_robot
 from plantar.robots.kinematics.body import body_of
@@ -66,3 +67,15 @@ def test_a_robot_whose_legs_would_rock_it_walks_more_slowly():
     assert usual.reach.turn <= TURN
     single = 3.15 * math.sqrt(usual.robot.com_height / GRAVITY)
     assert usual.robot.single_support > 1.04 * single  # h1 at its pendulum's pace moves the ZMP by 0.19
+
+
+def test_steps_aside_lean_the_torso_about_the_feet_and_not_about_the_start():
+    robot = load_robot("h1")
+    legs = build_leg_model(robot)
+    walked = straight_walk(robot, body_of(robot, legs.model), robot.com_height - 0.05, steps=2)
+    few, many = (
+        plan_reach(robot, legs, replace(walked, feet=feet, steps=steps, lean=0.8))
+        for feet, steps in (straight_plan(n, length=0.0, sideways=0.08, width=0.19) for n in (4, 30))
+    )
+    assert many.missed == pytest.approx(few.missed, abs=1e-3)
+    assert many.carrying == pytest.approx(few.carrying, rel=0.03)
