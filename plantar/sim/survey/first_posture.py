@@ -11,9 +11,7 @@ from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
 from plantar.sides import SIDES, Side
 
-SOLE_GAP = 0.25
-"""Share of the sole's width between two soles that stand side by side: h1 has 0.3."""
-
+_SOLE_GAP = 0.25  # of the sole's width between two soles that stand side by side: h1 has 0.3
 _SEED_BEND, _LEAST_BEND = math.radians(40.0), math.radians(20.0)  # of a knee
 
 
@@ -55,9 +53,13 @@ def bent_posture(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
 def stance_width(robot: Robot, legs: LegModel) -> float:
     """Returns the distance in m of a `robot`'s feet: as in the model of its `legs`, or wider for the soles."""
     feet = legs.posture(np.array([*robot.posture["left"], *robot.posture["right"]])).positions
+    return round(max(float(feet["left"][1] - feet["right"][1]), least_stance(robot)), 3)
+
+
+def least_stance(robot: Robot) -> float:
+    """Returns the least distance in m of a `robot`'s feet, by their soles."""
     across = robot.layouts["left"].outline[:, 1]
-    least = -2.0 * float(across.min()) + SOLE_GAP * float(np.ptp(across))
-    return round(max(float(feet["left"][1] - feet["right"][1]), least), 3)
+    return -2.0 * float(across.min()) + _SOLE_GAP * float(np.ptp(across))
 
 
 def posture_height(robot: Robot, legs: LegModel) -> float:

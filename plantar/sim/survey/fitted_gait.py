@@ -16,8 +16,8 @@ from plantar.robots.robot import Robot
 from plantar.robots.walk import CONTROL_PERIOD, Walk, walk_timing
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES
-from plantar.sim.survey.first_posture import bent_posture, posture_height, stance_width
-from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled
+from plantar.sim.survey.first_posture import bent_posture, least_stance, posture_height, stance_width
+from plantar.sim.survey.plan_reach import PlanReach, Walked, missed_aside, plan_reach, settled
 from plantar.sim.survey.servo_gains import CHATTERS, DAMPED, JointInertia, joint_inertia, servo_gains
 from plantar.sim.survey.step_search import HELD, QUICK_STEPS, SPARE, TURN, best_steps, straight_walk
 from plantar.sim.survey.step_time import ankle_reach, has_ankle_roll
@@ -36,6 +36,7 @@ QUICK_HELD = 0.85
 all ticks and hit the ground with 6 body weights; at 0.85 of it that was 1 %."""
 
 _OWN_STIFFNESS = 6.0  # over m g h, from which the model's own servos are kept: half of what h1 has
+_ASIDE, _OFF = 2 / 15, 0.008  # of the leg: a step aside, as on the beam, and what a foot may be off after it
 _TURNING = 5  # joints of a leg from which it turns its foot
 _LEAST_CROUCH = 0.05  # of the leg: what scenes on unknown ground ask for
 _MISSED_CROUCHING = 0.01  # m
@@ -99,6 +100,9 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
     robot = robot if has_ankle_roll(robot, legs) else replace(robot, rocks=True)
     robot, body, reach = best_steps(robot, legs, body, seed, notes)
     height = robot.com_height
+    narrower = robot if robot.rocks else _narrowed(robot, legs, body)
+    if narrower is not robot:
+        robot, reach = narrower, plan_reach(narrower, legs, straight_walk(narrower, body, height, QUICK_STEPS))
     if robot.rocks:
         notes.append(
             f"without ankle roll soles come off level by up to {math.degrees(reach.roll):.0f} degrees: the robot rocks "
@@ -135,6 +139,17 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
             f"{assumed.max():.2g} kg m^2 is assumed as armature in model.xml, put the motors' there"
         )
     return FittedGait(robot, body, inertia, reach, notes, assumed)
+
+
+def _narrowed(robot: Robot, legs: LegModel, body: BodyScale) -> Robot:
+    """The robot with feet so near that its ankles take a step aside, or as near as its soles may come."""
+    least = least_stance(robot)
+    while missed_aside(robot, legs, robot.com_height, _ASIDE * body.leg) > _OFF * body.leg:
+        width = round(0.9 * robot.stance_width, 3)
+        if width < least:
+            break
+        robot = replace(robot, stance_width=width)
+    return robot
 
 
 def _gains(

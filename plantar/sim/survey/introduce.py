@@ -176,7 +176,7 @@ def introduce(
         why = next((f for f in checked.failures if f.startswith("torque")), checked.failures[0])
         raise RobotError(f"{path}: no walk was found that the check allows; the best fails by {why}")
     report(0.8, "walking in simulation")
-    level, missed = trial_walk(file)
+    level, missed = trial_walk(str(file))
     write_text(file, text + push_text(level))
     robot = load_robot(file)
     report(0.9, "drawing the robot")

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import mujoco
 import numpy as np
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.feet.swing import SwingTrajectory
-from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.footsteps import Footstep, straight_plan
 from plantar.gait.plan.leg_momentum import LegMomentum
 from plantar.gait.plan.phases import PhaseKind, Timing
 from plantar.gait.plan.walk_plan import WalkPlan, vrp_of_step
@@ -101,6 +101,33 @@ def settled(robot: Robot, legs: LegModel, feet: Mapping[Side, Footstep], com_hei
     return legs.follow(
         com,
         np.eye(3),
+        {s: feet[s].position for s in SIDES},
+        {s: feet[s].rotation_sole_to_world for s in SIDES},
+        iterations=_FIRST,
+        largest_step=_STEP,
+    )
+
+
+def missed_aside(robot: Robot, legs: LegModel, com_height: float, aside: float) -> float:
+    """How far a foot is off after a step aside, the CoM still over the other: ankles of short range do not reach level.
+
+    Args:
+        robot: The robot.
+        legs: Its kinematics, left in that posture.
+        com_height: In m.
+        aside: Way in m.
+
+    Returns:
+        Error in m or rad.
+    """
+    feet, _ = straight_plan(0, width=robot.stance_width)
+    settled(robot, legs, feet, com_height)
+    feet["left"] = replace(feet["left"], y=feet["left"].y + aside)
+    over = vrp_of_step(feet["right"], middle_of_sole(robot.layouts["right"], robot.ankle_reach))
+    middle = 0.5 * (feet["left"].y + feet["right"].y)
+    return legs.follow(
+        np.array([*over, feet["right"].z + com_height]),
+        rotation_from_angles(0.0, roll=-robot.trunk_lean * float(over[1] - middle)),
         {s: feet[s].position for s in SIDES},
         {s: feet[s].rotation_sole_to_world for s in SIDES},
         iterations=_FIRST,

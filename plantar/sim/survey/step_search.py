@@ -13,7 +13,7 @@ from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
 from plantar.robots.walk import Walk, walk_timing
 from plantar.settings.body_scale import BodyScale
-from plantar.sim.survey.first_posture import SOLE_GAP
+from plantar.sim.survey.first_posture import least_stance
 from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach
 from plantar.sim.survey.step_time import rocking
 
@@ -152,8 +152,7 @@ def _slowed(found: _Tried, legs: LegModel, heights: Array) -> _Tried:
 
 
 def _others(robot: Robot, body: BodyScale) -> list[tuple[Robot, float]]:
-    outline = robot.layouts["left"].outline[:, 1]
-    least = -2.0 * float(outline.min()) + SOLE_GAP * float(np.ptp(outline))
+    least = least_stance(robot)
     widths = [robot.stance_width]
     if robot.stance_width > _WIDE * body.leg:
         widths += [round(max(least, share * body.leg), 3) for share in _TRIED_STANCES]

@@ -1,7 +1,6 @@
 """A new robot's first steps in simulation: what walking alone leaves to its push estimate."""
 
 import math
-import os
 
 from plantar.gait.estimate.push_estimate import PushRules
 from plantar.sim.run.runner import Simulation
@@ -26,7 +25,7 @@ class _Trial(Simulation):
         return used
 
 
-def trial_walk(robot_file: str | os.PathLike[str]) -> tuple[float, list[str]]:
+def trial_walk(robot_file: str) -> tuple[float, list[str]]:
     """Walk level ground undisturbed, in simulation.
 
     Args:
