@@ -194,8 +194,9 @@ def _approaching(robot: Robot) -> list[str]:
     if not robot.approach_support:
         return []
     lines = _comment(
-        "A swing that comes down slowly onto unknown ground has to be there in three fifths of its time; with so much "
-        f"of it that takes {100.0 * QUICK_HELD:.0f} % of the motors' torque at most."
+        "A swing that comes down slowly onto unknown ground has to be there in three fifths of its time. With so much "
+        f"of it that takes {100.0 * QUICK_HELD:.0f} % of the motors' torque at most, and moves the ZMP by less than "
+        "what meets the foot does."
     )
     return [*lines, f"approach_support = {robot.approach_support:g}  # s"]
 

@@ -30,9 +30,9 @@ HELD = 0.75
 """Share of the torque limits that a planned walk may take; the rest is to balance with."""
 
 # Shares of the way to the sole's edge by which a swinging leg may move the ZMP, and of friction's moment by which it
-# may turn the sole. Legs of servos sway at about the pace of a swing, so that three times the ZMP's way is seen: h1 has
-# 0.19 and 0.08, JVRC-1 fell with 0.35 and 0.13.
-SHIFT, TURN = 0.16, 0.15
+# may turn the sole: h1 has 0.19 and 0.08. The plan makes way for the leg, so that 0.4 is walked, too; slower steps are
+# no safer, as what balance misses on a part of a sole grows as long as the step lasts.
+SHIFT, TURN = 0.3, 0.15
 
 SPARE = math.radians(1.0)
 """Angle of a joint's range that a walk leaves unused."""
