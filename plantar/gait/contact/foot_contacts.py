@@ -301,8 +301,7 @@ class FootContacts:
                 parts.append(support)
             support = feet_support_polygon(parts)
             circle = inscribed_circle(support)
-            narrow = 0.0 if circle is None else _NARROW * circle.radius
-            self._region = inner_offset(support, min(margin, narrow))
+            self._region = inner_offset(support, 0.0 if circle is None else min(margin, _NARROW * circle.radius))
             self._region.flags.writeable = False
             self._region_of = places
         return self._region

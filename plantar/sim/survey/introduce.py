@@ -70,7 +70,7 @@ class Introduced:
         survey: Findings in its model.
         fitted: Its walk.
         files: Names of written files.
-        missed: Criteria that its first steps on level ground missed, in simulation.
+        walked: Notes on its first steps in simulation.
     """
 
     robot: Robot
@@ -78,13 +78,12 @@ class Introduced:
     fitted: FittedGait
     shoes: ShoesMade
     files: tuple[str, ...]
-    missed: tuple[str, ...]
+    walked: tuple[str, ...]
 
     @property
     def notes(self) -> tuple[str, ...]:
         """Notes on model, fit and first steps."""
-        first = (f"its first steps on level ground missed {', '.join(self.missed)} in simulation",)
-        return (*self.survey.notes, *self.fitted.notes, *(first if self.missed else ()))
+        return (*self.survey.notes, *self.fitted.notes, *self.walked)
 
     def as_dict(self, output: Path) -> dict[str, Any]:
         """Plain JSON values, with files below a folder."""
@@ -176,13 +175,13 @@ def introduce(
         why = next((f for f in checked.failures if f.startswith("torque")), checked.failures[0])
         raise RobotError(f"{path}: no walk was found that the check allows; the best fails by {why}")
     report(0.8, "walking in simulation")
-    level, missed = trial_walk(str(file))
+    level, walked = trial_walk(str(file))
     write_text(file, text + push_text(level))
     robot = load_robot(file)
     report(0.9, "drawing the robot")
     draw_robot(robot, folder / "robot.png")
     files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
-    return Introduced(robot, survey, fitted, shoes, tuple(files), tuple(missed))
+    return Introduced(robot, survey, fitted, shoes, tuple(files), tuple(walked))
 
 
 def _fitted(draft: Robot, gains: Sequence[tuple[float, float]]) -> FittedGait:

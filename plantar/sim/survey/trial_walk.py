@@ -26,17 +26,10 @@ class _Trial(Simulation):
 
 
 def trial_walk(robot_file: str) -> tuple[float, list[str]]:
-    """Walk level ground undisturbed, in simulation.
-
-    Args:
-        robot_file: The robot's file.
-
-    Returns:
-        Largest acceleration in m/s^2 that ZMP and IMU disagreed by, and criteria that were missed.
-    """
+    """Walk level ground; returns the largest acceleration in m/s^2 that ZMP and IMU disagreed by, and notes."""
     trial = _Trial(load_scene("flat", [f"walk.steps={_STEPS}", f"push_estimate.begins={_SILENT}"], robot_file), 0)
-    missed = [str(reason["criterion"]) for reason in trial.run()["reasons"]]
-    return trial.level, missed
+    missed = ", ".join(str(reason["criterion"]) for reason in trial.run()["reasons"])
+    return trial.level, [f"its first steps on level ground missed {missed} in simulation"] if missed else []
 
 
 def push_text(level: float) -> str:
@@ -44,9 +37,8 @@ def push_text(level: float) -> str:
     begins = math.ceil(10.0 * _STANDS_OUT * level) / 10.0
     if begins <= _RULES.begins:
         return ""
-    ends = begins * _RULES.ends / _RULES.begins
     return (
         "\n[push_estimate]\n"
         f"# ZMP and IMU disagree by up to {level:.2g} m/s^2 as it walks level ground, in simulation: no push yet.\n"
-        f"begins = {begins:g}  # m/s^2\nends = {ends:.2g}  # m/s^2\n"
+        f"begins = {begins:g}  # m/s^2\nends = {begins * _RULES.ends / _RULES.begins:.2g}  # m/s^2\n"
     )

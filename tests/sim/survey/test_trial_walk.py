@@ -9,8 +9,8 @@ from plantar.sim.survey.trial_walk import push_text, trial_walk
 
 
 def test_h1_walks_without_what_would_be_a_push():
-    level, missed = trial_walk("h1")
-    assert missed == []
+    level, notes = trial_walk("h1")
+    assert notes == []
     assert 0.0 < level < PushRules().begins
     assert push_text(level / 1.5) == ""  # it keeps the thresholds that were set by it
 
