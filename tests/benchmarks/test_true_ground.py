@@ -18,7 +18,7 @@ BEYOND = {
     ("push-partial", "h1"),  # pushed to the edge of its support
     ("push-partial", "hrp2kai"),  # pushed to the edge of its support
     ("slopes", "h1"),  # a hip that takes all of its torque
-    ("stairs", "h1"),  # stops
+    ("stairs", "h1"),  # its hind knee is straight as the body rises
     ("stairs", "hrp2kai"),  # falls
 }
 """Scenes with figures beyond their limits, in `benchmarks/convergence.md`."""
