@@ -15,7 +15,7 @@ def test_causes_make_up_the_difference(real_data, name):
     assert specification is not None
     module = importlib.util.module_from_spec(specification)
     specification.loader.exec_module(module)
-    rows = [[cell.strip() for cell in row.split("|")[1:-1]] for row in module.rows_of(real_data / "recordings" / name)]
+    rows = module.rows_of(real_data / "recordings" / name)
     assert len(rows) == len(module.ROWS)
     for row in rows:
         difference = float(row[7].rstrip(" %"))
