@@ -145,9 +145,8 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
 
 def _narrowed(robot: Robot, legs: LegModel, body: BodyScale) -> Robot:
     """The robot with feet so near that its ankles take a step aside, or as near as its soles may come."""
-    while missed_aside(
-        robot, legs, robot.com_height, _ASIDE * body.leg
-    ) > _OFF * body.leg and _NARROWER * robot.stance_width >= least_stance(robot):
+    aside, most, least = _ASIDE * body.leg, _OFF * body.leg, least_stance(robot) / _NARROWER
+    while missed_aside(robot, legs, aside) > most and robot.stance_width >= least:
         robot = replace(robot, stance_width=round(_NARROWER * robot.stance_width, 3))
     return robot
 
@@ -217,7 +216,7 @@ def _pace(robot: Robot, legs: LegModel, body: BodyScale) -> float:
 
 
 def _approach_support(robot: Robot, legs: LegModel, body: BodyScale, shift: float) -> float:
-    """Least t_ss in s of a slow landing with a motor reserve, the leg moving the ZMP less than by `shift`; else 0."""
+    """Least t_ss in s of a slow landing with a motor reserve and a quiet leg, whose `shift` is at t_ss now; else 0."""
     if robot.rocks:
         return 0.0
     limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf

@@ -108,16 +108,16 @@ def settled(robot: Robot, legs: LegModel, feet: Mapping[Side, Footstep], com_hei
     )
 
 
-def missed_aside(robot: Robot, legs: LegModel, com_height: float, aside: float) -> float:
-    """Returns the error in m or rad of a `robot`'s left foot set `aside` in m, the CoM at `com_height` in m over the
-    other, which ankles of short range do not reach; its `legs` are left so.
+def missed_aside(robot: Robot, legs: LegModel, aside: float) -> float:
+    """Returns the error in m or rad of a `robot`'s left foot set `aside` in m, the CoM over the other, which ankles of
+    short range do not reach; its `legs` are left so.
     """
     feet, _ = straight_plan(0, width=robot.stance_width)
-    settled(robot, legs, feet, com_height)
+    settled(robot, legs, feet, robot.com_height)
     feet["left"] = replace(feet["left"], y=feet["left"].y + aside)
     x, y = vrp_of_step(feet["right"], middle_of_sole(robot.layouts["right"], robot.ankle_reach)).tolist()
     return legs.follow(
-        np.array([x, y, feet["right"].z + com_height]),
+        np.array([x, y, feet["right"].z + robot.com_height]),
         rotation_from_angles(0.0, roll=-robot.trunk_lean * (y - 0.5 * (feet["left"].y + feet["right"].y))),
         {s: feet[s].position for s in SIDES},
         {s: feet[s].rotation_sole_to_world for s in SIDES},

@@ -195,8 +195,8 @@ def _approaching(robot: Robot) -> list[str]:
         return []
     lines = _comment(
         "A swing that comes down slowly onto unknown ground has to be there in three fifths of its time. With so much "
-        f"of it that takes {100.0 * QUICK_HELD:.0f} % of the motors' torque at most, and moves the ZMP by less than "
-        "what meets the foot does."
+        f"of it that takes {100.0 * QUICK_HELD:.0f} % of the motors' torque at most, and moves the ZMP no farther to "
+        "the sole's edge than h1's leg does."
     )
     return [*lines, f"approach_support = {robot.approach_support:g}  # s"]
 

@@ -152,10 +152,9 @@ def _slowed(found: _Tried, legs: LegModel, heights: Array) -> _Tried:
 
 
 def _others(robot: Robot, body: BodyScale) -> list[tuple[Robot, float]]:
-    least = least_stance(robot)
     widths = [robot.stance_width]
     if robot.stance_width > _WIDE * body.leg:
-        widths += [round(max(least, share * body.leg), 3) for share in _TRIED_STANCES]
+        widths += [round(max(least_stance(robot), share * body.leg), 3) for share in _TRIED_STANCES]
     found = [
         (
             replace(robot, stance_width=width, trunk_lean=float(f"{lean * _LEAN / body.leg:.2g}")),
