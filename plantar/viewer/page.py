@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import instance, items
 from plantar.atomic import replacing
@@ -138,18 +138,17 @@ aria-label="{name} in 3D; drag to turn, arrow keys to step in time"></canvas>
 
 def _walk(walk: Walk) -> dict[str, Any]:
     frames = list(walk.poses)
-    poses = np.stack([walk.poses[name] for name in frames], axis=1)
     return {
         "time": _packed(walk.time - walk.time[0], "<f4"),
         "frames": frames,
-        "poses": _packed(poses, "<f4"),
+        "poses": _packed(np.stack([walk.poses[name] for name in frames], axis=1), "<f4"),
         "entities": [_entity(entity) for entity in walk.shapes],
         "soles": {
             side: {
                 "cells": [layout.vertices[list(corners), :2].round(5).tolist() for corners in layout.corners],
                 "centers": layout.positions[:, :2].round(5).tolist(),
                 "outline": layout.outline.round(5).tolist(),
-                "force": _packed(_decinewtons(walk.force[side]), "<u2"),
+                **_forces(walk.force[side]),
             }
             for side, layout in walk.layouts.items()
         },
@@ -163,11 +162,12 @@ def _walk(walk: Walk) -> dict[str, Any]:
     }
 
 
-def _decinewtons(force: ArrayLike) -> Any:
-    """Forces in 0.1 N as 16-bit numbers; the largest marks unmeasured ones."""
-    values = np.asarray(force)
-    rounded = np.clip(np.nan_to_num(values) * 10.0, 0, _NOT_MEASURED - 1).round()
-    return np.where(np.isfinite(values), rounded, _NOT_MEASURED)
+def _forces(force: NDArray[np.float32]) -> dict[str, str]:
+    """Forces in 0.1 N as 16-bit numbers, the largest for unmeasured ones; in N where one is too large or negative."""
+    known, rounded = np.isfinite(force), np.round(force * 10.0)
+    small = (~known | ((rounded >= 0.0) & (rounded < _NOT_MEASURED))).all()
+    name, values, kind = ("decinewtons", rounded, "<u2") if small else ("force", force, "<f4")
+    return {name: _packed(np.where(known, values, _NOT_MEASURED if small else np.nan), kind)}
 
 
 def _entity(entity: Entity) -> dict[str, Any]:

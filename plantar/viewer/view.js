@@ -31,11 +31,12 @@ class Walk {
     for (const side of SIDES) {
       const sole = this.soles[side];
       if (!sole) continue;
-      sole.force = unpack(sole.force, Uint16Array);
+      sole.force = sole.force ? unpack(sole.force, Float32Array)
+        : Float32Array.from(unpack(sole.decinewtons, Uint16Array), v => v === NOT_MEASURED ? NaN : v / 10);
       const n = sole.centers.length;
       this.totals[side] = Float32Array.from(this.time, (_, i) => {
         let sum = 0;
-        for (let k = i * n; k < (i + 1) * n; k++) if (sole.force[k] !== NOT_MEASURED) sum += sole.force[k] / 10;
+        for (let k = i * n; k < (i + 1) * n; k++) sum += sole.force[k] || 0;
         return sum;
       });
     }
@@ -59,8 +60,8 @@ class Walk {
     turn.slerp(new THREE.Quaternion(p[b + 3], p[b + 4], p[b + 5], p[b + 6]), share);
   }
   force(side, taxel, i) {
-    const sole = this.soles[side], value = sole.force[i * sole.centers.length + taxel];
-    return value === NOT_MEASURED ? NaN : value / 10;
+    const sole = this.soles[side];
+    return sole.force[i * sole.centers.length + taxel];
   }
   cop(side, i) {
     let x = 0, y = 0, sum = 0;

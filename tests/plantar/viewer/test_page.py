@@ -5,6 +5,7 @@ import os
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from plantar import InputError
@@ -12,6 +13,7 @@ from plantar.viewer.page import view_text, write_page
 
 from ...gait.analysis.browser import visit
 from ...gait.analysis.test_report_in_browser import READABLE
+from . import small_walk
 from .small_walk import write_walk
 
 READY = """
@@ -92,6 +94,14 @@ def test_the_page_plays_steps_jumps_and_asks_for_nothing(page, tmp_path):
     assert 0.1 <= found["played"] < 2.0
     assert found["asked"] == []
     assert [line for line in seen.console if "GPU stall" not in line and "GL Driver" not in line] == []
+
+
+def test_large_and_negative_forces_are_not_clipped(tmp_path, monkeypatch):
+    heavy = {"left": np.full(8, 9000.0), "right": np.full(8, -2.0)}
+    monkeypatch.setattr(small_walk, "forces", lambda time: heavy)
+    write_page([write_walk(tmp_path / "run.mcap")], tmp_path / "view.html")
+    found = visit(tmp_path / "view.html", READY + "return document.querySelector('.readout').textContent;", tmp_path)
+    assert found.found == "left 72000 N, right -16 N"
 
 
 @pytest.mark.long
