@@ -36,10 +36,6 @@ _LARGEST = 4e9  # Largest size of all arrays in bytes
 _SHOWN = 20  # arrays in a message
 
 
-def _recognises(head: bytes) -> bool:
-    return head.startswith(b"\x93NUMPY") or (head.startswith(b"PK\x03\x04") and b".npy" in head[:4096])
-
-
 @dataclass(frozen=True)
 class _Array:
     shape: tuple[int, ...]
@@ -238,7 +234,9 @@ FORMAT = Format(
     name="arrays",
     title="numpy arrays, with --layout and --unit",
     suffixes=(".npz", ".npy"),
-    recognises=_recognises,
+    recognises=lambda head: (
+        head.startswith(b"\x93NUMPY") or (head.startswith(b"PK\x03\x04") and b".npy" in head[:4096])
+    ),
     read=_read,
     order=60,
 )

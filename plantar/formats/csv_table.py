@@ -7,7 +7,6 @@ gaitpdb) count, too.
 from collections.abc import Iterator
 from itertools import chain, islice
 from pathlib import Path
-from typing import TextIO
 
 from plantar.errors import FormatError
 from plantar.formats.column_names import heading_of
@@ -55,7 +54,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         if head is None:
             raise FormatError("the table has no rows of numbers")
         first, names, delimiter = lines[head.first :], list(head.names), head.delimiter
-        rows: Iterator[str] = chain((x for x in first if not x.startswith("#")), _content(stream))
+        more = (x.rstrip("\n") for x in stream if x.strip() and not x.startswith("#"))
+        rows: Iterator[str] = chain((x for x in first if not x.startswith("#")), more)
         if delimiter == "," and any(map(has_quoted_commas, first)):
             rows = without_quotes(rows)
         if delimiter == "," and not names and head.first and 2 * lines[head.first - 1].count(",") + 2 == head.width:
@@ -80,10 +80,6 @@ def _clock(names: list[str], rows: list[list[str]]) -> int | None:
     named = [i for i, n in enumerate(names) if time_unit(n) is not None][:1]
     tried = named or range(len(names) or 1)
     return next((i for i in tried if any(seconds_of_time(row[i]) is not None for row in rows if i < len(row))), None)
-
-
-def _content(stream: TextIO) -> Iterator[str]:
-    return (line.rstrip("\n") for line in stream if line.strip() and not line.startswith("#"))
 
 
 FORMAT = Format(

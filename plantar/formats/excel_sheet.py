@@ -24,10 +24,6 @@ _LARGEST = 100_000_000
 _LONGEST_CELL = 16_384
 
 
-def _recognises(head: bytes) -> bool:
-    return head.startswith(_MAGIC)
-
-
 def text_of_workbook(path: Path) -> dict[str, NDArray[Any]]:
     """Fullest sheet of a workbook as "text", UTF-8 bytes: a line for each row with cells, tabs between cells.
 
@@ -80,7 +76,7 @@ FORMAT = Format(
     name="xls",
     title="binary Excel workbook of a text export, such as footscan's",
     suffixes=(".xls",),
-    recognises=_recognises,
+    recognises=lambda head: head.startswith(_MAGIC),
     read=_read,
     order=30,
 )

@@ -54,10 +54,6 @@ class FootprintImage:
     warnings: tuple[str, ...]
 
 
-def _recognises(head: bytes) -> bool:
-    return head.startswith(_MAGIC)
-
-
 def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintImage:
     """Returns footprints in an image at path, of mm_per_pixel mm or the file's resolution.
 
@@ -240,7 +236,7 @@ FORMAT = Format(
     name="image",
     title="footprint image, with --mm-per-pixel",
     suffixes=(".png", ".jpg", ".tif", ".bmp"),
-    recognises=_recognises,
+    recognises=lambda head: head.startswith(_MAGIC),
     read=None,
     order=19,
 )

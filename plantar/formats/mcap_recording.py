@@ -16,10 +16,6 @@ from plantar.recordings.recording import Recording, Table, read_mcap
 from plantar.sides import SIDES, Side
 
 
-def _recognises(head: bytes) -> bool:
-    return head.startswith(MCAP_MAGIC)
-
-
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
     """Read "/skin/left" and "/skin/right", whose field "force" is in N; else any topics with arrays."""
     recording = read_mcap(path)
@@ -95,5 +91,10 @@ def _other_bag(path: Path, options: ReadOptions, topics: str) -> PressureRecordi
 
 
 FORMAT = Format(
-    name="mcap", title="Plantar recording", suffixes=(".mcap",), recognises=_recognises, read=_read, order=10
+    name="mcap",
+    title="Plantar recording",
+    suffixes=(".mcap",),
+    recognises=lambda head: head.startswith(MCAP_MAGIC),
+    read=_read,
+    order=10,
 )

@@ -30,10 +30,6 @@ _DEPTH = 3
 _FOLDERS = "metadata.yaml"
 
 
-def _recognises(head: bytes) -> bool:
-    return head.startswith(b"#ROSBAG V2.0") or (head.startswith(b"SQLite format 3\0") and b"topics" in head)
-
-
 def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
     """Returns recording of a bag's arrays.
 
@@ -180,7 +176,9 @@ FORMAT = Format(
     name="rosbag",
     title="ROS bag with a topic of numbers, with --layout",
     suffixes=(".db3", ".mcap", ".bag", "folder"),
-    recognises=_recognises,
+    recognises=lambda head: (
+        head.startswith(b"#ROSBAG V2.0") or (head.startswith(b"SQLite format 3\0") and b"topics" in head)
+    ),
     read=read_bag,
     folders=_FOLDERS,
     order=18,

@@ -62,7 +62,11 @@ def feet_of_forces(
     _take_out_marks(table, columns, warnings)
     loaded = _by_plate(columns)
     up = _vertical(table, loaded, warnings)
-    verticals = {key: a for key, own in loaded.items() if (a := _up(own["force"], up)) is not None}
+    verticals = {
+        key: a
+        for key, own in loaded.items()
+        if (a := next((a for a in ("vertical", up, "") if a in own["force"]), None)) is not None
+    }
     _check_units(columns, loaded, options)
     unit, relative = _unit(
         table, columns, [loaded[k]["force"][a] for k, a in verticals.items()], options, stated, warnings
@@ -133,10 +137,6 @@ def _scaled(foot: FootRecording, scale: float) -> FootRecording:
     total = None if foot.total is None else foot.total * scale
     wrench = None if foot.wrench is None else foot.wrench * scale
     return replace(foot, force=foot.force * scale, total=total, wrench=wrench)
-
-
-def _up(axes: Mapping[str, int], up: str) -> str | None:
-    return next((a for a in ("vertical", up, "") if a in axes), None)
 
 
 def _vertical(table: NDArray[np.float64], groups: Mapping[_Key, dict[str, dict[str, int]]], warnings: list[str]) -> str:

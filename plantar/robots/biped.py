@@ -98,13 +98,9 @@ def _dimension(value: Any, key: str) -> float | tuple[float, ...]:
     items = value if many else (value,)
     if many != (key in _COUNTS) or len(items) != _COUNTS.get(key, 1):
         raise RobotError(f"{key} needs {_COUNTS.get(key, 1)} number(s)")
-    if not all(map(_is_finite_number, items)):
+    if not all(isinstance(item, (int, float)) and math.isfinite(item) for item in items):
         raise RobotError(f"{key} holds a value that is not a finite number")
     return tuple(map(float, items)) if many else float(value)
-
-
-def _is_finite_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and math.isfinite(value)
 
 
 def _mass_attributes(mass: float, size: Sequence[float], position: Sequence[float]) -> str:

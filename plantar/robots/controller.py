@@ -9,13 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import instance
-from plantar.errors import SceneError
+from plantar.arguments import does, instance, number
+from plantar.arrays import array
+from plantar.errors import InputError, SceneError
 from plantar.gait.command import Command, JointTargets, Sensors
 from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.controller import WalkingController
 from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table
 from plantar.gait.plan.walk_plan import vrp_of_step
+from plantar.gravity import GRAVITY
 from plantar.robots.controller_settings import com_height_of, controller_settings
 from plantar.robots.kinematics.ankle_limits import ankle_limits
 from plantar.robots.kinematics.ankle_sensors import ankle_sensors
@@ -36,7 +38,7 @@ from plantar.settings.unknown_keys import refuse_unknown_keys
 __all__ = ["JointTargets", "RobotController", "load_controller"]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class RobotController:
     """A walking controller and the legs that follow it. Made by `load_controller`.
 
@@ -46,6 +48,7 @@ class RobotController:
         stance: Joint angles and torques before the start.
         base_position: Base position (3,) in m in that stance, world frame.
         motion: Of the targets.
+        began: Whether sensors were sound.
 
     Example:
         >>> walker = load_controller("h1", {"walk": {"steps": 4}})
@@ -61,10 +64,30 @@ class RobotController:
     stance: JointTargets
     base_position: NDArray[np.float64] = field(repr=False)
     motion: PlannedMotion = field(repr=False)
+    began: bool = field(default=False, init=False)
 
     def step(self, sensors: Sensors) -> Command:
-        """One control tick; returns the command: CoM, torso, pose and force of each sole."""
+        """One control tick: command of CoM, torso and soles. Until sensors were sound, InputError names what is not."""
+        self.began = self.began or self._sound(sensors)
         return self.controller.step(sensors)
+
+    def _sound(self, sensors: Sensors) -> bool:
+        number(sensors.time, "time", finite=True)
+        for name, count in (("joint_positions", len(self.joints)), ("gyro", 3), ("accelerometer", 3)):
+            if array(getattr(sensors, name), name, (count,), finite=True) is not getattr(sensors, name):
+                raise InputError(f"{does(name, 'are')} no array of float64; expected np.asarray(..., float)")
+        for joint, angle in zip(map(self.legs.model.joint, self.joints), sensors.joint_positions, strict=True):
+            low, high = np.add(joint.range, (-0.5, 0.5)) if self.legs.model.jnt_limited[joint.id] else (-np.inf, np.inf)
+            if not low <= angle <= high:  # by more than an encoder's offset
+                span = f"{low:.4g} to {high:.4g} rad, not degrees"
+                raise InputError(f"joint_positions hold {angle:.4g} for {joint.name}; allowed: {span}")
+        if not 0.5 * GRAVITY < (pull := float(np.linalg.norm(sensors.accelerometer))) < 2.0 * GRAVITY:
+            raise InputError(f"accelerometer reads {pull:.4g}; allowed at the start: about {GRAVITY:.4g} m/s^2 (not g)")
+        for side, layout in self.robot.layouts.items():
+            name = f"forces of the {side} sole"
+            if np.isnan(array(getattr(sensors.readings.get(side), "force", None), name, (len(layout),))).all():
+                raise InputError(f"{name} hold no number; expected N, with NaN for dead taxels alone")
+        return True
 
     def joint_targets(self, command: Command) -> JointTargets:
         """Inverse kinematics and dynamics of a command, within joint limits; returns the targets. Call it once a tick.
@@ -107,10 +130,8 @@ def load_controller(
     walk = Walk.from_table(given.pop("walk", {}), "[walk]", SceneError).for_body(body)
     control = Control.from_table(given.pop("control", {}), "[control]", SceneError).for_body(body)
     parts = {name: check_controller_table(name, table, f"[{name}]", SceneError) for name, table in given.items()}
-    sees = own.layouts["left"].proximity_range
-    task: Any = SimpleNamespace(
-        name="load_controller", walk=walk, control=control, controller=parts, proximity_range=sees
-    )
+    task: Any = SimpleNamespace(name="load_controller", walk=walk, control=control, controller=parts)
+    task.proximity_range = own.layouts["left"].proximity_range
     limits = ankle_limits(own, legs.model, body.weight, crouches(walk, own)[1])
     inertia = leg_inertia(own, legs, com_height_of(walk, own))
     settings = controller_settings(task, own, body, ankle_sensors(legs.model, own), limits, inertia=inertia)
@@ -120,5 +141,5 @@ def load_controller(
     centers = {s: vrp_of_step(foot, middle_of_sole(own.layouts[s], own.ankle_reach)) for s, foot in start.feet.items()}
     stance = JointTargets(*solve_standing(own, legs, start.feet, centers, settings.com_height))
     names = (*own.legs["left"].joints, *own.legs["right"].joints)
-    motion = PlannedMotion(legs, settings.period, body.beat)
-    return RobotController(own, legs, controller, names, settings.period, stance, legs.configuration[:3], motion)
+    motion, place = PlannedMotion(legs, settings.period, body.beat), legs.configuration[:3]
+    return RobotController(own, legs, controller, names, settings.period, stance, place, motion)

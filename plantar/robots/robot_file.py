@@ -196,7 +196,11 @@ class _RobotFile(RobotTables):
             **self._gait(),
             **self._servo(biped, len(legs["left"].joints)),
             "balance": self._balance(),
-            "controller": self._controller(),
+            "controller": {
+                name: check_controller_table(name, self.source[name], self.place(name), RobotError)
+                for name in CONTROLLER_TABLES
+                if name in self.source and name != "balance"
+            },
         }
         refuse_unknown_keys(
             self.source, ("name", "description", "biped", *CONTROLLER_TABLES, *_KEYS), self.where, RobotError
@@ -378,13 +382,6 @@ class _RobotFile(RobotTables):
         except InputError as error:
             raise RobotError(f"{self.where}: {error}") from None
         return balance
-
-    def _controller(self) -> dict[str, Mapping[str, Any]]:
-        return {
-            name: check_controller_table(name, self.source[name], self.place(name), RobotError)
-            for name in CONTROLLER_TABLES
-            if name in self.source and name != "balance"
-        }
 
 
 def _exported_shoe(layout: Path) -> dict[str, Any]:

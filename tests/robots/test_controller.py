@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import plantar
-from plantar.errors import RobotError, SceneError
+from plantar.errors import InputError, RobotError, SceneError
 from plantar.gait.command import Sensors
 from plantar.robots.controller import RobotController, load_controller
 from plantar.sides import SIDES
@@ -64,13 +64,38 @@ def test_a_clock_that_did_not_begin_with_the_walk_changes_nothing():
     assert not np.allclose(targets[0], targets[119], atol=1e-3)
 
 
-def test_sensors_that_never_make_sense_are_waited_for_and_named():
+@pytest.mark.parametrize("wrong", [np.degrees, lambda angles: angles * np.nan, lambda angles: angles[:-1]])
+def test_sensors_that_never_make_sense_are_waited_for_and_named(wrong):
     walker = load_controller("h1", {"walk": {"steps": 2}})
     for tick in range(30):
         sensors = resting(walker, tick * walker.period)
-        walker.step(sensors.changed(joint_positions=np.degrees(sensors.joint_positions)))
+        walker.controller.step(sensors.changed(joint_positions=wrong(sensors.joint_positions)))
     assert walker.controller.safe_state == "waiting"
-    walker.step(resting(walker, 30 * walker.period))
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong", "words"),
+    [
+        ("time", lambda time: np.nan, "time is NaN"),
+        ("joint_positions", np.degrees, r"for left_hip_roll; allowed: -0.7\d+ to 1.0\d+ rad, not degrees"),
+        ("joint_positions", lambda angles: angles * np.nan, "hold a value that is not finite"),
+        ("joint_positions", lambda angles: angles[:-1], r"shape \(11,\); expected \(12,\)"),
+        ("joint_positions", lambda angles: angles.astype(np.float32), "no array of float64"),
+        ("gyro", lambda turn: turn[:2], r"gyro has shape \(2,\)"),
+        ("accelerometer", lambda pull: pull / 9.81, r"reads 1; allowed at the start: about 9.81 m/s\^2"),
+        ("readings", lambda soles: {"left": soles["left"]}, "forces of the right sole are not numeric: None"),
+        ("readings", lambda soles: soles | {"left": plantar.Reading(0.0, np.ones(7))}, r"left sole have shape \(7,\)"),
+        ("readings", lambda soles: soles | {"right": plantar.Reading(0.0, np.full(42, np.nan))}, "right sole hold no"),
+    ],
+)
+def test_first_sensors_that_cannot_be_right_are_named(name, wrong, words):
+    walker = load_controller("h1", {"walk": {"steps": 2}})
+    sensors = resting(walker, 0.0)
+    for _ in range(2):
+        with pytest.raises(InputError, match=words):
+            walker.step(sensors.changed(**{name: wrong(getattr(sensors, name))}))
+    walker.step(sensors)
+    walker.step(sensors.changed(**{name: wrong(getattr(sensors, name))}))  # from now on the shell bridges it
     assert walker.controller.safe_state is None
 
 

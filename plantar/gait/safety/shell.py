@@ -129,12 +129,11 @@ class SafetyShell:
             return self._bridge(time)
         if time != sensors.time or readings is not sensors.readings:
             sensors = sensors.changed(time=time, readings=readings)
-        self._silent = 0
         return self._commanded(sensors)
 
     def _commanded(self, sensors: Sensors) -> Command:
         command = self._tick(sensors)
-        self._sound = sensors
+        self._sound, self._silent = sensors, 0
         if not self._begun:
             self._begun = True
             return command

@@ -46,7 +46,8 @@ def _packed(
     recording: PressureRecording, feet: Mapping[Side, FootGait]
 ) -> tuple[NDArray[np.int64], list[dict[str, Any]]]:
     chosen = _frames(recording, feet)
-    highest = max(_highest(recording, gait, chosen) for gait in feet.values())
+    held = ((gait, np.nan_to_num(gait.foot.force[chosen])) for gait in feet.values())
+    highest = max(float(_shown(recording, gait, force).max(initial=0.0)) for gait, force in held)
     while True:
         packed = [_foot(recording, gait, chosen, highest) for gait in feet.values()]
         # Base64 takes 4 bytes for 3.
@@ -71,10 +72,6 @@ def _frames(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> NDAr
     if end - begin > MOST_FRAMES:
         every = max(1, round(recording.rate_hz / USUAL_RATE), -(-(end - begin) // MOST_FRAMES))
     return np.arange(begin, end, every)
-
-
-def _highest(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64]) -> float:
-    return float(_shown(recording, gait, np.nan_to_num(gait.foot.force[chosen])).max(initial=0.0))
 
 
 def _shown(recording: PressureRecording, gait: FootGait, force: NDArray[np.float64]) -> NDArray[np.float64]:

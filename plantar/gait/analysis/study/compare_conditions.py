@@ -102,7 +102,8 @@ def _compared(results: Sequence[RecordingResult], a: str, b: str) -> Comparison:
         return Comparison(a, b, False, {}, note=note)
     recordings_a, recordings_b = [of_a[w] for w in first], [of_b[w] for w in second]
     unit, curves = _curves(recordings_a, recordings_b)
-    curve_test = None if curves is None else permutation_test(*curves, paired, _chain(curves[0].shape[1]))
+    chain = [] if curves is None else grid_neighbours(np.ones((1, curves[0].shape[1]), dtype=bool))
+    curve_test = None if curves is None else permutation_test(*curves, paired, chain)
     maps, places, map_test = _maps(recordings_a, recordings_b, paired)
     effects = _effects(recordings_a, recordings_b, paired)
     return Comparison(a, b, paired, effects, unit, curves, curve_test, maps, map_test, places)
@@ -168,10 +169,6 @@ def _maps(
         return None, None, None
     test = permutation_test(first[:, places], second[:, places], paired, grid_neighbours(places), 500)
     return (first, second), places, test
-
-
-def _chain(n: int) -> list[list[int]]:
-    return [[j for j in (i - 1, i + 1) if 0 <= j < n] for i in range(n)]
 
 
 def grid_neighbours(places: NDArray[np.bool_]) -> list[list[int]]:
