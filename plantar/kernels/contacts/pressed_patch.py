@@ -104,7 +104,7 @@ def _tilted(rows, cells, x, y):
     a, b, c = 1.0, 0.0, 0.0
     step_a = step_b = step_c = slope = value = 0.0
     rate = 1.0
-    for turn in range(60):
+    for turn in range(500):
         m00 = m01 = m02 = m11 = m12 = m22 = 0.0
         for i in range(cells):
             p, q = rows[i, 1], rows[i, 2]
@@ -125,8 +125,8 @@ def _tilted(rows, cells, x, y):
         r2 -= y
         if max(abs(r0), abs(r1), abs(r2)) <= _EXACT:
             return True, a, b, c
-        if turn and energy > value - 1e-4 * rate * slope + 1e-15 and rate > 1e-3:
-            rate *= 0.5  # too far: cells came on or off
+        if turn and energy > value - 1e-4 * rate * slope + 1e-15 and rate > (1e-3 if turn < 60 else 1e-8):
+            rate *= 0.5  # too far: cells came on or off; a step uphill saves turns, but may lead round in a circle
             a += rate * step_a
             b += rate * step_b
             c += rate * step_c
