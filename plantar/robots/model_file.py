@@ -11,6 +11,7 @@ import numpy as np
 from plantar.errors import RobotError
 from plantar.files.model_files import check_model
 from plantar.mechanics.lip import GRAVITY
+from plantar.mujoco.deletion import delete_all
 from plantar.mujoco.quaternions import quaternion_of
 from plantar.robots.leg_shapes import add_leg_shapes
 from plantar.robots.robot import LegNames, Robot
@@ -60,8 +61,7 @@ def _parsed(robot: Robot) -> Any:
 def forget_own_simulation(spec: Any) -> None:
     """Drop the file's simulation options, such as no gravity."""
     for part in ("keys", "equalities", "tendons", "pairs", "excludes", "sensors", "actuators", "lights"):
-        for element in list(getattr(spec, part)):
-            spec.delete(element)
+        delete_all(spec, getattr(spec, part))
     spec.option.gravity = [0.0, 0.0, -GRAVITY]
     spec.option.density = spec.option.viscosity = 0.0
     spec.option.disableflags = spec.option.enableflags = 0
@@ -103,18 +103,14 @@ def _free_base(spec: Any, robot: Robot) -> None:
     while root.parent.name != "world":
         root = root.parent
     if not any(j.type == mujoco.mjtJoint.mjJNT_FREE for j in root.joints):
-        for joint in list(root.joints):
-            spec.delete(joint)
+        delete_all(spec, root.joints)
         root.add_freejoint(name="plantar_root")
     _clear_world(spec, root)
 
 
 def _clear_world(spec: Any, root: Any) -> None:
-    for body in list(spec.worldbody.bodies):
-        if body.name != root.name:
-            spec.delete(body)
-    for geom in list(spec.worldbody.geoms):
-        spec.delete(geom)
+    delete_all(spec, [body for body in spec.worldbody.bodies if body.name != root.name])
+    delete_all(spec, spec.worldbody.geoms)
 
 
 def _weld_upper_body(spec: Any, robot: Robot) -> None:
@@ -122,9 +118,7 @@ def _weld_upper_body(spec: Any, robot: Robot) -> None:
     _check_joints(spec, robot, legs)
     for side, leg in robot.legs.items():
         _check_leg(spec, robot, side, leg)
-    for joint in list(spec.joints):
-        if joint.name not in legs and joint.type != mujoco.mjtJoint.mjJNT_FREE:
-            spec.delete(joint)
+    delete_all(spec, [j for j in spec.joints if j.name not in legs and j.type != mujoco.mjtJoint.mjJNT_FREE])
 
 
 def _check_joints(spec: Any, robot: Robot, wanted: set[str]) -> None:

@@ -17,6 +17,7 @@ from plantar.files.input_file import check_input
 from plantar.files.model_files import check_model, folders_of_model, mesh_of_urdf, named_file, parsed_model
 from plantar.files.model_limits import check_model_size
 from plantar.files.xml_file import XML_MOST
+from plantar.mujoco.deletion import delete_all
 from plantar.mujoco.mesh_surface import mesh_surface
 from plantar.optional_library import ignore_warning, optional_library
 from plantar.shoes.foot.mesh_file import MOST_TRIANGLES, read_mesh
@@ -37,8 +38,6 @@ _COLLIDING, _DRAWN, _ELSEWHERE = 0, 1, 2  # groups of geoms
 Array = NDArray[np.float64]
 # Gives the rotation (3, 3) and place (3,) of shapes for angles of joints
 Poses = Callable[[Iterable[float]], list[tuple[Array, Array]]]
-
-Spec = Any  # a `mujoco.MjSpec`
 
 
 class _NotCompiled(FootError):
@@ -76,7 +75,7 @@ class ModelSource:
     mesh_names: dict[str, str] = field(default_factory=dict)
     folders: tuple[Path, ...] = ()
 
-    def spec(self) -> Spec:
+    def spec(self) -> Any:
         """Editable model, without what lacks mass and shape.
 
         Raises:
@@ -91,13 +90,11 @@ class ModelSource:
             )
         except Exception as error:  # MuJoCo raises ValueError, OSError and its own
             raise FootError(f"{self.file}: cannot be read as a robot's model: {' '.join(str(error).split())}") from None
-        _delete(spec, [geom for geom in spec.geoms if geom.hfieldname])
-        _delete(spec, list(spec.hfields))
+        delete_all(spec, [*(geom for geom in spec.geoms if geom.hfieldname), *spec.hfields])
         for material in spec.materials:
             material.textures = [""] * len(material.textures)
         for part in _NOT_NEEDED:
-            for element in list(getattr(spec, part, ())):
-                spec.delete(element)
+            delete_all(spec, getattr(spec, part, ()))
         for compiler in (spec.compiler, *(_compiler(spec, body) for body in spec.bodies)):
             compiler.balanceinertia = True
             compiler.boundmass = max(compiler.boundmass, _LEAST)
@@ -114,8 +111,7 @@ class ModelSource:
         parts = {body.name: list(_fixed_to(body)) for body in spec.bodies[1:]}
         shaped = {name: any(len(b.geoms) for b in part) for name, part in parts.items()}
         carries = {name: any(child.joints for b in part for child in b.bodies) for name, part in parts.items()}
-        for body in spec.bodies:
-            _delete(spec, [g for g in body.geoms if g.meshname])
+        delete_all(spec, [g for g in spec.geoms if g.meshname])
         self._give_meshes(spec, read_all=False)
         model, data = self._placed(spec)
         depth = np.zeros(model.nbody, dtype=int)
@@ -148,9 +144,8 @@ class ModelSource:
         for read_all in (False, True):
             try:
                 spec = self.spec()
-                for body in spec.bodies:
-                    weighed = _weighed_by_shapes(spec, body)
-                    _delete(spec, [g for g in body.geoms if g.meshname and not weighed])
+                stated = [body for body in spec.bodies if not _weighed_by_shapes(spec, body)]
+                delete_all(spec, [g for body in stated for g in body.geoms if g.meshname])
                 self._give_meshes(spec, read_all)
                 model = self._placed(spec)[0]
                 break
@@ -174,10 +169,9 @@ class ModelSource:
         for geom in part:
             geom.group = _COLLIDING if _collides(geom) else _DRAWN
             geom.contype = geom.conaffinity = 0  # no convex hull of a mesh is needed then
-        _delete(spec, [geom for geom in spec.geoms if geom.group == _ELSEWHERE])
-        count = len(part)
-        if count > most:
-            raise FootError(f"{self.file}: body '{name}' has {count} shapes; allowed: up to {most}")
+        delete_all(spec, [geom for geom in spec.geoms if geom.group == _ELSEWHERE])
+        if len(part) > most:
+            raise FootError(f"{self.file}: body '{name}' has {len(part)} shapes; allowed: up to {most}")
         self._give_meshes(spec, read_all)
         fitted = {
             g.meshname
@@ -225,7 +219,7 @@ class ModelSource:
             link = _moving(link.parent)
         drawn = {g.parent.name for g in spec.geoms if not _collides(g)}
         spare = [g for g in spec.geoms if g.parent.name in drawn and _collides(g)]
-        _delete(spec, [*(g for g in spec.geoms if g.parent.name not in kept - own and g not in spare), *spare])
+        delete_all(spec, [*(g for g in spec.geoms if g.parent.name not in kept - own and g not in spare), *spare])
         for geom in spec.geoms:
             geom.contype = geom.conaffinity = 0
         self._give_meshes(spec, read_all=False)
@@ -245,9 +239,10 @@ class ModelSource:
                 (turn @ data.geom_xmat[g].reshape(3, 3), turn @ (data.geom_xpos[g] - data.xpos[foot])) for g in geoms
             ]
 
-        ranges = [(float(low), float(high)) for low, high in model.jnt_range[joints]]
-        free = [not (model.jnt_limited[j] and low < high) for j, (low, high) in zip(joints, ranges, strict=True)]
-        ranges = [(-_UNLIMITED, _UNLIMITED) if any_ else given for any_, given in zip(free, ranges, strict=True)]
+        ranges = [
+            (low, high) if model.jnt_limited[j] and low < high else (-_UNLIMITED, _UNLIMITED)
+            for j, (low, high) in zip(joints, model.jnt_range[joints].tolist(), strict=True)
+        ]
         return [_surface(model, g, str(self.file)) for g in geoms], ranges, poses
 
     def _few_enough(self, model: Any, name: str) -> None:
@@ -262,7 +257,7 @@ class ModelSource:
                 f"{self.file}: body '{name}' has {count} triangles; allowed: up to {MOST_TRIANGLES}; reduce its meshes"
             )
 
-    def _give_meshes(self, spec: Spec, read_all: bool) -> None:
+    def _give_meshes(self, spec: Any, read_all: bool) -> None:
         """Remove unused meshes; give MuJoCo those it cannot read."""
         used = {g.meshname for g in spec.geoms if g.meshname}
         for mesh in list(spec.meshes):
@@ -282,7 +277,7 @@ class ModelSource:
                 mesh.uservert = triangles.ravel()
                 mesh.userface = np.arange(3 * len(triangles), dtype=np.int32)
 
-    def _path(self, spec: Spec, mesh: Any) -> Path:
+    def _path(self, spec: Any, mesh: Any) -> Path:
         where = f"{self.file}: <mesh name='{mesh.name}'>"
         if self.urdf is not None:
             return mesh_of_urdf(self.file, self.mesh_names.get(mesh.file, mesh.file), FootError, where)
@@ -292,7 +287,7 @@ class ModelSource:
         found = next((place for place in places if place.is_file()), places[0])
         return named_file(found, folders_of_model(self.file), FootError, where)
 
-    def _placed(self, spec: Spec) -> tuple[Any, Any]:
+    def _placed(self, spec: Any) -> tuple[Any, Any]:
         import mujoco
 
         try:
@@ -334,7 +329,7 @@ def read_model_source(file: Path) -> ModelSource:
     return ModelSource(file, None, folders=(file.parent, *(path.parent for path in attached)))
 
 
-def _compiler(spec: Spec, element: Any) -> Any:
+def _compiler(spec: Any, element: Any) -> Any:
     """Compiler settings of an element's own file; older MuJoCo has one set."""
     return getattr(element, "compiler", spec.compiler)
 
@@ -367,12 +362,7 @@ def _collides(geom: Any) -> bool:
     return bool(geom.contype or geom.conaffinity)
 
 
-def _delete(spec: Spec, elements: list[Any]) -> None:
-    for element in elements:
-        spec.delete(element)
-
-
-def _weighed_by_shapes(spec: Spec, body: Any) -> bool:
+def _weighed_by_shapes(spec: Any, body: Any) -> bool:
     import mujoco
 
     kind = mujoco.mjtInertiaFromGeom

@@ -16,6 +16,7 @@ from plantar.files.input_file import is_file
 from plantar.files.model_files import check_model, named_file
 from plantar.files.structured_text import read_toml
 from plantar.mechanics.lip import GRAVITY
+from plantar.mujoco.deletion import delete_all
 from plantar.settings.schema import Settings, choice, number, tables, text
 from plantar.settings.unknown_keys import nearest, refuse_unknown_keys
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
@@ -114,10 +115,8 @@ class Machine:
         """
         spec = _parsed(self.model_file, f"machine '{self.name}'")
         for part in ("keys", "equalities", "tendons", "pairs", "excludes", "sensors", "actuators", "lights"):
-            for element in list(getattr(spec, part)):
-                spec.delete(element)
-        for geom in list(spec.worldbody.geoms):
-            spec.delete(geom)
+            delete_all(spec, getattr(spec, part))
+        delete_all(spec, spec.worldbody.geoms)
         spec.option.gravity = [0.0, 0.0, -GRAVITY]
         spec.option.density = spec.option.viscosity = 0.0
         spec.option.timestep = 0.001

@@ -69,7 +69,7 @@ class _Stated:
 
 
 def read_model(file: Path, folder: Path) -> ModelSource:
-    """Returns a robot's model, read.
+    """Returns a robot's model.
 
     Args:
         file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) of a robot or scene.
@@ -147,10 +147,10 @@ def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, stated: _Sta
 
 
 def _locked(joint: ElementTree.Element, file: Path) -> str:
-    """Name of a joint whose limits leave no range, which MuJoCo takes as unlimited; else empty.
+    """Name of a joint without range, which MuJoCo takes as unlimited; else empty.
 
     Raises:
-        RobotError: If limits contradict, or hold another angle than 0.
+        RobotError: If limits contradict.
     """
     name, limit = joint.get("name", ""), joint.find("limit")
     if joint.get("type") not in ("revolute", "prismatic") or limit is None:
