@@ -156,12 +156,9 @@ class _Copy:
     def _geom(self, element: Element, geom: int) -> None:
         model = self.model
         kind, body = int(model.geom_type[geom]), int(model.geom_bodyid[geom])
-        attributes = {"pos": _text(model.geom_pos[geom]), "quat": _text(model.geom_quat[geom])}
+        attributes = {"pos": _text(model.geom_pos[geom]), "quat": _text(model.geom_quat[geom]), "type": "mesh"}
         if kind == mujoco.mjtGeom.mjGEOM_MESH:
-            attributes |= {
-                "type": "mesh",
-                "mesh": Path(self._mesh(int(model.geom_dataid[geom]), body in self.feet)).stem,
-            }
+            attributes["mesh"] = Path(self._mesh(int(model.geom_dataid[geom]), body in self.feet)).stem
         elif kind in SHAPES:
             name, sizes = SHAPES[mujoco.mjtGeom(kind)]
             attributes |= {"type": name, "size": _text(model.geom_size[geom][:sizes])}

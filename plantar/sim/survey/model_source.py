@@ -1,7 +1,7 @@
 """A robot's model as its author left it, MJCF or URDF."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,7 @@ import numpy as np
 
 from plantar.errors import RobotError
 from plantar.files.model_files import check_model, mesh_of_urdf, parsed_model
+from plantar.mujoco.deletion import delete_all
 from plantar.robots.model_file import forget_own_simulation
 from plantar.sim.survey.body_surface import SHAPES
 from plantar.sim.survey.surface_file import meshes_for_mujoco
@@ -27,6 +28,9 @@ _URDF_COMPILER = {
 }
 
 _COORDINATES = {mujoco.mjtJoint.mjJNT_FREE: 7, mujoco.mjtJoint.mjJNT_BALL: 4}  # of a keyframe; other joints have one
+_MOST_TURNED = 20.0  # rad, three turns: hinges of robots have 10 at most, and in degrees a knee or hip has 45 or more
+_IN_DEGREES = 720.0  # what is larger stands for no limit
+_LIMITS = {"": "limits", "actfrc": "torque limits", "force": "force limits", "ctrl": "control limits"}
 _LOOPS = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
 
 
@@ -53,10 +57,10 @@ class ModelSource:
     speeds: Mapping[str, float]
     gains: Mapping[str, tuple[float, float]]
     imus: tuple[tuple[str, str], ...]
-    coupled: tuple[tuple[str, str], ...]
+    coupled: Sequence[tuple[str, str]]
     loops: tuple[tuple[str, str], ...]
     upper_posture: Mapping[str, float]
-    notes: tuple[str, ...]
+    notes: Sequence[str]
 
 
 @dataclass
@@ -87,6 +91,7 @@ def read_model(file: Path, folder: Path) -> ModelSource:
     except Exception as error:  # MuJoCo's parser raises ValueError, OSError and its own errors
         raise RobotError(f"{file}: cannot be read: {' '.join(str(error).split())}") from None
     _name_all(spec)
+    _check_limits(spec, file)
     posture = _first_keyframe(spec)
     _drop_other_things(spec, stated.notes)
     _drop_unreadable(spec, file, folder, stated.notes)
@@ -100,14 +105,10 @@ def read_model(file: Path, folder: Path) -> ModelSource:
         file=file,
         name=spec.modelname if spec.modelname not in ("", "MuJoCo Model") else file.stem,
         model=model,
-        efforts=stated.efforts,
-        speeds=stated.speeds,
-        gains=stated.gains,
         imus=imus,
-        coupled=tuple(stated.coupled),
         loops=tuple((_body_of(model, a), _body_of(model, b)) for a, b in loops),
         upper_posture=posture,
-        notes=tuple(stated.notes),
+        **vars(stated),
     )
 
 
@@ -140,7 +141,7 @@ def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, stated: _Sta
             stated.coupled.append((name, mimic.get("joint", "")))
         for key, found_limits in (("effort", stated.efforts), ("velocity", stated.speeds)):
             value = _number(None if limit is None else limit.get(key))
-            if value > 0.0:
+            if 0.0 < value < math.inf:
                 found_limits[name] = value
     ElementTree.SubElement(ElementTree.SubElement(root, "mujoco"), "compiler", _URDF_COMPILER)
     return ElementTree.tostring(root, encoding="unicode")
@@ -156,12 +157,12 @@ def _locked(joint: ElementTree.Element, file: Path) -> str:
     if joint.get("type") not in ("revolute", "prismatic") or limit is None:
         return ""
     lower, upper = _number(limit.get("lower")), _number(limit.get("upper"))
-    if lower < upper:
+    if -math.inf < lower < upper < math.inf:
         return ""
-    if lower > upper or lower != 0.0:
+    if not lower == upper == 0.0:
         raise RobotError(
             f"{file}: joint '{name}' has limits from {lower:g} to {upper:g}; allowed: lower below upper, "
-            "or a joint of type fixed"
+            "or a joint of type fixed or continuous"
         )
     joint.set("type", "fixed")
     return name
@@ -169,10 +170,9 @@ def _locked(joint: ElementTree.Element, file: Path) -> str:
 
 def _number(text: str | None) -> float:
     try:
-        value = float(text or "0")
+        return float(text or "0")
     except ValueError:
         return 0.0
-    return value if math.isfinite(value) else 0.0
 
 
 def _name_all(spec: Any) -> None:
@@ -191,8 +191,7 @@ def _drop_other_things(spec: Any, notes: list[str]) -> None:
     robot = max(things, key=lambda t: sum(j.type == mujoco.mjtJoint.mjJNT_HINGE for j in _joints_below(t)))
     others = [thing for thing in things if thing is not robot]
     notes.append(f"left out, as they are no part of the robot: {', '.join(thing.name for thing in others)}")
-    for thing in others:
-        spec.delete(thing)
+    delete_all(spec, others)
 
 
 def _joints_below(body: Any) -> list[Any]:
@@ -203,15 +202,13 @@ def _drop_unreadable(spec: Any, file: Path, folder: Path, notes: list[str]) -> N
     for material in spec.materials:
         material.textures = [""] * len(material.textures)
     for part in ("textures", "skins", "hfields", "flexes"):
-        for element in list(getattr(spec, part)):
-            spec.delete(element)
-    for geom in [g for g in spec.geoms if g.type in (mujoco.mjtGeom.mjGEOM_HFIELD, mujoco.mjtGeom.mjGEOM_SDF)]:
-        spec.delete(geom)
+        delete_all(spec, getattr(spec, part))
+    fields = (mujoco.mjtGeom.mjGEOM_HFIELD, mujoco.mjtGeom.mjGEOM_SDF)
+    delete_all(spec, [g for g in spec.geoms if g.type in fields])
     empty = [g for g in spec.geoms if _is_empty(g)]
     if empty:
         notes.append(f"{len(empty)} shapes without a size are left out")
-    for geom in empty:
-        spec.delete(geom)
+    delete_all(spec, empty)
     weighing = {g.meshname for g in spec.geoms if not g.parent.explicitinertial}
     for mesh in list(spec.meshes):  # a hull holds for open surfaces, too, but weighs more
         if mesh.inertia == mujoco.mjtMeshInertia.mjMESH_INERTIA_LEGACY and mesh.name not in weighing:
@@ -227,9 +224,7 @@ def _drop_unreadable(spec: Any, file: Path, folder: Path, notes: list[str]) -> N
             continue
         users = [g for g in spec.geoms if g.meshname == mesh.name]
         notes.append(f"mesh {path.name} cannot be read; the {len(users)} shape(s) made of it are left out")
-        for geom in users:
-            spec.delete(geom)
-        spec.delete(mesh)
+        delete_all(spec, [*users, mesh])
 
 
 def _is_empty(geom: Any) -> bool:
@@ -249,54 +244,77 @@ def _first_keyframe(spec: Any) -> dict[str, float]:
 
 
 def _collect_motors(spec: Any, stated: _Stated) -> None:
-    rates: dict[str, float] = {}
-    for joint in spec.joints:
-        bound = _bound(joint.actfrclimited, joint.actfrcrange)
-        if bound < math.inf:
-            stated.efforts[joint.name] = bound
+    rates: dict[str, tuple[float, float]] = {}  # and torques of velocity servos, which count where they are alone
+    torques: list[tuple[str, float]] = []
     for motor in spec.actuators:
-        if motor.trntype not in (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT):
-            continue
         gear = abs(float(motor.gear[0])) or 1.0
         gain, rate = float(motor.gainprm[0]), float(motor.biasprm[2])
+        force = gear * _bound(motor, "force")
+        if gain and motor.biastype == mujoco.mjtBias.mjBIAS_NONE and motor.gaintype == mujoco.mjtGain.mjGAIN_FIXED:
+            force = min(force, gear * abs(gain) * _bound(motor, "ctrl"))
+        if motor.trntype == mujoco.mjtTrn.mjTRN_TENDON:
+            tendon = spec.tendon(motor.target)
+            force = min(force, _bound(tendon, "actfrc"))
+            joints = [w for w in tendon.path if w.type == mujoco.mjtWrap.mjWRAP_JOINT]  # of a fixed one
+            torques += [(w.target.name, abs(w.coef) * force) for w in joints]
+        if motor.trntype not in (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT):
+            continue
         if gain > 0.0 and motor.biasprm[1] == -gain:  # a rate above 0 is a ratio of critical, whatever the gear
             stated.gains[motor.target] = (gear**2 * gain, -rate if rate > 0.0 else -(gear**2) * rate)
         elif gain > 0.0 and rate == -gain and motor.biasprm[1] == 0.0:
-            rates[motor.target] = gear**2 * gain
-        limits = [stated.efforts.get(motor.target, math.inf), gear * _bound(motor.forcelimited, motor.forcerange)]
-        if gain and motor.biastype == mujoco.mjtBias.mjBIAS_NONE and motor.gaintype == mujoco.mjtGain.mjGAIN_FIXED:
-            limits.append(gear * abs(gain) * _bound(motor.ctrllimited, motor.ctrlrange))
-        if min(limits) < math.inf:
-            stated.efforts[motor.target] = min(limits)
+            rates[motor.target], force = (gear**2 * gain, force), math.inf
+        torques.append((motor.target, force))
     for name in rates.keys() & stated.gains.keys():  # a position servo that a velocity servo damps
         stiffness, damping = stated.gains[name]
-        stated.gains[name] = (stiffness, damping + rates[name] if damping >= 0.0 else damping)
+        stated.gains[name] = (stiffness, damping + rates[name][0] if damping >= 0.0 else damping)
+    for joint in spec.joints:
+        total = sum(torque for name, torque in torques if name == joint.name and torque < math.inf)
+        known = _bound(joint, "actfrc"), stated.efforts.get(joint.name, math.inf)
+        limit = min(total or rates.get(joint.name, (0.0, math.inf))[1], *known)
+        if limit < math.inf:
+            stated.efforts[joint.name] = limit
 
 
-def _bound(limited: Any, span: Any) -> float:
-    both = -float(span[0]), float(span[1])
-    known = limited != mujoco.mjtLimited.mjLIMITED_FALSE and -both[0] < both[1]
+def _bound(element: Any, kind: str) -> float:
+    low, high = getattr(element, f"{kind}range").tolist()
+    both = -low, high
+    known = getattr(element, f"{kind}limited") != mujoco.mjtLimited.mjLIMITED_FALSE and low < high
     return math.inf if not known else min(both) if min(both) > 0.0 else max(map(abs, both))  # of the weaker direction
 
 
+def _check_limits(spec: Any, file: Path) -> None:
+    of_joints = [("joint", joint, kind) for joint in spec.joints for kind in ("", "actfrc")]
+    of_motors = [("motor", motor, kind) for motor in spec.actuators for kind in ("force", "ctrl")]
+    for what, element, kind in of_joints + of_motors:
+        low, high = getattr(element, f"{kind}range").tolist()
+        where = f"{file}: {what} '{element.name or element.target}' has {_LIMITS[kind]} from {low:g} to {high:g}"
+        known = getattr(element, f"{kind}limited") != mujoco.mjtLimited.mjLIMITED_FALSE and (low or high)
+        if known and not -math.inf < low < high < math.inf:
+            raise RobotError(f"{where}; allowed: finite ones, lower below upper, or none")
+        turns = 0.0 if kind or element.type != mujoco.mjtJoint.mjJNT_HINGE else max(-low, high)
+        if _MOST_TURNED < turns <= _IN_DEGREES and not spec.compiler.degree:
+            raise RobotError(
+                f"{where} rad, which look like degrees; allowed: {_MOST_TURNED:g} rad, 3 turns, at most, or none"
+            )
+
+
 def _imus_of(spec: Any) -> tuple[tuple[str, str], ...]:
-    found = []
-    for kind in (mujoco.mjtSensor.mjSENS_GYRO, mujoco.mjtSensor.mjSENS_ACCELEROMETER):
-        found += [("site", s.objname) for s in spec.sensors if s.type == kind and spec.site(s.objname) is not None]
-    for what, elements in (("site", spec.sites), ("body", spec.bodies)):
-        found += [(what, e.name) for e in elements if "imu" in e.name.lower()]
-    return tuple(dict.fromkeys(found))
+    kinds, named = (mujoco.mjtSensor.mjSENS_GYRO, mujoco.mjtSensor.mjSENS_ACCELEROMETER), ("site", "body")
+    found = [("site", s.objname) for k in kinds for s in spec.sensors if s.type == k and spec.site(s.objname)]
+    places = zip(named, (spec.sites, spec.bodies), strict=True)
+    return tuple(
+        dict.fromkeys([*found, *((what, e.name) for what, es in places for e in es if "imu" in e.name.lower())])
+    )
 
 
 def _compiled(spec: Any, file: Path) -> Any:
-    for attempt in ("as it is", "without collisions of meshes"):
+    for _ in ("as it is", "without collisions of meshes"):  # flat and broken ones have no convex hull
         try:
             return spec.compile()
         except ValueError as error:
             problem = error
-        for geom in spec.geoms if attempt == "as it is" else ():  # flat and broken meshes have no convex hull
-            if geom.type == mujoco.mjtGeom.mjGEOM_MESH:
-                geom.contype = geom.conaffinity = 0
+        for geom in [g for g in spec.geoms if g.type == mujoco.mjtGeom.mjGEOM_MESH]:
+            geom.contype = geom.conaffinity = 0
     raise RobotError(f"{file}: cannot be simulated: {' '.join(str(problem).split())}") from None
 
 

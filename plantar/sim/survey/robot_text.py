@@ -191,28 +191,24 @@ def _gait(fitted: FittedGait) -> list[str]:
 
 
 def _approaching(robot: Robot) -> list[str]:
-    if not robot.approach_support:
-        return []
-    lines = _comment(
+    why = (
         "A swing that comes down slowly onto unknown ground has to be there in three fifths of its time. With so much "
         f"of it that takes {100.0 * QUICK_HELD:.0f} % of the motors' torque at most, and moves the ZMP no farther to "
         "the sole's edge than h1's leg does."
     )
-    return [*lines, f"approach_support = {robot.approach_support:g}  # s"]
+    return [*_comment(why), f"approach_support = {robot.approach_support:g}  # s"] if robot.approach_support else []
 
 
 def _loaded(robot: Robot) -> list[str]:
-    lines = []
-    if robot.ankle_reach < 1.0:
-        lines += _comment("The ankles cannot bear the weight on the toes; no farther from them is the sole loaded:")
-        lines.append(f"ankle_reach = {robot.ankle_reach:g}  # m")
-    if robot.rocks:
-        lines += _comment(
-            f"Without ankle roll it rocks from foot to foot, whatever a scene asks for, so quickly that its legs lean "
-            f"by {math.degrees(LEAN_MOST):g} degrees."
-        )
-        lines.append("rocks = true")
-    return lines
+    weak = _comment("The ankles cannot bear the weight on the toes; no farther from them is the sole loaded:")
+    rocks = _comment(
+        f"Without ankle roll it rocks from foot to foot, whatever a scene asks for, so quickly that its legs lean "
+        f"by {math.degrees(LEAN_MOST):g} degrees."
+    )
+    return [
+        *([*weak, f"ankle_reach = {robot.ankle_reach:g}  # m"] if robot.ankle_reach < 1.0 else []),
+        *([*rocks, "rocks = true"] if robot.rocks else []),
+    ]
 
 
 def _servo(survey: Survey, fitted: FittedGait) -> list[str]:
@@ -250,18 +246,15 @@ def _servo(survey: Survey, fitted: FittedGait) -> list[str]:
             f"own_damping = {_numbers(robot.own_damping, 4)}  # N m s/rad",
         ]
     if robot.effort_limits:
-        missing = [n for n, e in zip(survey.joint_names("left"), survey.efforts, strict=True) if e is None]
-        how = f" but for {', '.join(missing)}: 1e5 stands for none" if missing else ""
+        how = " where known; 1e5 stands for none" if None in survey.efforts else ""
         lines += _comment(f"Of motors or joints, as the model states them{how}.")
         lines.append(f"effort_limits = {_numbers(robot.effort_limits, 4)}  # N m")
     else:
         needed = _numbers(fitted.reach.torque, 2)
         lines += _comment(f"The model states no torque limits, so there are none; level steps need {needed} N m.")
-    if robot.velocity_limits:
-        lines.append(f"velocity_limits = {_numbers(robot.velocity_limits, 4)}  # rad/s, as the model states them")
-    else:
-        lines += _comment("The model states no usable speed limits, so there are none.")
-    return lines
+    unknown = _comment("The model states no usable speed limits, so there are none.")
+    speeds = f"velocity_limits = {_numbers(robot.velocity_limits, 4)}  # rad/s, as the model states them"
+    return [*lines, *([speeds] if robot.velocity_limits else unknown)]
 
 
 def _balance(fitted: FittedGait) -> list[str]:

@@ -94,8 +94,6 @@ DAMPED = 0.4
 """Damping over critical below which a joint rings on after each landing."""
 
 _LEAD = 0.076  # damping over stiffness, in beats of the leg; h1 has 0.01875 s
-
-
 # Error in rad at which a servo may reach its torque limit: with 0.003 Romeo's hips turned it by 4 degrees each way
 _SATURATED = 7e-3
 

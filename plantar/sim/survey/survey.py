@@ -83,6 +83,9 @@ def survey_model(file: Path, folder: Path) -> Survey:
     toes = {side: ", ".join(legs.by_side[side].toes) for side in SIDES}
     notes += [f"{toes[side]}: below the {side} foot, held (toes)" for side in SIDES if toes[side]]
     notes += _unlike(soles)
+    missing = ", ".join(name for name, effort in zip(names["left"], efforts, strict=True) if effort is None)
+    if missing:
+        notes.append(f"no torque limit is known of {missing}: none is taken, put the motors' in effort_limits")
     gains = [source.gains[name] for name in names["left"] if name in source.gains]
     return Survey(
         *(source, legs, soles, held, imu, efforts, tuple(kept) if len(kept) == left else ()),
@@ -155,6 +158,5 @@ def _unlike(soles: Mapping[Side, Sole]) -> list[str]:
     left, right = soles["left"], soles["right"]
     mirrored = np.array([[right.low[0], -right.high[1]], [right.high[0], -right.low[1]]])
     gap: NDArray[np.float64] = np.abs(mirrored - [left.low, left.high])
-    if float(gap.max()) <= 2e-3:
-        return []
-    return [f"the soles differ by up to {1e3 * float(gap.max()):.0f} mm; the shoes are those of the left one, mirrored"]
+    text = f"the soles differ by up to {1e3 * float(gap.max()):.0f} mm; the shoes are those of the left one, mirrored"
+    return [text] if float(gap.max()) > 2e-3 else []

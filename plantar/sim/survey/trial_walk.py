@@ -35,10 +35,9 @@ def trial_walk(robot_file: str) -> tuple[float, list[str]]:
 def push_text(level: float) -> str:
     """Robot file's table of thresholds that a push has to exceed, by what walking leaves in m/s^2; "" for others'."""
     begins = math.ceil(10.0 * _STANDS_OUT * level) / 10.0
-    if begins <= _RULES.begins:
-        return ""
-    return (
+    text = (
         "\n[push_estimate]\n"
         f"# ZMP and IMU disagree by up to {level:.2g} m/s^2 as it walks level ground, in simulation: no push yet.\n"
         f"begins = {begins:g}  # m/s^2\nends = {begins * _RULES.ends / _RULES.begins:.2g}  # m/s^2\n"
     )
+    return text if begins > _RULES.begins else ""

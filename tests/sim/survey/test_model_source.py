@@ -33,6 +33,8 @@ def test_what_else_is_in_a_scene_is_no_part_of_the_robot(seed, tmp_path):
     assert (found.legs.rotation == alone.legs.rotation).all()
     assert found.imu == alone.imu
     assert any("no part of the robot: table, ball, door" in note for note in found.notes)
+    missing = "no torque limit is known of " + ", ".join(found.joint_names("left"))
+    assert any(note.startswith(missing) for note in found.notes)
 
 
 def urdf(limit: str, kind: str = "revolute") -> str:
@@ -53,20 +55,46 @@ def test_a_joint_whose_limits_leave_no_range_is_held_and_reported(tmp_path, limi
         survey_model(file, tmp_path)
 
 
-@pytest.mark.parametrize("limit", ['<limit lower="-1" upper="1" effort="5"/>', ""])
-def test_a_joint_with_a_range_or_without_limits_turns(tmp_path, limit):
+@pytest.mark.parametrize("most", ["1", "10", "12.6", "1e16", ""])
+def test_a_joint_with_a_range_or_without_limits_turns(tmp_path, most):
     file = tmp_path / "robot.urdf"
+    limit = f'<limit lower="-{most}" upper="{most}" effort="5"/>' if most else ""
     file.write_text(urdf(limit, "revolute" if limit else "continuous"))
     source = read_model(file, tmp_path)
     assert source.model.njnt == 1
     assert bool(source.model.jnt_limited[0]) == bool(limit)
 
 
-@pytest.mark.parametrize("limit", ['<limit lower="1" upper="-1"/>', '<limit lower="0.3" upper="0.3"/>'])
-def test_limits_that_contradict_each_other_are_refused(tmp_path, limit):
+@pytest.mark.parametrize(
+    ("lower", "upper", "words"),
+    [
+        *((lower, upper, "; allowed: lower below upper, or") for lower, upper in ((1, -1), (0.3, 0.3), ("nan", 1))),
+        ("-inf", "inf", "; allowed: lower below upper, or .* continuous"),
+        (-90, 90, "rad, which look like degrees; allowed: 20 rad"),
+        (0, 45, "rad, which look like degrees; allowed: 20 rad"),
+    ],
+)
+def test_limits_that_contradict_each_other_or_are_in_degrees_are_refused(tmp_path, lower, upper, words):
     file = tmp_path / "robot.urdf"
-    file.write_text(urdf(limit))
-    with pytest.raises(RobotError, match=r"joint 'elbow' has limits from .*; allowed: lower below upper, or"):
+    file.write_text(urdf(f'<limit lower="{lower}" upper="{upper}"/>'))
+    with pytest.raises(RobotError, match=f"joint 'elbow' has limits from {lower} to {upper}.*{words}"):
+        read_model(file, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("joint", "motor", "words"),
+    [
+        ("range='90 -90'", "", "joint 'a' has limits from 90 to -90; allowed: finite"),
+        ("actuatorfrcrange='9 -9'", "", "joint 'a' has torque limits from 9 to -9; allowed"),
+        ("", "forcerange='9 -9'", "motor 'a' has force limits from 9 to -9; allowed"),
+        ("", "ctrlrange='9 -9'", "motor 'a' has control limits from 9 to -9; allowed"),
+    ],
+)
+def test_swapped_limits_which_mujoco_ignores_are_refused(tmp_path, joint, motor, words):
+    file = tmp_path / "swapped.xml"
+    body = f"<body><joint name='a' {joint}/><geom size='.1'/></body>"
+    file.write_text(f"<mujoco><worldbody>{body}</worldbody><actuator><motor joint='a' {motor}/></actuator></mujoco>")
+    with pytest.raises(RobotError, match=words):
         read_model(file, tmp_path)
 
 
@@ -113,12 +141,17 @@ def test_gains_of_position_servos_are_read(tmp_path, motors, gains):
         ("<motor joint='a' ctrlrange='0 80'/>", 80.0),
         ("<position joint='a' kp='9' forcerange='-30 40' gear='2' ctrlrange='-1 1'/>", 60.0),
         ("<position joint='a' kp='9' ctrlrange='-1 1'/>", 90.0),
+        ("<motor joint='a' ctrlrange='-30 30'/><motor joint='a' ctrlrange='-40 50'/>", 70.0),  # they add
+        ("<position joint='a' forcerange='-30 30'/><velocity joint='a' kv='1' forcerange='-30 30'/>", 30.0),
+        ("<motor tendon='t' ctrlrange='-3000 3000' gear='2'/>", 50.0),
+        ("<motor tendon='t' ctrlrange='-9000 9000'/><motor joint='a' ctrlrange='-2 2'/>", 52.0),
     ],
 )
 def test_torque_limits_are_those_of_joint_and_motor(tmp_path, motor, effort):
     file = tmp_path / "motor.xml"
     body = "<body><joint name='a' actuatorfrcrange='-90 110'/><geom size='.1'/></body>"
-    file.write_text(f"<mujoco><worldbody>{body}</worldbody><actuator>{motor}</actuator></mujoco>")
+    tendon = "<tendon><fixed name='t' actuatorfrcrange='-7000 5000'><joint joint='a' coef='-.01'/></fixed></tendon>"
+    file.write_text(f"<mujoco><worldbody>{body}</worldbody>{tendon}<actuator>{motor}</actuator></mujoco>")
     assert read_model(file, tmp_path).efforts == {"a": min(effort, 90.0)}
 
 
