@@ -1,6 +1,7 @@
 """A robot's model as its author left it, MJCF or URDF."""
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -31,6 +32,7 @@ _COORDINATES = {mujoco.mjtJoint.mjJNT_FREE: 7, mujoco.mjtJoint.mjJNT_BALL: 4}  #
 _MOST_TURNED = 20.0  # rad, three turns: hinges of robots have 10 at most, and in degrees a knee or hip has 45 or more
 _IN_DEGREES = 720.0  # what is larger stands for no limit
 _LIMITS = {"": "limits", "actfrc": "torque limits", "force": "force limits", "ctrl": "control limits"}
+_IMU = re.compile(r"(?<![a-z])imu(?![a-z])|Imu(?![a-z])|(?<![A-Z])IMU(?![A-Z]{2})")  # a word, not in "maximum"
 _LOOPS = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
 
 
@@ -302,9 +304,7 @@ def _imus_of(spec: Any) -> tuple[tuple[str, str], ...]:
     kinds, named = (mujoco.mjtSensor.mjSENS_GYRO, mujoco.mjtSensor.mjSENS_ACCELEROMETER), ("site", "body")
     found = [("site", s.objname) for k in kinds for s in spec.sensors if s.type == k and spec.site(s.objname)]
     places = zip(named, (spec.sites, spec.bodies), strict=True)
-    return tuple(
-        dict.fromkeys([*found, *((what, e.name) for what, es in places for e in es if "imu" in e.name.lower())])
-    )
+    return tuple(dict.fromkeys([*found, *((what, e.name) for what, es in places for e in es if _IMU.search(e.name))]))
 
 
 def _compiled(spec: Any, file: Path) -> Any:

@@ -98,6 +98,20 @@ def test_swapped_limits_which_mujoco_ignores_are_refused(tmp_path, joint, motor,
         read_model(file, tmp_path)
 
 
+@pytest.mark.parametrize(
+    ("name", "imu"),
+    [
+        *((name, True) for name in ("imu", "base_imu_link", "TorsoIMULink", "ImuTorso_frame", "IMU_2", "trunkImu")),
+        *((name, False) for name in ("simulated_link", "maximum", "MAXIMUM", "SIMULATED_LINK", "stimulus")),
+    ],
+)
+def test_what_is_called_an_imu_is_one(tmp_path, name, imu):
+    file = tmp_path / "named.xml"
+    body = f"<body name='b'><site name='{name}'/><geom size='.1'/></body>"
+    file.write_text(f"<mujoco><worldbody>{body}</worldbody></mujoco>")
+    assert read_model(file, tmp_path).imus == ((("site", name),) if imu else ())
+
+
 MARKED = """
 <body name="marked" pos="0 0 1"><joint/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
 <geom type="box" size=".1 .05 .02" contype="0" conaffinity="0"/>
