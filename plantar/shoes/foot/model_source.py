@@ -240,7 +240,7 @@ class ModelSource:
             ]
 
         ranges = [
-            (low, high) if model.jnt_limited[j] and low < high else (-_UNLIMITED, _UNLIMITED)
+            (low, high) if model.jnt_limited[j] and low < high < low + math.tau else (-_UNLIMITED, _UNLIMITED)
             for j, (low, high) in zip(joints, model.jnt_range[joints].tolist(), strict=True)
         ]
         return [_surface(model, g, str(self.file)) for g in geoms], ranges, poses

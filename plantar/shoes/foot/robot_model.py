@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
+from plantar.shoes.foot.foot_mesh import unit_scale
+from plantar.shoes.foot.mesh_file import Unit
 from plantar.shoes.foot.model_source import FARTHEST, BodyPlace, ModelSource, read_model_source
 from plantar.shoes.geometry.surface import surface_points, thinned
 
@@ -53,17 +55,15 @@ def side_of_name(name: str) -> Literal["left", "right"] | None:
     left, right = (s in words or name.lower().startswith(s) for s in ("left", "right"))
     if left == right:
         left, right = "l" in words, "r" in words
-    if left == right:
-        return None
-    return "left" if left else "right"
+    return None if left == right else "left" if left else "right"
 
 
-def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeometry:
+def read_foot_body(path: str | os.PathLike[str], body: str | None, unit: Unit | None = None) -> BodyGeometry:
     """Gives geometry of a robot foot, drawn or else colliding, with what is fixed to it, from the body of an MJCF or
-    URDF file at a path.
+    URDF at a path, in m or a unit.
 
     Raises:
-        FootError: If unreadable or without geometry.
+        FootError: If unreadable, shapeless or not foot-sized.
         DependencyError: If MuJoCo is missing.
     """
     source = read_model_source(Path(path))
@@ -77,9 +77,11 @@ def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeomet
     if not shapes:
         raise FootError(f"{where} has no geometry; name the body that has the foot's: {_names_shown(bodies, body)}")
     triangles = _together(shapes, where)
+    unit_scale(float(np.ptp(triangles, axis=(0, 1)).max()), unit, "m", where)  # sweeping one in mm takes minutes
     mass, note = source.mass(body)
-    read = f"body '{body}': {len(shapes)} {'drawn' if drawn else 'colliding'} shape(s), in m as models are"
-    links, swept = swept_points(source, body, triangles)
+    read = f"body '{body}': {len(shapes)} {'drawn' if drawn else 'colliding'} shape(s), in {unit or 'm as models are'}"
+    foreign = None, "the links above the foot are read in m alone"
+    links, swept = swept_points(source, body, triangles) if unit in (None, "m") else foreign
     return BodyGeometry(triangles, side_of_name(body), mass, (read, note, swept), links)
 
 
@@ -98,8 +100,7 @@ def _like_feet(bodies: dict[str, BodyPlace], wanted: str) -> list[str]:
     named = [name for name in shaped if called[name] < len(_WORDS)]
 
     def rank(name: str) -> tuple[int, bool, float, int]:
-        body = bodies[name]
-        return called[name], body.carries, round(body.height, 2), -body.depth
+        return called[name], bodies[name].carries, round(bodies[name].height, 2), -bodies[name].depth
 
     return [*alike, *(name for name in sorted(named or shaped, key=rank) if name not in alike)]
 
@@ -118,14 +119,13 @@ _SPACING = 0.004  # m between points
 
 
 def swept_points(source: ModelSource, name: str, surface: Array) -> tuple[Array | None, str]:
-    """Gives points (n, 3) in m, or None, of links above a foot over the range of its last two hinges, and a note:
-    source is the model, name the foot's body, surface its triangles (k, 3, 3), near which points are kept.
+    """Gives points (n, 3) in m, or None, of links above a foot over its last two hinges' range, and a note: source is
+    the model, name the foot's body, surface its triangles (k, 3, 3), near which points are kept.
     """
     try:
         surfaces, ranges, poses = source.links_above(name, _LINKS)
     except FootError as error:
-        reason = str(error).removeprefix(f"{source.file}: ")[:100]
-        return None, f"the robot's other links are not read: {reason}"
+        return None, "the robot's other links are not read: " + str(error).removeprefix(f"{source.file}: ")[:100]
     if not surfaces:
         return None, "the links above the foot have no shape"
     clouds = [thinned(surface_points(triangles, _SPACING), _SPACING) for triangles in surfaces]

@@ -74,7 +74,7 @@ def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
         return foot_from_drawing(path, mesh_side=side, **options)
     options |= {"up": source.up, "sole_z": source.sole_z, "sole_band": sole_band}
     if kind in MODEL_FORMATS:
-        found = read_foot_body(path, source.body)
+        found = read_foot_body(path, source.body, options["unit"])
         side = cast(Any, source.mesh_side or found.side or "left")
         where = f"{path}, body '{source.body}'"
         options |= {"file_unit": "m", "mesh_side": side, "links": found.links}

@@ -8,6 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
+from plantar.shoes.foot import robot_model
 from plantar.shoes.foot.robot_model import read_foot_body, side_of_name
 from plantar.shoes.papers.mesh_files import write_stl
 
@@ -145,6 +146,26 @@ def test_bad_models_are_refused_in_one_line(tmp_path, box):
 )
 def test_the_side_is_read_from_the_name(name, side):
     assert side_of_name(name) == side
+
+
+@pytest.mark.parametrize(("scale", "length"), [(1e3, "200000"), (1e-3, "0.2")])
+def test_a_model_in_another_unit_is_refused_before_its_links_are_swept(tmp_path, monkeypatch, scale, length):
+    path = tmp_path / "walker.xml"
+    foot = f"<body name='foot'><joint/><geom type='box' size='{0.1 * scale} {0.05 * scale} {0.02 * scale}'/></body>"
+    path.write_text(f"<mujoco><worldbody><body><joint/><geom size='.1'/>{foot}</body></worldbody></mujoco>")
+    monkeypatch.setattr(robot_model, "swept_points", None)
+    with pytest.raises(FootError, match=rf"body 'foot': the foot is {length} mm long \(unit m as the file states\)"):
+        read_foot_body(path, "foot")
+    if scale > 1.0:
+        assert read_foot_body(path, "foot", "mm").links is None
+
+
+@pytest.mark.parametrize(("most", "swept"), [(30.0, "60"), (3000.0, "69")])
+def test_an_ankle_that_turns_all_round_is_swept_as_one_without_limits(tmp_path, most, swept):
+    path = tmp_path / "walker.xml"
+    foot = f"<body name='foot'><joint range='-{most} {most}'/><geom type='box' size='.1 .05 .02'/></body>"
+    path.write_text(f"<mujoco><worldbody><body><joint/><geom size='.1'/>{foot}</body></worldbody></mujoco>")
+    assert f"swept over 2 joint(s), {swept}, 69 degrees" in read_foot_body(path, "foot").notes[2]
 
 
 def test_the_real_robots_feet_are_those_of_its_meshes(real_data):
