@@ -279,8 +279,12 @@ class _Checked:
     def _torques(self, reach: PlanReach) -> list[Finding]:
         limits = np.array(self.robot.effort_limits or (self.robot.biped.effort_limits if self.robot.biped else ()))
         if not len(limits):
-            text = "the robot's file gives no effort_limits: not checked"
-            return [Finding("torque", float(reach.carrying.max()), math.inf, "N m", True, text)]
+            return [
+                Finding(
+                    *("torque", float(reach.carrying.max()), math.inf, "N m", True),
+                    text="the robot's file gives no effort_limits: not checked",
+                )
+            ]
         lean = self.walked.lean
         other = plan_reach(self.robot, self.legs, replace(self.walked, lean=0.0 if lean else self.robot.trunk_lean))
         upright, leaning = (other, reach) if lean else (reach, other)

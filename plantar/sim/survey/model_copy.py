@@ -105,8 +105,8 @@ class _Copy:
         return body
 
     def _height(self, top: int) -> float:
-        ankles = [float((self.legs.rotation @ leg.ankle)[2]) for leg in self.legs.by_side.values()]
-        return 1.2 * (float((self.legs.rotation @ self.positions[top])[2]) - min(ankles))
+        ankle = min(float((self.legs.rotation @ leg.ankle)[2]) for leg in self.legs.by_side.values())
+        return 1.2 * (float((self.legs.rotation @ self.positions[top])[2]) - ankle)
 
     def _body(self, parent: Element, body: int, position: NDArray[np.float64], rotation: Any, free: bool) -> None:
         model = self.model
@@ -189,8 +189,8 @@ class _Copy:
         body = model.body(name).id if kind == "body" else int(model.site(name).bodyid[0])
         own = model.site(name) if kind == "site" else None
         at, turn = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)) if own is None else (own.pos, own.quat)
-        wearer = next(e for e in root.iter("body") if e.get("name") == model.body(body).name)
-        SubElement(wearer, "site", name=site, pos=_text(at), quat=_text(turn))
+        wearers = (e for e in root.iter("body") if e.get("name") == model.body(body).name)
+        SubElement(next(wearers), "site", name=site, pos=_text(at), quat=_text(turn))
 
 
 def _text(values: Any) -> str:

@@ -38,7 +38,7 @@ _LOOPS = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
 
 @dataclass(frozen=True)
 class ModelSource:
-    """A compiled model, and what else its file states, by joint.
+    """A compiled model, and what else its file states.
 
     Attributes:
         model: The model with all joints, without motors or constraints.
@@ -78,7 +78,7 @@ def read_model(file: Path, folder: Path) -> ModelSource:
     """Returns a robot's model.
 
     Args:
-        file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) of a robot or scene.
+        file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml).
         folder: For converted meshes.
 
     Raises:
@@ -103,6 +103,9 @@ def read_model(file: Path, folder: Path) -> ModelSource:
     imus = _imus_of(spec)
     forget_own_simulation(spec)
     model = _compiled(spec, file)
+    bare = [b.name for b in spec.bodies[1:] if urdf and not b.explicitinertial and model.body(b.name).mass[0] > 1e-3]
+    weight = sum(float(model.body(name).mass[0]) for name in bare)
+    stated.notes += named_note(f"without an inertial, weighed by their shapes as water: {weight:.3g} kg", bare)
     return ModelSource(
         file=file,
         name=spec.modelname if spec.modelname not in ("", "MuJoCo Model") else file.stem,
@@ -112,6 +115,11 @@ def read_model(file: Path, folder: Path) -> ModelSource:
         upper_posture=posture,
         **vars(stated),
     )
+
+
+def named_note(text: str, names: Sequence[str]) -> list[str]:
+    """Gives text with names, if any."""
+    return [f"{text}: {', '.join(names)}"] if names else []
 
 
 def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, stated: _Stated) -> str:
@@ -132,11 +140,9 @@ def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, stated: _Sta
     for own in root.findall("mujoco"):
         root.remove(own)
     locked = [name for joint in root.findall("joint") if (name := _locked(joint, file))]
-    if locked:
-        stated.notes.append(
-            f"held, as their limits leave no range (lower and upper are 0 where a URDF leaves them out): "
-            f"{', '.join(locked)}"
-        )
+    stated.notes += named_note(
+        "held, as their limits leave no range (lower and upper are 0 where a URDF leaves them out)", locked
+    )
     for joint in root.findall("joint"):
         name, limit, mimic = joint.get("name", ""), joint.find("limit"), joint.find("mimic")
         if mimic is not None:

@@ -52,19 +52,9 @@ def robot_text(survey: Survey, fitted: FittedGait, shoe_notes: Sequence[str], we
         "",
         *_shoe(survey, robot, shoe_notes, weighed),
     ]
-    for side in SIDES:
-        lines += ["", *_leg(robot, side)]
-    for part in (
-        _torso(survey, robot),
-        _posture(robot),
-        _gait(fitted),
-        _servo(survey, fitted),
-        _balance(fitted),
-        _landing(),
-        *([_rocking()] if fitted.robot.rocks else []),
-    ):
-        lines += ["", *part]
-    return "\n".join(lines) + "\n"
+    parts = [*(_leg(robot, side) for side in SIDES), _torso(survey, robot), _posture(robot), _gait(fitted)]
+    parts += [_servo(survey, fitted), _balance(fitted), _landing(), *([_rocking()] if robot.rocks else [])]
+    return "\n".join([*lines, *(line for part in parts for line in ("", *part))]) + "\n"
 
 
 def _comment(text: str) -> list[str]:
@@ -94,28 +84,24 @@ def _shoe(survey: Survey, robot: Robot, notes: Sequence[str], weighed: bool) -> 
         f"origin = {_places(left, 6)}",
     ]
     angle = math.degrees(float(np.linalg.norm(vector_from_rotation(robot.sole_rotations["left"]))))
-    if angle > 1e-3:
-        lines += _comment(
-            f"The body's frame is turned by {angle:.1f} degrees against the sole: its roll, pitch and yaw."
-        )
-        lines.append(f"rotation = {_places(turns['left'], 4)}")
+    turned = f"The body's frame is turned by {angle:.1f} degrees against the sole: its roll, pitch and yaw."
+    lines += [*_comment(turned), f"rotation = {_places(turns['left'], 4)}"] if angle > 1e-3 else []
     unlike = not np.allclose(left * (1.0, -1.0, 1.0), right, atol=1e-4)
     twisted = not np.allclose(np.array(turns["left"]) * (-1.0, 1.0, -1.0), turns["right"], atol=1e-2)
-    if unlike or twisted:
-        lines += _comment("The right foot's body does not mirror the left one's.")
-    if unlike:
-        lines.append(f"origin_right = {_places(right, 6)}")
-    if twisted:
-        lines.append(f"rotation_right = {_places(turns['right'], 4)}")
+    lines += _comment("The right foot's body does not mirror the left one's.") if unlike or twisted else []
+    lines += [f"origin_right = {_places(right, 6)}"] if unlike else []
+    lines += [f"rotation_right = {_places(turns['right'], 4)}"] if twisted else []
     how = "of the shoe that was built" if weighed else "15.5 kg/m^2 of contact face, as built shoes have"
-    lines.append(f"thickness = {robot.shoe_thickness:g}  # m, of the planned shoe")
-    lines.append(f"mass = {robot.shoe_mass:.3g}  # kg, {how}")
-    lines += _comment(
-        "Damping ratio of the sole on the ground. A contact is as stiff as suits the foot, but carries the robot: with "
-        "1 light feet rattle between the edges of what they stand on, at some 60 Hz."
-    )
-    lines.append(f"contact_damping = {robot.contact_damping:g}")
-    return lines
+    return [
+        *lines,
+        f"thickness = {robot.shoe_thickness:g}  # m, of the planned shoe",
+        f"mass = {robot.shoe_mass:.3g}  # kg, {how}",
+        *_comment(
+            "Damping ratio of the sole on the ground. A contact is as stiff as suits the foot, but carries the robot: "
+            "with 1 light feet rattle between the edges of what they stand on, at some 60 Hz."
+        ),
+        f"contact_damping = {robot.contact_damping:g}",
+    ]
 
 
 def _leg(robot: Robot, side: Side) -> list[str]:
@@ -133,9 +119,8 @@ def _torso(survey: Survey, robot: Robot) -> list[str]:
     upright = f"Both legs hang on '{pelvis}'"
     if robot.torso_body != pelvis:
         upright += f"; '{robot.torso_body}', rigid with it, has x forward and z up"
-    imu = "the model names no IMU on the body: one at the torso's origin is assumed"
-    if survey.imu is not None:
-        imu = f"the IMU is where the model has its {survey.imu[0]} '{survey.imu[1]}'"
+    known = survey.imu is not None and f"the IMU is where the model has its {survey.imu[0]} '{survey.imu[1]}'"
+    imu = known or "the model names no IMU on the body: one at the torso's origin is assumed"
     return [
         "[torso]",
         *_comment(f"{upright}; {imu}."),

@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 from plantar.errors import RobotError
 from plantar.sides import SIDES, Side
 from plantar.sim.survey.leg_chains import Legs, find_legs
-from plantar.sim.survey.model_source import ModelSource, read_model
+from plantar.sim.survey.model_source import ModelSource, named_note, read_model
 from plantar.sim.survey.sole_frame import Sole, find_sole
 
 _SPEEDS = (0.5, 100.0)  # rad/s: what a model states outside of them is a placeholder
+_WEIGHTS = (0.1, 1000.0)  # kg: the least that walk weigh 1 kg, 1000 in g
 
 
 @dataclass(frozen=True)
@@ -83,14 +84,29 @@ def survey_model(file: Path, folder: Path) -> Survey:
     toes = {side: ", ".join(legs.by_side[side].toes) for side in SIDES}
     notes += [f"{toes[side]}: below the {side} foot, held (toes)" for side in SIDES if toes[side]]
     notes += _unlike(soles)
-    missing = ", ".join(name for name, effort in zip(names["left"], efforts, strict=True) if effort is None)
-    if missing:
-        notes.append(f"no torque limit is known of {missing}: none is taken, put the motors' in effort_limits")
+    notes += named_note(
+        "no torque limit is known, so that none is taken (put the motors' in effort_limits)",
+        [name for name, effort in zip(names["left"], efforts, strict=True) if effort is None],
+    )
+    sprung = [name for name in names["left"] + names["right"] if model.joint(name).stiffness.any()]
+    notes += named_note("the joints' springs are left out", sprung)
+    _check_masses(model, file)
     gains = [source.gains[name] for name in names["left"] if name in source.gains]
     return Survey(
         *(source, legs, soles, held, imu, efforts, tuple(kept) if len(kept) == left else ()),
         *(tuple(gains) if len(gains) == left else (), tuple(notes)),
     )
+
+
+def _check_masses(model: Any, file: Path) -> None:
+    weight, size = float(mujoco.mj_getTotalmass(model)), 0.5 * float(model.stat.extent)
+    radius = np.sqrt(model.body_inertia.max(axis=1) / np.maximum(model.body_mass, 0.01 * weight))
+    widest = int(radius.argmax())
+    if not (_WEIGHTS[0] <= weight <= _WEIGHTS[1] and radius[widest] <= size):
+        raise RobotError(
+            f"{file}: the robot weighs {weight:.3g} kg, and '{model.body(widest).name}' turns as if its mass were "
+            f"{radius[widest]:.2g} m off; allowed: 0.1 to 1000 kg, {size:.2g} m (masses in kg, inertias in kg m^2)"
+        )
 
 
 def explained(error: RobotError, notes: Iterable[str]) -> RobotError:
@@ -125,10 +141,8 @@ def _held(source: ModelSource, legs: Legs) -> tuple[dict[str, float], list[str]]
         if abs(angle - zero) > 1e-9:
             held[name] = angle
     keyframe = f"arms, head and waist are held as in the model's first keyframe ({len(held)} joints off zero)"
-    notes = [keyframe] if source.upper_posture and held else []
-    if outside:
-        notes.append(f"held at their limits, which leave zero out: {', '.join(outside[:6])}")
-    return held, notes
+    notes = named_note("held at their limits, which leave zero out", outside[:6])
+    return held, [*([keyframe] if source.upper_posture and held else []), *notes]
 
 
 def _on_body(model: Any, legs: Legs, imu: tuple[str, str]) -> bool:

@@ -33,8 +33,8 @@ def test_what_else_is_in_a_scene_is_no_part_of_the_robot(seed, tmp_path):
     assert (found.legs.rotation == alone.legs.rotation).all()
     assert found.imu == alone.imu
     assert any("no part of the robot: table, ball, door" in note for note in found.notes)
-    missing = "no torque limit is known of " + ", ".join(found.joint_names("left"))
-    assert any(note.startswith(missing) for note in found.notes)
+    missing = ", ".join(found.joint_names("left"))
+    assert any(note.endswith(f"(put the motors' in effort_limits): {missing}") for note in found.notes)
 
 
 def urdf(limit: str, kind: str = "revolute") -> str:
@@ -110,6 +110,46 @@ def test_what_is_called_an_imu_is_one(tmp_path, name, imu):
     body = f"<body name='b'><site name='{name}'/><geom size='.1'/></body>"
     file.write_text(f"<mujoco><worldbody>{body}</worldbody></mujoco>")
     assert read_model(file, tmp_path).imus == ((("site", name),) if imu else ())
+
+
+def test_links_of_a_urdf_that_are_weighed_by_their_shapes_are_named(tmp_path):
+    file = tmp_path / "robot.urdf"
+    box = '<collision><geometry><box size=".1 .1 .1"/></geometry></collision>'
+    file.write_text(
+        urdf("")
+        .replace('type="revolute"', 'type="fixed"')
+        .replace(
+            "</robot>",
+            f"""<link name="toe">{box}
+        </link><joint name="j" type="fixed"><parent link="arm"/><child link="toe"/></joint></robot>""",
+        )
+    )
+    assert read_model(file, tmp_path).notes == ["without an inertial, weighed by their shapes as water: 1 kg: toe"]
+
+
+@pytest.mark.parametrize(
+    ("mass", "inertia", "words"),
+    [
+        (1e3, 1e3, r"weighs 6.3e\+04 kg, and '.*; allowed: 0.1 to 1000 kg, .* inertias in kg m"),
+        (1e-3, 1e-3, "weighs 0.063"),
+        (1.0, 1e3, "weighs 63 kg, and 'trunk' turns as if its mass were .* m off; allowed: .* kg, .* m "),
+    ],
+)
+def test_masses_and_inertias_in_other_units_are_refused(tmp_path, mass, inertia, words):
+    truth = random_biped(10, tmp_path)
+    spec = mujoco.MjSpec.from_file(str(truth.file))
+    for body in spec.bodies[1:]:
+        body.mass, body.inertia = mass * body.mass, inertia * body.inertia
+    truth.file.write_text(spec.to_xml())
+    with pytest.raises(RobotError, match=words):
+        survey_model(truth.file, tmp_path)
+
+
+def test_springs_of_legs_are_left_out_with_a_note(tmp_path):
+    truth = random_biped(10, tmp_path)
+    knee = truth.joints["left"][3]
+    truth.file.write_text(truth.file.read_text().replace(f'name="{knee}"', f'name="{knee}" stiffness="9"'))
+    assert f"the joints' springs are left out: {knee}" in survey_model(truth.file, tmp_path).notes
 
 
 MARKED = """
