@@ -74,7 +74,6 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     present = _measuring(table.rows)
     if not present.any():
         raise FormatError("no cell of the matrix holds a number")
-    flat = table.columns(present)
     kind: Kind = "insole"
     if columns * pitch[1] > _WIDEST_FOOT or rows * pitch[0] > _LONGEST_FOOT:
         kind = "platform"
@@ -83,9 +82,15 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         warnings.append("the file does not state which foot it is: taken as the left one (--side overrides)")
     if options.layout is None and kind == "insole":
         warnings.append("the first row of the matrix is taken as the toes, its columns as seen from above")
+    warnings += [
+        f"the header states {key} {header[key]}: the matrix is taken as it is written; toes and heel or left and right "
+        "may be exchanged (check the pressure picture)"
+        for key in ("MIRROR_ROW", "MIRROR_COL")
+        if header.get(key, "").upper() not in ("", "0", "OFF", "NO", "FALSE")
+    ]
     name = f"{header.get('SENSOR_TYPE', 'Tekscan sensor')} of {rows} x {columns}".strip()
     places = present.reshape(rows, columns)
-    foot = foot_of_matrix(side or "left", flat, unit, options, places, pitch, name, _THRESHOLD)
+    foot = foot_of_matrix(side or "left", table.columns(present), unit, options, places, pitch, name, _THRESHOLD)
     return PressureRecording(
         path=path,
         format=FORMAT.name,
@@ -207,10 +212,9 @@ def _unit(header: dict[str, str], options: ReadOptions, warnings: list[str]) -> 
     stated = header.get("UNITS", "")
     first = re.split(r"[\s,;]", stated)[0]
     unit = unit_of_values(first if find_unit(stated) is None and find_unit(first) else stated, options, warnings)
-    limit = header.get("SATURATION_PRESSURE", "").split()
-    other = find_unit(limit[1]) if len(limit) > 1 else None
-    if options.unit is None and limit and len(limit) > 1 and other != find_unit(stated) and unit.kind == "pressure":
-        warnings.append(f"the readings are stated in {stated}, the saturation pressure in {limit[1]}: check the unit")
+    other = (*header.get("SATURATION_PRESSURE", "").split(), stated, stated)[1]  # after its number, if it has one
+    if options.unit is None and find_unit(other) != find_unit(stated) and unit.kind == "pressure":
+        warnings.append(f"the readings are stated in {stated}, the saturation pressure in {other}: check the unit")
     if unit.kind == "raw" and stated:
         warnings.append("the readings are raw counts: forces and pressures cannot be given")
     return unit

@@ -127,6 +127,15 @@ def test_missing_fields_are_assumed_aloud(tmp_path, frames):
     assert any("do not agree" in w for w in read_recording(path).warnings)
 
 
+@pytest.mark.parametrize("key", ["MIRROR_ROW", "MIRROR_COL"])
+def test_a_mirrored_matrix_is_told(tmp_path, frames, key):
+    path = tmp_path / "walk.asf"
+    for value, told in (("1", 1), ("0", 0)):
+        export(path, frames)
+        path.write_text(path.read_text().replace("ASCII_DATA", f"{key} {value}\nASCII_DATA"))
+        assert sum(f"{key} {value}: the matrix is" in warning for warning in read_recording(path).warnings) == told
+
+
 def test_lost_damaged_and_cut_frames(tmp_path, frames):
     path = tmp_path / "walk.asf"
     export(path, frames, numbers=[i + 1 if i < 20 else i + 31 for i in range(40)])
