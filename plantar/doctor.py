@@ -83,7 +83,7 @@ def examine(libraries: Mapping[str, Mapping[str, str]] = LIBRARIES) -> dict[str,
         "plantar": import_module("plantar").__version__,
         "python": platform.python_version(),
         "platform": platform.platform(),
-        "compiled": _kernels_are_compiled(),
+        "compiled": bool(import_module("plantar.kernels").compiled),
         "opengl": sys.platform != "linux" or any(find_library(name) is not None for name in ("EGL", "OSMesa")),
         "libraries": found,
         "holds": not wrong,
@@ -130,10 +130,6 @@ def _state(name: str, module: str, extra: str) -> dict[str, str | None]:
     except DependencyError as error:
         return {"version": installed, "problem": "missing" if installed is None else str(error)}
     return {"version": installed, "problem": None}
-
-
-def _kernels_are_compiled() -> bool:
-    return bool(import_module("plantar.kernels").compiled)
 
 
 def _told(problem: str | None) -> str:

@@ -222,7 +222,9 @@ def compare_recordings(frames: int = FRAMES, rounds: int = 5) -> Iterator[tuple[
     points = [corners.of(m) for m in masks[::10]]
     hulls = [
         Route("plantar", lambda f: batch.support_polygons(layout, f).area, [part], lambda a: a[::10], ours=True),
-        Route("shapely, a loop", lambda f: [_area(corners.of(row > level)) for row in f], [part], lambda a: a[::10]),
+        Route(
+            "shapely, a loop", lambda f: [hull_shapely(corners.of(row > level)) for row in f], [part], lambda a: a[::10]
+        ),
     ]
     areas = np.array([exact.hull_area_exact(p) if len(p) else 0.0 for p in points])
     yield (
@@ -236,10 +238,6 @@ _FEW = 50  # Frames whose wrench is compared with the reference
 
 def _few(wrenches: Array) -> Array:
     return wrenches[:_FEW]
-
-
-def _area(points: Array) -> float:
-    return hull_shapely(points) if len(points) else 0.0
 
 
 def compare_forms(rounds: int = 5) -> Iterator[tuple[str, list[Result]]]:

@@ -206,7 +206,7 @@ def _end(result: dict[str, Any], parts: dict[str, Any], as_json: bool) -> None:
 
     text = "\n".join(analysis_text(metrics, name) for name, metrics in parts.items())
     end_command(result, as_json, text + file_lines(result["files"]))
-    for name, metrics in () if as_json else parts.items():
+    for name, metrics in () if as_json else {"": result, **parts}.items():
         warnings, about = metrics["warnings"], f" of {name}" if name else ""
         for warning in warnings[:_NOTES]:
             print_note(f"note{about}: {warning}")

@@ -23,6 +23,7 @@ from plantar.gait.analysis.pages.sole_figures import figure_pair
 from plantar.gait.analysis.results import Analysis, write_analysis
 from plantar.gait.analysis.subject import Subject
 from plantar.plotting import COLOURS, new_figure
+from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import SIDES, Side
 
 # Measures whose difference is drawn.
@@ -39,6 +40,7 @@ _MAIN = (
     "cop_path_m",
     "cop_velocity_m_s",
 )
+_SENSORS = {"insole": "insoles", "platform": "a platform", "robot": "a robot's soles", "plate": "force plates"}
 
 
 def compare_recordings(
@@ -59,15 +61,15 @@ def compare_recordings(
         a: First recording.
         b: Second one.
         out: Output folder.
-        format: Of both files; by content where None.
+        format: Of both; by content where None.
         layout: Layout file for both.
         progress: Called with a share 0..1 and the work.
         options: What else is known of both.
-        choices: Steps in the means, and events used.
+        choices: Steps in the means, events used.
         subject: Person in both.
 
     Returns:
-        "a" and "b": metrics of each; "difference": `difference_of` each foot; "files": paths written.
+        "a" and "b": metrics of each; "difference": `difference_of` each foot; "warnings"; "files": paths written.
 
     Raises:
         FormatError: If unreadable.
@@ -99,12 +101,21 @@ def compare_recordings(
 def _write_comparison(analyses: Mapping[str, Analysis], folder: Path, names: tuple[str, str]) -> dict[str, Any]:
     pairs = _pairs(analyses["a"], analyses["b"])
     difference = {name: difference_of(analyses, one, other) for name, (one, other) in pairs.items()}
-    metrics: dict[str, Any] = {**{k: dict(v.metrics) for k, v in analyses.items()}, "difference": difference}
-    embedded = write_figures(_figures(analyses, pairs), folder)
+    metrics: dict[str, Any] = {k: dict(v.metrics) for k, v in analyses.items()} | {"difference": difference}
+    metrics["warnings"] = _unlike(analyses["a"].recording, analyses["b"].recording)
+    figures = write_figures(_figures(analyses, pairs, difference), folder)
     (folder / "comparison.json").write_text(json.dumps(metrics, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-    page = comparison_page(metrics, embedded, names, ("a/report.html", "b/report.html"))
+    page = comparison_page(metrics, figures, names, ("a/report.html", "b/report.html"))
     (folder / "report.html").write_text(page, encoding="utf-8")
     return metrics
+
+
+def _unlike(*recordings: PressureRecording) -> list[str]:
+    areas = [min((f.layout.cell_area for f in r.feet.values() if f.layout), default=0.0) for r in recordings]
+    cells = [f"cells of {1e6 * area:.3g} mm2" if area else "no cells" for area in areas]
+    one, other = (f"{_SENSORS[r.kind]} ({what})" for r, what in zip(recordings, cells, strict=True))
+    doubt = f"A is of {one}, B of {other}: differences may be of the sensors, peak pressures and areas above all"
+    return [] if len({r.kind for r in recordings}) == 1 and max(areas) <= 1.5 * min(areas) else [doubt]
 
 
 def _pairs(a: Analysis, b: Analysis) -> dict[str, tuple[Side, Side]]:
@@ -151,7 +162,9 @@ def _pooled_sd(x: Mapping[str, Any], y: Mapping[str, Any]) -> float | None:
     return math.sqrt(((x["n"] - 1) * x["sd"] ** 2 + (y["n"] - 1) * y["sd"] ** 2) / (x["n"] + y["n"] - 2))
 
 
-def _figures(analyses: Mapping[str, Analysis], pairs: Mapping[str, tuple[Side, Side]]) -> list[tuple[str, Any, str]]:
+def _figures(
+    analyses: Mapping[str, Analysis], pairs: Mapping[str, tuple[Side, Side]], difference: Mapping[str, Any]
+) -> list[tuple[str, Any, str]]:
     a, b = analyses["a"], analyses["b"]
     return [
         (
@@ -164,7 +177,7 @@ def _figures(analyses: Mapping[str, Analysis], pairs: Mapping[str, tuple[Side, S
             _curves(a, b, pairs),
             "Vertical force over the stance in A and B: mean and ± 1 SD of the complete steps",
         ),
-        ("difference", _bars(analyses, pairs), "Difference of the main measures, B less A in percent of A"),
+        ("difference", _bars(difference), "Difference of the main measures, B less A in percent of A"),
     ]
 
 
@@ -185,22 +198,18 @@ def _curves(a: Analysis, b: Analysis, pairs: Mapping[str, tuple[Side, Side]]) ->
     return figure
 
 
-def _changes(difference: Mapping[str, Any]) -> dict[str, float]:
-    found = {key: difference[key]["percent"] for key in _MAIN if key in difference}
-    return {key: percent for key, percent in found.items() if percent is not None}
-
-
-def _bars(analyses: Mapping[str, Analysis], pairs: Mapping[str, tuple[Side, Side]]) -> Any | None:
-    rows = {name: _changes(difference_of(analyses, one, other)) for name, (one, other) in pairs.items()}
+def _bars(difference: Mapping[str, Mapping[str, Any]]) -> Any | None:
+    rows = {
+        name: {k: d["percent"] for k, d in own.items() if d["percent"] is not None} for name, own in difference.items()
+    }
     keys = [k for k in _MAIN if any(k in r for r in rows.values())]
     if not keys:
         return None
     figure, axes = new_figure(8.0, 1.0 + 0.4 * len(keys))
     places, height = np.arange(len(keys))[::-1], 0.8 / max(len(rows), 1)
     for i, (name, values) in enumerate(rows.items()):
-        colour = COLOURS["right"] if name == "right" else COLOURS["left"]
-        heights = [values.get(k, 0.0) for k in keys]
-        axes.barh(places - (i - 0.5 * (len(rows) - 1)) * height, heights, height=0.9 * height, color=colour, label=name)
+        at, heights = places - (i - 0.5 * (len(rows) - 1)) * height, [values.get(k, 0.0) for k in keys]
+        axes.barh(at, heights, height=0.9 * height, color=COLOURS["right" if name == "right" else "left"], label=name)
     axes.axvline(0.0, color="#111111", linewidth=0.8)
     axes.set_yticks(places, [MEASURES[k].title for k in keys])
     axes.set_xlabel("B less A (% of A)")

@@ -65,6 +65,20 @@ def test_left_against_right(tmp_path, layout):
     assert result["difference"]["left and right"]["impulse_Ns"]["percent"] == pytest.approx(100.0, abs=3.0)
 
 
+def test_other_sensors_are_told(tmp_path, layout):
+    """Insoles with plates, and cells of another size; the same insoles without a word."""
+    a, plates = write_walk(tmp_path / "a.npz", ("left", "right")), tmp_path / "plates.csv"
+    with np.load(a) as held:
+        table = np.column_stack([held["time"], held["left"].sum(axis=1), held["right"].sum(axis=1)])
+    np.savetxt(plates, table, delimiter=",", header="time (s),left Fz (N),right Fz (N)", comments="")
+    result = compare_recordings(a, plates, tmp_path / "out")
+    assert result["warnings"][0].startswith("A is of insoles (no cells), B of force plates (no cells): differences may")
+    assert "A is of insoles" in (tmp_path / "out" / "report.html").read_text()
+    done = CliRunner().invoke(cli.app, ["analyze", "--compare", str(a), str(plates), "-o", str(tmp_path / "out")])
+    assert "note: A is of insoles (no cells), B of force plates" in done.stderr
+    assert compare_recordings(a, a, tmp_path / "same", layout=layout)["warnings"] == []
+
+
 def test_what_cannot_be_compared(tmp_path, layout):
     a = write_walk(tmp_path / "a.npz", ("left",))
     b = write_walk(tmp_path / "b.npz", ("left",), unit="raw")

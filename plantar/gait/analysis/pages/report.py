@@ -116,7 +116,7 @@ def comparison_page(
         names: Of the recordings.
         links: Their own reports, relative to this page.
     """
-    parts = []
+    parts, unlike = [], warning_list(comparison["warnings"])
     for key, name, link in zip(("a", "b"), names, links, strict=True):
         metrics = comparison[key]
         parts.append(
@@ -124,7 +124,7 @@ def comparison_page(
             f'<p><a href="{html.escape(link)}">Full report of {key.upper()}</a></p></div>'
         )
     sections = [
-        Section("summary", "Summary", f'<div class="columns">{"".join(parts)}</div>'),
+        Section("summary", "Summary", f'{unlike}<div class="columns">{"".join(parts)}</div>'),
         Section("measures", "Measures side by side", comparison_table(comparison)),
         figures_of(figures),
     ]
