@@ -178,7 +178,9 @@ def _quantity(words: tuple[str, ...], found: set[str], axis: str, ground: bool) 
         return "cell"
     if "cop" in found or {"pressure", "center"} <= set(words) or ("ground" in words and "p" in words):
         return "cop"
-    if "tz" in words or ("moment" in found and ("force" not in found or _ends_as_moment(words, axis))):
+    # As ground_force_m1_x, of a file whose headings all begin with the force's words.
+    last = bool(axis) and words[-1] in ("m", *"xyz") and not {"m", "mom", "moment", "torque"}.isdisjoint(words)
+    if "tz" in words or ("moment" in found and ("force" not in found or last)):
         return "moment"
     if "force" in found or ("vertical" in found and not {"cell", "pressure"} & found) or (ground and axis):
         return "force"
@@ -191,8 +193,3 @@ def _quantity(words: tuple[str, ...], found: set[str], axis: str, ground: bool) 
     if axis:
         return "force" if "plate" in found else "foreign"
     return "number"
-
-
-def _ends_as_moment(words: tuple[str, ...], axis: str) -> bool:
-    # As ground_force_m1_x, of a file whose headings all begin with the force's words.
-    return bool(axis) and words[-1] in ("m", *"xyz") and not {"m", "mom", "moment", "torque"}.isdisjoint(words)

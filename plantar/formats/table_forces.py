@@ -24,6 +24,7 @@ _FEWEST, _LEVELS, _LEAST = 3, 10, 9.0
 _WEIGHTS = (0.7, 4.0)  # Largest vertical forces without a unit that are body weights and no N
 # Weight in N that forces in body weights are read with, so that levels in N hold; they are divided by it again.
 _NOMINAL = 700.0
+_TOTALS = {"total", "sum", "gesamt", "summe", "totale", "tot"}  # of both feet, beside each
 
 
 def is_force_table(headings: Sequence[Heading]) -> bool:
@@ -77,8 +78,7 @@ def feet_of_forces(
     scale = 100.0 / _NOMINAL if relative else 1.0
     sides = [p.side for p in made if p.side]
     named = len(sides) == len(made)
-    plates = any(columns[i].plate for own in loaded.values() for i in own["force"].values())
-    if named and not plates and len(made) <= 2:
+    if named and len(made) <= 2 and not any(columns[i].plate for o in loaded.values() for i in o["force"].values()):
         totals = {s: _upward(p.force[:, 2] * scale, p.name, warnings) for s, p in zip(sides, made, strict=True)}
         feet = {s: FootRecording(s, totals[s][:, None], None, total=totals[s]) for s in SIDES if s in totals}
         warnings.append("one force a foot: no cells, so no pressures, areas and centres of pressure")
@@ -110,10 +110,12 @@ def _take_out_marks(table: NDArray[np.float64], columns: Mapping[int, Heading], 
 
 def _by_plate(columns: Mapping[int, Heading]) -> dict[_Key, dict[str, dict[str, int]]]:
     groups: dict[_Key, dict[str, dict[str, int]]] = {}
+    both = {h.side for h in columns.values() if h.quantity == "force"} >= set(SIDES)
     for i, h in columns.items():
-        if h.quantity in ("force", "cop", "moment", "place"):
-            own = groups.setdefault((h.side, h.number), {}).setdefault(h.quantity, {})
-            own.setdefault(h.axis, i)
+        if h.quantity in ("force", "cop", "moment", "place") and (
+            h.side is not None or not both or _TOTALS.isdisjoint(h.words.split())
+        ):
+            groups.setdefault((h.side, h.number), {}).setdefault(h.quantity, {}).setdefault(h.axis, i)
     return {key: own for key, own in groups.items() if "force" in own}
 
 

@@ -216,7 +216,9 @@ def _checked_times(
             time = time / stated
             warnings.append(f"the frames' times count them: taken from the rate of {stated:g} Hz that the file states")
     steps = np.diff(time)
-    forward, measured = steps[np.isfinite(steps) & (steps > 0.0)], None
+    back = int((steps < 0.0).sum())
+    rises = np.diff(np.sort(time)) if _BEGUN * back > len(steps) > back else steps  # where rows are exchanged
+    forward, measured = rises[np.isfinite(rises) & (rises > 0.0)], None
     if len(forward):  # the mean of the usual steps: times may be rounded to ms, and frames may be lost
         usual = forward[np.abs(forward / np.median(forward) - 1.0) <= 0.5]
         measured = 1.0 / float(usual.mean())
@@ -241,8 +243,7 @@ def _checked_times(
         if (np.abs(time - grid) <= 1.0 / rate + np.median(forward)).all():
             warnings.append(f"frames share their times: taken from the rate of {rate:g} Hz")
             return grid, rate, tuple(warnings)
-        count = int((steps == 0.0).sum())
-        warnings.append(f"{count} frame(s) have the time of the one before: put between it and the next")
+        warnings.append(f"{(steps == 0.0).sum()} frame(s) have the time of the one before: put between it and the next")
         return _apart(time, float(np.median(forward))), rate, tuple(warnings)
     off = ~(np.abs(time - grid) <= 0.5 / rate)
     if not off.any() or off.mean() <= 0.01:

@@ -113,3 +113,10 @@ def test_frames_that_almost_coincide_have_no_velocity_of_any_size():
     kept, _, notes = sampling(uneven, None)
     assert (kept == uneven).all()
     assert "not evenly spaced" in notes[0]
+
+
+def test_exchanged_rows_leave_the_rate_as_it_is():
+    time = 0.01 * np.arange(300.0).reshape(-1, 2)[:, ::-1].ravel()
+    _, rate, notes = sampling(time, None)
+    assert rate == pytest.approx(100.0)
+    assert "not in order" in notes[0]

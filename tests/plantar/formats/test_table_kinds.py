@@ -85,9 +85,10 @@ def test_headings_of_two_feet(tmp_path, names):
     check(analyse(path))
 
 
-def test_the_sum_of_two_feet_beside_them_is_no_plate(tmp_path):
+@pytest.mark.parametrize("names", ["left (N),right (N),total (N)", "left Fz (N),right Fz (N),sum Fz (N)"])
+def test_the_sum_of_two_feet_beside_them_is_no_plate(tmp_path, names):
     path = tmp_path / "walk.csv"
-    path.write_text("Time (s),left (N),right (N),total (N)\n" + rows([TIME, LEFT, RIGHT, LEFT + RIGHT], ","))
+    path.write_text(f"Time (s),{names}\n" + rows([TIME, LEFT, RIGHT, LEFT + RIGHT], ","))
     check(analyse(path))
 
 

@@ -167,10 +167,6 @@ def _bars_row(name: str, cells: Sequence[str], bars: Sequence[tuple[float, str]]
 _UNITS = {"steps": "", "largest difference": "\u00a0mm"}
 
 
-def _figure(value: float) -> str:
-    return f"{value:.0f}" if value == round(value) else number(value)
-
-
 def _papers(found: Mapping[str, Any]) -> str:
     rows = found.get("experiments", ())
     if not rows:
@@ -183,7 +179,8 @@ def _papers(found: Mapping[str, Any]) -> str:
             lost = "fell" if one["fell"] else "" if one["completed"] else "not completed"
             ends = ["fell" if one["printed_fell"] else "", lost]
             figures = [
-                f"{'–' if value is None else _figure(value) + unit}{f', {end}' if end else ''}"
+                f"{'–' if value is None else (f'{value:.0f}' if value % 1 == 0 else number(value)) + unit}"
+                f"{f', {end}' if end else ''}"
                 for value, end in zip((printed, ours), ends, strict=True)
             ]
             cells = [*figures, html.escape(one["source"].replace(" ", "\u00a0"))]

@@ -279,7 +279,7 @@ class ForceTracking(Experiment):
 
     def verdict(self) -> Verdict:
         s = self.settings
-        rms = {name: _rms(errors) for name, errors in self._errors.items()}
+        rms = {n: float(np.sqrt(np.mean(np.square(e)))) if e else math.nan for n, e in self._errors.items()}
         worst = max((abs(v) for v in self._errors["distance"]), default=0.0)
         forces = []
         limits = {"free": s.largest_free, "disturbed": s.largest_disturbed if any(s.windows().values()) else 0.0}
@@ -314,10 +314,6 @@ class ForceTracking(Experiment):
     def plot(self, folder: Path) -> Sequence[Path]:
         windows = self.settings.windows()
         return [self.record.plot(folder / "force.png", f"seed {self.seed}", windows, bool(self.settings.contact))]
-
-
-def _rms(errors: list[float]) -> float:
-    return float(np.sqrt(np.mean(np.square(errors)))) if errors else math.nan
 
 
 def _rounded(value: float) -> float | None:
