@@ -11,7 +11,7 @@ from plantar.gait.estimate.command_frame import CommandFrame
 from plantar.gait.feet.landing import Landing
 from plantar.gait.feet.swing_compliance import SwingCompliance
 from plantar.gait.feet.swing_flight import PolynomialSwing
-from plantar.gait.feet.swing_kind import Swing, SwingKind, SwingStart
+from plantar.gait.feet.swing_kind import HURRIED, Swing, SwingKind, SwingStart
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase, PhaseKind
@@ -89,7 +89,7 @@ class FootMotion:
         self._swing: Swing | None = None
         self._side: Side = "left"
         self._target: Footstep | None = None
-        self._start = 0.0
+        self._start = self._unhurried = 0.0
         self._step = -1
         self.surprise = 0.0
         self._lift_off = self._touchdown = False
@@ -103,6 +103,11 @@ class FootMotion:
     def last_side(self) -> Side | None:
         """Foot of the current or last swing; None before."""
         return None if self._swing is None else self._side
+
+    @property
+    def hurried(self) -> bool:
+        """Whether the last swing has to catch the body: it comes down wherever it is, and soles turn to no ground."""
+        return self._swing is not None and self._swing.duration < HURRIED * self._unhurried
 
     @property
     def proximity_sides(self) -> tuple[Side, ...]:
@@ -301,7 +306,7 @@ class FootMotion:
             approach_speed=self._landing.approach_speed,
             rises_first=side in self._rises_first,
         )
-        self._swing = self._kind.begin(start)
+        self._swing, self._unhurried = self._kind.begin(start), start.duration
         self._rises_first.discard(side)
         self._wary -= 1
         self._step, self._side, self._target = index, side, target
@@ -383,7 +388,8 @@ class FootMotion:
                 if compliance.stopped:
                     planned = position
             else:
-                drop = compliance.descent(view, falling, remaining, time_left, period)
+                away = 0.0 if self.hurried else remaining
+                drop = compliance.descent(view, falling, away, time_left, period)
             if view is not None and remaining < _NEARLY_THERE * self._leg:
                 self.surprise = float(sense.position[2] - frame.offset[2]) - view.middle - self._expected
             turn = compliance.turn(self._tilts[side], view if remaining < _CLOSE_BY * self._leg else None, period)

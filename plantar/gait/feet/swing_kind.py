@@ -10,6 +10,9 @@ from plantar.gait.plan.leg_momentum import haste
 from plantar.record import Record
 from plantar.settings.part import Part
 
+HURRIED = 0.88
+"""Share of a swing's first duration below which it is hurried; times alone shorten it by a tenth at most."""
+
 
 class SwingStart(Record, frozen=True):
     """Start of a swing, command frame.

@@ -287,7 +287,7 @@ class Footing:
 
     def conform(self, phase: Phase, zmp: NDArray[np.float64], state: BaseState, sensed: Sensed) -> None:
         """Turn a phase's standing soles to the ground, by `sensed`, `state` and desired `zmp`."""
-        if self.conformity is None:
+        if self.conformity is None or self.motion.hurried:
             return
         plan, incoming = self._plan.view, None
         if 0 < phase.step < plan.count:  # not at the two ends of the walk

@@ -33,6 +33,15 @@ def test_a_step_catches_the_push_that_ankles_do_not():
     assert fallen["fell"]
 
 
+@pytest.mark.parametrize("angle, cycle, impulse", [(180, 0.6875, 55), (45, 0.6875, 60)])
+def test_a_foot_that_has_to_catch_the_body_lands_without_feeling_its_way(angle, cycle, impulse):
+    """It fell with a foot that hovered until it was over its place."""
+    hands = ["push.small=0", "push.verdict=walk", "direction=angle", "push.with_swing=false", "push.duration=0.1"]
+    place = [f"push.angle={angle}", "push.step=3", f"push.cycle={cycle}", f"push.impulse={impulse}"]
+    _, out = run("push-step", 1000, "walk.steps=7", *hands, *place)
+    assert not out["fell"]
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 @pytest.mark.parametrize("seed", range(4))
