@@ -1,4 +1,4 @@
-"""The largest push that H1 survives in each direction and phase of a step, next to what any controller could capture.
+"""The largest push that H1 and HRP-2Kai survive in each direction and phase of a step, next to what any controller could capture.
 
 `python benchmarks/outcomes.py MINUTES survival_map`: hands push with a half sine of 0.1 s at the height of the CoM, in
 8 directions at 8 phases of a step, in place and at 0.2 m/s. Each cell is bisected over impulses of 5 to 60 N s, first
@@ -28,8 +28,11 @@ STEP, STEPS, SEED = 4, 10, 1000
 ALL = "all joints"
 LENGTHS = {"in place": 0.0, "0.2 m/s": 0.2}
 """Speeds in m/s."""
+MAPS = ("as it is", "hrp2kai")
+"""Variants whose motors are lifted where they end a push."""
 VARIANTS: dict[str, tuple[str, ...]] = {
     "as it is": (),
+    "hrp2kai": (),
     "ankle only": ("control.step_adjustment=false", "control.step_timing=false"),
     "push measured by the skin": ("control.push_estimate=skin",),
     "push not estimated": ("control.push_estimate=off",),
@@ -44,6 +47,11 @@ class Cell(NamedTuple):
     angle: int
     phase: float
 
+    @property
+    def robot(self) -> str:
+        """Robot that is pushed."""
+        return "hrp2kai" if self.variant == "hrp2kai" else "h1"
+
     def name(self, impulse: float, lifted: str = "") -> str:
         """Name of its run with an impulse in N s, and with a joint's stronger motor."""
         rest = f", {lifted} lifted" if lifted else ""
@@ -54,16 +62,16 @@ CELLS = [Cell(v, w, a, p) for v in VARIANTS for w in LENGTHS for a in DIRECTIONS
 
 
 @functools.lru_cache
-def simulation() -> Any:
+def simulation(robot: str) -> Any:
     from plantar.sim.run.runner import Simulation
     from plantar.sim.run.scene import load_scene
 
-    return Simulation(load_scene("push-step", ["push.impulse=0", "push.small=0", "push.verdict=walk"]), 0)
+    return Simulation(load_scene("push-step", ["push.impulse=0", "push.small=0", "push.verdict=walk"], robot), 0)
 
 
 def settings(cell: Cell, impulse: float) -> tuple[str, ...]:
     """Settings of a cell's run: the push falls into step 4, counted in strides from the single support before."""
-    timing = simulation().settings.timing
+    timing = simulation(cell.robot).settings.timing
     single, whole = timing.single_support, timing.single_support + timing.double_support
     cycle = (single + cell.phase * whole) / (2.0 * whole)
     return (
@@ -84,7 +92,7 @@ def settings(cell: Cell, impulse: float) -> tuple[str, ...]:
 
 
 @functools.lru_cache
-def bounds(walk: str) -> dict[tuple[int, float], float]:
+def bounds(walk: str, robot: str) -> dict[tuple[int, float], float]:
     """The largest push in N s that any footsteps, timing and ZMP capture, by direction and phase."""
     from capture_limit import CaptureLimits
     from periodic_walk import PeriodicWalk, capture_map
@@ -93,7 +101,7 @@ def bounds(walk: str) -> dict[tuple[int, float], float]:
     from plantar.gait.propose.ssp_opt import footstep_region, touching_distance
     from plantar.mechanics.lip import pendulum_frequency
 
-    known = simulation()
+    known = simulation(robot)
     chosen, robot = known.settings, known.robot
     rules, timing = chosen.step_adjustment, chosen.timing
     touching = touching_distance({side: layout.outline for side, layout in robot.layouts.items()})
@@ -130,25 +138,25 @@ def delivered(simulation: Any, out: dict[str, Any]) -> float | str:
     return "" if push is None else round(math.hypot(*push["delivered_Ns"][:2]), 2)
 
 
-def first_held(simulation: Any, out: dict[str, Any]) -> str:
-    """The joint that was first at its torque limit after the push."""
-    push = first_push(out)
-    return "" if push is None else simulation.judge.joints.first_held(push["time_s"]) or ""
+def most_held(simulation: Any, out: dict[str, Any]) -> str:
+    """The joint that was longest at its torque limit."""
+    held = out["torque_limit"]["joints"]
+    return max(held, key=held.get, default="")
 
 
-COLUMNS = {"impulse_Ns": "push.impulse_Ns", "delivered_Ns": delivered, "fell": "fell", "first_held": first_held}
+COLUMNS = {"impulse_Ns": "push.impulse_Ns", "delivered_Ns": delivered, "fell": "fell", "most_held": most_held}
 BENCHMARK = Benchmark("survival_map", COLUMNS, ())
 
 
 def goal(cell: Cell) -> float:
     """What has to be survived in N s: 85 % of the bound, on the grid of impulses."""
-    wanted = SHARE * bounds(cell.walk)[cell.angle, cell.phase]
+    wanted = SHARE * bounds(cell.walk, cell.robot)[cell.angle, cell.phase]
     return min((v for v in IMPULSES if v >= wanted - 1e-9), default=IMPULSES[-1])
 
 
 def outcomes(rows: Sequence[dict[str, str]]) -> dict[str, tuple[bool, str]]:
-    """Whether each run was survived, and which joint was held first, by the run's name."""
-    return {r["case"]: (r["fell"] == "False", r["first_held"]) for r in latest(rows)}
+    """Whether each run was survived, and which joint was most at its torque limit, by the run's name."""
+    return {r["case"]: (r["fell"] == "False", r["most_held"]) for r in latest(rows)}
 
 
 def survived(cell: Cell, known: dict[str, tuple[bool, str]]) -> tuple[float, float]:
@@ -162,14 +170,14 @@ def following(cell: Cell, known: dict[str, tuple[bool, str]]) -> Case | None:
     """The next run of a cell, or None."""
 
     def case(impulse: float, lifted: str = "") -> Case:
-        file = str(stronger(lifted)) if lifted else ""
-        return Case(cell.name(impulse, lifted), "push-step", "h1", settings(cell, impulse), 0, file=file)
+        file = str(stronger(lifted, cell.robot)) if lifted else ""
+        return Case(cell.name(impulse, lifted), "push-step", cell.robot, settings(cell, impulse), 0, file=file)
 
     first = goal(cell)
     if cell.name(first) not in known:
         return case(first)
     good, held = known[cell.name(first)]
-    if not good and held and cell.variant == "as it is":
+    if not good and held and cell.variant in MAPS:
         for lifted in (held, ALL):
             if cell.name(first, lifted) not in known:
                 return case(first, lifted)
@@ -180,14 +188,14 @@ def following(cell: Cell, known: dict[str, tuple[bool, str]]) -> Case | None:
     return case(open_ones[len(open_ones) // 2]) if open_ones else None
 
 
-def stronger(joint: str) -> Path:
-    """File of an H1 whose motors of one kind, or all, are four times as strong."""
+def stronger(joint: str, robot: str) -> Path:
+    """File of a robot whose motors of one kind, or all, are four times as strong."""
     from plantar.robots.robot_file import load_robot
 
     kinds = ("hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll")
     kind = "all" if joint == ALL else joint.split("_", 1)[1]
-    source = load_robot("h1").path
-    folder = Path(gettempdir()) / f"plantar_h1_{kind}"
+    source = load_robot(robot).path
+    folder = Path(gettempdir()) / f"plantar_{robot}_{kind}"
     if not folder.exists():
         shutil.copytree(source.parent, folder)
         lines = source.read_text(encoding="utf-8").splitlines()
@@ -206,7 +214,7 @@ def missing() -> Iterator[tuple[int, Case, tuple[str, int]]]:
         case = following(cell, known)
         if case is not None:
             begun = sum(cell.name(v) in known for v in IMPULSES)
-            yield 10000 * (list(VARIANTS).index(cell.variant) > 0) + 1000 * begun + i * 37 % 128, case, ("exact", SEED)
+            yield 10000 * (cell.variant not in MAPS) + 1000 * begun + i * 37 % 128, case, ("exact", SEED)
 
 
 def report() -> None:
@@ -225,7 +233,7 @@ def report() -> None:
                 continue
             # Where the goal was missed and nothing smaller was tried yet, nothing is known.
             asked = [c for c in cells if survived(c, known)[0] > 0.0 or following(c, known) is None]
-            shares = [survived(c, known)[0] / bounds(walk)[c.angle, c.phase] for c in asked]
+            shares = [survived(c, known)[0] / bounds(walk, c.robot)[c.angle, c.phase] for c in asked]
             reached = [known[c.name(goal(c))][0] for c in cells]
             held: dict[str, list[bool | None]] = {}
             strong: list[bool] = []
