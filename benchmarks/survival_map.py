@@ -1,4 +1,4 @@
-"""The largest push that H1 and HRP-2Kai survive in each direction and phase of a step, next to what any controller could capture.
+"""The largest push that robots survive in each direction and phase of a step, and what any controller could capture.
 
 `python benchmarks/outcomes.py MINUTES survival_map`: hands push with a half sine of 0.1 s at the height of the CoM, in
 8 directions at 8 phases of a step, in place and at 0.2 m/s. Each cell is bisected over impulses of 5 to 60 N s, first

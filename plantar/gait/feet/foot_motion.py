@@ -106,7 +106,7 @@ class FootMotion:
 
     @property
     def hurried(self) -> bool:
-        """Whether the last swing has to catch the body: it comes down wherever it is, and soles turn to no ground."""
+        """Whether the last swing has to catch the body."""
         return self._swing is not None and self._swing.duration < HURRIED * self._unhurried
 
     @property
@@ -187,7 +187,7 @@ class FootMotion:
         press: float | None = None,
         heights: Mapping[Side, float] | None = None,
     ) -> None:
-        """Advance the swing foot; stop at touchdown, lower it while no ground is met.
+        """Advance the swing foot; stop at touchdown, lower it until ground.
 
         Args:
             phase: The walk's.
@@ -211,8 +211,7 @@ class FootMotion:
         before = self.landed
         self.comes_down = self._swing.comes_down(time - self._start)
         if self._compliance is not None and senses is not None:
-            side = self._side
-            self._comply(self._compliance[side], side, phase, time, loads[side], senses[side], frame, press)
+            self._comply(phase, time, loads[self._side], senses[self._side], frame, press)
         else:
             self._advance(phase, time, loads[self._side])
         if heights is not None and phase.kind == PhaseKind.STANDING and self._landing.relax_time > 0.0:
@@ -228,7 +227,7 @@ class FootMotion:
         self.footholds[side] = (position + np.array([0.0, 0.0, share * (stands - position.item(2))]), yaw)
 
     def stand_at(self, side: Side, place: NDArray[np.float64], yaw: float) -> None:
-        """Move a landed foot's commanded place.
+        """Move a landed foot's place.
 
         Args:
             side: Which foot.
@@ -266,8 +265,8 @@ class FootMotion:
         if not moves and (self.landed or abs(phase.touchdown - self._start - self._swing.duration) < SAME_TIME):
             return
         if self.landed:
-            here = self.footholds[self._side][0]
-            if math.dist(frame.to_command(target.position[:2]), here[:2]) < _SAME_PLACE * self._leg:
+            here = self.footholds[self._side][0][:2]
+            if math.dist(frame.to_command(target.position[:2]), here) < _SAME_PLACE * self._leg:
                 self._target = target  # the plan has only taken over where it stands
             else:
                 self._retake(time, phase.touchdown, target, frame)
@@ -290,12 +289,11 @@ class FootMotion:
         # By the plan it is as much higher or lower as that has its steps; by itself, if it slopes on.
         rise = target.z - self._planned or self._rise(other_side(side), position, x - position[0], y - position[1])
         self._expected, self._planned = self._expected + rise, target.z
-        place = np.array([x, y, self._expected - self._landing.depth])
         sees = self._compliance is not None
         start = SwingStart(
             position=position.copy(),
             yaw=yaw,
-            end=place,
+            end=np.array([x, y, self._expected - self._landing.depth]),
             yaw_end=target.yaw - frame.turn,
             height=self._height,
             duration=times[1] - times[0],
@@ -343,19 +341,13 @@ class FootMotion:
         self._rises_first.add(self._side)  # what it has met is next to it then
 
     def _comply(
-        self,
-        compliance: SwingCompliance,
-        side: Side,
-        phase: Phase,
-        time: float,
-        load: float,
-        sense: SoleSense,
-        frame: CommandFrame,
-        press: float | None,
+        self, phase: Phase, time: float, load: float, sense: SoleSense, frame: CommandFrame, press: float | None
     ) -> None:
-        """Advance a seeing foot: soften its swing, turn it to the slope, hand over to real load."""
+        """Advance a seeing foot: soften its swing, turn it, hand over to real load."""
         assert self._swing is not None
-        swing, period = self._swing, self._period
+        assert self._compliance is not None
+        swing, period, side = self._swing, self._period, self._side
+        compliance = self._compliance[side]
         position, yaw = self.footholds[side]
         elapsed = time - self._start
         if not self.landed:
@@ -388,8 +380,8 @@ class FootMotion:
                 if compliance.stopped:
                     planned = position
             else:
-                away = 0.0 if self.hurried else remaining
-                drop = compliance.descent(view, falling, away, time_left, period)
+                # One that has to catch the body comes down wherever it is.
+                drop = compliance.descent(view, falling, 0.0 if self.hurried else remaining, time_left, period)
             if view is not None and remaining < _NEARLY_THERE * self._leg:
                 self.surprise = float(sense.position[2] - frame.offset[2]) - view.middle - self._expected
             turn = compliance.turn(self._tilts[side], view if remaining < _CLOSE_BY * self._leg else None, period)
@@ -424,7 +416,7 @@ class FootMotion:
         return far <= 0.0 or compliance.force > least + far * (blind - least)
 
     def _press(self, side: Side, load: float) -> None:
-        """Press down less the more the foot carries; a switch would make it tap."""
+        """Press down less the more the foot carries, so that it does not tap."""
         landing = self._landing
         missing = 1.0 - load / landing.press_force
         wanted = landing.speed * missing if missing > 0.0 and self._lowered < landing.reach else 0.0

@@ -159,8 +159,7 @@ class SwingFlight:
         clock = self._clock
         if abs(duration - self.duration) > SAME_TIME:
             spare = self.path.spare if duration < HURRIED * self.path.duration else 0.0
-            shows = max(shown, (1.0 - spare) * self.path.duration)
-            clock = _Clock.to(time, shown, rate, duration, shows)
+            clock = _Clock.to(time, shown, rate, duration, max(shown, (1.0 - spare) * self.path.duration))
         end = np.array([place[0], place[1], self.end[2]])
         flight = replace(self, duration=duration, end=end, _clock=clock)
         left = (self.path.arrived - shown) / (self.path.duration - shown)

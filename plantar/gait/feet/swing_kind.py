@@ -10,8 +10,7 @@ from plantar.gait.plan.leg_momentum import haste
 from plantar.record import Record
 from plantar.settings.part import Part
 
-HURRIED = 0.88
-"""Share of a swing's first duration below which it is hurried; times alone shorten it by a tenth at most."""
+HURRIED = 0.88  # of its first duration, below which a swing is hurried; times alone shorten it by a tenth at most
 
 
 class SwingStart(Record, frozen=True):
