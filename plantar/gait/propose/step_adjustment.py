@@ -140,13 +140,15 @@ class StepAdjustment:
     def propose(self, tick: Tick) -> PlanChange | None:
         """Another footstep where that helps, or its place now."""
         pendulum, swing = tick.pendulum, tick.phase.swing
-        if pendulum is None or tick.feet.side is None:
+        if pendulum is None:
             return None
-        if not tick.firm:
+        landed = tick.firm and tick.feet.side is not None and tick.feet.landed
+        change = self._landed(tick, tick.feet.side) if landed and tick.feet.side is not None else None
+        if change is not None or (landed and swing is not None):
+            return change
+        if swing is None or not tick.firm:
             return None if self._timing is None else self._timing.propose(tick)
-        if tick.feet.landed:
-            return self._landed(tick, tick.feet.side)
-        if swing is None or tick.phase.wait:
+        if tick.phase.wait or tick.feet.side is None:
             return None
         foot = self._follow(tick, swing)
         if tick.time < self._changed + self._rules.pause or not len(pendulum.zmp_region):

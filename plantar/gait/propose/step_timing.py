@@ -1,11 +1,14 @@
-"""End a single support as the DCM reaches the next one's start, if the ZMP alone cannot.
+"""End a support as the DCM reaches the next one's start, if the ZMP alone cannot.
 
 A wanted DCM xi_e takes the ZMP p(T) = xi + (xi - xi_e) / (e^(w T) - 1) for the rest T. At d outside the support polygon
-the DCM is off by (e^(w T) - 1) d, which another T reduces (T 4.9-4.14).
+the DCM is off by (e^(w T) - 1) d, which another T reduces (T 4.9-4.14). A foot lifts later, too: with both feet down a
+DCM between them comes back, while a swing of the foot that it lies over leaves it no ground.
 """
 
 import math
+from collections.abc import Callable
 
+from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Pendulum, Priority, Tick
 from plantar.settings.part import Part
@@ -13,7 +16,7 @@ from plantar.settings.schema import fixed, number, share
 
 
 class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (True,)}):
-    """When a single support's end moves.
+    """When a support's end moves.
 
     Attributes:
         least_error: Final DCM error in m below which the timing stays.
@@ -28,11 +31,13 @@ class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (
     longest: float = number(0.15, "1", 0, 5)
     shortest: float = number(0.1, "1", 0, 0.9)
     least_left: float = fixed(0.809, "beat")  # Time in s before touchdown from which a foot is not hurried
+    # Longest double support, as a share of a single one; none ends sooner, for feet have to take over
+    longest_double: float = fixed(2.5, "1")
     pause: float = share(0.162, "beat", 0, 5)
 
 
 class StepTiming:
-    """Proposes another single support end.
+    """Proposes another end of a support.
 
     Args:
         rules: When.
@@ -47,9 +52,9 @@ class StepTiming:
         self._changed = -math.inf
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """Another single support end, where that helps."""
+        """Another end of the support, where that helps."""
         phase, rules, pendulum = tick.phase, self._rules, tick.pendulum
-        if pendulum is None or phase.swing is None or phase.wait or tick.time < self._changed + rules.pause:
+        if pendulum is None or phase.wait or tick.time < self._changed + rules.pause or not _before_a_step(tick):
             return None
         left = phase.end - tick.time
         if left < 2.0 * self._period or not len(pendulum.zmp_region):
@@ -58,35 +63,56 @@ class StepTiming:
         off = math.dist(pendulum.dcm.tolist(), pendulum.reference.dcm.tolist())
         if off * math.exp(pendulum.omega * left) < rules.least_error:
             return None
-        error = _missed(pendulum, left)
+        missed = _misses(tick, pendulum)
+        error = missed(left)
         if error < rules.least_error:
             return None
-        change = self._best_change(tick, pendulum, left, error)
+        change = self._best_change(tick, missed, left)
         if abs(change) < 1.5 * self._period:
             return None
         self._changed = tick.time
         reason = "DCM behind" if change > 0.0 else "DCM ahead"
         return PlanChange(reason, phase.step, longer=change, resets=True)
 
-    def _best_change(self, tick: Tick, pendulum: Pendulum, left: float, error: float) -> float:
+    def _best_change(self, tick: Tick, missed: Callable[[float], float], left: float) -> float:
         """Delay in s of the phase's end with least miss and price."""
         rules = self._rules
         usual, begun = tick.plan.schedule.timing.single_support, tick.time - tick.phase.start
-        later = (1.0 + rules.longest) * usual - begun - left
-        sooner = left - max(rules.least_left, (1.0 - rules.shortest) * usual - begun)
-        best, least = 0.0, error
+        later, sooner = rules.longest_double * usual - begun - left, 0.0
+        if tick.phase.swing is not None:
+            later = (1.0 + rules.longest) * usual - begun - left
+            sooner = left - max(rules.least_left, (1.0 - rules.shortest) * usual - begun)
+        best, least = 0.0, missed(left)
         for sign, most in ((1.0, later), (-1.0, sooner)):
             for k in range(1, int(most / self._period + 1e-6) + 1):
                 price = rules.price * k * self._period
                 if price >= least:
                     break
-                cost = price + _missed(pendulum, left + sign * k * self._period)
+                cost = price + missed(left + sign * k * self._period)
                 if cost < least:
                     best, least = sign * k * self._period, cost
         return best
 
 
-def _missed(pendulum: Pendulum, left: float) -> float:
-    """DCM error in m after a time in s, wherever its ZMP is kept."""
-    growth, wanted, nearest = pendulum.beyond_zmp(left)
-    return growth * math.dist(wanted, nearest)
+def _before_a_step(tick: Tick) -> bool:
+    """Whether a foot swings, or the next one will as the double support ends."""
+    phase = tick.phase
+    lifts = phase.kind == PhaseKind.DOUBLE_SUPPORT and phase.step < tick.plan.count
+    return phase.swing is not None or lifts
+
+
+def _misses(tick: Tick, pendulum: Pendulum) -> Callable[[float], float]:
+    """Returns the DCM error in m after a time in s, wherever the ZMP is kept.
+
+    In double support only towards the foot that lifts: elsewhere its stance foot does alone what both can do.
+    """
+    plan, step = tick.plan, tick.phase.step
+    way = plan.vrp_before(step, plan.foothold(step).side) - plan.stance_vrp(step)
+    ux, uy = (way / math.hypot(*way)).tolist()
+
+    def missed(left: float) -> float:
+        growth, (wx, wy), (x, y) = pendulum.beyond_zmp(left)
+        wx, wy = growth * (wx - x), growth * (wy - y)
+        return math.hypot(wx, wy) if tick.phase.swing is not None else max(0.0, ux * wx + uy * wy)
+
+    return missed

@@ -79,9 +79,35 @@ def test_what_the_zmp_can_do_is_left_to_it(timed):
     assert proposed(timed(NOW, late_by(0.003))[1]) is None  # 15 ms of walking: less than the least error
 
 
-def test_only_single_supports_have_a_time_of_their_own(timed):
+def towards_the_lifting_foot(time: float, off: float) -> Callable[[WalkPlan], np.ndarray]:
+    def dcm(plan: WalkPlan) -> np.ndarray:
+        step = plan.schedule.at(time).step
+        way = plan.view.stance_vrp(step) - plan.view.vrp_before(step, plan.view.foothold(step).side)
+        return plan.at(time).dcm - off * way / np.hypot(*way)
+
+    return dcm
+
+
+@pytest.mark.parametrize("left", [0.1, 0.05, 0.02])
+@pytest.mark.parametrize("off", [0.07, 0.09])
+def test_a_foot_does_not_lift_before_the_dcm_is_where_the_next_stance_can_hold_it(left, off, timed):
+    time = timed(3.2, late_by(0.0))[1].phase.end - left
+    # The sole's edge, 0.1 m out, holds it and brings it back.
+    _, tick = timed(time, towards_the_lifting_foot(time, off), WIDE)
+    change = proposed(tick, price=0.0)
+    assert missed(tick, left) > missed(tick, left + change.longer) + RULES.least_error
+    assert change.reason == "DCM behind"
+    beyond = timed(time, towards_the_lifting_foot(time, 0.3), WIDE)[1]
+    assert proposed(beyond) is None  # it only runs away: the next step has to come
+    ahead = timed(time, towards_the_lifting_foot(time, -off), WIDE)[1]
+    assert proposed(ahead) is None  # the next stance foot does alone what both can do
+
+
+def test_standing_has_no_time_of_its_own_nor_has_a_foot_that_waits(timed):
     behind = late_by(0.1)
-    assert proposed(timed(3.2, lambda plan: plan.at(3.1).dcm)[1]) is None  # double support
+    standing, last = (timed(t, lambda plan: plan.at(0.0).dcm + 0.1)[1] for t in (-1.0, 1e3))
+    assert proposed(standing) is None
+    assert proposed(last) is None
     _, tick = timed(NOW, behind)
     assert proposed(tick.changed(pendulum=None)) is None  # without feedback
     waits = tick.phase.__class__(**{**vars(tick.phase), "wait": 0.2})
