@@ -102,7 +102,6 @@ def test_every_case_of_the_tables_is_a_scene_that_loads(resumable, monkeypatch):
     for name in (
         "balance",
         "footholds",
-        "push",
         "unknown_ground",
         "velocity",
         "stones",
