@@ -208,8 +208,8 @@ class WalkingController:
         dcm = whole - legs.dcm  # of the pendulum that is planned and balanced
         if feedback:
             footing.align(state)
-        feet, inward = footing.swing(sensed, state, feedback)
-        tick, region = footing.perceive(sensed, state, feet, inward, dcm if feedback else None)
+        feet = footing.swing(sensed, state, feedback)
+        tick, region = footing.perceive(sensed, state, feet, dcm if feedback else None)
         phase, moved = tick.phase, _NO_STEPS
         change = decide(self._proposers, tick)
         if change is not None:

@@ -30,7 +30,6 @@ from plantar.gait.propose.dsp_opt import DspWeights
 from plantar.gait.propose.feasibility import FeasibilityRules
 from plantar.gait.propose.foothold_rules import FootholdRules
 from plantar.gait.propose.learned_stride import LearnedStrideRules
-from plantar.gait.propose.slope_inside import SlopeRules
 from plantar.gait.propose.ssp_opt import StepRegionRules, StepWeights
 from plantar.gait.propose.step_adjustment import StepAdjustmentRules
 from plantar.gait.propose.step_timing import StepTimingRules
@@ -61,7 +60,7 @@ class ControllerSettings(Settings):
         feedback: False walks in open loop, for comparison.
         zmp_source: Source of loads and ZMP: "skin", or "force_torque" at the ankles.
         ankles: Their force-torque sensors, if any.
-        ankle_limits: Strips (m, 4) of each sole where weight can act on that foot alone
+        ankle_limits: Strips (m, 5) of each sole where weight can act on that foot alone
             (`plantar.gait.contact.ankle_limits`); empty without limits.
         leg_inertia: Of a leg that swings, for plan and estimate.
         footholds: How footholds are found: "off" assumes whole soles, for comparison; "force" uses forces, "skin" also
@@ -82,7 +81,6 @@ class ControllerSettings(Settings):
     compliance: ComplianceGains | None = None
     touchdown: TouchdownGains = field(default_factory=TouchdownGains)
     ground_map: GroundMapSettings = field(default_factory=GroundMapSettings)
-    slope: SlopeRules = field(default_factory=SlopeRules)
     feasibility: FeasibilityRules | None = None
     conformity: ConformityGains | None = None
     trunk_lean: float = number(0.0, "rad/m", 0.0, 10.0)

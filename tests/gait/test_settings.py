@@ -20,7 +20,6 @@ from plantar.gait.feet.landing import Landing
 from plantar.gait.plan.phases import Timing
 from plantar.gait.propose.feasibility import FeasibilityRules
 from plantar.gait.propose.foothold_rules import FootholdRules
-from plantar.gait.propose.slope_inside import SlopeRules
 
 CLASSES = (
     AdmittanceGains,
@@ -29,7 +28,6 @@ CLASSES = (
     TouchdownGains,
     GroundMapSettings,
     FootholdRules,
-    SlopeRules,
     ConformityGains,
     ContactSettings,
     EstimatorGains,

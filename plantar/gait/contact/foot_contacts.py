@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.gait.contact.ankle_limits import AnkleLimits
+from plantar.gait.contact.ankle_limits import UPRIGHT, AnkleLimits
 from plantar.gait.contact.ankle_reach import borne_part, loaded_middle
 from plantar.gait.contact.edge_memory import EdgeMemory
 from plantar.gait.contact.stance_contact import ContactSettings, StanceContact
@@ -24,6 +24,7 @@ from plantar.percepts.sole_pose import feet_support_polygon, polygon_in_world
 from plantar.sides import SIDES, Side
 
 _FORGETS = 4  # steps after which a foothold that carried a part of the sole is no evidence of the ground ahead
+_LEANS = 0.05  # rad from which a sole on a slope moves its ankle by more than encoders err
 _NARROW = 0.5  # of a support's inscribed circle that the margin takes at most: all of it leaves one ZMP
 
 
@@ -121,7 +122,7 @@ class FootContacts:
         self._limits = limits or {}
         self._middle = {side: middle_of_sole(layouts[side], reach) for side in SIDES}
         self._borne = {side: borne_part(layouts[side].outline, reach) for side in SIDES}
-        self._alone = {side: self._within_limits(side, self._borne[side]) for side in SIDES}
+        self._alone = {side: self._within_limits(side, self._borne[side], UPRIGHT) for side in SIDES}
         self._feet = {
             side: _Foot(StanceContact(layouts[side], settings, sensing_range), self._middle[side], self._borne[side])
             for side in SIDES
@@ -163,14 +164,8 @@ class FootContacts:
         foot = self._feet[side]
         ground = foot.contact.foresee(np.zeros(2))
         if ground is not None:
-            foot.center, foot.borne = self._center(side, ground), borne_part(ground, self._reach)
+            foot.center, foot.borne = self._center(side, ground, UPRIGHT), borne_part(ground, self._reach)
         foot.seen_partial = ground is not None
-
-    def bear_inside(self, side: Side, distance: float) -> None:
-        """Load a `side`'s foot that just landed nearer to the robot's middle, by a `distance` along the sole's y axis
-        in m.
-        """
-        self._feet[side].center = self._feet[side].center + np.array([0.0, distance])
 
     def coming_to_carry(self, phase: Phase, time: float, feet: FeetView) -> list[Side]:
         """Returns sides of `feet` (commanded), left first, that take weight over in a `phase` at a `time` in s, or
@@ -207,7 +202,7 @@ class FootContacts:
         if ground is None:
             return None
         self._foreseen = self._part = phase.step
-        center = self._center(side, ground)
+        center = self._center(side, ground, -state.rotations_sole[side][2, :2])
         return FootholdSeen(phase.step, side, state.positions_sole[side][:2] + feet.ahead + turn @ center)
 
     def find(
@@ -247,29 +242,33 @@ class FootContacts:
         position, rotation = state.positions_sole[side], state.rotations_sole[side]
         self._edges.update(foot.step, contact.lines, contact.center_in_sole, position, rotation)
         polygon = polygon_in_world(contact.polygon_in_sole, rotation, position)
-        center = self._center(side, contact.polygon_in_sole)
+        lean = -rotation[2, :2]
+        leans = side in self._limits and math.hypot(*lean.tolist()) > _LEANS
+        center = self._center(side, contact.polygon_in_sole, lean)
         vrp, middle = ((position + rotation[:, :2] @ place)[:2] for place in (center, contact.center_in_sole))
         # Where less was seen ahead, the plan uses that; what is found now has to correct it.
         if not contact.whole:
             self._part = foot.step
-        as_planned = contact.whole and not known and self._foreseen != foot.step and not foot.seen_partial
+        as_planned = contact.whole and not known and self._foreseen != foot.step and not (foot.seen_partial or leans)
         foot.seen_partial = False
         if not as_planned:
             foot.center, foot.borne = center, borne_part(contact.polygon_in_sole, self._reach)
             every = foot.borne is contact.polygon_in_sole
             foot.support = polygon if every else polygon_in_world(foot.borne, rotation, position)
-            foot.alone = polygon_in_world(self._within_limits(side, foot.borne), rotation, position)
+            foot.alone = polygon_in_world(self._within_limits(side, foot.borne, lean), rotation, position)
         ratio, whole, seen = contact.area_ratio, contact.whole, contact.seen
         return FootholdFound(foot.step, side, polygon, ratio, vrp, middle, whole, as_planned, seen)
 
-    def _within_limits(self, side: Side, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _within_limits(
+        self, side: Side, polygon: NDArray[np.float64], lean: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
         limits = self._limits.get(side)
-        return polygon if limits is None else limits.within(polygon)
+        return polygon if limits is None else limits.within(polygon, lean)
 
-    def _center(self, side: Side, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _center(self, side: Side, polygon: NDArray[np.float64], lean: NDArray[np.float64]) -> NDArray[np.float64]:
         center, limits = loaded_middle(polygon, self._reach), self._limits.get(side)
         weak = borne_part(polygon, self._reach) is not polygon  # such an ankle is loaded midway already
-        return center if limits is None or weak else limits.center(polygon, center)
+        return center if limits is None or weak else limits.center(polygon, center, lean)
 
     def zmp_region(
         self, phase: Phase, feet: FeetView, frame_offset: Sequence[float], margin: float

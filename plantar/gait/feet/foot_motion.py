@@ -11,7 +11,7 @@ from plantar.gait.estimate.command_frame import CommandFrame
 from plantar.gait.feet.landing import Landing
 from plantar.gait.feet.swing_compliance import SwingCompliance
 from plantar.gait.feet.swing_flight import PolynomialSwing
-from plantar.gait.feet.swing_kind import HURRIED, Swing, SwingKind, SwingStart
+from plantar.gait.feet.swing_kind import Swing, SwingKind, SwingStart, hurried
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase, PhaseKind
@@ -107,7 +107,7 @@ class FootMotion:
     @property
     def hurried(self) -> bool:
         """Whether the last swing has to catch the body."""
-        return self._swing is not None and self._swing.duration < HURRIED * self._unhurried
+        return self._swing is not None and hurried(self._swing.duration, self._unhurried)
 
     @property
     def proximity_sides(self) -> tuple[Side, ...]:
@@ -171,10 +171,6 @@ class FootMotion:
         rise = float((before - self.rotation(side))[2, :2] @ pivot)
         position, yaw = self.footholds[side]
         self.footholds[side] = (position + np.array([0.0, 0.0, rise]), yaw)
-
-    def outward_rise(self, side: Side) -> float:
-        """Slope in rad across a standing foot, positive with the outer edge higher."""
-        return math.asin(float(self._tilts[side][1, 2])) * (-1.0 if side == "left" else 1.0)
 
     def update(
         self,

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.feet.swing import SwingTrajectory
-from plantar.gait.feet.swing_kind import HURRIED, SwingKind, SwingStart
+from plantar.gait.feet.swing_kind import SwingKind, SwingStart, hurried
 from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.same_time import SAME_TIME
 
@@ -158,7 +158,7 @@ class SwingFlight:
         rate = (self.progress(time + _STEP) - shown) / _STEP
         clock = self._clock
         if abs(duration - self.duration) > SAME_TIME:
-            spare = self.path.spare if duration < HURRIED * self.path.duration else 0.0
+            spare = self.path.spare if hurried(duration, self.path.duration) else 0.0
             clock = _Clock.to(time, shown, rate, duration, max(shown, (1.0 - spare) * self.path.duration))
         end = np.array([place[0], place[1], self.end[2]])
         flight = replace(self, duration=duration, end=end, _clock=clock)

@@ -10,7 +10,12 @@ from plantar.gait.plan.leg_momentum import haste
 from plantar.record import Record
 from plantar.settings.part import Part
 
-HURRIED = 0.88  # of its first duration, below which a swing is hurried; times alone shorten it by a tenth at most
+_HURRIED = 0.88  # of its first duration, below which a swing is hurried; times alone shorten it by a tenth at most
+
+
+def hurried(duration: float, first: float) -> bool:
+    """Whether a swing has to catch the body: its duration in s is much shorter than at its lift-off."""
+    return duration < _HURRIED * first
 
 
 class SwingStart(Record, frozen=True):

@@ -91,7 +91,6 @@ class Tick(Record, frozen=True):
         moments: (2,) at each ankle in N m, with force-torque sensors.
         found: Footholds found now.
         seen: Swing foot's coming foothold.
-        inward: Distance in m along its y axis that a landing foot should carry farther inside.
         pendulum: With balance fed back.
         firm: Whether ground has lately carried whole soles, so that feet can go anywhere.
     """
@@ -106,7 +105,6 @@ class Tick(Record, frozen=True):
     moments: Mapping[Side, NDArray[np.float64]] = MappingProxyType({})
     found: tuple[FootholdFound, ...] = ()
     seen: FootholdSeen | None = None
-    inward: float = 0.0
     pendulum: Pendulum | None = None
     firm: bool = True
 

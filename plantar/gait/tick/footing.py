@@ -29,7 +29,6 @@ from plantar.gait.plan.vrp_plan import LipReference
 from plantar.gait.plan.walk_plan import WalkPlan
 from plantar.gait.propose.foothold_refused import StepGuard
 from plantar.gait.propose.proposer import Pendulum, Tick
-from plantar.gait.propose.slope_inside import inward_distance
 from plantar.gait.tick.estimation import Estimation, Sensed
 from plantar.kernels.base.vectors import vector
 from plantar.layouts.layout import SoleLayout
@@ -110,7 +109,7 @@ class Footing:
         turn = math.remainder(heading(state.rotations_sole[side]) - yaw, 2.0 * math.pi)
         self.frame.update(position, state.positions_sole[side], turn)
 
-    def swing(self, sensed: Sensed, state: BaseState, feedback: bool) -> tuple[FeetView, float]:
+    def swing(self, sensed: Sensed, state: BaseState, feedback: bool) -> FeetView:
         """Advance the swing foot.
 
         Args:
@@ -119,7 +118,7 @@ class Footing:
             feedback: Whether balance is fed back.
 
         Returns:
-            The feet, and how much in m farther inside one just landed should carry.
+            The feet.
         """
         phase, percepts, s, motion = sensed.phase, sensed.percepts, self._settings, self.motion
         senses = heights = None
@@ -138,14 +137,9 @@ class Footing:
             self.contacts.lift_off(feet.side, phase.step)
         if phase.swing is not None and not motion.landed and not motion.comes_down:
             self.damping[phase.swing].fade()
-        inward = 0.0
-        if feet.touchdown and feet.side is not None and s.compliance is not None:
-            if s.footholds == "skin":
-                self.contacts.touchdown(feet.side)
-            inward = inward_distance(feet.side, motion.outward_rise(feet.side), s.slope.ankle_reach, s.com_height)
-            if inward:
-                self.contacts.bear_inside(feet.side, inward)
-        return feet, inward
+        if feet.touchdown and feet.side is not None and s.compliance is not None and s.footholds == "skin":
+            self.contacts.touchdown(feet.side)
+        return feet
 
     def _stand_at_landing(self, feet: FeetView, state: BaseState, misplaced: float) -> None:
         """Command a landed foot where it is, if steps move for balance."""
@@ -169,7 +163,7 @@ class Footing:
         return None if self.conformity is None or not self._settings.feedback else self.conformity.gains.press
 
     def perceive(
-        self, sensed: Sensed, state: BaseState, feet: FeetView, inward: float, dcm: NDArray[np.float64] | None
+        self, sensed: Sensed, state: BaseState, feet: FeetView, dcm: NDArray[np.float64] | None
     ) -> tuple[Tick, NDArray[np.float64]]:
         """Footholds for proposers, and the desired ZMP's region (`zmp_region`).
 
@@ -177,7 +171,6 @@ class Footing:
             sensed: Of the soles.
             state: The body's.
             feet: Commanded.
-            inward: From `swing`.
             dcm: (2,) in m; None without feedback.
 
         Returns:
@@ -202,7 +195,6 @@ class Footing:
             moments={side: ankle.wrench_in_sole[3:5] for side, ankle in sensed.ankles.items()},
             found=found,
             seen=seen,
-            inward=inward,
             pendulum=pendulum,
             firm=self.contacts.firm(phase.step),
         )
@@ -287,7 +279,7 @@ class Footing:
 
     def conform(self, phase: Phase, zmp: NDArray[np.float64], state: BaseState, sensed: Sensed) -> None:
         """Turn a phase's standing soles to the ground, by `sensed`, `state` and desired `zmp`."""
-        if self.conformity is None or self.motion.hurried:
+        if self.conformity is None or (self.motion.hurried and phase.kind != PhaseKind.STANDING):
             return
         plan, incoming = self._plan.view, None
         if 0 < phase.step < plan.count:  # not at the two ends of the walk

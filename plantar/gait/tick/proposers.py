@@ -17,7 +17,6 @@ from plantar.gait.propose.foothold_refused import StepGuard
 from plantar.gait.propose.foothold_seen import FootholdSeenAhead
 from plantar.gait.propose.learned_stride import LearnedStride
 from plantar.gait.propose.proposer import Proposer
-from plantar.gait.propose.slope_inside import SlopeInside
 from plantar.gait.propose.ssp_opt import touching_distance
 from plantar.gait.propose.step_adjustment import StepAdjustment
 from plantar.gait.propose.step_timing import StepTiming
@@ -56,7 +55,6 @@ def proposers(
     strip = SupportStrip.for_body(s.body, start, way / length if length > _SHORTEST_WALK * s.body.leg else forward)
     found: list[Proposer] = [] if guard is None else [guard]
     found += [
-        SlopeInside(),
         FootholdSeenAhead(s.foothold),
         FootholdCarries(s.foothold, middles, outlines, strip, s.ankle_reach),
     ]

@@ -24,8 +24,8 @@ def ankle_limits(
         crouch: How much lower in m than in its posture it walks.
 
     Returns:
-        Strips (m, 4) in each sole's frame: unit normal (x, y), the strip's middle and half width along it in m; none
-        without limits.
+        Strips (m, 5) in each sole's frame: unit normal (x, y), the strip's middle and half width along it in m, and
+        the ankle's height in m, by which a sloping sole moves it; none without limits.
     """
     data = stood(robot, model)
     limits = _torque_limits(model)
@@ -42,11 +42,11 @@ def ankle_limits(
             lever = np.array([-axis[1], axis[0]])  # a . (r x e_z) = a_x r_y - a_y r_x
             size = float(np.hypot(*lever))
             lever /= size
-            strips.append([*lever, float(lever @ anchor[:2]), limits[turning[-1]] / weight / size])
+            strips.append([*lever, float(lever @ anchor[:2]), limits[turning[-1]] / weight / size, anchor[2]])
         if len(pitching) == 3 and pitching[1] in limits:
             places = (data.xanchor[pitching] - origin) @ rotation
             strips.append(_knee_strip(places[:, [0, 2]], limits[pitching[1]] / weight, crouch))
-        found[side] = np.array(strips).reshape(-1, 4)
+        found[side] = np.array(strips).reshape(-1, 5)
     return found
 
 
@@ -62,7 +62,7 @@ def _knee_strip(places: NDArray[np.float64], reach: float, crouch: float) -> lis
     foot = (apart**2 + shank**2 - thigh**2) / (2.0 * apart)  # of the triangle's height, from the ankle
     share, ahead = foot / apart, np.sqrt(max(shank**2 - foot**2, 0.0))
     side = np.sign(up[1] * (knee - ankle)[0] - up[0] * (knee - ankle)[1])
-    return [1.0, 0.0, float(ankle[0] + side * ahead / (1.0 - share)), reach / (1.0 - share)]
+    return [1.0, 0.0, float(ankle[0] + side * ahead / (1.0 - share)), reach / (1.0 - share), float(ankle[1])]
 
 
 def _torque_limits(model: mujoco.MjModel) -> dict[int, float]:

@@ -9,8 +9,9 @@ from plantar.robots.robot_file import load_robot
 from plantar.sides import SIDES
 
 
+@pytest.mark.parametrize("slope", [(0.0, 0.0), (0.17, 0.0), (-0.1, 0.08)])
 @pytest.mark.parametrize("name", ["h1", "hrp2kai"])
-def test_weight_at_the_edge_of_a_strip_takes_the_limit_of_its_joint(name):
+def test_weight_at_the_edge_of_a_strip_takes_the_limit_of_its_joint(name, slope):
     robot = load_robot(name)
     model = build_leg_model(robot).model
     weight = body_of(robot, model).weight
@@ -20,14 +21,16 @@ def test_weight_at_the_edge_of_a_strip_takes_the_limit_of_its_joint(name):
         assert len(strips) == 3  # the third is the knee's: see the test of it
         site = model.site(robot.legs[side].sole_site).id
         origin, rotation = data.site_xpos[site], data.site_xmat[site].reshape(3, 3)
-        for (x, y, middle, half), kind in zip(strips[:2].tolist(), ("pitch", "roll"), strict=True):
+        up = np.array([*slope, 1.0]) / np.linalg.norm([*slope, 1.0])
+        for (x, y, middle, half, high), kind in zip(strips[:2].tolist(), ("pitch", "roll"), strict=True):
             joint = model.joint(f"{side}_ankle_{kind}")
-            for edge in (middle - half, middle + half):
+            moved = -high * np.dot((x, y), up[:2]) / up[2]  # the weight goes down past the joint
+            for edge in (moved + middle - half / up[2], moved + middle + half / up[2]):
                 place = origin + rotation[:, :2] @ (edge * np.array([x, y]))
                 # MuJoCo's own Jacobian of the point, fixed to the foot: an upward force's generalised force is J^T f.
                 jacobian = np.zeros((3, model.nv))
                 mujoco.mj_jac(model, data, jacobian, None, place, int(model.site_bodyid[site]))
-                torque = weight * jacobian[2, joint.dofadr[0]]
+                torque = weight * (rotation @ up) @ jacobian[:, joint.dofadr[0]]
                 limit = model.actuator(f"{side}_ankle_{kind}").forcerange[1]
                 assert abs(torque) == pytest.approx(limit, rel=1e-9)
 
@@ -40,7 +43,7 @@ def test_weight_under_the_hip_loads_the_knee_as_its_strip_says(name):
     data = stood(robot, model)
     mujoco.mj_comPos(model, data)
     for side, strips in ankle_limits(robot, model, weight).items():
-        x, y, middle, half = strips[2].tolist()
+        x, y, middle, half, _ = strips[2].tolist()
         assert (x, y) == (1.0, 0.0)
         knee = model.joint(f"{side}_knee")
         hip, ankle = (data.xanchor[model.joint(f"{side}_{name}_pitch").id] for name in ("hip", "ankle"))
