@@ -97,12 +97,11 @@ class StepTiming:
 def _before_a_step(tick: Tick) -> bool:
     """Whether a foot swings, or the next one will as the double support ends."""
     phase = tick.phase
-    lifts = phase.kind == PhaseKind.DOUBLE_SUPPORT and phase.step < tick.plan.count
-    return phase.swing is not None or lifts
+    return phase.swing is not None or (phase.kind == PhaseKind.DOUBLE_SUPPORT and phase.step < tick.plan.count)
 
 
 def _misses(tick: Tick, pendulum: Pendulum) -> Callable[[float], float]:
-    """Returns the DCM error in m after a time in s, wherever the ZMP is kept.
+    """DCM error in m after a time in s.
 
     In double support only towards the foot that lifts: elsewhere its stance foot does alone what both can do.
     """

@@ -91,6 +91,7 @@ class Judge:
         standing_height: CoM above the ground at the start in m.
         goal: The footsteps to take.
         ground: None where all is plain.
+        learns: Whether pushes change all later steps.
         fall: The fall as (criterion's value, limit, text), or None.
     """
 
@@ -98,6 +99,7 @@ class Judge:
     standing_height: float
     goal: WalkGoal
     ground: PlainGround | None = None
+    learns: bool = False
     fall: tuple[float, float, str] | None = None
 
     def __post_init__(self) -> None:
@@ -220,7 +222,7 @@ class Judge:
 
     def _justified(self, stand: Stand, way: Way, before: tuple[float, float, float]) -> bool:
         """Whether a push in the last three steps or uneven ground justify a move."""
-        since = stand.touchdown - _PUSH_LASTS * self.world.body.beat
+        since = -math.inf if self.learns else stand.touchdown - _PUSH_LASTS * self.world.body.beat
         if any(since <= time <= stand.touchdown for time in self._pushed):
             return True
         if self.ground is None:

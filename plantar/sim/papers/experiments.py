@@ -74,29 +74,23 @@ EXPERIMENTS = (
         PaperExperiment(f"feasibility-{n}", "T 4.3.2, Table 3", f"feasibility-{n}", paper, "steps", _ANKLES)
         for n, paper in enumerate(("both step on", "both walk around", _TOPPLE, _TOPPLE), 1)
     ),
-    PaperExperiment(
-        "level ground, HRP-2Kai",
-        "T 4.4.1.2",
-        "flat",
-        "58 N, without 340",
-        "mean impact",
-        _NO_PFC,
-        "hrp2kai",
-        _LEVEL,
-        printed={"mean impact": 58.0, "largest impact": 200.0},
-        printed_without={"mean impact": 340.0, "largest impact": 430.0},
-    ),
-    PaperExperiment(
-        "level ground, H1",
-        "T 4.4.1.3",
-        "flat",
-        "109 N, without 486",
-        "mean impact",
-        _NO_PFC,
-        "h1",
-        _LEVEL,
-        printed={"mean impact": 109.0, "largest impact": 261.0},
-        printed_without={"mean impact": 486.0, "largest impact": 615.0},
+    *(
+        PaperExperiment(
+            f"level ground, {name}",
+            place,
+            "flat",
+            f"{with_[0]:g} N, without {without[0]:g}",
+            "mean impact",
+            _NO_PFC,
+            robot,
+            _LEVEL,
+            printed=dict(zip(("mean impact", "largest impact"), with_, strict=True)),
+            printed_without=dict(zip(("mean impact", "largest impact"), without, strict=True)),
+        )
+        for name, place, robot, with_, without in (
+            ("HRP-2Kai", "T 4.4.1.2", "hrp2kai", (58.0, 200.0), (340.0, 430.0)),
+            ("H1", "T 4.4.1.3", "h1", (109.0, 261.0), (486.0, 615.0)),
+        )
     ),
     PaperExperiment(
         "slab of 3 cm",

@@ -162,7 +162,7 @@ class Simulation(Run):
             begin = goal.end(self.centers)
             self.speeds = VelocityTruth(self.world, self.velocities, self.settings.timing, begin)
         plain = PlainGround(ground, {s: robot.layouts[s].outline for s in SIDES}, _AROUND * self.body.leg)
-        self.judge = Judge(self.world, self.settings.com_height, goal, plain)
+        self.judge = Judge(self.world, self.settings.com_height, goal, plain, scene.control.learn_strides)
 
     def build_world(self, others: Sequence[Visitor]) -> World:
         """The run's world, with robot, ground and others."""
