@@ -105,7 +105,6 @@ def bounds(walk: str, robot: str, ankles: bool = False) -> dict[tuple[int, float
     from periodic_walk import PeriodicWalk, capture_map
 
     from plantar.gait.contact.ankle_limits import AnkleLimits
-    from plantar.gait.contact.foot_contacts import middle_of_sole
     from plantar.gait.propose.ssp_opt import footstep_region, touching_distance
     from plantar.mechanics.lip import pendulum_frequency
 
@@ -130,7 +129,7 @@ def bounds(walk: str, robot: str, ankles: bool = False) -> dict[tuple[int, float
         lasts=0.1,
         times=6,
     )
-    zmp = middle_of_sole(robot.layouts["left"], robot.ankle_reach)
+    zmp = known.controller.middles["left"]
     length = SPEEDS[walk] * (single + double)
     plan = PeriodicWalk(omega, length, robot.stance_width, single, double, (float(zmp[0]), float(zmp[1])))
     found = capture_map(limits, plan, len(DIRECTIONS), len(PHASES), side="right")

@@ -14,6 +14,7 @@ import numpy as np
 from plantar.gait.balance.balance_laws import balance_law
 from plantar.gait.balance.load_transfer import OpenLoop
 from plantar.gait.command import Command, FootTarget, Motors, Sensors
+from plantar.gait.contact.ankle_limits import AnkleLimits
 from plantar.gait.contact.foot_contacts import middle_of_sole, on_its_hull
 from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.estimate.body_sensors import BodySensors
@@ -75,6 +76,7 @@ class WalkingController:
     Attributes:
         plan: The walk's plan.
         estimation: State of the body.
+        middles: VRP (2,) over each whole sole in m.
         footing: Commanded feet, and what they stand on.
         momentum: What swinging legs add to the plan.
         balance: Balance law.
@@ -95,7 +97,9 @@ class WalkingController:
         layouts = self.layouts = {side: on_its_hull(layouts[side]) for side in SIDES}
         self._motors = motors
         self.replans = 0
-        middles = {side: middle_of_sole(layouts[side], s.ankle_reach) for side in SIDES}
+        limits = {side: AnkleLimits(strips, s.balance.zmp_offset) for side, strips in s.ankle_limits.items()}
+        middles = {side: middle_of_sole(layouts[side], s.ankle_reach, limits.get(side)) for side in SIDES}
+        self.middles = middles
         self.estimation = Estimation(s, feet, layouts, kinematics)
         omega = self.omega = self.estimation.omega
         self.plan = WalkPlan(feet, start.steps, s.timing, middles, omega, start.time)
@@ -104,7 +108,7 @@ class WalkingController:
         self.balance = balance_law(s.balance, omega, s.mass, s.period)
         self._open_loop = OpenLoop(s.mass)
         turns = not self.balance.wants_contacts
-        self.footing = Footing(s, feet, layouts, self.plan, self.estimation, middles, turns_stance=turns)
+        self.footing = Footing(s, feet, layouts, self.plan, self.estimation, middles, limits, turns_stance=turns)
         self.body_targets = BodyTargets(s, self.footing)
         self.foot_targets = FootTargets(s, self.footing)
         asked = proposers(s, layouts, self.plan, feet, begin, middles, self.footing.guard)

@@ -13,7 +13,6 @@ from plantar.arguments import does, instance, number
 from plantar.arrays import array
 from plantar.errors import InputError, SceneError
 from plantar.gait.command import Command, JointTargets, Sensors
-from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.controller import WalkingController
 from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table
 from plantar.gait.plan.walk_plan import vrp_of_step
@@ -138,7 +137,7 @@ def load_controller(
     start = start_of_walk(walk, own, settings.com_height, velocities=walk.velocities(seed))
     motors = command_motors(own, legs, body, control, settings.period)
     controller = WalkingController(settings, start, own.layouts, legs, motors)
-    centers = {s: vrp_of_step(foot, middle_of_sole(own.layouts[s], own.ankle_reach)) for s, foot in start.feet.items()}
+    centers = {s: vrp_of_step(foot, controller.middles[s]) for s, foot in start.feet.items()}
     stance = JointTargets(*solve_standing(own, legs, start.feet, centers, settings.com_height))
     names = (*own.legs["left"].joints, *own.legs["right"].joints)
     motion, place = PlannedMotion(legs, settings.period, body.beat), legs.configuration[:3]

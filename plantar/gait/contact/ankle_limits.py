@@ -13,6 +13,7 @@ from plantar.geometry.polygon import area, centroid, closest_point, inner_offset
 # Share of the torque limit that the weight may take; the rest is for the foot's own motion and the feedback
 _SHARE = 0.95
 UPRIGHT = own(np.zeros(2))
+_ANYWHERE = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])  # m around an ankle: farther than soles go
 
 
 class AnkleLimits:
@@ -55,18 +56,10 @@ class AnkleLimits:
         left = self._cut(kept, lean)
         found = centroid(left) if area(left) > 0.0 else None
         if found is None:
-            near = centroid(reached) if area(reached) > 0.0 else None
-            near = self._moved_in(center, lean) if near is None else near
+            near = centroid(reached) if area(reached) > 0.0 else closest_point(self._cut(_ANYWHERE, lean), center)
+            near = center if near is None else near
             found = closest_point(kept, near) if area(kept) > 0.0 else near
         return center if found is None else found
-
-    def _moved_in(self, point: NDArray[np.float64], lean: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The point (2,) in m within the limits."""
-        px, py = point.tolist()
-        for x, y, h in self._leaning(lean):
-            beyond = max(0.0, x * px + y * py - h)
-            px, py = px - beyond * x, py - beyond * y
-        return np.array([px, py])
 
     def _leaning(self, lean: NDArray[np.float64]) -> list[tuple[float, float, float]]:
         dx, dy = lean.tolist()

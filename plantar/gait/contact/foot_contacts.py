@@ -28,13 +28,24 @@ _LEANS = 0.05  # rad from which a sole on a slope moves its ankle by more than e
 _NARROW = 0.5  # of a support's inscribed circle that the margin takes at most: all of it leaves one ZMP
 
 
-def middle_of_sole(layout: SoleLayout, reach: float = math.inf) -> NDArray[np.float64]:
+def middle_of_sole(
+    layout: SoleLayout, reach: float = math.inf, limits: AnkleLimits | None = None
+) -> NDArray[np.float64]:
     """Returns the VRP (2,) over a whole foothold of a `layout`, sole frame, in m
     (`plantar.gait.contact.ankle_reach`).
 
-    `reach` is the distance in m along the sole, from its origin, at which the ankle bears the robot.
+    `reach` is the distance in m along the sole at which the ankle bears the robot, `limits` by torques.
     """
-    return loaded_middle(on_its_hull(layout).outline, reach)
+    return _loaded(on_its_hull(layout).outline, reach, limits)
+
+
+def _loaded(
+    polygon: NDArray[np.float64], reach: float, limits: AnkleLimits | None, lean: NDArray[np.float64] = UPRIGHT
+) -> NDArray[np.float64]:
+    """Best place (2,) to load a polygon (k, 2)."""
+    center = loaded_middle(polygon, reach)
+    weak = borne_part(polygon, reach) is not polygon  # such an ankle is loaded midway already
+    return center if limits is None or weak else limits.center(polygon, center, lean)
 
 
 def on_its_hull(layout: SoleLayout) -> SoleLayout:
@@ -120,7 +131,7 @@ class FootContacts:
         self._settings = settings
         self._reach = reach
         self._limits = limits or {}
-        self._middle = {side: middle_of_sole(layouts[side], reach) for side in SIDES}
+        self._middle = {side: middle_of_sole(layouts[side], reach, self._limits.get(side)) for side in SIDES}
         self._borne = {side: borne_part(layouts[side].outline, reach) for side in SIDES}
         self._alone = {side: self._within_limits(side, self._borne[side], UPRIGHT) for side in SIDES}
         self._feet = {
@@ -164,7 +175,8 @@ class FootContacts:
         foot = self._feet[side]
         ground = foot.contact.foresee(np.zeros(2))
         if ground is not None:
-            foot.center, foot.borne = self._center(side, ground, UPRIGHT), borne_part(ground, self._reach)
+            foot.center = _loaded(ground, self._reach, self._limits.get(side))
+            foot.borne = borne_part(ground, self._reach)
         foot.seen_partial = ground is not None
 
     def coming_to_carry(self, phase: Phase, time: float, feet: FeetView) -> list[Side]:
@@ -202,7 +214,7 @@ class FootContacts:
         if ground is None:
             return None
         self._foreseen = self._part = phase.step
-        center = self._center(side, ground, -state.rotations_sole[side][2, :2])
+        center = _loaded(ground, self._reach, self._limits.get(side), -state.rotations_sole[side][2, :2])
         return FootholdSeen(phase.step, side, state.positions_sole[side][:2] + feet.ahead + turn @ center)
 
     def find(
@@ -244,7 +256,7 @@ class FootContacts:
         polygon = polygon_in_world(contact.polygon_in_sole, rotation, position)
         lean = -rotation[2, :2]
         leans = side in self._limits and math.hypot(*lean.tolist()) > _LEANS
-        center = self._center(side, contact.polygon_in_sole, lean)
+        center = _loaded(contact.polygon_in_sole, self._reach, self._limits.get(side), lean)
         vrp, middle = ((position + rotation[:, :2] @ place)[:2] for place in (center, contact.center_in_sole))
         # Where less was seen ahead, the plan uses that; what is found now has to correct it.
         if not contact.whole:
@@ -264,11 +276,6 @@ class FootContacts:
     ) -> NDArray[np.float64]:
         limits = self._limits.get(side)
         return polygon if limits is None else limits.within(polygon, lean)
-
-    def _center(self, side: Side, polygon: NDArray[np.float64], lean: NDArray[np.float64]) -> NDArray[np.float64]:
-        center, limits = loaded_middle(polygon, self._reach), self._limits.get(side)
-        weak = borne_part(polygon, self._reach) is not polygon  # such an ankle is loaded midway already
-        return center if limits is None or weak else limits.center(polygon, center, lean)
 
     def zmp_region(
         self, phase: Phase, feet: FeetView, frame_offset: Sequence[float], margin: float

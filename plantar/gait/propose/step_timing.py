@@ -54,7 +54,8 @@ class StepTiming:
     def propose(self, tick: Tick) -> PlanChange | None:
         """Another end of the support, where that helps."""
         phase, rules, pendulum = tick.phase, self._rules, tick.pendulum
-        if pendulum is None or phase.wait or tick.time < self._changed + rules.pause or not _before_a_step(tick):
+        stands = phase.kind == PhaseKind.STANDING or phase.step == tick.plan.count
+        if pendulum is None or stands or phase.wait or tick.time < self._changed + rules.pause:
             return None
         left = phase.end - tick.time
         if left < 2.0 * self._period or not len(pendulum.zmp_region):
@@ -92,12 +93,6 @@ class StepTiming:
                 if cost < least:
                     best, least = sign * k * self._period, cost
         return best
-
-
-def _before_a_step(tick: Tick) -> bool:
-    """Whether a foot swings, or the next one will as the double support ends."""
-    phase = tick.phase
-    return phase.swing is not None or (phase.kind == PhaseKind.DOUBLE_SUPPORT and phase.step < tick.plan.count)
 
 
 def _misses(tick: Tick, pendulum: Pendulum) -> Callable[[float], float]:

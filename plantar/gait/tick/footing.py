@@ -65,6 +65,7 @@ class Footing:
         plan: WalkPlan,
         estimation: Estimation,
         middles: Mapping[Side, NDArray[np.float64]],
+        limits: Mapping[Side, AnkleLimits],
         turns_stance: bool,
     ) -> None:
         s = self._settings = settings
@@ -78,7 +79,6 @@ class Footing:
             compliance = {side: SwingCompliance(layouts[side], *gains) for side in SIDES}
         self.frame = CommandFrame(feet["left"].position, s.period, s.alignment_time)
         self.motion = FootMotion(feet, s.period, s.swing_height, s.landing, compliance, s.swing)
-        limits = {side: AnkleLimits(strips, s.balance.zmp_offset) for side, strips in s.ankle_limits.items()}
         self.contacts = FootContacts(s.contact, layouts, s.ankle_reach, limits, s.ground_map.sensing_range)
         damping = DampingGains().for_body(s.body)
         self.damping = {side: LandingCompliance(s.period, damping) for side in SIDES}

@@ -13,7 +13,6 @@ import mujoco
 import numpy as np
 
 from plantar.errors import SceneError
-from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.controller import Command, Sensors, Start, WalkingController
 from plantar.gait.plan.walk_plan import vrp_of_step
 from plantar.layouts.layout import Side, SoleLayout
@@ -89,7 +88,6 @@ class Simulation(Run):
         self.velocities = walk.velocities(seed)
         start = self.start_walk()
         self.feet, self.steps = dict(start.feet), start.steps
-        self.centers = {side: middle_of_sole(robot.layouts[side], robot.ankle_reach) for side in SIDES}
         skin = upper_body_skin_of(scene, robot, self.legs.model, self.body, self.worn)
         self.settings = controller_settings(
             scene,
@@ -102,6 +100,7 @@ class Simulation(Run):
         )
         self.motors = command_motors(robot, self.legs, self.body, scene.control, self.settings.period)
         self.controller = WalkingController(self.settings, start, robot.layouts, self.legs, self.motors)
+        self.centers = self.controller.middles
         planned = planned_feet(robot, self.feet, self.steps, self.controller.schedule)
         ground = scene.terrain.ground(planned, np.random.default_rng([seed, 0x7E]))
         self.ground = ground

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from plantar import Percept, hex_layout
+from plantar.gait.contact.ankle_limits import AnkleLimits
 from plantar.gait.contact.foot_contacts import FootContacts, middle_of_sole, on_its_hull
 from plantar.gait.contact.stance_contact import ContactSettings
 from plantar.gait.plan.feet_view import FeetView
@@ -43,6 +44,14 @@ def test_a_sole_with_a_waist_is_loaded_where_its_hull_is(reach):
     waisted = replace(SOLE, outline=ring)
     assert on_its_hull(SOLE) is SOLE
     assert middle_of_sole(waisted, reach) == pytest.approx(middle_of_sole(SOLE, reach), abs=1e-12)
+
+
+def test_a_whole_sole_is_planned_to_be_loaded_where_a_weak_knee_can():
+    knee = AnkleLimits(np.array([[1.0, 0.0, 0.3, 0.25, 0.1]]), 0.015)  # in front of 62 mm
+    x, _ = middle_of_sole(SOLE, limits=knee)
+    front = SOLE.outline[:, 0].max() - 0.015
+    assert 0.3 - 0.95 * 0.25 < x < front
+    assert x == pytest.approx(0.5 * (0.0625 + front), abs=0.005)
 
 
 @pytest.mark.parametrize(("half_width", "left"), [(0.012, 0.006), (0.075, 0.06)])

@@ -4,7 +4,6 @@ import mujoco
 import numpy as np
 import pytest
 
-from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.sides import SIDES
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
@@ -25,7 +24,7 @@ def loads(run: Simulation) -> tuple[dict[str, float], dict[str, np.ndarray]]:
                 total, place = total + up, place + up * data.contact.pos[k, :2]
         foot = run.legs.model.site(run.robot.legs[side].sole_site).name
         site = model.site(foot).id
-        center = middle_of_sole(run.robot.layouts[side], run.robot.ankle_reach)
+        center = run.controller.middles[side]
         middle = data.site_xpos[site] + data.site_xmat[site].reshape(3, 3)[:, :2] @ center
         forces[side], off[side] = total, place / total - middle[:2]
     return forces, off
