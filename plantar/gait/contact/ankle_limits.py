@@ -13,6 +13,7 @@ from plantar.geometry.polygon import area, centroid, closest_point, inner_offset
 # Share of the torque limit that the weight may take; the rest is for the foot's own motion and the feedback
 _SHARE = 0.95
 UPRIGHT = own(np.zeros(2))
+"""A sole's lean on the level."""
 _ANYWHERE = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])  # m around an ankle: farther than soles go
 
 
@@ -33,9 +34,9 @@ class AnkleLimits:
         self._margin = margin
 
     def within(self, polygon: NDArray[np.float64], lean: NDArray[np.float64] = UPRIGHT) -> NDArray[np.float64]:
-        """Part (j, 2) of a support polygon (k, 2), moved in by the margin, within the ankle's reach; else all.
+        """Returns the part (j, 2) of a support `polygon` (k, 2), moved in by the margin, in reach; else all.
 
-        Polygons: sole frame, m, counter-clockwise; `lean` (2,): how far a point 1 m over it is beside it.
+        Sole frame, m, counter-clockwise; `lean` (2,): where a point 1 m over its origin is.
         """
         left = self._cut(polygon, lean, self._margin)
         return left if area(left) > 0.0 else polygon
@@ -43,8 +44,7 @@ class AnkleLimits:
     def center(
         self, polygon: NDArray[np.float64], center: NDArray[np.float64], lean: NDArray[np.float64] = UPRIGHT
     ) -> NDArray[np.float64]:
-        """Returns the best place (2,) in m to load a foot alone on a `polygon` (k, 2), sole frame, in m, counter-
-        clockwise.
+        """Returns the best place (2,) to load a foot alone on a `polygon` with a `lean` as in `within`.
 
         `center` (2,), best for a strong ankle, if the ankle reaches all of the polygon, else the centroid of the ZMP's
         region, or the nearest place with the margin: over an edge the robot falls, at a joint's limit it only sinks.

@@ -14,7 +14,7 @@ _HURRIED = 0.88  # of its first duration, below which a swing is hurried; times 
 
 
 def hurried(duration: float, first: float) -> bool:
-    """Whether a swing has to catch the body: its duration in s is much shorter than at its lift-off."""
+    """Returns whether a swing has to catch the body: its `duration` is much shorter than the `first`, both in s."""
     return duration < _HURRIED * first
 
 

@@ -65,8 +65,7 @@ class StepTiming:
         if off * math.exp(pendulum.omega * left) < rules.least_error:
             return None
         missed = _misses(tick, pendulum)
-        error = missed(left)
-        if error < rules.least_error:
+        if missed(left) < rules.least_error:
             return None
         change = self._best_change(tick, missed, left)
         if abs(change) < 1.5 * self._period:
