@@ -235,7 +235,7 @@ def report() -> None:
         "variant",
         "walk",
         "cells at 85 % of the bound",
-        "of those that its ankles can hold",
+        "of those within the joints' torques",
         "median share of the bound",
     )
     head += ("of the others, at 85 % with motors four times as strong", "joints that end it")
@@ -261,8 +261,9 @@ def report() -> None:
                     strong += [any(lifted)] if any(lifted) or len(lifted) == 2 else []
             middle = f"{np.median(shares):.2f} of {len(asked)}" if asked else "-"
             ended_by = ", ".join(
-                f"{joint}: {len(alone)} (lifted {alone.count(True)} of {len(alone) - alone.count(None)} tried)"
-                for joint, alone in held.items()
+                f"{joint} {len(alone)}" + f" (lifted {alone.count(True)} of {tried})" * (tried > 0)
+                for joint, alone in sorted(held.items(), key=lambda item: -len(item[1]))
+                for tried in (len(alone) - alone.count(None),)
             )
             saved = f"{sum(strong)} of {len(strong)}" if strong else "-"
             lines.append(
