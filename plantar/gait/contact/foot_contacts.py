@@ -15,7 +15,7 @@ from plantar.gait.estimate.sole_slope import SoleSlope
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.phases import Phase, PhaseKind
 from plantar.geometry.inscribed import inscribed_circle
-from plantar.geometry.polygon import area, convex_hull, inner_offset
+from plantar.geometry.polygon import area, convex_hull, inner_offset, signed_margin
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.rotation import level_rotation
@@ -25,6 +25,7 @@ from plantar.sides import SIDES, Side
 
 _FORGETS = 4  # steps after which a foothold that carried a part of the sole is no evidence of the ground ahead
 _LEANS = 0.05  # rad from which a sole on a slope moves its ankle by more than encoders err
+_ASIDE = 0.5  # of the room around the best place by torques in which a whole sole keeps its middle
 _NARROW = 0.5  # of a support's inscribed circle that the margin takes at most: all of it leaves one ZMP
 
 
@@ -36,7 +37,10 @@ def middle_of_sole(
 
     `reach` is the distance in m along the sole at which the ankle bears the robot, `limits` by torques.
     """
-    return _loaded(on_its_hull(layout).outline, reach, limits)
+    outline = on_its_hull(layout).outline
+    middle, best = loaded_middle(outline, reach), _loaded(outline, reach, limits)
+    near = limits is not None and math.dist(middle, best) <= _ASIDE * signed_margin(limits.within(outline), best)
+    return middle if near else best
 
 
 def _loaded(

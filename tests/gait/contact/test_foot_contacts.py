@@ -52,6 +52,9 @@ def test_a_whole_sole_is_planned_to_be_loaded_where_a_weak_knee_can():
     front = SOLE.outline[:, 0].max() - 0.015
     assert 0.3 - 0.95 * 0.25 < x < front
     assert x == pytest.approx(0.5 * (0.0625 + front), abs=0.005)
+    # One that holds most of the sole leaves its middle: hrp2kai fell on slopes with its feet farther behind.
+    strong = AnkleLimits(np.array([[1.0, 0.0, 0.3, 0.38, 0.1]]), 0.015)
+    assert middle_of_sole(SOLE, limits=strong).tolist() == middle_of_sole(SOLE).tolist()
 
 
 @pytest.mark.parametrize(("half_width", "left"), [(0.012, 0.006), (0.075, 0.06)])

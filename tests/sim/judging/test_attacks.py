@@ -99,7 +99,7 @@ def test_landings_after_a_step_onto_the_wrong_ground_are_no_steps() -> None:
 
 
 def test_a_fall_counts_the_steps_before_it() -> None:
-    summary = run_scene(load_scene("beam", [*SHORT_BEAM, *KEPT, "footholds=off"]), 4)
+    summary = run_scene(load_scene("beam", [*SHORT_BEAM, *KEPT, "footholds=off"]), 3)
     assert {"fall", "steps"} <= criteria(summary)
     assert summary["steps_taken"] == 7
     assert len(summary["landings_s"]) > 7
