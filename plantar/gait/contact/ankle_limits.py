@@ -22,7 +22,7 @@ class AnkleLimits:
 
     Args:
         strips: (m, 5), sole frame, one a joint, within its torque: unit normal (x, y), middle and half width in m, and
-            how high in m what leans with the sole is.
+            the ankle's height in m.
         margin: Desired ZMP from a support polygon's edge in m.
     """
 

@@ -44,7 +44,7 @@ class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_ad
         confidence: c of K 2.5: 1 keeps nominal footsteps if balance allows, 0 follows pushes.
         yielding: Share of a push's DCM motion that steps without confidence follow, even if ankles could resist; 0
             steps for balance alone.
-        double_support: Whether double supports' ends move, too (`double_support_timing`).
+        double_support: Whether `double_support_timing` ends double supports, not `step_timing`.
         least_error: Final DCM error in m below which the plan stays.
         acceleration: Swing foot's largest in m/s^2.
         sideways: Its share sideways; all of it makes h1's hips sink.
@@ -139,16 +139,16 @@ class StepAdjustment:
 
     def propose(self, tick: Tick) -> PlanChange | None:
         """Another footstep where that helps, or its place now."""
-        pendulum, swing = tick.pendulum, tick.phase.swing
+        pendulum, swing, side, timing = tick.pendulum, tick.phase.swing, tick.feet.side, self._timing
         if pendulum is None:
             return None
-        landed = tick.firm and tick.feet.side is not None and tick.feet.landed
-        change = self._landed(tick, tick.feet.side) if landed and tick.feet.side is not None else None
-        if change is not None or (landed and swing is not None):
-            return change
+        if tick.firm and tick.feet.landed and side is not None:
+            change = self._landed(tick, side)
+            if change is not None or swing is not None:
+                return change
         if swing is None or not tick.firm:
-            return None if self._timing is None else self._timing.propose(tick)
-        if tick.phase.wait or tick.feet.side is None:
+            return None if timing is None or (swing is None and self._rules.double_support) else timing.propose(tick)
+        if tick.phase.wait or side is None:
             return None
         foot = self._follow(tick, swing)
         if tick.time < self._changed + self._rules.pause or not len(pendulum.zmp_region):

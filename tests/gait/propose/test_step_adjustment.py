@@ -1,5 +1,6 @@
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -8,7 +9,7 @@ import shapely
 
 from plantar.gait.balance.ankle_strategy import AnkleRules
 from plantar.gait.plan.footsteps import straight_plan
-from plantar.gait.plan.phases import Timing
+from plantar.gait.plan.phases import PhaseKind, Timing
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.walk_plan import WalkPlan
 from plantar.gait.propose.proposer import Pendulum, Tick
@@ -227,6 +228,18 @@ def test_a_foot_that_lands_early_ends_the_single_support(pushed):
     assert landed.foothold.yaw == pytest.approx(0.1)
     assert down.phase.end + landed.longer == pytest.approx(NOW + 0.05 + PERIOD)
     assert steps.propose(down) is None  # told once
+
+
+@pytest.mark.parametrize("other_rule", [False, True])
+def test_a_double_support_has_one_rule_that_ends_it(other_rule, plan_of, tick_at):
+    plan, change = plan_of(), PlanChange("DCM behind", 1, longer=0.1)
+    time, timing = 3.2, SimpleNamespace(propose=lambda tick: change)
+    reference, goal = plan.at(time), plan.dcm_after(plan.schedule.at(time))
+    tick = tick_at(plan, time, pendulum=Pendulum(3.5, reference.dcm, reference, goal, reference.vrp + ROOM))
+    assert tick.phase.kind == PhaseKind.DOUBLE_SUPPORT
+    rules = replace(RULES, double_support=other_rule)
+    steps = StepAdjustment(rules, REGION, TOUCHING, StepWeights(), WHOLE, PERIOD, timing)
+    assert steps.propose(tick) is (None if other_rule else change)
 
 
 def test_a_step_that_nobody_adjusted_keeps_its_time(pushed):
