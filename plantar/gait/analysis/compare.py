@@ -3,7 +3,8 @@
 import json
 import math
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -102,7 +103,8 @@ def _write_comparison(analyses: Mapping[str, Analysis], folder: Path, names: tup
     pairs = _pairs(analyses["a"], analyses["b"])
     difference = {name: difference_of(analyses, one, other) for name, (one, other) in pairs.items()}
     metrics: dict[str, Any] = {k: dict(v.metrics) for k, v in analyses.items()} | {"difference": difference}
-    metrics["warnings"] = _unlike(analyses["a"].recording, analyses["b"].recording)
+    a, b = ([sensor_of(one.recording)] for one in analyses.values())
+    metrics["warnings"] = unlike(a, b, "A", "B")
     figures = write_figures(_figures(analyses, pairs, difference), folder)
     (folder / "comparison.json").write_text(json.dumps(metrics, indent=1, allow_nan=False) + "\n", encoding="utf-8")
     page = comparison_page(metrics, figures, names, ("a/report.html", "b/report.html"))
@@ -110,12 +112,22 @@ def _write_comparison(analyses: Mapping[str, Analysis], folder: Path, names: tup
     return metrics
 
 
-def _unlike(*recordings: PressureRecording) -> list[str]:
-    areas = [min((f.layout.cell_area for f in r.feet.values() if f.layout), default=0.0) for r in recordings]
-    cells = [f"cells of {1e6 * area:.3g} mm2" if area else "no cells" for area in areas]
-    one, other = (f"{_SENSORS[r.kind]} ({what})" for r, what in zip(recordings, cells, strict=True))
-    doubt = f"A is of {one}, B of {other}: differences may be of the sensors, peak pressures and areas above all"
-    return [] if len({r.kind for r in recordings}) == 1 and max(areas) <= 1.5 * min(areas) else [doubt]
+def sensor_of(recording: PressureRecording) -> tuple[str, float]:
+    """Kind of a recording's sensors and least area of their cells in m2; 0 without cells."""
+    areas = (f.layout.cell_area for f in recording.feet.values() if f.layout)
+    return _SENSORS[recording.kind], min(areas, default=0.0)
+
+
+def unlike(a: Iterable[tuple[str, float]], b: Iterable[tuple[str, float]], one: str, other: str) -> list[str]:
+    """A doubt where a sensor of `a`, named `one`, differs from one of `b`, named `other`, in kind or cells."""
+    for pair in product(a, b):
+        areas = [area for _, area in pair]
+        if pair[0][0] != pair[1][0] or max(areas) > 1.5 * min(areas):
+            cells = [f"cells of {1e6 * area:.3g} mm2" if area else "no cells" for area in areas]
+            first, second = (f"{kind} ({what})" for (kind, _), what in zip(pair, cells, strict=True))
+            doubt = "differences may be of the sensors, peak pressures and areas above all"
+            return [f"{one} is of {first}, {other} of {second}: {doubt}"]
+    return []
 
 
 def _pairs(a: Analysis, b: Analysis) -> dict[str, tuple[Side, Side]]:

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.gait.analysis.compare import unlike
 from plantar.gait.analysis.measures import raw_name
 from plantar.gait.analysis.study.one_recording import RecordingResult
 from plantar.gait.analysis.study.statistics import Effect, PermutationTest, effect_of, permutation_test
@@ -65,6 +66,7 @@ class Comparison:
         map_test: Where they differ, among `places`.
         places: Map places (36, 14) that every participant has.
         note: Why nothing was compared, or empty.
+        doubts: Of the comparison.
     """
 
     a: str
@@ -78,6 +80,7 @@ class Comparison:
     map_test: PermutationTest | None = None
     places: NDArray[np.bool_] | None = None
     note: str = ""
+    doubts: Sequence[str] = ()
 
 
 def compare_conditions(results: Sequence[RecordingResult]) -> list[Comparison]:
@@ -106,7 +109,9 @@ def _compared(results: Sequence[RecordingResult], a: str, b: str) -> Comparison:
     curve_test = None if curves is None else permutation_test(*curves, paired, chain)
     maps, places, map_test = _maps(recordings_a, recordings_b, paired)
     effects = _effects(recordings_a, recordings_b, paired)
-    return Comparison(a, b, paired, effects, unit, curves, curve_test, maps, map_test, places)
+    one, other = ({r.sensor for own in group for r in own} for group in (recordings_a, recordings_b))
+    doubts = unlike(one, other, a, b)
+    return Comparison(a, b, paired, effects, unit, curves, curve_test, maps, map_test, places, doubts=doubts)
 
 
 def _by_participant(results: Sequence[RecordingResult], condition: str) -> dict[str, list[RecordingResult]]:

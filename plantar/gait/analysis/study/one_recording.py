@@ -3,7 +3,7 @@
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ from plantar.errors import FormatError
 from plantar.files.input_file import sha256_of
 from plantar.formats import ReadOptions
 from plantar.gait.analysis.analyse_one import analyse_one, with_layout
+from plantar.gait.analysis.compare import sensor_of
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.pages.force_figures import stance_curves
 from plantar.gait.analysis.results import Analysis
@@ -28,6 +29,8 @@ from plantar.sides import Side
 
 GRID = (36, 14)
 """Places along and across a sole at which maps are compared: about 8 mm, the pitch of in-shoe sensors."""
+
+_ARRAYS = ("curve_", "map_")  # in a stored result, before the side
 
 _LENGTHS = (
     "cop_path_m",
@@ -56,6 +59,7 @@ class RecordingResult:
         maps: Each foot's mean maximum pressure `GRID` in Pa, heel to toes, lateral to medial, NaN off the sole.
         warnings: What was assumed.
         walk: Measures of the whole walk.
+        sensor: Its kind and cells (`sensor_of`).
     """
 
     who: Participation
@@ -70,6 +74,7 @@ class RecordingResult:
     maps: Mapping[Side, NDArray[np.float64]]
     warnings: tuple[str, ...]
     walk: Mapping[str, float | None]
+    sensor: tuple[str, float] = ("insoles", 0.0)
 
 
 def digest_of(path: Path) -> str:
@@ -134,6 +139,7 @@ def measure_recording(
         maps={s: found for s, g in analysis.feet.items() if (found := _map(analysis, g)) is not None},
         warnings=tuple(analysis.metrics["warnings"]),
         walk={k: v for k, v in analysis.metrics["gait"].items() if k != "symmetry_percent"},
+        sensor=sensor_of(recording),
     )
 
 
@@ -226,18 +232,11 @@ def sampled(
 
 def write_result(result: RecordingResult, path: Path) -> None:
     """Store a result at a path (.npz) so that a stopped study can continue."""
-    plain = {
-        **{
-            key: getattr(result, key) for key in ("digest", "key", "format", "error", "raw", "rows", "feet", "warnings")
-        },
-        "walk": dict(result.walk),
-        "who": asdict(result.who),
-    }
-    arrays: dict[str, Any] = {f"curve_{s}": v for s, v in result.curves.items()} | {
-        f"map_{s}": v for s, v in result.maps.items()
-    }
+    plain = {f.name: getattr(result, f.name) for f in fields(result) if f.name not in ("curves", "maps")}
+    parts = zip(_ARRAYS, (result.curves, result.maps), strict=True)
+    arrays: dict[str, Any] = {f"{part}{side}": values for part, of in parts for side, values in of.items()}
     with replacing(path) as temporary, temporary.open("wb") as stream:
-        np.savez_compressed(stream, text=np.array(json.dumps(plain, default=dict)), **arrays)
+        np.savez_compressed(stream, text=np.array(json.dumps(plain, default=asdict)), **arrays)
 
 
 def read_result(path: Path, key: str) -> RecordingResult | None:
@@ -245,16 +244,9 @@ def read_result(path: Path, key: str) -> RecordingResult | None:
     try:
         with path.open("rb") as stream, np.load(stream, allow_pickle=False) as held:
             plain = json.loads(str(held["text"]))
-            arrays = {name: held[name] for name in held.files if name != "text"}
+            curves, maps = ({n[len(p) :]: held[n] for n in held.files if n.startswith(p)} for p in _ARRAYS)
+        plain |= {"who": Participation(**plain["who"])} | {k: tuple(plain[k]) for k in ("rows", "warnings", "sensor")}
+        found = RecordingResult(**plain, curves=curves, maps=maps)
     except Exception:  # a file that was cut short may raise anything; measuring again is always right
         return None
-    if plain.get("key") != key:
-        return None
-    return RecordingResult(
-        who=Participation(**plain["who"]),
-        **{name: plain[name] for name in ("digest", "key", "format", "error", "raw", "feet", "walk")},
-        rows=tuple(plain["rows"]),
-        warnings=tuple(plain["warnings"]),
-        curves={n.removeprefix("curve_"): v for n, v in arrays.items() if n.startswith("curve_")},
-        maps={n.removeprefix("map_"): v for n, v in arrays.items() if n.startswith("map_")},
-    )
+    return found if found.key == key else None

@@ -257,7 +257,7 @@ def _plain(comparison: Comparison) -> dict[str, Any]:
         key: {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(effect).items()}
         for key, effect in comparison.effects.items()
     }
-    out: dict[str, Any] = {"a": comparison.a, "b": comparison.b, "paired": comparison.paired, "note": comparison.note}
+    out = {key: getattr(comparison, key) for key in ("a", "b", "paired", "note", "doubts")}
     for name, test in (("curve", comparison.curve_test), ("map", comparison.map_test)):
         if test is not None:
             out[name] = {

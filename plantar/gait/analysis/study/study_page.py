@@ -80,7 +80,8 @@ def _sentence(one: Comparison) -> str:
         return f"{one.a} and {one.b} ({how}): no measure differs when all {len(one.effects)} are allowed for."
     named = [f"{_title(key)[0]} ({'+' if e.difference > 0 else '−'}, g = {number(sizes[key], 2)})" for key, e in found]
     more = "" if len(named) <= 4 else f" and {len(named) - 4} more"
-    return f"In {one.b} against {one.a} ({how}) these differ: {', '.join(named[:4])}{more}."
+    doubts = "".join(f" {doubt}." for doubt in one.doubts)
+    return f"In {one.b} against {one.a} ({how}) these differ: {', '.join(named[:4])}{more}.{doubts}"
 
 
 def _title(key: str) -> tuple[str, str, float]:

@@ -163,6 +163,21 @@ def test_no_effect_stays_none_in_95_of_100_studies():
     assert found <= 8  # of 40 draws with two families at 0.05 each: more is one in 60
 
 
+def test_conditions_of_unlike_sensors_are_compared_with_a_doubt():
+    curve = np.zeros(101)
+    results = [result_of(f"{who}", c, 700.0 + who, curve) for who in range(4) for c in ("mat", "shoe")]
+
+    def doubts(**shoe: tuple[str, float]) -> list[str]:
+        sensors = {"mat": ("a platform", 25e-6), **shoe}
+        (comparison,) = compare_conditions([replace(r, sensor=sensors[r.who.condition]) for r in results])
+        return list(comparison.doubts)
+
+    assert doubts(shoe=("a platform", 25e-6)) == doubts(shoe=("a platform", 30e-6)) == []
+    (kinds,), (cells,) = doubts(shoe=("insoles", 25e-6)), doubts(shoe=("a platform", 100e-6))
+    assert kinds.startswith("mat is of a platform (cells of 25 mm2), shoe of insoles (cells of 25 mm2): differences")
+    assert "shoe of a platform (cells of 100 mm2)" in cells
+
+
 def test_too_few_participants_are_not_compared():
     curve = np.zeros(101)
     results = [result_of(f"{who}{c}", c, 1.0, curve) for who in range(2) for c in ("a", "b")]
