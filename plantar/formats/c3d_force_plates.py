@@ -147,9 +147,10 @@ def _plate(held: Mapping[str, NDArray[Any]], number: int, up: int, length: float
     known, ground = float(np.ptp(corners)) > 1e-6, length * corners[:, order][:, :2]
     middle = ground.mean(axis=0)
     cop = free = None
+    upward = float(np.sign(axes[order[2], 2]) or 1.0)
     if kind == 1:  # which states the CoP itself, and the free moment about its own z axis
         cop = length * (axes[:, :2] @ values[3:5]).T[:, order][:, :2] + middle
-        free = float(np.sign(axes[order[2], 2]) or 1.0) * newton_metre * values[5]
+        free = upward * newton_metre * values[5]
     return Plate(
         name,
         (axes @ local).T[:, order],
@@ -159,6 +160,7 @@ def _plate(held: Mapping[str, NDArray[Any]], number: int, up: int, length: float
         origin=middle,
         corners=ground if known else None,
         placed=known,
+        normal=upward * axes[order, 2],
     )
 
 

@@ -71,7 +71,7 @@ def feet_of_plates(
         warnings.append(f"{len(ready) - len(used)} of {len(ready)} force plates are never stepped on")
     for plate in used:
         _refuse_no_foot(plate)
-    used = [_with_cop(p, warnings) for p in used]
+    used = [on_its_surface(p, warnings) for p in used]
     contacts = [c for i, p in enumerate(used) for c in plate_contacts(i, p.force[:, 2], rate)]
     if len(used) == 1 and not contacts and float(np.nanpercentile(used[0].force[:, 2], 2.0)) > LEAST:
         spread = float(np.nanstd(used[0].force[:, 2]) / np.nanmean(used[0].force[:, 2]))
@@ -199,13 +199,18 @@ def _refuse_no_foot(plate: Plate) -> None:
         )
 
 
-def _with_cop(plate: Plate, warnings: list[str]) -> Plate:
+def on_its_surface(plate: Plate, warnings: list[str]) -> Plate:
+    """Returns a plate with centre of pressure on its surface and free moment about its normal; `warnings` are added to.
+
+    With r in the surface and M = r x F + f n: n x M = r (n . F) and M . F = f (n . F).
+    """
     vertical = np.where(plate.force[:, 2] > LEAST, plate.force[:, 2], np.nan)
     cop, free = plate.cop, plate.free
     if plate.moment is not None:
-        local = np.column_stack([-plate.moment[:, 1], plate.moment[:, 0]]) / vertical[:, None]
-        free = plate.moment[:, 2] - local[:, 0] * plate.force[:, 1] + local[:, 1] * plate.force[:, 0]
-        cop = local + plate.origin
+        n, moment = plate.normal, np.column_stack([plate.moment[:, :2], np.nan_to_num(plate.moment[:, 2])])
+        pressing = np.nan_to_num(plate.force[:, :2]) @ n[:2] + n[2] * vertical
+        free = (plate.moment * plate.force).sum(axis=1) / pressing
+        cop = np.cross(n, moment)[:, :2] / pressing[:, None] + plate.origin
     if cop is None:
         return plate
     cop = np.where(np.isfinite(vertical)[:, None] & np.isfinite(cop), cop, np.nan)

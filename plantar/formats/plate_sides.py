@@ -39,6 +39,7 @@ class Plate:
         side: Foot named by file or user.
         stepped: Whether stepped on.
         placed: Whether laboratory place and axes are known.
+        normal: Of the surface (3,), upwards.
     """
 
     name: str
@@ -51,6 +52,7 @@ class Plate:
     side: Side | None = None
     stepped: bool = True
     placed: bool = True
+    normal: NDArray[np.float64] = field(default_factory=lambda: np.array([0.0, 0.0, 1.0]))
 
 
 @dataclass(frozen=True)

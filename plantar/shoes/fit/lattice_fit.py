@@ -135,7 +135,8 @@ def fit_lattice(
     placements = _placements(sole, pattern, taxels, scans)
     if not placements:
         raise FootError(
-            f"no whole cell of {pattern.area:g} mm^2 fits the sole ({sole.area:.0f} mm^2); use a smaller cell area"
+            f"no whole cell of {pattern.area:g} mm^2 fits the sole ({sole.area:.0f} mm^2); use a smaller cell area, "
+            f"{low:g} mm^2 or more"
         )
     best = max(placements, key=lambda p: p.score)
     best = _centred(best, sole, region, pattern)

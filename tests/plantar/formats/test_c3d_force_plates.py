@@ -10,7 +10,9 @@ import pytest
 from plantar import FormatError, InputError
 from plantar.formats import detect_format, read_recording
 from plantar.formats.c3d_content import event_of
+from plantar.formats.force_plates import on_its_surface
 from plantar.formats.format import ReadOptions
+from plantar.formats.plate_sides import Plate
 from plantar.gait.analysis.analyse import Analysis, analyse
 from plantar.gait.analysis.steps.foot_gait import Step
 
@@ -66,6 +68,21 @@ def test_two_plates_are_two_feet(tmp_path, seed):
     assert text.count("when empty") == 2
     assert ("point down" in text) == ("on plate" in lab.text)
     assert ("laboratory's vertical axis" in text) == ("axes [0, 1, 2]" not in lab.text)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_centre_of_pressure_lies_on_a_tilted_plate(seed):
+    random = np.random.default_rng(seed)
+    normal = np.array([*random.uniform(-0.4, 0.4, 2), 1.0])
+    normal /= np.linalg.norm(normal)
+    place = random.uniform(-0.2, 0.2, (50, 3))
+    place[:, 2] = -place[:, :2] @ normal[:2] / normal[2]
+    force = np.column_stack([random.uniform(-90.0, 90.0, (50, 2)), random.uniform(100.0, 900.0, 50)])
+    turn = random.uniform(-5.0, 5.0, 50)
+    moment = np.cross(place, force) + turn[:, None] * normal
+    found = on_its_surface(Plate("plate 1", force, moment, normal=normal), [])
+    assert found.cop == pytest.approx(place[:, :2], abs=1e-12)
+    assert found.free == pytest.approx(turn, abs=1e-11)
 
 
 def test_events_of_the_file_are_read(tmp_path):
