@@ -127,6 +127,10 @@ class Skin:
     def _place(self, model: Any) -> tuple[list[int], SoleShape]:
         if not isinstance(model, mujoco.MjModel):
             raise InputError(f"a skin is bound to a mujoco.MjModel; got a {type(model).__name__}")
+        if model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP:
+            raise RobotError(
+                "the model lets bodies sleep, which have no contacts then; allowed: no <flag sleep='enable'/>"
+            )
         body = named_id(model, "body", self.body)
         if body == 0 or (int(model.body_weldid[body]) == 0 and model.body_mocapid[body] < 0):
             raise RobotError(f"body '{self.body}' is fixed to the world; a skin needs a body that moves")

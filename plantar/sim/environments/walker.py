@@ -40,7 +40,7 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
     An action (k,) of -1 to 1 moves the leg joints' set-points from standing by `scale` rad. Observed, in float32:
 
     - joints (2 k,): angles from standing in rad, velocities in rad/s;
-    - imu (9,): gyro in rad/s, accelerometer in m/s^2, gravity's direction in the torso's frame;
+    - imu (9,), in the torso's frame: gyro in rad/s, accelerometer in m/s^2, gravity's direction;
     - skin_left, skin_right (n,): force on each taxel in body weights;
     - task (m,): see `plantar.sim.environments.tasks`.
 
@@ -118,6 +118,7 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
             low = 0.0 if faults is None else -np.inf
             boxes |= {f"skin_{side}": _box(len(self.robot.layouts[side]), low) for side in SIDES}
         self.observation_space = spaces.Dict(boxes)
+        self._imu = self.model.site(self.robot.imu_site).id
         self._camera: Camera | None = None
 
     def _skin(self, side: Side) -> Skin:
@@ -196,8 +197,9 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         data, world = self.data, self.world
         self.readings = {side: self.skins[side](data) for side in SIDES}
         sensed = data.sensordata
-        gravity = -data.xmat[world.torso].reshape(3, 3)[2]
-        imu = [sensed[world.gyro : world.gyro + 3], sensed[world.accelerometer : world.accelerometer + 3], gravity]
+        torso = data.xmat[world.torso].reshape(3, 3)
+        chip = torso.T @ data.site_xmat[self._imu].reshape(3, 3)
+        imu = [*(chip @ sensed[at : at + 3] for at in (world.gyro, world.accelerometer)), -torso[2]]
         joints = [data.qpos[world.joint_qpos] - self._start[0][world.joint_qpos], data.qvel[world.joint_qvel]]
         seen = {"joints": np.concatenate(joints), "imu": np.concatenate(imu), "task": self.task.observe()}
         if "skin_left" in self.observation_space.spaces:

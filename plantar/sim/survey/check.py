@@ -12,6 +12,7 @@ from plantar.gait.plan.footsteps import Footstep, straight_plan
 from plantar.robots.controller_settings import controller_settings
 from plantar.robots.kinematics.ankle_sensors import ankle_sensors
 from plantar.robots.kinematics.body import body_of
+from plantar.robots.kinematics.command_joints import SPEED_SHARE
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.robot import Robot
@@ -109,8 +110,10 @@ class _Checked:
         stands = settled(self.robot, self.legs, self.walked.feet, self.walked.com_height)
         model, gains = self.legs.model, self._gains(self.legs.model, self.legs.configuration)
         reach = plan_reach(self.robot, self.legs, self.walked)
-        found = (*self._reach(reach, stands), self._apart(), *gains, *self._soles(model), *self._torques(reach))
-        return RobotCheck(self.robot.name, self.scene.name, found)
+        found = [*self._reach(reach, stands), self._apart(), *gains, *self._soles(model)]
+        if math.isfinite(reach.shift):  # the legs followed the plan to its end
+            found += [*self._torques(reach), *self._speed(reach)]
+        return RobotCheck(self.robot.name, self.scene.name, tuple(found))
 
     def _walked(self) -> Walked:
         walk, robot = self.scene.walk, self.robot
@@ -312,6 +315,18 @@ class _Checked:
         )
         found.append(Finding("torque moving", round(float(reach.torque[m]), 3), float(limits[m]), "N m", fits, text))
         return found
+
+    def _speed(self, reach: PlanReach) -> list[Finding]:
+        limits = np.array(self.robot.velocity_limits) if self.robot.velocity_limits else np.inf
+        share = reach.speed / (SPEED_SHARE * limits)
+        j = int(share.argmax())
+        if share[j] == 0.0:
+            return []
+        limit, holds = float(reach.speed[j] / share[j]), bool(share[j] <= 1.0)
+        text = f"{self.names[j]} turns by up to {reach.speed[j]:.3g} rad/s" + _unless(
+            holds, f"; allowed: {limit:.3g}, {SPEED_SHARE:g} of its limit; a longer single_support helps"
+        )
+        return [Finding("speed", round(float(reach.speed[j]), 3), round(limit, 3), "rad/s", holds, text)]
 
     def _relief(self, now: PlanReach, other: PlanReach, limits: Any, joint: int, name: str) -> str:
         if other.carrying[joint] <= limits[joint]:

@@ -33,6 +33,8 @@ _MOST_TURNED = 20.0  # rad, three turns: hinges of robots have 10 at most, and i
 _IN_DEGREES = 720.0  # what is larger stands for no limit
 _LIMITS = {"": "limits", "actfrc": "torque limits", "force": "force limits", "ctrl": "control limits"}
 _IMU = re.compile(r"(?<![a-z])imu(?![a-z])|Imu(?![a-z])|(?<![A-Z])IMU(?![A-Z]{2})")  # a word, not in "maximum"
+_Range = tuple[float, float]
+_ANY: _Range = (-math.inf, math.inf)
 _LOOPS = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
 
 
@@ -97,9 +99,10 @@ def read_model(file: Path, folder: Path) -> ModelSource:
     posture = _first_keyframe(spec)
     _drop_other_things(spec, stated.notes)
     _drop_unreadable(spec, file, folder, stated.notes)
-    loops = [(e.name1, e.name2) for e in spec.equalities if e.type in _LOOPS]
+    loops = [(e.name1, e.name2) for e in spec.equalities if e.type in _LOOPS and e.active]
     stated.coupled += [(e.name1, e.name2) for e in spec.equalities if e.type == mujoco.mjtEq.mjEQ_JOINT and e.name2]
     _collect_motors(spec, stated)
+    stated.notes += named_note("gravity compensation is left out", [b.name for b in spec.bodies if b.gravcomp])
     imus = _imus_of(spec)
     forget_own_simulation(spec)
     model = _compiled(spec, file)
@@ -253,41 +256,67 @@ def _first_keyframe(spec: Any) -> dict[str, float]:
 
 def _collect_motors(spec: Any, stated: _Stated) -> None:
     rates: dict[str, tuple[float, float]] = {}  # and torques of velocity servos, which count where they are alone
-    torques: list[tuple[str, float]] = []
+    torques: dict[str, list[_Range]] = {}
+    servos: set[str] = set()
     for motor in spec.actuators:
-        gear = abs(float(motor.gear[0])) or 1.0
-        gain, rate = float(motor.gainprm[0]), float(motor.biasprm[2])
-        force = gear * _bound(motor, "force")
-        if gain and motor.biastype == mujoco.mjtBias.mjBIAS_NONE and motor.gaintype == mujoco.mjtGain.mjGAIN_FIXED:
-            force = min(force, gear * abs(gain) * _bound(motor, "ctrl"))
+        gear = float(motor.gear[0]) or 1.0
+        gain, spring, rate = float(motor.gainprm[0]), float(motor.biasprm[1]), float(motor.biasprm[2])
+        force = _times(gear, _range(motor, "force"))
+        pushes = motor.gaintype == mujoco.mjtGain.mjGAIN_FIXED and gain != 0.0 and spring == 0.0
+        if pushes and (motor.biastype == mujoco.mjtBias.mjBIAS_NONE or rate != -gain):
+            force = _both(force, _times(gear * gain, _range(motor, "ctrl")))
+        holds = gain > 0.0 and spring == -gain
         if motor.trntype == mujoco.mjtTrn.mjTRN_TENDON:
             tendon = spec.tendon(motor.target)
-            force = min(force, _bound(tendon, "actfrc"))
-            joints = [w for w in tendon.path if w.type == mujoco.mjtWrap.mjWRAP_JOINT]  # of a fixed one
-            torques += [(w.target.name, abs(w.coef) * force) for w in joints]
+            force = _both(force, _range(tendon, "actfrc"))
+            for wrap in tendon.path:
+                if wrap.type == mujoco.mjtWrap.mjWRAP_JOINT:  # of a fixed one
+                    torques.setdefault(wrap.target.name, []).append(_times(wrap.coef, force))
+                    servos |= {wrap.target.name} if holds else set()
         if motor.trntype not in (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT):
             continue
-        if gain > 0.0 and motor.biasprm[1] == -gain:  # a rate above 0 is a ratio of critical, whatever the gear
-            stated.gains[motor.target] = (gear**2 * gain, -rate if rate > 0.0 else -(gear**2) * rate)
-        elif gain > 0.0 and rate == -gain and motor.biasprm[1] == 0.0:
-            rates[motor.target], force = (gear**2 * gain, force), math.inf
-        torques.append((motor.target, force))
+        if holds:  # a rate above 0 is a ratio of critical, whatever the gear
+            stiffness, damping = stated.gains.get(motor.target, (0.0, 0.0))
+            more = -rate if rate > 0.0 else -(gear**2) * rate
+            stated.gains[motor.target] = (stiffness + gear**2 * gain, damping + more)
+        elif gain > 0.0 and rate == -gain and spring == 0.0:
+            rates[motor.target], force = (gear**2 * gain, _weaker(force)), _ANY
+        torques.setdefault(motor.target, []).append(force)
+    stated.notes += named_note("servos on tendons are replaced by one a joint", sorted(servos))
     for name in rates.keys() & stated.gains.keys():  # a position servo that a velocity servo damps
         stiffness, damping = stated.gains[name]
         stated.gains[name] = (stiffness, damping + rates[name][0] if damping >= 0.0 else damping)
+    one_way = []
     for joint in spec.joints:
-        total = sum(torque for name, torque in torques if name == joint.name and torque < math.inf)
-        known = _bound(joint, "actfrc"), stated.efforts.get(joint.name, math.inf)
-        limit = min(total or rates.get(joint.name, (0.0, math.inf))[1], *known)
+        known = [t for t in torques.get(joint.name, []) if t != _ANY]
+        total = sum(low for low, _ in known), sum(high for _, high in known)
+        one_way += [joint.name] if known and not total[0] < 0.0 < total[1] else []
+        alone = rates.get(joint.name, (0.0, math.inf))[1]
+        stated_for_joint = stated.efforts.get(joint.name, math.inf)
+        limit = min(_weaker(total) if known else alone, _weaker(_range(joint, "actfrc")), stated_for_joint)
         if limit < math.inf:
             stated.efforts[joint.name] = limit
+    stated.notes += named_note("motors that push one way only are taken to push both ways", one_way)
 
 
-def _bound(element: Any, kind: str) -> float:
+def _range(element: Any, kind: str) -> _Range:
     low, high = getattr(element, f"{kind}range").tolist()
-    both = -low, high
     known = getattr(element, f"{kind}limited") != mujoco.mjtLimited.mjLIMITED_FALSE and low < high
-    return math.inf if not known else min(both) if min(both) > 0.0 else max(map(abs, both))  # of the weaker direction
+    return (low, high) if known else _ANY
+
+
+def _times(factor: float, limits: _Range) -> _Range:
+    low, high = sorted(factor * limit for limit in limits)
+    return (low, high) if factor else _ANY
+
+
+def _both(one: _Range, other: _Range) -> _Range:
+    return max(one[0], other[0]), min(one[1], other[1])
+
+
+def _weaker(limits: _Range) -> float:
+    both = -limits[0], limits[1]
+    return min(both) if min(both) > 0.0 else max(map(abs, both))
 
 
 def _check_limits(spec: Any, file: Path) -> None:

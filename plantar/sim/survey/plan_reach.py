@@ -77,6 +77,7 @@ class PlanReach:
         torque: Largest torque in N m of each joint, over both legs: to carry, against damping and inertia, and against
             what a swinging leg takes.
         carrying: The same to carry alone.
+        speed: Largest speed in rad/s of each joint, over both legs.
         shift: Largest share of the way to the sole's edge by which a swinging leg moves the ZMP along it.
         turn: Largest share of friction's moment by which it turns the sole that carries.
         roll: Largest angle in rad off level of a sole that carries alone.
@@ -88,6 +89,7 @@ class PlanReach:
     spare: Array
     torque: Array
     carrying: Array
+    speed: Array
     shift: float
     turn: float
     roll: float
@@ -220,7 +222,9 @@ class _Pass:
     def broken_off(self) -> PlanReach:
         never = np.full(len(self.spare), math.inf)
         spare = self.spare if self.missed < _HOPELESS else -never
-        return PlanReach(self.missed, self.knee, self.straightest, spare, never, never, math.inf, math.inf, math.pi)
+        return PlanReach(
+            self.missed, self.knee, self.straightest, spare, never, never, never, math.inf, math.inf, math.pi
+        )
 
     def result(self) -> PlanReach:
         configurations, alone, axes, static, given = map(np.array, zip(*self.seen, strict=True))
@@ -229,8 +233,9 @@ class _Pass:
         # The ground gives the swinging leg its angular momentum about the CoM, through the leg that carries.
         moment = np.gradient(self.probe.angular_momenta(configurations, self.every), self.every, axis=0)
         reaction = -alone * np.einsum("tjx,tx->tj", axes, moment - given)
-        torque, carrying = (
-            np.abs(static + more).max(axis=0).reshape(2, -1).max(axis=0) for more in (moving + reaction, 0.0)
+        torque, carrying, speed = (
+            np.abs(amount).max(axis=0).reshape(2, -1).max(axis=0)
+            for amount in (static + moving + reaction, static, moved)
         )
         _, about_y, about_z = np.abs(moment[alone.any(axis=1)]).max(axis=0, initial=0.0)
         low, high = self.outline.min(axis=0), self.outline.max(axis=0)
@@ -244,6 +249,7 @@ class _Pass:
             self.spare,
             torque,
             carrying,
+            speed,
             float(shift),
             float(turn),
             self.roll,

@@ -16,7 +16,7 @@ from plantar.sim.survey.fitted_gait import QUICK_HELD, FittedGait
 from plantar.sim.survey.servo_gains import SAMPLED, STIFFNESS
 from plantar.sim.survey.step_search import KNEE_LEAST, STEP_SHARE
 from plantar.sim.survey.step_time import LEAN_MOST
-from plantar.sim.survey.survey import Survey
+from plantar.sim.survey.survey import NO_SPEED, Survey
 
 _WIDTH = 110  # characters of a comment
 
@@ -238,7 +238,8 @@ def _servo(survey: Survey, fitted: FittedGait) -> list[str]:
         needed = _numbers(fitted.reach.torque, 2)
         lines += _comment(f"The model states no torque limits, so there are none; level steps need {needed} N m.")
     unknown = _comment("The model states no usable speed limits, so there are none.")
-    speeds = f"velocity_limits = {_numbers(robot.velocity_limits, 4)}  # rad/s, as the model states them"
+    where = f"; {NO_SPEED:g} stands for none" if NO_SPEED in robot.velocity_limits else ""
+    speeds = f"velocity_limits = {_numbers(robot.velocity_limits, 4)}  # rad/s, as the model states them{where}"
     return [*lines, *([speeds] if robot.velocity_limits else unknown)]
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from plantar.errors import RobotError
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.gravity import GRAVITY
+from plantar.robots.kinematics.command_joints import SPEED_SHARE
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
 from plantar.robots.walk import Walk, walk_timing
@@ -142,8 +143,12 @@ def _other_paces(found: _Tried, legs: LegModel, heights: Array) -> _Tried:
 
 
 def _slowed(found: _Tried, legs: LegModel, heights: Array) -> _Tried:
-    """The same steps so slow that the swinging leg neither rocks nor turns the robot: both fall with time squared."""
-    longer = math.sqrt(max(found.reach.shift / SHIFT, found.reach.turn / TURN))
+    """The same steps so slow that joints keep below their speed limits, and the swinging leg neither rocks nor turns
+    the robot: both fall with time squared.
+    """
+    limits = np.array(found.robot.velocity_limits) if found.robot.velocity_limits else np.inf
+    quick = float((found.reach.speed / (SPEED_SHARE * limits)).max())
+    longer = max(quick, math.sqrt(max(found.reach.shift / SHIFT, found.reach.turn / TURN)))
     if longer <= 1.0:
         return found
     slower = replace(found.robot, pace=longer * found.robot.pace)

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import mujoco
 import numpy as np
@@ -16,6 +16,9 @@ from plantar.sim.survey.model_source import ModelSource, named_note, read_model
 from plantar.sim.survey.sole_frame import Sole, find_sole
 
 _SPEEDS = (0.5, 100.0)  # rad/s: what a model states outside of them is a placeholder
+NO_SPEED = 1e3
+"""rad/s, stands for none."""
+_Limit = TypeVar("_Limit", float, tuple[float, float])
 _WEIGHTS = (0.1, 1000.0)  # kg: the least that walk weigh 1 kg, 1000 in g
 
 
@@ -77,9 +80,10 @@ def survey_model(file: Path, folder: Path) -> Survey:
     held, held_notes = _held(source, legs)
     imu = next((i for i in source.imus if _on_body(model, legs, i)), None)
     names = {s: [model.joint(j).name for j in legs.by_side[s].joints] for s in SIDES}
-    efforts = tuple(_lesser(source.efforts, pair) for pair in zip(names["left"], names["right"], strict=True))
-    speeds = [_lesser(source.speeds, pair) for pair in zip(names["left"], names["right"], strict=True)]
-    kept = [v for v in speeds if v is not None and _SPEEDS[0] <= v <= _SPEEDS[1]]
+    pairs = list(zip(names["left"], names["right"], strict=True))
+    efforts = tuple(_lesser(source.efforts, pair) for pair in pairs)
+    speeds = [_lesser(source.speeds, pair) for pair in pairs]
+    usable = [v is not None and _SPEEDS[0] <= v <= _SPEEDS[1] for v in speeds]
     notes = [*source.notes, *legs.notes, *held_notes, *_coupled_notes(source, names), *_loop_notes(source, legs)]
     toes = {side: ", ".join(legs.by_side[side].toes) for side in SIDES}
     notes += [f"{toes[side]}: below the {side} foot, held (toes)" for side in SIDES if toes[side]]
@@ -88,12 +92,18 @@ def survey_model(file: Path, folder: Path) -> Survey:
         "no torque limit is known, so that none is taken (put the motors' in effort_limits)",
         [name for name, effort in zip(names["left"], efforts, strict=True) if effort is None],
     )
+    odd = [f"{n} {v:g}" for n, v, use in zip(names["left"], speeds, usable, strict=True) if v is not None and not use]
+    low, high = _SPEEDS
+    notes += named_note(f"speed limits in rad/s that are no motor's, {low:g} to {high:g}, are left out", odd)
+    unlike = [a for a, b in pairs if source.gains.get(a) != source.gains.get(b)]
+    notes += named_note("the legs' own servos differ; the softer one's gains are taken for both", unlike)
     sprung = [name for name in names["left"] + names["right"] if model.joint(name).stiffness.any()]
     notes += named_note("the joints' springs are left out", sprung)
     _check_masses(model, file)
-    gains = [source.gains[name] for name in names["left"] if name in source.gains]
+    gains = [pair for pair in (_lesser(source.gains, pair) for pair in pairs) if pair is not None]
+    limits = tuple(v if use and v is not None else NO_SPEED for v, use in zip(speeds, usable, strict=True))
     return Survey(
-        *(source, legs, soles, held, imu, efforts, tuple(kept) if len(kept) == left else ()),
+        *(source, legs, soles, held, imu, efforts, limits if any(usable) else ()),
         *(tuple(gains) if len(gains) == left else (), tuple(notes)),
     )
 
@@ -155,7 +165,7 @@ def _on_leg(model: Any, legs: Legs, body: int) -> bool:
     return body > 0 and (body in moved or _on_leg(model, legs, int(model.body_parentid[body])))
 
 
-def _lesser(limits: Mapping[str, float], pair: tuple[str, str]) -> float | None:
+def _lesser(limits: Mapping[str, _Limit], pair: tuple[str, str]) -> _Limit | None:
     return min((limits[name] for name in pair if name in limits), default=None)
 
 

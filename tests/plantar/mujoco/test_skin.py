@@ -76,6 +76,14 @@ def test_what_geometry_shows_to_be_wrong_is_refused_in_one_line(options, words):
     assert "\n" not in str(caught.value)
 
 
+def test_bodies_that_sleep_have_no_contacts_to_read():
+    spec = mujoco.MjSpec.from_string("""<mujoco><option><flag sleep="enable"/></option><worldbody>
+      <geom type="plane" size="1 1 .1"/><body name="foot" pos="0 0 .02"><freejoint/>
+      <geom type="box" size=".12 .05 .02"/></body></worldbody></mujoco>""")
+    with pytest.raises(RobotError, match="lets bodies sleep"):
+        Skin(body="foot").bind(spec.compile())
+
+
 def test_arguments_are_checked_when_it_is_made(tmp_path):
     down = replace(SOLE, rotations=SOLE.rotations * [[1], [-1], [-1]])
     for options, error in [

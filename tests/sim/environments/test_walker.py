@@ -41,6 +41,17 @@ def test_the_skin_adds_up_and_a_seed_repeats_an_episode(task, robot):
     assert all(np.array_equal(runs[0][1][k], runs[1][1][k]) for k in seen)
 
 
+@pytest.mark.parametrize("mounted", [(1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5)])
+def test_the_imu_reads_in_the_torsos_frame_however_it_is_mounted(mounted):
+    env = PlantarEnv("stand", skin=False)
+    env.model.site(env.robot.imu_site).quat = mounted
+    env.reset(seed=1)
+    for _ in range(30):
+        imu = env.step(np.zeros(12))[0]["imu"]
+    assert imu[3:6] == pytest.approx(-9.81 * imu[6:], abs=0.4)
+    assert np.abs(imu[:3]).max() < 0.1
+
+
 def test_ground_and_command_of_a_walk_are_drawn_again():
     env = PlantarEnv("walk")
     env.reset(seed=1)

@@ -57,6 +57,16 @@ def test_weak_motors_make_a_walk_slower():
     assert max(weak.reach.carrying / weak.robot.effort_limits) < 1.0
 
 
+def test_slow_joints_make_a_walk_slower():
+    h1 = replace(load_robot("h1"), effort_limits=(1000.0,) * 6)
+    quick = fit_gait(replace(h1, velocity_limits=(50.0,) * 6))
+    limit = 0.7 * float(quick.reach.speed.max())
+    slow = fit_gait(replace(h1, velocity_limits=(limit,) * 6))
+    assert quick.reach.speed == pytest.approx(fit_gait(h1).reach.speed)
+    assert speed(slow) < 0.85 * speed(quick)
+    assert float(slow.reach.speed.max()) < 0.95 * limit
+
+
 @pytest.mark.parametrize(("own", "kept"), [((8e3, 150.0), True), ((1e6, 1e3), False), ((8e3, 0.0), False)])
 def test_servos_that_chatter_or_ring_are_replaced(own, kept):
     found = fit_gait(load_robot("h1"), [own] * 6)

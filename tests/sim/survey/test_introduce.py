@@ -92,6 +92,18 @@ def test_the_check_names_what_is_spoilt(made, field, factor, shift, name, words)
     assert words in wrong[name]
 
 
+@pytest.mark.parametrize(("limit", "holds"), [(0.2, False), (30.0, True)])
+def test_the_check_knows_how_fast_joints_turn(made, limit, holds):
+    folder = made[2]
+    text, limits = (folder / "robot.toml").read_text(), f"velocity_limits = {[limit] * len(made[0].joints['left'])}"
+    slow = folder / "slow.toml"
+    slow.write_text(text.replace("[servo]", f"[servo]\n{limits}", 1))
+    (speed,) = (f for f in check_robot(slow, "flat").findings if f.name == "speed")
+    assert speed.holds == holds
+    assert speed.limit == pytest.approx(0.9 * limit)
+    assert 0.2 < speed.value < 10.0
+
+
 def test_swapped_legs_are_refused_as_a_run_does(made):
     text = (made[2] / "robot.toml").read_text()
     swapped = re.sub(r"\[legs\.(left|right)\]", lambda m: f"[legs.{'left' if m[1] == 'right' else 'right'}]", text)

@@ -1,5 +1,8 @@
 """What a model's file holds beside the robot, and joints of a URDF that cannot turn."""
 
+import itertools
+from dataclasses import replace
+
 import mujoco
 import numpy as np
 import pytest
@@ -7,7 +10,7 @@ import pytest
 from plantar import RobotError
 from plantar.sim.survey.body_surface import shapes_of
 from plantar.sim.survey.model_source import read_model
-from plantar.sim.survey.survey import survey_model
+from plantar.sim.survey.survey import NO_SPEED, survey_model
 
 from .random_biped import random_biped
 
@@ -178,6 +181,8 @@ def test_markers_shapes_without_a_size_and_the_authors_inertia_are_no_obstacles(
         ("<position joint='a' kp='30' kv='2' gear='2'/>", (120.0, 8.0)),
         ("<position joint='a' kp='30' dampratio='1' gear='2'/>", (120.0, -1.0)),  # a ratio of critical
         ("<velocity joint='a' kv='2' gear='2'/><position joint='a' kp='30' gear='2'/>", (120.0, 8.0)),
+        ("<position joint='a' kp='30' kv='2' gear='2'/><position joint='a' kp='7' kv='1'/>", (127.0, 9.0)),
+        ("<position joint='a' kp='7' kv='1'/><position joint='a' kp='30' kv='2' gear='2'/>", (127.0, 9.0)),
     ],
 )
 def test_gains_of_position_servos_are_read(tmp_path, motors, gains):
@@ -207,6 +212,64 @@ def test_torque_limits_are_those_of_joint_and_motor(tmp_path, motor, effort):
     tendon = "<tendon><fixed name='t' actuatorfrcrange='-7000 5000'><joint joint='a' coef='-.01'/></fixed></tendon>"
     file.write_text(f"<mujoco><worldbody>{body}</worldbody>{tendon}<actuator>{motor}</actuator></mujoco>")
     assert read_model(file, tmp_path).efforts == {"a": min(effort, 90.0)}
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_torque_limits_of_several_motors_are_what_mujoco_lets_them_reach(tmp_path, seed):
+    """Motors at a joint at rest in every corner of their controls; gears and coefficients of either sign."""
+    random = np.random.default_rng(seed)
+    motors = ""
+    for _ in range(int(random.integers(1, 4))):
+        low, high = random.uniform(-9.0, 0.0) * (random.random() < 0.6), random.uniform(1.0, 9.0)
+        place = "joint='a'" if random.random() < 0.6 else "tendon='t'"
+        gear = f"gear='{random.choice([-1, 1]) * random.uniform(1.0, 30.0)}'"
+        damped = f"<general {place} {gear} gainprm='1' biastype='affine' biasprm='0 0 -3' ctrlrange='{low} {high}'/>"
+        clamped = f"forcerange='{0.5 * low - 0.1} {0.7 * high}'" if random.random() < 0.5 else ""
+        plain = f"<motor {place} {gear} {clamped} ctrlrange='{low} {high}'/>"
+        motors += damped if random.random() < 0.3 else plain
+    body = "<body><joint name='a'/><geom size='.1'/></body>"
+    tendon = "<tendon><fixed name='t'><joint joint='a' coef='-.7'/></fixed></tendon>"
+    file = tmp_path / "motors.xml"
+    file.write_text(f"<mujoco><worldbody>{body}</worldbody>{tendon}<actuator>{motors}</actuator></mujoco>")
+    model = mujoco.MjModel.from_xml_path(str(file))
+    data, reached = mujoco.MjData(model), []
+    for corner in itertools.product(*model.actuator_ctrlrange):
+        data.ctrl[:] = corner
+        mujoco.mj_forward(model, data)
+        reached.append(float(data.qfrc_actuator[0]))
+    one_way = max(reached) <= 0.0 or min(reached) >= 0.0
+    found = read_model(file, tmp_path)
+    limit = max(map(abs, reached)) if one_way else min(max(reached), -min(reached))
+    assert found.efforts["a"] == pytest.approx(limit)
+    assert any("push one way only" in note for note in found.notes) == one_way
+
+
+def test_what_a_motor_on_a_tendon_and_gravity_compensation_were_is_said(tmp_path):
+    body = "<body name='b' gravcomp='1'><joint name='a'/><geom size='.1'/></body>"
+    tendon = "<tendon><fixed name='t'><joint joint='a' coef='1'/></fixed></tendon>"
+    motor = "<actuator><position tendon='t' kp='9'/></actuator>"
+    file = tmp_path / "tendon.xml"
+    file.write_text(f"<mujoco><worldbody>{body}</worldbody>{tendon}{motor}</mujoco>")
+    found = read_model(file, tmp_path)
+    assert "servos on tendons are replaced by one a joint: a" in found.notes
+    assert "gravity compensation is left out: b" in found.notes
+    assert found.gains == {}
+
+
+@pytest.mark.parametrize("odd", [0.0, 0.2, 500.0])
+def test_speed_limits_and_gains_are_those_of_each_joint_on_the_weaker_side(tmp_path, monkeypatch, odd):
+    truth = random_biped(10, tmp_path)
+    left, right = truth.joints["left"], truth.joints["right"]
+    source = read_model(truth.file, tmp_path)
+    speeds = dict.fromkeys((*left, *right), 9.0) | {left[2]: 4.0, left[-1]: odd, right[-1]: odd}
+    gains = dict.fromkeys(left, (900.0, 9.0)) | dict.fromkeys(right, (300.0, 30.0))
+    stated = replace(source, speeds={k: v for k, v in speeds.items() if v > 0.0}, gains=gains)
+    monkeypatch.setattr("plantar.sim.survey.survey.read_model", lambda *_: stated)
+    found = survey_model(truth.file, tmp_path)
+    assert found.speeds == (9.0, 9.0, 4.0, *(9.0,) * (len(left) - 4), NO_SPEED)
+    assert found.gains == ((300.0, 30.0),) * len(left)
+    assert any(f"are left out: {left[-1]} {odd:g}" in note for note in found.notes) == (odd > 0.0)
+    assert any("own servos differ" in note for note in found.notes)
 
 
 def test_a_mesh_is_found_and_weighs_as_in_mujoco(tmp_path):
