@@ -26,8 +26,8 @@ _ALLOWED = (
     "allowed: a Moticon report (.xlsx) with sheets of left and right steps, or a CSV table with the columns side, "
     "heel_strike_s and toe_off_s"
 )
-# Heel strike and toe off of each row in s, NaN where there is none, by side.
-Pairs = dict[Side, list[tuple[float, float]]]
+# Heel strike and toe off in s, NaN where there is none, of each row by its number, by side.
+Pairs = dict[Side, dict[int, tuple[float, float]]]
 
 
 def read_events(path: str | os.PathLike[str]) -> dict[Side, StatedEvents]:
@@ -38,19 +38,31 @@ def read_events(path: str | os.PathLike[str]) -> dict[Side, StatedEvents]:
             as second and third columns; or CSV with columns side, heel_strike_s and toe_off_s.
 
     Raises:
-        FormatError: If neither, eventless or mistimed.
+        FormatError: If neither, eventless, mistimed or out of order.
     """
     with open_input(path, FormatError) as stream:
         zipped = stream.read(2) == b"PK"
     rows = _report_rows(path) if zipped else _table_rows(path)
     if not rows:
         raise FormatError(f"{os.fspath(path)}: no events; {_ALLOWED}")
-    return {side: _events(rows[side]) for side in SIDES if side in rows}
+    return {side: _events(path, side, rows[side]) for side in SIDES if side in rows}
 
 
-def _events(pairs: list[tuple[float, float]]) -> StatedEvents:
-    table: NDArray[np.float64] = np.array(pairs, dtype=float).reshape(-1, 2)
-    return StatedEvents(*(np.sort(column[np.isfinite(column)]) for column in table.T))
+def _events(path: str | os.PathLike[str], side: Side, rows: dict[int, tuple[float, float]]) -> StatedEvents:
+    pairs = {
+        repr(pair): (line, pair) for line, pair in rows.items() if np.isfinite(pair).any()
+    }  # a row may be repeated
+    last = -np.inf
+    for line, pair in sorted(pairs.values(), key=lambda row: float(np.nanmin(row[1]))):
+        times = [at for at in pair if np.isfinite(at)]
+        if not np.all(np.diff([last, *times]) > 0.0):
+            raise FormatError(
+                f"{os.fspath(path)}, line {line}: the {side} foot lands at {pair[0]:g} s and lifts at {pair[1]:g} s, "
+                "out of order; allowed: each toe off after its heel strike and before the foot's next one"
+            )
+        last = times[-1]
+    table: NDArray[np.float64] = np.array(list(rows.values()), dtype=float).reshape(-1, 2)
+    return StatedEvents(*(np.unique(column[np.isfinite(column)]) for column in table.T))
 
 
 def _table_rows(path: str | os.PathLike[str]) -> Pairs:
@@ -67,7 +79,7 @@ def _table_rows(path: str | os.PathLike[str]) -> Pairs:
         values = [float("nan") if not time else number(time) for time in times]
         if None in values:
             raise FormatError(f"{path}, line {line}: a time is none; allowed: numbers in s, or empty")
-        out.setdefault(side, []).append((values[0] or 0.0, values[1] or 0.0))
+        out.setdefault(side, {})[line] = (values[0] or 0.0, values[1] or 0.0)
     return out
 
 
@@ -78,13 +90,13 @@ def _report_rows(path: str | os.PathLike[str]) -> Pairs:
             side = side_of(name)
             if side is None or "step" not in name.lower():
                 continue
-            for count, row in enumerate(_root(path, archive, part).iter(f"{_SHEET}row")):
+            for count, row in enumerate(_root(path, archive, part).iter(f"{_SHEET}row"), 1):
                 if count > _MOST_ROWS:
                     raise FormatError(f"{path}: a sheet of more than {_MOST_ROWS} rows")
                 cells = {re.sub(r"\d", "", c.get("r", "")): c for c in row}
                 strike, lift = (_number(cells.get(column)) for column in ("B", "C"))
                 if np.isfinite(strike):
-                    out.setdefault(side, []).append((strike, lift))
+                    out.setdefault(side, {})[count] = (strike, lift)
     return out
 
 

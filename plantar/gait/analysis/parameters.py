@@ -36,6 +36,7 @@ COP_WINDOW = 0.05
 _Events = Mapping[Side, tuple[Levels | None, list[Contact]]]
 _LONGEST = 3.0  # Longest contact in s of a person's single steps: patients who walk at 0.2 m/s have 2.5
 _FEWEST, _AWAY = 3, 0.15  # Heel strikes that show how far stated ones are, and the distance in s that is reported
+_BORNE = 0.5  # Share of its mean force at other times that a foot carries at least in contacts that a file states
 # Share of both feet's contacts that is common where they step on and off at once, and time in s from which they stand.
 _TOGETHER, _STAND = 0.8, 1.2
 _CARRIED = 0.2  # Share of a foot's peak that shoes and creases do not press in swing
@@ -63,7 +64,7 @@ def analyse_feet(
             "; --events allows own, or a file of events of each foot"
         )
     if known.events != "own":
-        _check_clock(recording)
+        _check_stated(recording)
     feet = with_activities(_out_of_time(_measured_feet(recording, prints, known.events != "own")))
     names = [step.activity for gait in feet.values() for step in gait.steps if step.activity]
     usual = max(dict.fromkeys(names), key=names.count) if names else ""
@@ -95,8 +96,8 @@ def _out_of_time(feet: dict[Side, FootGait]) -> dict[Side, FootGait]:
     return out
 
 
-def _check_clock(recording: PressureRecording) -> None:
-    """Refuse stated events of another time base: in ms, or another clock."""
+def _check_stated(recording: PressureRecording) -> None:
+    """Refuse stated events of another time base, in ms or another clock, or in swing."""
     begin, end = float(recording.time[0]), float(recording.time[-1])
     for side in recording.feet:
         events = recording.events[side]
@@ -105,6 +106,17 @@ def _check_clock(recording: PressureRecording) -> None:
             raise InputError(
                 f"events of the {side} foot are stated from {stated.min():g} to {stated.max():g} s, the recording goes "
                 f"from {begin:g} to {end:g} s; allowed: times in s by the recording's clock"
+            )
+        force, time = recording.feet[side].vertical_force, recording.time
+        on = np.zeros(len(time), dtype=bool)
+        for contact in stated_contacts(time, events):
+            on[contact.begin : contact.end] |= contact.complete
+        off = ~on & (time >= stated.min(initial=np.inf)) & (time <= stated.max(initial=-np.inf))
+        borne, other = (float(np.nan_to_num(force[part]).sum() / max(1, part.sum())) for part in (on, off))
+        if on.any() and not borne > _BORNE * other:
+            raise InputError(
+                f"the {side} foot carries {borne:.3g} on average between its stated heel strikes and toe offs and "
+                f"{other:.3g} else: are these two, or the feet, exchanged? Allowed: events of its contacts"
             )
 
 

@@ -79,6 +79,30 @@ def test_a_row_that_cannot_be_meant_is_refused(text, tmp_path):
         read_events(tmp_path / "a.csv")
 
 
+@pytest.mark.parametrize(
+    ("rows", "line"),
+    [
+        ([(1.0, 0.3), (2.1, 1.4)], 2),  # the columns are exchanged
+        ([(0.3, 0.9), (1.4, 1.4)], 3),
+        ([(0.3, 1.6), (1.4, 2.7), (2.5, 3.8)], 3),  # overlapping
+        ([(0.3, 0.9), (1.4, 2.0), (1.5, 1.9)], 4),
+        ([(2.5, 3.1), (0.3, 2.6)], 2),
+        ([(0.3, 2.0), (1.4, "")], 3),
+    ],
+)
+def test_contacts_out_of_order_are_refused(rows, line, tmp_path):
+    (tmp_path / "a.csv").write_text("side,heel_strike_s,toe_off_s\n" + "".join(f"left,{a},{b}\n" for a, b in rows))
+    with pytest.raises(FormatError, match=rf"a\.csv, line {line}: the left foot lands .*; allowed: each toe off after"):
+        read_events(tmp_path / "a.csv")
+
+
+@pytest.mark.parametrize("rows", [[(2.5, 3.1), (0.3, 0.9), (0.3, 0.9)], [("", 0.9), (2.5, 3.1), (0.3, "")]])
+def test_rows_in_any_order_are_the_same_events(rows, tmp_path):
+    (tmp_path / "a.csv").write_text("side,heel_strike_s,toe_off_s\n" + "".join(f"left,{a},{b}\n" for a, b in rows))
+    found = read_events(tmp_path / "a.csv")["left"]
+    assert (found.heel_strikes.tolist(), found.toe_offs.tolist()) == ([0.3, 2.5], [0.9, 3.1])
+
+
 def test_reports_that_grow_are_refused_at_once(tmp_path):
     files = [
         write_report(tmp_path / "sheets.xlsx", ["Left Steps"] * 3000, rows=0),
