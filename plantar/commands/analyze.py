@@ -145,10 +145,11 @@ def analyze(
 
     if (recording is None) == (compare is None):
         raise InputError("give either one recording or --compare A B: plantar analyze walk.asc")
+    drawn = not as_json if figures is None else figures
     if recording is not None and is_study_folder(recording):
         if export:
             raise InputError("--export is for one recording; a study's tables are CSV files")
-        _analyze_study(recording, participants, file, order, output, as_json)
+        _analyze_study(recording, participants, file, order, output, as_json, drawn)
         return
     if participants is not None:
         raise InputError(
@@ -157,10 +158,9 @@ def analyze(
     if compare is not None:
         if export:
             raise InputError("--export is for one recording; --compare takes two")
-        result = _compare(compare, file, order, output)
+        result = _compare(compare, file, order, output, drawn)
         _end(result, {"A": result["a"], "B": result["b"]}, as_json)
     else:
-        drawn = not as_json if figures is None else figures
         result = _analyze_one(cast(Path, recording), export or [], file, order, output, drawn)
         _end(result, {"": result}, as_json)
 
@@ -188,7 +188,9 @@ def _analyze_one(
         )
 
 
-def _compare(pair: tuple[Path, Path], file: FileOrder, order: AnalysisOrder, output: Path) -> dict[str, Any]:
+def _compare(
+    pair: tuple[Path, Path], file: FileOrder, order: AnalysisOrder, output: Path, figures: bool
+) -> dict[str, Any]:
     from plantar.gait.analysis.compare import compare_recordings
 
     if file.mm_per_pixel is not None:
@@ -196,7 +198,15 @@ def _compare(pair: tuple[Path, Path], file: FileOrder, order: AnalysisOrder, out
     known, choices, subject = file.options(order.mass), order.choices(), order.subject()
     with progress_bar() as progress:
         return compare_recordings(
-            *pair, output, file.format, file.layout, progress, options=known, choices=choices, subject=subject
+            *pair,
+            output,
+            file.format,
+            file.layout,
+            progress,
+            options=known,
+            choices=choices,
+            subject=subject,
+            figures=figures,
         )
 
 
@@ -215,20 +225,24 @@ def _end(result: dict[str, Any], parts: dict[str, Any], as_json: bool) -> None:
 
 
 def _analyze_study(
-    folder: Path, participants: Path | None, file: FileOrder, order: AnalysisOrder, output: Path, as_json: bool
+    folder: Path,
+    participants: Path | None,
+    file: FileOrder,
+    order: AnalysisOrder,
+    output: Path,
+    as_json: bool,
+    figures: bool,
 ) -> None:
     """Measure a folder of recordings; one that cannot be read is listed, without failing the command."""
     from plantar.gait.analysis.analyse_one import with_layout
     from plantar.gait.analysis.study.run_study import run_study
     from plantar.gait.analysis.subject import Subject
 
-    options, choices = file.options(order.mass), order.choices()
+    options, choices = with_layout(file.options(order.mass), file.layout), order.choices()
     if order.subject() != Subject():
         raise InputError("--participant, --mass and --foot-length are for one recording: a study has --participants")
     with progress_bar() as progress:
-        study = run_study(
-            folder, output, participants, progress, choices=choices, options=with_layout(options, file.layout)
-        )
+        study = run_study(folder, output, participants, progress, choices=choices, options=options, figures=figures)
     summary = study.summary() | {"files": list(study.files)}
     text = f"{summary['measured']} of {summary['recordings']} recordings measured, {summary['steps']} steps"
     end_command(summary, as_json, text + file_lines(study.files))

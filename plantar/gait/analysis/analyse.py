@@ -63,6 +63,6 @@ def analyse(
     known = dataclasses.replace(known, **changes)  # type: ignore[arg-type]
     if isinstance(given, str | os.PathLike) and is_study_folder(given):
         with tempfile.TemporaryDirectory() as folder:
-            study = run_study(given, folder, progress=progress, choices=choices, options=known)
+            study = run_study(given, folder, progress=progress, choices=choices, options=known, figures=False)
         return dataclasses.replace(study, files=())
     return analyse_one(given, format, known, progress, choices, subject)

@@ -55,6 +55,7 @@ def compare_recordings(
     options: ReadOptions | None = None,
     choices: AnalysisOptions | None = None,
     subject: Subject | None = None,
+    figures: bool = True,
 ) -> dict[str, Any]:
     """Analyse two recordings; write comparison.json, figures, report.html, and folders "a" and "b" with each analysis.
 
@@ -68,6 +69,7 @@ def compare_recordings(
         options: What else is known of both.
         choices: Steps in the means, events used.
         subject: Person in both.
+        figures: Whether figures and report.html are written.
 
     Returns:
         "a" and "b": metrics of each; "difference": `difference_of` each foot; "warnings"; "files": paths written.
@@ -88,27 +90,30 @@ def compare_recordings(
             report(0.4 * i, f"reading {key}")
             analyses[key] = analyse_one(path, format, known, choices=choices, subject=subject)
             (folder / key).mkdir()
-            write_analysis(analyses[key], folder / key, part_of(report, 0.4 * i + 0.1, 0.3))
+            write_analysis(analyses[key], folder / key, part_of(report, 0.4 * i + 0.1, 0.3), figures)
         if analyses["a"].recording.raw != analyses["b"].recording.raw:
             raise InputError(
                 "one recording is calibrated and the other is of raw counts: their values cannot be compared"
             )
-        metrics = _write_comparison(analyses, folder, (Path(a).name, Path(b).name))
+        metrics = _write_comparison(analyses, folder, (Path(a).name, Path(b).name), figures)
         written = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
     report(1.0, "done")
     return {**metrics, "files": [str(Path(out) / name) for name in written]}
 
 
-def _write_comparison(analyses: Mapping[str, Analysis], folder: Path, names: tuple[str, str]) -> dict[str, Any]:
+def _write_comparison(
+    analyses: Mapping[str, Analysis], folder: Path, names: tuple[str, str], figures: bool
+) -> dict[str, Any]:
     pairs = _pairs(analyses["a"], analyses["b"])
     difference = {name: difference_of(analyses, one, other) for name, (one, other) in pairs.items()}
     metrics: dict[str, Any] = {k: dict(v.metrics) for k, v in analyses.items()} | {"difference": difference}
     a, b = ([sensor_of(one.recording)] for one in analyses.values())
     metrics["warnings"] = unlike(a, b, "A", "B")
-    figures = write_figures(_figures(analyses, pairs, difference), folder)
     (folder / "comparison.json").write_text(json.dumps(metrics, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-    page = comparison_page(metrics, figures, names, ("a/report.html", "b/report.html"))
-    (folder / "report.html").write_text(page, encoding="utf-8")
+    if figures:
+        drawn = write_figures(_figures(analyses, pairs, difference), folder)
+        page = comparison_page(metrics, drawn, names, ("a/report.html", "b/report.html"))
+        (folder / "report.html").write_text(page, encoding="utf-8")
     return metrics
 
 

@@ -65,6 +65,17 @@ def test_left_against_right(tmp_path, layout):
     assert result["difference"]["left and right"]["impulse_Ns"]["percent"] == pytest.approx(100.0, abs=3.0)
 
 
+@pytest.mark.parametrize("option", ["--no-figures", "--json"])
+@pytest.mark.parametrize("what", ["one", "two", "study"])
+def test_tables_alone_are_written(tmp_path, what, option):
+    (tmp_path / "walks").mkdir()
+    path = str(write_walk(tmp_path / "walks" / "a.npz", ("left", "right")))
+    given = {"one": [path], "two": ["--compare", path, path], "study": [str(tmp_path / "walks")]}[what]
+    done = CliRunner().invoke(cli.app, ["analyze", *given, option, "-o", str(tmp_path / "out")])
+    assert done.exit_code == 0, done.output
+    assert {p.suffix for p in (tmp_path / "out").rglob("*") if p.is_file()} <= {".csv", ".json", ".npz"}
+
+
 def test_other_sensors_are_told(tmp_path, layout):
     """Insoles with plates, and cells of another size; the same insoles without a word."""
     a, plates = write_walk(tmp_path / "a.npz", ("left", "right")), tmp_path / "plates.csv"

@@ -103,6 +103,7 @@ def run_study(
     *,
     choices: AnalysisOptions | None = None,
     options: ReadOptions | None = None,
+    figures: bool = True,
 ) -> Study:
     """Measure a folder's recordings; write steps.csv, recordings.csv, comparison.csv, study.json and study.html.
 
@@ -115,6 +116,7 @@ def run_study(
         progress: Called with a share 0..1 and the work.
         choices: Steps in the means, and events.
         options: Known of all files; the table overrides.
+        figures: Whether figures and study.html are written.
 
     Returns:
         The study.
@@ -142,9 +144,9 @@ def run_study(
         results.append(_result(root, cache, who, chosen, options))
     report(0.9, "comparing")
     study = Study(results, compare_conditions(results), chosen)
-    files = _write(study, target, root)
+    files = _write(study, target, root, figures)
     report(1.0, "done")
-    return Study(study.results, study.comparisons, chosen, files)
+    return replace(study, files=files)
 
 
 def _others(
@@ -271,7 +273,7 @@ def _plain(comparison: Comparison) -> dict[str, Any]:
     return {**out, "effects": effects}
 
 
-def _write(study: Study, target: Path, root: Path) -> list[str]:
+def _write(study: Study, target: Path, root: Path, figures: bool) -> list[str]:
     written: list[Path] = []
     tables: Iterable[tuple[str, list[dict[str, Any]]]] = (
         ("steps.csv", _step_rows(study)),
@@ -282,7 +284,9 @@ def _write(study: Study, target: Path, root: Path) -> list[str]:
         written.append(write_text(target / name, _csv_text(rows)))
     summary = study.summary()
     written.append(write_text(target / "study.json", json.dumps(summary, indent=1, allow_nan=False) + "\n"))
-    figures = write_figures(study_figures(study.comparisons), target)
-    page = study_page(summary, study.results, study.comparisons, figures, root.resolve().name)
-    written.append(write_text(target / "study.html", page))
-    return sorted(str(p) for p in [*written, *(f for png, _ in figures for f in (png, png.with_suffix(".svg")))])
+    if figures:
+        drawn = write_figures(study_figures(study.comparisons), target)
+        page = study_page(summary, study.results, study.comparisons, drawn, root.resolve().name)
+        written += [write_text(target / "study.html", page), *(png for png, _ in drawn)]
+        written += [png.with_suffix(".svg") for png, _ in drawn]
+    return sorted(map(str, written))
