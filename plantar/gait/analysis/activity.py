@@ -9,13 +9,10 @@ from numpy.typing import NDArray
 
 from plantar.gait.analysis.steps.cop_path import chords
 from plantar.gait.analysis.steps.foot_gait import FootGait
+from plantar.gait.analysis.steps.segments import FLIGHT, most_common
 from plantar.recordings.pressure_recording import PressureRecording, true_runs
 from plantar.sides import Side
 
-# Median time in s with both feet off the ground from which steps are those of a run: above what events err.
-_FLIGHT = 0.01
-# Stance in % of the stride under which one foot's steps are those of a run: walking has 58 to 65, a run below 45.
-_RUNNING_STANCE = 45.0
 # Stance in % of the stride of both feet above which they cannot both be in the air, with 2 % for what events err.
 _HALF = 52.0
 # Shares of its load that a standing body keeps on the ground, and from which it has stepped on.
@@ -98,7 +95,7 @@ def _out_of_step(feet: Mapping[Side, FootGait]) -> bool:
     if not all(known.values()):
         return False
     medians = [np.median(np.array(rows), axis=0) for rows in known.values()]
-    return max(float(m[0]) for m in medians) > _FLIGHT and min(float(m[1]) for m in medians) > _HALF
+    return max(float(m[0]) for m in medians) > FLIGHT and min(float(m[1]) for m in medians) > _HALF
 
 
 def _rolls(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
@@ -149,17 +146,22 @@ def _without_heel_strike(feet: Mapping[Side, FootGait], landing: float) -> Activ
 
 def _by_times(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity:
     steps = [step for gait in feet.values() for step in gait.used or gait.steps]
-    flights = [v for step in steps if np.isfinite(v := step["flight_time_s"])]
+    name = most_common([step.activity for step in steps])
+    flights = [
+        float(np.median(own))
+        for g in feet.values()
+        if (own := [v for step in g.used or g.steps if np.isfinite(v := step["flight_time_s"])])
+    ]
     stances = [v for step in steps if np.isfinite(v := step["stance_percent"])]
     if flights:
-        median = float(np.median(flights))
-        if median > _FLIGHT and not _out_of_step(feet):
-            return Activity("running", f"both feet are off the ground for {median:.3g} s between steps")
-        return Activity("walking", "a foot is on the ground at all times")
+        off = f"both feet are off the ground for {max(flights):.3g} s"
+        flies = max(flights) > FLIGHT and not _out_of_step(feet)
+        if flies and name != "walking":
+            return Activity("running", f"{off} between steps")
+        stands = f"{off} in a stride, but a foot stands for {np.mean(stances):.0f} % of it" if flies else ""
+        return Activity("walking", stands or "a foot is on the ground at all times")
     if stances:
-        median = float(np.median(stances))
-        name = "running" if median < _RUNNING_STANCE else "walking"
-        return Activity(name, f"the foot is on the ground for {median:.0f} % of its stride")
+        return Activity(name, f"the foot is on the ground for {np.median(stances):.0f} % of its stride")
     if steps:
         contact = float(np.median([step["contact_time_s"] for step in steps]))
         if contact >= _WALK or contact <= _RUN:

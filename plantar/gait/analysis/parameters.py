@@ -20,7 +20,7 @@ from plantar.gait.analysis.steps.cop_path import averaged_path
 from plantar.gait.analysis.steps.events import EVENT_LEVELS, Contact, Levels, find_contacts, force_levels, run_together
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 from plantar.gait.analysis.steps.pressure_measures import pressure_measures, region_measures
-from plantar.gait.analysis.steps.segments import with_activities, without_standing
+from plantar.gait.analysis.steps.segments import most_common, with_activities, without_standing
 from plantar.gait.analysis.steps.stated import stated_contacts
 from plantar.gait.analysis.steps.steady import in_one_window, with_used_steps
 from plantar.gait.analysis.steps.step_footprint import footprint_of_step, print_of_contact, with_picture
@@ -67,8 +67,7 @@ def analyse_feet(
         _check_stated(recording)
     feet = with_activities(_out_of_time(_measured_feet(recording, prints, known.events != "own")))
     names = [step.activity for gait in feet.values() for step in gait.steps if step.activity]
-    usual = max(dict.fromkeys(names), key=names.count) if names else ""
-    chosen = known.segment or (usual if known.steps == "steady" else "")
+    chosen = known.segment or (most_common(names) if known.steps == "steady" else "")
     if known.segment is not None and known.segment not in names:
         found = ", ".join(dict.fromkeys(names)) or "none"
         raise InputError(f"--segment {known.segment}: no step is {known.segment}; the recording has {found}")

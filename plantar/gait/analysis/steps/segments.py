@@ -1,7 +1,7 @@
 """Parts of a recording with one activity."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import cast
@@ -14,8 +14,9 @@ from plantar.sides import SIDES, Side
 
 # A contact over twice the median of the three before and the three after it, and over 1.2 s, is standing.
 _LONG, _LEAST, _BESIDE = 2.0, 1.2, 3
-# A step of a run has a flight of more than 0.01 s and a stance below half of its stride; of one foot, below 45 %.
-_FLIGHT, _HALF, _RUN = 0.01, 50.0, 45.0
+# A stride of a run has a flight of more than 0.01 s and a stance below half of it, on average over both feet: they are
+# longer off the ground than on it together. Of one foot, stance is below 45 %.
+FLIGHT, _HALF, _RUN = 0.01, 50.0, 45.0
 _SAME = 0.8  # Share of both feet's contacts that is common where both hop at once; walking has 0.2
 # Measures of the stride from a step to the next one of its foot.
 _OF_STRIDE = (
@@ -65,8 +66,10 @@ def with_activities(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
     """Feet with each step's activity: "walking", "running", "hopping", or empty if unknown."""
     hops = _both_at_once(feet)
     rows = sorted((s for g in feet.values() for s in g.steps), key=lambda s: s.heel_strike_s)
-    raw = ["hopping" if hops else _activity(step) for step in rows]
-    steady = [_most(raw[max(0, i - 2) : i + 3]) or name for i, name in enumerate(raw)]  # one odd step is no segment
+    raw = ["hopping" if hops else _activity(rows, i) for i in range(len(rows))]
+    steady = [
+        most_common(raw[max(0, i - 2) : i + 3]) or name for i, name in enumerate(raw)
+    ]  # one odd step is no segment
     found = {(s.side, s.number): name for s, name in zip(rows, steady, strict=True)}
     out: dict[Side, FootGait] = {}
     for side, gait in feet.items():
@@ -97,16 +100,25 @@ def _both_at_once(feet: Mapping[Side, FootGait]) -> bool:
     return float(np.median((common / whole).max(axis=1))) > _SAME
 
 
-def _activity(step: Step) -> str:
-    flight, stance = step["flight_time_s"], step["stance_percent"]
-    if np.isfinite(flight) and np.isfinite(stance):
-        return "running" if flight > _FLIGHT and stance < _HALF else "walking"
-    if np.isfinite(stance):
-        return "running" if stance < _RUN else "walking"
+def _activity(rows: Sequence[Step], i: int) -> str:
+    """Activity of the stride of both feet that a step is in: with the other foot's steps before and after it."""
+    beside = [s for s in rows[max(0, i - 1) : i + 2] if s.side != rows[i].side]
+    both = [(rows[i][key], *_mean(s[key] for s in beside)) for key in ("flight_time_s", "stance_percent")]
+    flights, stances = ([v for v in values if np.isfinite(v)] for values in both)
+    if flights and stances:
+        return "running" if max(flights) > FLIGHT and float(np.mean(stances)) < _HALF else "walking"
+    if np.isfinite(rows[i]["stance_percent"]):
+        return "running" if rows[i]["stance_percent"] < _RUN else "walking"
     return ""
 
 
-def _most(names: Sequence[str]) -> str:
+def _mean(values: Iterable[float]) -> list[float]:
+    known = [v for v in values if np.isfinite(v)]
+    return [float(np.mean(known))] if known else []
+
+
+def most_common(names: Sequence[str]) -> str:
+    """Returns the name that most have, empty ones left out; empty without any."""
     known = [n for n in names if n]
     return max(dict.fromkeys(known), key=known.count) if known else ""
 
@@ -125,7 +137,7 @@ def segments_of(feet: Mapping[Side, FootGait]) -> tuple[Segment, ...]:
         groups[-1].append(step)
     out = [
         Segment(
-            _most([s.activity for s in group]) or "unknown",
+            most_common([s.activity for s in group]) or "unknown",
             group[0].heel_strike_s,
             max(s.toe_off_s for s in group),
             {side: tuple(s.number for s in group if s.side == side) for side in feet},

@@ -1,5 +1,7 @@
 """Recordings of several activities: each step is of one, stops are no steps, and means are of one activity."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -52,6 +54,33 @@ def test_means_are_of_one_activity(choice, cadence):
     used = [step for gait in found.feet.values() for step in gait.used]
     assert len(used) > 12
     assert {step.activity for step in used} == {choice}
+
+
+@pytest.mark.parametrize("weak", [0, 1])
+@pytest.mark.parametrize(
+    ("stances", "period", "activity", "why"),
+    [
+        ((0.52, 0.44), 0.75, "running", "both feet are off the ground for"),  # a limping run
+        ((0.50, 0.40), 0.7, "running", "both feet are off the ground for"),
+        ((0.75, 0.45), 1.1, "walking", "off the ground for 0.0[45].* but a foot stands for 60 % of it"),  # on crutches
+        ((0.70, 0.54), 1.1, "walking", "a foot is on the ground at all times"),  # a limp
+    ],
+)
+def test_both_feet_of_a_stride_have_one_activity(stances, period, activity, why, weak):
+    feet = [steps(20.0, period, s, p, 1000.0) for s, p in zip(stances, (0.0, 0.5 * period), strict=True)]
+    found = analysed(feet[::-1] if weak == 0 else feet)
+    assert found.metrics["activity"]["name"] == activity
+    assert re.search(why, found.metrics["activity"]["why"])
+    for gait in found.feet.values():
+        assert len(gait.used) > 0.85 * len(gait.steps)
+        assert {step.activity for step in gait.steps} == {activity}
+    assert [s["activity"] for s in found.metrics["segments"]] == [activity]
+
+
+def test_a_walk_that_becomes_a_limping_run_changes_once():
+    limp = [steps(10.0, 0.75, s, p, 1000.0) for s, p in ((0.52, 0.0), (0.44, 0.375))]
+    found = analysed(walk(), limp)
+    assert [s["activity"] for s in found.metrics["segments"]] == ["walking", "running"]
 
 
 def test_hops_of_both_feet_are_no_walk():
