@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.gait.analysis.steps.baseline import resting_level
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.gravity import GRAVITY
 from plantar.layouts.layout import SoleLayout
@@ -46,10 +47,13 @@ def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> Sil
     """Returns an insole foot's cells that read 0 among loaded ones, and the missing force.
 
     A silent cell lacks its loaded neighbours' mean pressure; the other foot's mirrored cells show load at the edge.
+    Of a few cells without places, those of the same number show it.
     """
     layout, none = foot.layout, SilentCells(np.zeros(0, dtype=np.int64), 0.0)
-    if layout is None or len(layout) < 8 or not len(foot.force):
+    if not len(foot.force):
         return none
+    if layout is None or len(layout) < 8:
+        return none if other is None else _silent_beside(foot.force, other.force) or none
     top = column_maxima(foot.force) / layout.areas
     zero = top <= 0.0
     if not zero.any() or zero.all():
@@ -93,6 +97,18 @@ def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> Sil
     return SilentCells(cells, lacking / whole if whole > 0.0 else 0.0)
 
 
+def _silent_beside(own: NDArray[np.float64], theirs: NDArray[np.float64]) -> SilentCells | None:
+    """Cells that read 0 where the other foot's carry load, if it has fewer of them: else their order may differ."""
+    if own.shape[1] != theirs.shape[1] or own.shape[1] >= _MOSAIC or not len(theirs):
+        return None
+    zero, top = column_maxima(own) <= 0.0, column_maxima(theirs)
+    silent = zero & (top > _CARRIES * float(np.percentile(top, 90.0)))
+    if not silent.any() or zero.all() or zero.sum() <= (top <= 0.0).sum():
+        return None
+    load = np.nan_to_num(theirs).sum(axis=0)
+    return SilentCells(np.flatnonzero(silent), float(load[silent].sum() / load.sum()))
+
+
 def _neighbours(layout: SoleLayout) -> list[NDArray[np.int64]]:
     points = layout.positions[:, :2]
     away = np.hypot(*(points[:, None] - points[None]).transpose(2, 0, 1))
@@ -126,14 +142,28 @@ def silent_cell_doubts(recording: PressureRecording) -> list[str]:
     for side, foot in recording.feet.items() if recording.kind == "insole" else ():
         found = silent_cells(foot, recording.feet.get(other_side(side)))
         if found.missing >= _MISSING:
-            assert foot.layout is not None
-            names = ", ".join(str(i) for i in foot.layout.ids[found.cells][:12])
+            cells, count = found.cells, foot.force.shape[1]
+            names = ", ".join(str(i) for i in (cells + 1 if foot.layout is None else foot.layout.ids[cells])[:12])
+            beside = "the same cells of the other foot" if count < 8 or foot.layout is None else "cells around them"
             out.append(
-                f"{len(found.cells)} of {len(foot.layout)} cells of the {side} foot read 0 throughout though cells "
-                f"around them carry load ({names}{', ...' if len(found.cells) > 12 else ''}): its forces are about "
-                f"{100.0 * found.missing:.2g} % too low, by the pressure around these cells"
+                f"{len(cells)} of {count} cells of the {side} foot read 0 throughout though {beside} carry load "
+                f"({names}{', ...' if len(cells) > 12 else ''}): its forces are about {100.0 * found.missing:.2g} % "
+                "too low, by the pressure there"
             )
     return out
+
+
+def inverted_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
+    """Warning of sensors without steps whose force, upside down, is that of a walk."""
+    if recording.kind not in ("insole", "plate") or any(gait.steps for gait in feet.values()):
+        return []
+    forces = [foot.vertical_force for foot in recording.feet.values()]
+    if any(resting_level(f, recording.rate_hz) or not resting_level(-f, recording.rate_hz) for f in forces):
+        return []
+    return [
+        "values rest at their largest and dip again and again, as a walk upside down: the sensors may be inverted; "
+        "allowed: values that grow with load"
+    ]
 
 
 def scrambled_doubts(recording: PressureRecording) -> list[str]:

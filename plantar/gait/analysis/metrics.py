@@ -11,6 +11,7 @@ from plantar.gait.analysis.activity import activity_of, loaded_frames, progressi
 from plantar.gait.analysis.health import (
     creep_doubts,
     implied_weight,
+    inverted_doubts,
     mirrored_doubts,
     scrambled_doubts,
     silent_cell_doubts,
@@ -42,6 +43,7 @@ def metrics_of(
     standing = activity.name == "standing"
     if standing:
         warnings.append(f"this is standing: {activity.why}; sway is measured, steps are not")
+    warnings += inverted_doubts(recording, feet)
     for side, gait in feet.items():
         if standing:
             continue

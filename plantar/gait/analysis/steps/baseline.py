@@ -22,6 +22,7 @@ _REPORTED = 0.03  # A level in swing of more than so much of the range is report
 # centre of pressure out of the sole.
 _PULL = 0.01
 HOT = 0.5  # A cell that reads more in swing than this share of what it reads under load does not measure the foot
+_ALONE = 5.0  # How many times the usual reading in swing a cell of a sensor with an offset reads then
 _WINDOWS = (12.0, 6.0)  # Lengths in s of the stretches in which the level in swing is looked for, ten strides or five
 _FLAT = 0.06  # Range of a level in swing, as a share of the range of force
 _LONGEST_SWING = 1.5  # Longest time in s at one level that is a swing and not standing on the other foot
@@ -145,38 +146,39 @@ def without_baselines(recording: PressureRecording) -> PressureRecording:
     if recording.kind == "platform":
         return recording
     feet, notes = dict(recording.feet), list(recording.warnings)
+    unit = "counts" if recording.raw else "N"
     for side, foot in recording.feet.items():
         rest = resting_level(foot.vertical_force, recording.rate_hz)
         if rest is None:
             continue
-        offset = float(np.median(rest.level))
-        drift, pulls = float(np.ptp(rest.level)), rest.level.min() < -_PULL * rest.span
-        if drift > FOLLOWED * rest.span or np.abs(rest.level).max() > OFFSET * rest.span or pulls:
+        hot = _hot_cells(foot, rest)
+        if len(hot):
+            foot = feet[side] = _without_hot(foot, rest, hot)
+            rest = resting_level(foot.vertical_force, recording.rate_hz) or rest
+            names = foot.layout.ids[hot] if foot.layout is not None else hot + 1
+            notes.append(
+                f"{_cells(names.tolist())} of the {side} foot: what they read in swing, more than half of what they "
+                "read under load (a crease, or a cell that sticks), is taken off (--baseline keep leaves it)"
+            )
+        offset, drift = float(np.median(rest.level)), float(np.ptp(rest.level))
+        if _is_offset(rest):
             feet[side] = _without_offset(foot, rest)
-            unit = "counts" if recording.raw else "N"
             moving = f", and drifts by {drift:.3g} {unit}" if drift > 0.05 * rest.span else ""
             notes.append(
                 f"the {side} foot's sensor reads {offset:.4g} {unit} in swing{moving}: what each cell reads there "
-                "is taken "
-                "off as its baseline (--baseline keep leaves it)"
+                "is taken off as its baseline (--baseline keep leaves it)"
             )
-        else:
-            if np.abs(rest.level).max() > _REPORTED * rest.span:
-                notes.append(
-                    f"the {side} foot's sensor reads {offset:.3g} {'counts' if recording.raw else 'N'} in swing, "
-                    f"{100.0 * offset / rest.span:.0f} % of its range: it stays in the forces, as a shoe may press so"
-                )
-            hot = _hot_cells(foot, rest)
-            if len(hot):
-                feet[side] = _without_hot(foot, rest, hot)
-                names = foot.layout.ids[hot] if foot.layout is not None else hot + 1
-                notes.append(
-                    f"{_cells(names.tolist())} of the {side} foot read in swing more than half of what they read "
-                    "under load "
-                    "(a crease, or a cell that sticks): what they read in swing is taken off (--baseline keep "
-                    "leaves it)"
-                )
+        elif np.abs(rest.level).max() > _REPORTED * rest.span:
+            notes.append(
+                f"the {side} foot's sensor reads {offset:.3g} {unit} in swing, "
+                f"{100.0 * offset / rest.span:.0f} % of its range: it stays in the forces, as a shoe may press so"
+            )
     return replace(recording, feet=feet, warnings=tuple(notes))
+
+
+def _is_offset(rest: RestingLevel) -> bool:
+    drift, pulls = float(np.ptp(rest.level)), rest.level.min() < -_PULL * rest.span
+    return bool(drift > FOLLOWED * rest.span or np.abs(rest.level).max() > OFFSET * rest.span or pulls)
 
 
 def _cells(ids: Sequence[int]) -> str:
@@ -245,8 +247,10 @@ def _hot_cells(foot: FootRecording, rest: RestingLevel) -> NDArray[np.int64]:
         under = foot.force[_frames(foot.vertical_force > rest.level + 0.3 * rest.span)]
     let_go(foot.force)
     load = np.percentile(np.where(np.isfinite(under), under, 0.0), 95.0, axis=0) if len(under) else np.zeros(len(air))
-    least = 0.002 * rest.span if foot.layout is None else foot.layout.force_threshold
-    return np.flatnonzero((air > HOT * load) & (air > max(least, 0.002 * rest.span)))
+    least = max(0.002 * rest.span, 0.0 if foot.layout is None else foot.layout.force_threshold)
+    if _is_offset(rest):
+        least = max(least, _ALONE * float(np.median(np.abs(air))))
+    return np.flatnonzero((air > HOT * load) & (air > least))
 
 
 def _without_hot(foot: FootRecording, rest: RestingLevel, hot: NDArray[np.int64]) -> FootRecording:
