@@ -49,11 +49,26 @@ def test_swapped_matrices_are_mirrored_feet():
     assert len(mirrored_doubts(swapped, analyse_feet(swapped))) == 1
 
 
-def test_one_foot_and_robots_are_not_doubted():
-    recording = arched(SIDES)
-    one = replace(recording, feet={"left": recording.feet["left"]})
-    robot = replace(recording, kind="robot")
-    assert mirrored_doubts(one, analyse_feet(one)) == mirrored_doubts(robot, analyse_feet(robot)) == []
+@pytest.mark.parametrize("side", SIDES)
+@pytest.mark.parametrize("mirrored", [(), SIDES])
+def test_one_foot_of_the_other_side_is_doubted(side, mirrored):
+    recording = arched(mirrored)
+    one = replace(recording, feet={side: recording.feet[side]})
+    doubts = mirrored_doubts(one, analyse_feet(one))
+    assert [line.split(" carries")[0] for line in doubts] == [f"the {side} foot"] * bool(mirrored)
+
+
+def test_robots_are_not_doubted():
+    robot = replace(arched(SIDES), kind="robot")
+    assert mirrored_doubts(robot, analyse_feet(robot)) == []
+
+
+def test_a_real_foot_of_the_other_side_is_doubted(real_data):
+    from plantar.formats import ReadOptions
+    from plantar.gait.analysis.analyse import analyse
+
+    found = analyse(real_data / "recordings" / "fscan_walk_left.asf", options=ReadOptions(side="right"))
+    assert any("the right foot carries" in w and "as mirrored feet do" in w for w in found.metrics["warnings"])
 
 
 def test_real_feet_are_not_doubted(real_data):

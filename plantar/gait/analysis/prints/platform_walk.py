@@ -227,7 +227,7 @@ def sides_of_walk(
         return ["left" if o > m else "right" for o, m in zip(offset, middle, strict=True)]
     if stated is not None:
         return [stated] * count
-    first = _side_by_shape(walk.load, walk.prints[0], forward)
+    first: Side = "right" if rightness(footprint_on(walk.load, walk.prints[0], forward)) >= 0.0 else "left"
     notes.append(
         f"the file does not state which foot it is: taken as the {first} one from the footprint's shape "
         "(--side overrides)"
@@ -256,13 +256,12 @@ def _line_of_walking(along: NDArray[np.float64], offset: NDArray[np.float64]) ->
     return np.asarray(slope * along + 0.5 * (level.min() + level.max()))
 
 
-def _side_by_shape(load: PlatformLoad, cells: PrintCells, forward: NDArray[np.float64]) -> Side:
-    """Side of a single footprint: a left foot's arch and hallux lie to the right."""
-    print_ = footprint_on(load, cells, forward)
+def rightness(print_: Footprint) -> float:
+    """How far arch and hallux lie to the left, in lengths of a print taken as a right one; negative of a left foot."""
     u, v = print_.centres.T / print_.length  # of a right foot v runs to the left, which is medial
     trunk = _mean_where((u < _TRUNK[0]) | ((u > _TRUNK[1]) & (u < _BALL[1])), v, print_.areas)
     waist = _mean_where((u > _WAIST[0]) & (u < _WAIST[1]), v, print_.areas)
-    return "right" if (trunk - waist) + 0.5 * _hallux_offset(print_, trunk) >= 0.0 else "left"
+    return (trunk - waist) + 0.5 * _hallux_offset(print_, trunk)
 
 
 def footprint_on(load: PlatformLoad, cells: PrintCells, forward: NDArray[np.float64]) -> Footprint:

@@ -33,7 +33,7 @@ def shape(u: np.ndarray, v: np.ndarray) -> np.ndarray:
     return inside | disc(0.165, 0.0, 0.04, 0.045) | disc(0.232, 0.02, 0.018, 0.014)
 
 
-def walkway(steps=6, first="left", reverse=False, across=False, cut=False, heading=0.0):
+def walkway(steps=6, first="left", reverse=False, across=False, cut=False, heading=0.0, width=WIDTH):
     """Feet that walk over a platform of cells of 1 cm, and the truth: side and heel strike of each step."""
     rows, columns = round(STEP * steps / PITCH) + 30, 150 if heading else 50
     layout = grid_cells(np.ones((rows, columns), dtype=bool), PITCH, PITCH, side="left", name="way", threshold=1e3)
@@ -47,7 +47,7 @@ def walkway(steps=6, first="left", reverse=False, across=False, cut=False, headi
         out = 1.0 if side == "left" else -1.0
         turn = np.radians(TOE_OUT) * out
         strike = (0.5 if not cut else 0.0) + k * (STANCE - DOUBLE)
-        heel = np.array([0.05 + k * STEP, out * WIDTH / 2])
+        heel = np.array([0.05 + k * STEP, out * width / 2])
         u = (x - heel[0]) * np.cos(turn) + (y - heel[1]) * np.sin(turn)
         left = -(x - heel[0]) * np.sin(turn) + (y - heel[1]) * np.cos(turn)
         cells = shape(u, left * (1.0 if side == "right" else -1.0))
@@ -119,6 +119,28 @@ def test_a_single_footprint_tells_its_side_by_its_shape(first, reverse):
     assert any(f"taken as the {first} one from the footprint's shape" in w for w in told.warnings)
     data = player_data(told, analyse_feet(told, prints))
     assert len(data["feet"][0]["cells"]) < 400  # not the whole platform
+
+
+@pytest.mark.parametrize("first", ["left", "right"])
+@pytest.mark.parametrize("options", [{}, {"reverse": True}, {"across": True}, {"heading": 20.0}])
+@pytest.mark.parametrize(
+    ("width", "doubted"), [(-0.1, True), (-0.14, True), (-0.06, False), (0.0, False), (WIDTH, False)]
+)
+def test_feet_that_cross_over_are_doubted(first, options, width, doubted):
+    """By their places a left foot is a right one; arches and great toes contradict, or show it where places do not."""
+    recording, truth = walkway(3, first, width=width, **options)
+    told, prints = separated_feet(recording)
+    assert ([p.side for p in prints] != [side for side, _ in truth]) == doubted
+    assert any("lie as in the other foot: feet that cross over" in w for w in told.warnings) == doubted
+
+
+@pytest.mark.parametrize("first", ["left", "right"])
+@pytest.mark.parametrize("stated", ["left", "right"])
+def test_a_stated_side_is_held_against_the_shape(first, stated):
+    recording = replace(walkway(1, first)[0], metadata={"side": stated})
+    told, (print_,) = separated_feet(recording)
+    assert print_.side == stated
+    assert any("or the wrong --side" in w for w in told.warnings) == (stated != first)
 
 
 def test_a_platform_that_records_from_the_first_load_has_a_whole_step():
