@@ -108,7 +108,7 @@ def analyse_recording(
         if image:
             from plantar.gait.analysis.pages.footprint_report import analyse_image
 
-            metrics = analyse_image(Path(path), folder, mm_per_pixel, known.side, subject)
+            metrics = analyse_image(Path(path), folder, mm_per_pixel, known.side, subject, figures)
         else:
             analysis = analyse_one(path, format, known, report, choices, subject)
             metrics = dict(analysis.metrics)

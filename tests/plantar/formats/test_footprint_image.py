@@ -25,8 +25,8 @@ def canvas(feet: int = 1, background: int = 255) -> np.ndarray:
     return np.full((640, 320 * feet, 3), background, dtype=np.uint8)
 
 
-def draw_foot(image, middle, side, colour, toes=True, arch=False):
-    """A foot of 240 mm, toes up: heel, lateral midfoot, ball, and toes apart from it."""
+def draw_foot(image, middle, side, colour, toes=True, arch=False, gap=1.0):
+    """A foot of 240 mm, toes up: heel, lateral midfoot, ball, and toes that lie apart from it, farther with `gap`."""
     medial = 1.0 if side == "left" else -1.0  # in the image to the right of a left foot
 
     def disc(u: float, v: float, a: float, b: float) -> None:
@@ -39,9 +39,9 @@ def draw_foot(image, middle, side, colour, toes=True, arch=False):
         cv2.rectangle(image, (round(x0), round(600 - 160 / MM)), (round(x1), round(600 - 30 / MM)), colour, -1)
     disc(155, 0, 38, 45)
     if toes:
-        disc(222, 24, 18, 12)
+        disc(222 * gap, 24, 18, 12)
         for v in (2, -10, -20, -29):
-            disc(214 - 0.3 * abs(v), v, 9, 5)
+            disc((214 - 0.3 * abs(v)) * gap, v, 9, 5)
 
 
 def save(path: Path, image: np.ndarray) -> Path:
@@ -58,6 +58,26 @@ def test_a_foot_without_a_midfoot_is_one_foot(tmp_path, side):
     assert name == side
     assert result["feet"][name]["footprint"]["length_m"] == pytest.approx(0.24, abs=0.003)
     assert result["feet"][name]["footprint"]["arch_index"] < 0.1  # the ball alone reaches into the middle third
+
+
+@pytest.mark.parametrize("gap", [0.97, 1.0, 1.04])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_the_shape_does_not_depend_on_the_scale(tmp_path, side, gap):
+    """A picture of a foot may be of any size; where that is no foot's, the scale is doubted."""
+    image = canvas()
+    draw_foot(image, 160, side, (60, 60, 160), gap=gap)
+    path, found, options = save(tmp_path / "print.png", image), [], ReadOptions(side=side)
+    for scale in (None, 0.02, 0.2, 0.5, 0.7, 5.0):
+        result = analyse_recording(path, tmp_path / "out", mm_per_pixel=scale, options=options, figures=False)
+        foot = result["feet"][side]["footprint"]
+        toeless = foot["toeless_length_m"] / foot["length_m"] if scale else None
+        found.append((foot["arch_index"], foot["region_area_percent"]["hallux"], toeless))
+        doubts = [w for w in result["warnings"] if "m long, feet are 0.08 to 0.4 m: check" in w]
+        assert len(doubts) == (scale in (0.02, 5.0))
+    assert np.ptp([row[:2] for row in found], axis=0) == pytest.approx([0.0, 0.0], abs=1e-6)
+    assert np.ptp([row[2] for row in found[1:]]) == pytest.approx(0.0, abs=1e-6)
+    assert {p.name for p in (tmp_path / "out").iterdir()} == {"metrics.json", "footprints.csv"}
+    assert found[1][2] == pytest.approx(193.0 / (222.0 * gap + 18.0), abs=0.01)
 
 
 @pytest.mark.parametrize(("suffix", "side"), [("png", "left"), ("jpg", "right"), ("tif", "left"), ("bmp", "right")])

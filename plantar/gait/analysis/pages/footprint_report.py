@@ -21,11 +21,17 @@ from plantar.pages.page import Section, figures_of, number, page, row, scaled, t
 from plantar.plotting import COLOURS, draw_raster, new_figure
 from plantar.sides import SIDES, Side
 
+_LENGTHS = (0.08, 0.40)  # Lengths in m of footprints, from a child who begins to walk to the largest feet
 _MOST_PIXELS = 40_000  # Pixels a footprint is measured with; finer masks are thinned
 
 
 def analyse_image(
-    path: Path, folder: Path, mm_per_pixel: float | None, side: Side | None = None, subject: Subject | None = None
+    path: Path,
+    folder: Path,
+    mm_per_pixel: float | None,
+    side: Side | None = None,
+    subject: Subject | None = None,
+    figures: bool = True,
 ) -> dict[str, Any]:
     """Measure footprints in an image; write metrics.json, footprints.csv, a figure and report.html.
 
@@ -35,6 +41,7 @@ def analyse_image(
         mm_per_pixel: In mm; the image's own where None.
         side: Of a single footprint; inferred from shape where None.
         subject: Person.
+        figures: Whether figure and report.html are written.
 
     Returns:
         Contents of metrics.json. FormatError for no image or no footprint.
@@ -43,7 +50,13 @@ def analyse_image(
     pixel = image.pixel if image.pixel is not None else 1.0
     sides, assumed = _sides(image, pixel, side)
     prints = {s: footprint_in_image(p, pixel, s) for s, p in zip(sides, image.prints, strict=True)}
-    toeless = [
+    doubts = [
+        f"the {s} footprint is {print_.length:.3g} m long, feet are {_LENGTHS[0]:g} to {_LENGTHS[1]:g} m: check the "
+        "image's resolution (--mm-per-pixel)"
+        for s, print_ in prints.items()
+        if image.pixel is not None and not _LENGTHS[0] <= print_.length <= _LENGTHS[1]
+    ]
+    doubts += [
         f"no gap parts the {s} foot's toes from its forefoot: its arch index is that of the whole print"
         for s, print_ in prints.items()
         if print_.toe_line is None
@@ -59,13 +72,14 @@ def analyse_image(
         "mm_per_pixel": None if image.pixel is None else 1e3 * image.pixel,
         "feet": {s: {"steps": 0, "events": [], "footprint": values} for s, values in feet.items()},
         "gait": {},
-        "warnings": [*image.warnings, *assumed, *toeless],
+        "warnings": [*image.warnings, *assumed, *doubts],
     }
-    caption = "Footprints with their contours, axes, thirds and toe lines"
-    embedded = write_figures([("footprint", draw_footprints(image, prints), caption)], folder)
     (folder / "footprints.csv").write_text(_csv(feet), encoding="utf-8")
     (folder / "metrics.json").write_text(json.dumps(metrics, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-    (folder / "report.html").write_text(footprint_page(metrics, embedded, path.name), encoding="utf-8")
+    if figures:
+        caption = "Footprints with their contours, axes, thirds and toe lines"
+        embedded = write_figures([("footprint", draw_footprints(image, prints), caption)], folder)
+        (folder / "report.html").write_text(footprint_page(metrics, embedded, path.name), encoding="utf-8")
     return metrics
 
 

@@ -71,7 +71,7 @@ def _profile(
 
 
 def _valley(print_: Footprint, strip: NDArray[np.bool_], pitch: float) -> float | None:
-    """u of a strip's valley between forefoot and toes; middle of the first part of a wide one."""
+    """u of the middle of a strip's valley between forefoot and toes."""
     places, height = _profile(print_, strip, pitch)
     fore = (places >= 0.45 * print_.length) & (places <= 0.80 * print_.length)
     if not fore.any() or height[fore].max() <= 0.0:
@@ -84,9 +84,8 @@ def _valley(print_: Footprint, strip: NDArray[np.bool_], pitch: float) -> float 
     if not candidates:
         return None
     lowest = min(candidates, key=lambda i: float(height[i]))
-    at, depth = float(places[lowest]), float(height[lowest])
-    same = places[(height <= depth + 1e-12) & (np.abs(places - at) < 0.1) & (places >= at)]
-    return float(np.mean(same[:8]))
+    higher = np.flatnonzero(height[lowest:] > height[lowest] + 1e-12)
+    return float(places[lowest : lowest + higher[0]].mean())
 
 
 def _is_valley(height: NDArray[np.float64], at: int, peak: int, beyond: float) -> bool:
