@@ -54,8 +54,8 @@ ROOMS: dict[str, tuple[str, ...]] = {
         *("controller_settings", "tick", "controller", "controller_tables"),
     ),
     "plantar.gait.analysis": (
-        *("measures", "options", "subject", "prints", "steps", "health", "activity", "summary"),
-        *("parameters", "measure_errors", "pages", "metrics", "results", "analyse_one", "study", "compare"),
+        *("measures", "options", "subject", "prints", "steps", "summary", "health", "activity"),
+        *("parameters", "measure_errors", "pages", "metrics", "results", "analyse_one", "compare", "study"),
         *("custom", "exports", "analyse"),
     ),
     "plantar.wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),

@@ -171,21 +171,26 @@ def _analyze_one(
     from plantar.gait.analysis.analyse_one import analyse_recording
     from plantar.gait.analysis.exports import exporter
 
-    options, also = file.options(order.mass), exporter(export)
     with progress_bar() as progress:
         return analyse_recording(
             recording,
             output,
-            file.format,
-            file.layout,
-            progress,
-            options=options,
+            progress=progress,
             mm_per_pixel=file.mm_per_pixel,
-            choices=order.choices(),
-            subject=order.subject(),
-            also=also,
-            figures=figures,
+            also=exporter(export),
+            **_known(file, order, figures),
         )
+
+
+def _known(file: FileOrder, order: AnalysisOrder, figures: bool) -> dict[str, Any]:
+    return {
+        "format": file.format,
+        "layout": file.layout,
+        "options": file.options(order.mass),
+        "choices": order.choices(),
+        "subject": order.subject(),
+        "figures": figures,
+    }
 
 
 def _compare(
@@ -195,19 +200,8 @@ def _compare(
 
     if file.mm_per_pixel is not None:
         raise InputError("--mm-per-pixel is for footprint images; --compare takes recordings over time")
-    known, choices, subject = file.options(order.mass), order.choices(), order.subject()
     with progress_bar() as progress:
-        return compare_recordings(
-            *pair,
-            output,
-            file.format,
-            file.layout,
-            progress,
-            options=known,
-            choices=choices,
-            subject=subject,
-            figures=figures,
-        )
+        return compare_recordings(*pair, output, progress=progress, **_known(file, order, figures))
 
 
 def _end(result: dict[str, Any], parts: dict[str, Any], as_json: bool) -> None:

@@ -2,7 +2,7 @@
 
 import mmap
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -37,6 +37,15 @@ def blocks_of_frames(values: NDArray[Any]) -> Iterator[slice]:
     for start in range(0, len(values), rows):
         yield slice(start, min(start + rows, len(values)))
         let_go(values)
+
+
+def table_of_blocks(values: NDArray[np.float64], block: Callable[[slice], NDArray[np.float64]]) -> NDArray[np.float64]:
+    """Returns table like `values` (n, k), large ones in a file, of what `block` gives for each slice of rows."""
+    out = room(*values.shape)
+    for rows in blocks_of_frames(values):
+        out[rows] = block(rows)
+        let_go(out)
+    return out
 
 
 def scale_frames(values: NDArray[np.float64], factor: float | NDArray[np.float64]) -> None:

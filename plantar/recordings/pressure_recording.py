@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.layouts.layout import Side, SoleLayout, mirrored
-from plantar.recordings.frame_table import blocks_of_frames, let_go, room
+from plantar.recordings.frame_table import blocks_of_frames, table_of_blocks
 
 RATES = (0.1, 1e5)
 """Lowest and highest rate in frames a second that is believed."""
@@ -70,11 +70,8 @@ class FootRecording:
         """Forces (n, k) with 0 in place of NaN."""
         if self.missing is None:
             return self.force
-        out = room(*self.force.shape)
-        for rows in blocks_of_frames(self.force):
-            out[rows] = np.where(self.missing[rows], 0.0, self.force[rows])
-            let_go(out)
-        return out
+        missing = self.missing
+        return table_of_blocks(self.force, lambda rows: np.where(missing[rows], 0.0, self.force[rows]))
 
     @cached_property
     def vertical_force(self) -> NDArray[np.float64]:

@@ -38,11 +38,7 @@ def analyse_one(
 
     Args:
         given: Any form of `plantar.formats.given.recording_of`.
-        format: By content where None.
-        options: What else is known.
-        progress: Called with a share 0..0.5 and the work.
-        choices: Steps in the means, and events used.
-        subject: Person. FormatError if unreadable.
+        format: This and all others as of `analyse_recording`; progress goes to 0.5.
     """
     report, known = progress or (lambda fraction, text: None), options or ReadOptions()
     if subject is not None and known.mass_kg is None:

@@ -15,7 +15,7 @@ from plantar.console.progress import part_of
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, named_format
 from plantar.gait.analysis.analyse_one import analyse_one, with_layout
-from plantar.gait.analysis.measures import MEASURES
+from plantar.gait.analysis.measures import COMPARED, MEASURES
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.pages.figure_files import write_figures
 from plantar.gait.analysis.pages.force_figures import STANCE, draw_sd, force_label, stance_curves
@@ -27,20 +27,6 @@ from plantar.plotting import COLOURS, new_figure
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import SIDES, Side
 
-# Measures whose difference is drawn.
-_MAIN = (
-    "contact_time_s",
-    "stride_time_s",
-    "peak_force_N",
-    "landing_impact_N",
-    "loading_rate_N_s",
-    "impulse_Ns",
-    "peak_pressure_Pa",
-    "pressure_time_integral_Pas",
-    "contact_area_m2",
-    "cop_path_m",
-    "cop_velocity_m_s",
-)
 _SENSORS = {"insole": "insoles", "platform": "a platform", "robot": "a robot's soles", "plate": "force plates"}
 
 
@@ -63,13 +49,7 @@ def compare_recordings(
         a: First recording.
         b: Second one.
         out: Output folder.
-        format: Of both; by content where None.
-        layout: Layout file for both.
-        progress: Called with a share 0..1 and the work.
-        options: What else is known of both.
-        choices: Steps in the means, events used.
-        subject: Person in both.
-        figures: Whether figures and report.html are written.
+        format: This and all others as of `analyse_recording`, for both.
 
     Returns:
         "a" and "b": metrics of each; "difference": `difference_of` each foot; "warnings"; "files": paths written.
@@ -219,7 +199,7 @@ def _bars(difference: Mapping[str, Mapping[str, Any]]) -> Any | None:
     rows = {
         name: {k: d["percent"] for k, d in own.items() if d["percent"] is not None} for name, own in difference.items()
     }
-    keys = [k for k in _MAIN if any(k in r for r in rows.values())]
+    keys = [k for k in COMPARED if any(k in r for r in rows.values())]
     if not keys:
         return None
     figure, axes = new_figure(8.0, 1.0 + 0.4 * len(keys))

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from plantar.gait.analysis.steps.baseline import resting_level
 from plantar.gait.analysis.steps.foot_gait import FootGait
+from plantar.gait.analysis.summary import spread
 from plantar.gravity import GRAVITY
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.frame_table import column_maxima, let_go
@@ -50,8 +51,6 @@ def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> Sil
     Of a few cells without places, those of the same number show it.
     """
     layout, none = foot.layout, SilentCells(np.zeros(0, dtype=np.int64), 0.0)
-    if not len(foot.force):
-        return none
     if layout is None or len(layout) < 8:
         return none if other is None else _silent_beside(foot.force, other.force) or none
     top = column_maxima(foot.force) / layout.areas
@@ -99,7 +98,7 @@ def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> Sil
 
 def _silent_beside(own: NDArray[np.float64], theirs: NDArray[np.float64]) -> SilentCells | None:
     """Cells that read 0 where the other foot's carry load, if it has fewer of them: else their order may differ."""
-    if own.shape[1] != theirs.shape[1] or own.shape[1] >= _MOSAIC or not len(theirs):
+    if own.shape[1] != theirs.shape[1] or own.shape[1] >= _MOSAIC:
         return None
     zero, top = column_maxima(own) <= 0.0, column_maxima(theirs)
     silent = zero & (top > _CARRIES * float(np.percentile(top, 90.0)))
@@ -155,10 +154,9 @@ def silent_cell_doubts(recording: PressureRecording) -> list[str]:
 
 def inverted_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
     """Warning of sensors without steps whose force, upside down, is that of a walk."""
-    if recording.kind not in ("insole", "plate") or any(gait.steps for gait in feet.values()):
-        return []
-    forces = [foot.vertical_force for foot in recording.feet.values()]
-    if any(resting_level(f, recording.rate_hz) or not resting_level(-f, recording.rate_hz) for f in forces):
+    rate, forces = recording.rate_hz, [foot.vertical_force for foot in recording.feet.values()]
+    without_steps = recording.kind in ("insole", "plate") and not any(gait.steps for gait in feet.values())
+    if not without_steps or any(resting_level(f, rate) or not resting_level(-f, rate) for f in forces):
         return []
     return [
         "values rest at their largest and dip again and again, as a walk upside down: the sensors may be inverted; "
@@ -242,12 +240,9 @@ def implied_weight(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
     """
     if recording.raw:
         return None
-    impulses = {side: _median(gait, "impulse_Ns") for side, gait in feet.items()}
-    strides = [v for gait in feet.values() if np.isfinite(v := _median(gait, "stride_time_s"))]
-    known = [v for v in impulses.values() if np.isfinite(v)]
-    if strides and known:
-        return 2.0 * float(np.mean(known)) / float(np.mean(strides))
-    peaks = [v for gait in feet.values() if np.isfinite(v := _median(gait, "peak_force_N"))]
+    impulses, strides, peaks = (_medians(feet, key) for key in ("impulse_Ns", "stride_time_s", "peak_force_N"))
+    if strides and impulses:
+        return 2.0 * float(np.mean(impulses)) / float(np.mean(strides))
     if peaks or any(gait.steps for gait in feet.values()):
         return float(np.mean(peaks)) / _STEPPING if peaks else None
     measured = [foot.vertical_force[np.isfinite(foot.vertical_force)] for foot in recording.feet.values()]
@@ -255,9 +250,9 @@ def implied_weight(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
     return sum(forces) if len(forces) == 2 and min(forces) > 0.0 else None
 
 
-def _median(gait: FootGait, key: str) -> float:
-    known = [value for value in gait.columns.get(key, ()) if np.isfinite(value)]
-    return float(np.median(known)) if known else float("nan")
+def _medians(feet: Mapping[Side, FootGait], key: str) -> list[float]:
+    spreads = (spread(gait.columns.get(key, ())) for gait in feet.values())
+    return [one.median for one in spreads if one.median is not None]
 
 
 def weight_doubts(recording: PressureRecording, weight: float | None) -> list[str]:

@@ -3,9 +3,12 @@
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from plantar.gait.analysis.measures import MEASURES
+from plantar.gait.analysis.steps.events import Levels
 from plantar.gait.analysis.steps.foot_gait import FootGait
+from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import PressureRecording
 
 # Standard error in s of heel strikes and toe offs by the form of the force (`benchmarks/gait_events.py`, all sets).
@@ -20,24 +23,23 @@ def errors_of_foot(recording: PressureRecording, gait: FootGait) -> dict[str, fl
 
     A mean over n steps errs by 1 / sqrt(n) of noise and frames, and fully of cells and definitions.
     """
-    levels, used = gait.levels, gait.used
-    if levels is None or not used:
+    levels, layout = gait.levels, gait.foot.layout
+    if levels is None or not gait.used:
         return {}
     middle = {key: float(np.nanmedian(v)) for key, v in gait.columns.items() if np.isfinite(v).any()}
-    out = _times(recording, gait, middle) | _forces(recording, gait, middle)
-    if gait.foot.layout is not None and gait.cop is not None:
-        out |= _places(gait, middle)
-    if gait.foot.layout is not None and "contact_area_m2" in middle:
-        out |= _pressures(gait, middle)
+    out = _times(recording, levels, middle) | _forces(recording, gait, levels, middle)
+    if layout is not None and gait.cop is not None:
+        out |= _places(layout, levels, middle)
+    if layout is not None and "contact_area_m2" in middle:
+        out |= _pressures(layout, levels, gait.picture, middle)
     return {key: error for key, error in out.items() if key in MEASURES and key in middle and np.isfinite(error)}
 
 
-def _times(recording: PressureRecording, gait: FootGait, middle: Mapping[str, float]) -> dict[str, float]:
-    assert gait.levels is not None
-    slope = max(1e-9, middle.get("loading_rate_N_s", 0.0) or 10.0 * gait.levels.peak)
+def _times(recording: PressureRecording, levels: Levels, middle: Mapping[str, float]) -> dict[str, float]:
+    slope = max(1e-9, middle.get("loading_rate_N_s", 0.0) or 10.0 * levels.peak)
     frame = _FRAME / recording.rate_hz
-    strike, lift = (float(np.hypot(np.hypot(frame, gait.levels.noise / slope), own)) for own in _EVENTS[recording.kind])
-    own = float(np.hypot(frame, gait.levels.noise / slope))  # a definition's error is the same in each step
+    strike, lift = (float(np.hypot(np.hypot(frame, levels.noise / slope), own)) for own in _EVENTS[recording.kind])
+    own = float(np.hypot(frame, levels.noise / slope))  # a definition's error is the same in each step
     stride = middle.get("stride_time_s", float("nan"))
     contact = float(np.hypot(strike, lift))
     share = 100.0 * contact / stride
@@ -54,9 +56,10 @@ def _times(recording: PressureRecording, gait: FootGait, middle: Mapping[str, fl
     }
 
 
-def _forces(recording: PressureRecording, gait: FootGait, middle: Mapping[str, float]) -> dict[str, float]:
-    assert gait.levels is not None
-    noise, step = gait.levels.noise, 1.0 / recording.rate_hz
+def _forces(
+    recording: PressureRecording, gait: FootGait, levels: Levels, middle: Mapping[str, float]
+) -> dict[str, float]:
+    noise, step = levels.noise, 1.0 / recording.rate_hz
     peak, contact = middle["peak_force_N"], middle["contact_time_s"]
     force, rise = float(np.hypot(noise, _FRAME * _fall_beside_peak(gait))), 0.15 * contact
     impulse = float(np.hypot(noise * np.sqrt(contact * step), 0.02 * peak * _EVENTS[recording.kind][1]))
@@ -84,10 +87,7 @@ def _fall_beside_peak(gait: FootGait) -> float:
     return max(0.0, float(np.mean(falls))) if falls else 0.0
 
 
-def _places(gait: FootGait, middle: Mapping[str, float]) -> dict[str, float]:
-    layout, levels = gait.foot.layout, gait.levels
-    assert layout is not None
-    assert levels is not None
+def _places(layout: SoleLayout, levels: Levels, middle: Mapping[str, float]) -> dict[str, float]:
     cell = levels.noise / np.sqrt(len(layout))
     away = layout.positions[:, :2] - layout.positions[:, :2].mean(axis=0)
     turned = cell * np.sqrt((away**2).sum(axis=0))  # noise of the moment of all cells
@@ -115,10 +115,9 @@ def _places(gait: FootGait, middle: Mapping[str, float]) -> dict[str, float]:
     }
 
 
-def _pressures(gait: FootGait, middle: Mapping[str, float]) -> dict[str, float]:
-    layout, levels, picture = gait.foot.layout, gait.levels, gait.picture
-    assert layout is not None
-    assert levels is not None
+def _pressures(
+    layout: SoleLayout, levels: Levels, picture: NDArray[np.float64] | None, middle: Mapping[str, float]
+) -> dict[str, float]:
     cell, area = levels.noise / np.sqrt(len(layout)), float(layout.areas.mean())
     peak, over = middle["peak_pressure_Pa"], 0.0
     if picture is not None and (picture > 0.0).any():

@@ -131,3 +131,24 @@ def raw_name(key: str) -> str:
 def naming(raw: bool) -> Callable[[str], str]:
     """Function for a measure's key, of counts if `raw`."""
     return raw_name if raw else str
+
+
+COMPARED = (
+    "contact_time_s",
+    "stride_time_s",
+    "stance_percent",
+    "double_support_percent",
+    "peak_force_N",
+    "first_peak_N",
+    "second_peak_N",
+    "loading_rate_N_s",
+    "impulse_Ns",
+    "peak_pressure_Pa",
+    "pressure_time_integral_Pas",
+    "mean_pressure_Pa",
+    "contact_area_m2",
+    "cop_path_m",
+    "cop_velocity_m_s",
+    "cpei_percent",
+)
+"""Measures that are compared between conditions, with one allowance for all of them."""

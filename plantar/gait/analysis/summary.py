@@ -57,6 +57,9 @@ def spread(values: Sequence[float] | NDArray[np.float64], circular: bool = False
 _RESOLVED = {"_s": 2e-3, "_percent": 0.2, "_m": 5e-4, "_m2": 5e-6, "_N": 1.0, "_Ns": 0.5, "_Pa": 500.0, "_Pas": 100.0}
 
 
+_OF_BOTH = ("double_support_percent", "single_support_percent", "step_length_m", "step_width_m", "stride_length_m")
+
+
 def summary_of_foot(gait: FootGait) -> dict[str, Spread]:
     """Each measure of a foot over used steps."""
     return {name: spread(gait.columns.get(name, ()), name.endswith("_deg")) for name in MEASURES}
@@ -87,11 +90,7 @@ def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]
         "stride_time_s": stride,
         "cadence_steps_per_min": None if stride is None else 120.0 / stride,
         "steady_cadence_steps_per_min": None if steady is None else 120.0 / steady,
-        "double_support_percent": _mean(feet, "double_support_percent"),
-        "single_support_percent": _mean(feet, "single_support_percent"),
-        "step_length_m": _mean(feet, "step_length_m"),
-        "step_width_m": _mean(feet, "step_width_m"),
-        "stride_length_m": _mean(feet, "stride_length_m"),
+        **{key: _mean(feet, key) for key in _OF_BOTH},
         "walking_speed_m_s": _mean(feet, "stride_velocity_m_s"),
     }
 

@@ -16,15 +16,9 @@ from plantar.sides import Side
 def write_figures(
     figures: Sequence[tuple[str, Any, str]], folder: Path, progress: Callable[[float, str], None] | None = None
 ) -> list[tuple[Path, str]]:
-    """Write figures as PNG and SVG in a folder.
+    """Write figures (name, figure or None without data, caption) as PNG and SVG in a folder.
 
-    Args:
-        figures: Name, figure (None without data) and caption of each.
-        folder: Existing folder.
-        progress: Called with a share 0..1 and the work.
-
-    Returns:
-        PNG files with captions.
+    Returns the PNG files with captions. `progress` is called with a share 0..1 and the work.
     """
     report = progress or (lambda fraction, text: None)
     written: list[tuple[Path, str]] = []

@@ -15,6 +15,7 @@ from plantar.gait.analysis.pages.figure_files import write_figures
 from plantar.gait.analysis.pages.report import facts_of_image
 from plantar.gait.analysis.pages.sole_figures import draw_lines
 from plantar.gait.analysis.prints.footprint import Footprint, footprint_of_pixels
+from plantar.gait.analysis.prints.platform_walk import rightness
 from plantar.gait.analysis.prints.regions import REGIONS, regions_of, with_toe_line
 from plantar.gait.analysis.subject import Subject
 from plantar.pages.page import Section, figures_of, number, page, row, scaled, table, titled, warning_list
@@ -38,10 +39,8 @@ def analyse_image(
     Args:
         path: Image.
         folder: Existing folder to write to.
-        mm_per_pixel: In mm; the image's own where None.
+        mm_per_pixel: This and all others as of `analyse_recording`.
         side: Of a single footprint; inferred from shape where None.
-        subject: Person.
-        figures: Whether figure and report.html are written.
 
     Returns:
         Contents of metrics.json. FormatError for no image or no footprint.
@@ -55,8 +54,7 @@ def analyse_image(
         "image's resolution (--mm-per-pixel)"
         for s, print_ in prints.items()
         if image.pixel is not None and not _LENGTHS[0] <= print_.length <= _LENGTHS[1]
-    ]
-    doubts += [
+    ] + [
         f"no gap parts the {s} foot's toes from its forefoot: its arch index is that of the whole print"
         for s, print_ in prints.items()
         if print_.toe_line is None
@@ -119,7 +117,7 @@ def _sides(image: FootprintImage, pixel: float, stated: Side | None) -> tuple[li
         return list(SIDES if up else reversed(SIDES)), [note]
     if stated is not None:
         return [stated], []
-    side = _side_by_shape(footprint_in_image(image.prints[0], pixel, "right"))
+    side: Side = "right" if rightness(footprint_in_image(image.prints[0], pixel, "right")) >= 0.0 else "left"
     note = f"the image does not state which foot it is: taken as the {side} one from its arch (--side overrides)"
     return [side], [note]
 
@@ -127,17 +125,6 @@ def _sides(image: FootprintImage, pixel: float, stated: Side | None) -> tuple[li
 def _centres(part: Print, pixel: float) -> NDArray[np.float64]:
     rows, columns = np.nonzero(part.mask)
     return np.column_stack([part.mask.shape[0] - rows - 0.5, -columns - 0.5]) * pixel
-
-
-def _side_by_shape(print_: Footprint) -> Side:
-    u, v = print_.centres.T / print_.length
-    middle, rest = (u > 0.35) & (u < 0.55), (u < 0.25) | ((u > 0.60) & (u < 0.78))
-    toes, ball = u > 0.9, (u > 0.60) & (u < 0.78)
-    if not middle.any() and toes.any() and ball.any():  # a high arch: the longest toe is the first one, or next to it
-        return "right" if float(v[toes].mean() - v[ball].mean()) >= 0.0 else "left"
-    if not middle.any() or not rest.any():
-        return "right"
-    return "right" if float(v[rest].mean() - v[middle].mean()) >= 0.0 else "left"
 
 
 def measures_of_footprint(print_: Footprint, scaled: bool) -> dict[str, Any]:

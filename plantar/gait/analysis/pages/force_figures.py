@@ -93,13 +93,7 @@ def figure_steps(recording: PressureRecording, feet: Mapping[Side, FootGait]) ->
 
 
 def draw_sd(panel: Any, curves: NDArray[np.float64], **look: Any) -> None:
-    """Draw one standard deviation around the mean of curves.
-
-    Args:
-        panel: Axes to draw on.
-        curves: (steps, 101) over the stance, of `stance_curves`.
-        look: Colour, opacity and label.
-    """
+    """Draw one standard deviation around the mean of curves (steps, 101) over the stance in a panel, with a look."""
     if len(curves) > 1:
         mean, sd = curves.mean(axis=0), curves.std(axis=0, ddof=1)
         panel.fill_between(STANCE, mean - sd, mean + sd, linewidth=0, **look)
@@ -117,13 +111,12 @@ def figure_wrench(recording: PressureRecording, feet: Mapping[Side, FootGait]) -
     """Returns figure of each robot sole's wrench about its frame in a recording; None of other feet."""
     if recording.kind != "robot" or recording.raw:
         return None
-    shown = {side: gait.foot for side, gait in feet.items() if gait.foot.layout is not None}
-    if not shown:
+    feet_of_cells = ((side, gait.foot, gait.foot.layout) for side, gait in feet.items())
+    wrenches = {s: foot.measured @ layout.wrench_map.T for s, foot, layout in feet_of_cells if layout is not None}
+    if not wrenches:
         return None
     figure, axes = new_figure(10.0, 5.6, rows=3, grid=True, sharex=True)
-    for side, foot in shown.items():
-        assert foot.layout is not None
-        wrench = foot.measured @ foot.layout.wrench_map.T
+    for side, wrench in wrenches.items():
         for panel, index in zip(axes, (2, 3, 4), strict=True):
             panel.plot(
                 *thinned(recording.time, wrench[:, index]), color=COLOURS[side], linewidth=0.9, label=f"{side} foot"

@@ -11,7 +11,7 @@ import numpy as np
 from plantar.gait.analysis.measures import MEASURES, full_title
 from plantar.gait.analysis.pages.force_figures import STANCE, draw_sd, force_label, stance_curves
 from plantar.gait.analysis.pages.report import asset, facts_of, summary_text
-from plantar.gait.analysis.pages.tables import shown_as
+from plantar.gait.analysis.pages.tables import mean_and, shown_as
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.pages.page import Section, embedded, number, page, row, table, warning_list
 from plantar.plotting import COLOURS, new_figure
@@ -36,13 +36,7 @@ _MOST_WARNINGS = 4
 
 
 def one_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], title: str) -> str:
-    """Returns sheet as HTML that prints on one page of A4.
-
-    Args:
-        metrics: Of metrics.json.
-        figures: PNG of `figure_summary`, with caption.
-        title: Such as the file's name.
-    """
+    """Returns HTML that prints on one page of A4: metrics, figures (PNG files, captions), and a title."""
     warnings = metrics["warnings"]
     more = len(warnings) - _MOST_WARNINGS
     notes = [*warnings[:_MOST_WARNINGS], *([f"{more} more notes are in report.html"] if more > 0 else [])]
@@ -68,7 +62,7 @@ def _table(metrics: Mapping[str, Any]) -> str:
         spreads = {side: foot["measures"].get(key) for side, foot in feet.items()}
         means = {side: s["mean"] for side, s in spreads.items() if s and s["mean"] is not None}
         if means:
-            cells = [_with_error(spreads[side], factor) for side in feet]
+            cells = [mean_and(spreads[side], "error", factor) for side in feet]
             band = [_band(plain, means, factor)] if norms else []
             rows.append(row(title, [*cells, number(gait["symmetry_percent"].get(key), 2), *band]))
     if not rows:
@@ -81,13 +75,6 @@ def _table(metrics: Mapping[str, Any]) -> str:
         )
     head = ("Measure", *(f"{side} foot" for side in feet), "Symmetry (%)", *(["Norm"] if norms else []))
     return table("Main measures", caption, head, rows)
-
-
-def _with_error(spread: Mapping[str, Any] | None, factor: float) -> str:
-    if spread is None or spread["mean"] is None:
-        return "–"
-    error = spread.get("error")
-    return number(spread["mean"] * factor) + ("" if error is None else f"\u00a0±\u00a0{number(error * factor, 2)}")
 
 
 def _band(key: str, means: Mapping[str, float], factor: float) -> str:

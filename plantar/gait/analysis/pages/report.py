@@ -29,13 +29,8 @@ _GAIT = (
 def report_page(
     metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], title: str, player: Mapping[str, Any] | None = None
 ) -> str:
-    """Returns page of one recording as HTML without other files or network.
-
-    Args:
-        metrics: Of `analyse_recording`.
-        figures: PNG files to embed, with captions (alternative texts).
-        title: Such as the file's name.
-        player: `player_data`; no player where None.
+    """Returns HTML of one recording without other files: metrics, figures (PNG files, captions), title, and a player's
+    data if any.
     """
     sections = [Section("summary", "Summary", f"<p>{html.escape(summary_text(metrics))}</p>{_tiles(metrics)}")]
     if metrics["warnings"]:
@@ -108,13 +103,9 @@ def _not_given(metrics: Mapping[str, Any]) -> str:
 def comparison_page(
     comparison: Mapping[str, Any], figures: Sequence[tuple[Path, str]], names: tuple[str, str], links: tuple[str, str]
 ) -> str:
-    """Returns HTML page of two recordings side by side, linked to their reports.
+    """Returns HTML page of two recordings side by side, by names, with figures (PNG files, captions).
 
-    Args:
-        comparison: Of `compare_recordings`.
-        figures: PNG files to embed, with captions.
-        names: Of the recordings.
-        links: Their own reports, relative to this page.
+    Links lead to their own reports, relative to this page.
     """
     parts, unlike = [], warning_list(comparison["warnings"])
     for key, name, link in zip(("a", "b"), names, links, strict=True):

@@ -34,9 +34,12 @@ def shown_as(key: str, measure: Measure, raw: bool) -> _Shown:
     return _Shown(key, titled(measure.title, measure.unit), measure.factor)
 
 
-def _mean_and_sd(spread: Mapping[str, Any], factor: float) -> str:
-    sd = "" if spread["sd"] is None else f"\u00a0±\u00a0{number(spread['sd'] * factor, 2)}"
-    return number(spread["mean"] * factor) + sd
+def mean_and(spread: Mapping[str, Any] | None, key: str, factor: float) -> str:
+    """Text of a spread's mean ± its `key`, times a factor; a dash without one."""
+    if spread is None or spread["mean"] is None:
+        return "–"
+    more = "" if spread.get(key) is None else f"\u00a0±\u00a0{number(spread[key] * factor, 2)}"
+    return number(spread["mean"] * factor) + more
 
 
 def measures_table(metrics: Mapping[str, Any]) -> str:
@@ -93,7 +96,7 @@ def _spread_cells(spread: Mapping[str, Any] | None, factor: float) -> tuple[str,
     if spread is None or spread["mean"] is None:
         return "–", "–", "–", "–"
     return (
-        _mean_and_sd(spread, factor),
+        mean_and(spread, "sd", factor),
         number(scaled(spread.get("error"), factor), 2),
         number(scaled(spread.get("median"), factor)),
         number(spread["cv_percent"], 2),
@@ -133,7 +136,13 @@ def regions_tables(metrics: Mapping[str, Any]) -> str:
             f"The {side} foot, means over its complete steps.",
             ["Region", *(title for _, title, _ in shown)],
             [
-                row(title, [number(scaled(_mean(foot["regions"][region], key), factor)) for key, _, factor in shown])
+                row(
+                    title,
+                    [
+                        number(scaled(foot["regions"][region].get(key, {}).get("mean"), factor))
+                        for key, _, factor in shown
+                    ],
+                )
                 for region, title in REGIONS.items()
                 if region in foot["regions"]
             ],
@@ -141,11 +150,6 @@ def regions_tables(metrics: Mapping[str, Any]) -> str:
         for side, foot in metrics["feet"].items()
         if foot["regions"]
     )
-
-
-def _mean(values: Mapping[str, Any], key: str) -> float | None:
-    spread = values.get(key)
-    return None if spread is None else spread["mean"]
 
 
 def comparison_table(comparison: Mapping[str, Any]) -> str:
@@ -168,8 +172,8 @@ def comparison_table(comparison: Mapping[str, Any]) -> str:
 
 def _pair_cells(pair: Mapping[str, Any], factor: float) -> tuple[str, ...]:
     return (
-        _mean_and_sd(pair["a"], factor),
-        _mean_and_sd(pair["b"], factor),
+        mean_and(pair["a"], "sd", factor),
+        mean_and(pair["b"], "sd", factor),
         number(pair["difference"] * factor),
         number(pair["percent"], 2),
         number(pair["effect_size"], 2),

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from plantar.gait.analysis.steps.events import MINIMUM_SWING, smoothed
 from plantar.gait.analysis.steps.swing_levels import SwingLevels, swing_levels
-from plantar.recordings.frame_table import blocks_of_frames, let_go, room
+from plantar.recordings.frame_table import let_go, table_of_blocks
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, true_runs
 
 OFFSET = 0.10  # A level in swing of more than so much of the walk's range of force is an offset; shoes press less
@@ -86,17 +86,14 @@ def _usual_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None
         found = [_level(force[a:b], rate) for a, b in pairwise(edges)]
         tried.append((sum(part is not None for part in found) / len(found), edges, found))
     _, edges, found = max(tried, key=lambda one: one[0])
-    known = [i for i, part in enumerate(found) if part is not None]
+    known = [(*part, a, b) for part, (a, b) in zip(found, pairwise(edges), strict=True) if part is not None]
     if not known:
         return None
-    levels, spans, swing = [], [], np.zeros(n, dtype=bool)
-    for i in known:
-        part = found[i]
-        assert part is not None
-        levels.append(part[0])
-        spans.append(part[1])
-        swing[edges[i] : edges[i + 1]] = part[2]
-    middles = 0.5 * (edges[:-1] + edges[1:])[known]
+    levels, spans, frames, begins, ends = zip(*known, strict=True)
+    swing = np.zeros(n, dtype=bool)
+    for part, a in zip(frames, begins, strict=True):
+        swing[a : a + len(part)] = part
+    middles = 0.5 * np.add(begins, ends)
     return RestingLevel(np.interp(np.arange(n), middles, levels), swing, float(np.median(spans)))
 
 
@@ -208,10 +205,9 @@ def _without_offset(foot: FootRecording, rest: RestingLevel) -> FootRecording:
     places, stretches = _stretches(rest)
     means = [_in_swing(foot, a + _frames(rest.swing[a:b])) for a, b in stretches]
     at, table = np.array(places), np.array(means)
-    force = room(*foot.force.shape)
-    for rows in blocks_of_frames(foot.force):
-        force[rows] = foot.force[rows] - _between(np.arange(rows.start, rows.stop), at, table)
-        let_go(force)
+    force = table_of_blocks(
+        foot.force, lambda rows: foot.force[rows] - _between(np.arange(rows.start, rows.stop), at, table)
+    )
     return replace(foot, force=force, total=total)
 
 
@@ -228,15 +224,11 @@ def _stretches(rest: RestingLevel) -> tuple[list[float], list[tuple[int, int]]]:
     if rest.each is not None:
         return rest.each.places.tolist(), [(int(a), int(b)) for a, b in rest.each.spans]
     n, drifts = len(rest.level), float(np.ptp(rest.level)) > 0.05 * rest.span
-    count = max(1, n // max(1, _per_stretch(rest))) if drifts else 1
+    swings = int((np.diff(rest.swing.astype(np.int8)) == 1).sum())
+    count = min(20, max(1, swings // 5)) if drifts else 1
     edges = np.unique(np.linspace(0, n, 1 + count).astype(int)).tolist()
     stretches = [(a, b) for a, b in pairwise(edges) if rest.swing[a:b].any()]
     return [0.5 * (a + b) for a, b in stretches], stretches
-
-
-def _per_stretch(rest: RestingLevel) -> int:
-    begins = np.flatnonzero(np.diff(rest.swing.astype(np.int8)) == 1)
-    return len(rest.swing) // min(20, max(1, len(begins) // 5))
 
 
 def _hot_cells(foot: FootRecording, rest: RestingLevel) -> NDArray[np.int64]:
@@ -254,9 +246,6 @@ def _hot_cells(foot: FootRecording, rest: RestingLevel) -> NDArray[np.int64]:
 
 
 def _without_hot(foot: FootRecording, rest: RestingLevel, hot: NDArray[np.int64]) -> FootRecording:
-    force, air = room(*foot.force.shape), _in_swing(foot, _frames(rest.swing))[hot]
-    for rows in blocks_of_frames(foot.force):
-        force[rows] = foot.force[rows]
-        force[rows, hot] = np.maximum(force[rows, hot] - air, 0.0)
-        let_go(force)
-    return replace(foot, force=force)
+    cells = np.isin(np.arange(foot.force.shape[1]), hot)
+    air, least = np.where(cells, _in_swing(foot, _frames(rest.swing)), 0.0), np.where(cells, 0.0, -np.inf)
+    return replace(foot, force=table_of_blocks(foot.force, lambda rows: np.maximum(foot.force[rows] - air, least)))

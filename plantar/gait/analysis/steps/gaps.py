@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.recordings.frame_table import blocks_of_frames, let_go, room
+from plantar.recordings.frame_table import table_of_blocks
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
 LONGEST_GAP = 0.1
@@ -47,13 +47,11 @@ def without_gaps(recording: PressureRecording) -> PressureRecording:
 
 
 def _filled_table(foot: FootRecording, most: int) -> NDArray[np.float64]:
-    out = room(*foot.force.shape)
-    for rows in blocks_of_frames(foot.force):
+    def block(rows: slice) -> NDArray[np.float64]:
         begin = max(0, rows.start - most - 1)
-        part = filled(foot.force[begin : rows.stop + most + 1], most)
-        out[rows] = part[rows.start - begin : rows.stop - begin]
-        let_go(out)
-    return out
+        return filled(foot.force[begin : rows.stop + most + 1], most)[rows.start - begin : rows.stop - begin]
+
+    return table_of_blocks(foot.force, block)
 
 
 def filled(force: NDArray[np.float64], most: int) -> NDArray[np.float64]:

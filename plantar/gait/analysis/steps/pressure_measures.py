@@ -104,10 +104,8 @@ def robot_measures(load: StepLoad, layout: SoleLayout) -> dict[str, float]:
     with np.errstate(invalid="ignore", divide="ignore"):
         cop = normal @ layout.positions[:, :2] / total[:, None]
     polygons = support_polygons(layout, force, 0.0, vertices=True)
-    margins: list[float] = []
-    for i, point in enumerate(cop):
-        if total[i] > 0.0 and polygons.size[i] >= 3:
-            margins.append(signed_margin(polygons.polygon(i), point))
+    inside = np.flatnonzero((total > 0.0) & (polygons.size >= 3)).tolist()
+    margins = [signed_margin(polygons.polygon(i), cop[i]) for i in inside]
     if margins:
         out |= {"cop_margin_polygon_m": min(margins), "cop_margin_polygon_mean_m": float(np.mean(margins))}
     return out

@@ -1,7 +1,7 @@
 """Parts of a recording with one activity."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import cast
@@ -103,8 +103,7 @@ def _both_at_once(feet: Mapping[Side, FootGait]) -> bool:
 def _activity(rows: Sequence[Step], i: int) -> str:
     """Activity of the stride of both feet that a step is in: with the other foot's steps before and after it."""
     beside = [s for s in rows[max(0, i - 1) : i + 2] if s.side != rows[i].side]
-    both = [(rows[i][key], *_mean(s[key] for s in beside)) for key in ("flight_time_s", "stance_percent")]
-    flights, stances = ([v for v in values if np.isfinite(v)] for values in both)
+    flights, stances = (_of_stride(rows[i], beside, key) for key in ("flight_time_s", "stance_percent"))
     if flights and stances:
         return "running" if max(flights) > FLIGHT and float(np.mean(stances)) < _HALF else "walking"
     if np.isfinite(rows[i]["stance_percent"]):
@@ -112,9 +111,9 @@ def _activity(rows: Sequence[Step], i: int) -> str:
     return ""
 
 
-def _mean(values: Iterable[float]) -> list[float]:
-    known = [v for v in values if np.isfinite(v)]
-    return [float(np.mean(known))] if known else []
+def _of_stride(step: Step, beside: Sequence[Step], key: str) -> list[float]:
+    own, others = ([s[key] for s in steps if np.isfinite(s[key])] for steps in ([step], beside))
+    return [*own, float(np.mean(others))] if others else own
 
 
 def most_common(names: Sequence[str]) -> str:
@@ -158,5 +157,4 @@ def _common(spans: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
             joined[-1] = (joined[-1][0], max(end, joined[-1][1]))
         else:
             joined.append((begin, end))
-    assert all(a[1] <= b[0] for a, b in pairwise(joined))
     return joined

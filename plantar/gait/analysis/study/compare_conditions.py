@@ -9,31 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.analysis.compare import unlike
-from plantar.gait.analysis.measures import raw_name
+from plantar.gait.analysis.measures import COMPARED, raw_name
 from plantar.gait.analysis.study.one_recording import RecordingResult
 from plantar.gait.analysis.study.statistics import Effect, PermutationTest, effect_of, permutation_test
 from plantar.gravity import GRAVITY
 
-COMPARED = (
-    "contact_time_s",
-    "stride_time_s",
-    "stance_percent",
-    "double_support_percent",
-    "peak_force_N",
-    "first_peak_N",
-    "second_peak_N",
-    "loading_rate_N_s",
-    "impulse_Ns",
-    "peak_pressure_Pa",
-    "pressure_time_integral_Pas",
-    "mean_pressure_Pa",
-    "contact_area_m2",
-    "cop_path_m",
-    "cop_velocity_m_s",
-    "cpei_percent",
-)
-"""Measures that are compared between conditions, with one allowance for all of them."""
-
+_Group = Sequence[Sequence[RecordingResult]]  # Recordings of each participant
 FEWEST = 3  # Participants a condition from which a difference can be tested at all
 MOST_PAIRS = 6  # Pairs of conditions that are compared: those of four conditions
 # Robust standard deviations from the median of a condition beyond which a participant is an outlier to look at.
@@ -128,9 +109,7 @@ def mean_of(recordings: Sequence[RecordingResult], key: str) -> float:
     return float(np.mean(values)) if values else float("nan")
 
 
-def _effects(
-    a: Sequence[Sequence[RecordingResult]], b: Sequence[Sequence[RecordingResult]], paired: bool
-) -> dict[str, Effect]:
+def _effects(a: _Group, b: _Group, paired: bool) -> dict[str, Effect]:
     keys = list(dict.fromkeys(k for name in COMPARED for k in (name, raw_name(name))))
     first, second = (np.array([[mean_of(own, key) for key in keys] for own in group]) for group in (a, b))
     kept = np.isfinite(first).all(axis=0) & np.isfinite(second).all(axis=0)
@@ -144,9 +123,7 @@ def _effects(
     }
 
 
-def _curves(
-    a: Sequence[Sequence[RecordingResult]], b: Sequence[Sequence[RecordingResult]]
-) -> tuple[str, tuple[NDArray[np.float64], NDArray[np.float64]] | None]:
+def _curves(a: _Group, b: _Group) -> tuple[str, tuple[NDArray[np.float64], NDArray[np.float64]] | None]:
     everyone = [r for own in (*a, *b) for r in own]
     if not all(any(r.curves for r in own) for own in (*a, *b)) or len({r.raw for r in everyone}) > 1:
         return "N", None
@@ -161,7 +138,7 @@ def _curves(
 
 
 def _maps(
-    a: Sequence[Sequence[RecordingResult]], b: Sequence[Sequence[RecordingResult]], paired: bool
+    a: _Group, b: _Group, paired: bool
 ) -> tuple[tuple[NDArray[np.float64], NDArray[np.float64]] | None, NDArray[np.bool_] | None, PermutationTest | None]:
     everyone = [r for own in (*a, *b) for r in own]
     if not all(any(r.maps for r in own) for own in (*a, *b)) or len({r.raw for r in everyone}) > 1:

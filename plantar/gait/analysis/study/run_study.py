@@ -113,10 +113,7 @@ def run_study(
         folder: With its subfolders.
         out: Output folder, made if needed.
         participants: Table of `read_participants`; nothing is compared without it.
-        progress: Called with a share 0..1 and the work.
-        choices: Steps in the means, and events.
-        options: Known of all files; the table overrides.
-        figures: Whether figures and study.html are written.
+        progress: This and all others as of `analyse_recording`, for all files; the table overrides.
 
     Returns:
         The study.
@@ -249,11 +246,6 @@ def _columns(rows: Sequence[Mapping[str, Any]]) -> dict[str, NDArray[Any]]:
     return out
 
 
-def _csv_text(rows: Sequence[Mapping[str, Any]]) -> str:
-    names = _names(rows)
-    return csv_text(names, mapping_rows(names, rows))
-
-
 def _plain(comparison: Comparison) -> dict[str, Any]:
     effects = {
         key: {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(effect).items()}
@@ -281,7 +273,8 @@ def _write(study: Study, target: Path, root: Path, figures: bool) -> list[str]:
         ("comparison.csv", _effect_rows(study)),
     )
     for name, rows in tables:
-        written.append(write_text(target / name, _csv_text(rows)))
+        names = _names(rows)
+        written.append(write_text(target / name, csv_text(names, mapping_rows(names, rows))))
     summary = study.summary()
     written.append(write_text(target / "study.json", json.dumps(summary, indent=1, allow_nan=False) + "\n"))
     if figures:

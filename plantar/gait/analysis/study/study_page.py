@@ -27,17 +27,9 @@ def study_page(
     figures: Sequence[tuple[Path, str]],
     name: str,
 ) -> str:
-    """Page as text.
+    """Returns HTML of a study by name: `Study.summary`, recordings' results, comparisons of every two conditions.
 
-    Args:
-        summary: Of `Study.summary`.
-        results: Recordings.
-        comparisons: Every two conditions.
-        figures: PNG files to embed, with captions.
-        name: Of the study.
-
-    Returns:
-        HTML without other files or network.
+    Figures are PNG files to embed, with captions.
     """
     sections = [Section("summary", "Summary", _summary(summary, comparisons))]
     for i, one in enumerate(comparisons, 1):
