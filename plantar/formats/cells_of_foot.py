@@ -59,6 +59,8 @@ def cells_of_foot(
     if layout is not None and ids is not None:
         named = cells_by_id(layout, ids)
         if named is None and len(layout) == values.shape[1]:
+            if sorted(ids) == list(range(min(ids), min(ids) + len(layout))):  # columns may be sorted as texts
+                named = cells_by_id(layout, np.sort(layout.ids)[np.array(ids) - min(ids)].tolist())
             warnings.append("the cells' names are not the layout's ids: taken in the layout's order")
         layout = named or layout
     foot = FootRecording(side, values, layout)

@@ -85,6 +85,22 @@ def test_the_cells_are_found_by_their_ids(tmp_path, layout, values):
     assert foot.force == pytest.approx(values[:, ::-1], rel=1e-4)
 
 
+@pytest.mark.parametrize("first", [0, 1, 101])
+@pytest.mark.parametrize("order", ["rising", "falling", "as texts", "by chance"])
+def test_cells_that_are_counted_are_found_by_their_numbers(tmp_path, layout, values, first, order):
+    n = len(layout)
+    columns = {
+        "rising": list(range(n)),
+        "falling": list(range(n))[::-1],
+        "as texts": sorted(range(n), key=lambda k: str(k + first)),
+        "by chance": np.random.default_rng(5).permutation(n).tolist(),
+    }[order]
+    write_csv(tmp_path / "walk.csv", {f"L{k + first} (N)": values[:, k] for k in columns})
+    foot = read_recording(tmp_path / "walk.csv", layout=layout).feet["left"]
+    assert foot.layout.positions == pytest.approx(layout.positions[columns])
+    assert foot.force == pytest.approx(values[:, columns], rel=1e-4)
+
+
 def test_what_is_not_stated_is_raw_or_assumed_aloud(tmp_path, layout, values):
     path = tmp_path / "walk.csv"
     write_csv(path, both(layout, values, ""))
