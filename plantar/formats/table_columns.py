@@ -183,7 +183,8 @@ def _times(
     factor = (time_unit(names[at]) if names else None) or None
     if factor is None:
         factor = 1.0
-        step = np.nanmedian(np.diff(table[:, at])) if len(table) > 1 else 0.0
+        steps = np.diff(table[:, at])
+        step = float(np.median(steps[np.isfinite(steps)])) if np.isfinite(steps).any() else 0.0
         if step >= 1.0:  # a frame a second is no gait; whole numbers are milliseconds
             factor = 1e-3 if step < 1e3 else 1e-6 if step < 1e6 else 1e-9
         warnings.append(f"the times state no unit: {'s' if factor == 1.0 else f'{factor:g} s'} is assumed")

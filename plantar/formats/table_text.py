@@ -80,7 +80,7 @@ def _name_alone(above: Sequence[str]) -> str | None:
 def _delimiter(lines: Sequence[str]) -> str | None:
     if not lines:
         return None
-    best = max("\t;,", key=lambda d: (min(x.count(d) for x in lines) > 0, d != ","))
+    best = max("\t;|,", key=lambda d: (min(x.count(d) for x in lines) > 0, d != ","))
     return best if min(x.count(best) for x in lines) > 0 else None
 
 
@@ -179,7 +179,9 @@ def _facts(lines: Sequence[str], delimiter: str | None) -> dict[str, str]:
 _QUOTED = re.compile(r'"([^"]*)"')
 _QUOTED_COMMA = re.compile(r'"[^",]*,[^"]*"')
 # A time of day, which may stand after a date of any order: by itself it goes on beyond midnight all the same.
-_CLOCK = re.compile(r"(?:\d[\d./-]+\d[ T]+)?(?:(\d{1,2}):)?(\d{1,2}):(\d{2}(?:[.,]\d+)?)(?: ?([AaPp])\.?[Mm]\.?)?")
+_CLOCK = re.compile(
+    r"(?:\d[\d./-]+\d[ T]+)?(?:(\d{1,2}):)?(\d{1,2}):(\d{2}(?:[.,]\d+|:\d{3})?)(?: ?([AaPp])\.?[Mm]\.?)?"
+)
 _SECONDS = {"s": 1.0, "sec": 1.0, "second": 1.0, "ms": 1e-3, "msec": 1e-3, "millisec": 1e-3, "millisecond": 1e-3}
 _SECONDS |= {"millis": 1e-3, "micros": 1e-6}
 _SECONDS |= {"us": 1e-6, "usec": 1e-6, "microsec": 1e-6, "microsecond": 1e-6, "ns": 1e-9, "nsec": 1e-9}
@@ -271,7 +273,7 @@ def seconds_of_time(text: str) -> float | None:
         hours = int(match[1] or 0)
         if match[4]:
             hours = hours % 12 + (12 if match[4] in "Pp" else 0)
-        return 3600.0 * hours + 60.0 * int(match[2]) + float(match[3].replace(",", "."))
+        return 3600.0 * hours + 60.0 * int(match[2]) + float(re.sub("[,:]", ".", match[3]))
     return (moment.replace(tzinfo=None) - _SINCE).total_seconds()
 
 

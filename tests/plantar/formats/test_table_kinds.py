@@ -201,6 +201,11 @@ def test_sensors_by_place_and_times_in_milliseconds(tmp_path):
         ),
         ("time,Left Fz (N),Right Fz (lbf)\n" + rows([TIME, LEFT, RIGHT], ","), "different units: N, lbf"),
         ("time,Left force (V),Right force (V)\n" + rows([TIME, LEFT, RIGHT], ","), "unknown unit of force 'V'"),
+        (
+            ",".join(["time", *(f"left {i} (N)" for i in range(12))])
+            + "".join(f"\n23:59:55:{i:02d}" + 12 * ",7" for i in range(30)),
+            "no times that increase",
+        ),
         ("time,Fz\n" + rows([TIME, 700.0 + 200.0 * np.sin(12.0 * TIME)], ","), "both feet walk on one plate"),
     ],
 )

@@ -338,12 +338,18 @@ def clock(seconds: float, form: str) -> str:
     day = "2023-12-31" if hours < 24 else "2024-01-01"
     text = f"{int(hours) % 24:02d}:{int(minutes):02d}:{rest:06.3f}"
     half = f"{(int(hours) - 1) % 12 + 1}{text[2:]} {'AM' if int(hours) % 24 < 12 else 'PM'}"
-    forms = {"day": text, "comma": text.replace(".", ","), "iso": f"{day}T{text}", "date": f"{day} {text}"}
+    forms = {
+        "day": text,
+        "comma": text.replace(".", ","),
+        "colon": text.replace(".", ":"),
+        "iso": f"{day}T{text}",
+        "date": f"{day} {text}",
+    }
     return (forms | {"german": f"{day[8:]}.{day[5:7]}.{day[:4]} {text}", "half": half})[form]
 
 
-@pytest.mark.parametrize("form", ["day", "comma", "iso", "date", "german", "half"])
-@pytest.mark.parametrize("delimiter", [";", "\t", ","])
+@pytest.mark.parametrize("form", ["day", "comma", "colon", "iso", "date", "german", "half"])
+@pytest.mark.parametrize("delimiter", [";", "\t", ",", "|"])
 @pytest.mark.parametrize("header", [True, False])
 def test_times_of_day_and_dates(tmp_path, layout, values, form, delimiter, header):
     if form == "comma" and delimiter == ",":
