@@ -24,6 +24,7 @@ from plantar.formats.table_text import (
 )
 from plantar.formats.text import head_text, open_text, table_of_lines
 from plantar.recordings.pressure_recording import PressureRecording
+from plantar.sides import SIDES
 
 _MOST_COLUMNS, _HEAD = 100_000, 200
 _FEWEST = 3  # Numbers of a row from which lines are a table by themselves; a row of two needs names
@@ -40,9 +41,10 @@ def _recognises(head: bytes) -> bool:
     above = sum(not x.startswith("#") for x in lines[: found.first])
     if above > 1:  # below other text a table needs names of loads: numbers alone may be of any maker's format
         headings = [heading_of(n) for n in found.names]
-        return any(
+        loads = any(
             h.quantity not in ("number", "unknown", "foreign") or (h.side and (h.number or h.unit)) for h in headings
         )
+        return loads or {h.side for h in headings if h.quantity == "number"} >= set(SIDES)
     return True
 
 

@@ -101,12 +101,18 @@ def _is_row(line: str, delimiter: str | None, width: int) -> bool:
     """Whether a line is a row of numbers, some missing or naming a foot."""
     cells = _cells(line, delimiter)
     known = sum(_is_cell(c) for c in cells)
-    numbers = sum(number(c) is not None or seconds_of_time(c[:40]) is not None for c in cells)
+    numbers = sum(map(_is_number, cells))
     return len(cells) >= 0.8 * width and known >= 0.9 * len(cells) and numbers >= max(1, 0.3 * len(cells))
 
 
 def _numbers(line: str, delimiter: str | None) -> bool:
-    return all(_is_cell(c) for c in _cells(line, delimiter))
+    """Whether a line is numbers, missing or a foot; names of two feet alone are names of columns."""
+    cells = _cells(line, delimiter)
+    return all(map(_is_cell, cells)) and (any(map(_is_number, cells)) or sum(side_of(c) is not None for c in cells) < 2)
+
+
+def _is_number(text: str) -> bool:
+    return number(text) is not None or seconds_of_time(text[:40]) is not None
 
 
 def _wider_names(above: str, rows: Sequence[str], width: int) -> tuple[list[str], str | None] | None:
@@ -118,10 +124,13 @@ def _wider_names(above: str, rows: Sequence[str], width: int) -> tuple[list[str]
 
 
 def _is_cell(text: str) -> bool:
-    if number(text) is not None or not text.strip() or seconds_of_time(text[:40]) is not None:
-        return True
     stripped = text.strip(' "').lower()
-    return stripped in ("nan", "na", "n/a", "null", "inf", "-") or (len(text) < 12 and side_of(stripped) is not None)
+    return (
+        not stripped
+        or _is_number(text)
+        or stripped in ("nan", "na", "n/a", "null", "inf", "-")
+        or (len(text) < 12 and side_of(stripped) is not None)
+    )
 
 
 def _names(above: Sequence[str], delimiter: str | None, width: int) -> tuple[list[str], int]:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from plantar import FormatError
+from plantar.formats import read_recording
 from plantar.formats.format import ReadOptions
 from plantar.gait.analysis.analyse import Analysis, analyse
 
@@ -83,6 +84,22 @@ def test_headings_of_two_feet(tmp_path, names):
     path = tmp_path / "walk.csv"
     path.write_text("Time (s)," + names.replace("|", ",") + "\n" + rows([TIME, LEFT, RIGHT], ","))
     check(analyse(path))
+
+
+@pytest.mark.parametrize("above", ["Rate,100", "Sampling frequency (Hz),100,,", "Name,Max,,|rate,100,Hz,", "Name,Max"])
+@pytest.mark.parametrize(
+    "names", ["left,right", "L_Fz,R_Fz", "Fz Left,Fz Right", "left_force,right_force", "L1,L2,R1,R2", "L1 [N],R1 [N]"]
+)
+@pytest.mark.parametrize("delimiter", [",", ";", "\t", "|"])
+def test_lines_of_facts_above_the_names_cost_no_foot(tmp_path, above, names, delimiter):
+    columns = [c for foot in (LEFT, RIGHT) for c in [foot / (names.count(",") // 2 + 1)] * (names.count(",") // 2 + 1)]
+    rows = "\n".join(",".join(f"{v:.2f}" for v in row) for row in zip(*columns, strict=True))
+    above = above.replace("|", "\n")
+    (tmp_path / "walk.csv").write_text(f"{above}\n{names}\n{rows}\n".replace(",", delimiter))
+    recording = read_recording(tmp_path / "walk.csv", options=ReadOptions(unit="N"))
+    assert recording.rate_hz == 100.0
+    assert recording.feet["left"].vertical_force == pytest.approx(LEFT, abs=0.011)
+    assert recording.feet["right"].vertical_force == pytest.approx(RIGHT, abs=0.011)
 
 
 @pytest.mark.parametrize("names", ["left (N),right (N),total (N)", "left Fz (N),right Fz (N),sum Fz (N)"])
