@@ -24,16 +24,18 @@ from plantar.files.zip_archive import open_archive
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
+from plantar.formats.stated_rate import stated_rate
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.layouts.layout_file import layout_from_dict
 from plantar.recordings.frame_table import MOST_VALUES
-from plantar.recordings.pressure_recording import FootRecording, Kind, PressureRecording, possible_rate, sampling
+from plantar.recordings.pressure_recording import FootRecording, Kind, PressureRecording, sampling
 from plantar.sides import SIDES
 
 _USUAL_RATE = 100.0
 _MILLISECONDS = (1.0, 50.0)  # Steps of times that are ms: a frame a second is no gait, and devices have 20 a second
 _LARGEST = 4e9  # Largest size of all arrays in bytes
 _SHOWN = 20  # arrays in a message
+_LONGEST_FACT = 400  # bytes
 
 
 @dataclass(frozen=True)
@@ -208,12 +210,12 @@ def _layout(arrays: dict[str, _Array], side: Side, warnings: list[str]) -> SoleL
 def _times(
     arrays: dict[str, _Array], clock: str, frames: int, options: ReadOptions, warnings: list[str]
 ) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
-    rate = options.rate_hz
-    for key in ("rate_hz", "rate", "frequency", "fs"):
-        if rate is None and key in arrays:
-            if arrays[key].size != 1 or arrays[key].dtype.kind not in "iuf":
-                raise FormatError(f"the array {key!r} is no number; allowed: frames a second")
-            rate = possible_rate(float(arrays[key].read().reshape(-1)[0]), f"{key} states")
+    facts = {
+        k: _text(arrays, k) or (str(a.read().reshape(-1)[0]) if a.size == 1 and a.dtype.kind in "iuf" else "an array")
+        for k, a in arrays.items()
+        if a.dtype.itemsize <= _LONGEST_FACT
+    }
+    rate = options.rate_hz or stated_rate(facts, warnings)
     for key in (clock, "time", "time_s", "t", "times", "timestamps"):
         if options.rate_hz is None and key in arrays and arrays[key].dtype.kind in "iuf":
             if arrays[key].size != frames:

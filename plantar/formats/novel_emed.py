@@ -16,11 +16,12 @@ from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import foot_of_matrix
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
+from plantar.formats.stated_rate import stated_rate
 from plantar.formats.text import head_text, number, number_in, open_text
 from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import MOST_VALUES
-from plantar.recordings.pressure_recording import PressureRecording, possible_rate
+from plantar.recordings.pressure_recording import PressureRecording
 
 _LARGEST = 1024
 _MOST_PAGES, _MOST_EMPTY = 200_000, 1000
@@ -281,18 +282,10 @@ def _unit(
 
 
 def _rate(facts: dict[str, str], warnings: list[str]) -> float:
-    text = facts.get("time", "")
-    value = number_in(text)
-    if value is None and text.strip():
-        raise FormatError(f"the time per picture {text.strip()[:40]!r} is no number (--rate overrides)")
-    if value is None:
+    rate = stated_rate({"time per picture": facts.get("time", "")}, warnings)
+    if rate is None:
         warnings.append(f"the file states no time per picture: {_USUAL_RATE:g} Hz is assumed (--rate overrides)")
-        return _USUAL_RATE
-    if not re.fullmatch(r"\s*\d+(?:[.,]\d+)?\s*m?s\W*", text):
-        warnings.append(f"the time per picture {text.strip()!r} is not clear: check the rate")
-    in_s = re.search(r"\d\s*s", text) is not None
-    period = value if in_s else value * 1e-3
-    return possible_rate(1.0 / period if period else np.inf, f"the time per picture {text.strip()[:40]!r} means")
+    return rate or _USUAL_RATE
 
 
 FORMAT = Format(

@@ -13,11 +13,11 @@ from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.column_names import Heading, heading_of
 from plantar.formats.format import ReadOptions
 from plantar.formats.side import is_side_column, on_one_time, rows_of_sides, side_of
+from plantar.formats.stated_rate import stated_rate
 from plantar.formats.table_forces import feet_of_forces, is_force_table
 from plantar.formats.table_text import time_unit
-from plantar.formats.text import number_in
 from plantar.formats.units import find_unit, plain
-from plantar.recordings.pressure_recording import FootRecording, PressureRecording, possible_rate, sampling
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
 from plantar.sides import SIDES, Side
 
 _USUAL_RATE = 100.0
@@ -167,18 +167,13 @@ def _times(
     options: ReadOptions,
     warnings: list[str],
 ) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
-    stated = options.rate_hz
-    words = next((v for k, v in facts.items() if "rate" in k or "frequency" in k or k == "sampling"), None)
-    if stated is None and words is not None:
-        stated = number_in(words)
-        if stated is None:
-            raise FormatError(f"a rate of {words[:40]!r} is no number (--rate overrides)")
+    stated = options.rate_hz or stated_rate(facts, warnings)
     if at is None or options.rate_hz is not None:
         if stated is None:
             warnings.append(
                 f"the table has no times and states no rate: {_USUAL_RATE:g} Hz is assumed (--rate overrides)"
             )
-        rate = _USUAL_RATE if stated is None else possible_rate(stated, "the table states")
+        rate = stated or _USUAL_RATE
         return np.arange(len(table)) / rate, rate, ()
     factor = (time_unit(names[at]) if names else None) or None
     if factor is None:

@@ -174,14 +174,16 @@ def _are_numbered(cells: Sequence[str]) -> bool:
 
 
 def _facts(lines: Sequence[str], delimiter: str | None) -> dict[str, str]:
-    """Facts of lines like "# unit: kPa", "SampleRate=1200" and "rate<tab>100"."""
+    """Facts of lines like "# unit: kPa", "SampleRate=1200", "rate<tab>100" and "200 Hz"."""
     out: dict[str, str] = {}
     for line in lines:
-        line = line.lstrip("#").strip()
+        line = line.lstrip("#").replace('"', "").strip(",;\t ")
+        alone = _RATE_ALONE.fullmatch(line)
+        line = f"{alone[1] or 'rate'}: {alone[2]}" if alone else line
         signs = "[:=]" if delimiter is None or re.search("[:=]", line) else f"[:={delimiter}]"
         name, sign, value = re.sub(signs, "\n", line, count=1).partition("\n")
         if sign and re.fullmatch(r"[\w \[\]()/%.-]{1,60}", name):
-            out.setdefault(name.strip().lower(), value.strip().strip('"').strip(",;\t "))
+            out.setdefault(name.strip().lower(), value.strip())
     return out
 
 
@@ -207,6 +209,7 @@ _NAMED = re.compile(
 _LONGEST_NAME = 100  # characters: on a name of 500,000 blanks the expression takes hours
 # Units that are a column's name by themselves; "min" may be the least of something.
 _ALONE = ("sec", "second", "ms", "us", "msec", "millisec", "millisecond", "millis", "micros")
+_RATE_ALONE = re.compile(r"([^\d:=;,\t]*?)\s*(\d[\d.,]*\s*(?:k?hz|fps))", re.IGNORECASE)
 _DAY = 86400.0
 # Dates are counted from here: from the year 1 on, a second's millionth is less than a double resolves.
 _SINCE = datetime(2020, 1, 1)
@@ -231,11 +234,14 @@ def time_unit(name: str) -> float | None:
     match = _NAMED.fullmatch(text) if len(text) <= _LONGEST_NAME else None
     if match is None:
         return None
-    unit = match["unit"] or match["alone"] or ""
-    known = next((unit[:k] for k in (len(unit), len(unit) - 1) if unit[:k] in _SECONDS), "")
-    if match["alone"] and known not in _ALONE:
+    if match["alone"] and match["alone"].removesuffix("s") not in _ALONE and match["alone"] not in _ALONE:
         return None
-    return _SECONDS.get(known, 0.0)
+    return seconds_of_unit(match["unit"] or match["alone"] or "")
+
+
+def seconds_of_unit(unit: str) -> float:
+    """Seconds of a unit of time's lower-case name, one or many; 0 of none."""
+    return _SECONDS.get(unit, _SECONDS.get(unit[:-1], 0.0))
 
 
 def without_quotes(lines: Iterator[str]) -> Iterator[str]:

@@ -16,6 +16,7 @@ from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import foot_of_matrix, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
+from plantar.formats.stated_rate import stated_rate
 from plantar.formats.text import (
     cells_of_row,
     frames_of_lines,
@@ -28,7 +29,7 @@ from plantar.formats.text import (
 )
 from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.recordings.frame_table import FrameTable, blocks_of_frames
-from plantar.recordings.pressure_recording import Kind, PressureRecording, possible_rate, sampling
+from plantar.recordings.pressure_recording import Kind, PressureRecording, sampling
 
 _KEY = re.compile(r"\s*\"?([A-Z][A-Z0-9_]+)\"?[\s,;:]*(.*)$")
 _FRAME = re.compile(r"\s*\"?frame\s*[,;:]?\s*(\d+)", re.IGNORECASE)
@@ -256,19 +257,11 @@ def _pitch(header: dict[str, str], warnings: list[str]) -> tuple[float, float]:
 
 
 def _rate(header: dict[str, str], warnings: list[str]) -> float:
-    text = header.get("SECONDS_PER_FRAME", "")
-    period = number_in(text)
-    if period is None and text:
-        raise FormatError(f"SECONDS_PER_FRAME {text[:40]!r} is no number (--rate overrides)")
-    if period is not None:
-        if number(text) is None:
-            warnings.append(f"SECONDS_PER_FRAME {text!r} is not clear: check the rate")
-        return possible_rate(1.0 / period if period else np.inf, f"SECONDS_PER_FRAME {text[:40]!r} means")
-    rate = number_in(header.get("FREQUENCY", header.get("FRAMES_PER_SECOND", "")))
-    if rate is not None:
-        return possible_rate(rate, "the header states")
-    warnings.append(f"the header states no SECONDS_PER_FRAME: {_USUAL_RATE:g} Hz is assumed (--rate overrides)")
-    return _USUAL_RATE
+    named = ("SECONDS_PER_FRAME", "FREQUENCY", "FRAMES_PER_SECOND")
+    rate = stated_rate({key: header[key] for key in named if key in header}, warnings)
+    if rate is None:
+        warnings.append(f"the header states no SECONDS_PER_FRAME: {_USUAL_RATE:g} Hz is assumed (--rate overrides)")
+    return rate or _USUAL_RATE
 
 
 FORMAT = Format(

@@ -1,0 +1,87 @@
+"""Rate that a file states in words: frames a second, or the time of a frame."""
+
+import re
+from collections.abc import Mapping
+
+import numpy as np
+
+from plantar.errors import FormatError
+from plantar.formats.table_text import seconds_of_unit
+from plantar.recordings.pressure_recording import possible_rate
+
+# What has a rate of frames; with other words it is that of a heart, of steps, of a filter.
+_OF = (
+    "(?:the|an?|of|d|de|di|du|sampl(?:e|es|ing)|frames?|data|scan(?:ning)?|record(?:ing)?|measure(?:ment|d)?|acquisition|"
+    "capture|sensors?|device|force|plates?|insoles?|pressure|analog|nominal|original|video|abtast|mess|bild|aufnahme|"
+    "échantillonnage|muestreo|campionamento)*"
+)
+_RATE = re.compile(
+    rf"{_OF}(?:rate|freq|frequency|frequenz|fréquence|frecuencia|frequenza|frequentie){_OF}(?:in)?"
+    r"|(?:samples|frames|images|pictures)per(?:s|sec|second)|fs|fps|sps|k?hz|sampling"
+)
+_PERIOD = re.compile(
+    r"(?:sampl(?:e|es|ing)|frames?|scan(?:ning)?|abtast)(?:intervall?|periode?|step|spacing)(?:in)?"
+    r"|d(?:elta)?t|timestep|frametime|(?:seconds?|secs?|s|ms|time)per(?:frame|sample|picture|image)"
+)
+_HERTZ = {"hz": 1.0, "hertz": 1.0, "khz": 1e3, "fps": 1.0, "sps": 1.0} | {
+    f"{what}per{of}": 1.0 / seconds_of_unit(of)
+    for what in ("", "sample", "samples", "frame", "frames")
+    for of in ("s", "sec", "second", "min", "minute")
+}
+_STATED = re.compile(r"(\D*?)([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[-+]?\d+)?)((?![\d.:-]).*)", re.DOTALL)
+
+
+def stated_rate(facts: Mapping[str, str], warnings: list[str]) -> float | None:
+    """Returns frames a second by the first of named facts that states them or a frame's time; None without one.
+
+    A unit decides which it is, else the name. Warnings get assumptions. FormatError for no number, or outside RATES.
+
+    Example:
+        >>> [stated_rate({k: v}, []) for k, v in (("Rate", "0.2 kHz"), ("dt [ms]", "5"), ("heart rate", "60"))]
+        [200.0, 200.0, None]
+    """
+    found: dict[str, float] = {}
+    for name, text in facts.items():
+        words, shown = _words(_clear(name)), f"{name!r} of {text[:40]!r}"
+        end = next((k for k in range(len(words), 0, -1) if _is_stated(words[:k], words[k:])), 0)
+        if not end or not text.strip():
+            continue
+        stated = _STATED.fullmatch(_clear(text))
+        if stated is None:
+            raise FormatError(
+                f"{name!r} is no number of frames a second or s a frame: {text[:40]!r} (--rate overrides)"
+            )
+        before, value, rest = stated[1], float(stated[2].replace(",", ".")), _words(re.split(r"\d", stated[3])[0])
+        unit = next((u for k in range(len(rest), 0, -1) if _is_unit(u := "".join(rest[:k]))), "")
+        odd = bool(before or (stated[3].strip(" ,;\t") and not unit))
+        unit = unit or "".join(words[end:]) or (words[0] if _is_unit(words[0]) else "")
+        if not unit and _PERIOD.fullmatch("".join(words)):
+            unit, odd = ("s", odd) if value < 1.0 else ("ms", True)  # a frame a second is no gait
+        if odd:
+            warnings.append(f"{shown} is not clear, taken as {value:g} {unit or 'Hz'}: check the rate")
+        period = value * seconds_of_unit(unit)
+        rate = value * _HERTZ.get(unit, 1.0) if unit in _HERTZ or not unit else 1.0 / period if period else np.inf
+        found[name] = possible_rate(rate, f"{shown} means")
+    if found and max(found.values()) > 1.01 * min(found.values()):
+        several = ", ".join(f"{name} {rate:g} Hz" for name, rate in found.items())
+        warnings.append(f"the file states several rates, {several}: the first is taken (--rate overrides)")
+    return next(iter(found.values()), None)
+
+
+def _clear(text: str) -> str:
+    """Text in lower case, with "per" for a stroke or a power of -1."""
+    text = text.strip().lower().replace("μ", "u").replace("µ", "u")
+    return re.sub(r"(?<![^\W\d_])s\s*\^?\s*(?:-1|⁻¹)|\b1\s*/\s*s\b", " per s", text).replace("/", " per ")
+
+
+def _words(text: str) -> list[str]:
+    return re.findall(r"[^\W\d_]+", text)
+
+
+def _is_unit(text: str) -> bool:
+    return text in _HERTZ or seconds_of_unit(text) > 0.0
+
+
+def _is_stated(name: list[str], unit: list[str]) -> bool:
+    known = _RATE.fullmatch("".join(name)) or _PERIOD.fullmatch("".join(name))
+    return known is not None and (not unit or _is_unit("".join(unit)))
