@@ -393,3 +393,12 @@ def test_people_who_walk_back_over_the_plates_keep_their_feet(tmp_path):
     found = analyse(path)
     for side, begins in true.items():
         assert [s.heel_strike_s for s in found.feet[side].steps] == pytest.approx(begins, abs=0.02)
+
+
+@pytest.mark.parametrize("rate", [100.0, 300.0, 500.0, 1000.0])
+def test_a_rate_that_is_wrong_ends_in_a_report(tmp_path, rate):
+    """Contacts that are cut off and too long for steps are no spans of standing."""
+    path = tmp_path / "walk.csv"
+    path.write_text("Left Fz (N),Right Fz (N)\n" + rows([LEFT, RIGHT], ","))
+    segments = analyse(path, options=ReadOptions(rate_hz=rate)).metrics["segments"]
+    assert all(0.0 <= s["begin_s"] < s["end_s"] <= len(TIME) / rate for s in segments)

@@ -144,8 +144,8 @@ def segments_of(feet: Mapping[Side, FootGait]) -> tuple[Segment, ...]:
         for group in groups
         if len(group) >= min(_SHORTEST, len(rows))
     ]
-    standing = [c for g in feet.values() for c in g.contacts if c.standing]
-    for begin, end in _common([(cast(float, c.heel_strike), cast(float, c.toe_off)) for c in standing]):
+    standing = [(c.heel_strike, c.toe_off) for g in feet.values() for c in g.contacts if c.standing]
+    for begin, end in _common([(a, b) for a, b in standing if a is not None and b is not None]):
         out.append(Segment("standing", begin, end, {}))
     return tuple(sorted(out, key=lambda s: s.begin))
 
