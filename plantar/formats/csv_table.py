@@ -11,7 +11,7 @@ from pathlib import Path
 from plantar.errors import FormatError
 from plantar.formats.column_names import heading_of
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.side import is_side_column, number_of_side
+from plantar.formats.side import is_side_column, number_of_side, side_of
 from plantar.formats.table_columns import recording_of_columns
 from plantar.formats.table_text import (
     CountedSeconds,
@@ -67,7 +67,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         clock = _clock(names, [line.split(delimiter) for line in first])
         if clock is not None:
             rows = with_column(rows, delimiter, clock, CountedSeconds())
-            names[clock : clock + 1] = ["time [s]"] if names else []
+            names[clock : clock + 1] = [f"time {side_of(names[clock]) or ''} [s]"] if names else []
         of_side = next((i for i, n in enumerate(names) if is_side_column(n)), None)
         if of_side is not None:
             rows = with_column(rows, delimiter, of_side, number_of_side)

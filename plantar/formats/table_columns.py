@@ -23,6 +23,7 @@ from plantar.sides import SIDES, Side
 _USUAL_RATE = 100.0
 _MOST_NAMED = 10  # Columns that are left out by name in the warnings; of more their number is given
 _SUMS = 0.02  # How near a column is to the sum of others, relative to its largest value, where it is their total
+_MOVED = "the feet's rows have other times: the right foot's values are interpolated at the left one's"
 _CURVES = 40  # Numbered columns without a time from which rows that name trials are curves and no frames
 
 
@@ -58,6 +59,8 @@ def recording_of_columns(
     if of_side is not None:
         table, names = _side_by_side(table, names, at, of_side, warnings)
         at = None if at is None else 0
+    elif at is not None and names:
+        table, names, at = _on_one_clock(table, names, at, warnings)
     clocks = [i for i, n in enumerate(names) if time_unit(n) is not None and i != at]
     headings = [heading_of(name) for name in names]
     _refuse_curves(headings, at)
@@ -147,10 +150,31 @@ def _side_by_side(
             time[own] = np.arange(len(own))
     time, feet, moved = on_one_time(time, rows, [table[:, i] for i in cells])
     if moved:
-        warnings.append("the feet's rows have other times: the right foot's values are interpolated at the left one's")
+        warnings.append(_MOVED)
     head = [] if at is None else [names[at]]
     found = [*head, *(f"{side} {names[i]}" for side in feet for i in cells)]
     return np.column_stack([*([] if at is None else [time]), *feet.values()]), found
+
+
+def _on_one_clock(
+    table: NDArray[np.float64], names: list[str], at: int, warnings: list[str]
+) -> tuple[NDArray[np.float64], list[str], int]:
+    """Table, names and time column, with both feet on the left one's times where each has its own."""
+    units = {i: unit for i, n in enumerate(names) if (unit := time_unit(n)) is not None}
+    beside = {i: names[i : i + 2] if names[i] == names[at] else [names[i]] for i in units}
+    clocks = {side: i for i in reversed(units) if (side := side_of(*beside[i])) is not None}
+    if len(clocks) < 2 or at not in clocks.values():
+        return table, names, at
+    usual = max(units[i] for i in clocks.values())
+    time = np.concatenate([table[:, clocks[side]] * (units[clocks[side]] or usual or 1.0) for side in SIDES])
+    rows = {side: np.arange(len(table)) + k * len(table) for k, side in enumerate(SIDES)}
+    others = [i for i in range(len(names)) if i not in units]
+    base, feet, moved = on_one_time(time, rows, [np.tile(table[:, i], 2) for i in others])
+    if not moved:
+        return table, names, at
+    warnings.append(_MOVED)
+    own = [feet[heading_of(names[i]).side or side_of(*beside[at]) or "left"][:, k] for k, i in enumerate(others)]
+    return np.column_stack([base, *own]), ["time [s]" if usual else "time", *(names[i] for i in others)], 0
 
 
 def _taken(table: NDArray[np.float64], columns: list[int]) -> NDArray[np.float64]:

@@ -198,17 +198,19 @@ _SECONDS |= {"millis": 1e-3, "micros": 1e-6}
 _SECONDS |= {"us": 1e-6, "usec": 1e-6, "microsec": 1e-6, "microsecond": 1e-6, "ns": 1e-9, "nsec": 1e-9}
 _SECONDS |= {"min": 60.0, "minute": 60.0, "h": 3600.0, "hour": 3600.0}
 _BY = "abs|absolute|elapsed|frame|sample|sampling|relative|rel|recording|measurement|system|local|unix|utc"
-_TIMES = "ts|t|times?|times?[ _-](?:l|r|left|right)"  # a foot's own clock
+_SIDE = "(?:l|r|left|right)"
+_TIMES = f"ts|t|times?|times?[ _-]{_SIDE}|(?-i:t)[ _-]{_SIDE}|{_SIDE}[ _-]times?"  # a foot's own clock
 _TIMES += "|time[ _-]?stamps?|date[ /_-]?time|zeit|uhrzeit|zeitstempel|temps|tempo|tiempo|tijd"
 _UNIT = "|".join(rf"{name}s?" for name in _SECONDS)
+# Units that are a column's name by themselves; "min" may be the least of something.
+_ALONE = "(?:sec|second|ms|us|msec|millisec|millisecond|millis|micros)s?"
 _NAMED = re.compile(
     rf"(?:(?:{_BY})[ _.-]*)?(?:{_TIMES})"
     r"(?:[ _/,.-]*(?:in )?(?:[\[(]\s*)?"
-    rf"(?:(?P<unit>{_UNIT})\.?|(?P<clock>[hms:.,f ]{{4,}}))\s*[\])]?)?|(?P<alone>{_UNIT})"
+    rf"(?:(?P<unit>{_UNIT})\.?|(?P<clock>[hms:.,f ]{{4,}}))\s*[\])]?)?|(?P<alone>{_ALONE})",
+    re.IGNORECASE,
 )
 _LONGEST_NAME = 100  # characters: on a name of 500,000 blanks the expression takes hours
-# Units that are a column's name by themselves; "min" may be the least of something.
-_ALONE = ("sec", "second", "ms", "us", "msec", "millisec", "millisecond", "millis", "micros")
 _RATE_ALONE = re.compile(r"([^\d:=;,\t]*?)\s*(\d[\d.,]*\s*(?:k?hz|fps))", re.IGNORECASE)
 _DAY = 86400.0
 # Dates are counted from here: from the year 1 on, a second's millionth is less than a double resolves.
@@ -230,13 +232,9 @@ def time_unit(name: str) -> float | None:
         >>> [time_unit(name) for name in ("Time [ms]", "t_min", "Elapsed time (s)", "Date/Time", "T [°C]", "ms")]
         [0.001, 60.0, 1.0, 0.0, None, 0.001]
     """
-    text = name.strip().strip('"').strip().lower().replace("µ", "u").replace("μ", "u")
+    text = name.strip().strip('"').strip().replace("µ", "u").replace("μ", "u")
     match = _NAMED.fullmatch(text) if len(text) <= _LONGEST_NAME else None
-    if match is None:
-        return None
-    if match["alone"] and match["alone"].removesuffix("s") not in _ALONE and match["alone"] not in _ALONE:
-        return None
-    return seconds_of_unit(match["unit"] or match["alone"] or "")
+    return None if match is None else seconds_of_unit((match["unit"] or match["alone"] or "").lower())
 
 
 def seconds_of_unit(unit: str) -> float:

@@ -402,3 +402,51 @@ def test_a_rate_that_is_wrong_ends_in_a_report(tmp_path, rate):
     path.write_text("Left Fz (N),Right Fz (N)\n" + rows([LEFT, RIGHT], ","))
     segments = analyse(path, options=ReadOptions(rate_hz=rate)).metrics["segments"]
     assert all(0.0 <= s["begin_s"] < s["end_s"] <= len(TIME) / rate for s in segments)
+
+
+CLOCKS = [  # names, what they hold (time and load of the left and the right foot), times of one second
+    ("time L [s],left 1 [N],time R [s],right 1 [N]", "TLtl", 1.0),
+    ("Left time (s),Left Fz (N),Right time (s),Right Fz (N)", "TLtl", 1.0),
+    ("t_L,L1 [N],t_R,R1 [N]", "TLtl", 1.0),
+    ("time_R_ms,R1 [N],time_L_ms,L1 [N]", "tlTL", 1e3),
+    ("left_time [ms],right_time [ms],left (N),right (N)", "TtLl", 1e3),
+    ("time [s],left 1 [N],time [s],right 1 [N]", "TLtl", 1.0),
+]
+
+
+@pytest.mark.parametrize(("names", "held", "scale"), CLOCKS)
+@pytest.mark.parametrize(("shift", "drift"), [(0.0, 1.0), (0.2, 1.0), (0.013, 1.0), (0.0, 1.02), (-0.1, 0.99)])
+def test_each_foot_has_its_own_clock(tmp_path, names, held, scale, shift, drift):
+    """Times of the right foot are shifted and drift: its force is found where it was measured."""
+    late = TIME * drift + shift
+    columns = {
+        "T": scale * TIME,
+        "t": scale * late,
+        "L": 400.0 + 100.0 * np.sin(TIME),
+        "l": 400.0 + 100.0 * np.sin(late),
+    }
+    columns = [columns[sign] for sign in held]
+    (tmp_path / "walk.csv").write_text(names + "\n" + rows(columns, ","))
+    recording = read_recording(tmp_path / "walk.csv")
+    for foot in recording.feet.values():
+        known = np.isfinite(foot.vertical_force)
+        assert known.mean() > 0.9
+        assert foot.vertical_force[known] == pytest.approx(400.0 + 100.0 * np.sin(recording.time[known]), abs=0.05)
+    assert any("interpolated" in w for w in recording.warnings) == ((shift, drift) != (0.0, 1.0))
+    assert (len(recording.time) == len(TIME)) or shift or drift != 1.0
+
+
+def test_a_clock_that_holds_no_times_is_refused(tmp_path):
+    path = tmp_path / "walk.csv"
+    text = "".join(f"{0.01 * i:g},{i},12:00:{0.01 * i:05.2f},{i}\n" for i in range(200))
+    path.write_text("time L [s],left 1 [N],time R [s],right 1 [N]\n" + text)
+    with pytest.raises(FormatError):
+        read_recording(path)
+
+
+def test_temperatures_of_the_feet_are_no_times(tmp_path):
+    path = tmp_path / "walk.csv"
+    path.write_text("time [s],left 1 [N],right 1 [N],T_L,T_R\n" + rows([TIME, LEFT, RIGHT, NONE, 30.0 + NONE], ","))
+    told = " ".join(read_recording(path).warnings)
+    assert "interpolated" not in told
+    assert "'T_L' is no cell" in told
