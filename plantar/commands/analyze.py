@@ -240,8 +240,9 @@ def _analyze_study(
     summary = study.summary() | {"files": list(study.files)}
     text = f"{summary['measured']} of {summary['recordings']} recordings measured, {summary['steps']} steps"
     end_command(summary, as_json, text + file_lines(study.files))
-    for name, why in () if as_json else summary["errors"].items():
-        print_note(f"not measured: {name}: {why}")
+    missed = [f"not measured: {name}: {why}" for name, why in summary["errors"].items()]
+    for note in () if as_json else (*summary["notes"], *missed):
+        print_note(note)
 
 
 COMMAND = Command(analyze, "Measure the steps of a recording, or a study of many.", 20)

@@ -25,6 +25,16 @@ _NAMES = {
     "rate_hz": ("rate_hz", "rate"),
     "layout": ("layout",),
 }
+# Names that look as if they were read: by word stems, another unit, or beside the one that is.
+_ALIKE = {
+    "participant": r"(?:participant|subject|patient|proband|person)s?(?:_?(?:id|name|no|nr|number|code))?|id|name",
+    "condition": r"(?:condition|group|cohort|shoe|task|footwear)s?(?:_?(?:id|name))?",
+    "mass_kg": r"(?:body_?)?(?:mass|weight)(?:_\w*)?|kg|lbs?",
+    "foot_length_m": r"(?:foot|shoe)_?(?:length|size)(?:_\w*)?",
+    "side": r"(?:\w+_)?side|foot|leg|limb",
+    "unit": r"units?(?:_\w*)?",
+    "rate_hz": r"(?:sampl\w*_?|frame_?)?(?:rate|frequency|freq|fs)(?:_\w*)?",
+}
 
 
 @dataclass(frozen=True)
@@ -89,6 +99,17 @@ def read_participants(path: str | os.PathLike[str]) -> list[Participation]:
     if not out:
         raise FormatError(f"{os.fspath(path)}: the table of participants has no rows")
     return out
+
+
+def not_read(more: Mapping[str, str]) -> list[str]:
+    """Returns a line for each of the other columns that looks like one that is read.
+
+    Example:
+        >>> not_read({"age": "30", "mass_lb": "132"})
+        ["column 'mass_lb' is not read, only carried along; allowed: 'mass_kg'"]
+    """
+    alike = {name: next((key for key, stems in _ALIKE.items() if re.fullmatch(stems, name)), None) for name in more}
+    return [f"column {n!r} is not read, only carried along; allowed: {key!r}" for n, key in alike.items() if key]
 
 
 def _participation(

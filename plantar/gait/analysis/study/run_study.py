@@ -30,7 +30,7 @@ from plantar.gait.analysis.study.one_recording import (
     read_result,
     write_result,
 )
-from plantar.gait.analysis.study.participants import Participation, read_participants
+from plantar.gait.analysis.study.participants import Participation, not_read, read_participants
 from plantar.gait.analysis.study.study_page import study_figures, study_page
 
 _CACHE = "measured"  # Folder in the output folder that holds the result of each recording
@@ -84,6 +84,7 @@ class Study:
         return {
             "recordings": len(self.results),
             "measured": sum(not r.error for r in self.results),
+            "notes": not_read({name: "" for r in self.results for name in r.who.more}),
             "errors": {r.who.file: r.error for r in self.results if r.error},
             "participants": len({r.who.participant for r in self.results if not r.error}),
             "conditions": list(dict.fromkeys(r.who.condition for r in self.results if r.who.condition)),

@@ -216,6 +216,24 @@ def test_a_table_that_is_no_table(tmp_path, text, message):
         read_participants(tmp_path / "t.csv")
 
 
+@pytest.mark.parametrize(
+    ("name", "read"),
+    [
+        *((name, "mass_kg") for name in ("weight", "mass_lb", "body_weight", "Body weight (lb)", "bodymass_g")),
+        *((name, "participant") for name in ("subject", "subject_name", "patients", "id", "Name")),
+        *((name, "condition") for name in ("group", "cohort", "shoes")),
+        *((name, None) for name in ("age", "height_m", "mass_kg", "rate_hz", "speed", "heart_rate", "foot_length_mm")),
+        *(("sample_rate", "rate_hz"), ("foot_length_in", "foot_length_m"), ("units", "unit"), ("tested side", "side")),
+    ],
+)
+def test_columns_that_look_like_others_are_told(tmp_path, name, read):
+    (tmp_path / "t.csv").write_text(f"file,participant,condition,{name}\na.csv,P0,pre,250\n")
+    (one,) = read_participants(tmp_path / "t.csv")
+    result = replace(result_of("P0", "pre", 1.0, np.zeros(101)), who=one)
+    told = Study([result], [], AnalysisOptions()).summary()["notes"]
+    assert [note.endswith(f"allowed: {read!r}") for note in told] == [True] * (read is not None)
+
+
 def test_values_of_a_table_are_checked(tmp_path):
     path = tmp_path / "t.csv"
     path.write_text("file;subject;group;mass_kg;side\na.asc;1;x;72,5;Left\n")
