@@ -46,6 +46,8 @@ def doubts(recording: PressureRecording) -> list[str]:
     if not _RATE[0] <= recording.rate_hz <= _RATE[1]:
         out.append(f"{recording.rate_hz:.4g} frames a second is an unusual rate: check it")
     for side, foot in recording.feet.items():
+        if recording.kind not in ("robot", "plate"):
+            out += _clipped_or_held(foot, recording.rate_hz, recording.raw)
         if recording.raw or len(foot.force) == 0:
             continue
         force = foot.vertical_force[np.isfinite(foot.vertical_force)]
@@ -60,7 +62,6 @@ def doubts(recording: PressureRecording) -> list[str]:
             out += _lost_or_flat(side, foot.vertical_force, peak, recording.rate_hz)
         if foot.layout is None or recording.kind == "plate":
             continue
-        out += [] if recording.kind == "robot" else _clipped_or_held(foot, recording.rate_hz)
         highest = float(np.max(column_maxima(foot.force) / foot.layout.areas, initial=0.0))
         if highest > 0.0 and not _PRESSURE[0] <= highest <= _PRESSURE[1] and recording.kind != "robot":
             out.append(f"the {side} foot's peak pressure is {highest / 1e3:.4g} kPa, which is unusual: check the unit")
@@ -109,7 +110,16 @@ def _slender_or_wide(foot: FootRecording) -> list[str]:
     ]
 
 
-def _clipped_or_held(foot: FootRecording, rate: float) -> list[str]:
+def _shown(value: float, foot: FootRecording, raw: bool) -> str:
+    return f"{value:.6g}" if raw else f"{value:.6g} N" if foot.layout is None else f"{value / 1e3:.4g} kPa"
+
+
+def _per_cell(foot: FootRecording, raw: bool) -> NDArray[np.float64]:
+    """Returns what readings (k,) are divided by: areas of pressures, 1 of forces and raw counts."""
+    return np.ones(foot.force.shape[1]) if raw or foot.layout is None else foot.layout.areas
+
+
+def _clipped_or_held(foot: FootRecording, rate: float, raw: bool) -> list[str]:
     """Warning about cells at their range's end, and of repeated frames."""
     measured = foot.force[: max(20, _SEEN // foot.force.shape[1])]
     part = np.nan_to_num(measured)
@@ -117,22 +127,22 @@ def _clipped_or_held(foot: FootRecording, rate: float) -> list[str]:
     loaded = part.sum(axis=1) > 0.2 * float(part.sum(axis=1).max(initial=0.0))
     if loaded.sum() < 20 or part.shape[1] <= _CELLS:
         return []
-    assert foot.layout is not None
-    value = part / foot.layout.areas
-    out, highest = _switched_on(foot.side, value), float(value.max())
+    per, are_pressures = _per_cell(foot, raw), foot.layout is not None and not raw
+    value = part / per
+    out, highest = _switched_on(foot.side, value) if are_pressures else [], float(value.max())
     full = value >= highest * (1.0 - 1e-9)
     runs = full[_FLAT - 1 :].copy()
     for shift in range(_FLAT - 1):
         runs &= full[shift : len(full) - _FLAT + 1 + shift]
     clipped = int(runs.any(axis=0).sum())
-    if _CELLS <= clipped < part.shape[1]:
+    if clipped >= _CELLS and (clipped < part.shape[1] or len(np.unique(value)) > 2 * _LEVELS):
         out.append(
-            f"{clipped} cells of the {foot.side} foot stay at {highest / 1e3:.4g} kPa, the largest value: the end of "
-            "the sensor's range? Forces and pressures would be larger"
+            f"{clipped} cells of the {foot.side} foot stay at {_shown(highest, foot, raw)}, the largest value: the end "
+            "of the sensor's range? Forces and pressures would be larger"
         )
-    beside = np.maximum(measured[:-2], measured[2:]) / foot.layout.areas  # NaN beside what was not measured
+    beside = np.maximum(measured[:-2], measured[2:]) / per  # NaN beside what was not measured
     alone = int(((value[1:-1] > _ALONE * beside) & (value[1:-1] > _HIGH)).sum())
-    if alone and rate >= _QUICK:
+    if alone and are_pressures and rate >= _QUICK:
         out.append(
             f"{alone} value(s) of the {foot.side} foot stand alone, more than {_ALONE:g} times as high as the frames "
             "beside them: a loose contact? Peaks rest on them"
@@ -186,12 +196,10 @@ def without_marks(recording: PressureRecording) -> PressureRecording:
         return recording
     feet, warnings = dict(recording.feet), list(recording.warnings)
     for side, foot in recording.feet.items():
-        areas = None if foot.layout is None or recording.raw else foot.layout.areas
-        per = np.ones(foot.force.shape[1]) if areas is None else areas
-        force = foot.force
-        for mark in _marks(force, per, areas is not None):
+        force, per = foot.force, _per_cell(foot, recording.raw)
+        for mark in _marks(force, per, foot.layout is not None and not recording.raw):
             force, count = _left_out(force, per, mark)
-            shown = f"{mark / 1e3:.4g} kPa" if areas is not None else f"{mark:.6g}{'' if recording.raw else ' N'}"
+            shown = _shown(mark, foot, recording.raw)
             warnings.append(
                 f"{count} value(s) of the {side} foot are {shown}, far from all others: taken as a mark for what "
                 "was not measured"

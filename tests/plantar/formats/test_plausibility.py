@@ -41,6 +41,22 @@ def test_cells_at_the_end_of_their_range_are_told():
     assert "cells of the left foot stay at 50 kPa" in doubt
 
 
+@pytest.mark.parametrize("levels", [0, 1023, 255, 1])
+@pytest.mark.parametrize("cells", [99, 6])
+def test_cells_at_their_end_are_told_without_a_layout(cells, levels):
+    """Also where all cells reach it; forces, or raw counts of so many levels. A switch has two, which is its nature."""
+    recording = steps()
+    parts = np.array_split(np.arange(99), cells)
+    force = np.column_stack([recording.feet["left"].force[:, part].sum(axis=1) for part in parts])
+    for most, clipped in ((0.3 * force.max(), levels != 1), (1.001 * force.max(), False)):
+        values = np.minimum(force, most)
+        values = np.ceil(levels * values / most - 0.05) if levels else values
+        foot = replace(recording.feet["left"], force=values, layout=None)
+        doubt = " ".join(doubts(replace(recording, feet={"left": foot}, raw=levels > 0)))
+        assert ("cells of the left foot stay at " in doubt) == clipped
+        assert not clipped or f"stay at {levels or most:.6g}{'' if levels else ' N'}, the largest value" in doubt
+
+
 def test_values_that_stand_alone_are_told():
     recording = steps()
     force = recording.feet["left"].force.copy()
