@@ -24,14 +24,13 @@ from plantar.files.zip_archive import open_archive
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
-from plantar.formats.stated_rate import stated_rate
+from plantar.formats.stated_rate import or_usual, stated_rate
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.layouts.layout_file import layout_from_dict
 from plantar.recordings.frame_table import MOST_VALUES
 from plantar.recordings.pressure_recording import FootRecording, Kind, PressureRecording, sampling
 from plantar.sides import SIDES
 
-_USUAL_RATE = 100.0
 _MILLISECONDS = (1.0, 50.0)  # Steps of times that are ms: a frame a second is no gait, and devices have 20 a second
 _LARGEST = 4e9  # Largest size of all arrays in bytes
 _SHOWN = 20  # arrays in a message
@@ -226,9 +225,7 @@ def _times(
                 time = 1e-3 * time
                 warnings.append("the times rise by 1 and more a frame: ms are assumed")
             return sampling(time, rate)
-    if rate is None:
-        warnings.append(f"the file holds no times and no rate: {_USUAL_RATE:g} Hz is assumed (--rate overrides)")
-        rate = _USUAL_RATE
+    rate = or_usual(rate, "the file holds no times and no rate", warnings)
     return np.arange(frames) / rate, rate, ()
 
 

@@ -115,18 +115,13 @@ def halves(
     values: NDArray[np.float64], options: ReadOptions, warnings: list[str]
 ) -> list[tuple[Side, NDArray[np.float64]]]:
     """Returns feet and columns of values (n, k) that name none, by options; warnings get assumptions."""
-    k = values.shape[1]
+    k, side, why = values.shape[1], options.side, ""
     if options.layout is not None and k == 2 * len(options.layout):
-        warnings.append(
-            "there are twice the layout's cells: the first half is taken as the left foot, the second as the right"
-        )
-        return [("left", values[:, : k // 2]), ("right", values[:, k // 2 :])]
-    side = options.side
-    if side is None and options.layout is None and k >= 4 and k % 2 == 0 and _in_turns(values):
-        warnings.append(
-            f"the two halves of {k} columns carry load in turns, as feet do: the first is taken as the left foot, the "
-            "second as the right (--side, if they are one foot's)"
-        )
+        why = "there are twice the layout's cells"
+    elif side is None and options.layout is None and k >= 4 and k % 2 == 0 and _in_turns(values):
+        why = f"the two halves of {k} columns carry load in turns, as feet do (--side, if they are one foot's)"
+    if why:
+        warnings.append(f"{why}: the first half is taken as the left foot, the second as the right")
         return [("left", values[:, : k // 2]), ("right", values[:, k // 2 :])]
     if side is None:
         side = "left" if options.layout is None else options.layout.side

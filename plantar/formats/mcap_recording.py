@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import DependencyError, FormatError
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.side import at_times, common_times
+from plantar.formats.side import on_one_time
 from plantar.recordings.mcap_content import MCAP_MAGIC
 from plantar.recordings.pressure_recording import FootRecording, Kind, PressureRecording, layout_for, sampling
 from plantar.recordings.recording import Recording, Table, read_mcap
@@ -27,22 +27,15 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
             tables[side] = _once(table)
     if not tables:
         return _other_bag(path, options, ", ".join(recording.topics) or "none")
-    times = {side: table.time for side, table in tables.items()}
-    base = next(iter(times.values()))
-    shifted = any(len(own) != len(base) or np.abs(own - base).max() > 1e-6 for own in times.values())
-    base = common_times(times) if shifted else base
+    base, forces = on_one_time({side: (t.time, t.fields["force"]) for side, t in tables.items()}, warnings)
     time, rate, notes = sampling(base, None, options.rate_hz)
     warnings += notes
     feet: dict[Side, FootRecording] = {}
-    for side, table in tables.items():
-        force = table.fields["force"]
-        force = at_times(base, table.time, force) if shifted else force
+    for side, force in forces.items():
         own = layout_for(side, options.layout) or recording.layouts.get(side)
         if own is None:
             warnings.append(f"no layout of the {side} sole: forces only, give one with --layout for pressures and CoP")
         feet[side] = FootRecording(side, force, own, placement=_placement(recording, side, time))
-    if shifted:
-        warnings.append("the soles have frame times of their own: interpolated to those of the left one")
     missing = [side for side in SIDES if side not in feet]
     if missing:
         warnings.append(f"no taxel forces of the {cast(str, missing[0])} foot: one foot is analysed")

@@ -16,7 +16,7 @@ from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import foot_of_matrix
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
-from plantar.formats.stated_rate import stated_rate
+from plantar.formats.stated_rate import or_usual, stated_rate
 from plantar.formats.text import head_text, number, number_in, open_text
 from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.layouts.layout import Side
@@ -27,7 +27,7 @@ _LARGEST = 1024
 _MOST_PAGES, _MOST_EMPTY = 200_000, 1000
 # Values of all frames' whole matrices that any file may mean, and for each of its bytes; usual is one a byte.
 _SMALL, _MOST_A_BYTE = 8_000_000, 8
-_USUAL_SIZE, _USUAL_RATE = 0.005, 100.0
+_USUAL_SIZE = 0.005
 _THRESHOLD = 1e3
 _PICTURE = re.compile(r"Pict-No\.?\s*:\s*(\d{1,9})")
 _NO_FRAME = re.compile(r"\bPage\b|\bM[VP]P\b")
@@ -112,7 +112,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
             pressure[i, r[:, None] - 1, c - 1] = values
     stated = np.array([np.nan if f.force is None else f.force for f in frames])
     unit = _unit(options, pressure, stated, size[0] * size[1], warnings)
-    rate = options.rate_hz or _rate(facts, warnings)
+    rate = options.rate_hz or stated_rate({"time per picture": facts.get("time", "")}, warnings)
+    rate = or_usual(rate, "the file states no time per picture", warnings)
     time = (np.arange(len(frames)) + 1) / rate
     starts = [i for i in range(1, len(frames)) if frames[i].picture <= frames[i - 1].picture]
     for i in starts:  # trials one after the other: a pause separates their contacts
@@ -279,13 +280,6 @@ def _unit(
         )
     warnings.append(f"the unit of pressure, {name}, follows from the file's own forces")
     return Unit("pressure", factor, name)
-
-
-def _rate(facts: dict[str, str], warnings: list[str]) -> float:
-    rate = stated_rate({"time per picture": facts.get("time", "")}, warnings)
-    if rate is None:
-        warnings.append(f"the file states no time per picture: {_USUAL_RATE:g} Hz is assumed (--rate overrides)")
-    return rate or _USUAL_RATE
 
 
 FORMAT = Format(

@@ -19,15 +19,17 @@ from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.nominal_insole import CELL_AREAS, DEFAULT_SIZE, nominal_insole
 from plantar.formats.recorded_layouts import cells_by_id, corner_table, layout_of_corners
+from plantar.formats.stated_rate import stated_rate
 from plantar.formats.text import head_text, number_rows, open_text, row_of_numbers
 from plantar.formats.units import Unit, find_unit, plain
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.frame_table import FrameTable
-from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, possible_rate, sampling
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
 from plantar.sides import Side
 
 _COLUMNS = re.compile(r"\s*\"?time\s*\[\s*s(?:ecs?)?\s*\]\"?", re.IGNORECASE)
 _NUMBER = r"[-+]?\d+(?:[.,]\d*)?(?:[eE][-+]?\d+)?"
+_RATES = {"scanning rate [Hz]": r"scanning\s+rate\s*\[Hz\]", "time per frame [s]": r"time\s+per\s+frame\s*\[secs?\]"}
 _LABELS = re.compile(r"\s*(?:M[VP]P|x\[|y\[|area|electrical|mechanical|corner|time)", re.IGNORECASE)
 _CORNER = re.compile(r"\s*[xy]\[[0-3]\]\s")
 _MOST_CORNERS = 64
@@ -52,7 +54,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         rows, tail = _take_rows(path, stream, delimiter, len(columns), [span for _, span in sides])
     warnings = [*rows.warnings, *notes]
     layout, unit = options.layout, _unit(text, options, warnings)
-    time, rate, doubts = sampling(rows.time, None if options.rate_hz else _rate(text), options.rate_hz)
+    named = {name: _field(text, rf"{words}:?\s*({_NUMBER})") or "" for name, words in _RATES.items()}
+    time, rate, doubts = sampling(rows.time, options.rate_hz or stated_rate(named, warnings), options.rate_hz)
     warnings += doubts
     geometry = corner_table(tail, len(columns), warnings) if layout is None else None
     feet: dict[Side, FootRecording] = {}
@@ -200,17 +203,6 @@ def _unit(text: str, options: ReadOptions, warnings: list[str]) -> Unit:
     if unit is None or unit.kind == "force":
         raise FormatError(f"unknown unit of pressure {stated!r}; allowed: {', '.join(_WRITTEN)}")
     return unit
-
-
-def _rate(text: str) -> float | None:
-    rate = _field(text, rf"scanning\s+rate\s*\[Hz\]:?\s*({_NUMBER})")
-    if rate:
-        return possible_rate(float(rate.replace(",", ".")), "the header states")
-    period = _field(text, rf"time\s+per\s+frame\s*\[secs?\]:?\s*({_NUMBER})")
-    if period:
-        seconds = float(period.replace(",", "."))
-        return possible_rate(1.0 / seconds if seconds else np.inf, f"the time per frame of {period[:40]} s means")
-    return None
 
 
 def _sides(text: str, columns: list[int], options: ReadOptions, warnings: list[str]) -> list[tuple[Side, range]]:

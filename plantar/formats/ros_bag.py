@@ -5,7 +5,7 @@ counts.
 """
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ from plantar.files.input_file import check_input, is_file
 from plantar.files.structured_text import JSON_MOST
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.side import at_times, side_of
+from plantar.formats.side import on_one_time, side_of
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
@@ -66,12 +66,16 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
     if agreed and options.unit is None:
         warnings.append(f"ROS messages state no unit: {agreed} is assumed from their names (--unit overrides)")
     unit = unit_of_values(agreed, options, warnings, "the bag")
-    stamps, first = series[chosen[0]]
+    stamps, values = series[chosen[0]]
+    parts: Iterable[tuple[Side, NDArray[np.float64]]]
+    if by_side:
+        stamps, held_by = on_one_time({s: series[by_side[s]] for s in SIDES if s in by_side}, warnings)
+        parts = held_by.items()
+    else:
+        parts = halves(values, options, warnings)
     time, rate, notes = sampling(stamps - stamps[0], None, options.rate_hz)
     feet: dict[Side, FootRecording] = {}
-    for side, values in _at_times(stamps, {s: series[by_side[s]] for s in SIDES if s in by_side}, warnings) or halves(
-        first, options, warnings
-    ):
+    for side, values in parts:
         feet[side] = cells_of_foot(side, values, unit, options, warnings)
     if len(feet) == 1:
         warnings.append(f"the bag holds the {next(iter(feet))} foot only")
@@ -86,20 +90,6 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
         raw=unit.kind == "raw",
         kind="robot",
     )
-
-
-def _at_times(
-    stamps: NDArray[np.float64],
-    series: dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]],
-    warnings: list[str],
-) -> list[tuple[Side, NDArray[np.float64]]]:
-    out = []
-    for side, (own, values) in series.items():
-        if len(own) != len(stamps) or np.abs(own - stamps).max() > 1e-6:
-            warnings.append(f"the {side} foot has its own times: interpolated to those of the other")
-            values = at_times(stamps, own, values)
-        out.append((side, values))
-    return out
 
 
 def _size(path: Path) -> int:

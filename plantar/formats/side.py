@@ -1,7 +1,7 @@
 """Foot of a one-sensor recording, force plate or table row."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import lru_cache
 
 import numpy as np
@@ -97,34 +97,30 @@ def rows_of_sides(values: NDArray[np.float64], warnings: list[str]) -> dict[Side
 
 
 def on_one_time(
-    time: NDArray[np.float64], rows: dict[Side, NDArray[np.int64]], columns: Sequence[NDArray[np.float64]]
-) -> tuple[NDArray[np.float64], dict[Side, NDArray[np.float64]], bool]:
-    """Returns both feet's rows on one time base: times (m,), each foot's values (m, k), and whether these are
-    interpolated.
+    feet: Mapping[Side, tuple[NDArray[np.float64], NDArray[np.float64]]], warnings: list[str]
+) -> tuple[NDArray[np.float64], dict[Side, NDArray[np.float64]]]:
+    """Returns feet, of times (n,) and values (n, k) each, on one time base: times (m,) and values (m, k).
 
-    Rows are each foot's indices in time (n,) and in columns (n,) of values; NaN where a foot pauses. Where times
-    differ, the right foot is interpolated at the left's. FormatError for a foot without time.
+    Where times differ, `warnings` tell that the right foot is interpolated at the left's; NaN where a foot pauses.
+    FormatError for a foot without time.
     """
-    if len(rows) == 1:
-        ((side, own),) = rows.items()
-        return time[own], {side: np.column_stack([c[own] for c in columns])}, False
-    left, right = rows["left"], rows["right"]
-    if len(left) == len(right) and np.array_equal(time[left], time[right], equal_nan=True):
-        return time[left], {side: np.column_stack([c[own] for c in columns]) for side, own in rows.items()}, False
-    timed: dict[Side, NDArray[np.int64]] = {}
-    for side in SIDES:
-        known = rows[side][np.isfinite(time[rows[side]])]
+    first = next(iter(feet.values()))[0]
+    if all(np.array_equal(time, first, equal_nan=True) for time, _ in feet.values()):
+        return first, {side: values for side, (_, values) in feet.items()}
+    times: dict[Side, NDArray[np.float64]] = {}
+    timed: dict[Side, NDArray[np.float64]] = {}
+    for side, (time, values) in feet.items():
+        known = np.flatnonzero(np.isfinite(time))
         if len(known) == 0:
             raise FormatError(f"no row of the {side} foot has a time")
-        timed[side] = known[np.argsort(time[known], kind="stable")]
-    times = {side: time[timed[side]] for side in SIDES}
-    base = common_times(times)
-    feet = {side: at_times(base, times[side], np.column_stack([c[timed[side]] for c in columns])) for side in SIDES}
-    return base, feet, True
+        known = known[np.argsort(time[known], kind="stable")]
+        times[side], timed[side] = time[known], values[known]
+    warnings.append("the feet have times of their own: the right foot's values are interpolated at the left one's")
+    base = _common_times(times)
+    return base, {side: _at_times(base, times[side], timed[side]) for side in feet}
 
 
-def common_times(times: Mapping[Side, NDArray[np.float64]]) -> NDArray[np.float64]:
-    """Returns the time (m,) that both feet's `times` have in common: the left one's, and the right one's alone."""
+def _common_times(times: Mapping[Side, NDArray[np.float64]]) -> NDArray[np.float64]:
     # The left foot's times, and the right one's where the left foot has no rows; what one has more at the ends is left
     # out where it is no more than the rows' shift.
     alone = {side: times[side][~_covered(times[side], times[other_side(side)])] for side in SIDES}
@@ -154,10 +150,9 @@ def _covered(wanted: NDArray[np.float64], time: NDArray[np.float64]) -> NDArray[
     return np.asarray(covered)
 
 
-def at_times(
+def _at_times(
     wanted: NDArray[np.float64], time: NDArray[np.float64], values: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Returns values (m, k) at wanted times (m,), linear between values (n, k) of a time (n,); NaN in gaps."""
     out = np.column_stack([np.interp(wanted, time, column) for column in values.T])
     out[~_covered(wanted, time)] = np.nan
     return out

@@ -9,6 +9,7 @@ from plantar.errors import FormatError
 from plantar.formats.table_text import seconds_of_unit
 from plantar.recordings.pressure_recording import possible_rate
 
+_USUAL = 100.0
 # What has a rate of frames; with other words it is that of a heart, of steps, of a filter.
 _OF = (
     "(?:the|an?|of|d|de|di|du|sampl(?:e|es|ing)|frames?|data|scan(?:ning)?|record(?:ing)?|measure(?:ment|d)?|acquisition|"
@@ -34,7 +35,7 @@ _STATED = re.compile(r"(\D*?)([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[-+]?\d+)?)((?![\d
 def stated_rate(facts: Mapping[str, str], warnings: list[str]) -> float | None:
     """Returns frames a second by the first of named facts that states them or a frame's time; None without one.
 
-    A unit decides which it is, else the name. Warnings get assumptions. FormatError for no number, or outside RATES.
+    A unit decides which it is, else the name. `warnings` get assumptions. FormatError for no number, or outside RATES.
 
     Example:
         >>> [stated_rate({k: v}, []) for k, v in (("Rate", "0.2 kHz"), ("dt [ms]", "5"), ("heart rate", "60"))]
@@ -66,6 +67,13 @@ def stated_rate(facts: Mapping[str, str], warnings: list[str]) -> float | None:
         several = ", ".join(f"{name} {rate:g} Hz" for name, rate in found.items())
         warnings.append(f"the file states several rates, {several}: the first is taken (--rate overrides)")
     return next(iter(found.values()), None)
+
+
+def or_usual(rate: float | None, without: str, warnings: list[str]) -> float:
+    """Returns a rate in Hz, or the usual one; `warnings` then tell `without` what the file is."""
+    if rate is None:
+        warnings.append(f"{without}: {_USUAL:g} Hz is assumed (--rate overrides)")
+    return rate or _USUAL
 
 
 def _clear(text: str) -> str:

@@ -13,17 +13,15 @@ from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.column_names import Heading, heading_of
 from plantar.formats.format import ReadOptions
 from plantar.formats.side import is_side_column, on_one_time, rows_of_sides, side_of
-from plantar.formats.stated_rate import stated_rate
+from plantar.formats.stated_rate import or_usual, stated_rate
 from plantar.formats.table_forces import feet_of_forces, is_force_table
 from plantar.formats.table_text import time_unit
 from plantar.formats.units import find_unit, plain
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
 from plantar.sides import SIDES, Side
 
-_USUAL_RATE = 100.0
 _MOST_NAMED = 10  # Columns that are left out by name in the warnings; of more their number is given
 _SUMS = 0.02  # How near a column is to the sum of others, relative to its largest value, where it is their total
-_MOVED = "the feet's rows have other times: the right foot's values are interpolated at the left one's"
 _CURVES = 40  # Numbered columns without a time from which rows that name trials are curves and no frames
 
 
@@ -148,9 +146,7 @@ def _side_by_side(
     if at is None:
         for own in rows.values():
             time[own] = np.arange(len(own))
-    time, feet, moved = on_one_time(time, rows, [table[:, i] for i in cells])
-    if moved:
-        warnings.append(_MOVED)
+    time, feet = on_one_time({side: (time[own], table[own][:, cells]) for side, own in rows.items()}, warnings)
     head = [] if at is None else [names[at]]
     found = [*head, *(f"{side} {names[i]}" for side in feet for i in cells)]
     return np.column_stack([*([] if at is None else [time]), *feet.values()]), found
@@ -166,15 +162,13 @@ def _on_one_clock(
     if len(clocks) < 2 or at not in clocks.values():
         return table, names, at
     usual = max(units[i] for i in clocks.values())
-    time = np.concatenate([table[:, clocks[side]] * (units[clocks[side]] or usual or 1.0) for side in SIDES])
-    rows = {side: np.arange(len(table)) + k * len(table) for k, side in enumerate(SIDES)}
-    others = [i for i in range(len(names)) if i not in units]
-    base, feet, moved = on_one_time(time, rows, [np.tile(table[:, i], 2) for i in others])
-    if not moved:
-        return table, names, at
-    warnings.append(_MOVED)
-    own = [feet[heading_of(names[i]).side or side_of(*beside[at]) or "left"][:, k] for k, i in enumerate(others)]
-    return np.column_stack([base, *own]), ["time [s]" if usual else "time", *(names[i] for i in others)], 0
+    own: dict[Side, list[int]] = {side: [] for side in SIDES}
+    for i in (i for i in range(len(names)) if i not in units):
+        own[heading_of(names[i]).side or side_of(*beside[at]) or "left"].append(i)
+    times = {side: table[:, clocks[side]] * (units[clocks[side]] or usual or 1.0) for side in SIDES}
+    base, feet = on_one_time({side: (times[side], table[:, own[side]]) for side in SIDES}, warnings)
+    named = ["time [s]" if usual else "time", *(names[i] for side in SIDES for i in own[side])]
+    return np.column_stack([base, *feet.values()]), named, 0
 
 
 def _taken(table: NDArray[np.float64], columns: list[int]) -> NDArray[np.float64]:
@@ -193,11 +187,7 @@ def _times(
 ) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
     stated = options.rate_hz or stated_rate(facts, warnings)
     if at is None or options.rate_hz is not None:
-        if stated is None:
-            warnings.append(
-                f"the table has no times and states no rate: {_USUAL_RATE:g} Hz is assumed (--rate overrides)"
-            )
-        rate = stated or _USUAL_RATE
+        rate = or_usual(stated, "the table has no times and states no rate", warnings)
         return np.arange(len(table)) / rate, rate, ()
     factor = (time_unit(names[at]) if names else None) or None
     if factor is None:

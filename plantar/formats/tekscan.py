@@ -16,7 +16,7 @@ from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import foot_of_matrix, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
-from plantar.formats.stated_rate import stated_rate
+from plantar.formats.stated_rate import or_usual, stated_rate
 from plantar.formats.text import (
     cells_of_row,
     frames_of_lines,
@@ -32,6 +32,7 @@ from plantar.recordings.frame_table import FrameTable, blocks_of_frames
 from plantar.recordings.pressure_recording import Kind, PressureRecording, sampling
 
 _KEY = re.compile(r"\s*\"?([A-Z][A-Z0-9_]+)\"?[\s,;:]*(.*)$")
+_RATES = ("SECONDS_PER_FRAME", "FREQUENCY", "FRAMES_PER_SECOND")
 _FRAME = re.compile(r"\s*\"?frame\s*[,;:]?\s*(\d+)", re.IGNORECASE)
 # The sign of a place without a cell where it is a part of something else.
 _NO_CELL_ALONE = re.compile(r"[^\s,;]B|B[^\s,;]")
@@ -39,7 +40,7 @@ _LARGEST_HEADER = 500
 _LARGEST = 200_000  # Most cells of a matrix
 _MOST_EXTRA = 1000  # lines
 _FIRST = 32  # Frames by which the matrix is known where the header does not state it, and a file is given up
-_USUAL_PITCH, _USUAL_RATE = 5.08e-3, 100.0
+_USUAL_PITCH = 5.08e-3
 _THRESHOLD = 1e3
 _WIDEST_FOOT = 0.16
 _LONGEST_FOOT = 0.36
@@ -58,7 +59,9 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         header, first = _take_header(lines)
         numbers, (rows, columns), table = _take_frames(path, first, lines, header, warnings)
     unit, pitch = _unit(header, options, warnings), _pitch(header, warnings)
-    rate, steps = options.rate_hz or _rate(header, warnings), np.diff(numbers)
+    named = {key: header.get(key, "") for key in _RATES}
+    rate, steps = options.rate_hz or stated_rate(named, warnings), np.diff(numbers)
+    rate = or_usual(rate, "the header states no SECONDS_PER_FRAME", warnings)
     if len(steps) and (steps > 0).all():
         time = (np.array(numbers, dtype=float) - numbers[0]) / rate
         if (steps > 1).any():
@@ -216,8 +219,6 @@ def _unit(header: dict[str, str], options: ReadOptions, warnings: list[str]) -> 
     other = (*header.get("SATURATION_PRESSURE", "").split(), stated, stated)[1]  # after its number, if it has one
     if options.unit is None and find_unit(other) != find_unit(stated) and unit.kind == "pressure":
         warnings.append(f"the readings are stated in {stated}, the saturation pressure in {other}: check the unit")
-    if unit.kind == "raw" and stated:
-        warnings.append("the readings are raw counts: forces and pressures cannot be given")
     return unit
 
 
@@ -254,14 +255,6 @@ def _pitch(header: dict[str, str], warnings: list[str]) -> tuple[float, float]:
             "the spacings are used, check the forces"
         )
     return rows, columns
-
-
-def _rate(header: dict[str, str], warnings: list[str]) -> float:
-    named = ("SECONDS_PER_FRAME", "FREQUENCY", "FRAMES_PER_SECOND")
-    rate = stated_rate({key: header[key] for key in named if key in header}, warnings)
-    if rate is None:
-        warnings.append(f"the header states no SECONDS_PER_FRAME: {_USUAL_RATE:g} Hz is assumed (--rate overrides)")
-    return rate or _USUAL_RATE
 
 
 FORMAT = Format(

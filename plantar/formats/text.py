@@ -226,20 +226,6 @@ def row_of_numbers(cells: Sequence[str]) -> tuple[NDArray[np.float64], int]:
     return out, bad
 
 
-def seconds_of_clock(text: str) -> float | None:
-    """Seconds since midnight of a time like 08:21:17.982, or None.
-
-    Example:
-        >>> seconds_of_clock("08:21:17.982")
-        30077.982
-    """
-    match = re.search(r"(\d{1,2}):(\d{2}):(\d{2}(?:[.,:]\d+)?)", text)
-    if match is None:
-        return None
-    seconds = match[3].replace(",", ".").replace(":", ".")
-    return round(3600.0 * int(match[1]) + 60.0 * int(match[2]) + float(seconds), 6)
-
-
 _COMPILED = is_compiled("decimals")
 
 

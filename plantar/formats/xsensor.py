@@ -17,14 +17,16 @@ from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import foot_of_matrix, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
-from plantar.formats.text import cells_of_row, head_text, number, number_in, open_text, row_of_numbers, seconds_of_clock
+from plantar.formats.stated_rate import or_usual
+from plantar.formats.table_text import seconds_of_time
+from plantar.formats.text import cells_of_row, head_text, number, number_in, open_text, row_of_numbers
 from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
 from plantar.sides import SIDES
 
-_USUAL_SIZE, _USUAL_RATE = 0.0086, 100.0
+_USUAL_SIZE = 0.0086
 _LARGEST = 100_000  # Most cells of a matrix, and rows and columns that are believed
 _MOST_SENSORS, _MOST_FACTS, _MOST_EMPTY, _LONGEST_NAME = 100, 1000, 1000, 200
 _THRESHOLD = 1e3
@@ -116,7 +118,7 @@ class _Scan:
         elif word == "SENSOR":
             self._begin_sensor(value[:_LONGEST_NAME])
         elif word == "TIME" and self.clock:
-            self.clock[-1] = seconds_of_clock(value)
+            self.clock[-1] = seconds_of_time(value)
         elif word == "SENSELS":
             self.rows = [] if self.sensor is not None else None
         elif self.sensor is not None:
@@ -263,11 +265,9 @@ def _times(
     clock: list[float | None], numbers: list[float], options: ReadOptions, warnings: list[str]
 ) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
     seconds = np.array([np.nan if t is None else t for t in clock])
-    if options.rate_hz is not None:
-        return _places(numbers, warnings) / options.rate_hz, options.rate_hz, ()
-    if np.isfinite(seconds).sum() < 2:
-        warnings.append(f"the frames have no times: {_USUAL_RATE:g} Hz is assumed (--rate overrides)")
-        return _places(numbers, warnings) / _USUAL_RATE, _USUAL_RATE, ()
+    if options.rate_hz is not None or np.isfinite(seconds).sum() < 2:
+        rate = or_usual(options.rate_hz, "the frames have no times", warnings)
+        return _places(numbers, warnings) / rate, rate, ()
     seconds = seconds - seconds[np.isfinite(seconds)][0]
     seconds[seconds < -43200.0] += 86400.0  # past midnight
     return sampling(seconds, None)
