@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.formats.side import side_of
 from plantar.sides import SIDES, Side
 
 _FOOT = (
@@ -31,7 +32,7 @@ def foot_of_marker(label: str) -> Side | None:
         ['left', 'right', 'right', 'left', 'right', None, None, 'left']
     """
     match = _MARKER.match(label.rpartition(":")[2].strip().lower())
-    return None if match is None else _side(match["side"] or match["end"])
+    return None if match is None else side_of(match["side"] or match["end"])
 
 
 def event_of(label: str, context: str = "") -> tuple[Side, str] | None:
@@ -44,12 +45,8 @@ def event_of(label: str, context: str = "") -> tuple[Side, str] | None:
     match = _EVENT.fullmatch(label.strip().lower())
     if match is None:
         return None
-    side = _side(context.strip().lower()) or _side(match["side"] or match["end"])
+    side = side_of(context, match["side"] or match["end"] or "")
     return None if side is None else (side, "strikes" if match["strike"] else "lifts")
-
-
-def _side(word: str | None) -> Side | None:
-    return {"l": SIDES[0], "left": SIDES[0], "r": SIDES[1], "right": SIDES[1]}.get(word or "")
 
 
 def content_of_file(path: Path) -> dict[str, Any]:

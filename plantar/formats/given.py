@@ -12,6 +12,7 @@ from plantar.formats import ReadOptions, read_recording
 from plantar.formats.array_file import recording_of_arrays
 from plantar.formats.plausibility import checked
 from plantar.formats.table_columns import recording_of_columns
+from plantar.formats.text import row_of_numbers
 from plantar.recordings.pressure_recording import Kind, PressureRecording, possible_rate
 
 
@@ -89,10 +90,4 @@ def _numbers(column: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
         return (column - column[:1]) / np.timedelta64(1, "s") if len(column) else column.astype(float)
     if column.dtype.kind in "iufb":
         return column.astype(float)
-    out = np.full(len(column), np.nan)
-    for i, value in enumerate(column):
-        try:
-            out[i] = float(value)
-        except (TypeError, ValueError):
-            continue
-    return out
+    return row_of_numbers([str(value) for value in column])[0]

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
+from plantar.formats.recorded_layouts import flat_sole
 from plantar.geometry.polygon import area, centroid
 from plantar.layouts.cell_layout import edge_neighbours, shared_vertices
-from plantar.layouts.layout import DEFAULT_RANGES, Side, SoleLayout, mirrored
+from plantar.layouts.layout import Side, SoleLayout, mirrored
 
 ROWS: tuple[int, ...] = (5, *(7,) * 12, 6, 4)
 """Cells in each row of a regular insole, heel to toe; in a row they are counted from the medial to the lateral edge."""
@@ -90,28 +91,12 @@ def nominal_insole(size: str, side: Side) -> SoleLayout:
             spans.append((row, a, b))
     unit = np.array(points)
     scale = float(np.sqrt(areas.sum() / sum(area(unit[list(c)]) for c in corners)))
-    vertices = np.column_stack([unit * scale, np.zeros(len(unit))])
     edge = np.concatenate([np.column_stack([stations, lateral]), np.column_stack([stations, medial])[::-1]])
-    positions = np.array([centroid(vertices[list(c), :2]) for c in corners])
-    n = len(corners)
-    right = SoleLayout(  # y to the left is the medial side of a right foot
-        name=f"nominal 99-cell insole, size {size.upper()}",
-        side="right",
-        positions=np.column_stack([positions, np.zeros(n)]),
-        rotations=np.broadcast_to(np.eye(3), (n, 3, 3)),
-        vertices=vertices,
-        corners=tuple(corners),
-        neighbours=_neighbours(spans),
-        areas=areas.copy(),
-        outline=edge * scale,
-        ids=np.arange(1, n + 1),
-        cell_shape="polygon",
-        cell_area=float(areas.mean()),
-        modalities=("force",),
-        ranges={"force": DEFAULT_RANGES["force"]},
-        thresholds={"force": 10e3 * float(areas.mean())},  # 10 kPa: below what such insoles resolve
-    )
-    return right if side == "right" else mirrored(right)
+    places, ids = np.array([centroid(scale * unit[list(c)]) for c in corners]), np.arange(1, len(corners) + 1)
+    made = ids, places, scale * unit, corners, _neighbours(spans), areas.copy()
+    name = f"nominal 99-cell insole, size {size.upper()}"
+    right = flat_sole(name, "right", *made, scale * edge, cell_area=float(areas.mean()))
+    return right if side == "right" else mirrored(right)  # y to the left is the medial side of a right foot
 
 
 def _neighbours(spans: list[tuple[int, float, float]]) -> tuple[tuple[int, ...], ...]:
@@ -187,22 +172,6 @@ def moticon_insole(size: int | None, side: Side, areas: NDArray[np.float64] | No
     scales = np.sqrt(area / shapely.area(cells))  # each is drawn as large as it counts
     rings = [at + scale * (ring - at) for at, scale, ring in zip(centre, scales, rings, strict=True)]
     vertices, corners = shared_vertices(rings, tolerance=1e-6)
-    n = len(centre)
-    right = SoleLayout(  # y to the left is the medial side of a right foot
-        name=f"Moticon insole, size {size or _AREA_SIZE}",
-        side="right",
-        positions=np.column_stack([centre, np.zeros(n)]),
-        rotations=np.broadcast_to(np.eye(3), (n, 3, 3)),
-        vertices=np.column_stack([vertices, np.zeros(len(vertices))]),
-        corners=tuple(corners),
-        neighbours=neighbours,
-        areas=area,
-        outline=outline,
-        ids=np.arange(1, n + 1),
-        cell_shape="polygon",
-        cell_area=float(np.median(area)),
-        modalities=("force",),
-        ranges={"force": DEFAULT_RANGES["force"]},
-        thresholds={"force": 10e3 * float(np.median(area))},
-    )
-    return right if side == "right" else mirrored(right)
+    made = np.arange(1, len(centre) + 1), centre, vertices, corners, neighbours, area
+    right = flat_sole(f"Moticon insole, size {size or _AREA_SIZE}", "right", *made, outline)
+    return right if side == "right" else mirrored(right)  # y to the left is the medial side of a right foot

@@ -114,8 +114,7 @@ def _shown(value: float, foot: FootRecording, raw: bool) -> str:
     return f"{value:.6g}" if raw else f"{value:.6g} N" if foot.layout is None else f"{value / 1e3:.4g} kPa"
 
 
-def _per_cell(foot: FootRecording, raw: bool) -> NDArray[np.float64]:
-    """Returns what readings (k,) are divided by: areas of pressures, 1 of forces and raw counts."""
+def _areas_or_ones(foot: FootRecording, raw: bool) -> NDArray[np.float64]:
     return np.ones(foot.force.shape[1]) if raw or foot.layout is None else foot.layout.areas
 
 
@@ -127,7 +126,7 @@ def _clipped_or_held(foot: FootRecording, rate: float, raw: bool) -> list[str]:
     loaded = part.sum(axis=1) > 0.2 * float(part.sum(axis=1).max(initial=0.0))
     if loaded.sum() < 20 or part.shape[1] <= _CELLS:
         return []
-    per, are_pressures = _per_cell(foot, raw), foot.layout is not None and not raw
+    per, are_pressures = _areas_or_ones(foot, raw), foot.layout is not None and not raw
     value = part / per
     out, highest = _switched_on(foot.side, value) if are_pressures else [], float(value.max())
     full = value >= highest * (1.0 - 1e-9)
@@ -196,7 +195,7 @@ def without_marks(recording: PressureRecording) -> PressureRecording:
         return recording
     feet, warnings = dict(recording.feet), list(recording.warnings)
     for side, foot in recording.feet.items():
-        force, per = foot.force, _per_cell(foot, recording.raw)
+        force, per = foot.force, _areas_or_ones(foot, recording.raw)
         for mark in _marks(force, per, foot.layout is not None and not recording.raw):
             force, count = _left_out(force, per, mark)
             shown = _shown(mark, foot, recording.raw)

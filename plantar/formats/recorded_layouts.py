@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import FormatError, LayoutError
 from plantar.geometry.polygon import area, centroid, convex_hull
@@ -50,32 +50,15 @@ def grid_cells(
     keys = np.array([i * (columns + 1) + j for i, j in ends]).T
     used, index = np.unique(keys, return_inverse=True)
     corners = index.reshape(n, 4)
-    vertices = np.column_stack([corner_x[used // (columns + 1)], corner_y[used % (columns + 1)], np.zeros(len(used))])
+    vertices = np.column_stack([corner_x[used // (columns + 1)], corner_y[used % (columns + 1)]])
 
     number = np.full((rows + 2, columns + 2), -1)
     number[row + 1, column + 1] = np.arange(n)
     around = np.array([number[row + 1 + i, column + 1 + j] for i, j in ((-1, 0), (0, -1), (0, 1), (1, 0))]).T
-    cell = row_pitch * column_pitch
-    try:
-        return SoleLayout(
-            name=name,
-            side=side,
-            positions=np.column_stack([x, y, np.zeros(n)]),
-            rotations=np.broadcast_to(np.eye(3), (n, 3, 3)),
-            vertices=vertices,
-            corners=tuple(map(tuple, corners.tolist())),
-            neighbours=tuple(tuple(sorted(j for j in near if j >= 0)) for near in around.tolist()),
-            areas=np.full(n, cell),
-            outline=convex_hull(vertices[:, :2]),
-            ids=row * columns + column + 1,
-            cell_shape="rectangle",
-            cell_area=cell,
-            modalities=("force",),
-            ranges={"force": DEFAULT_RANGES["force"]},
-            thresholds={"force": threshold * cell},
-        )
-    except LayoutError as error:
-        raise FormatError(f"the recording's own geometry is not valid: {error}") from None
+    neighbours = tuple(tuple(sorted(j for j in near if j >= 0)) for near in around.tolist())
+    ids, places, areas = row * columns + column + 1, np.column_stack([x, y]), np.full(n, row_pitch * column_pitch)
+    cells = ids, places, vertices, corners.tolist(), neighbours, areas
+    return flat_sole(name, side, *cells, convex_hull(vertices), cell_shape="rectangle", threshold=threshold)
 
 
 def polygon_layout(rings: Sequence[NDArray[np.float64]], *, ids: Sequence[int], side: Side, name: str) -> SoleLayout:
@@ -95,24 +78,48 @@ def polygon_layout(rings: Sequence[NDArray[np.float64]], *, ids: Sequence[int], 
         raise FormatError("a cell of the recording's geometry has no area")
     grain = 1e-3 * float(np.sqrt(np.median(sizes)))
     vertices, corners = shared_vertices(rings, grain)
-    cell_area = float(np.median(sizes))
+    cells = ids, np.array([centroid(ring) for ring in rings]), vertices, corners, edge_neighbours(corners), sizes
+    return flat_sole(name, side, *cells, convex_hull(vertices))
+
+
+def flat_sole(
+    name: str,
+    side: Side,
+    ids: ArrayLike,
+    places: NDArray[np.float64],
+    vertices: NDArray[np.float64],
+    corners: Sequence[Sequence[int]],
+    neighbours: tuple[tuple[int, ...], ...],
+    areas: NDArray[np.float64],
+    outline: NDArray[np.float64],
+    *,
+    cell_area: float | None = None,
+    cell_shape: str = "polygon",
+    threshold: float = 10e3,
+) -> SoleLayout:
+    """Returns flat layout of a name and side; FormatError if it is not valid.
+
+    Its force cells have ids, places (n, 2), corners among vertices (m, 2), neighbours, areas (n,), a cell_shape and a
+    usual cell_area, and are loaded from a threshold in Pa; in an outline (k, 2). In m.
+    """
+    usual = cell_area or float(np.median(areas))
     try:
         return SoleLayout(
             name=name,
             side=side,
-            positions=np.column_stack([np.array([centroid(ring) for ring in rings]), np.zeros(len(rings))]),
-            rotations=np.broadcast_to(np.eye(3), (len(rings), 3, 3)),
+            positions=np.column_stack([places, np.zeros(len(places))]),
+            rotations=np.broadcast_to(np.eye(3), (len(places), 3, 3)),
             vertices=np.column_stack([vertices, np.zeros(len(vertices))]),
-            corners=tuple(corners),
-            neighbours=edge_neighbours(corners),
-            areas=sizes,
-            outline=convex_hull(vertices),
+            corners=tuple(map(tuple, corners)),
+            neighbours=neighbours,
+            areas=areas,
+            outline=outline,
             ids=np.array(ids),
-            cell_shape="polygon",
-            cell_area=cell_area,
+            cell_shape=cell_shape,
+            cell_area=usual,
             modalities=("force",),
             ranges={"force": DEFAULT_RANGES["force"]},
-            thresholds={"force": 10e3 * cell_area},
+            thresholds={"force": threshold * usual},
         )
     except LayoutError as error:
         raise FormatError(f"the recording's own geometry is not valid: {error}") from None

@@ -1,4 +1,4 @@
-"""Rate that a file states in words: frames a second, or the time of a frame."""
+"""Rate that a file states in words."""
 
 import re
 from collections.abc import Mapping
@@ -33,9 +33,9 @@ _STATED = re.compile(r"(\D*?)([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[-+]?\d+)?)((?![\d
 
 
 def stated_rate(facts: Mapping[str, str], warnings: list[str]) -> float | None:
-    """Returns frames a second by the first of named facts that states them or a frame's time; None without one.
+    """Returns rate in Hz by the first of named facts that states it or a frame's time; None without.
 
-    A unit decides which it is, else the name. `warnings` get assumptions. FormatError for no number, or outside RATES.
+    The unit decides which, else the name; warnings get assumptions. FormatError for no number, or outside RATES.
 
     Example:
         >>> [stated_rate({k: v}, []) for k, v in (("Rate", "0.2 kHz"), ("dt [ms]", "5"), ("heart rate", "60"))]
@@ -70,14 +70,13 @@ def stated_rate(facts: Mapping[str, str], warnings: list[str]) -> float | None:
 
 
 def or_usual(rate: float | None, without: str, warnings: list[str]) -> float:
-    """Returns a rate in Hz, or the usual one; `warnings` then tell `without` what the file is."""
+    """Returns rate in Hz, else the usual one; warnings tell what the file is without."""
     if rate is None:
         warnings.append(f"{without}: {_USUAL:g} Hz is assumed (--rate overrides)")
     return rate or _USUAL
 
 
-def _clear(text: str) -> str:
-    """Text in lower case, with "per" for a stroke or a power of -1."""
+def _clear(text: str) -> str:  # with "per" for a stroke or a power of -1
     text = text.strip().lower().replace("μ", "u").replace("µ", "u")
     return re.sub(r"(?<![^\W\d_])s\s*\^?\s*(?:-1|⁻¹)|\b1\s*/\s*s\b", " per s", text).replace("/", " per ")
 

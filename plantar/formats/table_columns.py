@@ -155,7 +155,6 @@ def _side_by_side(
 def _on_one_clock(
     table: NDArray[np.float64], names: list[str], at: int, warnings: list[str]
 ) -> tuple[NDArray[np.float64], list[str], int]:
-    """Table, names and time column, with both feet on the left one's times where each has its own."""
     units = {i: unit for i, n in enumerate(names) if (unit := time_unit(n)) is not None}
     beside = {i: names[i : i + 2] if names[i] == names[at] else [names[i]] for i in units}
     clocks = {side: i for i in reversed(units) if (side := side_of(*beside[i])) is not None}

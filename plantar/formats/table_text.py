@@ -106,7 +106,7 @@ def _is_row(line: str, delimiter: str | None, width: int) -> bool:
 
 
 def _numbers(line: str, delimiter: str | None) -> bool:
-    """Whether a line is numbers, missing or a foot; names of two feet alone are names of columns."""
+    # Names of two feet alone are names of columns.
     cells = _cells(line, delimiter)
     return all(map(_is_cell, cells)) and (any(map(_is_number, cells)) or sum(side_of(c) is not None for c in cells) < 2)
 
@@ -238,7 +238,7 @@ def time_unit(name: str) -> float | None:
 
 
 def seconds_of_unit(unit: str) -> float:
-    """Seconds of a unit of time's lower-case name, one or many; 0 of none."""
+    """Seconds of a lower-case unit of time; 0 of none."""
     return _SECONDS.get(unit, _SECONDS.get(unit[:-1], 0.0))
 
 
