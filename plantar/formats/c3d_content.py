@@ -121,11 +121,8 @@ def _plates(parameters: Any, analogs: NDArray[np.float64]) -> dict[str, Any]:
 
 def _of_plate(values: NDArray[np.float64], shape: tuple[int, ...], i: int) -> NDArray[np.float64] | None:
     size = math.prod(shape)
-    return (
-        values.ravel("F")[i * size : (i + 1) * size].reshape(shape, order="F")
-        if values.size >= size * (i + 1)
-        else None
-    )
+    part = values.ravel("F")[i * size : (i + 1) * size]
+    return part.reshape(shape, order="F") if part.size == size else None
 
 
 def _events(content: Any) -> dict[str, NDArray[np.float64]]:

@@ -84,9 +84,7 @@ def _cut_short(head: bytes, held: Mapping[str, NDArray[Any]]) -> list[str]:
     read = int(held["frames"])
     stated, processor = (last - first + 1) * samples, (head[0] - 1) * 512 + 3
     other_order = processor >= len(head) or head[processor] == 86  # SGI: bytes the other way round
-    if (
-        other_order or last == 65535 or last < first or not read < stated
-    ):  # long recordings state their frames elsewhere
+    if other_order or last == 65535 or last < first or not read < stated:  # long ones state their frames elsewhere
         return []
     return [f"the file is cut short: {read} of {stated} frames are there"]
 

@@ -242,7 +242,7 @@ def _is_of_both(plate: Plate, contact: PlateContact) -> bool:
 
 
 def _sees_all(contacts: Sequence[PlateContact], plates: int) -> bool:
-    """Whether plates see every step: a treadmill's are stepped on again and again."""
+    """Whether plates are a treadmill's, stepped on again and again."""
     counts = np.bincount([c.plate for c in contacts], minlength=plates)
     return plates > 1 and bool((counts >= 4).sum() >= 2)
 

@@ -153,11 +153,8 @@ def moticon_insole(size: int | None, side: Side, areas: NDArray[np.float64] | No
     import shapely  # 0.2 s: only where this insole is read
 
     length = MOTICON_LENGTH.get(size or _AREA_SIZE, MOTICON_LENGTH[_AREA_SIZE])
-    area = (
-        _CELLS[:, 2] * 1e-4 * (length / MOTICON_LENGTH[_AREA_SIZE]) ** 2
-        if areas is None
-        else np.asarray(areas, dtype=float)
-    )
+    usual = _CELLS[:, 2] * 1e-4 * (length / MOTICON_LENGTH[_AREA_SIZE]) ** 2
+    area = usual if areas is None else np.asarray(areas, dtype=float)
     if area.shape != (len(_CELLS),) or not (area > 0.0).all():
         raise FormatError("a Moticon insole has 16 cells, each of an area above 0")
     centre = np.column_stack([(_CELLS[:, 0] + 0.5) * length, _CELLS[:, 1] * MOTICON_WIDTH * length])

@@ -48,18 +48,18 @@ def doubts(recording: PressureRecording) -> list[str]:
     for side, foot in recording.feet.items():
         if recording.kind not in ("robot", "plate"):
             out += _clipped_or_held(foot, recording.rate_hz, recording.raw)
-        if recording.raw or len(foot.force) == 0:
-            continue
         force = foot.vertical_force[np.isfinite(foot.vertical_force)]
         peak = float(np.percentile(force, 99.0)) if len(force) else 0.0
+        if recording.kind in ("insole", "plate") and not (recording.raw and foot.force.shape[1] > _CELLS):
+            out += _lost_or_flat(side, foot.vertical_force, peak, recording.rate_hz, "" if recording.raw else " N")
+        if recording.raw:
+            continue
         if force.any() and not _FORCE[0] <= peak <= _FORCE[1]:
             out.append(
                 f"the {side} foot carries up to {peak:.4g} N, which is unusual: check the unit and the cell size"
             )
         if len(force) and float(force.min()) < -0.1 * peak - 10.0:
             out.append(f"the {side} foot's force falls to {force.min():.4g} N: check its zero and its sign")
-        if recording.kind in ("insole", "plate"):
-            out += _lost_or_flat(side, foot.vertical_force, peak, recording.rate_hz)
         if foot.layout is None or recording.kind == "plate":
             continue
         highest = float(np.max(column_maxima(foot.force) / foot.layout.areas, initial=0.0))
@@ -75,8 +75,7 @@ def doubts(recording: PressureRecording) -> list[str]:
     return out
 
 
-def _lost_or_flat(side: str, force: NDArray[np.float64], peak: float, rate: float) -> list[str]:
-    """Warnings about a load (n,) in N that is gone for an instant, or clipped."""
+def _lost_or_flat(side: str, force: NDArray[np.float64], peak: float, rate: float, unit: str) -> list[str]:
     out, beside = [], _UNDER_FOOT * peak
     drops = [
         (a, b) for a, b in true_runs(force <= _GONE * peak) if a > 0 and b < len(force) and b - a < _INSTANT * rate
@@ -92,14 +91,13 @@ def _lost_or_flat(side: str, force: NDArray[np.float64], peak: float, rate: floa
     others = np.diff(force)[(~top & (force > beside))[1:]]  # where these repeat, too, the sensor is slow
     if full >= _CELLS and len(others) and float((others == 0.0).mean()) < _HELD:
         out.append(
-            f"the {side} foot's force stays at {peak:.4g} N, its largest value, in {full} steps: the end of the "
+            f"the {side} foot's force stays at {peak:.4g}{unit}, its largest value, in {full} steps: the end of the "
             "sensor's range? Forces would be larger"
         )
     return out
 
 
 def _slender_or_wide(foot: FootRecording) -> list[str]:
-    """Warning about an insole whose length and width are no foot's: cells mis-sized in one direction."""
     assert foot.layout is not None
     length, width = (float(v) for v in np.ptp(foot.layout.outline, axis=0))
     if not width > 0.0 or _SLENDER[0] <= length / width <= _SLENDER[1]:
@@ -119,7 +117,6 @@ def _areas_or_ones(foot: FootRecording, raw: bool) -> NDArray[np.float64]:
 
 
 def _clipped_or_held(foot: FootRecording, rate: float, raw: bool) -> list[str]:
-    """Warning about cells at their range's end, and of repeated frames."""
     measured = foot.force[: max(20, _SEEN // foot.force.shape[1])]
     part = np.nan_to_num(measured)
     let_go(foot.force)
@@ -158,7 +155,7 @@ def _clipped_or_held(foot: FootRecording, rate: float, raw: bool) -> list[str]:
 
 
 def _switched_on(side: str, value: NDArray[np.float64]) -> list[str]:
-    """Warning about cells reading zero below a pressure that matters; values (n, k) in Pa."""
+    """Warning by values (n, k) in Pa."""
     seen = value[:, value.max(axis=0) > 0.0]
     positive = seen[seen > 0.0]
     if not len(positive) or float((seen == 0.0).mean()) < _ZEROS:

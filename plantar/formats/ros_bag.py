@@ -5,7 +5,7 @@ counts.
 """
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -67,15 +67,13 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
         warnings.append(f"ROS messages state no unit: {agreed} is assumed from their names (--unit overrides)")
     unit = unit_of_values(agreed, options, warnings, "the bag")
     stamps, values = series[chosen[0]]
-    parts: Iterable[tuple[Side, NDArray[np.float64]]]
     if by_side:
-        stamps, held_by = on_one_time({s: series[by_side[s]] for s in SIDES if s in by_side}, warnings)
-        parts = held_by.items()
+        stamps, parts = on_one_time({s: series[by_side[s]] for s in SIDES if s in by_side}, warnings)
     else:
-        parts = halves(values, options, warnings)
+        parts = dict(halves(values, options, warnings))
     time, rate, notes = sampling(stamps - stamps[0], None, options.rate_hz)
     feet: dict[Side, FootRecording] = {}
-    for side, values in parts:
+    for side, values in parts.items():
         feet[side] = cells_of_foot(side, values, unit, options, warnings)
     if len(feet) == 1:
         warnings.append(f"the bag holds the {next(iter(feet))} foot only")

@@ -94,10 +94,7 @@ def recording_of_columns(
 def _repeated(
     table: NDArray[np.float64], names: list[str], columns: Sequence[int], warnings: list[str]
 ) -> tuple[set[int], dict[Side, list[int]]]:
-    """Load columns that copy an earlier one, and each foot's cells where all names begin again halfway.
-
-    FormatError where one name has different values, which would be summed.
-    """
+    """Load columns that copy an earlier one, and each foot's cells where all names begin again halfway."""
     keys = {
         i: (h.quantity, h.axis, h.side, h.number, plain(h.unit), "" if h.axis else h.words)
         for i in columns
@@ -162,7 +159,7 @@ def _on_one_clock(
         return table, names, at
     usual = max(units[i] for i in clocks.values())
     own: dict[Side, list[int]] = {side: [] for side in SIDES}
-    for i in (i for i in range(len(names)) if i not in units):
+    for i in sorted(set(range(len(names))) - set(units)):
         own[heading_of(names[i]).side or side_of(*beside[at]) or "left"].append(i)
     times = {side: table[:, clocks[side]] * (units[clocks[side]] or usual or 1.0) for side in SIDES}
     base, feet = on_one_time({side: (times[side], table[:, own[side]]) for side in SIDES}, warnings)

@@ -288,7 +288,6 @@ def _places(numbers: list[float], warnings: list[str]) -> NDArray[np.float64]:
 
 
 def _check_repeated(sensors: Iterable[_Sensor], warnings: list[str]) -> None:
-    """A sensor that is twice in a frame: by a damaged line now and then, or two sensors have one name."""
     for sensor in sensors:
         if sensor.repeated > 0.1 * len(sensor.frames):
             raise FormatError(

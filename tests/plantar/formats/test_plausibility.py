@@ -101,14 +101,16 @@ def test_an_insole_that_is_too_slender_or_too_wide(wide, doubted):
     assert not any("no foot's shape" in line for line in doubts(replace(odd, kind="robot")))
 
 
+@pytest.mark.parametrize("raw", [False, True])
 @pytest.mark.parametrize(
     ("lost", "most", "words"),
-    [(3, 2e3, "drops to 0 and back within 0.1 s 4 time(s)"), (0, 400.0, "stays at 400 N, its largest value")],
+    [(3, 2e3, "drops to 0 and back within 0.1 s 4 time(s)"), (0, 400.0, "stays at 400{}, its largest value")],
 )
-def test_a_force_without_cells_that_is_lost_or_at_its_end(lost, most, words):
+def test_a_force_without_cells_that_is_lost_or_at_its_end(lost, most, words, raw):
     recording = steps()
     force = np.minimum(recording.feet["left"].vertical_force, most)
     for begin in (130, 250, 470, 690):
         force[begin : begin + lost] = 0.0
     foot = FootRecording("left", force[:, None], None, total=force)
-    assert [words in doubt for doubt in doubts(replace(recording, feet={"left": foot}))] == [True]
+    found = doubts(replace(recording, feet={"left": foot}, raw=raw, warnings=("raw counts",)))
+    assert [words.format("" if raw else " N") in doubt for doubt in found] == [True]
