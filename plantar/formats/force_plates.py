@@ -88,10 +88,8 @@ def feet_of_plates(
         if len(both) == len(contacts):
             raise FormatError(f"{text}; allowed: a plate for each foot")
         warnings.append(f"{text}; left out")
-    sides: list[Side | None] = [
-        *sides_of_contacts(used, contacts, every, rate, options.side, warnings, markers, events)
-    ]
-    sides = [None if c in both else s for c, s in zip(contacts, sides, strict=True)]
+    found = sides_of_contacts(used, contacts, every, rate, options.side, warnings, markers, events)
+    sides = [None if c in both else s for c, s in zip(contacts, found, strict=True)]
     weights = _weights(used, contacts, sides, round(_BESIDE * rate))
     feet = {side: _foot(side, used, weights[side]) for side in SIDES if side in weights}
     return feet, every

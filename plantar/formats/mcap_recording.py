@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import cast, get_args
+from typing import get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,9 +36,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         if own is None:
             warnings.append(f"no layout of the {side} sole: forces only, give one with --layout for pressures and CoP")
         feet[side] = FootRecording(side, force, own, placement=_placement(recording, side, time))
-    missing = [side for side in SIDES if side not in feet]
-    if missing:
-        warnings.append(f"no taxel forces of the {cast(str, missing[0])} foot: one foot is analysed")
+    warnings += [f"no taxel forces of the {side} foot: one foot is analysed" for side in SIDES if side not in feet]
     return PressureRecording(
         path=path,
         format=FORMAT.name,

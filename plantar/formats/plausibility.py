@@ -16,6 +16,7 @@ _RATE = (20.0, 5000.0)
 # Share of loaded frames that repeat the one before from which the sensor is slower than the file; frames in a row at
 # a cell's largest reading, and cells that share that reading, from which it is the end of the sensor's range.
 _HELD, _FLAT, _CELLS = 0.4, 5, 3
+_REST = 0.4  # Share of readings from which the largest is that of an unloaded cell, whose sensor counts down
 # How many times higher than both frames next to it, and from which pressure in Pa, a single value is no foot's.
 _ALONE, _HIGH = 4.0, 50e3
 _QUICK = 50.0  # Rate in Hz from which that is so: at 30 Hz a heel strike may pass a cell within one frame
@@ -131,7 +132,8 @@ def _clipped_or_held(foot: FootRecording, rate: float, raw: bool) -> list[str]:
     for shift in range(_FLAT - 1):
         runs &= full[shift : len(full) - _FLAT + 1 + shift]
     clipped = int(runs.any(axis=0).sum())
-    if clipped >= _CELLS and (clipped < part.shape[1] or len(np.unique(value)) > 2 * _LEVELS):
+    levels = clipped < part.shape[1] or len(np.unique(value)) > 2 * _LEVELS  # a switch has two
+    if clipped >= _CELLS and levels and float(full.mean()) < _REST:
         out.append(
             f"{clipped} cells of the {foot.side} foot stay at {_shown(highest, foot, raw)}, the largest value: the end "
             "of the sensor's range? Forces and pressures would be larger"

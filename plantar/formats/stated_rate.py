@@ -45,9 +45,9 @@ def stated_rate(facts: Mapping[str, str], warnings: list[str]) -> float | None:
     for name, text in facts.items():
         words, shown = _words(_clear(name)), f"{name!r} of {text[:40]!r}"
         end = next((k for k in range(len(words), 0, -1) if _is_stated(words[:k], words[k:])), 0)
-        if not end or not text.strip():
-            continue
         stated = _STATED.fullmatch(_clear(text))
+        if not end or not text.strip() or (found and stated is None):
+            continue
         if stated is None:
             raise FormatError(
                 f"{name!r} is no number of frames a second or s a frame: {text[:40]!r} (--rate overrides)"

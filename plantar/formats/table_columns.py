@@ -158,13 +158,16 @@ def _on_one_clock(
     if len(clocks) < 2 or at not in clocks.values():
         return table, names, at
     usual = max(units[i] for i in clocks.values())
-    own: dict[Side, list[int]] = {side: [] for side in SIDES}
-    for i in sorted(set(range(len(names))) - set(units)):
-        own[heading_of(names[i]).side or side_of(*beside[at]) or "left"].append(i)
+    own, last = {side: list[int]() for side in SIDES}, SIDES[0]
+    for i, name in enumerate(names):
+        if i in units:
+            last = side_of(*beside[i]) or last
+        else:
+            own[heading_of(name).side or last].append(i)
     times = {side: table[:, clocks[side]] * (units[clocks[side]] or usual or 1.0) for side in SIDES}
     base, feet = on_one_time({side: (times[side], table[:, own[side]]) for side in SIDES}, warnings)
-    named = ["time [s]" if usual else "time", *(names[i] for side in SIDES for i in own[side])]
-    return np.column_stack([base, *feet.values()]), named, 0
+    named = [names[i] if heading_of(names[i]).side else f"{side} {names[i]}" for side in SIDES for i in own[side]]
+    return np.column_stack([base, *feet.values()]), ["time [s]" if usual else "time", *named], 0
 
 
 def _taken(table: NDArray[np.float64], columns: list[int]) -> NDArray[np.float64]:

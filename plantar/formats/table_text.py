@@ -144,14 +144,12 @@ def _names(above: Sequence[str], delimiter: str | None, width: int) -> tuple[lis
     if not rows or not _names_columns(rows[-1], width):
         return [], len(above)
     names = rows[-1] + [""] * (width - len(rows[-1]))
-    units: list[str] = []
     if len(rows) > 1 and all(plain(c) in _UNITS for c in names) and _names_columns(rows[-2], width):
-        units, names, at = names, rows[-2] + [""] * (width - len(rows[-2])), at - 1
+        units, at = names, at - 1
         rows.pop()
-    if units:
         names = [
             f"{n} [{u}]" if u.strip("-[]() ") and "[" not in n and "(" not in n else n
-            for n, u in zip(names, units, strict=True)
+            for n, u in zip(rows[-1] + [""] * (width - len(rows[-1])), units, strict=True)
         ]
     if len(rows) > 1 and side_of(*names) is None and len(rows[-2]) > 1:
         groups, last = [], ""

@@ -57,6 +57,13 @@ def test_cells_at_their_end_are_told_without_a_layout(cells, levels):
         assert not clipped or f"stay at {levels or most:.6g}{'' if levels else ' N'}, the largest value" in doubt
 
 
+def test_the_rest_of_a_sensor_that_counts_down_is_no_end():
+    recording = steps()
+    force = 1023.0 - np.round(1023.0 * recording.feet["left"].force / recording.feet["left"].force.max())
+    foot = replace(recording.feet["left"], force=force, layout=None)
+    assert "stay at" not in " ".join(doubts(replace(recording, feet={"left": foot}, raw=True)))
+
+
 def test_values_that_stand_alone_are_told():
     recording = steps()
     force = recording.feet["left"].force.copy()

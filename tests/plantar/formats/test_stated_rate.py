@@ -79,7 +79,7 @@ def test_another_rate_is_none_of_frames(name):
     ("facts", "rate", "words"),
     [
         ({"dt": "5"}, 200.0, "taken as 5 ms"),
-        ({"rate": "about 100 Hz"}, 100.0, "is not clear"),
+        ({"rate": "about 100 Hz", "sampling": "by hand"}, 100.0, "is not clear"),
         ({"rate": "100 frames a day"}, 100.0, "is not clear"),
         (
             {"analog rate": "1 kHz", "frame rate": "200"},

@@ -411,6 +411,7 @@ CLOCKS = [  # names, what they hold (time and load of the left and the right foo
     ("time_R_ms,R1 [N],time_L_ms,L1 [N]", "tlTL", 1e3),
     ("left_time [ms],right_time [ms],left (N),right (N)", "TtLl", 1e3),
     ("time [s],left 1 [N],time [s],right 1 [N]", "TLtl", 1.0),
+    ("time L [s],cell 1 [N],time R [s],cell 1 [N]", "TLtl", 1.0),
 ]
 
 

@@ -87,8 +87,7 @@ def read_participants(path: str | os.PathLike[str]) -> list[Participation]:
     if missing:
         raise FormatError(
             f"{os.fspath(path)}: the table of participants has no column {' and '.join(missing)}; it needs file, "
-            "participant "
-            "and condition"
+            "participant and condition"
         )
     lengths = table.column("foot_length_mm"), table.column("foot_length_cm")
     out = [_participation(f"{os.fspath(path)}, line {line}", names, row, columns, lengths) for line, row in table.rows]
@@ -125,7 +124,9 @@ def _participation(
             return None
         found = number(words)
         if found is None or not allowed[0] <= found * factor <= allowed[1]:
-            raise InputError(f"{where}: {key} is {words!r}; allowed: {allowed[0]:g} to {allowed[1]:g}, or empty")
+            low, high = (bound / factor for bound in allowed)
+            name = key if at is None else names[at]
+            raise InputError(f"{where}: {name} is {words!r}; allowed: {low:g} to {high:g}, or empty")
         return found * factor
 
     length = value("foot_length_m", FOOT_LENGTHS)

@@ -243,6 +243,9 @@ def test_values_of_a_table_are_checked(tmp_path):
         path.write_text(f"file;subject;group;mass_kg;side\n{row}\n")
         with pytest.raises(InputError, match=message):
             read_participants(path)
+    path.write_text("file;subject;group;foot_length_mm\na;1;x;26\n")
+    with pytest.raises(InputError, match="foot_length_mm is '26'; allowed: 50 to 450"):
+        read_participants(path)
     assert normalised({"peak_force_N": 100.0}, Participation("a", "a")) == {}
 
 
