@@ -76,7 +76,7 @@ class Route(NamedTuple):
 
     name: str
     call: Callable[[Any], object]
-    cases: Sequence[Any]
+    cases: Sequence[Any] = ()
     value: Callable[[Any], ArrayLike] = lambda result: result
     ours: bool = False
     approximate: bool = False

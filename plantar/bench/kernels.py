@@ -1,7 +1,8 @@
 """Run time against error of the perception's kernels and other routes."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -38,16 +39,10 @@ def compare_shapes(size: str, rounds: int = 9) -> Iterator[tuple[str, list[Resul
         ("hull + area", lambda: _hull(found if size != "dense" else few)),
         ("concave outline", lambda: _outline(few)),
         ("closest point", lambda: _closest(hulls)),
-        ("inner offset", lambda: _offset(hulls)),
-        ("triangle inside", lambda: _triangle(hulls)),
-        ("parallelogram inside", lambda: _parallelogram(hulls[:2])),
-        ("circle inside", lambda: _circle(hulls)),
-        ("rectangle inside, axis-aligned", lambda: _rectangle(hulls[:4])),
-        ("rectangle inside, any angle", lambda: _any_rectangle(hulls[1:2])),
+        *((name, partial(_of_hulls, kernel, hulls)) for name, kernel in _INSIDE.items()),
         ("rectangle in the outline", lambda: _outline_rectangle(few[:3])),
         ("rectangle in the outline, any angle", lambda: _outline_any_rectangle(few[1:3])),
-        ("parallelogram around", lambda: _around(hulls)),
-        ("box around, any angle", lambda: _box(hulls)),
+        *((name, partial(_of_hulls, kernel, hulls)) for name, kernel in _AROUND.items()),
     )
     for name, make in measures:
         routes, reference = make()
@@ -126,64 +121,95 @@ def _closest(hulls: Sequence[Array]) -> Compared:
     return routes, Reference([exact.closest_point_exact(*case) for case in cases], [float(np.ptp(h)) for h, _ in cases])
 
 
-def _offset(hulls: Sequence[Array]) -> Compared:
-    routes = [
-        Route("plantar", lambda h: polygon.inner_offset(h, OFFSET), hulls, _size, ours=True),
-        Route(
-            "shapely buffer, mitred",
-            lambda h: shapely.buffer(shapely.Polygon(h), -OFFSET, join_style="mitre").area,
-            hulls,
+class _HullKernel(NamedTuple):
+    """A kernel of convex polygons (k, 2): its exact value, routes still without cases, and which ones are measured."""
+
+    exact: Callable[[Array], float]
+    routes: tuple[Route, ...]
+    measured: slice = slice(None)
+
+
+def _of_hulls(kernel: _HullKernel, hulls: Sequence[Array]) -> Compared:
+    cases = hulls[kernel.measured]
+    return [route._replace(cases=cases) for route in kernel.routes], Reference([kernel.exact(h) for h in cases])
+
+
+_INSIDE: Mapping[str, _HullKernel] = {
+    "inner offset": _HullKernel(
+        lambda h: exact.inner_offset_area(h, OFFSET),
+        (
+            Route("plantar", lambda h: polygon.inner_offset(h, OFFSET), value=_size, ours=True),
+            Route(
+                "shapely buffer, mitred",
+                lambda h: shapely.buffer(shapely.Polygon(h), -OFFSET, join_style="mitre").area,
+            ),
         ),
-    ]
-    return routes, Reference([exact.inner_offset_area(h, OFFSET) for h in hulls])
-
-
-def _triangle(hulls: Sequence[Array]) -> Compared:
-    routes = [
-        Route("plantar", inscribed.inscribed_triangle, hulls, _size, ours=True),
-        Route("numpy, all triples", rivals.triangle, hulls),
-    ]
-    return routes, Reference([exact.triangle_area_exact(h) for h in hulls])
-
-
-def _parallelogram(hulls: Sequence[Array]) -> Compared:
-    coarse = partial(exact.parallelogram_area, samples=48, finest=1.0)
-    routes = [
-        Route("plantar", inscribed.inscribed_parallelogram, hulls, _size, ours=True),
-        Route("numpy, 48 directions", coarse, hulls, approximate=True),
-        Route("numpy, nested search", exact.parallelogram_area, hulls),
-    ]
-    return routes, Reference([exact.parallelogram_area(h) for h in hulls])
-
-
-def _circle(hulls: Sequence[Array]) -> Compared:
-    geos = "shapely maximum_inscribed_circle, default tolerance"
-    routes = [
-        Route("plantar", inscribed.inscribed_circle, hulls, lambda circle: circle.radius, ours=True),
-        Route(geos, lambda h: shapely.maximum_inscribed_circle(shapely.Polygon(h)).length, hulls, approximate=True),
-    ]
-    return routes, Reference([exact.circle_radius(h) for h in hulls])
-
-
-def _rectangle(hulls: Sequence[Array]) -> Compared:
-    routes = [
-        Route("plantar", inscribed.inscribed_rectangle, hulls, _size, ours=True),
-        Route("scipy SLSQP, exact gradients", rivals.rectangle_slsqp, hulls),
-    ]
-    return routes, Reference([exact.rectangle_area(h) for h in hulls])
-
-
-def _any_rectangle(hulls: Sequence[Array]) -> Compared:
-    routes = [
-        Route("plantar", inscribed.inscribed_rectangle_any_angle, hulls, _size, ours=True),
-        Route(
-            "scipy SLSQP at 32 angles",
-            lambda h: max(map(rivals.rectangle_slsqp, rivals.turned(h, 32))),
-            hulls,
-            approximate=True,
+    ),
+    "triangle inside": _HullKernel(
+        exact.triangle_area_exact,
+        (
+            Route("plantar", inscribed.inscribed_triangle, value=_size, ours=True),
+            Route("numpy, all triples", rivals.triangle),
         ),
-    ]
-    return routes, Reference([exact.rectangle_area_any_angle(h) for h in hulls])
+    ),
+    "parallelogram inside": _HullKernel(
+        exact.parallelogram_area,
+        (
+            Route("plantar", inscribed.inscribed_parallelogram, value=_size, ours=True),
+            Route("numpy, 48 directions", partial(exact.parallelogram_area, samples=48, finest=1.0), approximate=True),
+            Route("numpy, nested search", exact.parallelogram_area),
+        ),
+        slice(2),
+    ),
+    "circle inside": _HullKernel(
+        exact.circle_radius,
+        (
+            Route("plantar", inscribed.inscribed_circle, value=lambda circle: circle.radius, ours=True),
+            Route(
+                "shapely maximum_inscribed_circle, default tolerance",
+                lambda h: shapely.maximum_inscribed_circle(shapely.Polygon(h)).length,
+                approximate=True,
+            ),
+        ),
+    ),
+    "rectangle inside, axis-aligned": _HullKernel(
+        exact.rectangle_area,
+        (
+            Route("plantar", inscribed.inscribed_rectangle, value=_size, ours=True),
+            Route("scipy SLSQP, exact gradients", rivals.rectangle_slsqp),
+        ),
+        slice(4),
+    ),
+    "rectangle inside, any angle": _HullKernel(
+        exact.rectangle_area_any_angle,
+        (
+            Route("plantar", inscribed.inscribed_rectangle_any_angle, value=_size, ours=True),
+            Route(
+                "scipy SLSQP at 32 angles",
+                lambda h: max(map(rivals.rectangle_slsqp, rivals.turned(h, 32))),
+                approximate=True,
+            ),
+        ),
+        slice(1, 2),
+    ),
+}
+
+_AROUND: Mapping[str, _HullKernel] = {
+    "parallelogram around": _HullKernel(
+        exact.least_parallelogram_area,
+        (
+            Route("plantar", enclosing.enclosing_parallelogram, value=_size, ours=True),
+            Route("numpy, all pairs of edges", rivals.parallelogram_around),
+        ),
+    ),
+    "box around, any angle": _HullKernel(
+        exact.least_box_area,
+        (
+            Route("plantar", enclosing.oriented_box, value=_size, ours=True),
+            Route("shapely oriented_envelope", lambda h: shapely.oriented_envelope(shapely.Polygon(h)).area),
+        ),
+    ),
+}
 
 
 def _outline_rectangle(found: Sequence[Contact]) -> Compared:
@@ -238,19 +264,3 @@ def _area_inside(outline: Outline, corners: Array) -> float:
     parts = [shapely.Polygon(i[0], i[1:]) for i in outline.islands]
     outside = shapely.area(shapely.difference(shapely.Polygon(corners), shapely.union_all(parts)))
     return _size(corners) if outside < 1e-9 * _size(corners) else 0.0
-
-
-def _around(hulls: Sequence[Array]) -> Compared:
-    routes = [
-        Route("plantar", enclosing.enclosing_parallelogram, hulls, _size, ours=True),
-        Route("numpy, all pairs of edges", rivals.parallelogram_around, hulls),
-    ]
-    return routes, Reference([exact.least_parallelogram_area(h) for h in hulls])
-
-
-def _box(hulls: Sequence[Array]) -> Compared:
-    routes = [
-        Route("plantar", enclosing.oriented_box, hulls, _size, ours=True),
-        Route("shapely oriented_envelope", lambda h: shapely.oriented_envelope(shapely.Polygon(h)).area, hulls),
-    ]
-    return routes, Reference([exact.least_box_area(h) for h in hulls])

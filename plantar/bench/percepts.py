@@ -168,8 +168,7 @@ def _columns(layout: SoleLayout) -> Array:
 
 
 def _wrenches(feet: tuple[SoleLayout, ...], force: Array) -> list[Array]:
-    every = _EVERY
-    return [layout.kernel.loads(part, every)[:6] for layout, part in zip(feet, (force[:51], force[51:]), strict=True)]
+    return [layout.kernel.loads(part, _EVERY)[:6] for layout, part in zip(feet, (force[:51], force[51:]), strict=True)]
 
 
 _EVERY = np.ones(51, dtype=bool)

@@ -194,15 +194,13 @@ def circle_radius(polygon: Array) -> float:
 
 def _golden(gain: Callable[[Array], Array], low: Array, high: Array, steps: int = 60) -> Array:
     """Maxima of many concave functions, each between its bounds (m,), by golden section."""
-    c, d = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-    at_c, at_d = gain(c), gain(d)
-    best = np.maximum(at_c, at_d)
-    for _ in range(steps):
-        left = at_c > at_d
-        low, high = np.where(left, low, c), np.where(left, d, high)
+    best: Array = np.full_like(low, -np.inf)
+    for _ in range(steps + 1):
         c, d = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
         at_c, at_d = gain(c), gain(d)
         best = np.maximum(best, np.maximum(at_c, at_d))
+        left = at_c > at_d
+        low, high = np.where(left, low, c), np.where(left, d, high)
     return best
 
 

@@ -1,6 +1,7 @@
 """The measured soles: 51 cells with 5, 20 or all active, 1,000 small cells, random outlines."""
 
 import math
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -17,18 +18,18 @@ SIZES: dict[str, tuple[int, int]] = {"5": (51, 5), "20": (51, 20), "51": (51, 51
 _CASES = 12
 
 
+@dataclass(frozen=True, eq=False)
 class Contact:
     """A sole with some taxels active.
 
-    Args:
+    Attributes:
         active: Mask (n,).
         force: Normal forces (n,) in N, 0 where not active.
     """
 
-    def __init__(self, layout: SoleLayout, active: NDArray[np.bool_], force: NDArray[np.float64]) -> None:
-        self.layout = layout
-        self.active = active
-        self.force = force
+    layout: SoleLayout
+    active: NDArray[np.bool_]
+    force: NDArray[np.float64]
 
     @cached_property
     def points(self) -> NDArray[np.float64]:
