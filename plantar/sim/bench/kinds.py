@@ -8,12 +8,10 @@ from typing import Any, NamedTuple
 
 from plantar.atomic import output_folder, write_text
 from plantar.console.command import file_lines
-from plantar.console.progress import part_of, progress_bar
+from plantar.console.progress import Progress, part_of, progress_bar
 from plantar.errors import InputError
 from plantar.optional_library import need_libraries
 from plantar.sim.libraries import LIBRARIES
-
-Progress = Callable[[float, str], None]
 
 
 @dataclass(frozen=True)

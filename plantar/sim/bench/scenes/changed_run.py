@@ -78,10 +78,9 @@ class ChangedRun(Simulation):
         world = super().build_world(others if spheres is None else (*others, spheres))
         model = world.model
         if spheres is not None:
-            boxes = [world.sole_geoms[side][0] for side in SIDES]
             soles = {side: tuple(model.geom(name).id for name in spheres.names(side)) for side in SIDES}
-            for box, side in zip(boxes, SIDES, strict=True):
-                ids = list(soles[side])
+            for side in SIDES:
+                box, ids = world.sole_geoms[side][0], list(soles[side])
                 model.geom_solref[ids], model.geom_solimp[ids] = model.geom_solref[box], model.geom_solimp[box]
                 model.geom_gap[ids] = model.geom_gap[box]
             world = replace(world, sole_geoms=soles)
@@ -134,8 +133,7 @@ class TracedRun(ChangedRun):
         self._every, self._steps = max(1, round(_FORCES_EVERY / period)), 0
         self._of_sample = round(SAMPLE / period)
         self._contacts = ContactReader(self.world.model, self.world.data, [self.world.sole_geoms[s] for s in SIDES])
-        left, right = (self.world.touch[side] for side in SIDES)
-        self._touched = [left, right]
+        self._touched = [self.world.touch[side] for side in SIDES]
         self._wrench, self._force, self._looks = np.zeros(6), np.zeros(2), 0
         self.keeping_s = 0.0
         self._landings: tuple[tuple[str, float, float], ...] = ()

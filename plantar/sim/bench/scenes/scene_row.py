@@ -81,11 +81,8 @@ def _row(case: tuple[str, str, str], name: str, against: str, kind: str, runs: R
     compared = [r for r in runs if (r["setting"], r["against"], r["kind"]) == (name, against, kind)]
     seeded = [r for r in runs if r["setting"] == name and r["kind"] == "seeded"]
     own = {(r["kind"], r["seed"]): r for r in runs if r["setting"] == OWN.name and r["kind"] != "noise"}
-    costs, ratios = [], []
-    for r in [*compared, *seeded]:
-        cost, other = _cost(r), _cost(own.get((r["kind"], r["seed"]), {}))
-        costs.append(cost)
-        ratios.append(cost / other)
+    measured = [*compared, *seeded]
+    ratios = [_cost(r) / _cost(own.get((r["kind"], r["seed"]), {})) for r in measured]
     whole = _median([_number(r, "together_s") / _number(r, "sim_s") for r in compared])
     return SceneRow(
         *case,
@@ -94,7 +91,7 @@ def _row(case: tuple[str, str, str], name: str, against: str, kind: str, runs: R
         value="" if kind == "noise" else setting.value,
         against=against,
         machine=setting.machine,
-        cpu=_median(costs),
+        cpu=_median([_cost(r) for r in measured]),
         ratio=_median(ratios),
         com_mm=_median([_number(r, "com_mm") for r in compared]),
         zmp_mm=_median([_number(r, "zmp_mm") for r in compared]),

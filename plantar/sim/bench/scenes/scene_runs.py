@@ -13,8 +13,9 @@ from plantar.sim.bench.scenes.scene_setting import OWN, SceneSetting, setting_na
 
 TABLE = "scene_runs.csv"  # a row for each run
 
+_KEYS = ("scene", "robot", "walk", "setting", "against", "kind", "seed")
 COLUMNS = (
-    *("scene", "robot", "walk", "setting", "against", "kind", "seed"),
+    *_KEYS,
     *("sim_s", "cpu_s", "completed", "impact_N", "margin_mm"),
     *("com_mm", "zmp_mm", "force", "impact", "together_s"),
 )
@@ -98,9 +99,6 @@ class SceneRuns:
         return self._traces[key]
 
 
-_KEYS = ("scene", "robot", "walk", "setting", "against", "kind", "seed")
-
-
 class _Job(NamedTuple):
     case: SceneCase
     setting: SceneSetting
@@ -110,16 +108,8 @@ class _Job(NamedTuple):
 
     @property
     def key(self) -> tuple[str, ...]:
-        case = self.case
-        return (
-            case.scene,
-            case.robot,
-            " ".join(case.walk),
-            self.setting.name,
-            self.against,
-            self.kind,
-            str(self.seed),
-        )
+        scene, robot, walk = self.case
+        return scene, robot, " ".join(walk), self.setting.name, self.against, self.kind, str(self.seed)
 
 
 def _jobs(case: SceneCase, settings: Sequence[SceneSetting], seeds: Sequence[int], traced: int) -> Iterator[_Job]:

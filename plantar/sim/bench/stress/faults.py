@@ -30,14 +30,14 @@ def _body(**values: Any) -> Callable[[], Fault]:
     return lambda: fault
 
 
-def _frozen(*names: str, until: float = 99.0) -> Callable[[], Fault]:
+def _frozen(*names: str) -> Callable[[], Fault]:
     def made() -> Fault:
         kept: dict[str, Any] = {}
 
         def fault(s: Sensors, t: float) -> Sensors:
             if not kept:
                 kept.update({name: getattr(s, name) for name in names})
-            return s.changed(**{k: v.copy() for k, v in kept.items()}) if t < until else s
+            return s.changed(**{k: v.copy() for k, v in kept.items()})
 
         return fault
 
@@ -62,13 +62,13 @@ def _encoder(joint: int, change: Callable[[float, float], float]) -> Callable[[]
     return lambda: fault
 
 
-def _stuck(joint: int, until: float) -> Callable[[], Fault]:
+def _stuck(joint: int) -> Callable[[], Fault]:
     def made() -> Fault:
         kept: list[float] = []
 
         def fault(s: Sensors, t: float) -> Sensors:
             kept.append(s.joint_positions[joint])
-            return _encoder(joint, lambda q, _: kept[0] if t < until else q)()(s, t)
+            return _encoder(joint, lambda *_: kept[0])()(s, t)
 
         return fault
 
@@ -115,7 +115,7 @@ FAULTS: Mapping[str, Callable[[], Fault]] = {
     "no sensors": lambda: _raised,
     "no sensors for 0.03 s": _for(0.03, lambda: _raised),
     "IMU frozen": _frozen("gyro", "accelerometer"),
-    "IMU frozen for 0.1 s": _frozen("gyro", "accelerometer", until=0.1),
+    "IMU frozen for 0.1 s": _for(0.1, _frozen("gyro", "accelerometer")),
     "IMU zeros": _body(gyro=np.zeros(3), accelerometer=np.zeros(3)),
     "IMU NaN": _body(gyro=np.full(3, np.nan)),
     "IMU NaN for 0.03 s": _for(0.03, _body(gyro=np.full(3, np.nan))),
@@ -142,8 +142,8 @@ FAULTS: Mapping[str, Callable[[], Fault]] = {
     "a hip's encoder off by 0.1 rad": _encoder(7, lambda q, t: q + 0.1),
     "one encoder off by 0.1 rad for 0.3 s": _for(0.3, _encoder(3, lambda q, t: q + 0.1)),
     "one encoder off by 0.1 rad for a tick": _for(0.004, _encoder(3, lambda q, t: q + 0.1)),
-    "one encoder stuck for 0.05 s": _stuck(3, 0.05),
-    "a hip's encoder stuck": _stuck(2, 99.0),
+    "one encoder stuck for 0.05 s": _for(0.05, _stuck(3)),
+    "a hip's encoder stuck": _stuck(2),
     "a knee's encoder drifts by 0.2 rad/s": _encoder(3, lambda q, t: q + 0.2 * t),
     "an ankle's encoder drifts by -0.2 rad/s": _encoder(4, lambda q, t: q - 0.2 * t),
     "encoders NaN for 0.03 s": _for(0.03, _body(joint_positions=lambda q: q * np.nan)),
@@ -151,7 +151,7 @@ FAULTS: Mapping[str, Callable[[], Fault]] = {
     "encoders in degrees": _body(joint_positions=np.degrees),
     "encoders mirrored": _body(joint_positions=lambda q: -q),
     "encoders of the legs exchanged": _body(joint_positions=lambda q: np.roll(q, len(q) // 2)),
-    "encoders frozen for 0.1 s": _frozen("joint_positions", until=0.1),
+    "encoders frozen for 0.1 s": _for(0.1, _frozen("joint_positions")),
     "encoders with noise of 1 mrad": _noise("joint_positions", 1e-3),
     "one encoder too few": _body(joint_positions=lambda q: q[:-1]),
     "no encoders": _body(joint_positions=None),

@@ -159,9 +159,8 @@ def run_scenario(scenario: Scenario, longest: float = LONGEST) -> Outcome:
 
 
 def _described(error: Exception) -> str:
-    last = traceback.extract_tb(error.__traceback__)[-1]
-    own = [f for f in traceback.extract_tb(error.__traceback__) if "site-packages" not in f.filename]
-    last = own[-1] if own else last
+    frames = traceback.extract_tb(error.__traceback__)
+    last = ([f for f in frames if "site-packages" not in f.filename] or frames)[-1]
     text = " ".join(str(error).split())
     return f"{type(error).__name__}: {text} ({'/'.join(last.filename.split('/')[-3:])}:{last.lineno})"
 
