@@ -16,6 +16,7 @@ from typing import Any
 from plantar.errors import InputError, PlantarError, WorkerError
 from plantar.optional_library import optional_library
 from plantar.sim.sweep.task import Row, Task, failed, run_task
+from plantar.sim.sweep.workers import Workers
 
 _ADDRESS = re.compile(r"(?:(?P<scheme>[a-z]+)://)?(?P<host>\[[0-9a-fA-F:.]+\]|[A-Za-z0-9_.-]+):(?P<port>\d{1,5})/?")
 _THIS_PROCESS = re.compile(r"inproc://[0-9a-fA-F.:]+/\d+/\d+")  # as `LocalCluster(protocol="inproc://")` names itself
@@ -84,10 +85,11 @@ _ANSWER = 1.0  # s for one answer; Ctrl-C waits for no longer one
 _LOGS = ("distributed", "distributed.client", "tornado", "tornado.application", "asyncio")
 
 
-class ClusterWorkers:
+class ClusterWorkers(Workers):
     """Workers of a Dask scheduler at an `address` such as tcp://host:8786.
 
-    Dask restarts a dead worker's run on another, as often as its setting `allowed-failures` allows.
+    Two tasks fit a worker thread. Dask restarts a dead worker's run on another, as often as its setting
+    `allowed-failures` allows.
 
     Raises:
         DependencyError: If Dask's `distributed` is missing.
@@ -119,11 +121,9 @@ class ClusterWorkers:
 
     @property
     def room(self) -> int:
-        """How many more tasks fit: two for each worker thread."""
         return max(1, 2 * self._threads) - len(self._tasks)
 
     def submit(self, task: Task) -> None:
-        """Give a task to the scheduler."""
         try:
             future = self._client.submit(run_task, task, key=next(self._names), pure=False)
         except Exception as error:  # a client whose scheduler has just gone raises what it happens to meet
@@ -132,7 +132,6 @@ class ClusterWorkers:
         future.add_done_callback(self._ended.put)
 
     def finished(self, timeout: float) -> Sequence[tuple[Task, Row]]:
-        """Wait until a task ends, or for a time in s."""
         rows: list[tuple[Task, Row]] = []
         with suppress(Empty):
             future = self._ended.get(timeout=timeout)
@@ -144,7 +143,6 @@ class ClusterWorkers:
         return rows
 
     def close(self) -> None:
-        """Leave the scheduler, which drops what has not begun."""
         self._closed.set()
         with suppress(Exception):
             self._client.close(timeout=_ANSWER)

@@ -116,9 +116,8 @@ def limit_curve(values: Sequence[float], completed: Sequence[bool], low: float, 
     """
     span = high - low
     tried, which = np.unique(np.asarray(values, dtype=float), return_inverse=True)
-    good, bad = np.zeros(len(tried)), np.zeros(len(tried))
-    np.add.at(good, which, np.asarray(completed, dtype=float))
-    np.add.at(bad, which, 1.0 - np.asarray(completed, dtype=float))
+    good = np.bincount(which, completed).astype(float)
+    bad = np.bincount(which) - good
     widths = np.geomspace(_NARROWEST, _WIDEST, _WIDTHS) * span
     limits = np.linspace(low - _BEYOND * span, high + _BEYOND * span, _LIMITS)
     up, down = _log_likelihoods(tried, good, bad, limits, widths)

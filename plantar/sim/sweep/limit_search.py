@@ -8,7 +8,7 @@ from typing import Any
 
 from plantar.errors import InputError
 from plantar.sim.sweep.limit_curve import LimitCurve, limit_curve
-from plantar.sim.sweep.plan import Key, Rows, Run, Sweep, key_of, settings_of
+from plantar.sim.sweep.plan import Key, Plan, Rows, Run, Sweep, key_of, settings_of
 from plantar.sim.sweep.value_range import ValueRange
 
 AHEAD = 8
@@ -22,7 +22,7 @@ _SURE = 0.95
 
 
 @dataclass(frozen=True)
-class LimitSearch:
+class LimitSearch(Plan):
     """The setting's value with half of the runs completed, at each grid point.
 
     Attributes:
@@ -54,12 +54,10 @@ class LimitSearch:
         return self.sweep.with_axes([(self.limit.name, ends)])
 
     def identity(self) -> dict[str, Any]:
-        """What all rows share."""
         ends = [self.limit.text(self.limit.low), self.limit.text(self.limit.high)]
         return self.checked.identity() | {"limit": ends, "first_seed": self.sweep.first_seed}
 
     def runs(self, rows: Rows) -> Iterator[Run | None]:
-        """Runs, ordered by outcomes alone; None while more `rows` are needed."""
         chains = [self._chain(point, rows) for point in self.sweep.points()]
         while chains:
             waiting = True
@@ -86,7 +84,6 @@ class LimitSearch:
         return {"limits": [self._found(point, rows) for point in self.sweep.points()]}
 
     def progress(self, rows: Rows) -> tuple[float, str]:
-        """Progress, 0 to 1, and in words."""
         widths = [_width(self.curve(self.tried(point, rows), rows)) for point in self.sweep.points()]
         widest = max(widths)
         words = f"{100.0 * widest:.0f} %" if widest < 10.0 else "its range"

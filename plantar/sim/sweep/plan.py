@@ -76,8 +76,8 @@ class Plan(Protocol):
 
 
 @dataclass(frozen=True)
-class Sweep:
-    """A grid of settings and seeds.
+class Sweep(Plan):
+    """A grid of settings and seeds, run at all points for one seed first; points may be added.
 
     Attributes:
         scene: Name or file.
@@ -157,11 +157,9 @@ class Sweep:
 
     @property
     def checked(self) -> Sweep:
-        """This sweep."""
         return self
 
     def runs(self, rows: Rows) -> Iterator[Run]:
-        """Settings and seed of every run: all points for one seed first."""
         for seed in self.seed_range:
             for point in self.points():
                 yield point, seed
@@ -175,7 +173,6 @@ class Sweep:
         }
 
     def progress(self, rows: Rows) -> tuple[float, str]:
-        """Progress, 0 to 1, and in words."""
         return progress_of(self.runs(rows), rows)
 
     def with_axes(self, axes: Sequence[tuple[str, tuple[str, ...]]]) -> Sweep:
@@ -209,7 +206,6 @@ class Sweep:
         return self.opened(point).robot
 
     def identity(self) -> dict[str, Any]:
-        """What all rows share except file contents; points may be added."""
         scene = self.opened(self.points()[0])
         settings = {}
         for key, _, value in (s.partition("=") for s in self.settings):

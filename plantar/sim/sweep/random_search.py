@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from plantar.errors import InputError
-from plantar.sim.sweep.plan import Rows, Run, Sweep, key_of, point_result, progress_of
+from plantar.sim.sweep.plan import Plan, Rows, Run, Sweep, key_of, point_result, progress_of
 from plantar.sim.sweep.value_range import ValueRange
 
 
 @dataclass(frozen=True)
-class RandomSearch:
+class RandomSearch(Plan):
     """Runs at random points, the same at every grid point.
 
     Attributes:
@@ -40,11 +40,9 @@ class RandomSearch:
         return self.sweep.with_axes([(r.name, (r.text(r.low), r.text(r.high))) for r in self.ranges])
 
     def identity(self) -> dict[str, Any]:
-        """What all rows share."""
         return self.checked.identity() | {"random": {r.name: [r.text(r.low), r.text(r.high)] for r in self.ranges}}
 
     def runs(self, rows: Rows) -> Iterator[Run]:
-        """Settings and seed of every run."""
         for seed in self.sweep.seed_range:
             share = np.random.default_rng(seed).random(len(self.ranges))
             drawn = [
@@ -62,5 +60,4 @@ class RandomSearch:
         return {"points": [point_result(point, ran) for point, ran in ran_at.items()]}
 
     def progress(self, rows: Rows) -> tuple[float, str]:
-        """Progress, 0 to 1, and in words."""
         return progress_of(self.runs(rows), rows)

@@ -138,8 +138,10 @@ class ValueRange:
     def rounded(self, value: float) -> float:
         """The nearest value that is tried, within the range."""
         exponent = 0 if self.whole else math.floor(math.log10((self.high - self.low) / _STEPS))
+        whole = round(min(max(value, self.low), self.high) / 10.0**exponent) * 10.0**exponent
+        near = min(max(whole, self.low), self.high)  # an end that is no multiple of the step is tried as it is
         # Through its text: the same value whichever way it was computed.
-        return float(self._digits(min(max(value, self.low), self.high), exponent))
+        return float(f"{near:.15g}")
 
     def text(self, value: float) -> str:
         """The nearest value that is tried, as a setting's text."""
@@ -150,8 +152,3 @@ class ValueRange:
     def value(self, text: str) -> float:
         """The number of a text that `text` gave."""
         return float(text.split()[0])
-
-    def _digits(self, value: float, exponent: int) -> str:
-        rounded = round(value / 10.0**exponent) * 10.0**exponent
-        near = min(max(rounded, self.low), self.high)  # an end that is no multiple of the step is tried as it is
-        return f"{near:.{max(-exponent, 0) + 2}g}" if near == 0.0 else f"{near:.15g}"

@@ -38,8 +38,8 @@ class Workers(Protocol):
         """End the workers at once."""
 
 
-class LocalWorkers:
-    """At most `count` processes that `run` tasks by an importable function; replaced if dead."""
+class LocalWorkers(Workers):
+    """At most `count` processes that `run` tasks by an importable function; a dead one's task starts again."""
 
     def __init__(self, count: int, run: Callable[[Task], Row] = run_task) -> None:
         self._count = count
@@ -51,11 +51,9 @@ class LocalWorkers:
 
     @property
     def room(self) -> int:
-        """How many more tasks can be taken."""
         return self._count - sum(w.task is not None for w in self._workers)
 
     def submit(self, task: Task) -> None:
-        """Begin a task on an idle worker or a new one."""
         for worker in self._workers:
             if worker.task is None:
                 worker.begin(task)
@@ -68,7 +66,6 @@ class LocalWorkers:
         worker.begin(task)
 
     def finished(self, timeout: float) -> Sequence[tuple[Task, Row]]:
-        """As of `Workers`; a dead worker's task starts again."""
         if self._error is not None:
             raise self._error
         rows: list[tuple[Task, Row]] = []
@@ -94,7 +91,6 @@ class LocalWorkers:
         return rows
 
     def close(self) -> None:
-        """Kill the processes."""
         for worker in self._workers:
             worker.process.kill()
         for worker in self._workers:
