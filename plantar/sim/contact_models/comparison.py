@@ -18,7 +18,7 @@ from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
 from plantar.sensing.force import center_of_pressure
 from plantar.sim.contact_models.sole import MASS, Sole, build_sole
-from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Candidate
+from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Candidate, bounding_rectangle
 from plantar.sim.model.contact_truth import contact_wrench_in_frame, foot_contacts, support_polygon_of_contacts
 
 PLANE = '<geom name="ground" type="plane" size="2 2 0.1" {contact}/>'  # the ground
@@ -152,7 +152,7 @@ def full_stance(sole: Sole, layout: SoleLayout, seeds: int) -> dict[str, Any]:
 
     Returns its fields of `ContactRow` for a `sole` of a `layout` on flat ground, with `seeds` load cases a CoP.
     """
-    middle, half = _rectangle(layout)
+    middle, half = bounding_rectangle(layout)
     targets = [middle + half * (x, y) for x in np.linspace(-INNER, INNER, 5) for y in np.linspace(-INNER, INNER, 5)]
     errors, forces, moments = [], [], []
     contacts = 0
@@ -182,7 +182,7 @@ def full_stance(sole: Sole, layout: SoleLayout, seeds: int) -> dict[str, Any]:
 
 def _standing(sole: Sole, layout: SoleLayout, load: float) -> Rig:
     rig = Rig(sole, layout)
-    rig.push(load, _rectangle(layout)[0])
+    rig.push(load, bounding_rectangle(layout)[0])
     rig.step(100)
     return rig
 
@@ -215,7 +215,7 @@ def tip_over(sole: Sole, layout: SoleLayout) -> dict[str, Any]:
 
 def _edge(sole: Sole, layout: SoleLayout, direction: NDArray[np.float64]) -> tuple[float, float]:
     """Distances beyond the true edge in mm, in a direction, where the sole tips, truly and by taxels."""
-    middle, half_sizes = _rectangle(layout)
+    middle, half_sizes = bounding_rectangle(layout)
     half = float(half_sizes @ np.abs(direction))
     rig = _standing(sole, layout, _TIPPING_LOAD)
     pivot = shown = -math.inf
@@ -235,7 +235,7 @@ def _edge(sole: Sole, layout: SoleLayout, direction: NDArray[np.float64]) -> tup
 def _on_beams(candidate: Candidate, layout: SoleLayout) -> dict[str, Any]:
     import shapely
 
-    middle, half = _rectangle(layout)
+    middle, half = bounding_rectangle(layout)
     contact_ratio, taxel_ratio = [], []
     wrong = silent = 0
     shapes = [shapely.Polygon(layout.cell_polygon(i)) for i in range(len(layout))]
@@ -268,7 +268,7 @@ def _on_beams(candidate: Candidate, layout: SoleLayout) -> dict[str, Any]:
 
 
 def _run_times(soles: Sequence[Sole], layout: SoleLayout) -> list[dict[str, Any]]:
-    middle, half = _rectangle(layout)
+    middle, half = bounding_rectangle(layout)
     rigs = [Rig(sole, layout) for sole in soles]
     for rig in rigs:
         rig.push(MASS * GRAVITY, middle + 0.1 * half)
@@ -286,11 +286,6 @@ def _run_times(soles: Sequence[Sole], layout: SoleLayout) -> list[dict[str, Any]
         {"step_us": float(step) * 1e6, "read_us": float(read) * 1e6}
         for step, read in zip(np.median(steps, axis=1), np.median(reads, axis=1), strict=True)
     ]
-
-
-def _rectangle(layout: SoleLayout) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    low, high = layout.outline.min(axis=0), layout.outline.max(axis=0)
-    return 0.5 * (low + high), 0.5 * (high - low)
 
 
 def _cop(wrench: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -13,7 +13,7 @@ from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
 from plantar.sim.contact_models.comparison import PLANE, Rig
 from plantar.sim.contact_models.sole import MASS, build_sole
-from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Contact
+from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Contact, bounding_rectangle
 from plantar.sim.model.contact_truth import contact_wrench_in_world, foot_contacts
 
 _SOFT = (0.9, 0.95, 0.001, 0.5, 2.0)
@@ -71,7 +71,7 @@ def study_contact_parameters(layout: SoleLayout, progress: Callable[[float, str]
 
 def _measure(name: str, contact: Contact, layout: SoleLayout) -> ParameterRow:
     sole = build_sole(CANDIDATES[0], layout, PLANE, contact)
-    middle = 0.5 * (layout.outline.min(axis=0) + layout.outline.max(axis=0))
+    middle = bounding_rectangle(layout)[0]
     weight = MASS * GRAVITY
 
     rig = Rig(sole, layout)
@@ -115,8 +115,7 @@ def _creep(rig: Rig, middle: Any, tangential: tuple[float, float], twist: float)
 
 def _land(contact: Contact, layout: SoleLayout) -> tuple[float, int]:
     """Peak force in N and rebounds of a foot on a 2e5 N/m servo."""
-    low, high = layout.outline.min(axis=0), layout.outline.max(axis=0)
-    half = 0.5 * (high - low)
+    half = bounding_rectangle(layout)[1]
     model = mujoco.MjModel.from_xml_string(
         f"""<mujoco><option timestep="0.001" cone="{contact.cone}" impratio="{contact.friction_ratio:g}"
           integrator="implicitfast"/>

@@ -64,8 +64,7 @@ def build_sole(candidate: Candidate, layout: SoleLayout, ground: str, contact: C
 
 def _reader(candidate: Candidate, model: Any, layout: SoleLayout, geoms: frozenset[int]) -> Reader:
     if candidate.reading == "patches":
-        skin = SoleSkin(model, layout, "left_sole", ["left_sole_box"])
-        return lambda data: skin.taxel_forces(data)
+        return SoleSkin(model, layout, "left_sole", ["left_sole_box"]).taxel_forces
     return (_tactile if candidate.reading == "tactile" else _by_contact)(candidate, model, layout, geoms)
 
 

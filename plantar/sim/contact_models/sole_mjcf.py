@@ -80,6 +80,12 @@ class SoleMjcf(NamedTuple):
     sensors: str = ""
 
 
+def bounding_rectangle(layout: SoleLayout) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Returns the middle (2,) and half size (2,) in m of a `layout`'s outline."""
+    low, high = layout.outline.min(axis=0), layout.outline.max(axis=0)
+    return 0.5 * (low + high), 0.5 * (high - low)
+
+
 def sole_mjcf(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
     """Returns the MJCF of a `layout` by a contact model `candidate`, with `attributes` of touching geoms.
 
@@ -93,15 +99,16 @@ def sole_mjcf(candidate: Candidate, layout: SoleLayout, attributes: str) -> Sole
 
 
 def _box(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
-    low, high = layout.outline.min(axis=0), layout.outline.max(axis=0)
-    (cx, cy), (hx, hy), h = 0.5 * (low + high), 0.5 * (high - low), 0.5 * SOLE_THICKNESS
+    ((cx, cy), (hx, hy)), h = bounding_rectangle(layout), 0.5 * SOLE_THICKNESS
     place = f'size="{hx} {hy} {h}" pos="{cx} {cy} {h}"'
     return SoleMjcf("", f'<geom name="left_sole_box" type="box" {place} {attributes}/>')
 
 
 def _box_with_tactile_sensor(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
+    from scipy.spatial import Delaunay  # only for the tactile sensor's mesh
+
     points = _numbers(np.column_stack([layout.positions[:, :2], np.zeros(len(layout))]))
-    faces = " ".join(str(int(v)) for v in _triangles(layout.positions[:, :2]).ravel())
+    faces = " ".join(map(str, Delaunay(layout.positions[:, :2]).simplices.ravel().tolist()))
     mesh = f'<mesh name="taxels" inertia="shell" vertex="{points}" face="{faces}"/>'
     # The sensor takes the points in the frame of its geom: a geom of the same mesh puts them where they are.
     skin = '<geom name="left_taxels" type="mesh" mesh="taxels" contype="0" conaffinity="0" mass="0"/>'
@@ -154,12 +161,6 @@ def support_points(ring: NDArray[np.float64], count: int) -> NDArray[np.float64]
     on_edge = shapely.get_coordinates(shapely.line_interpolate_point(edge, shares, normalized=True))
     points = middle + (0.75 if around == 3 else 0.9) * (on_edge - middle)
     return points if around == count else np.vstack([middle, points])
-
-
-def _triangles(points: NDArray[np.float64]) -> NDArray[np.int64]:
-    from scipy.spatial import Delaunay  # only for the tactile sensor's mesh
-
-    return np.asarray(Delaunay(points).simplices, dtype=np.int64)
 
 
 def _numbers(array: NDArray[np.float64]) -> str:
