@@ -64,19 +64,16 @@ def _primitives(model: Any, geom: int) -> list[Message]:
         thin = 1e-3
         below = np.array(position) - thin * _axis(model, geom)
         return [cube(pose(tuple(below.tolist()), rotation), (2 * a or _FLOOR, 2 * b or _FLOOR, 2 * thin), colour)]
+    ball = (2 * a, 2 * a, 2 * a)
     if kind == _Geom.mjGEOM_BOX:
         return [cube(place, (2 * a, 2 * b, 2 * c), colour)]
-    if kind == _Geom.mjGEOM_SPHERE:
-        return [sphere(place, (2 * a, 2 * a, 2 * a), colour)]
-    if kind == _Geom.mjGEOM_ELLIPSOID:
-        return [sphere(place, (2 * a, 2 * b, 2 * c), colour)]
+    if kind in (_Geom.mjGEOM_SPHERE, _Geom.mjGEOM_ELLIPSOID):
+        return [sphere(place, ball if kind == _Geom.mjGEOM_SPHERE else (2 * a, 2 * b, 2 * c), colour)]
     if kind in (_Geom.mjGEOM_CYLINDER, _Geom.mjGEOM_CAPSULE):
-        parts = [cylinder(place, (2 * a, 2 * a, 2 * b), colour)]
-        if kind == _Geom.mjGEOM_CAPSULE:
-            for end in (b, -b):
-                top = tuple((np.array(position) + end * _axis(model, geom)).tolist())
-                parts.append(sphere(pose(top, rotation), (2 * a, 2 * a, 2 * a), colour))
-        return parts
+        ends = (b, -b) if kind == _Geom.mjGEOM_CAPSULE else ()
+        tops = [tuple((np.array(position) + end * _axis(model, geom)).tolist()) for end in ends]
+        caps = [sphere(pose(top, rotation), ball, colour) for top in tops]
+        return [cylinder(place, (2 * a, 2 * a, 2 * b), colour), *caps]
     if kind == _Geom.mjGEOM_MESH:
         return [_mesh(model, geom, colour)]
     return []

@@ -36,7 +36,10 @@ class SoleInset:
         self._left = {side: (width * i + self._margin, float(high[1])) for i, side in enumerate(SIDES)}
         self._chart = 2 * width  # x of the chart of forces
         self._width = self._chart + int(1.6 * height)
-        self._cells = {side: self._rings(side) for side in SIDES}
+        self._cells = {
+            side: [self._pixels(side, layout.vertices[list(ring), :2]) for ring in layout.corners]
+            for side, layout in layouts.items()
+        }
         self._colours = scale_colours(255)
         self._past: deque[tuple[float, tuple[float, ...]]] = deque()
 
@@ -45,10 +48,6 @@ class SoleInset:
         x = left + self._scale * (inner - points[:, 1])
         y = self._margin + self._scale * (self._toe - points[:, 0])
         return np.column_stack([x, y]).round().astype(np.int32)
-
-    def _rings(self, side: Side) -> list[NDArray[np.int32]]:
-        layout = self._layouts[side]
-        return [self._pixels(side, layout.vertices[list(ring), :2]) for ring in layout.corners]
 
     def draw(self, picture: NDArray[np.uint8], readings: Mapping[Side, Reading], time: float) -> None:
         """Draw `readings` at `time` in s into the upper left of an RGB `picture` (height, width, 3), in place."""
