@@ -83,14 +83,10 @@ class FramePoses:
         """
         template = self._template
         if template is not None and template.matches(message):
-            self.latest.take(time, lambda: self._quick(message))
+            self.latest.take(time, lambda: template.values_of([message]).reshape(-1, 7))
             return
         now = np.array(self.latest.held() if self.latest.count else self._start)
         for name, _, pose in transforms(message):
             if name in self._rows:
                 now[self._rows[name]] = pose
         self.latest.take(time, lambda: now)
-
-    def _quick(self, message: bytes) -> NDArray[np.float64]:
-        assert self._template is not None
-        return self._template.values_of([message]).reshape(-1, 7)

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from plantar.errors import FormatError
 from plantar.gravity import GRAVITY
 from plantar.layouts.layout import SoleLayout
+from plantar.mechanics.rotation import vector_from_rotation
 from plantar.recordings.foxglove import LEVELS, message_of
 from plantar.recordings.mcap_content import McapContent, Sink, message_values
 from plantar.recordings.recording import take_mcap
@@ -293,7 +294,7 @@ class _Shown:
     def _keep_sole(self, side: Side, rows: slice, values: NDArray[np.float64]) -> None:
         pose = self._poses[f"sole_{side}"]
         pose[rows, :3] = values[:3]
-        pose[rows, 3:] = _quaternions(values[3:].reshape(1, 3, 3))
+        pose[rows, 3:] = _quaternion(values[3:].reshape(3, 3))
 
     def _keep_body(self, rows: slice, values: NDArray[np.float64]) -> None:
         pose = self._poses.setdefault("center_of_mass", np.zeros((len(self._time), 7)))
@@ -328,21 +329,7 @@ def _sole_poses(count: int, layouts: Mapping[Side, SoleLayout]) -> dict[str, NDA
     return poses
 
 
-def _quaternions(turns: NDArray[np.float64]) -> NDArray[np.float64]:
-    # Of w, x, y and z the one that is largest is found first, and the others by it (Shepperd, 1978).
-    xx, yy, zz = turns[:, 0, 0], turns[:, 1, 1], turns[:, 2, 2]
-    skew = np.column_stack(
-        [turns[:, 2, 1] - turns[:, 1, 2], turns[:, 0, 2] - turns[:, 2, 0], turns[:, 1, 0] - turns[:, 0, 1]]
-    )
-    xy, xz, yz = turns[:, 0, 1] + turns[:, 1, 0], turns[:, 0, 2] + turns[:, 2, 0], turns[:, 1, 2] + turns[:, 2, 1]
-    rows = np.stack(
-        [
-            np.column_stack([1 + xx - yy - zz, xy, xz, skew[:, 0]]),
-            np.column_stack([xy, 1 - xx + yy - zz, yz, skew[:, 1]]),
-            np.column_stack([xz, yz, 1 - xx - yy + zz, skew[:, 2]]),
-            np.column_stack([skew, 1 + xx + yy + zz]),
-        ],
-        axis=1,
-    )
-    best = rows[np.arange(len(rows)), np.argmax(np.einsum("nii->ni", rows), axis=1)]
-    return np.asarray(best / np.linalg.norm(best, axis=1, keepdims=True))
+def _quaternion(turn: NDArray[np.float64]) -> NDArray[np.float64]:
+    vector = vector_from_rotation(turn)
+    half = 0.5 * float(np.linalg.norm(vector))
+    return np.array([*(0.5 * np.sinc(half / np.pi) * vector), np.cos(half)])

@@ -78,7 +78,7 @@ def test_what_has_no_soles_is_refused_in_a_line(tmp_path):
 
 
 def test_every_rotation_has_its_quaternion():
-    from plantar.viewer.walk import _quaternions
+    from plantar.viewer.walk import _quaternion
 
     rng = np.random.default_rng(5)
     wanted = rng.normal(size=(300, 4))
@@ -93,7 +93,8 @@ def test_every_rotation_has_its_quaternion():
         ],
         axis=1,
     )
-    assert np.abs(np.einsum("ni,ni->n", _quaternions(turns), wanted)) == pytest.approx(1.0, abs=1e-12)
+    found = np.array([_quaternion(turn) for turn in turns])
+    assert np.abs(np.einsum("ni,ni->n", found, wanted)) == pytest.approx(1.0, abs=1e-12)
 
 
 def other_library(message: bytes) -> bytes:
