@@ -18,6 +18,7 @@ class MujocoDynamics:
     MuJoCo's stages run when results are read. A free base's angular velocity and its Jacobians are in its own frame.
 
     Attributes:
+        velocity: Generalized (n,).
         joints: Indices (k,) of coordinates with an actuator, ascending; without actuators, of all hinges and slides.
         jacobians: Number of computed link Jacobians.
 
@@ -41,7 +42,7 @@ class MujocoDynamics:
         self._bodies = {model.body(i).name: i for i in range(1, model.nbody)}
         self._places_of_links = self.data.xpos  # views: MuJoCo's attributes make one at each access
         self._turns_of_links = self.data.xmat.reshape(-1, 3, 3)
-        self._velocity: NDArray[np.float64] = self.data.qvel
+        self.velocity: NDArray[np.float64] = self.data.qvel
         self._forget()
         mujoco.mj_kinematics(model, self.data)
 
@@ -69,11 +70,6 @@ class MujocoDynamics:
             self._place()
             mujoco.mj_comVel(self.model, self.data)
             self._moving = True
-
-    @property
-    def velocity(self) -> NDArray[np.float64]:
-        """Generalized velocity (n,)."""
-        return self._velocity
 
     @property
     def joint_positions(self) -> NDArray[np.float64]:
@@ -104,18 +100,14 @@ class MujocoDynamics:
         body = self._body(link)
         return self._places_of_links[body].copy(), self._turns_of_links[body].copy()
 
+    def place(self, link: str, point: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Returns the place (3,) in m of a `point` (3,) in the frame of `link`."""
+        origin, rotation = self.pose(link)
+        return origin + rotation @ point
+
     def jacobian(self, link: str, point: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """Jacobian of a point fixed to a link.
-
-        Args:
-            link: Name of link.
-            point: (3,) in the link's frame in m; None for its origin, computed once an update.
-
-        Returns:
-            Rows (6, n) of linear, then angular velocity in the world; read-only.
-
-        Raises:
-            InputError: If the link is unknown.
+        """Returns the Jacobian (6, n) of a `point` (3,) in the frame of `link` in m, linear rows first, world frame;
+        read-only, without a point the origin's, computed once an update. InputError if the link is unknown.
         """
         body = self._body(link)
         if point is None and body in self._made:
@@ -134,7 +126,7 @@ class MujocoDynamics:
         self._move()
         rate = np.zeros((6, self.model.nv))
         mujoco.mj_jacDot(self.model, self.data, rate[:3], rate[3:], self._world(body, point), body)
-        return np.asarray(rate.dot(self._velocity))
+        return np.asarray(rate.dot(self.velocity))
 
     def com(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """Centre of mass: (3,) in m, Jacobian (3, n), drift (3,) in m/s^2."""

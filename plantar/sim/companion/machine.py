@@ -184,7 +184,10 @@ def load_machine(name: str | os.PathLike[str]) -> Machine:
         joints=_joints(source, spec, where),
         patches=_patches(source, spec, where),
     )
-    _compiled(machine, where)
+    try:
+        machine.spec().compile()
+    except ValueError as error:
+        raise RobotError(f"{where}: the model cannot be simulated: {' '.join(str(error).split())}") from None
     return machine
 
 
@@ -209,13 +212,6 @@ def _parsed(file: Path, where: str) -> Any:
         raise RobotError(f"{where}: model file {file} cannot be read: {' '.join(str(error).split())}") from None
     spec.compiler.fusestatic = False
     return spec
-
-
-def _compiled(machine: Machine, where: str) -> None:
-    try:
-        machine.spec().compile()
-    except ValueError as error:
-        raise RobotError(f"{where}: the model cannot be simulated: {' '.join(str(error).split())}") from None
 
 
 def _checked_base(base: BaseTable, spec: Any, where: str) -> BaseTable:

@@ -62,7 +62,7 @@ class Lean(StandingExperiment):
         self.height = s.table_height + self.rng.uniform(-1.0, 1.0) * s.height_error
         self.edge = s.table_edge + self.rng.uniform(-0.02, 0.02)
         self._controller: LeanController | None = None
-        self._carried = (0.0, 0.0)
+        self._carried = [0.0, 0.0]
         self._trace: list[tuple[float, ...]] = []
 
     def _first_posture(self) -> NDArray[np.float64]:
@@ -119,7 +119,9 @@ class Lean(StandingExperiment):
 
     def act(self, world: World, time: float) -> None:
         if self._steps % _LOOK_EVERY == 0:  # forces of contacts belong to the contacts that there are until the step
-            self._carried = self._loads(world)
+            grounds = [{world.model.geom(name).id} for name in ("left_ground", "right_ground")]
+            found = feet_contacts(world.model, world.data, grounds)
+            self._carried = [-float(contacts.forces[:, 2].sum()) for contacts in found]
 
     def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
         self._steps += 1
@@ -132,16 +134,9 @@ class Lean(StandingExperiment):
         ]
         beyond = -signed_margin(convex_hull(corners), com[:2])
         hand = world.pose("left_hand")
-        reached = float(np.linalg.norm(hand[0] + hand[1] @ HAND - self._target()))
+        target = self._middle() + self.settings.hand_target
+        reached = float(np.linalg.norm(hand[0] + hand[1] @ HAND - target))
         self._trace.append((time, beyond, *self._carried, sensor.patch_force(PATCH), reached, *com))
-
-    def _target(self) -> NDArray[np.float64]:
-        return np.asarray(self._middle() + self.settings.hand_target)
-
-    def _loads(self, world: World) -> tuple[float, float]:
-        grounds = [{world.model.geom(name).id} for name in ("left_ground", "right_ground")]
-        left, right = (-float(found.forces[:, 2].sum()) for found in feet_contacts(world.model, world.data, grounds))
-        return left, right
 
     def verdict(self) -> Verdict:
         trace = np.array(self._trace)

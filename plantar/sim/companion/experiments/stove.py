@@ -79,9 +79,8 @@ class Stove(StandingExperiment):
         skin = self.skin
         self._taxels = np.concatenate([np.arange(len(skin))[skin.slices[name]] for name in _PATCHES])
         self._points, self._normals = skin.positions[self._taxels], skin.normals[self._taxels]
-        origin, rotation = self.robot.pose(_LINK)
         self._palm = skin.positions[skin.slices["right_hand_palm"]].mean(0)
-        place = origin + rotation @ self._palm
+        place = self.robot.place(_LINK, self._palm)
         self.height = settings.height * self.rng.uniform(0.8, 1.2)
         self._radius, self._phase = self.rng.uniform(0.0, 0.04), self.rng.uniform(0.0, 2.0 * math.pi)
         away = np.array([0.10, -0.16, 0.0]) * self.rng.uniform(0.8, 1.0)

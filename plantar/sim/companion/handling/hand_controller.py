@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import choice, number, switch
-from plantar.sim.companion.experiment import CompanionControl
+from plantar.sim.companion.experiment import CompanionControl, Controller
 from plantar.sim.companion.machine import Machine
 from plantar.wholebody.behaviours.contact_phases import ContactPhases
 from plantar.wholebody.dynamics import RobotDynamics
@@ -76,7 +76,7 @@ class HandControl(CompanionControl):
     priority: str = choice("strict", "sum")
 
 
-class HandController:
+class HandController(Controller):
     """Controls distance or force of the hand, its orientation, and its guidance or place.
 
     Args:
@@ -141,7 +141,6 @@ class HandController:
         self._keep_clear.obstacles = points
 
     def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
-        """Returns joint torques (k,) in N m or N, by the measured `robot` and skin `reading`."""
         self.force.weight = self.wrist.weight = self.phases.weight(robot.time)
         self.force.target_force = self.wanted_force
         s = self.settings

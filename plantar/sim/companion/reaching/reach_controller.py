@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import choice, number
-from plantar.sim.companion.experiment import CompanionControl
+from plantar.sim.companion.experiment import CompanionControl, Controller
 from plantar.sim.companion.machine import Machine
 from plantar.wholebody.behaviours.intentional_contact import ContactSettings, ContactSigns, IntentionalContact
 from plantar.wholebody.dynamics import RobotDynamics
@@ -63,7 +63,7 @@ class ReachControl(CompanionControl):
     upright: str = choice("no", "last", "first")
 
 
-class ReachController:
+class ReachController(Controller):
     """Tasks, policy and transitions.
 
     Args:
@@ -114,7 +114,6 @@ class ReachController:
         self._stack = TaskStack([], fusion=weighted_sum if s.policy == "fields" else within)
 
     def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
-        """Returns torques or forces (k,), gravity included, by the measured `robot` and skin `reading`."""
         self.signs = self._look(robot, reading)
         if self.settings.policy == "intentional" and self.policy.update(self.signs, robot.time):
             self._blend.begin(robot.time)

@@ -11,7 +11,7 @@ from plantar.mechanics.lip import GRAVITY
 from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
 from plantar.settings.schema import number, switch
 from plantar.sim.companion.dynamics import MujocoDynamics
-from plantar.sim.companion.experiment import CompanionControl
+from plantar.sim.companion.experiment import CompanionControl, Controller
 from plantar.sim.companion.standing.stance import Stance
 from plantar.wholebody.stack import TaskStack
 from plantar.wholebody.tasks.center_of_mass import CenterOfMass
@@ -45,8 +45,8 @@ class StandingControl(CompanionControl):
     posture_damping: float = number(12.0, "N m s/rad", 0.0, 500.0)
 
 
-class StandingController:
-    """Runs a stack on a stance.
+class StandingController(Controller):
+    """Runs a stack on a stance, by the measured robot put on its feet.
 
     Args:
         stance: The standing feet, fixed to first places.
@@ -85,7 +85,6 @@ class StandingController:
         self._weight = GRAVITY * float(stance.model.body_subtreemass[0])
 
     def step(self, robot: Any, reading: SkinReading) -> NDArray[np.float64]:
-        """Returns torques (k,) in N m, by the measured `robot`, put on its feet, and the skin `reading`."""
         began = perf_counter()
         self.stance.locate(robot)
         external = None

@@ -11,6 +11,7 @@ from plantar.mechanics.wrench_cone import Rectangle
 from plantar.mechanics.wrench_distribution import DistributionWeights
 from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import number
+from plantar.sim.companion.experiment import Controller
 from plantar.sim.companion.standing.controller import StandingControl
 from plantar.sim.companion.standing.standing import StandingExperiment
 from plantar.wholebody.dynamics import RobotDynamics
@@ -75,7 +76,7 @@ class Aim:
         return target + self.ahead
 
 
-class LeanController:
+class LeanController(Controller):
     """Settle, lower the forearm onto the table, lean, reach.
 
     Feet and forearm share the load within their friction cones, the forearm as its skin measures it, else at the
@@ -118,7 +119,6 @@ class LeanController:
         self._paths: dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]] = {}
 
     def step(self, robot: Any, reading: SkinReading) -> NDArray[np.float64]:
-        """Returns torques (k,) in N m, by the measured `robot` and skin `reading`."""
         self.stance.locate(robot)
         self._see_ground(reading)
         measured = float(np.nan_to_num(reading.force[self.skin.slices[PATCH]]).sum())
@@ -155,16 +155,15 @@ class LeanController:
             if time < 1.0:
                 return
             self.began["bring"] = time
-            origin, rotation = robot.pose(_ARM)
             over = self._middle + np.array([s.table_edge + 0.08, -0.27, s.table_height + 0.10])
-            self._paths["arm"] = (origin + rotation @ _UNDERSIDE, over)
+            self._paths["arm"] = (robot.place(_ARM, _UNDERSIDE), over)
         if "lean" in self.began:
             share = (time - self.began["lean"] - 0.5) / 3.0
             planned = _along(*self._paths["com"], share)
             self._com.target = self._com_aim.at(planned, robot.com()[0], self.control.period)
-            origin, rotation = robot.pose("left_hand")
             planned = _along(*self._paths["hand"], share)
-            self._hand.target_position = self._hand_aim.at(planned, origin + rotation @ HAND, self.control.period)
+            reached = robot.place("left_hand", HAND)
+            self._hand.target_position = self._hand_aim.at(planned, reached, self.control.period)
             return
         since = time - self.began["bring"]
         low = max(0.0, since - 2.2) * self.control.lowering
@@ -178,8 +177,7 @@ class LeanController:
     def _start_leaning(self, robot: Any) -> None:
         s = self.settings
         self._posture.target = robot.joint_positions.copy()  # nothing turns back now that the forearm's angle is free
-        origin, rotation = robot.pose(_ARM)
-        self._arm.target_position = origin + rotation @ _UNDERSIDE
+        self._arm.target_position = robot.place(_ARM, _UNDERSIDE)
         frame = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # z into the forearm: its own x
         self._all.contacts[_ARM] = Standing(_ARM, _UNDERSIDE, flat=False, rotation=frame, friction=0.02)
         self._planned.shares = SHARES
@@ -188,8 +186,7 @@ class LeanController:
         front = _foremost(self._ground_seen(), aside)
         com = robot.com()[0]
         self._paths["com"] = (com, np.array([front + s.beyond, aside, com[2]]))
-        origin, rotation = robot.pose("left_hand")
-        self._paths["hand"] = (origin + rotation @ HAND, self._middle + self.settings.hand_target)
+        self._paths["hand"] = (robot.place("left_hand", HAND), self._middle + self.settings.hand_target)
 
     def _ground_seen(self) -> NDArray[np.float64]:
         corners = []

@@ -98,13 +98,9 @@ class PressedExperiment(StandingExperiment):
         taxel = outer_taxel(self.robot, patch, "torso", self.rng)
         pad = Pad(name, patch, taxel, _FACES.get(kind, _FACE), 2e5 if kind in _TRUNK else 6e4)
         self.pads.append(pad)
-        self.contacts.append(PlannedContact(pad, begin, hold, force, swell, self._root(name)))
+        root = "torso" if name in UPPER_BODY else self.machine.base.link
+        self.contacts.append(PlannedContact(pad, begin, hold, force, swell, "" if name in _TRUNK else root))
         return self.contacts[-1]
-
-    def _root(self, name: str) -> str:
-        if name in _TRUNK:
-            return ""
-        return "torso" if name in UPPER_BODY else self.machine.base.link
 
     def press_together(self, names: Sequence[str]) -> None:
         """Plan common contacts after single ones, trunk ones from front or back.

@@ -51,8 +51,7 @@ class Stance:
     def place(self, robot: MujocoDynamics) -> None:
         """Fix the soles to the ground below their present places."""
         for link, point in self.feet.items():
-            origin, rotation = robot.pose(link)
-            self.places[link] = (origin + rotation @ point) * [1.0, 1.0, 0.0]
+            self.places[link] = robot.place(link, point) * [1.0, 1.0, 0.0]
 
     def support(self) -> Support:
         """The task that keeps these feet where they are."""
@@ -90,16 +89,14 @@ class Stance:
         """
         qpos, rest = robot.data.qpos.copy(), robot.data.qpos.copy()
         n = self.model.nv
+        level = [(link, point, self.places[link]) for link, point in self.feet.items()]
+        level += [(link, np.zeros(3), place) for link, place in lifted.items()]
         for _ in range(60):
             rows, errors = [], []
-            for link, point in self.feet.items():
+            for link, point, place in level:
                 origin, rotation = robot.pose(link)
                 rows.append(robot.jacobian(link, point))
-                errors += [self.places[link] - origin - rotation @ point, rotation_error(_LEVEL, rotation)]
-            for link, place in lifted.items():
-                origin, rotation = robot.pose(link)
-                rows.append(robot.jacobian(link))
-                errors += [place - origin, rotation_error(_LEVEL, rotation)]
+                errors += [place - origin - rotation @ point, rotation_error(_LEVEL, rotation)]
             rows.append(robot.jacobian(base[0])[3:])
             errors.append(rotation_error(base[1], robot.pose(base[0])[1]))
             position, jacobian, _drift = robot.com()

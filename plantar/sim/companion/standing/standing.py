@@ -85,7 +85,7 @@ class StandingExperiment(Experiment):
             qpos[model.joint(name).qposadr[0]] = math.radians(degrees)
         robot.update(qpos, np.zeros(model.nv), 0.0)
         link, point = next(iter(self.stance.feet.items()))
-        qpos[2] -= (robot.pose(link)[0] + robot.pose(link)[1] @ point)[2]
+        qpos[2] -= robot.place(link, point)[2]
         robot.update(qpos, np.zeros(model.nv), 0.0)
         self.stance.place(robot)
         middle = np.mean(list(self.stance.places.values()), axis=0)
@@ -143,18 +143,19 @@ class StandingExperiment(Experiment):
         ]
         pairs = [(limb, part) for limb in (*hands, *arms) for part in trunk]
         pairs += [(a, b) for a in (hands[0], *arms[:2]) for b in (hands[1], *arms[2:])]
-        legs = [[Sphere(f"{s}_{k}", np.array([0.0, 0.0, z]), 0.05) for k, z in (("thigh", -0.25), ("shank", -0.25))]
-                for s in ("left", "right")]  # fmt: skip
-        pairs += [(a, b) for a in legs[0] for b in legs[1]]
+        left, right = (
+            [Sphere(f"{s}_{k}", np.array([0.0, 0.0, -0.25]), 0.05) for k in ("thigh", "shank")]
+            for s in ("left", "right")
+        )
+        pairs += [(a, b) for a in left for b in right]
         return SelfCollision(pairs, margin=0.03, stiffness=2000.0, damping=60.0)
 
     def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
         self._forces.clear()
         for pad in self.pads:
-            if pad.parked:
-                continue
-            rotation = world.data.body(pad.patch.link).xmat.reshape(3, 3)
-            self._forces[pad.name] = pad.force(sensor.on_obstacles, rotation)
+            if not pad.parked:
+                rotation = world.data.body(pad.patch.link).xmat.reshape(3, 3)
+                self._forces[pad.name] = pad.force(sensor.on_obstacles, rotation)
         self._steps += 1
         if self._steps % _LOOK_EVERY:
             return
