@@ -93,18 +93,16 @@ def closest_point_exact(polygon: Array, point: Array) -> Array:
     """Returns the point (2,) in m of a convex counter-clockwise `polygon` (k, 2) closest to `point` (2,)."""
     ring = [(Fraction(float(x)), Fraction(float(y))) for x, y in polygon]
     px, py = (Fraction(float(v)) for v in point)
-    best: tuple[Fraction, Fraction, Fraction] | None = None
+    found = []
     outside = False
     for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1], strict=True):
         lx, ly = bx - ax, by - ay
         outside |= (px - ax) * ly - (py - ay) * lx > 0
         t = max(Fraction(0), min(Fraction(1), ((px - ax) * lx + (py - ay) * ly) / (lx * lx + ly * ly)))
         qx, qy = ax + t * lx, ay + t * ly
-        distance = (px - qx) ** 2 + (py - qy) ** 2
-        if best is None or distance < best[0]:
-            best = (distance, qx, qy)
-    assert best is not None
-    return np.array([float(best[1]), float(best[2])]) if outside else np.asarray(point, dtype=float)
+        found.append(((px - qx) ** 2 + (py - qy) ** 2, qx, qy))
+    _, x, y = min(found)
+    return np.array([float(x), float(y)]) if outside else np.asarray(point, dtype=float)
 
 
 def inner_offset_area(polygon: Array, distance: float) -> float:
@@ -162,10 +160,8 @@ def least_parallelogram_area(polygon: Array) -> float:
     """Least surrounding parallelogram's area in m^2 of a convex polygon (k, 2)."""
     whole, scale = integers(polygon)
     edges = [(b[0] - a[0], b[1] - a[1]) for a, b in zip(whole, whole[1:] + whole[:1], strict=True)]
-    widths = []
-    for lx, ly in edges:
-        across = [y * lx - x * ly for x, y in whole]
-        widths.append(max(across) - min(across))
+    across = [[y * lx - x * ly for x, y in whole] for lx, ly in edges]
+    widths = [max(places) - min(places) for places in across]
     areas = [
         Fraction(widths[i] * widths[j], abs(turn))
         for i, j in combinations(range(len(edges)), 2)
@@ -180,8 +176,7 @@ def circle_radius(polygon: Array) -> float:
     normal = np.column_stack([-edge[:, 1], edge[:, 0]]) / np.hypot(*edge.T)[:, None]
     level = (normal * (polygon - polygon[0])).sum(axis=1)
     best = 0.0
-    for triple in combinations(range(len(polygon)), 3):
-        rows = list(triple)
+    for rows in map(list, combinations(range(len(polygon)), 3)):
         matrix = np.column_stack([normal[rows], -np.ones(3)])
         if abs(float(np.linalg.det(matrix))) < 1e-9:
             continue

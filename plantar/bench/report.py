@@ -60,7 +60,7 @@ def measure_kernels(folder: Path, progress: Callable[[float, str], None], rounds
             done += 1
             progress(min(1.0, done / total), f"{name}, {found[0].size}")
     return {
-        "results": [r.as_dict() for r in results],
+        "results": [asdict(r) for r in results],
         "targets": [asdict(t) | {"met": t.met} for t in targets(results)],
         "files": write_kernel_report(folder, results),
     }
@@ -167,7 +167,7 @@ def kernel_text(result: Mapping[str, Any]) -> str:
 
 def write_kernel_report(folder: Path, results: Sequence[Result]) -> list[str]:
     """Write kernels.md, kernels.csv and kernels.png of `results` into an existing `folder`; returns names."""
-    write_rows(folder / "kernels.csv", [r.as_dict() for r in results])
+    write_rows(folder / "kernels.csv", [asdict(r) for r in results])
     write_text(folder / "kernels.md", _page(results))
     _draw(folder / "kernels.png", results)
     return ["kernels.md", "kernels.csv", "kernels.png"]
@@ -186,11 +186,12 @@ All routes are in `kernels.csv`.
 
 
 def _page(results: Sequence[Result]) -> str:
-    rows = [(t.what, t.limit, f"{cell(t.figure)} {t.unit}", t.where, t.met) for t in targets(results)]
-    parts = [_HEAD.format(made=made_on(), form="compiled" if compiled else "interpreted"), "## Targets\n"]
-    wanted = [(*cells, "yes" if met else "**no**") for *cells, met in rows]
-    parts.append(markdown_table(("kernel", "wanted", "reached", "at", "met"), wanted) + "\n")
-    return "\n".join(parts)
+    rows = [
+        (t.what, t.limit, f"{cell(t.figure)} {t.unit}", t.where, "yes" if t.met else "**no**") for t in targets(results)
+    ]
+    head = _HEAD.format(made=made_on(), form="compiled" if compiled else "interpreted")
+    table = markdown_table(("kernel", "wanted", "reached", "at", "met"), rows)
+    return f"{head}\n## Targets\n\n{table}\n"
 
 
 _PANELS = (

@@ -6,6 +6,7 @@ import math
 import platform
 import time
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -47,6 +48,11 @@ def markdown_table(head: Sequence[str], lines: Iterable[Sequence[Any]]) -> str:
 def made_on() -> str:
     """When and on what a table is made."""
     return f"{time.strftime('%Y-%m-%d')}, {platform.machine()}, Python {platform.python_version()}"
+
+
+def plain_row(row: Any) -> dict[str, Any]:
+    """Fields of a dataclass by name; None for a number that is not finite."""
+    return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(row).items()}
 
 
 def write_rows(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:

@@ -6,7 +6,7 @@ The truth is MuJoCo's contact wrench of the same step.
 import math
 import time
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import mujoco
@@ -67,10 +67,6 @@ class ContactRow:
     def millisecond_us(self) -> float:
         """Cost in us of a simulated ms: a step and a quarter reading (250 Hz)."""
         return self.step_us + 0.25 * self.read_us
-
-    def as_dict(self) -> dict[str, Any]:
-        """Plain values; None where the sole toppled or did not tip."""
-        return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(self).items()}
 
 
 class Rig:

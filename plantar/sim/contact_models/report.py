@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from plantar.atomic import write_text
-from plantar.bench.tables import Mark, draw_errors, made_on, markdown_table, write_rows
+from plantar.bench.tables import Mark, draw_errors, made_on, markdown_table, plain_row, write_rows
 from plantar.console.progress import part_of
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import read_layout
@@ -46,7 +46,7 @@ def measure_contact(folder: Path, layout: Path | None, progress: Callable[[float
     return {
         "chosen": rows[0].name,
         "holds": holds(rows[0]),
-        "models": [r.as_dict() for r in rows],
+        "models": [plain_row(r) for r in rows],
         "parameters": [asdict(p) for p in parameters],
         "files": write_contact_report(folder, sole, rows, parameters),
     }
@@ -71,7 +71,7 @@ def write_contact_report(
 
     Returns their names; `rows` of models on `layout` have the chosen one first, then rows of `parameters`.
     """
-    write_rows(folder / "contact.csv", [r.as_dict() for r in rows])
+    write_rows(folder / "contact.csv", [plain_row(r) for r in rows])
     write_rows(folder / "contact_parameters.csv", [asdict(r) for r in parameters])
     write_text(folder / "contact_models.md", _page(layout, rows, parameters))
     _draw(folder / "contact_models.png", rows)

@@ -45,11 +45,14 @@ class _SpheresBelow:
             rotation = rotation_of(site.quat)
             points = np.concatenate([support_points(layout.cell_polygon(i), self._count) for i in range(len(layout))])
             for name, (x, y) in zip(self.names(side), points.tolist(), strict=True):
-                sphere = box.parent.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_SPHERE, mass=0.0, group=box.group)
-                sphere.pos = np.asarray(site.pos) + rotation @ (x, y, SPHERE_RADIUS)
-                sphere.size = [SPHERE_RADIUS, 0.0, 0.0]
-                sphere.contype, sphere.conaffinity = box.contype, box.conaffinity
-                sphere.condim, sphere.friction = box.condim, box.friction
+                box.parent.add_geom(
+                    name=name,
+                    type=mujoco.mjtGeom.mjGEOM_SPHERE,
+                    size=[SPHERE_RADIUS, 0.0, 0.0],
+                    pos=np.asarray(site.pos) + rotation @ (x, y, SPHERE_RADIUS),
+                    mass=0.0,
+                    **{k: getattr(box, k) for k in ("group", "contype", "conaffinity", "condim", "friction")},
+                )
             box.contype = box.conaffinity = 0
 
 
@@ -72,7 +75,6 @@ class ChangedRun(Simulation):
             self.world.model.opt.iterations = setting.iterations
 
     def build_world(self, others: Sequence[Visitor]) -> World:
-        """The world with the setting's contacts and `others`."""
         setting = self._setting
         spheres = _SpheresBelow(self.robot, setting.points) if setting.points else None
         world = super().build_world(others if spheres is None else (*others, spheres))
@@ -140,7 +142,6 @@ class TracedRun(ChangedRun):
         self._rows: list[tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]] = []
 
     def step_physics(self) -> None:
-        """One step of the physics; samples are kept."""
         super().step_physics()
         began = time.thread_time()
         self._keep()

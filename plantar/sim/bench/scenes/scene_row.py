@@ -2,9 +2,9 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from statistics import median
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from plantar.sim.bench.scenes.scene_setting import OWN, SETTINGS, setting_named
 
@@ -56,10 +56,6 @@ class SceneRow:
         """Whether it walks, with no error above another row's."""
         pairs = ((self.com_mm, other.com_mm), (self.zmp_mm, other.zmp_mm), (self.force, other.force))
         return self.walked and self.completed == self.seeds and self.together == 1.0 and all(a <= b for a, b in pairs)
-
-    def as_dict(self) -> dict[str, Any]:
-        """The fields by name; None for NaN."""
-        return {k: None if isinstance(v, float) and math.isnan(v) else v for k, v in asdict(self).items()}
 
 
 def scene_rows(runs: Runs) -> list[SceneRow]:
@@ -157,18 +153,14 @@ def _verdict(own: SceneRow, values: Sequence[SceneRow], noise: SceneRow) -> tupl
         size = "no more than noise does" if own.within(noise) else "more than noise does"
         return True, f"as the papers' robots have it; the finest moves the walk by {_errors(own)}: {size}"
     cheaper = [r for r in values if r.ratio <= _WORTH]
-    do = sorted((r for r in cheaper if r.within(noise)), key=lambda r: r.ratio)
-    if do:
-        best = do[0]
+    best = min((r for r in cheaper if r.within(noise)), key=lambda r: r.ratio, default=None)
+    if best is not None:
         saved = f"{100 * (1 - best.ratio):.0f} % less time"
         return False, f"{best.value} would do: {saved}, CoM {best.com_mm:.2f} mm off, within noise"
     if not own.within(noise):
-        finer = sorted((r for r in values if r.within(noise)), key=lambda r: r.ratio)
-        if finer:
-            return (
-                False,
-                f"differs by more than noise ({_errors(own)}); {finer[0].value} does not, at {finer[0].ratio:.2f} x",
-            )
+        finer = min((r for r in values if r.within(noise)), key=lambda r: r.ratio, default=None)
+        if finer is not None:
+            return False, f"differs by more than noise ({_errors(own)}); {finer.value} does not, at {finer.ratio:.2f} x"
         return True, f"differs by more than noise ({_errors(own)}), and so does all else of the knob"
     if not cheaper:
         return True, f"{_errors(own)}, within noise; nothing else saves a twentieth of the time"

@@ -44,7 +44,7 @@ class SceneRuns:
 
     @property
     def rows(self) -> list[dict[str, str]]:
-        """The rows that there are, as text by column."""
+        """Its rows, as text by column."""
         return self._table.rows
 
     def run(

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from plantar.atomic import write_text
-from plantar.bench.tables import Mark, draw_errors, markdown_table, write_rows
+from plantar.bench.tables import Mark, draw_errors, markdown_table, plain_row, write_rows
 from plantar.errors import InputError
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sim.bench.scenes.scene_row import NOISE, KnobVerdict, SceneRow, knob_verdicts, scene_rows
@@ -51,11 +51,11 @@ def write_scenes(folder: Path, runs: Sequence[dict[str, str]]) -> dict[str, Any]
     """Write `runs` (one row of `SceneRuns` or more) into `folder`; returns as `measure_scenes`."""
     rows = scene_rows(runs)
     verdicts = knob_verdicts(rows)
-    write_rows(folder / "scenes.csv", [row.as_dict() for row in rows])
+    write_rows(folder / "scenes.csv", [plain_row(row) for row in rows])
     write_text(folder / "scenes.md", _page(verdicts))
     _draw(folder / "scenes.png", rows)
     return {
-        "rows": [row.as_dict() for row in rows],
+        "rows": [plain_row(row) for row in rows],
         "verdicts": [v._asdict() for v in verdicts],
         "files": ["scenes.md", "scenes.csv", "scenes.png", TABLE],
     }
