@@ -3,10 +3,9 @@
 import hashlib
 import time
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from statistics import median
 from tempfile import TemporaryDirectory
 from typing import Any
 
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 
 from plantar.atomic import write_text
 from plantar.bench.tables import made_on, markdown_table, write_rows
+from plantar.console.progress import Progress
 from plantar.gait.command import Command
 from plantar.percepts.percept import Percept
 from plantar.sim.bench.room_times import ROOMS, RoomTimes
@@ -43,13 +43,11 @@ class WatchedSimulation(Simulation):
         self._motion = hashlib.sha256()
 
     def step_physics(self) -> None:
-        """One physics step, whose controls and positions are kept."""
         self.controls.append(self.world.data.ctrl.copy())
         super().step_physics()
         self._motion.update(self.world.data.qpos.tobytes())
 
     def compute_rest(self, command: Command, everything: bool) -> int:
-        """Returns as the runner's of `command` and `everything`; counts what was computed."""
         left_out = super().compute_rest(command, everything)
         for percept in command.percepts.values():
             self.members.update(percept.__dict__.keys() & set(percept.members()))
@@ -82,7 +80,6 @@ def replay_physics(run: WatchedSimulation) -> tuple[float, str]:
     return used, motion.hexdigest()
 
 
-Progress = Callable[[float, str], None]
 SCENES: tuple[tuple[str, str, tuple[str, ...]], ...] = tuple(
     (scene, robot, settings)
     for scene, settings in (("flat", ("steps=6",)), ("beam", ("steps=4",)), ("uneven", ("steps=6",)))
@@ -139,31 +136,28 @@ def compare_skipping(scene: str, robot: str, settings: Sequence[str] = (), round
     summary = watched.run()
     full.run()
     motions = {watched.motion, full.motion}
-    times: dict[str, list[float]] = {"run": [], "everything": [], "physics": []}
+    times = []
     for _ in range(rounds):
-        times["run"].append(_cpu_time(needed))
         with TemporaryDirectory() as folder:
-            times["everything"].append(_cpu_time(everything, Path(folder) / "run.mcap"))
-        used, motion = replay_physics(watched)
-        times["physics"].append(used)
+            used = _cpu_time(needed), _cpu_time(everything, Path(folder) / "run.mcap")
+        alone, motion = replay_physics(watched)
+        times.append((*used, alone))
         motions.add(motion)
+    run, whole, physics = np.array(times).T
     simulation = Simulation(needed, _SEED)
     with RoomTimes() as rooms:
         simulation.run()
-    physics = median(times["physics"])
-    rest = [run - alone for run, alone in zip(times["run"], times["physics"], strict=True)]
-    whole = [run - alone for run, alone in zip(times["everything"], times["physics"], strict=True)]
     return SkipRow(
         scene=scene,
         robot=robot,
         settings=" ".join(settings),
         seed=_SEED,
         sim_s=round(float(summary["sim_time_s"]), 3),
-        run_s=median(times["run"]),
-        everything_s=median(times["everything"]),
-        physics_s=physics,
-        factor=median(part / alone for part, alone in zip(rest, times["physics"], strict=True)),
-        saved=median(part / needs for part, needs in zip(whole, rest, strict=True)),
+        run_s=float(np.median(run)),
+        everything_s=float(np.median(whole)),
+        physics_s=float(np.median(physics)),
+        factor=float(np.median((run - physics) / physics)),
+        saved=float(np.median((whole - physics) / (run - physics))),
         same_motion=len(motions) == 1,
         motion=watched.motion,
         shares=rooms.shares,

@@ -63,7 +63,7 @@ def measure_footholds(
 
 
 def _named(policy: Path) -> str:
-    """Name of a policy's file, and of what is in it: rows of one that was changed are no longer its own."""
+    """Name of a policy's file and content: rows of a changed one are no longer its own."""
     return f"{policy.stem}-{hashlib.sha256(policy.read_bytes()).hexdigest()[:6]}"
 
 

@@ -64,14 +64,13 @@ class Policy(Protocol):
         """The action of a control tick, from `sensors`."""
 
 
-class OwnController:
+class OwnController(Policy):
     """Plantar's walking controller as a policy."""
 
     def __init__(self, task: WalkTask) -> None:
         self._walker: RobotController = load_controller(task.robot, {"walk": task.walk})
 
     def step(self, sensors: Sensors) -> Action:
-        """One tick of the controller, and inverse kinematics."""
         command = self._walker.step(sensors)
         targets = self._walker.joint_targets(command)
         return Action(targets.angles, targets.torques, command.moved_steps)

@@ -30,19 +30,18 @@ def bench_page(result: Mapping[str, Any], figures: Mapping[str, bytes] | None = 
     `result` has "kernels", "contact", "skip", "scenes" and "papers", each optional; its "made" has date, version,
     machine and whether the run was quick. `figures` are PNG files by part.
     """
-    parts = (
-        ("kernels", "Kernels compared with libraries", _kernels),
-        ("papers", "Walks compared with the papers", _papers),
-        ("contact", "Contact models", _contact),
-        ("scenes", "Scenes: run time against error", _scenes),
-        ("time", "Where the time goes", _time),
+    parts = (  # of the page and of the result, what of it has to be there, name, and content
+        ("kernels", "kernels", "results", "Kernels compared with libraries", _kernels),
+        ("papers", "papers", "experiments", "Walks compared with the papers", _papers),
+        ("contact", "contact", "models", "Contact models", _contact),
+        ("scenes", "scenes", "rows", "Scenes: run time against error", _scenes),
+        ("time", "skip", "scenes", "Where the time goes", _time),
     )
     sections = []
-    for key, name, content in parts:
-        text = content(result.get("skip" if key == "time" else key, {}))
-        if text:
-            drawn = (figures or {}).get(key)
-            sections.append(Section(key, name, text + ("" if drawn is None else figure(drawn, name))))
+    for key, part, needed, name, content in parts:
+        found, drawn = result.get(part, {}), (figures or {}).get(key)
+        if found.get(needed):
+            sections.append(Section(key, name, content(found) + ("" if drawn is None else figure(drawn, name))))
     style = files("plantar.sim.bench.page").joinpath("bench.css").read_text(encoding="utf-8")
     return page("Plantar, measured", _lead(result), sections, style=style)
 
@@ -113,10 +112,7 @@ def _fastest(results: Sequence[Row]) -> list[_Headline]:
 
 
 def _kernels(found: Mapping[str, Any]) -> str:
-    results = found.get("results", ())
-    if not results:
-        return ""
-    fastest = _fastest(results)
+    fastest = _fastest(found["results"])
     longest = max(r.ratio for r in fastest)
     lines = [
         _bars_row(
@@ -168,11 +164,8 @@ _UNITS = {"steps": "", "largest difference": "\u00a0mm"}
 
 
 def _papers(found: Mapping[str, Any]) -> str:
-    rows = found.get("experiments", ())
-    if not rows:
-        return ""
     lines = []
-    for one in rows:
+    for one in found["experiments"]:
         for name, printed in one["printed"].items():
             ours, unit = one["ours"][name], _UNITS.get(name, "\u00a0N")
             most = max(printed, ours or 0.0) or 1.0
@@ -197,8 +190,6 @@ def _papers(found: Mapping[str, Any]) -> str:
 
 
 def _contact(found: Mapping[str, Any]) -> str:
-    if not found.get("models"):
-        return ""
     return (
         "<p>Ways to simulate a sole and what its taxels measure, compared with the simulator's own contact wrench. "
         f"Chosen: <b>{html.escape(found['chosen'])}</b>.</p>"
@@ -206,15 +197,12 @@ def _contact(found: Mapping[str, Any]) -> str:
 
 
 def _scenes(found: Mapping[str, Any]) -> str:
-    rows = found.get("rows", ())
-    if not rows:
-        return ""
     parts = [
         "<p>The same walk, computed more finely or more coarsely, or with another skin. Error: distance of the true "
         "center of mass from that of a fine reference (root mean square, without sensor noise). Errors below the "
         "dashed line are smaller than what sensor noise does to the walk.</p>"
     ]
-    fallen = [f"{r['scene']}, {r['robot']}: {r['setting']}" for r in rows if not r["walked"]]
+    fallen = [f"{r['scene']}, {r['robot']}: {r['setting']}" for r in found["rows"] if not r["walked"]]
     if fallen:
         parts.append(f"<p>Not walked with: {html.escape('; '.join(fallen))}.</p>")
     lines = [
@@ -231,11 +219,8 @@ def _scenes(found: Mapping[str, Any]) -> str:
 
 
 def _time(found: Mapping[str, Any]) -> str:
-    rows = found.get("scenes", ())
-    if not rows:
-        return ""
     lines = []
-    for r in rows:
+    for r in found["scenes"]:
         factor = f"{r['sim_s'] / r['run_s']:.1f} ×"
         most = sorted(((share, room) for room, share in r["shares"].items() if room in ROOMS), reverse=True)[:4]
         largest = ", ".join(f"{html.escape(room)} {100 * share:.0f} %" for share, room in most)

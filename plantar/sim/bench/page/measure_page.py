@@ -3,12 +3,13 @@
 import platform
 import shutil
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from plantar import __version__
 from plantar.atomic import write_text
+from plantar.console.progress import Progress
 from plantar.sim.bench.page.bench_page import bench_page
 from plantar.sim.bench.scenes.scene_runs import TABLE
 from plantar.sim.bench.scenes.scenes_report import measure_scenes
@@ -19,7 +20,7 @@ from plantar.sim.run.scene import load_scene
 _SEED = 1000  # a fresh one: nothing was ever tuned on it
 
 
-def measure_papers(progress: Callable[[float, str], None], quick: bool = False) -> dict[str, Any]:
+def measure_papers(progress: Progress, quick: bool = False) -> dict[str, Any]:
     """Run the experiments with printed figures, without long ones if `quick`; `progress` gets fraction and text.
 
     Returns:
@@ -55,7 +56,6 @@ def measure_papers(progress: Callable[[float, str], None], quick: bool = False) 
 
 
 _FIGURES = {"kernels": "kernels.png", "contact": "contact_models.png", "scenes": "scenes.png"}
-Progress = Callable[[float, str], None]
 
 
 def measure_page(
@@ -79,8 +79,7 @@ def measure_page(
             "quick": quick,
         },
     }
-    drawn = {part: folder / name for part, name in _FIGURES.items() if (folder / name).is_file()}
-    figures = {part: path.read_bytes() for part, path in drawn.items()}
+    figures = {part: (folder / name).read_bytes() for part, name in _FIGURES.items() if (folder / name).is_file()}
     write_text(folder / "bench.html", bench_page({**result, **added}, figures))
     added["made"]["files"] = ["bench.html"]
     return added

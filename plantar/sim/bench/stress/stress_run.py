@@ -147,11 +147,9 @@ def run_scenario(scenario: Scenario, longest: float = LONGEST) -> Outcome:
         except _Faulty as fault:
             kind = str(fault).split(":")[0]
             return Outcome(kind, str(fault), float(run.world.data.time))
-        except PlantarError as error:
-            kind = "unstable" if "unstable" in str(error) else "raised"
-            return Outcome(kind, _described(error), float(run.world.data.time))
         except Exception as error:
-            return Outcome("raised", _described(error), float(run.world.data.time))
+            kind = "unstable" if isinstance(error, PlantarError) and "unstable" in str(error) else "raised"
+            return Outcome(kind, _described(error), float(run.world.data.time))
     time = float(summary["sim_time_s"])
     if run.controller.safe_state is not None:
         return Outcome("stopped", run.controller.safe_state, time)
