@@ -119,11 +119,8 @@ class DrawnRun:
     def _frames_template(self) -> Template:
         names = [frame_name(self._world.model, body) for body in self._bodies]
         names += [*(f"sole_{side}" for side in SIDES), "center_of_mass"]
-        parts = []
-        for i, name in enumerate(names):
-            slots = [slot(7 * i + j) for j in range(7)]
-            parts.append(frame_transform(name, slots[:3], slots[3:]))
-        return Template(*parts)
+        slots = ([slot(7 * i + j) for j in range(7)] for i in range(len(names)))
+        return Template(*(frame_transform(name, s[:3], s[3:]) for name, s in zip(names, slots, strict=True)))
 
     def _frame_values(self) -> NDArray[np.float64]:
         """Flat position and quaternion (x, y, z, w) of bodies, soles and CoM."""

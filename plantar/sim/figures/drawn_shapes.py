@@ -105,8 +105,7 @@ def coarse_mesh(
     coarse, kept = vertices, faces
     while len(kept) > most and cells > 0:
         lattice = np.floor((vertices - vertices.min(axis=0)) / (size / cells)).astype(np.int64).clip(max=cells - 1)
-        _, owner = np.unique(lattice, axis=0, return_inverse=True)
-        owner = owner.ravel()
+        owner = np.unique(lattice, axis=0, return_inverse=True)[1].ravel()
         counts = np.bincount(owner)
         coarse = np.column_stack([np.bincount(owner, weights=column) / counts for column in vertices.T])
         moved = owner[faces]

@@ -50,13 +50,10 @@ class Film(_Filmed):
 
     def add(self, readings: Mapping[Side, Reading]) -> None:
         """Add a frame with the soles' readings or None."""
-        layouts = self._world.robot.layouts
-        if set(readings) != set(layouts):
-            self._writer.add(self._camera.picture(self._world.data))
-            return
         picture = np.array(self._camera.picture(self._world.data))
-        self._draw_forces(picture, readings)
-        self._inset.draw(picture, readings, float(self._world.data.time))
+        if set(readings) == set(self._world.robot.layouts):
+            self._draw_forces(picture, readings)
+            self._inset.draw(picture, readings, float(self._world.data.time))
         self._writer.add(picture)
 
     def _draw_forces(self, picture: NDArray[np.uint8], readings: Mapping[Side, Reading]) -> None:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from plantar.percepts.sole_pose import feet_support_polygon
 from plantar.plotting import COLOURS, new_figure
 from plantar.recordings.recording import Recording
-from plantar.sides import SIDES
+from plantar.sides import SIDES, Side
 
 AXES = ("x forward [m]", "y left [m]")
 """Labels of the world's axes."""
@@ -83,8 +83,8 @@ class _View:
     def of(cls, run: Recording) -> "_View":
         steps = run.values("/foothold", "step")[:, 0].astype(int)
         last = [int(np.flatnonzero(steps == k)[-1]) for k in sorted(set(steps.tolist()))]
-        polygons = run.values("/foothold", "polygon")
-        rings = {int(steps[i]): _ring(polygons[i]) for i in last}
+        polygons = run.values("/foothold", "polygon").reshape(len(steps), -1, 2)
+        rings = {int(steps[i]): polygons[i][np.isfinite(polygons[i]).all(axis=1)] for i in last}
         points = np.vstack([run.values("/reference", "com")[:, :2], *rings.values()])
         return cls(last, rings, WalkPlane.around(points, _PAD))
 
@@ -138,9 +138,11 @@ def _draw_time(axis: Any, run: Recording, view: _View) -> None:
     axis.legend(fontsize=7, ncol=3, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
 
 
-def _ring(row: NDArray[np.float64]) -> NDArray[np.float64]:
-    points = np.asarray(row).reshape(-1, 2)
-    return points[np.isfinite(points).all(axis=1)]
+def sole_outline(run: Recording, side: Side, i: int) -> NDArray[np.float64]:
+    """Returns the true outline (k, 2) in m of a sole in a `run`, at message `i` of "/truth/<side>"."""
+    truth = run.topics[f"/truth/{side}"].fields
+    turn = truth["rotation"][i].reshape(3, 3)[:2, :2]
+    return np.asarray(run.layouts[side].outline @ turn.T + truth["position"][i, :2])
 
 
 _FROM = 1.0  # s: before, filters and estimator settle
@@ -153,15 +155,14 @@ def draw_zmps(run: Recording) -> Any:
     time = topic.time[counts]
     skin, ankles = topic.fields["skin"][counts], topic.fields["force_torque"][counts]
     figure, axes = new_figure(11.0, 8.0, 4, 1, grid=True, sharex=True)
-    for i, name in enumerate(("x", "y")):
-        value, difference = axes[2 * i], axes[2 * i + 1]
+    for i, (value, difference) in enumerate(axes.reshape(2, 2)):
         value.plot(time, ankles[:, i], color=COLOURS["left"], lw=1.2, label="ankle force-torque sensors")
         value.plot(time, skin[:, i], color=COLOURS["right"], lw=0.9, label="skin")
-        value.set_ylabel(f"ZMP {name} [m]")
+        value.set_ylabel(f"ZMP {'xy'[i]} [m]")
         error = 1e3 * (ankles[:, i] - skin[:, i])
         rms = float(np.sqrt(np.nanmean(error**2)))
         difference.plot(time, error, color=COLOURS["truth"], lw=0.7, label=f"ankles - skin, RMS {rms:.2f} mm")
-        difference.set_ylabel(f"difference {name}\n[mm]")
+        difference.set_ylabel(f"difference {'xy'[i]}\n[mm]")
     for axis in axes:
         axis.legend(fontsize=8, loc="upper right", ncol=2)
     axes[-1].set_xlabel("time [s]")
@@ -173,18 +174,13 @@ def draw_zmp_plane(run: Recording) -> Any:
     topic = run.topics["/zmp"]
     counts = topic.time >= _FROM
     figure, axis = new_figure(6.0, 6.0, grid=True)
-    soles = []
-    for side in SIDES:
-        truth = run.topics[f"/truth/{side}"].fields
-        rotation, place = truth["rotation"][0].reshape(3, 3), truth["position"][0]
-        sole = run.layouts[side].outline @ rotation[:2, :2].T + place[:2]
-        soles.append(sole)
+    soles = [sole_outline(run, side, 0) for side in SIDES]
+    for side, sole in zip(SIDES, soles, strict=True):
         axis.fill(*sole.T, color=COLOURS[side], alpha=0.15, label=f"{side} sole")
     support = feet_support_polygon(soles)
     axis.plot(*np.vstack([support, support[:1]]).T, color=COLOURS["polygon"], lw=1.0, label="support polygon")
-    for name, colour, width in (("force_torque", COLOURS["left"], 1.2), ("skin", COLOURS["right"], 0.8)):
-        label = "ZMP, ankles" if name == "force_torque" else "ZMP, skin"
-        axis.plot(*topic.fields[name][counts].T, color=colour, lw=width, label=label)
+    for name, colour, width, label in (("force_torque", "left", 1.2, "ankles"), ("skin", "right", 0.8, "skin")):
+        axis.plot(*topic.fields[name][counts].T, color=COLOURS[colour], lw=width, label=f"ZMP, {label}")
     axis.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
     axis.legend(fontsize=8)
     return figure

@@ -11,6 +11,7 @@ from plantar.plotting import COLOURS, new_figure
 from plantar.recordings.pressure_recording import true_runs
 from plantar.recordings.recording import Recording
 from plantar.sides import SIDES
+from plantar.sim.figures.foothold_figure import sole_outline
 
 _PUSHED = 0.01  # of the largest force: less is no push
 _AXES = ("x (forward)", "y (left)")
@@ -115,14 +116,12 @@ def _name(axes: Any, names: Sequence[str], columns: int = 6) -> None:
 
 def _draw_footholds(axis: Any, run: Recording, side: Any, begin: float, end: float) -> None:
     topic = run.topics[f"/truth/{side}"]
-    outline = np.vstack([run.layouts[side].outline, run.layouts[side].outline[:1]])
     force = topic.fields["normal_force"][:, 0]
     for first, last in true_runs(force > 0.4 * force.max()):
         i = (first + last) // 2
         if begin <= topic.time[i] <= end:
-            turn = topic.fields["rotation"][i].reshape(3, 3)[:2, :2]
-            ring = outline @ turn.T + topic.fields["position"][i, :2]
-            axis.plot(ring[:, 1], ring[:, 0], color=COLOURS[side], lw=0.9)
+            x, y = sole_outline(run, side, i).T
+            axis.plot([*y, y[0]], [*x, x[0]], color=COLOURS[side], lw=0.9)
 
 
 def _draw_force(axis: Any, run: Recording, i: int) -> None:

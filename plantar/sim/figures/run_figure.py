@@ -10,8 +10,15 @@ from numpy.typing import NDArray
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.recordings.pressure_recording import true_runs
 from plantar.recordings.recording import Recording, read_mcap
-from plantar.sides import SIDES
-from plantar.sim.figures.foothold_figure import AXES, WalkPlane, draw_footholds, draw_zmp_plane, draw_zmps
+from plantar.sides import SIDES, Side
+from plantar.sim.figures.foothold_figure import (
+    AXES,
+    WalkPlane,
+    draw_footholds,
+    draw_zmp_plane,
+    draw_zmps,
+    sole_outline,
+)
 from plantar.sim.figures.push_figure import draw_guide, draw_partner, draw_pushes, draw_strides, draw_swing
 
 _PAD = 0.03  # m: what is shown around the walk
@@ -57,32 +64,28 @@ def _balance(run: Recording) -> Any:
 
 
 def _plane(run: Recording) -> Any:
-    rings = [(side, ring) for side in SIDES for ring in _footholds(run, side)]
+    rings = {side: _footholds(run, side) for side in SIDES}
     lines = (
         ("/truth/body", "zmp", "truth", 0.7, "ZMP true"),
         ("/estimate", "dcm", "active", 1.0, "DCM estimated"),
         ("/truth/body", "com", "polygon", 1.4, "CoM true"),
     )
     paths = [run.values(topic, name)[:, :2] for topic, name, *_ in lines]
-    plane = WalkPlane.around(np.vstack([*(ring for _, ring in rings), *paths]), _PAD)
+    plane = WalkPlane.around(np.vstack([*rings["left"], *rings["right"], *paths]), _PAD)
     figure, axis = new_figure(11.0, float(np.clip(1.2 + 9.5 * plane.slenderness, 2.2, 9.0)), grid=True)
-    labelled = set()
-    for side, ring in rings:
-        label = None if side in labelled else f"{side} foothold"
-        labelled.add(side)
-        axis.plot(*np.vstack([ring, ring[:1]])[:, plane.turn].T, color=COLOURS[side], lw=0.8, label=label)
+    for side, own in rings.items():
+        for n, ring in enumerate(own):
+            label = f"{side} foothold" if n == 0 else None
+            axis.plot(*np.vstack([ring, ring[:1]])[:, plane.turn].T, color=COLOURS[side], lw=0.8, label=label)
     for path, (_, _, colour, width, label) in zip(paths, lines, strict=True):
         axis.plot(*path[:, plane.turn].T, color=COLOURS[colour], lw=width, label=label)
     plane.frame(axis)
     return figure
 
 
-def _footholds(run: Recording, side: str) -> list[NDArray[np.float64]]:
-    position = run.values(f"/truth/{side}", "position")
-    rotation = run.values(f"/truth/{side}", "rotation").reshape(-1, 3, 3)
+def _footholds(run: Recording, side: Side) -> list[NDArray[np.float64]]:
     force = run.values(f"/truth/{side}", "normal_force")[:, 0]
-    outline = run.layouts[side].outline
-    return [outline @ rotation[i, :2, :2].T + position[i, :2] for i, _ in true_runs(force > 0.4 * force.max())]
+    return [sole_outline(run, side, i) for i, _ in true_runs(force > 0.4 * force.max())]
 
 
 def _feet(run: Recording) -> Any:
