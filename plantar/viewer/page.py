@@ -33,18 +33,10 @@ _EXPORT = re.compile(r"export\s*\{([^}]*)\};?\s*$")
 def write_page(
     recordings: str | os.PathLike[str] | Sequence[str | os.PathLike[str]], path: str | os.PathLike[str] = "view.html"
 ) -> dict[str, Any]:
-    """Write a browser page of one recording, or two side by side.
+    """Write a browser page of one of the `recordings` (MCAP files), or two side by side, at `path` (HTML).
 
-    Args:
-        recordings: MCAP file, or up to two.
-        path: HTML file.
-
-    Returns:
-        File, size in bytes, each walk's name, duration in s and number of log lines, and warnings.
-
-    Raises:
-        InputError: For too many, or unwritable.
-        FormatError: If unreadable or without soles.
+    Returns file, size in bytes, each walk's name, duration in s and number of log lines, and warnings. An InputError
+    for too many or an unwritable file, a FormatError for one that is unreadable or without soles.
     """
     recordings = [recordings] if isinstance(recordings, str | os.PathLike) else items(recordings, "recordings")
     if not 1 <= len(recordings) <= _MOST:

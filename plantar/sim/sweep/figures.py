@@ -29,12 +29,12 @@ def figures_of(plan: Plan, found: Mapping[str, Any], rows: Rows) -> dict[str, An
     scene = plan.checked.scene
     if isinstance(plan, LimitSearch):
         return {"limit": _limits(plan, found["limits"], rows)}
-    figures = {"completed": bars_of(found["points"], scene)}
-    if (drawn := _map(plan, rows)) is not None:
-        figures["map"] = drawn
-    if (drawn := _distributions(found["points"], rows, scene)) is not None:
-        figures["distributions"] = drawn
-    return figures
+    drawn = {
+        "completed": bars_of(found["points"], scene),
+        "map": _map(plan, rows),
+        "distributions": _distributions(found["points"], rows, scene),
+    }
+    return {name: figure for name, figure in drawn.items() if figure is not None}
 
 
 def bars_of(points: Sequence[Mapping[str, Any]], scene: str) -> Any:

@@ -73,13 +73,10 @@ class LimitSearch(Plan):
                 yield None
 
     def found(self, rows: Rows) -> dict[str, Any]:
-        """The result of the rows.
-
-        Returns:
-            "limits": for each grid point its settings, the searched setting ("setting", "unit", "range"), its "limit",
-            the 95 % "interval" and its "width" as a share of the limit (None outside of the range), whether it is known
-            well enough ("reached"), whether larger values hold ("rising"), one curve's fit ("agreement"), runs,
-            completed, and errors.
+        """ "limits": for each grid point its settings, the searched setting ("setting", "unit", "range"), its "limit",
+        the 95 % "interval" and its "width" as a share of the limit (None outside of the range), whether it is known
+        well enough ("reached"), whether larger values hold ("rising"), one curve's fit ("agreement"), runs, completed,
+        and errors.
         """
         return {"limits": [self._found(point, rows) for point in self.sweep.points()]}
 

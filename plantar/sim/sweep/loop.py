@@ -52,7 +52,7 @@ class StopNote:
             raise SweepStopped(self.number)
 
     def take(self, number: int, frame: Any) -> None:
-        """Handle the signal `number`; the `frame` is not used."""
+        """Handle a signal `number` in any `frame`."""
         if not self.number:
             self.number = number
             if not self._held:

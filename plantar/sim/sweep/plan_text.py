@@ -23,20 +23,11 @@ def plan_from_texts(
     within: float = 0.1,
     random: Sequence[str] = (),
 ) -> Sweep | LimitSearch | RandomSearch:
-    """Make and check a plan from the command line's texts.
+    """Returns the checked plan of `scene`, `grid`, `robot`, `settings` and `first_seed`, as of `Sweep.from_texts`.
 
-    Args:
-        scene: As of `Sweep.from_texts`, like `grid`, `robot`, `settings` and `first_seed`.
-        seeds: Number of seeds; with a limit the most at each grid point. None for 1, or 1000 with a limit.
-        limit: Text "key=from:to" of searched setting.
-        within: Width of the limit's 95 % interval, as a share of limit, that ends the search.
-        random: Texts "key=from:to" of drawn settings.
-
-    Returns:
-        The plan.
-
-    Raises:
-        InputError: If texts are malformed or contradict.
+    `seeds` are the most at each grid point with a limit; None for 1, or 1000 with a limit. `limit` and `random` are
+    texts "key=from:to" of a searched setting and of drawn ones; `within`, a share of the limit, is the width of its
+    95 % interval that ends the search. An InputError if texts are malformed or contradict.
     """
     if limit is not None and random:
         raise InputError("a limit is searched along one setting; leave out --random, or use --grid along with --limit")
