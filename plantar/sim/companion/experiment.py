@@ -18,6 +18,7 @@ from plantar.settings.overrides import owner_of, split_setting, value_of
 from plantar.settings.schema import Settings, choice, number
 from plantar.settings.unknown_keys import nearest, refuse_unknown_keys
 from plantar.sim.body_skin.sensing import SkinSensing, SkinSensor
+from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion.lidar import LidarSettings
 from plantar.sim.companion.machine import Machine
 from plantar.sim.figures.render import View
@@ -66,6 +67,19 @@ class Verdict(NamedTuple):
 
     reasons: list[dict[str, Any]]
     figures: dict[str, Any]
+
+
+AWAY = (0.0, 0.0, 5.0)
+"""Place in m of a moved body that is not used."""
+
+
+def add_moved(
+    spec: Any, name: str, kind: Any, size: Sequence[float], rgba: Sequence[float] = (0.85, 0.6, 0.45, 1.0)
+) -> None:
+    """Add a moved body `name`, far away, to a `spec`: its geom of `kind`, `size`, `rgba` is measured by skin only."""
+    body = spec.worldbody.add_body(name=name, mocap=True, pos=AWAY)
+    shape = body.add_geom(name=name, type=kind, size=size, group=OBSTACLE_GROUP, rgba=rgba)
+    shape.contype = shape.conaffinity = 0
 
 
 def unmet(*criteria: tuple[bool, str, float, float, str]) -> list[dict[str, Any]]:
@@ -243,19 +257,10 @@ def companion_tables(kind: str) -> dict[str, type[Settings]]:
 def companion_scene(
     source: Mapping[str, Any], path: Path, settings: Sequence[str] = (), machine: str | None = None
 ) -> CompanionScene:
-    """Make a scene of a TOML file's content.
+    """Returns the scene of a TOML file's content `source`, whose `experiment` is a name, or a table with it as `kind`.
 
-    Args:
-        source: The content; its `experiment` is a name, or a table with the name as `kind`.
-        path: The file, for messages.
-        settings: `key=value` settings that override the file's.
-        machine: Used instead of the file's.
-
-    Returns:
-        The scene.
-
-    Raises:
-        SceneError: If a field is invalid.
+    `path` names the file in messages; "key=value" `settings` and `machine` replace the file's. A SceneError if a field
+    is invalid.
     """
     where = f"scene '{path.stem}'"
     result: dict[str, Any] = {k: dict(v) if isinstance(v, Mapping) else v for k, v in source.items()}

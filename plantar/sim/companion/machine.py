@@ -72,7 +72,7 @@ class JointTable(Settings):
 
 @dataclass(frozen=True)
 class Machine:
-    """A machine. Joints are in the order of the model's coordinates.
+    """A machine; joints are in the model's order.
 
     Attributes:
         description: One line.

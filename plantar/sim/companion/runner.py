@@ -78,10 +78,9 @@ class Companion(Run):
         metadata = {"scene": self.scene.name, "robot": world.machine.name, "seed": self.seed}
         recorder = files.enter_context(Recorder(path, metadata))
         fields = [(f"link_{i}_{part}", 3) for i in range(len(skin.links)) for part in ("force", "moment")]
-        count = len(world.motors)
         self._channels = (
             recorder.channel("/body_skin", [("force", len(skin))]),
-            recorder.channel("/joints", [("position", len(world.positions)), ("torque", count)]),
+            recorder.channel("/joints", [("position", len(world.positions)), ("torque", len(world.motors))]),
             recorder.channel("/truth/skin", fields),
         )
 

@@ -116,8 +116,7 @@ class Feather(StandingExperiment):
             geom = world.model.geom(visitor.name).id
             apart = float(mujoco.mj_geomDistance(world.model, world.data, hand, geom, _FARTHEST, None))
             nearest = min(nearest, apart)
-            if apart < self._closest[visitor.name]:
-                self._closest[visitor.name] = apart
+            self._closest[visitor.name] = min(self._closest[visitor.name], apart)
             if apart < 1.5 * self.control.range:
                 self._moved[visitor.name] = max(self._moved[visitor.name], moved)
             elif min(self._closest.values()) >= 1.5 * self.control.range:

@@ -150,8 +150,7 @@ class ForceTracking(Experiment):
         return found
 
     def _visits(self) -> list[Visit]:
-        corners = np.array(self.machine.base.footprint, dtype=float)
-        half = np.abs(corners).max(axis=0)
+        half = np.abs(np.array(self.machine.base.footprint, dtype=float)).max(axis=0)
         found = []
         for begin, end in self.settings.person:
             angle = self.rng.choice([-1.0, 1.0]) * math.radians(self.rng.uniform(60.0, 130.0))
@@ -162,11 +161,22 @@ class ForceTracking(Experiment):
         return found
 
     def add_to(self, spec: Any) -> None:
-        floor = spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[5.0, 5.0, 0.1])
-        floor.contype, floor.conaffinity, floor.material = 0, 0, "ground"
+        spec.worldbody.add_geom(
+            name="floor",
+            type=mujoco.mjtGeom.mjGEOM_PLANE,
+            size=[5.0, 5.0, 0.1],
+            material="ground",
+            contype=0,
+            conaffinity=0,
+        )
         board = spec.worldbody.add_body(name="object", pos=[2.0, 0.0, 1.0], mocap=True)
-        shape = board.add_geom(name="object", type=mujoco.mjtGeom.mjGEOM_BOX, size=[_HALF_THICK, 0.75, 0.85])
-        shape.group, shape.rgba = OBSTACLE_GROUP, [0.6, 0.75, 0.65, 0.6]
+        board.add_geom(
+            name="object",
+            type=mujoco.mjtGeom.mjGEOM_BOX,
+            size=[_HALF_THICK, 0.75, 0.85],
+            group=OBSTACLE_GROUP,
+            rgba=[0.6, 0.75, 0.65, 0.6],
+        )
         self._fist.add_to(spec)
         self._visitor.add_to(spec)
 

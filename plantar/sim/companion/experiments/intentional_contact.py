@@ -118,8 +118,7 @@ class IntentionalContactExperiment(Experiment):
         spec.worldbody.add_light(pos=[0.5, 0.3, 4.0])
         for post in self.layout.posts:
             post.add_to(spec, self._height, self.settings.half_height)
-        mark = spec.worldbody.add_site(name="goal", pos=self._goal, size=[0.02, 0.02, 0.02])
-        mark.rgba = [0.2, 0.7, 0.3, 1.0]
+        spec.worldbody.add_site(name="goal", pos=self._goal, size=[0.02, 0.02, 0.02], rgba=[0.2, 0.7, 0.3, 1.0])
 
     def start(self, world: World) -> None:
         self._posts = {post.name: world.model.geom(post.name).id for post in self.layout.posts}
@@ -130,12 +129,11 @@ class IntentionalContactExperiment(Experiment):
         return self._hand
 
     def act(self, world: World, time: float) -> None:
-        """Note forces of parts without skin on posts in the `world`, and shove one, at `time` in s."""
         self._pressed = dict.fromkeys(self._posts, np.zeros(3))
         posts = list(self._posts.values())
         found = feet_contacts(world.model, world.data, [{geom} for geom in posts]) if world.data.ncon else ()
         for name, contacts in zip(self._posts, found, strict=False):
-            others = ~np.isin(contacts.other_geoms, posts)  # posts lean on each other too
+            others = ~np.isin(contacts.other_geoms, posts)  # of parts without skin; posts lean on each other too
             self._pressed[name] = contacts.forces[others].sum(axis=0)
         if self._shove is not None:
             name, begin, way = self._shove
@@ -158,10 +156,7 @@ class IntentionalContactExperiment(Experiment):
             self._shove = (touched[0], time + self.rng.uniform(*_SHOVED_AFTER), way / np.linalg.norm(way))
         self._highest = max(self._highest, force)
         self._error = float(np.linalg.norm(tip - self._goal))
-        if self._error > self.settings.tolerance:
-            self._since = math.inf
-        elif math.isinf(self._since):
-            self._since = time
+        self._since = math.inf if self._error > self.settings.tolerance else min(self._since, time)
         if time - self._since >= 0.5 and math.isinf(self._reached):
             self._reached = self._since
         if time >= self._due:

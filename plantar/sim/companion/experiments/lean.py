@@ -80,21 +80,20 @@ class Lean(StandingExperiment):
     def add_to(self, spec: Any) -> None:
         # As where robots walk: a sole with a load to the side would creep off its edge by 2 mm a second.
         spec.option.cone, spec.option.impratio = mujoco.mjtCone.mjCONE_ELLIPTIC, 10.0
-        box = mujoco.mjtGeom.mjGEOM_BOX
+        add, box = spec.worldbody.add_geom, mujoco.mjtGeom.mjGEOM_BOX
+        carries = {"contype": 2, "conaffinity": 1, "friction": [0.8, 0.005, 0.0001]}
+        shown = {"contype": 0, "conaffinity": 0}
+        felt = {**shown, "group": OBSTACLE_GROUP}
+        grey = (0.72, 0.74, 0.72)
         for side, (low, high) in self._ground().items():
             middle, half = 0.5 * (low + high), 0.5 * (high - low)
-            ground = spec.worldbody.add_geom(name=f"{side}_ground", type=box, size=[*half, 0.05])
-            ground.pos, ground.rgba = [*middle, -0.05], [0.72, 0.74, 0.72, 1.0]
-            ground.contype, ground.conaffinity, ground.friction = 2, 1, [0.8, 0.005, 0.0001]
-            seen = spec.worldbody.add_geom(name=f"{side}_seen", type=box, size=[*half, 0.01], group=OBSTACLE_GROUP)
-            seen.pos, seen.rgba = [*middle, -0.01 - _SEEN_LOWER], [0.72, 0.74, 0.72, 0.0]
-            seen.contype = seen.conaffinity = 0
-        floor = spec.worldbody.add_geom(name="below", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[5.0, 5.0, 0.1])
-        floor.pos, floor.material, floor.contype, floor.conaffinity = [0.0, 0.0, -0.1], "ground", 0, 0  # for pictures
-        middle = self.stance.places["left_foot"][0]
-        table = spec.worldbody.add_geom(name="table", type=box, size=[0.3, 0.3, 0.02], group=OBSTACLE_GROUP)
-        table.pos, table.rgba = [middle + self.edge + 0.3, -0.42, self.height - 0.02], [0.66, 0.5, 0.36, 1.0]
-        table.contype = table.conaffinity = 0
+            add(name=f"{side}_ground", type=box, size=[*half, 0.05], pos=[*middle, -0.05], rgba=[*grey, 1.0], **carries)
+            below = [*middle, -0.01 - _SEEN_LOWER]
+            add(name=f"{side}_seen", type=box, size=[*half, 0.01], pos=below, rgba=[*grey, 0.0], **felt)
+        plane = mujoco.mjtGeom.mjGEOM_PLANE
+        add(name="below", type=plane, size=[5.0, 5.0, 0.1], pos=[0.0, 0.0, -0.1], material="ground", **shown)
+        place = [self.stance.places["left_foot"][0] + self.edge + 0.3, -0.42, self.height - 0.02]
+        add(name="table", type=box, size=[0.3, 0.3, 0.02], pos=place, rgba=[0.66, 0.5, 0.36, 1.0], **felt)
 
     def _ground(self) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
         found = {}
@@ -141,9 +140,8 @@ class Lean(StandingExperiment):
     def verdict(self) -> Verdict:
         trace = np.array(self._trace)
         held = trace[trace[:, 0] > self.duration - 3.0]
+        held = held if len(held) else trace[-1:]
         reasons = self.balance_reasons()
-        if not len(held):
-            held = trace[-1:]
         beyond, force, error = held[:, 1].min(), held[:, 4].min(), held[:, 5].max()
         goals = unmet(
             (beyond >= _OUTSIDE, "beyond", beyond, _OUTSIDE, f"centre of mass {1e3 * beyond:.0f} mm beyond the feet"),

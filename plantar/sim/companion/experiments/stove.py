@@ -98,8 +98,13 @@ class Stove(StandingExperiment):
     def add_to(self, spec: Any) -> None:
         super().add_to(spec)
         body = spec.worldbody.add_body(name="plate", pos=(self.middle - [0.0, 0.0, 0.01]).tolist())
-        plate = body.add_geom(name="plate", type=mujoco.mjtGeom.mjGEOM_CYLINDER, rgba=[0.5, 0.1, 0.05, 1.0])
-        plate.size, plate.group = [self.settings.radius, 0.01, 0.0], OBSTACLE_GROUP
+        body.add_geom(
+            name="plate",
+            type=mujoco.mjtGeom.mjGEOM_CYLINDER,
+            size=[self.settings.radius, 0.01, 0.0],
+            group=OBSTACLE_GROUP,
+            rgba=[0.5, 0.1, 0.05, 1.0],
+        )
 
     def controller(self, machine: Machine, skin: BodySkin) -> Controller:
         c = self.control

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.mechanics.easing import minimum_jerk
-from plantar.sim.body_skin.surface import OBSTACLE_GROUP
-from plantar.sim.companion.experiment import World
+from plantar.sim.companion.experiment import AWAY, World, add_moved
 
 FIST = 0.03
 """Radius in m of the hand that pushes."""
@@ -69,9 +68,7 @@ class Fist:
 
     def add_to(self, spec: Any) -> None:
         """Put it into a world, far away."""
-        body = spec.worldbody.add_body(name="fist", pos=[0.0, 0.0, 5.0], mocap=True)
-        shape = body.add_geom(name="fist", size=[FIST, 0.0, 0.0], group=OBSTACLE_GROUP, rgba=[0.9, 0.7, 0.55, 1.0])
-        shape.contype = shape.conaffinity = 0  # it pushes skin alone
+        add_moved(spec, "fist", mujoco.mjtGeom.mjGEOM_SPHERE, (FIST, 0.0, 0.0), (0.9, 0.7, 0.55, 1.0))
 
     def act(self, world: World, time: float, measured: float) -> None:
         """Move in the `world` at `time` in s, by its `measured` force in N."""
@@ -79,7 +76,7 @@ class Fist:
         place = world.model.body("fist").mocapid[0]
         if push is None:
             self._depth = -_AWAY
-            world.data.mocap_pos[place] = [0.0, 0.0, 5.0]
+            world.data.mocap_pos[place] = AWAY
             return
         period, wanted = float(world.model.opt.timestep), push.wanted(time)
         if measured == 0.0 and time > 0.5 * (push.start + push.end):

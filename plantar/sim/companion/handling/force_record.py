@@ -27,16 +27,9 @@ class ForceRecord:
         self.rows.append(np.hstack(values).tolist())
 
     def plot(self, path: Path, title: str, windows: Mapping[str, Sequence[tuple[float, float]]], force: bool) -> Path:
-        """Draw force or distance, moments, hand, base and orientation over time.
+        """Draw moments, hand, base, orientation and distance, with `force` for a contact phase, over time at `path`.
 
-        Args:
-            path: File of figure.
-            title: Its title.
-            windows: Begin and end in s of each kind of interaction; shaded.
-            force: Whether there is a contact phase.
-
-        Returns:
-            The path.
+        `windows`, begin and end in s of each kind of interaction, are shaded below the `title`. Returns the path.
         """
         t, wanted, true, distance, *rest = np.array(self.rows).T
         moment, hand, base, tilt = rest[:3], rest[3:6], rest[6:9], rest[9]

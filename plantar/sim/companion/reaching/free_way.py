@@ -44,19 +44,10 @@ class Tip(NamedTuple):
 
 
 def free_way(tip: Tip, goal: NDArray[np.float64], tolerance: float, posts: Sequence[Post], half: float) -> bool:
-    """Whether the ball, without its arm, can bring the tip to its goal and touch nothing.
+    """Returns whether the ball of `tip`, without its arm, can bring the tip within `tolerance` in m of its `goal` (3,)
+    in m and touch none of `posts`, of `half` height in m, their middles at the tip's height.
 
     A cell counts as free if any place in it is: False is a proof for every arm that carries the ball.
-
-    Args:
-        tip: The tip.
-        goal: (3,) in m.
-        tolerance: Distance in m of tip and goal that counts as there.
-        posts: The obstacles, their middles at the tip's height.
-        half: Their half height in m.
-
-    Returns:
-        False where no such way exists.
     """
     free = 2 + tip.lifts
     ends = np.array([tip.place, goal, *([*post.place, tip.place[2]] for post in posts)])

@@ -43,16 +43,24 @@ class Post:
     def add_to(self, spec: Any, height: float, half: float) -> None:
         """Add it to a `mujoco.MjSpec` `spec`, middle at `height`, half height `half`, in m."""
         body = spec.worldbody.add_body(name=self.name, pos=[*self.place, height])
-        size = [self.radius, half, 0.0]
-        shape = body.add_geom(name=self.name, type=mujoco.mjtGeom.mjGEOM_CYLINDER, size=size)
-        shape.group, shape.rgba = OBSTACLE_GROUP, [0.85, 0.35, 0.3, 1.0]
+        shape = body.add_geom(
+            name=self.name,
+            type=mujoco.mjtGeom.mjGEOM_CYLINDER,
+            size=[self.radius, half, 0.0],
+            group=OBSTACLE_GROUP,
+            rgba=[0.85, 0.35, 0.3, 1.0],
+        )
         if self.friction:
             shape.rgba = [0.35, 0.6, 0.85, 1.0]
             shape.mass = self.friction / (0.4 * GRAVITY)  # a coefficient of 0.4 on the table
             for i, axis in enumerate(np.eye(3)[:2]):
-                slide = body.add_joint(name=f"{self.name}_{'xy'[i]}", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
-                slide.frictionloss = self.friction
-                slide.damping = [2.0, 0.0, 0.0]
+                body.add_joint(
+                    name=f"{self.name}_{'xy'[i]}",
+                    type=mujoco.mjtJoint.mjJNT_SLIDE,
+                    axis=axis,
+                    frictionloss=self.friction,
+                    damping=[2.0, 0.0, 0.0],
+                )
 
 
 @dataclass(frozen=True)
@@ -71,20 +79,11 @@ def random_layout(
     reach: tuple[tuple[float, float], tuple[float, float]],
     friction: tuple[float, float],
 ) -> Layout:
-    """A layout whose fixed posts leave the straight way free.
+    """Returns a layout of a `kind` of `KINDS`, drawn by `rng`, whose fixed posts leave the straight way free.
 
     Three posts in a bow are a pocket in which a potential field has its minimum; an outer one is fixed in the third
-    kind.
-
-    Args:
-        rng: Random numbers.
-        kind: One of `KINDS`.
-        tip: First place of tip (2,) in m.
-        reach: Ranges of the goal's distance from tip in m, and direction in rad.
-        friction: Range of force in N that moves a post.
-
-    Returns:
-        The layout.
+    kind. `reach` has ranges of the goal's distance from the `tip` (2,) in m and its direction in rad, `friction` is the
+    range of force in N that moves a post.
     """
     (near, far), (low, high) = reach
     length, angle = rng.uniform(near, far), rng.uniform(low, high)

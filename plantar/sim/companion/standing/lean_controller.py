@@ -220,10 +220,11 @@ class LeanController(Controller):
 
 def _foremost(polygon: NDArray[np.float64], y: float) -> float:
     # Largest x of a convex polygon (m, 2) at some y, or overall.
-    found = []
-    for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
-        if min(a[1], b[1]) <= y <= max(a[1], b[1]) and a[1] != b[1]:
-            found.append(float(a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1])))
+    found = [
+        float(a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]))
+        for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True)
+        if min(a[1], b[1]) <= y <= max(a[1], b[1]) and a[1] != b[1]
+    ]
     return max(found, default=float(polygon[:, 0].max()))
 
 

@@ -9,15 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.sensing.link_skin import SkinPatch
-from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion.dynamics import MujocoDynamics
+from plantar.sim.companion.experiment import AWAY, add_moved
 
 _CLEAR = 0.03  # m off the skin while it does not press
 _APPROACH = 0.15  # m/s
 _SEARCH = 0.06  # m/s with which it comes near
 _SOFTLY = 600.0  # 1/s: a large face comes slower, or it would land with far more than its force
 _SETTLE = 60.0  # 1/s: how fast its force is corrected
-_COLOUR = (0.85, 0.6, 0.45, 1.0)
 
 
 class Pad:
@@ -52,16 +51,7 @@ class Pad:
 
     def add_to(self, spec: Any) -> None:
         """Add it to a world."""
-        body = spec.worldbody.add_body(name=self.name, mocap=True, pos=[0.0, 0.0, 5.0])
-        body.add_geom(
-            name=self.name,
-            type=mujoco.mjtGeom.mjGEOM_CYLINDER,
-            size=[self.face, self._half, 0.0],
-            rgba=_COLOUR,
-            contype=0,
-            conaffinity=0,
-            group=OBSTACLE_GROUP,
-        )
+        add_moved(spec, self.name, mujoco.mjtGeom.mjGEOM_CYLINDER, (self.face, self._half, 0.0))
 
     def act(self, world: Any, force: float, period: float) -> None:
         """Move it in the `world`, each physics step, by its `force` in N and `period` in s."""
@@ -81,7 +71,7 @@ class Pad:
         number = int(world.model.body(self.name).mocapid[0])
         self.parked = self.wanted <= 0.0 and self._gap >= _CLEAR
         if self.parked:  # out of everybody's way
-            world.data.mocap_pos[number] = [0.0, 0.0, 5.0]
+            world.data.mocap_pos[number] = AWAY
             self._last = None
             return
         world.data.mocap_pos[number] = ahead + turned @ self.middle - (self._gap + self._half) * inward

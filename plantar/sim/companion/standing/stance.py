@@ -19,10 +19,15 @@ SOLE_SITE = "{side}_sole"
 
 def add_floor(spec: Any) -> None:
     """Add a ground z = 0 for soles, which skin does not measure."""
-    plane = mujoco.mjtGeom.mjGEOM_PLANE
-    floor = spec.worldbody.add_geom(name="floor", type=plane, size=[5.0, 5.0, 0.1], material="ground")
-    floor.contype, floor.conaffinity = 2, 1
-    floor.friction = [0.8, 0.005, 0.0001]
+    spec.worldbody.add_geom(
+        name="floor",
+        type=mujoco.mjtGeom.mjGEOM_PLANE,
+        size=[5.0, 5.0, 0.1],
+        material="ground",
+        contype=2,
+        conaffinity=1,
+        friction=[0.8, 0.005, 0.0001],
+    )
 
 
 class Stance:
@@ -76,16 +81,9 @@ class Stance:
         base: tuple[str, NDArray[np.float64]],
         lifted: Mapping[str, NDArray[np.float64]],
     ) -> NDArray[np.float64]:
-        """Posture with level feet, a centre of mass, and a turned base.
-
-        Args:
-            robot: The machine in a near posture; it is updated.
-            com: Wanted centre of mass (3,) in m.
-            base: Base link and wanted rotation (3, 3) to the world.
-            lifted: Wanted origin (3,) in m of further links, which stay level.
-
-        Returns:
-            Positions (nq,).
+        """Returns positions (nq,) with level feet, the centre of mass `com` (3,) in m, the `base` link turned to a
+        rotation (3, 3) to the world, and further level links `lifted` with their origin (3,) in m. The `robot`, in a
+        near posture, is updated.
         """
         qpos, rest = robot.data.qpos.copy(), robot.data.qpos.copy()
         n = self.model.nv

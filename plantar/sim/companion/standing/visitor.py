@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.sim.body_skin.surface import OBSTACLE_GROUP
+from plantar.sim.companion.experiment import AWAY, add_moved
 
 
 class Visitor:
@@ -27,10 +27,7 @@ class Visitor:
 
     def add_to(self, spec: Any) -> None:
         """Add it to a world."""
-        body = spec.worldbody.add_body(name=self.name, mocap=True, pos=[0.0, 0.0, 5.0])
-        geom = body.add_geom(name=self.name, type=self._kind, size=list(self._size), rgba=[0.85, 0.6, 0.45, 1.0])
-        geom.contype = geom.conaffinity = 0
-        geom.group = OBSTACLE_GROUP
+        add_moved(spec, self.name, self._kind, self._size)
 
     def plan(
         self,
@@ -41,18 +38,10 @@ class Visitor:
         far: float,
         beyond: float,
     ) -> float:
-        """Plan its visit.
+        """Plan its visit; returns the time in s at which it is back.
 
-        Args:
-            target: Point (3,) in the world in m where its face would arrive.
-            way: Direction (3,) in which it comes.
-            begin: Start in s.
-            speed: In m/s.
-            far: Distance in m from which it comes.
-            beyond: How far in m it goes beyond the point.
-
-        Returns:
-            Time in s at which it is back.
+        It sets out at `begin` in s with `speed` in m/s, `far` in m before the `target` (3,) of its face in the world in
+        m, comes along `way` (3,) and goes `beyond` by so many m.
         """
         self._target, self._way = target, way / np.linalg.norm(way)
         self._speed, self._far, self._beyond = speed, far, beyond
@@ -64,7 +53,7 @@ class Visitor:
         begin, end = self._times
         number = int(world.model.body(self.name).mocapid[0])
         if not begin <= time < end:
-            world.data.mocap_pos[number] = [0.0, 0.0, 5.0]
+            world.data.mocap_pos[number] = AWAY
             return
         path = self._far + self._beyond
         gone = path - abs((time - begin) * self._speed - path)
