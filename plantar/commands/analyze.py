@@ -205,7 +205,6 @@ def _compare(
 
 
 def _end(result: dict[str, Any], parts: dict[str, Any], as_json: bool) -> None:
-    """Print the results of each recording, then the assumptions."""
     from plantar.gait.analysis.pages.report import analysis_text
 
     text = "\n".join(analysis_text(metrics, name) for name, metrics in parts.items())

@@ -145,7 +145,6 @@ def with_option_groups(command: Callable[..., T]) -> Callable[..., T]:
 
 
 def _options_of(group: type[Any]) -> list[inspect.Parameter]:
-    """Parameter for each option field of a dataclass."""
     hints = get_type_hints(group)
     return [
         inspect.Parameter(
