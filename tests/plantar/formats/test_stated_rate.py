@@ -100,3 +100,10 @@ def test_what_is_assumed_is_told(facts, rate, words):
 def test_what_is_no_number_is_refused(name, text):
     with pytest.raises(FormatError, match=rf"'{name}' is no number of frames a second .*--rate overrides"):
         stated_rate({name: text}, [])
+
+
+@pytest.mark.parametrize(("text", "rate"), [("1,000 Hz", 1000.0), ("2.048", 2048.0), ("50.000 Hz", 50.0), ("2.5", 2.5)])
+def test_thousands_are_no_few_frames_a_second(text, rate):
+    warnings: list[str] = []
+    assert stated_rate({"Sample rate": text}, warnings) == rate
+    assert bool(warnings) == (rate >= 1000.0)
