@@ -38,7 +38,9 @@ def analyse_one(
 
     Args:
         given: Any form of `plantar.formats.given.recording_of`.
-        format: This and all others as of `analyse_recording`; progress goes to 0.5.
+        format: As of `analyse_recording`, like `choices` and `subject`.
+        options: What else is known.
+        progress: Called with a share 0..0.5 and the work.
     """
     report, known = progress or (lambda fraction, text: None), options or ReadOptions()
     if subject is not None and known.mass_kg is None:

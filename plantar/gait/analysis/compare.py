@@ -49,7 +49,9 @@ def compare_recordings(
         a: First recording.
         b: Second one.
         out: Output folder.
-        format: This and all others as of `analyse_recording`, for both.
+        format: Of both; `progress`, `choices`, `subject` and `figures` likewise as of `analyse_recording`.
+        layout: Layout file for both.
+        options: What else is known of both.
 
     Returns:
         "a" and "b": metrics of each; "difference": `difference_of` each foot; "warnings"; "files": paths written.
@@ -104,7 +106,7 @@ def sensor_of(recording: PressureRecording) -> tuple[str, float]:
 
 
 def unlike(a: Iterable[tuple[str, float]], b: Iterable[tuple[str, float]], one: str, other: str) -> list[str]:
-    """A doubt where a sensor of `a`, named `one`, differs from one of `b`, named `other`, in kind or cells."""
+    """Returns a doubt where a sensor of `a`, named `one`, differs from one of `b`, named `other`, in kind or cells."""
     for pair in product(a, b):
         areas = [area for _, area in pair]
         if pair[0][0] != pair[1][0] or max(areas) > 1.5 * min(areas):

@@ -153,7 +153,7 @@ def silent_cell_doubts(recording: PressureRecording) -> list[str]:
 
 
 def inverted_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
-    """Warning of sensors without steps whose force, upside down, is that of a walk."""
+    """Returns a warning where `feet` of a `recording` have no steps, but their forces, upside down, are of a walk."""
     rate, forces = recording.rate_hz, [foot.vertical_force for foot in recording.feet.values()]
     without_steps = recording.kind in ("insole", "plate") and not any(gait.steps for gait in feet.values())
     if not without_steps or any(resting_level(f, rate) or not resting_level(-f, rate) for f in forces):

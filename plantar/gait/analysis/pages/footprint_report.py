@@ -39,7 +39,7 @@ def analyse_image(
     Args:
         path: Image.
         folder: Existing folder to write to.
-        mm_per_pixel: This and all others as of `analyse_recording`.
+        mm_per_pixel: As of `analyse_recording`, like `subject` and `figures`.
         side: Of a single footprint; inferred from shape where None.
 
     Returns:

@@ -103,9 +103,9 @@ def _not_given(metrics: Mapping[str, Any]) -> str:
 def comparison_page(
     comparison: Mapping[str, Any], figures: Sequence[tuple[Path, str]], names: tuple[str, str], links: tuple[str, str]
 ) -> str:
-    """Returns HTML page of two recordings side by side, by names, with figures (PNG files, captions).
+    """Returns HTML page of a comparison of two recordings by names, with figures (PNG files, captions).
 
-    Links lead to their own reports, relative to this page.
+    Relative links lead to their own reports.
     """
     parts, unlike = [], warning_list(comparison["warnings"])
     for key, name, link in zip(("a", "b"), names, links, strict=True):

@@ -114,7 +114,8 @@ def run_study(
         folder: With its subfolders.
         out: Output folder, made if needed.
         participants: Table of `read_participants`; nothing is compared without it.
-        progress: This and all others as of `analyse_recording`, for all files; the table overrides.
+        progress: As of `analyse_recording`, like `choices` and `figures`.
+        options: Known of all files; the table overrides.
 
     Returns:
         The study.

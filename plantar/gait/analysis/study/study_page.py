@@ -29,7 +29,7 @@ def study_page(
 ) -> str:
     """Returns HTML of a study by name: `Study.summary`, recordings' results, comparisons of every two conditions.
 
-    Figures are PNG files to embed, with captions.
+    Embedded figures are PNG files, with captions.
     """
     sections = [Section("summary", "Summary", _summary(summary, comparisons))]
     for i, one in enumerate(comparisons, 1):
