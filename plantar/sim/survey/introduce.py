@@ -120,7 +120,7 @@ class Introduced:
                 f"{robot.name}: {body.mass:.3g} kg with shoes, {len(joints)} joints a leg; paced as a leg of "
                 f"{body.leg:.3f} m",
                 *(f"  {s} leg: {' '.join(robot.legs[s].joints)}, foot {robot.legs[s].foot_body}" for s in SIDES),
-                f"  soles: {size}, {taxels} taxels each; turned in their bodies by {turns} degrees",
+                f"  soles: {size}, {taxels} taxels each; tilted by {turns} degrees against their bodies' axes",
                 f"  walks with its CoM at {robot.com_height:.3f} m, feet {robot.stance_width:.3f} m apart, "
                 f"{robot.single_support:g} + {robot.double_support:g} s a step",
                 *(f"  note: {note}" for note in self.notes),

@@ -2,6 +2,7 @@
 
 import math
 import re
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -105,7 +106,10 @@ def read_model(file: Path, folder: Path) -> ModelSource:
     stated.notes += named_note("gravity compensation is left out", [b.name for b in spec.bodies if b.gravcomp])
     imus = _imus_of(spec)
     forget_own_simulation(spec)
-    model = _compiled(spec, file)
+    with warnings.catch_warnings(record=True) as doubts:
+        warnings.simplefilter("always")
+        model = _compiled(spec, file)
+    stated.notes += [str(doubt.message) for doubt in doubts]
     bare = [b.name for b in spec.bodies[1:] if urdf and not b.explicitinertial and model.body(b.name).mass[0] > 1e-3]
     weight = sum(float(model.body(name).mass[0]) for name in bare)
     stated.notes += named_note(f"without an inertial, weighed by their shapes as water: {weight:.3g} kg", bare)
@@ -291,9 +295,8 @@ def _collect_motors(spec: Any, stated: _Stated) -> None:
         known = [t for t in torques.get(joint.name, []) if t != _ANY]
         total = sum(low for low, _ in known), sum(high for _, high in known)
         one_way += [joint.name] if known and not total[0] < 0.0 < total[1] else []
-        alone = rates.get(joint.name, (0.0, math.inf))[1]
-        stated_for_joint = stated.efforts.get(joint.name, math.inf)
-        limit = min(_weaker(total) if known else alone, _weaker(_range(joint, "actfrc")), stated_for_joint)
+        moved = _weaker(total) if known else rates.get(joint.name, (0.0, math.inf))[1]
+        limit = min(moved, _weaker(_range(joint, "actfrc")), stated.efforts.get(joint.name, math.inf))
         if limit < math.inf:
             stated.efforts[joint.name] = limit
     stated.notes += named_note("motors that push one way only are taken to push both ways", one_way)
@@ -315,8 +318,7 @@ def _both(one: _Range, other: _Range) -> _Range:
 
 
 def _weaker(limits: _Range) -> float:
-    both = -limits[0], limits[1]
-    return min(both) if min(both) > 0.0 else max(map(abs, both))
+    return min(-limits[0], limits[1]) if limits[0] < 0.0 < limits[1] else max(map(abs, limits))
 
 
 def _check_limits(spec: Any, file: Path) -> None:

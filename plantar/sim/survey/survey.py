@@ -83,7 +83,7 @@ def survey_model(file: Path, folder: Path) -> Survey:
     pairs = list(zip(names["left"], names["right"], strict=True))
     efforts = tuple(_lesser(source.efforts, pair) for pair in pairs)
     speeds = [_lesser(source.speeds, pair) for pair in pairs]
-    usable = [v is not None and _SPEEDS[0] <= v <= _SPEEDS[1] for v in speeds]
+    usable = [v if v is not None and _SPEEDS[0] <= v <= _SPEEDS[1] else NO_SPEED for v in speeds]
     notes = [*source.notes, *legs.notes, *held_notes, *_coupled_notes(source, names), *_loop_notes(source, legs)]
     toes = {side: ", ".join(legs.by_side[side].toes) for side in SIDES}
     notes += [f"{toes[side]}: below the {side} foot, held (toes)" for side in SIDES if toes[side]]
@@ -92,18 +92,16 @@ def survey_model(file: Path, folder: Path) -> Survey:
         "no torque limit is known, so that none is taken (put the motors' in effort_limits)",
         [name for name, effort in zip(names["left"], efforts, strict=True) if effort is None],
     )
-    odd = [f"{n} {v:g}" for n, v, use in zip(names["left"], speeds, usable, strict=True) if v is not None and not use]
-    low, high = _SPEEDS
-    notes += named_note(f"speed limits in rad/s that are no motor's, {low:g} to {high:g}, are left out", odd)
+    odd = [f"{n} {v:g}" for n, v, use in zip(names["left"], speeds, usable, strict=True) if v not in (None, use)]
+    notes += named_note("speed limits in rad/s that are no motor's, 0.5 to 100, are left out", odd)
     unlike = [a for a, b in pairs if source.gains.get(a) != source.gains.get(b)]
     notes += named_note("the legs' own servos differ; the softer one's gains are taken for both", unlike)
     sprung = [name for name in names["left"] + names["right"] if model.joint(name).stiffness.any()]
     notes += named_note("the joints' springs are left out", sprung)
     _check_masses(model, file)
     gains = [pair for pair in (_lesser(source.gains, pair) for pair in pairs) if pair is not None]
-    limits = tuple(v if use and v is not None else NO_SPEED for v, use in zip(speeds, usable, strict=True))
     return Survey(
-        *(source, legs, soles, held, imu, efforts, limits if any(usable) else ()),
+        *(source, legs, soles, held, imu, efforts, tuple(usable) if min(usable) < NO_SPEED else ()),
         *(tuple(gains) if len(gains) == left else (), tuple(notes)),
     )
 

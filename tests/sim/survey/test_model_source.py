@@ -1,6 +1,7 @@
 """What a model's file holds beside the robot, and joints of a URDF that cannot turn."""
 
 import itertools
+import warnings
 from dataclasses import replace
 
 import mujoco
@@ -254,6 +255,17 @@ def test_what_a_motor_on_a_tendon_and_gravity_compensation_were_is_said(tmp_path
     assert "servos on tendons are replaced by one a joint: a" in found.notes
     assert "gravity compensation is left out: b" in found.notes
     assert found.gains == {}
+
+
+def test_what_mujoco_warns_of_is_a_note(tmp_path):
+    file = tmp_path / "heavy.xml"
+    body = "<body><joint/><geom size='.1'/></body>"
+    file.write_text(f"<mujoco><compiler settotalmass='30'/><worldbody>{body}</worldbody></mujoco>")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = read_model(file, tmp_path)
+    assert mujoco.mj_getTotalmass(found.model) == pytest.approx(30.0)
+    assert any("settotalmass" in note for note in found.notes)
 
 
 @pytest.mark.parametrize("odd", [0.0, 0.2, 500.0])
