@@ -198,13 +198,11 @@ def _refuse_no_foot(plate: Plate) -> None:
 
 
 def on_its_surface(plate: Plate, warnings: list[str]) -> Plate:
-    """Returns a plate with centre of pressure on its surface and free moment about its normal; `warnings` are added to.
-
-    With r in the surface and M = r x F + f n: n x M = r (n . F) and M . F = f (n . F).
-    """
+    """Returns a plate with centre of pressure on its surface and free moment about its normal; adds to `warnings`."""
     vertical = np.where(plate.force[:, 2] > LEAST, plate.force[:, 2], np.nan)
     cop, free = plate.cop, plate.free
     if plate.moment is not None:
+        # With r in the surface and M = r x F + f n: n x M = r (n . F) and M . F = f (n . F).
         n, moment = plate.normal, np.column_stack([plate.moment[:, :2], np.nan_to_num(plate.moment[:, 2])])
         pressing = np.nan_to_num(plate.force[:, :2]) @ n[:2] + n[2] * vertical
         free = (plate.moment * plate.force).sum(axis=1) / pressing

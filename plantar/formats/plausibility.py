@@ -157,7 +157,6 @@ def _clipped_or_held(foot: FootRecording, rate: float, raw: bool) -> list[str]:
 
 
 def _switched_on(side: str, value: NDArray[np.float64]) -> list[str]:
-    """Warning by values (n, k) in Pa."""
     seen = value[:, value.max(axis=0) > 0.0]
     positive = seen[seen > 0.0]
     if not len(positive) or float((seen == 0.0).mean()) < _ZEROS:

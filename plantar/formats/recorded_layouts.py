@@ -97,10 +97,10 @@ def flat_sole(
     cell_shape: str = "polygon",
     threshold: float = 10e3,
 ) -> SoleLayout:
-    """Returns flat layout of a name and side; FormatError if it is not valid.
+    """Returns flat layout of a name, side and outline (k, 2); FormatError if it is not valid.
 
-    Its force cells have ids, places (n, 2), corners among vertices (m, 2), neighbours, areas (n,), a cell_shape and a
-    usual cell_area, and are loaded from a threshold in Pa; in an outline (k, 2). In m.
+    Its force cells have ids, places (n, 2), corners among vertices (m, 2), neighbours, areas (n,), a cell_shape and
+    usual cell_area, in m, and are loaded from a threshold in Pa.
     """
     usual = cell_area or float(np.median(areas))
     try:

@@ -49,9 +49,8 @@ def read_events(path: str | os.PathLike[str]) -> dict[Side, StatedEvents]:
 
 
 def _events(path: str | os.PathLike[str], side: Side, rows: dict[int, tuple[float, float]]) -> StatedEvents:
-    pairs = {
-        repr(pair): (line, pair) for line, pair in rows.items() if np.isfinite(pair).any()
-    }  # a row may be repeated
+    # A row may be repeated; by its text, as NaN equals nothing.
+    pairs = {repr(pair): (line, pair) for line, pair in rows.items() if np.isfinite(pair).any()}
     last = -np.inf
     for line, pair in sorted(pairs.values(), key=lambda row: float(np.nanmin(row[1]))):
         times = [at for at in pair if np.isfinite(at)]

@@ -30,7 +30,6 @@ _HERTZ = {"hz": 1.0, "hertz": 1.0, "khz": 1e3, "fps": 1.0, "sps": 1.0} | {
     for of in ("s", "sec", "second", "min", "minute")
 }
 _STATED = re.compile(r"(\D*?)([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[-+]?\d+)?)((?![\d.:-]).*)", re.DOTALL)
-
 _THOUSANDS = re.compile(r"[1-4][.,]\d{3}")  # Hz: no gait is seen in four frames a second
 
 

@@ -29,6 +29,7 @@ from plantar.sim.figures.render import Camera, View
 from plantar.sim.model.world import build_world
 from plantar.sim.run.servos import LegServos
 from plantar.sim.run.standing import stand
+from plantar.sim.sensing.sensors import imu_to
 
 _FALLEN_UP = math.cos(0.7)  # the torso's z against the world's
 _FALLEN_HEIGHT = 0.7  # of the height of the torso when standing
@@ -118,7 +119,8 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
             low = 0.0 if faults is None else -np.inf
             boxes |= {f"skin_{side}": _box(len(self.robot.layouts[side]), low) for side in SIDES}
         self.observation_space = spaces.Dict(boxes)
-        self._imu = self.model.site(self.robot.imu_site).id
+        turn = imu_to(self.world, self.world.torso)
+        self._imu_to_torso = np.eye(3) if turn is None else turn
         self._camera: Camera | None = None
 
     def _skin(self, side: Side) -> Skin:
@@ -197,9 +199,8 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         data, world = self.data, self.world
         self.readings = {side: self.skins[side](data) for side in SIDES}
         sensed = data.sensordata
-        torso = data.xmat[world.torso].reshape(3, 3)
-        chip = torso.T @ data.site_xmat[self._imu].reshape(3, 3)
-        imu = [*(chip @ sensed[at : at + 3] for at in (world.gyro, world.accelerometer)), -torso[2]]
+        measured = (self._imu_to_torso @ sensed[at : at + 3] for at in (world.gyro, world.accelerometer))
+        imu = [*measured, -data.xmat[world.torso].reshape(3, 3)[2]]
         joints = [data.qpos[world.joint_qpos] - self._start[0][world.joint_qpos], data.qvel[world.joint_qvel]]
         seen = {"joints": np.concatenate(joints), "imu": np.concatenate(imu), "task": self.task.observe()}
         if "skin_left" in self.observation_space.spaces:

@@ -53,7 +53,7 @@ class SensorSuite:
         self._world = world
         self._sensing = sensing
         streams = np.random.SeedSequence([seed, 0x5E]).spawn(7)
-        self._imu_to_base = _imu_to_base(world)
+        self._imu_to_base = imu_to(world, int(world.model.body_rootid[world.torso]))
         k = len(world.joint_qpos)
         noise = np.repeat([sensing.encoder_noise, sensing.gyro_noise, sensing.accelerometer_noise], [k, 3, 3])
         sensed = world.data.sensordata
@@ -180,11 +180,9 @@ def _proximity(
     return ProximitySensor(rays, sensing.proximity_noise, sensing.proximity_bias, rng, dead)
 
 
-def _imu_to_base(world: World) -> NDArray[np.float64] | None:
-    """Rotation (3, 3) from IMU to base; None where equal."""
-    model = world.model
-    data = mujoco.MjData(model)
-    mujoco.mj_kinematics(model, data)
-    base = data.xmat[model.body_rootid[world.torso]].reshape(3, 3)
-    rotation = base.T @ data.site(world.robot.imu_site).xmat.reshape(3, 3)
+def imu_to(world: World, body: int) -> NDArray[np.float64] | None:
+    """Returns the rotation (3, 3) from a `world`'s IMU to a `body`; None where equal."""
+    data = mujoco.MjData(world.model)
+    mujoco.mj_kinematics(world.model, data)
+    rotation = data.xmat[body].reshape(3, 3).T @ data.site(world.robot.imu_site).xmat.reshape(3, 3)
     return None if np.allclose(rotation, np.eye(3), atol=1e-9) else rotation

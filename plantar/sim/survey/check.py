@@ -22,7 +22,7 @@ from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 from plantar.sim.run.scene import Scene, load_scene
 from plantar.sim.survey.fitted_gait import ROLL_MOST
-from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled
+from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled, speed_shares
 from plantar.sim.survey.robot_text import roll_pitch_yaw
 from plantar.sim.survey.servo_gains import CHATTERS, DAMPED, LEAST_STIFFNESS, joint_inertia, servo_gains
 from plantar.sim.survey.sole_frame import level_axes, rested
@@ -317,8 +317,7 @@ class _Checked:
         return found
 
     def _speed(self, reach: PlanReach) -> list[Finding]:
-        limits = np.array(self.robot.velocity_limits) if self.robot.velocity_limits else np.inf
-        share = reach.speed / (SPEED_SHARE * limits)
+        share = speed_shares(self.robot, reach)
         j = int(share.argmax())
         if share[j] == 0.0:
             return []

@@ -17,6 +17,7 @@ from plantar.gait.plan.walk_plan import WalkPlan, vrp_of_step
 from plantar.mechanics.lip import GRAVITY, pendulum_frequency
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.robots.kinematics.body import pitching_joints, stood
+from plantar.robots.kinematics.command_joints import SPEED_SHARE
 from plantar.robots.kinematics.leg_inertia import angular_momentum, leg_inertia
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.standing_posture import posture_of
@@ -93,6 +94,11 @@ class PlanReach:
     shift: float
     turn: float
     roll: float
+
+
+def speed_shares(robot: Robot, reach: PlanReach) -> Array:
+    """Returns the share of its usable speed that each joint of a `robot` takes in a `reach`; 0 without limits."""
+    return np.asarray(reach.speed / (SPEED_SHARE * np.array(robot.velocity_limits or np.inf)))
 
 
 def settled(robot: Robot, legs: LegModel, feet: Mapping[Side, Footstep], com_height: float) -> float:

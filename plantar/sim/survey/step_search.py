@@ -9,13 +9,12 @@ from numpy.typing import NDArray
 from plantar.errors import RobotError
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.gravity import GRAVITY
-from plantar.robots.kinematics.command_joints import SPEED_SHARE
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
 from plantar.robots.walk import Walk, walk_timing
 from plantar.settings.body_scale import BodyScale
 from plantar.sim.survey.first_posture import least_stance
-from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach
+from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, speed_shares
 from plantar.sim.survey.step_time import rocking
 
 KNEE_LEAST = math.radians(20.0)
@@ -143,11 +142,8 @@ def _other_paces(found: _Tried, legs: LegModel, heights: Array) -> _Tried:
 
 
 def _slowed(found: _Tried, legs: LegModel, heights: Array) -> _Tried:
-    """The same steps so slow that joints keep below their speed limits, and the swinging leg neither rocks nor turns
-    the robot: both fall with time squared.
-    """
-    limits = np.array(found.robot.velocity_limits) if found.robot.velocity_limits else np.inf
-    quick = float((found.reach.speed / (SPEED_SHARE * limits)).max())
+    """The same steps, slower for joints near their speed limits and legs that rock or turn the robot as they swing."""
+    quick = float(speed_shares(found.robot, found.reach).max())
     longer = max(quick, math.sqrt(max(found.reach.shift / SHIFT, found.reach.turn / TURN)))
     if longer <= 1.0:
         return found

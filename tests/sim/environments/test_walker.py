@@ -12,6 +12,7 @@ from gymnasium.utils.env_checker import check_env  # noqa: E402
 
 from plantar.sim.environments import ENVIRONMENTS  # noqa: E402
 from plantar.sim.environments.walker import PlantarEnv  # noqa: E402
+from plantar.sim.model.world import build_world  # noqa: E402
 
 
 @pytest.mark.filterwarnings("ignore")
@@ -42,9 +43,14 @@ def test_the_skin_adds_up_and_a_seed_repeats_an_episode(task, robot):
 
 
 @pytest.mark.parametrize("mounted", [(1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5)])
-def test_the_imu_reads_in_the_torsos_frame_however_it_is_mounted(mounted):
+def test_the_imu_reads_in_the_torsos_frame_however_it_is_mounted(mounted, monkeypatch):
+    def build(robot, *given):
+        world = build_world(robot, *given)
+        world.model.site(robot.imu_site).quat = mounted
+        return world
+
+    monkeypatch.setattr("plantar.sim.environments.walker.build_world", build)
     env = PlantarEnv("stand", skin=False)
-    env.model.site(env.robot.imu_site).quat = mounted
     env.reset(seed=1)
     for _ in range(30):
         imu = env.step(np.zeros(12))[0]["imu"]

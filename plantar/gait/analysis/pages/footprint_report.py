@@ -15,7 +15,7 @@ from plantar.gait.analysis.pages.figure_files import write_figures
 from plantar.gait.analysis.pages.report import facts_of_image
 from plantar.gait.analysis.pages.sole_figures import draw_lines
 from plantar.gait.analysis.prints.footprint import Footprint, footprint_of_pixels
-from plantar.gait.analysis.prints.platform_walk import rightness
+from plantar.gait.analysis.prints.platform_walk import side_by_shape
 from plantar.gait.analysis.prints.regions import REGIONS, regions_of, with_toe_line
 from plantar.gait.analysis.subject import Subject
 from plantar.pages.page import Section, figures_of, number, page, row, scaled, table, titled, warning_list
@@ -117,7 +117,7 @@ def _sides(image: FootprintImage, pixel: float, stated: Side | None) -> tuple[li
         return list(SIDES if up else reversed(SIDES)), [note]
     if stated is not None:
         return [stated], []
-    side: Side = "right" if rightness(footprint_in_image(image.prints[0], pixel, "right")) >= 0.0 else "left"
+    side = side_by_shape(footprint_in_image(image.prints[0], pixel, "right"))
     note = f"the image does not state which foot it is: taken as the {side} one from its arch (--side overrides)"
     return [side], [note]
 

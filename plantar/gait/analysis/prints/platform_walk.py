@@ -227,7 +227,7 @@ def sides_of_walk(
         return ["left" if o > m else "right" for o, m in zip(offset, middle, strict=True)]
     if stated is not None:
         return [stated] * count
-    first: Side = "right" if rightness(footprint_on(walk.load, walk.prints[0], forward)) >= 0.0 else "left"
+    first = side_by_shape(footprint_on(walk.load, walk.prints[0], forward))
     notes.append(
         f"the file does not state which foot it is: taken as the {first} one from the footprint's shape "
         "(--side overrides)"
@@ -254,6 +254,11 @@ def _line_of_walking(along: NDArray[np.float64], offset: NDArray[np.float64]) ->
     slope = np.polyfit(along, offset, 1)[0] if len(along) >= 4 and np.ptp(along) > 1.0 else 0.0
     level = offset - slope * along
     return np.asarray(slope * along + 0.5 * (level.min() + level.max()))
+
+
+def side_by_shape(print_: Footprint) -> Side:
+    """The foot of a single print taken as a right one."""
+    return "right" if rightness(print_) >= 0.0 else "left"
 
 
 def rightness(print_: Footprint) -> float:

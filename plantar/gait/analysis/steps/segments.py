@@ -67,9 +67,8 @@ def with_activities(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
     hops = _both_at_once(feet)
     rows = sorted((s for g in feet.values() for s in g.steps), key=lambda s: s.heel_strike_s)
     raw = ["hopping" if hops else _activity(rows, i) for i in range(len(rows))]
-    steady = [
-        most_common(raw[max(0, i - 2) : i + 3]) or name for i, name in enumerate(raw)
-    ]  # one odd step is no segment
+    # One odd step is no segment.
+    steady = [most_common(raw[max(0, i - 2) : i + 3]) or name for i, name in enumerate(raw)]
     found = {(s.side, s.number): name for s, name in zip(rows, steady, strict=True)}
     out: dict[Side, FootGait] = {}
     for side, gait in feet.items():

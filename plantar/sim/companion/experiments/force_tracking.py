@@ -20,6 +20,7 @@ from plantar.sim.companion.handling.actors import Fist, Push, Visit, Visitor, co
 from plantar.sim.companion.handling.force_record import ForceRecord
 from plantar.sim.companion.handling.hand_controller import HandControl, HandController
 from plantar.sim.companion.machine import Machine
+from plantar.sim.companion.standing.stance import add_floor
 from plantar.sim.figures.render import View
 
 _AFTER = 1.0  # s after an interaction that still count as disturbed by it
@@ -161,14 +162,7 @@ class ForceTracking(Experiment):
         return found
 
     def add_to(self, spec: Any) -> None:
-        spec.worldbody.add_geom(
-            name="floor",
-            type=mujoco.mjtGeom.mjGEOM_PLANE,
-            size=[5.0, 5.0, 0.1],
-            material="ground",
-            contype=0,
-            conaffinity=0,
-        )
+        add_floor(spec, carries=False)
         board = spec.worldbody.add_body(name="object", pos=[2.0, 0.0, 1.0], mocap=True)
         board.add_geom(
             name="object",

@@ -17,15 +17,15 @@ _LEVEL = np.eye(3)
 SOLE_SITE = "{side}_sole"
 
 
-def add_floor(spec: Any) -> None:
-    """Add a ground z = 0 for soles, which skin does not measure."""
+def add_floor(spec: Any, carries: bool = True) -> None:
+    """Add a ground z = 0 to a `spec`, which skin does not measure, and which `carries` soles or is only seen."""
     spec.worldbody.add_geom(
         name="floor",
         type=mujoco.mjtGeom.mjGEOM_PLANE,
         size=[5.0, 5.0, 0.1],
         material="ground",
-        contype=2,
-        conaffinity=1,
+        contype=2 * carries,
+        conaffinity=1 * carries,
         friction=[0.8, 0.005, 0.0001],
     )
 
