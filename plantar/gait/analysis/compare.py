@@ -101,8 +101,7 @@ def _write_comparison(
 
 def sensor_of(recording: PressureRecording) -> tuple[str, float]:
     """Kind of a recording's sensors and least area of their cells in m2; 0 without cells."""
-    areas = (f.layout.cell_area for f in recording.feet.values() if f.layout)
-    return _SENSORS[recording.kind], min(areas, default=0.0)
+    return _SENSORS[recording.kind], min((f.layout.cell_area for f in recording.feet.values() if f.layout), default=0.0)
 
 
 def unlike(a: Iterable[tuple[str, float]], b: Iterable[tuple[str, float]], one: str, other: str) -> list[str]:
@@ -201,7 +200,7 @@ def _bars(difference: Mapping[str, Mapping[str, Any]]) -> Any | None:
     rows = {
         name: {k: d["percent"] for k, d in own.items() if d["percent"] is not None} for name, own in difference.items()
     }
-    keys = [k for k in COMPARED if any(k in r for r in rows.values())]
+    keys = [k for k in (*COMPARED, "landing_impact_N") if any(k in r for r in rows.values())]
     if not keys:
         return None
     figure, axes = new_figure(8.0, 1.0 + 0.4 * len(keys))
