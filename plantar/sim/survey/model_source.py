@@ -282,7 +282,8 @@ def _collect_motors(spec: Any, stated: _Stated) -> None:
         if holds:  # a rate above 0 is a ratio of critical, whatever the gear
             stiffness, damping = stated.gains.get(motor.target, (0.0, 0.0))
             more = -rate if rate > 0.0 else -(gear**2) * rate
-            stated.gains[motor.target] = (stiffness + gear**2 * gain, damping + more)
+            both = damping + more if min(damping, more) >= 0.0 else min(damping, more)  # ratios do not add
+            stated.gains[motor.target] = (stiffness + gear**2 * gain, both)
         elif gain > 0.0 and rate == -gain and spring == 0.0:
             rates[motor.target], force = (gear**2 * gain, _weaker(force)), _ANY
         torques.setdefault(motor.target, []).append(force)

@@ -16,8 +16,7 @@ from plantar.sim.survey.model_source import ModelSource, named_note, read_model
 from plantar.sim.survey.sole_frame import Sole, find_sole
 
 _SPEEDS = (0.5, 100.0)  # rad/s: what a model states outside of them is a placeholder
-NO_SPEED = 1e3
-"""rad/s, stands for none."""
+NO_SPEED = 1e3  # rad/s: stands for no limit
 _Limit = TypeVar("_Limit", float, tuple[float, float])
 _WEIGHTS = (0.1, 1000.0)  # kg: the least that walk weigh 1 kg, 1000 in g
 
@@ -30,7 +29,7 @@ class Survey:
         held: Angles in rad by name of other joints.
         imu: "site" or "body" of IMU, and its name; or None.
         efforts: Largest torque in N m of each leg joint, or None; `speeds` in rad/s, or empty.
-        gains: Stiffness in N m/rad and damping in N m s/rad of each left leg joint, or empty.
+        gains: Stiffness in N m/rad and damping in N m s/rad of each leg joint, or empty.
         notes: For the user, each a sentence.
     """
 
@@ -93,11 +92,13 @@ def survey_model(file: Path, folder: Path) -> Survey:
         [name for name, effort in zip(names["left"], efforts, strict=True) if effort is None],
     )
     odd = [f"{n} {v:g}" for n, v, use in zip(names["left"], speeds, usable, strict=True) if v not in (None, use)]
-    notes += named_note("speed limits in rad/s that are no motor's, 0.5 to 100, are left out", odd)
+    notes += named_note(f"speed limits beyond {_SPEEDS[0]:g} to {_SPEEDS[1]:g} rad/s are left out", odd)
     unlike = [a for a, b in pairs if source.gains.get(a) != source.gains.get(b)]
     notes += named_note("the legs' own servos differ; the softer one's gains are taken for both", unlike)
-    sprung = [name for name in names["left"] + names["right"] if model.joint(name).stiffness.any()]
-    notes += named_note("the joints' springs are left out", sprung)
+    notes += named_note(
+        "the joints' springs are left out",
+        [name for name in names["left"] + names["right"] if model.joint(name).stiffness.any()],
+    )
     _check_masses(model, file)
     gains = [pair for pair in (_lesser(source.gains, pair) for pair in pairs) if pair is not None]
     return Survey(
@@ -168,11 +169,10 @@ def _lesser(limits: Mapping[str, _Limit], pair: tuple[str, str]) -> _Limit | Non
 
 
 def _coupled_notes(source: ModelSource, names: Mapping[Side, list[str]]) -> list[str]:
-    legs = {n for side in SIDES for n in names[side]}
     return [
         f"'{follower}' follows '{leader}' in the model; here each is driven by itself"
         for follower, leader in source.coupled
-        if follower in legs
+        if any(follower in own for own in names.values())
     ]
 
 

@@ -184,6 +184,8 @@ def test_markers_shapes_without_a_size_and_the_authors_inertia_are_no_obstacles(
         ("<velocity joint='a' kv='2' gear='2'/><position joint='a' kp='30' gear='2'/>", (120.0, 8.0)),
         ("<position joint='a' kp='30' kv='2' gear='2'/><position joint='a' kp='7' kv='1'/>", (127.0, 9.0)),
         ("<position joint='a' kp='7' kv='1'/><position joint='a' kp='30' kv='2' gear='2'/>", (127.0, 9.0)),
+        ("<position joint='a' kp='7' kv='1'/><position joint='a' kp='30' dampratio='1' gear='2'/>", (127.0, -1.0)),
+        ("<position joint='a' kp='7' dampratio='1'/><position joint='a' kp='9' dampratio='1'/>", (16.0, -1.0)),
     ],
 )
 def test_gains_of_position_servos_are_read(tmp_path, motors, gains):
