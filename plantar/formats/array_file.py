@@ -1,7 +1,7 @@
 """Arrays in numpy files (.npz, .npy): a frame a row, a cell a column.
 
-NPZ arrays are "time" (s), "left" and "right" or one of another name, and optionally "unit", "rate_hz", "side", "kind"
-("insole", "platform", "robot") and "layout_left" (JSON of a layout file), as written by `Recording.to_npz`.
+NPZ arrays are "time" (s; ms as "time_ms"), "left" and "right" or one of another name, and optionally "unit", "rate_hz",
+"side", "kind" ("insole", "platform", "robot") and "layout_left" (JSON of a layout file), as by `Recording.to_npz`.
 """
 
 import json
@@ -24,14 +24,15 @@ from plantar.files.zip_archive import open_archive
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
-from plantar.formats.stated_rate import or_usual, stated_rate
+from plantar.formats.stated_rate import in_seconds, or_usual, stated_rate
+from plantar.formats.table_text import time_unit
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.layouts.layout_file import layout_from_dict
 from plantar.recordings.frame_table import MOST_VALUES
-from plantar.recordings.pressure_recording import FootRecording, Kind, PressureRecording, sampling
+from plantar.recordings.pressure_recording import Kind, PressureRecording, sampling
 from plantar.sides import SIDES
 
-_MILLISECONDS = (1.0, 50.0)  # Steps of times that are ms: a frame a second is no gait, and devices have 20 a second
+_SLOWEST = 0.05  # s of a frame of times that are taken to be in ms, us or ns
 _LARGEST = 4e9  # Largest size of all arrays in bytes
 _SHOWN = 20  # arrays in a message
 _LONGEST_FACT = 400  # bytes
@@ -59,13 +60,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def recording_of_arrays(arrays: Mapping[str, NDArray[Any]], options: ReadOptions, name: Path) -> PressureRecording:
-    """Returns recording from arrays in memory; FormatError without frames of cells.
-
-    Args:
-        arrays: By names of an NPZ file.
-        options: What is known.
-        name: Of the recording.
-    """
+    """Returns recording of a name from arrays, by options; FormatError without frames of cells."""
     held = {}
     for key, values in arrays.items():
         values = values[:, None] if values.ndim == 1 and side_of(key) is not None else values
@@ -109,10 +104,11 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
         for side, values in split
     }
     time, rate, notes = _times(arrays, clock, len(split[0][1]), options, warnings)
-    kind = "robot" if own_export else _kind(arrays)
-    if kind == "platform":
-        feet = _one_platform(feet)
-    elif len(feet) == 1:
+    stated_kind = "robot" if own_export else _text(arrays, "kind")
+    kind: Kind = next((k for k in get_args(Kind) if k == stated_kind), "insole")
+    if len({foot.force.shape for foot in feet.values()}) < len(feet) and kind == "platform":
+        feet = {"left": replace(feet["left"], force=feet["left"].force + feet["right"].force)}
+    elif len(feet) == 1 and kind != "platform":
         warnings.append(f"the file holds the {next(iter(feet))} foot only")
     return PressureRecording(
         path=path,
@@ -125,17 +121,6 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
         raw=unit.kind == "raw",
         kind=kind,
     )
-
-
-def _kind(arrays: dict[str, _Array]) -> Kind:
-    stated = _text(arrays, "kind")
-    return next((kind for kind in get_args(Kind) if kind == stated), "insole")
-
-
-def _one_platform(feet: dict[Side, FootRecording]) -> dict[Side, FootRecording]:
-    if len(feet) < 2 or feet["left"].force.shape != feet["right"].force.shape:
-        return feet
-    return {"left": replace(feet["left"], force=feet["left"].force + feet["right"].force)}
 
 
 @contextmanager
@@ -206,6 +191,12 @@ def _layout(arrays: dict[str, _Array], side: Side, warnings: list[str]) -> SoleL
         return None
 
 
+def seconds(values: NDArray[Any]) -> NDArray[np.float64]:
+    """Returns values (n,), dates and durations in s from the first."""
+    since = values - np.fmin.reduce(values) if values.dtype.kind in "mM" and len(values) else values
+    return since / np.timedelta64(1, "s") if since.dtype.kind == "m" else since.astype(float)
+
+
 def _times(
     arrays: dict[str, _Array], clock: str, frames: int, options: ReadOptions, warnings: list[str]
 ) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
@@ -215,16 +206,14 @@ def _times(
         if a.dtype.itemsize <= _LONGEST_FACT
     }
     rate = options.rate_hz or stated_rate(facts, warnings)
-    for key in (clock, "time", "time_s", "t", "times", "timestamps"):
-        if options.rate_hz is None and key in arrays and arrays[key].dtype.kind in "iuf":
-            if arrays[key].size != frames:
-                raise FormatError(f"the array {key!r} holds {arrays[key].size} times for {frames} frames")
-            time = np.asarray(arrays[key].read(), dtype=float).reshape(-1)
-            steps = np.diff(time[np.isfinite(time)])
-            if rate is None and len(steps) and _MILLISECONDS[0] <= np.median(steps) <= _MILLISECONDS[1]:
-                time = 1e-3 * time
-                warnings.append("the times rise by 1 and more a frame: ms are assumed")
-            return sampling(time, rate)
+    for key in () if options.rate_hz else (clock, "time", *arrays):
+        if key not in arrays or arrays[key].dtype.kind not in "iufmM" or (key != clock and time_unit(key) is None):
+            continue
+        if arrays[key].size == frames:
+            time = seconds(arrays[key].read().reshape(-1))
+            return sampling(in_seconds(time, time_unit(key), rate, warnings, _SLOWEST), rate)
+        if side_of(key) is None and (rate is None or arrays[key].size > 1):
+            raise FormatError(f"the array {key!r} holds {arrays[key].size} times for {frames} frames")
     rate = or_usual(rate, "the file holds no times and no rate", warnings)
     return np.arange(frames) / rate, rate, ()
 

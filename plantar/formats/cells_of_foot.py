@@ -96,8 +96,7 @@ def foot_of_matrix(
         name: Of the layout.
         threshold: Cell counts as loaded from this pressure in Pa.
     """
-    layout = layout_for(side, options.layout)
-    layout = layout or grid_cells(present, *pitch, side=side, name=name, threshold=threshold)
+    layout = layout_for(side, options.layout) or grid_cells(present, *pitch, side=side, name=name, threshold=threshold)
     foot = FootRecording(side, values, layout)
     scale_to_force(values, unit, layout.areas)
     return foot

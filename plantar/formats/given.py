@@ -9,21 +9,22 @@ import numpy as np
 
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, read_recording
-from plantar.formats.array_file import recording_of_arrays
+from plantar.formats.array_file import recording_of_arrays, seconds
 from plantar.formats.plausibility import checked
 from plantar.formats.table_columns import recording_of_columns
+from plantar.formats.table_text import CountedSeconds, seconds_of_time, time_unit
 from plantar.formats.text import row_of_numbers
 from plantar.recordings.pressure_recording import Kind, PressureRecording, possible_rate
 
 
 def recording_of(given: Any, format: str | None = None, options: ReadOptions | None = None) -> PressureRecording:
-    """Returns recording from any form.
+    """Returns recording.
 
     Args:
         given: Recording; path of a file; array (n, k) of n frames and k cells (or n x rows x columns); mapping of an
-            NPZ file's arrays; or data frame (pandas, polars) with a column a cell and names as in a CSV table.
+            NPZ file's arrays; or data frame (pandas, polars) named as a CSV table.
         format: By content where None.
-        options: What else is known: layout, unit, rate, side. Arrays without unit are raw counts.
+        options: What else is known. Arrays without unit are raw counts.
 
     Raises:
         InputError: For another type, or a recording whose parts disagree.
@@ -37,7 +38,9 @@ def recording_of(given: Any, format: str | None = None, options: ReadOptions | N
     if hasattr(given, "columns") and not isinstance(given, Mapping):
         found = recording_of_columns(*_columns(given), known, Path("data frame"))
     elif isinstance(given, Mapping):
-        found = recording_of_arrays({str(k): np.asarray(v) for k, v in given.items()}, known, Path("arrays"))
+        held = {str(k): _array(v) for k, v in given.items()}
+        times = {k: _numbers(v) for k, v in held.items() if v.ndim == 1 and time_unit(k) is not None}
+        found = recording_of_arrays(held | times, known, Path("arrays"))
     elif isinstance(given, np.ndarray | list | tuple):
         found = recording_of_arrays({"values": _array(given)}, known, Path("array"))
     else:
@@ -67,9 +70,9 @@ def _whole(recording: PressureRecording) -> PressureRecording:
     return recording
 
 
-def _array(given: Any) -> np.ndarray[Any, Any]:
+def _array(given: Any) -> Any:
     try:
-        return np.asarray(given, dtype=float)
+        return np.asarray(given)
     except (TypeError, ValueError) as error:
         raise InputError(f"an array holds what is no number ({error}); allowed: frames of numbers") from None
 
@@ -77,17 +80,16 @@ def _array(given: Any) -> np.ndarray[Any, Any]:
 def _columns(frame: Any) -> tuple[np.ndarray[Any, Any], list[str]]:
     names, at = [str(name) for name in frame.columns], getattr(frame, "iloc", None)  # pandas has columns of one name
     columns = [np.asarray(frame[n] if at is None else at[:, i]) for i, n in enumerate(frame.columns)]
-    index = getattr(frame, "index", None)
-    values = None if index is None else np.asarray(index)
-    if values is not None and values.ndim == 1 and (values.dtype.kind in "mM" or getattr(index, "name", None)):
-        names.insert(0, "time" if values.dtype.kind in "mM" else str(index.name))  # type: ignore[union-attr]
-        columns.insert(0, values)
+    index = getattr(frame, "index", ())
+    values = np.asarray(index)
+    if values.ndim == 1 and len(values):
+        dated = values.dtype.kind in "mM" or seconds_of_time(str(values[0])) is not None
+        if name := "time" if dated else getattr(index, "name", None):
+            names.insert(0, str(name))
+            columns.insert(0, values)
     return np.column_stack([_numbers(c) for c in columns]) if columns else np.zeros((0, 0)), names
 
 
 def _numbers(column: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-    if column.dtype.kind in "mM":
-        return (column - column[:1]) / np.timedelta64(1, "s") if len(column) else column.astype(float)
-    if column.dtype.kind in "iufb":
-        return column.astype(float)
-    return row_of_numbers([str(value) for value in column])[0]
+    counted = CountedSeconds()  # of times of day, or dates with a zone
+    return seconds(column) if column.dtype.kind in "iufbmM" else row_of_numbers(list(map(counted, map(str, column))))[0]

@@ -16,6 +16,7 @@ from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import scale_to_force, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.nominal_insole import MOTICON_LENGTH, MOTICON_WIDTH, moticon_insole
+from plantar.formats.stated_rate import in_seconds
 from plantar.formats.text import head_text, number, open_text, table_of_lines
 from plantar.formats.units import Unit, find_unit
 from plantar.layouts.layout import SoleLayout
@@ -44,10 +45,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         rows = (line for line in lines if line.strip() and not line.startswith("#"))
         table = table_of_lines(path, rows, delimiter, len(channels), warnings, wanted)
     names = [channels[i] for i in wanted]
-    if len(table) > 1 and np.nanmedian(np.diff(table[:, 0])) >= 1.0:  # a frame a second is no gait
-        table[:, 0] *= 1e-3
-        warnings.append("the times rise by 1 and more a frame: ms are assumed")
-    time, rate, notes = sampling(table[:, 0], None, options.rate_hz)
+    time, rate, notes = sampling(in_seconds(table[:, 0], None, None, warnings, 0.5), None, options.rate_hz)
     size = _size(header, warnings)
     feet: dict[Side, FootRecording] = {}
     units: set[str] = set()

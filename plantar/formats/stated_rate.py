@@ -4,6 +4,7 @@ import re
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.formats.table_text import seconds_of_unit
@@ -30,6 +31,7 @@ _HERTZ = {"hz": 1.0, "hertz": 1.0, "khz": 1e3, "fps": 1.0, "sps": 1.0} | {
     for of in ("s", "sec", "second", "min", "minute")
 }
 _STATED = re.compile(r"(\D*?)([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[-+]?\d+)?)((?![\d.:-]).*)", re.DOTALL)
+_STEPS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns"))
 _THOUSANDS = re.compile(r"[1-4][.,]\d{3}")  # Hz: no gait is seen in four frames a second
 
 
@@ -77,6 +79,24 @@ def or_usual(rate: float | None, without: str, warnings: list[str]) -> float:
     if rate is None:
         warnings.append(f"{without}: {_USUAL:g} Hz is assumed (--rate overrides)")
     return rate or _USUAL
+
+
+def in_seconds(
+    time: NDArray[np.float64], unit: float | None, stated: float | None, warnings: list[str], longest: float = 1.0
+) -> NDArray[np.float64]:
+    """Returns `time` (n,) in s; warnings get an assumed unit, in which frames last under 1 s, up to longest.
+
+    Steps of 1 count the frames of a stated rate.
+    """
+    if not unit:
+        steps = np.diff(time[np.isfinite(time)])
+        step = float(np.median(steps)) if len(steps) else 0.0
+        unit, name = next((u for u in _STEPS if u[0] * step < 1.0), _STEPS[-1])
+        if unit * step > longest or (stated and step == 1.0):
+            return time
+        if unit < 1.0 or longest == 1.0:
+            warnings.append(f"the times state no unit: {name} is assumed")
+    return time * unit
 
 
 def _clear(text: str) -> str:  # with "per" for a stroke or a power of -1

@@ -13,7 +13,7 @@ from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.column_names import Heading, heading_of
 from plantar.formats.format import ReadOptions
 from plantar.formats.side import is_side_column, on_one_time, rows_of_sides, side_of
-from plantar.formats.stated_rate import or_usual, stated_rate
+from plantar.formats.stated_rate import in_seconds, or_usual, stated_rate
 from plantar.formats.table_forces import feet_of_forces, is_force_table
 from plantar.formats.table_text import time_unit
 from plantar.formats.units import find_unit, plain
@@ -188,15 +188,7 @@ def _times(
     if at is None or options.rate_hz is not None:
         rate = or_usual(stated, "the table has no times and states no rate", warnings)
         return np.arange(len(table)) / rate, rate, ()
-    factor = (time_unit(names[at]) if names else None) or None
-    if factor is None:
-        factor = 1.0
-        steps = np.diff(table[:, at])
-        step = float(np.median(steps[np.isfinite(steps)])) if np.isfinite(steps).any() else 0.0
-        if step >= 1.0:  # a frame a second is no gait; whole numbers are milliseconds
-            factor = 1e-3 if step < 1e3 else 1e-6 if step < 1e6 else 1e-9
-        warnings.append(f"the times state no unit: {'s' if factor == 1.0 else f'{factor:g} s'} is assumed")
-    time = table[:, at] * factor
+    time = in_seconds(table[:, at], time_unit(names[at]) if names else None, stated, warnings)
     known = time[np.isfinite(time)]
     if len(known) and abs(known[0]) > 1e5:
         warnings.append(f"the times begin at {known[0]:.10g} s: here they count from the first frame")

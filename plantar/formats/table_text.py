@@ -4,7 +4,7 @@ import csv
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import UTC, datetime
 
 from plantar.formats.column_names import heading_of
 from plantar.formats.side import side_of
@@ -285,7 +285,7 @@ def seconds_of_time(text: str) -> float | None:
         if match[4]:
             hours = hours % 12 + (12 if match[4] in "Pp" else 0)
         return 3600.0 * hours + 60.0 * int(match[2]) + float(re.sub("[,:]", ".", match[3]))
-    return (moment.replace(tzinfo=None) - _SINCE).total_seconds()
+    return (moment - (_SINCE.replace(tzinfo=UTC) if moment.tzinfo else _SINCE)).total_seconds()
 
 
 def with_column(

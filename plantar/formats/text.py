@@ -51,12 +51,7 @@ class _Lines(io.BufferedReader):
 
 
 def blocks_of_lines(lines: Iterator[str], most: int = 2048, characters: int = 16_000_000) -> Iterator[list[str]]:
-    """Yields blocks of up to most lines, ending sooner at a number of characters; lines can be taken between blocks.
-
-    Example:
-        >>> [len(block) for block in blocks_of_lines(iter(["ab", "c", "d", "e"]), most=3, characters=2)]
-        [1, 2, 1]
-    """
+    """Yields blocks of up to most lines, ending sooner at a number of characters; lines can be taken between."""
     block: list[str] = []
     size = 0
     for line in lines:
@@ -126,14 +121,8 @@ def number(text: str) -> float | None:
 
 
 def number_in(text: str) -> float | None:
-    """First number in a text, or None.
-
-    Example:
-        >>> number_in("5.08 mm"), number_in("none")
-        (5.08, None)
-    """
-    match = _NUMBER.search(text)
-    return number(match[0]) if match else None
+    """First number in a text, or None."""
+    return number(match[0]) if (match := _NUMBER.search(text)) else None
 
 
 def table_of_lines(

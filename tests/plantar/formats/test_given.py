@@ -1,6 +1,7 @@
 """Recordings from what a program holds: arrays, mappings and data frames."""
 
 from dataclasses import replace
+from datetime import datetime, timedelta, timezone
 from typing import Any
 
 import numpy as np
@@ -68,7 +69,45 @@ def test_feet_of_plates_are_for_plates(tmp_path):
 def test_times_in_milliseconds():
     recording = recording_of({"right": np.full((200, 3), 2.0), "unit": "N", "time": 10.0 * np.arange(200)})
     assert recording.rate_hz == pytest.approx(100.0)
-    assert "the times rise by 1 and more a frame: ms are assumed" in recording.warnings
+    assert "the times state no unit: ms is assumed" in recording.warnings
+
+
+STEPS = np.arange(200) * np.timedelta64(20, "ms")
+DATES = np.datetime64("2024-10-27T00:59:58", "ms") + STEPS
+ZONES = [timezone(timedelta(hours=2 if k < 100 else 1)) for k in range(200)]
+ZONED = [datetime.fromisoformat(f"{d}+00:00").astimezone(zone) for d, zone in zip(DATES, ZONES, strict=True)]
+
+
+@pytest.mark.parametrize(
+    "times",
+    [
+        {"time": 20.0 * np.arange(200), "rate_hz": 50.0},
+        {"time": 20_000 * np.arange(200)},
+        {"time": 20_000_000 * np.arange(200) + 1_700_000_000_000_000_000},
+        {"time_ms": 20 * np.arange(200)},
+        {"Timestamp": 0.02 * np.arange(200)},
+        {"time": STEPS},
+        {"time": DATES},
+        {"time": [str(date) for date in DATES]},
+        {"time": ZONED},
+    ],
+)
+def test_times_in_any_unit_and_dates_give_the_rate(times, tmp_path):
+    """Left out, they would make a recording of 100 Hz, or of 0.05."""
+    force = np.full((200, 3), 2.0)
+    assert recording_of({"right": force, "unit": "N", **times}).rate_hz == pytest.approx(50.0)
+    if not isinstance(next(iter(times.values())), list):
+        np.savez(tmp_path / "walk.npz", right=force, unit="N", **times)
+        assert recording_of(tmp_path / "walk.npz").rate_hz == pytest.approx(50.0)
+
+
+@pytest.mark.parametrize("times", [STEPS, DATES, [str(date) for date in DATES], np.array(ZONED)])
+def test_a_data_frame_has_dates_as_a_column_or_as_its_index(times):
+    cells = {f"left {i} [N]": np.full(200, 2.0) for i in (1, 2)}
+    assert recording_of(Frame({"time": np.array(times), **cells})).rate_hz == pytest.approx(50.0)
+    frame = Frame(cells)
+    frame.index = np.array(times)
+    assert recording_of(frame).rate_hz == pytest.approx(50.0)
 
 
 @pytest.mark.parametrize(

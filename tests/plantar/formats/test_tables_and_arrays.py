@@ -449,6 +449,12 @@ def test_stated_raw_counts_are_told(tmp_path, layout, values):
     assert sum("raw counts" in warning for warning in recording.warnings) == 1
 
 
+def test_times_that_count_the_frames_of_a_stated_rate(tmp_path):
+    rows = ["# rate: 50", "time,left 1 [N],left 2 [N]", *(f"{k},{k % 40},3" for k in range(100))]
+    (tmp_path / "counted.csv").write_text("\n".join(rows) + "\n")
+    assert read_recording(tmp_path / "counted.csv").rate_hz == 50.0
+
+
 def test_times_of_a_clock_count_from_the_first_frame_and_it_is_told(tmp_path, layout):
     rows = ["time [s]," + ",".join(f"left {i} [N]" for i in layout.ids)]
     rows += [f"{1.7e9 + k / 100:.2f}," + ",".join("1" for _ in layout.ids) for k in range(50)]
