@@ -22,7 +22,7 @@ def recording_of(given: Any, format: str | None = None, options: ReadOptions | N
 
     Args:
         given: Recording; path of a file; array (n, k) of n frames and k cells (or n x rows x columns); mapping of an
-            NPZ file's arrays; or data frame (pandas, polars) named as a CSV table.
+            NPZ file's arrays; or data frame (pandas, polars) named as a CSV table. Masked values are NaN.
         format: By content where None.
         options: What else is known. Arrays without unit are raw counts.
 
@@ -72,7 +72,7 @@ def _whole(recording: PressureRecording) -> PressureRecording:
 
 def _array(given: Any) -> Any:
     try:
-        return np.asarray(given)
+        return np.asarray(np.ma.filled(given.astype(float), np.nan) if isinstance(given, np.ma.MaskedArray) else given)
     except (TypeError, ValueError) as error:
         raise InputError(f"an array holds what is no number ({error}); allowed: frames of numbers") from None
 

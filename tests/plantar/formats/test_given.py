@@ -110,6 +110,15 @@ def test_a_data_frame_has_dates_as_a_column_or_as_its_index(times):
     assert recording_of(frame).rate_hz == pytest.approx(50.0)
 
 
+def test_masked_values_were_not_measured():
+    force = np.ma.array(np.random.default_rng(0).uniform(0.0, 20.0, (200, 3)))
+    force[::2, 1] = np.ma.masked
+    recording = recording_of({"right": force, "unit": "N"}, options=ReadOptions(rate_hz=50.0))
+    assert np.isnan(recording.feet["right"].force[::2, 1]).all()
+    with pytest.raises(InputError, match="no number"):
+        recording_of({"right": [[1.0, 2.0], [3.0]]})
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [
