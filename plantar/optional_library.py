@@ -87,14 +87,3 @@ def _interrupts_held_back() -> Iterator[None]:
             signal.signal(number, handler)
         if came:
             before[signal.Signals(came[0])](came[0], None)
-
-
-def ignore_warning(text: str) -> None:
-    """Ignores a library's warnings; MuJoCo prints each, and writes MUJOCO_LOG.TXT.
-
-    Args:
-        text: Warning.
-
-    Example:
-        >>> ignore_warning("WARNING: Nan, Inf or huge value in QACC at DOF 0. The simulation is unstable.")
-    """

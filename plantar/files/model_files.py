@@ -13,6 +13,7 @@ import os
 import re
 import tempfile
 from collections.abc import Iterator
+from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 from xml.etree.ElementTree import Element
@@ -21,7 +22,7 @@ from plantar.errors import PlantarError
 from plantar.files.gate import read_apart
 from plantar.files.image_size import stated_size
 from plantar.files.input_file import check_input, open_input, read_input
-from plantar.files.model_limits import MOST_PARTS, check_model_size
+from plantar.files.model_limits import MOST_PARTS, check_model_size, quiet_mujoco
 from plantar.files.xml_file import XML_MOST, parse_xml
 
 VARIABLE = "PLANTAR_MODEL_FOLDERS"
@@ -29,7 +30,6 @@ VARIABLE = "PLANTAR_MODEL_FOLDERS"
 
 _MOST_INCLUDES = 100
 _LARGEST_PART = 100e6  # bytes of a mesh, or of a texture or height field once it is unpacked
-_PASSED: set[tuple[Path, int]] = set()
 _OWN = Path(__file__).resolve().parents[1]
 
 
@@ -155,18 +155,16 @@ def check_model(file: Path, error: type[PlantarError]) -> None:
         plantar.errors.PlantarError: none.xml: cannot be read (No such file or directory)
     """
     _check_names(file, error, {Path(os.path.realpath(file))})
-    if not file.resolve().is_relative_to(_OWN) and find_spec("mujoco") is not None:
-        _tried(file, file.stat().st_mtime_ns, error)
+    if find_spec("mujoco") is not None:
+        quiet_mujoco()
+        if not (resolved := file.resolve()).is_relative_to(_OWN):
+            _try(resolved, file.stat().st_mtime_ns, file, error)  # type: ignore[arg-type]
 
 
-def _tried(file: Path, changed: int, error: type[PlantarError]) -> None:
-    key = file.resolve(), changed
-    if key in _PASSED:
-        return
-    bodies = int(read_apart("model", file, error)["bodies"])
-    if bodies > MOST_PARTS:
+@cache
+def _try(resolved: Path, changed: int, file: Path, error: type[PlantarError]) -> None:
+    if (bodies := int(read_apart("model", file, error)["bodies"])) > MOST_PARTS:
         raise error(f"{file}: has {bodies} bodies; allowed: up to {MOST_PARTS} of a robot's model")
-    _PASSED.add(key)
 
 
 def _check_names(file: Path, error: type[PlantarError], seen: set[Path]) -> None:

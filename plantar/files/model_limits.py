@@ -2,6 +2,7 @@
 
 import math
 import re
+from typing import Any
 from xml.etree.ElementTree import Element
 
 from plantar.errors import PlantarError
@@ -80,11 +81,18 @@ def _numbers(text: str) -> list[float]:
     return out[1:] or out
 
 
-def parsed_in_trial(path: str) -> dict[str, int]:
-    """Let MuJoCo read a model, for `confined`; returns its body count, 0 if refused."""
+def quiet_mujoco() -> Any:
+    """Returns MuJoCo, whose warnings are not printed and put into MUJOCO_LOG.TXT; a caller's handler keeps them."""
     import mujoco
 
+    if mujoco.get_mju_user_warning() is None:
+        mujoco.set_mju_user_warning(lambda text: None)
+    return mujoco
+
+
+def parsed_in_trial(path: str) -> dict[str, int]:
+    """Let MuJoCo read a model, for `confined`; returns its body count, 0 if refused."""
     try:
-        return {"bodies": len(mujoco.MjSpec.from_file(str(path)).bodies)}
+        return {"bodies": len(quiet_mujoco().MjSpec.from_file(str(path)).bodies)}
     except Exception:  # MuJoCo raises ValueError, OSError and its own
         return {"bodies": 0}

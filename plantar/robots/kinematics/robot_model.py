@@ -7,7 +7,7 @@ from typing import Any, Protocol
 import mujoco
 
 from plantar.errors import RobotError
-from plantar.optional_library import ignore_warning
+from plantar.files.model_limits import quiet_mujoco
 from plantar.robots.biped import biped_mjcf
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.leg_model import LegModel
@@ -31,7 +31,7 @@ def robot_spec(robot: Robot) -> Any:
     Raises:
         RobotError: If the model cannot be read.
     """
-    mujoco.set_mju_user_warning(ignore_warning)
+    quiet_mujoco()
     if robot.biped is not None:
         center, half = robot.sole_rectangle("left")
         text = biped_mjcf(

@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 from plantar.errors import FootError
 from plantar.files.input_file import check_input
 from plantar.files.model_files import check_model, folders_of_model, mesh_of_urdf, named_file, parsed_model
-from plantar.files.model_limits import check_model_size
+from plantar.files.model_limits import check_model_size, quiet_mujoco
 from plantar.files.xml_file import XML_MOST
 from plantar.mujoco.deletion import delete_all
 from plantar.mujoco.mesh_surface import mesh_surface
-from plantar.optional_library import ignore_warning, optional_library
+from plantar.optional_library import optional_library
 from plantar.shoes.foot.mesh_file import MOST_TRIANGLES, read_mesh
 from plantar.shoes.geometry.surface import primitive
 
@@ -82,8 +82,7 @@ class ModelSource:
             FootError: If MuJoCo cannot read.
         """
         with optional_library("mujoco", "sim"):
-            import mujoco
-        mujoco.set_mju_user_warning(ignore_warning)
+            mujoco = quiet_mujoco()
         try:
             spec = (
                 mujoco.MjSpec.from_file(str(self.file)) if self.urdf is None else mujoco.MjSpec.from_string(self.urdf)

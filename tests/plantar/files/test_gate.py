@@ -105,3 +105,21 @@ def test_models_that_attach_each_other_are_refused_after_a_trial(tmp_path):
         (tmp_path / f"b{i}.xml").write_text(body)
     with pytest.raises(PlantarError, match=r"has \d+ bodies; allowed: up to 2000|longer than"):
         check_model(tmp_path / "b0.xml", PlantarError)
+
+
+def test_mujoco_s_warnings_of_a_model_go_to_the_caller_alone(tmp_path, monkeypatch, capfd):
+    mujoco = pytest.importorskip("mujoco")
+    monkeypatch.chdir(tmp_path)
+    text = '<mujoco><worldbody><body name="b"><geom size="1" pos="nan 0 0"/></body></worldbody></mujoco>'
+    (tmp_path / "a.xml").write_text(text)
+    before, taken = mujoco.get_mju_user_warning(), list[str]()
+    try:
+        for handler in (None, taken.append):
+            mujoco.set_mju_user_warning(handler)
+            check_model(tmp_path / "a.xml", PlantarError)
+            mujoco.MjSpec.from_file("a.xml")
+    finally:
+        mujoco.set_mju_user_warning(before)
+    assert ["NaN" in warning for warning in taken] == [True]
+    assert [path.name for path in tmp_path.iterdir()] == ["a.xml"]
+    assert capfd.readouterr().err == ""
