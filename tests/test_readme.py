@@ -85,6 +85,7 @@ def test_an_example_of_the_readme_runs(user, number):
     done = run([sys.executable, "-W", "error", "-c", blocks(README, "python")[number]], user)
     assert done.returncode == 0, done.stderr
     assert done.stdout.strip()
+    assert "None" not in done.stdout, "the skin of the example carries no load"
 
 
 def test_the_table_of_commands_is_the_command_lines():
