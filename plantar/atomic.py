@@ -63,6 +63,12 @@ def write_text(path: str | os.PathLike[str], text: str) -> Path:
     return Path(path)
 
 
+def keep_inputs(path: str | os.PathLike[str], inputs: Iterable[str | os.PathLike[str] | None]) -> None:
+    """An InputError if a file at `path` would replace one of `inputs` (files, or None)."""
+    if os.path.realpath(path) in {os.path.realpath(source) for source in inputs if source is not None}:
+        raise InputError(f"cannot write {path}: it is what this is made of; choose another name or folder")
+
+
 @contextmanager
 def output_folder(path: str | os.PathLike[str], inputs: Iterable[str | os.PathLike[str] | None] = ()) -> Iterator[Path]:
     """Yields a temporary folder, moved into `path` (made if needed) on success, else deleted; other files in `path`
@@ -70,8 +76,7 @@ def output_folder(path: str | os.PathLike[str], inputs: Iterable[str | os.PathLi
 
     An InputError if the folder cannot be made or written to, or a file would replace one of `inputs` (files, or None).
     """
-    final = Path(path)
-    kept = {os.path.realpath(source) for source in inputs if source is not None}
+    final, inputs = Path(path), tuple(inputs)
     made: list[Path] = []
     done = False
     try:
@@ -90,8 +95,7 @@ def output_folder(path: str | os.PathLike[str], inputs: Iterable[str | os.PathLi
         for _, target in moves:  # before the first move, so that all files appear or none
             if target.is_dir():
                 raise InputError(f"cannot write {target}: a folder of this name is in the way; choose another with -o")
-            if os.path.realpath(target) in kept:
-                raise InputError(f"cannot write {target}: it is what this is made of; choose another folder with -o")
+            keep_inputs(target, inputs)
         try:
             for source, target in moves:
                 target.parent.mkdir(parents=True, exist_ok=True)

@@ -24,11 +24,12 @@ def live(
 
     Example: plantar live replay:run.mcap --seconds 5
     """
-    from plantar.atomic import parent_folder
+    from plantar.atomic import keep_inputs, parent_folder
     from plantar.layouts.layout_file import read_layout
     from plantar.live.record import record
     from plantar.live.source import open_live
 
+    keep_inputs(output, [source.partition(":")[2]])
     stream = open_live(source, None if layout is None else read_layout(layout))
     with parent_folder(output), progress_bar() as progress:
         found = {"file": str(output), **record(stream, output, seconds, progress)}

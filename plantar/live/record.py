@@ -56,8 +56,10 @@ def record(
             for side, reading in chain([first], stream.readings):
                 now, before = reading.time - start, times[side]
                 if before and now <= before[-1]:
-                    last = f"{reading.time:g} s after {start + before[-1]:g} s"
-                    raise InputError(f"the {side} sole got {last}; allowed: times that go on")
+                    raise InputError(
+                        f"the {side} sole got {reading.time:.13g} s after {start + before[-1]:.13g} s; "
+                        "allowed: times that go on"
+                    )
                 if now > seconds:
                     break
                 skins[side].write(max(now, 0.0), reading.force)
@@ -73,8 +75,11 @@ def record(
 
 def _text(side: Side, stream: LiveStream, reading: Reading) -> str:
     percept = Percept(stream.soles[side], reading)
-    place = percept.position_cop_in_sole
-    at = "" if place is None else f" at {round(1e3 * place[0])}, {round(1e3 * place[1])} mm"
+    at = (
+        ""
+        if (place := percept.position_cop_in_sole) is None
+        else f" at {round(1e3 * place[0])}, {round(1e3 * place[1])} mm"
+    )
     return f"{side} {percept.vertical_force:.0f} N{at}"
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import instance, items
-from plantar.atomic import replacing
+from plantar.atomic import keep_inputs, replacing
 from plantar.errors import InputError
 from plantar.pages.page import with_policy
 from plantar.viewer.messages import Entity, Shape
@@ -41,19 +41,14 @@ def write_page(
     recordings = [recordings] if isinstance(recordings, str | os.PathLike) else items(recordings, "recordings")
     if not 1 <= len(recordings) <= _MOST:
         raise InputError(f"{len(recordings)} recordings to show; allowed: 1, or {_MOST} side by side")
+    keep_inputs(instance(path, str | os.PathLike, "path"), recordings)
     walks = [read_walk(recording) for recording in recordings]
     if len({walk.name for walk in walks}) < len(walks):  # the same scene twice: files show them apart
         files = [Path(recording) for recording in recordings]
         known = [file.stem if len({f.stem for f in files}) == len(files) else str(file) for file in files]
         walks = [replace(walk, name=f"{walk.name} ({name})") for walk, name in zip(walks, known, strict=True)]
-    size = 0
-    with (
-        replacing(instance(path, str | os.PathLike, "path")) as temporary,
-        temporary.open("w", encoding="utf-8") as file,
-    ):
-        for piece in _pieces(walks):
-            size += len(piece.encode())
-            file.write(piece)
+    with replacing(path) as temporary, temporary.open("wb") as file:
+        size = sum(file.write(piece.encode()) for piece in _pieces(walks))
     return {
         "file": str(Path(path)),
         "bytes": size,

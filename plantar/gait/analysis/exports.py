@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar import __version__
-from plantar.atomic import parent_folder, replacing, write_text
+from plantar.atomic import keep_inputs, parent_folder, replacing, write_text
 from plantar.csv_table import write_csv_rows
 from plantar.errors import InputError
 from plantar.gait.analysis.results import Analysis
@@ -126,6 +126,7 @@ def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Pa
     write = EXPORTS.get(target.suffix.lower())
     if write is None:
         raise InputError(f"cannot export to '{target.name}'; allowed: {', '.join(EXPORTS)}")
+    keep_inputs(target, [analysis.recording.path])
     with parent_folder(target), replacing(target) as temporary:
         write(analysis, temporary)
     loads = []

@@ -168,3 +168,11 @@ def test_opensim_reads_the_motion_file(tmp_path, analysis):
         read = table.getDependentColumn(f"ground_force_{side}_vy").to_numpy()
         assert np.abs(read - force).max() < 1e-6 * force.max()
     assert opensim.ExternalLoads(str(loads), True).getSize() == len(analysis.feet)
+
+
+def test_an_export_does_not_replace_its_recording(tmp_path):
+    np.savez(tmp_path / "walk.npz", left=np.tile(np.sin(np.arange(400) / 10.0).clip(0.0) * 400.0, (2, 1)).T, unit="N")
+    before = (tmp_path / "walk.npz").read_bytes()
+    with pytest.raises(InputError, match="it is what this is made of"):
+        export_analysis(analyse(tmp_path / "walk.npz"), tmp_path / "walk.npz")
+    assert (tmp_path / "walk.npz").read_bytes() == before

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from plantar import InputError, PlantarError, grid_layout
+from plantar.commands.live import live
 from plantar.formats import read_recording
 from plantar.live.record import record
 from plantar.live.source import LiveStream, open_live
@@ -95,6 +96,13 @@ def test_what_measured_is_kept(tmp_path, monkeypatch):
     assert read_recording(tmp_path / "run.mcap").kind == open_live(f"replay:{tmp_path / 'run.mcap'}").kind == "platform"
     monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO()))
     assert open_live("lines:insole", SOLE).kind == "insole"
+
+
+def test_a_replayed_recording_is_not_replaced(tmp_path):
+    (tmp_path / "run.mcap").write_text("a walk")
+    with pytest.raises(InputError, match="it is what this is made of"):
+        live(f"replay:{tmp_path / 'run.mcap'}", output=tmp_path / "run.mcap")
+    assert (tmp_path / "run.mcap").read_text() == "a walk"
 
 
 def test_raw_counts_are_not_replayed_as_newtons(tmp_path):

@@ -141,6 +141,15 @@ def test_the_page_is_one_small_file_and_shows_text_as_text(page, both):
     assert "test, box, seed 4: 2.0 s" in view_text(told)
 
 
+def test_a_page_does_not_replace_its_recording(tmp_path, monkeypatch):
+    run = write_walk(tmp_path / "run.mcap")
+    before = run.read_bytes()
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InputError, match=r"cannot write run\.mcap: it is what this is made of"):
+        write_page(run, "run.mcap")
+    assert run.read_bytes() == before
+
+
 def test_three_recordings_are_too_many(tmp_path):
     with pytest.raises(InputError, match="allowed: 1, or 2"):
         write_page(["a.mcap"] * 3, tmp_path / "x.html")
