@@ -239,3 +239,9 @@ def test_every_form_of_a_walk_gives_the_same_steps(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", SimpleNamespace(DataFrame=dict))
     assert list(found[0].to_pandas()) == list(expected)
     assert "<html" in found[2].report()
+
+
+def test_a_single_frame_has_no_steps():
+    one = np.full((1, 3), 20.0)
+    walk = analyse({"left": one, "right": one, "unit": "N"}, rate_hz=100.0)
+    assert [len(foot.steps) for foot in walk.feet.values()] == [0, 0]

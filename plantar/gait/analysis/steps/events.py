@@ -235,8 +235,8 @@ def measured_spans(time: NDArray[np.float64], force: NDArray[np.float64]) -> lis
         [(0, 2), (5, 6)]
     """
     index = np.flatnonzero(np.isfinite(force))
-    if len(index) == 0:
-        return []
+    if len(index) < 2:
+        return [(int(i), int(i) + 1) for i in index]
     cut = np.flatnonzero(np.diff(time[index]) > LONGEST_BRIDGE + 1.5 * float(np.median(np.diff(time))))
     starts = np.concatenate([[index[0]], index[cut + 1]])
     stops = np.concatenate([index[cut], [index[-1]]]) + 1
