@@ -73,8 +73,9 @@ class RobotController:
     def _sound(self, sensors: Sensors) -> bool:
         number(sensors.time, "time", finite=True)
         for name, count in (("joint_positions", len(self.joints)), ("gyro", 3), ("accelerometer", 3)):
-            if array(getattr(sensors, name), name, (count,), finite=True) is not getattr(sensors, name):
-                raise InputError(f"{does(name, 'are')} no array of float64; expected np.asarray(..., float)")
+            given = getattr(sensors, name)
+            if array(given, name, (count,), finite=True) is not given or not given.flags.c_contiguous:
+                raise InputError(f"{does(name, 'are')} no contiguous array of float64; expected np.array(..., float)")
         for joint, angle in zip(map(self.legs.model.joint, self.joints), sensors.joint_positions, strict=True):
             low, high = np.add(joint.range, (-0.5, 0.5)) if self.legs.model.jnt_limited[joint.id] else (-np.inf, np.inf)
             if not low <= angle <= high:  # by more than an encoder's offset
