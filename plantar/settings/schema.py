@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import Field, dataclass, field, fields
+from numbers import Real
 from types import MappingProxyType
 from typing import Any, ClassVar, NamedTuple, Self, dataclass_transform
 
@@ -246,10 +247,9 @@ def _checked(item: Field[Any], value: Any, body: BodyScale) -> Any:
     elif isinstance(default, str):
         choices = item.metadata.get("choices")
         good = isinstance(value, str) and (not choices or value in choices)
-    elif isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
-        kind = type(default)
-        good = item.metadata["low"] <= value <= item.metadata["high"] and value == kind(value)
-        value = kind(value) if good else value
+    elif isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value):
+        good = item.metadata["low"] <= value <= item.metadata["high"] and value == type(default)(value)
+        value = type(default)(value) if good else value
     if not good:
         raise InputError(f"setting '{item.name}' is {told}; allowed: {_allowed(item)}")
     return value
@@ -280,9 +280,7 @@ def _range(kind: str, item: Field[Any]) -> str:
 def _as_toml(value: Any) -> str:
     if isinstance(value, bool):
         return str(value).lower()
-    if isinstance(value, tuple):
-        return "[]"
-    return f'"{value}"' if isinstance(value, str) else f"{value:g}"
+    return "[]" if isinstance(value, tuple) else f'"{value}"' if isinstance(value, str) else f"{value:g}"
 
 
 def _meanings(kind: type[Settings]) -> dict[str, str]:

@@ -4,6 +4,7 @@ import copy
 import pickle
 from dataclasses import MISSING, FrozenInstanceError, asdict, dataclass, field, fields, replace
 
+import numpy as np
 import pytest
 
 from plantar.errors import InputError, SceneError
@@ -36,6 +37,7 @@ def test_values_take_the_type_of_their_default():
     spring = Spring(stiffness=3, coils=4.0)
     assert (spring.stiffness, type(spring.stiffness)) == (3.0, float)
     assert (spring.coils, type(spring.coils)) == (4, int)
+    assert Spring(stiffness=np.float32(3), coils=np.int64(4)) == spring
     assert Spring.from_table({"metal": "brass"}, "[spring]") == Spring(metal="brass")
 
 
