@@ -81,9 +81,9 @@ def run(
     scene: Scene | CompanionScene | str | os.PathLike[str],
     seed: int = 0,
     *,
-    record: Path | None = None,
-    video: Path | None = None,
-    plot: Path | None = None,
+    record: str | os.PathLike[str] | None = None,
+    video: str | os.PathLike[str] | None = None,
+    plot: str | os.PathLike[str] | None = None,
     progress: Callable[[float, str], None] | None = None,
 ) -> dict[str, Any]:
     """Simulate a scene, judge it by true contact forces, and write files.
@@ -109,4 +109,5 @@ def run(
         True
     """
     found: Any = scene if hasattr(scene, "robot") else open_scene(scene)
-    return simulation_of(found, integer(seed, "seed", 0)).run_to_files(record, video, plot, progress)
+    recording, film, figures = (None if path is None else Path(path) for path in (record, video, plot))
+    return simulation_of(found, integer(seed, "seed", 0)).run_to_files(recording, film, figures, progress)

@@ -10,6 +10,7 @@ from plantar.errors import SceneError
 from plantar.recordings.recording import read_mcap
 from plantar.sim.run.runner import Simulation, run_scene
 from plantar.sim.run.scene import load_scene
+from plantar.sim.run.scene_kind import run
 
 MOTION = ("landings_s", "impacts_N", "tilt_max_deg", "zmp_margin_min_m", "final", "estimate", "contact_area_ratio")
 
@@ -62,6 +63,13 @@ def test_recording_leaves_the_motion_the_same_to_the_last_bit(tmp_path):
     assert np.array_equal(plain.world.data.qpos, recorded.world.data.qpos)
     for name in MOTION:
         assert record[name] == without[name]
+
+
+def test_the_door_takes_paths_as_texts(tmp_path):
+    scene = load_scene("flat", ["steps=1", "settle=0.3", "end=0.2"])
+    summary = run(scene, record=str(tmp_path / "run.mcap"), plot=str(tmp_path / "plots"))
+    assert (tmp_path / "run.mcap").exists()
+    assert all((tmp_path / "plots" / name.rpartition("/")[2]).exists() for name in summary["figures"])
 
 
 def test_another_seed_is_another_walk(short_run, short_scene):
