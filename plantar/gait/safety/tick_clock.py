@@ -16,7 +16,7 @@ class TickClock:
 
     Args:
         period: Of control in s.
-        latest: First time in s that may be; after a later one ticks count from 0.
+        latest: First time in s that may be; after a later or negative one ticks count from 0.
 
     Attributes:
         odd: Successive ticks with unusable times.
@@ -36,7 +36,7 @@ class TickClock:
     def time_of(self, reported: float) -> float:
         """A tick's time in s, after the last one's, by the `reported` time in s."""
         if self._last is None:
-            self._last = reported if math.isfinite(reported) and reported <= self._latest else 0.0
+            self._last = reported if 0.0 <= reported <= self._latest and math.isfinite(reported) else 0.0
             self._offset = self._last - reported if math.isfinite(reported) else math.nan
             return self._last
         expected = self._last + self._period

@@ -28,6 +28,7 @@ def test_a_clock_that_began_before_the_walk_counts_from_zero():
         clock = TickClock(0.005, latest=1.0)
         assert [round(clock.time_of(first + 0.005 * i), 4) for i in range(4)] == [0.0, 0.005, 0.01, 0.015]
     assert TickClock(0.005, latest=1.0).time_of(1.0) == 1.0
+    assert TickClock(0.005, latest=1.0).time_of(-5.0) == 0.0
 
 
 def test_a_clock_with_jitter_is_followed_and_one_that_stops_is_noted():
