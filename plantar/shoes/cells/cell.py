@@ -167,8 +167,7 @@ class Cell:
     @property
     def active_area(self) -> float:
         along, across = self.active_extent
-        share = {"round": 0.25 * math.pi, "hex": 0.75}.get(self.shape, 1.0)
-        return share * along * across
+        return {"round": 0.25 * math.pi, "hex": 0.75}.get(self.shape, 1.0) * along * across
 
     def as_dict(self) -> dict[str, float | str]:
         """Values that are set, by its shape's keys, as in TOML."""

@@ -169,6 +169,5 @@ def _holders(solid: _Print, shoe: Shoe, build: ShoeBuild, retention: Retention) 
         for q in places:
             line = shapely.LineString([(q.x, middle), (q.x, middle + flip * q.side * 1e3)])
             walls = sorted(g.bounds[1::2] for g in shapely.get_parts(line.intersection(solid.cut(p.rim_top - 0.3))))
-            gaps = [b[0] - a[1] for a, b in pairwise(walls)]
-            nuts.append(max(gaps, default=0.0) / (0.8 * width))
+            nuts.append(max((b[0] - a[1] for a, b in pairwise(walls)), default=0.0) / (0.8 * width))
         yield Feature("slot of each nut, between two walls", "nut", least(nuts))

@@ -119,8 +119,7 @@ def _undercut(shoe: Array, retention: Retention, p: ShoeParameters) -> float:
             continue
         solid = section(shoe, 0.5 * (low + high) + 1.3e-4)
         if below is not None:
-            over = solid.difference(below.buffer(_SLIVER)).difference(shapely.union_all(kept))
-            area += float(over.area)
+            area += float(solid.difference(below.buffer(_SLIVER)).difference(shapely.union_all(kept)).area)
         below = solid
     return round(area, 2)
 

@@ -100,8 +100,7 @@ def _check_off(file: Path) -> None:
         head = opened.read(4096)
     words = [w for line in head.splitlines() for w in line.partition(b"#")[0].split()]
     if len(words) > 2 and words[0].endswith(b"OFF") and words[2].isdigit() and int(words[2]) > MOST_TRIANGLES:
-        count = words[2].decode()
-        raise FootError(f"{file}: has {count:.20} faces; allowed: up to {MOST_TRIANGLES}; reduce the mesh")
+        raise FootError(f"{file}: has {words[2].decode():.20} faces; allowed: up to {MOST_TRIANGLES}; reduce the mesh")
 
 
 _HEAD, _TRIANGLE = 84, 50  # bytes

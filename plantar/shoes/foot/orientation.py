@@ -89,8 +89,7 @@ def _area_in_plane(triangles: Array, normal: Array, *, inwards: bool = False) ->
 
 
 def _flat_area(triangles: Array, normal: Array) -> float:
-    silhouette = convex_outline(triangles.reshape(-1, 3)[:, :2]).area
-    return float(_area_in_plane(triangles, normal, inwards=True) / silhouette)
+    return float(_area_in_plane(triangles, normal, inwards=True) / convex_outline(triangles.reshape(-1, 3)[:, :2]).area)
 
 
 def flat_share(triangles: Array) -> float:
@@ -176,8 +175,7 @@ def _face_area(points: Array, outward: Array, deep: float) -> float:
     """Hull area in mm^2 of points within `deep` mm of the farthest in a direction."""
     depth = points @ outward
     near = points[depth > depth.max() - deep]
-    across = np.linalg.svd(outward[None])[2][1:]
-    return float(convex_outline(near @ across.T).area)
+    return float(convex_outline(near @ np.linalg.svd(outward[None])[2][1:].T).area)
 
 
 def check_one_body(triangles: Array, where: str) -> None:

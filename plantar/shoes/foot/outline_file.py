@@ -70,8 +70,7 @@ def foot_from_drawing(
     notes = [note, *notes]
     axis: Axis = forward or ("y" if box[3] - box[1] > 1.05 * (box[2] - box[0]) else "x")
     if axis != "x":
-        given = "as given" if forward else "its longer side"
-        notes.append(f"the drawing's {axis} axis points to the toes, {given}")
+        notes.append(f"the drawing's {axis} axis points to the toes, {'as given' if forward else 'its longer side'}")
     turn = rotation_forward(axis)[:2, :2] * scale * factor
     if mesh_side == "right":
         turn = np.diag([1.0, -1.0]) @ turn

@@ -216,8 +216,7 @@ def _wires(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
         chain.setdefault(i, []).append(j)
     rows = []
     for i, nexts in chain.items():
-        names = ", ".join(f"{ids[j]} ({lengths[j]:.0f})" for j in nexts)
-        rows.append(row(f"from {ids[i]}", (names,)))
+        rows.append(row(f"from {ids[i]}", (", ".join(f"{ids[j]} ({lengths[j]:.0f})" for j in nexts),)))
     total, patches = sum(lengths.values()), len(plan.connectors)
     span = f"{min(lengths.values()):.0f} to {max(lengths.values()):.0f}" if lengths else "none"
     starts = ", ".join(str(ids[c]) for c in plan.connectors)

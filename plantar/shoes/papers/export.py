@@ -176,8 +176,7 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
             report_progress((i + 0.6) / count, f"drawing the {side} shoe")
             names += _draw(shoe, build, surface, target)
             files += names
-        layout = write_text(target / f"layout_{side}.json", _layout_text(shoe, build, weights.get(side)))
-        files.append(layout.name)
+        files.append(write_text(target / f"layout_{side}.json", _layout_text(shoe, build, weights.get(side))).name)
     if checks:
         write_text(target / "parts.csv", bill_text(bills))
         write_text(target / "wiring.csv", wiring_text(build.shoes, build.parameters))

@@ -167,5 +167,4 @@ def net_list_text(shoe: Shoe) -> str:
     for i, (name, taxels) in enumerate(nets.items(), start=1):
         nodes = [f'(node (ref "{r}") (pin "{on[r].index(name) + 1}"))' for r in taxels]
         lines.append(f'(net (code "{i}") (name "{name}") {" ".join(nodes)} (node (ref "J1") (pin "{i}")))')
-    text = "\n".join(["(components", *parts, ")", "(nets", *lines, ")"])
-    return f'(export (version "E")\n{text}\n)\n'
+    return "\n".join(['(export (version "E")', "(components", *parts, ")", "(nets", *lines, ")", ")", ""])

@@ -93,16 +93,14 @@ def check_strength(foot: Foot, contact: Any, parameters: ShoeParameters) -> tupl
     allowed = material.strength / p.safety
     reach = float(max(foot.sole.distance(shapely.points(ring(contact)))))
     span = _unsupported_span(foot)
-    width = foot.sole.bounds[3] - foot.sole.bounds[1]
-    push = p.friction * load.force / width
+    push = p.friction * load.force / (foot.sole.bounds[3] - foot.sole.bounds[1])
     pressure, lever = load.pressure, p.rim_height / 3.0
 
     def member(name: str, model: str, length: float, moment: float, at: float, limit: float, bent: float) -> Member:
         needed = math.ceil(1e3 * math.sqrt(6.0 * moment / limit) - 1e-6) / 1e3  # never rounded below what it takes
         deflection = bent / (material.modulus * at**3 / 12.0)
-        stress = 6.0 * moment / at**2
-        rounded = (round(v, 3) for v in (length, at, needed, stress, limit, deflection))
-        return Member(name, model, *rounded)
+        figures = (length, at, needed, 6.0 * moment / at**2, limit, deflection)
+        return Member(name, model, *(round(v, 3) for v in figures))
 
     return load, (
         member(

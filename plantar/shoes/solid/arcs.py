@@ -62,8 +62,7 @@ def with_arcs(body: Polyhedron) -> CurvedSolid:
                 facets = [_face_of(body, low[i], low[i + 1], high[i]) for i in range(start, end)]
                 dropped.update(facets)
                 loop = (low[start], low[end], high[end], high[start])
-                upright = body.neighbours[low[start], low[start + 1]] == facets[0]
-                added.append((loop if upright else loop[::-1],))
+                added.append((loop if body.neighbours[low[start], low[start + 1]] == facets[0] else loop[::-1],))
     faces = [
         tuple(tuple(n for n in loop if n not in removed) for loop in face)
         for i, face in enumerate(body.faces)

@@ -76,8 +76,7 @@ def _assembled(steps: Sequence[Step]) -> Any:
             limit = _prism(Block(step.within, low - 1.0, high + 1.0))
             together = _combined(ocp.BRepAlgoAPI.BRepAlgoAPI_Fuse, bodies[:1], bodies[1:])
             bodies = [_combined(ocp.BRepAlgoAPI.BRepAlgoAPI_Common, [together], [limit])]
-        first = [] if shape is None else [shape]
-        every = [*first, *bodies]
+        every = [*([] if shape is None else [shape]), *bodies]
         shape = _combined(
             ocp.BRepAlgoAPI.BRepAlgoAPI_Fuse if step.kind == "add" else ocp.BRepAlgoAPI.BRepAlgoAPI_Cut,
             every[:1],

@@ -151,8 +151,7 @@ def _solid(solid: CurvedSolid) -> Any:
 
 def _edge(corners: Array, vertices: list[Any], a: int, b: int, arc: Arc | None, known: _Known) -> Any:
     if arc is not None:
-        curve = _curve(corners, a, b, arc)
-        return ocp.BRepBuilderAPI.BRepBuilderAPI_MakeEdge(curve, vertices[a], vertices[b]).Edge()
+        return ocp.BRepBuilderAPI.BRepBuilderAPI_MakeEdge(_curve(corners, a, b, arc), vertices[a], vertices[b]).Edge()
     way = (corners[b] - corners[a]) / math.dist(corners[a], corners[b])
     if tuple(np.round(way, 6)) < (0.0, 0.0, 0.0):
         return ocp.TopoDS.TopoDS.Edge_s(_edge(corners, vertices, b, a, None, known).Reversed())

@@ -54,8 +54,7 @@ def geom_triangles(model: Any, data: Any, geom: int) -> Triangles:
         local = corners[faces]
     else:
         local = convex_surface(_points_of(kind, size))
-    rotation = data.geom_xmat[geom].reshape(3, 3)
-    return np.asarray(local @ rotation.T + data.geom_xpos[geom])
+    return np.asarray(local @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom])
 
 
 def convex_surface(points: NDArray[np.float64]) -> Triangles:

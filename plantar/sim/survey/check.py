@@ -93,8 +93,7 @@ def check_robot(file: str | os.PathLike[str], scene: str) -> RobotCheck:
     Raises:
         RobotError, SceneError: If an argument is invalid.
     """
-    robot = load_robot(file)
-    return _Checked(robot, load_scene(scene, robot=str(file))).result()
+    return _Checked(load_robot(file), load_scene(scene, robot=str(file))).result()
 
 
 class _Checked:

@@ -235,8 +235,7 @@ def _ankle(data: Any, hinges: list[int], foot: Array) -> Array:
         middle = 0.5 * (foot.min(axis=0) + foot.max(axis=0))
         return np.asarray(p + ((middle - p) @ u) * u)
     across = q - p
-    along = (across @ u - (across @ v) * parallel) / (1.0 - parallel**2)
-    return np.asarray(p + along * u)
+    return np.asarray(p + (across @ u - (across @ v) * parallel) / (1.0 - parallel**2) * u)
 
 
 def _facing(tree: _Tree, up: Array, legs: list[Leg], where: str) -> tuple[Array, tuple[str, ...]]:

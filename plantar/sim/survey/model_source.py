@@ -218,8 +218,7 @@ def _drop_unreadable(spec: Any, file: Path, folder: Path, notes: list[str]) -> N
         material.textures = [""] * len(material.textures)
     for part in ("textures", "skins", "hfields", "flexes"):
         delete_all(spec, getattr(spec, part))
-    fields = (mujoco.mjtGeom.mjGEOM_HFIELD, mujoco.mjtGeom.mjGEOM_SDF)
-    delete_all(spec, [g for g in spec.geoms if g.type in fields])
+    delete_all(spec, [g for g in spec.geoms if g.type in (mujoco.mjtGeom.mjGEOM_HFIELD, mujoco.mjtGeom.mjGEOM_SDF)])
     empty = [g for g in spec.geoms if _is_empty(g)]
     if empty:
         notes.append(f"{len(empty)} shapes without a size are left out")
