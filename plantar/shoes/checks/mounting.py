@@ -135,7 +135,7 @@ def _gap(foot: Foot, height: float, solid: Any) -> float:
 
 
 def _gap_on_the_way(foot: Foot, height: float, solid: Any) -> float:
-    """Smallest distance from above between the foot up to a height and a shoe section there."""
+    """Smallest distance from above of the foot up to a height from a section."""
     if foot.triangles is None:
         return float(foot.passing(height).distance(solid))
     flat = cut_below(foot.triangles, height)[..., :2]

@@ -41,7 +41,7 @@ class Foot:
     links: NDArray[np.float64] | None = None
 
     def passing(self, height: float) -> Any:
-        """Outline of the foot up to a height in mm, which passes there while the shoe is pushed on."""
+        """Outline of what passes a height in mm while the shoe is pushed on."""
         return self._passing(round(height, 4))
 
     @cached_property

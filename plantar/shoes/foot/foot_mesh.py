@@ -171,7 +171,7 @@ def _standing(
     up_given: bool = False,
 ) -> Foot:
     """Foot from triangles in mm, z up; links move as the surface does from `read`."""
-    notes = list(notes)
+    notes, tilt = list(notes), 0.0
     if sole_z is None:
         triangles, tilt = levelled(triangles)
         if tilt > 0.0:
@@ -208,7 +208,7 @@ def _standing(
     notes.append(f"sole {box[2] - box[0]:.1f} x {box[3] - box[1]:.1f} mm (lowest {sole_band:g} mm of the mesh)")
     lifted = triangles + np.array([0.0, 0.0, 0.0 if sole_z is None else -float(triangles[..., 2].min())])
     if not up_given and sole_z is None:
-        notes += [*check_upright(upright, where), *check_level(upright, where)]
+        notes += [*check_upright(upright, where), *check_level(upright, where, tilt)]
     support = touching(lifted, _TOUCHING).intersection(sole)
     return Foot(
         name,

@@ -29,6 +29,7 @@ _SIDE = 1.5  # of the face below: a face on a side that is so much larger is the
 _SLANTED = "a slanted one"
 _DECK_TILT = 3.0  # degrees by which a deck may be tilted over a sole that nothing levels
 _DECK = 0.5  # of the silhouette: a plane above that is so large is the foot's deck
+_AS_DRAWN = 0.3  # degrees within which a face was level before the foot was levelled
 _EITHER = 0.8  # of the face below: a face above that is so large could be the sole
 _UPWARD = 0.2  # of a normal: faces above are no sole
 _LONGER = 1.05  # of the other side: what counts as the long side
@@ -144,19 +145,20 @@ def check_upright(triangles: Array, where: str) -> list[str]:
     return []
 
 
-def check_level(triangles: Array, where: str) -> list[str]:
-    """Refuse triangles in mm of a foot without resting plane and with tilted upper side; where is the file's name.
+def check_level(triangles: Array, where: str, levelled_by: float = 0.0) -> list[str]:
+    """Refuse triangles in mm of a foot upside down, or tilted without resting plane; where is the file's name,
+    levelled_by degrees removed.
 
     Returns:
         Notes on the undetectable: a rounded sole's level, and a foot upside down.
 
     Raises:
-        FootError: If tilted 3 to 25 degrees.
+        FootError: If tilted 3 to 25 degrees, or if only its upper side was level.
     """
-    below, share = _resting_plane(triangles)
+    (below, share), flip = _resting_plane(triangles), np.array([1.0, 1.0, -1.0])
+    above, deck = _resting_plane(triangles * flip)
+    tilt = math.degrees(math.acos(min(1.0, -float(above[2]))))
     if share < _RESTS or _flat_area(triangles, below) < _RESTS * share:
-        above, deck = _resting_plane(triangles * np.array([1.0, 1.0, -1.0]))
-        tilt = math.degrees(math.acos(min(1.0, -float(above[2]))))
         if deck > _DECK and tilt > _DECK_TILT:
             raise FootError(
                 f"{where}: the sole has no plane to be levelled by, and the upper side is tilted by {tilt:.1f} "
@@ -165,10 +167,18 @@ def check_level(triangles: Array, where: str) -> list[str]:
             )
         return ["the sole has no plane to be levelled by: taken to be level as the mesh's axes are"]
     points = triangles.reshape(-1, 3)
-    up = _face_area(points, _direction("z"), _DEEP)
-    if up > _EITHER * _face_area(points, _direction("-z"), _BAND):
-        return ["the foot could stand on its upper side as well: z is taken to point up (or give the axis that does)"]
-    return []
+    up = _face_area(points, above * flip, _DEEP)
+    if up <= _EITHER * _face_area(points, _direction("-z"), _BAND) or (
+        _area_in_plane(triangles, above * flip, inwards=True) < _RESTS * up  # over what juts out there are no faces
+    ):
+        return []
+    if levelled_by > 0.0 and abs(tilt - levelled_by) < _AS_DRAWN:
+        raise FootError(
+            f"{where}: the foot seems to stand on its upper side: what lies below is tilted by {tilt:.1f} degrees, and "
+            "what lies above is level; turn the mesh, or give the axis that points up (--up -z, or --up z to level it "
+            "as it stands)"
+        )
+    return ["the foot could stand on its upper side as well: z is taken to point up (or give the axis that does)"]
 
 
 def _face_area(points: Array, outward: Array, deep: float) -> float:

@@ -8,6 +8,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
+from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.foot.orientation import (
     AXES,
     check_level,
@@ -149,6 +150,18 @@ def test_what_could_stand_on_either_side_is_told(box):
     plate = box((-80, 150), (-45, 45), (0, 30))
     assert "upper side as well" in check_level(plate, "foot")[0]
     assert check_level(np.concatenate([plate, box((-20, 20), (-20, 20), (30, 80))]), "foot") == []
+
+
+@pytest.mark.parametrize("turn", [(1.0, -1.0, -1.0), (-1.0, 1.0, -1.0)])
+def test_a_wedge_turned_by_180_degrees_is_refused_and_stands_by_the_axis_that_is_given(prism, turn):
+    side = np.array([[-75.0, 0.0], [135.0, 0.0], [135.0, 15.0], [-75.0, 45.0]])
+    wedge = prism(side, -45.0, 45.0)[..., [0, 2, 1]][:, ::-1]
+    assert any("upper side as well" in note for note in foot_from_triangles("a", wedge, where="a").notes)
+    with pytest.raises(FootError, match=r"stand on its upper side: .* tilted by 8\.1 degrees.*--up -z"):
+        foot_from_triangles("a", wedge * turn, where="a")
+    turned = foot_from_triangles("a", wedge * turn, where="a", up="-z")
+    assert turned.height == pytest.approx(45.0)
+    assert turned.sole.area == pytest.approx(210.0 * 90.0)
 
 
 @pytest.mark.parametrize("yaw", [8.0, 20.0, -25.0, 40.0, 5.0])
