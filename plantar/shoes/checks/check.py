@@ -209,8 +209,7 @@ def _contact_checks(plan: ShoePlan, build: ShoeBuild) -> Iterator[Check]:
 def _insole_checks(shoe: Shoe, surface: Array, p: ShoeParameters) -> Iterator[Check]:
     high, outline = float(surface[..., 2].max()), shoe.plan.foot
     yield Check("thickness, mm", abs(high - p.thickness) <= 0.05, round(high, 3), f"{p.thickness:g} within 0.05")
-    points = np.unique(surface.reshape(-1, 3)[:, :2].round(4), axis=0)
-    beyond = float(outline.distance(shapely.points(points)).max())
+    beyond = float(outline.distance(shapely.points(np.unique(surface.reshape(-1, 3)[:, :2].round(4), axis=0))).max())
     yield Check("beyond the foot's outline, mm", beyond <= 1e-2, round(beyond, 3), "0")
     covered = 100.0 * even_share(shoe.plan.cells, outline)
     yield _least("even pressure that the taxels carry, %", covered, 100.0 * EVEN_SHARE)

@@ -124,8 +124,7 @@ def _strip(edge: Any, inside: Any, depth: float, length: float) -> list[Any]:
 
 
 def _cuts(inner: _Line, outer: _Line, depth: float, length: float) -> list[tuple[float, float]]:
-    turns = inner.turns()
-    sharp = np.flatnonzero(turns > _SHARP)
+    sharp = np.flatnonzero(inner.turns() > _SHARP)
     fixed = inner.starts[sharp].tolist() or [0.0]
     out: list[tuple[float, float]] = []
     for low, high in pairwise([*fixed, fixed[0] + inner.length]):

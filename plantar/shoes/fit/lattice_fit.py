@@ -196,8 +196,7 @@ def _scan(sole: Any, pattern: CellPattern, overhang: float, angles: Sequence[flo
 
 
 def _straight(pattern: CellPattern) -> list[float]:
-    period = float(round(math.degrees(pattern.period)))
-    return list(dict.fromkeys(k * 90.0 % period for k in range(4)))
+    return list(dict.fromkeys(k * 90.0 % float(round(math.degrees(pattern.period))) for k in range(4)))
 
 
 def _angles(pattern: CellPattern) -> list[float]:
@@ -266,8 +265,7 @@ def _critical_offsets(allowed: Any, pattern: CellPattern, lattice: Lattice) -> N
     moved = shapely.transform(
         np.repeat(edge, len(shifts)), lambda points: points + np.repeat(shifts, len(corners), axis=0)
     )
-    crossings = shapely.get_coordinates(shapely.intersection(moved, edge))
-    points = np.concatenate([corners, crossings])
+    points = np.concatenate([corners, shapely.get_coordinates(shapely.intersection(moved, edge))])
     # The same placement, moved by a lattice vector to the unit cell at the origin.
     c, s = math.cos(lattice.angle), math.sin(lattice.angle)
     u, v = c * points[:, 0] + s * points[:, 1], -s * points[:, 0] + c * points[:, 1]

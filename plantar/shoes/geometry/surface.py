@@ -126,8 +126,7 @@ def _left_over(flat: Array) -> tuple[Array, Numbers]:
     left = np.flatnonzero(net)
     which = order[first[left]]
     points = flat.reshape(-1, 2)
-    following = 3 * (which // 3) + (which + 1) % 3
-    edges = np.stack([points[which], points[following]], axis=1)
+    edges = np.stack([points[which], points[3 * (which // 3) + (which + 1) % 3]], axis=1)
     turned = (start[which] < end[which]) != (net[left] > 0)
     return np.where(turned[:, None, None], edges[:, ::-1], edges), np.abs(net[left])
 

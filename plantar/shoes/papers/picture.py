@@ -129,8 +129,7 @@ def rendered_png(
     bodies: list[tuple[Array, tuple[float, float, float]]], *, azimuth: float, elevation: float, width: int = 480
 ) -> bytes:
     """Gives PNG bytes of bodies from azimuth and elevation, of a width in pixels, as `render` does; deterministic."""
-    seen = render(bodies, azimuth=azimuth, elevation=elevation, width=2 * width)
-    return png_of(_halved(seen).astype(np.float64))
+    return png_of(_halved(render(bodies, azimuth=azimuth, elevation=elevation, width=2 * width)).astype(np.float64))
 
 
 def draw_picture(surface: Array, pad: Array | None, title: str, path: str | os.PathLike[str]) -> Path:

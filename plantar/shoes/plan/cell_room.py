@@ -106,8 +106,7 @@ def led_parameters(
                     f"pocket_depth raised from {p.pocket_depth:g} to {depth:g} mm: the cells' leads pass there"
                 )
                 p = replace(p, pocket_depth=depth)
-        needed = max(r.needed for r in lead_rooms(plan, p) if "channel" in r.name)
-        width = min(widest, needed / p.pocket_depth)
+        width = min(widest, max(r.needed for r in lead_rooms(plan, p) if "channel" in r.name) / p.pocket_depth)
     else:
         return p, ()
     width = math.ceil(10.0 * width - 1e-6) / 10.0

@@ -125,8 +125,7 @@ def fit_insole(
 
 def even_share(cells: Iterable[Any], sole: Any) -> float:
     """Gives share, 0..1, of a sole covered by cells, polygons or corners (k, 2): their part of an even pressure."""
-    covered = shapely.union_all([shapely.Polygon(c) for c in cells]).intersection(sole)
-    return float(covered.area / sole.area)
+    return float(shapely.union_all([shapely.Polygon(c) for c in cells]).intersection(sole).area / sole.area)
 
 
 def _within(foot: Foot, distance: float) -> Any:

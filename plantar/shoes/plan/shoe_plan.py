@@ -245,8 +245,7 @@ def _route(
 ) -> tuple[tuple[int, ...], tuple[tuple[int, int], ...]]:
     """Each patch's taxel nearest the heel, and the tree of fewest hops from it."""
     centres = layout.positions[:, :2]
-    start = np.array([to_m(heel[0]), to_m(heel[1])])
-    distance = np.hypot(*(centres - start).T)
+    distance = np.hypot(*(centres - to_m(np.array(heel))).T)
     left = set(range(len(layout)))
     connectors: list[int] = []
     route: list[tuple[int, int]] = []

@@ -27,8 +27,7 @@ def load_kernel() -> Any:
         import OCP
         import OCP.TopoDS  # gives names of the version before
     # It prints what it finds wrong in a file to stdout, which belongs to the command; errors are raised anyhow.
-    printers = OCP.Message.Message_PrinterOStream.get_type_descriptor_s()
-    OCP.Message.Message.DefaultMessenger_s().RemovePrinters(printers)
+    OCP.Message.Message.DefaultMessenger_s().RemovePrinters(OCP.Message.Message_PrinterOStream.get_type_descriptor_s())
     return OCP
 
 

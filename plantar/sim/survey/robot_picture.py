@@ -33,8 +33,7 @@ def draw_robot(robot: Robot, path: Path) -> Path:
     data = world.data
     data.qpos[:] = legs.configuration
     mujoco.mj_forward(world.model, data)
-    own = world.model.geom_bodyid > 0
-    tall = float((data.geom_xpos[:, 2] + world.model.geom_rbound)[own].max())
+    tall = float((data.geom_xpos[:, 2] + world.model.geom_rbound)[world.model.geom_bodyid > 0].max())
     length = 1.3 * float(robot.layouts["left"].outline[:, 0].max())  # ahead of the toes
     lines = _bones(robot, world)
     for side in SIDES:
@@ -59,8 +58,7 @@ def _bones(robot: Robot, world: World) -> list[Line]:
     ends = [(chains["left"][0], chains["right"][0])]
     ends += [pair for chain in chains.values() for pair in pairwise(chain)]
     sizes = [float(np.linalg.norm(b - a)) for a, b in ends]
-    radius = 0.03 * max(sizes)
-    return [Line(a, b, radius, _BONE) for (a, b), size in zip(ends, sizes, strict=True) if size > 1e-3]
+    return [Line(a, b, 0.03 * max(sizes), _BONE) for (a, b), size in zip(ends, sizes, strict=True) if size > 1e-3]
 
 
 def _axes(data: mujoco.MjData, site: int, length: float) -> list[Line]:

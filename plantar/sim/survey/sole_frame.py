@@ -195,8 +195,8 @@ def _covered(triangles: Array) -> float:
     a, b = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
     cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
     down = 0.5 * float(-cross[cross < 0.0].sum())
-    whole = _hull_area(triangles.reshape(-1, 3)[:, :2])
-    return max(down, 0.5 * float(np.abs(cross).sum()) - down) / max(whole, 1e-12)
+    up = 0.5 * float(np.abs(cross).sum()) - down
+    return max(down, up) / max(_hull_area(triangles.reshape(-1, 3)[:, :2]), 1e-12)
 
 
 def _hull_area(points: Array) -> float:
