@@ -7,6 +7,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
+from scipy.spatial import ConvexHull
 
 from plantar.gait.plan.footsteps import Footstep, straight_plan
 from plantar.robots.controller_settings import controller_settings
@@ -33,6 +34,8 @@ _BENT = math.radians(8.0)  # of a knee: below it inverse kinematics damps, and t
 _MISSED = 0.01  # m by which feet or CoM may miss the plan: the three G1s walk with 3 to 5 mm
 _TILT = math.radians(2.0)  # of a sole against the foot that it hangs on: a shoe gives way by about as much
 _BELOW = 2e-3  # m of a foot below its shoe's inner face: printer tolerance and rounded edges
+_BESIDE = 0.05  # of the sole's width, by which foot and shoe may reach past each other
+_BAND = 5e-3  # m: the lowest part of a foot, which is its sole
 _APART = 0.05  # of the sole's width between two soles side by side
 _HIGHEST = 1.0  # of a torque limit
 _ROCKING = 1.5  # the same of quick steps that rock: H1 walks with 1.4, at its ankles' limit for a tenth of the time
@@ -249,34 +252,52 @@ class _Checked:
             foot = rested(model, data, parts, to_sole)
             if foot is None:
                 continue
-            lowest = float((foot.surface.reshape(-1, 3) @ -foot.normal).min())
+            points, to_body = foot.surface.reshape(-1, 3), np.array(self.robot.sole_rotations[side])
+            lowest = float((points @ -foot.normal).min())
             tilt = math.acos(min(1.0, -float(foot.normal[2]))) if foot.share >= 0.25 else 0.0
-            text = f"it is tilted by {math.degrees(tilt):.1f} degrees against the foot"
-            if tilt > _TILT:
-                turn = roll_pitch_yaw(np.array(self.robot.sole_rotations[side]) @ level_axes(foot.normal))
-                text += f"; allowed: {math.degrees(_TILT):g}; rotation{'_right' * (side == 'right')} = {turn} works"
-            found.append(
-                Finding(
-                    f"{side} sole", round(math.degrees(tilt), 2), math.degrees(_TILT), "degrees", tilt <= _TILT, text
-                )
+            turned, key = level_axes(foot.normal), "_right" * (side == "right")
+            if ((data.xanchor[model.joint(self.robot.legs[side].joints[-3]).id] - data.site_xpos[site]) @ to_sole.T)[
+                2
+            ] < 0:
+                tilt, turned = math.pi - tilt, turned @ np.diag([1.0, -1.0, -1.0])  # the leg is below
+            level = tilt <= _TILT
+            text = f"it is tilted by {math.degrees(tilt):.1f} degrees against the foot" + _unless(
+                level, f"; allowed: {math.degrees(_TILT):g}; rotation{key} = {roll_pitch_yaw(to_body @ turned)} works"
             )
-            inner = float((to_sole @ data.site_xpos[site])[2]) + self.robot.shoe_thickness
-            below = inner - (lowest if tilt <= _TILT else float(foot.surface[..., 2].min()))
+            found.append(
+                Finding(f"{side} sole", round(math.degrees(tilt), 2), math.degrees(_TILT), "degrees", level, text)
+            )
+            place = to_sole @ data.site_xpos[site]
+            below = float(place[2]) + self.robot.shoe_thickness - (lowest if level else float(points[:, 2].min()))
             below_text = f"the foot reaches {1e3 * below:.1f} mm below the shoe's inner face"
             if below > _BELOW:
-                z = float(self.robot.sole_origins[side][2]) - below
-                below_text += (
-                    f"; allowed: {1e3 * _BELOW:g}; origin with z = {z:.4f} works"
-                    if tilt <= _TILT
-                    else "; turn it first"
-                )
+                at = (self.robot.sole_origins[side] - below * to_body[:, 2]).round(4).tolist()
+                below_text += f"; allowed: {1e3 * _BELOW:g}; origin{key} = {at} works" if level else "; turn it first"
             elif below < -0.25 * self.body.sole_width:
                 below_text = f"the shoe hangs {-1e3 * below:.0f} mm below the foot"
             holds = -0.25 * self.body.sole_width <= below <= _BELOW
             found.append(
                 Finding(f"under the {side} foot", round(1e3 * below, 2), 1e3 * _BELOW, "mm", holds, below_text)
             )
+            if level:
+                flat = points[points[:, 2] <= lowest + _BAND][:, :2] - place[:2]
+                found.append(self._beside(side, flat, to_body, key))
         return found
+
+    def _beside(self, side: Side, foot: Any, to_body: Any, key: str) -> Finding:
+        shoe, most = np.array(self.robot.layouts[side].outline)[:, :2], _BESIDE * self.body.sole_width
+        off = min(_beyond(foot, shoe), _beyond(shoe, foot))
+        middle = 0.5 * (np.ptp(foot, axis=0) - np.ptp(shoe, axis=0)) + foot.min(axis=0) - shoe.min(axis=0)
+        text = f"the foot reaches {1e3 * off:.1f} mm beyond the shoe, which reaches as far on another side"
+        if min(_beyond(-foot, shoe), _beyond(shoe, -foot)) <= most:
+            ways = f"rotation{key} = {roll_pitch_yaw(to_body @ np.diag([-1.0, -1.0, 1.0]))} works"
+        elif min(_beyond(foot - middle, shoe), _beyond(shoe, foot - middle)) <= most:
+            moved = (self.robot.sole_origins[side] + to_body[:, :2] @ middle).round(4).tolist()
+            ways = f"origin{key} = {moved} works"
+        else:
+            ways = f"turn it by rotation{key} about the sole's normal"
+        text = f"{text}; allowed: {1e3 * most:.1f}; {ways}" if off > most else "the shoe lies under the foot"
+        return Finding(f"beside the {side} foot", round(1e3 * off, 1), round(1e3 * most, 1), "mm", off <= most, text)
 
     def _torques(self, reach: PlanReach) -> list[Finding]:
         limits = np.array(self.robot.effort_limits or (self.robot.biped.effort_limits if self.robot.biped else ()))
@@ -336,6 +357,11 @@ class _Checked:
                 return f"com_height = {self.robot.com_height + higher * self.body.leg:.3f} works"
         needed = min(now.carrying[joint], other.carrying[joint]) / HELD
         return f"no other height or lean needs less than the limit; a motor of {needed:.3g} N m works"
+
+
+def _beyond(points: Any, shape: Any) -> float:
+    sides = ConvexHull(shape).equations
+    return float((points @ sides[:, :2].T + sides[:, 2]).max())
 
 
 def _unless(holds: bool, remedy: str) -> str:

@@ -10,6 +10,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from plantar.commands.robot import _refuse_other
 from plantar.commands.robot import robot as robot_command
@@ -21,6 +22,7 @@ from plantar.sim.run.runner import run_scene
 from plantar.sim.run.scene import load_scene
 from plantar.sim.survey.check import check_robot
 from plantar.sim.survey.introduce import introduce
+from plantar.sim.survey.robot_text import roll_pitch_yaw
 from plantar.sim.survey.survey import survey_model
 
 from .random_biped import random_biped
@@ -74,7 +76,7 @@ def test_nothing_is_found_that_would_go_wrong(made):
         ("stiffness", 0.05, 0.0, "soft servos", "m g h"),
         ("damping", 0.02, 0.0, "damping", "damping = "),
         ("rotation", 1.0, [0.0, 12.0, 0.0], "left sole", "rotation = "),
-        ("thickness", 0.0, 0.03, "under the left foot", "origin with z = "),
+        ("thickness", 0.0, 0.03, "under the left foot", "origin = "),
     ],
 )
 def test_the_check_names_what_is_spoilt(made, field, factor, shift, name, words):
@@ -90,6 +92,39 @@ def test_the_check_names_what_is_spoilt(made, field, factor, shift, name, words)
     assert "joint range" not in [f.name for f in checked.findings] or name != "reach"  # was not looked at to the end
     assert name in wrong
     assert words in wrong[name]
+
+
+@pytest.mark.parametrize(
+    ("shift", "turn", "name"),
+    [
+        ([0.0, 0.03, 0.0], [0.0, 0.0, 0.0], "beside the left foot"),
+        ([-0.04, 0.0, 0.0], [0.0, 0.0, 0.0], "beside the left foot"),
+        ([0.0, 0.0, 0.02], [0.0, 0.0, 0.0], "under the left foot"),
+        ([0.0, 0.0, 0.0], [0.0, 0.0, 180.0], "beside the left foot"),
+        ([0.0, 0.0, 0.0], [180.0, 0.0, 0.0], "left sole"),
+    ],
+)
+def test_a_shoe_beside_its_foot_or_turned_is_found_and_what_is_named_works(made, shift, turn, name):
+    folder, robot = made[2], load_robot(made[2] / "robot.toml")
+    to_body, origin = np.array(robot.sole_rotations["left"]), np.array(robot.sole_origins["left"])
+    spoilt = {
+        "origin": (origin + to_body @ shift).round(6).tolist(),
+        "rotation": roll_pitch_yaw(to_body @ Rotation.from_euler("xyz", turn, degrees=True).as_matrix()),
+    }
+
+    def findings(values):
+        text = (folder / "robot.toml").read_text()
+        for field, value in values.items():
+            text = re.sub(rf"^{field} = [^#\n]*", f"{field} = {value}", text, count=1, flags=re.MULTILINE)
+        (folder / "spoilt.toml").write_text(text)
+        return {f.name: f for f in check_robot(folder / "spoilt.toml", "flat").findings}
+
+    found = findings(spoilt)
+    assert not found[name].holds
+    (field, value) = re.search(r"(origin|rotation) = (\[.*\]) works", found[name].text).groups()
+    soles = {k: f for k, f in findings(spoilt | {field: value}).items() if "left" in k}
+    assert len(soles) == 3
+    assert all(f.holds for f in soles.values())
 
 
 @pytest.mark.parametrize(("limit", "holds"), [(0.2, False), (30.0, True)])
