@@ -148,8 +148,7 @@ class _Outline:
         radius = float(np.hypot(*points.T).max())
         box = np.array([radius, radius])
         cells = lattice.centres(lattice.cells_near(-box, box))
-        near = pattern.width + pattern.reach
-        cells = cells[np.hypot(*cells.T) <= radius + near]
+        cells = cells[np.hypot(*cells.T) <= radius + (pattern.width + pattern.reach)]
         return cls(
             (centre.x, centre.y),
             radius,

@@ -30,6 +30,7 @@ from plantar.shoes.geometry.surface import convex_outline, is_closed
 UNIT_SIZE: dict[str, float] = {"m": 1000.0, "cm": 10.0, "mm": 1.0, "in": 25.4}  # length of each unit in mm
 
 _SOLE_SHARE = 0.4  # of the silhouette: a body whose lowest band is smaller is round below
+_WIDER = (10.0, 15.0, 20.0)  # mm: bands in which a rounded sole may cover that share
 _HEIGHT_MIN = 0.5  # mm
 _PLATE = 5.0  # mm: a body that is thinner along one axis is a plate
 _TOUCHING = 1.0  # mm: what lies lower touches the floor
@@ -286,18 +287,23 @@ def _checked_sole(triangles: Triangles, sole_band: float, forward: Axis | None, 
         sole = outline_of(cut_below(triangles, sole_band), sole_band)
     except FootError as error:
         raise FootError(f"{path}: {error}") from None
-    share = sole.area / convex_outline(points[:, :2]).area
-    if share < _SOLE_SHARE:
+    block = max(length, width) < 1.15 * min(length, width) and height > 0.5 * length
+    silhouette = convex_outline(points[:, :2]).area
+    if sole.area < _SOLE_SHARE * silhouette:
+        way, bands = "the axis that points up (--up), or ", (b for b in _WIDER if b > sole_band and not block)
+        if all(flat_share(triangles @ rotation_up(a).T) < _SOLE_SHARE for a in AXES if a != "z"):
+            wide = [b for b in bands if outline_of(cut_below(triangles, b), b).area >= _SOLE_SHARE * silhouette]
+            way = f"--set sole_band={wide[0]:g} for a rounded sole, or " if wide else ""
         raise FootError(
-            f"{path}: no flat sole: the lowest {sole_band:g} mm cover {100 * share:.0f} % of the silhouette; "
-            f"allowed: {100 * _SOLE_SHARE:.0f} % or more (or give the axis that points up, or the sole plane's height)"
+            f"{path}: no flat sole: the lowest {sole_band:g} mm cover {100 * sole.area / silhouette:.0f} % of the "
+            f"silhouette; allowed: {100 * _SOLE_SHARE:.0f} % or more (or give {way}the sole plane's height, --sole-z)"
         )
     if forward is None and width > 1.05 * length:
         raise FootError(
             f"{path}: the foot is {length:.0f} mm along x and {width:.0f} mm along y; x must point forward "
             f"(or give the forward axis: {', '.join(AXES[:4])})"
         )
-    if max(length, width) < 1.15 * min(length, width) and height > 0.5 * length:
+    if block:
         raise FootError(
             f"{path}: {length:.0f} x {width:.0f} x {height:.0f} mm is a block, not a foot; allowed: longer than wide, "
             "or flatter than half its length"

@@ -59,8 +59,7 @@ def _triangles(shape: Any) -> list[NDArray[np.float64]]:
         points = np.array([(p.X(), p.Y(), p.Z()) for p in nodes])
         corners = np.array([(t.Value(1), t.Value(2), t.Value(3)) for t in mesh.Triangles()], dtype=np.int64) - 1
         if len(corners):
-            turned = corners[:, [0, 2, 1]] if face.Orientation() == TopAbs_REVERSED else corners
-            out.append(points[turned])
+            out.append(points[corners[:, [0, 2, 1]] if face.Orientation() == TopAbs_REVERSED else corners])
     return out
 
 

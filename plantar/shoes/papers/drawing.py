@@ -259,8 +259,7 @@ def _features(sheet: Sheet, shoe: Shoe, build: ShoeBuild) -> None:
     if build.retention is not None:
         name = {"straps": "lug", "clips": "clip", "screws": "screw"}.get(build.retention.kind, "")
         for place in build.retention.places:
-            side = "left" if place.side * flip > 0 else "right"
-            rows.append((f"{name}, {side}", f"{place.x:.2f}", "wall", "0.3 C"))
+            rows.append((f"{name}, {'left' if place.side * flip > 0 else 'right'}", f"{place.x:.2f}", "wall", "0.3 C"))
     if plan.heel.board:
         rows.append(
             (f"board slot, {np.degrees(plan.heel.turn):.0f}°", f"{plan.heel.x:.2f}", f"{plan.heel.y:.2f}", "0.3 B C")

@@ -28,8 +28,7 @@ def lettering(text: str, height: float) -> Any:
     lines = []
     for place, letter in enumerate(text.upper()):
         for stroke in filter(None, _STROKES.get(letter, "").split("|")):
-            points = [(int(p[0]) + _ADVANCE * place, int(p[1])) for p in stroke.split()]
-            lines.append(shapely.LineString(points))
+            lines.append(shapely.LineString([(int(p[0]) + _ADVANCE * place, int(p[1])) for p in stroke.split()]))
     if not lines:
         return shapely.MultiPolygon()
     shape = shapely.union_all(lines).buffer(0.5 * _WIDTH, cap_style="square", join_style="mitre", mitre_limit=1.5)

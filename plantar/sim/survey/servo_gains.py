@@ -71,8 +71,7 @@ def _above(model: Any, data: Any, joint: int) -> float:
     for body in range(1, model.nbody):
         if body in hanging:
             continue
-        rotation = data.ximat[body].reshape(3, 3)
-        along = rotation.T @ axis
+        along = data.ximat[body].reshape(3, 3).T @ axis
         arm = np.cross(axis, data.xipos[body] - anchor)
         total += float(model.body_inertia[body] @ along**2) + float(model.body_mass[body]) * float(arm @ arm)
     return total

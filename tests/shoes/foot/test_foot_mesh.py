@@ -70,8 +70,17 @@ def test_open_meshes_and_far_origins_are_noted(box, stl):
     assert any("far from the sole" in n for n in foot_from_mesh(stl(body + np.array([900, 0, 0]))).notes)
 
 
+def test_a_rounded_foot_is_refused_with_the_band_that_takes_it(stl):
+    ellipsoid = stl(trimesh.creation.icosphere(subdivisions=4).triangles * (110.0, 50.0, 30.0))
+    with pytest.raises(FootError, match=r"5 mm cover 30 % .*\(or give --set sole_band=10 for a rounded sole"):
+        foot_from_mesh(ellipsoid)
+    assert foot_from_mesh(ellipsoid, sole_band=10.0).sole.area > 0.4 * np.pi * 110.0 * 50.0
+
+
 def test_bodies_that_are_no_foot_are_refused(box, stl):
-    with pytest.raises(FootError, match="no flat sole: the lowest 5 mm cover 16 %"):
+    with pytest.raises(
+        FootError, match=r"no flat sole: the lowest 5 mm cover 16 % .*\(or give the sole plane's height"
+    ):
         foot_from_mesh(stl(trimesh.creation.icosphere(radius=60.0).triangles))
     with pytest.raises(FootError, match="is a block, not a foot"):
         foot_from_mesh(stl(box((0, 100), (0, 100), (0, 100))))
