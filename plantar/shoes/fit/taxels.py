@@ -184,8 +184,7 @@ def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit
     _, lattice, axial, shares = best
     cells = []
     for corners, share in zip(lattice.corners(axial), shares, strict=True):
-        whole = shapely.Polygon(corners)
-        cells.append(corners if share > 1.0 - 1e-6 else trimmed_cell(whole, region))
+        cells.append(corners if share > 1.0 - 1e-6 else trimmed_cell(shapely.Polygon(corners), region))
     cut = int((shares <= 1.0 - 1e-6).sum())
     bound = bound_whole_cells(region, hex_pattern(cell_area)).bound
     note = (

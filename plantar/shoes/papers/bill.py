@@ -8,9 +8,10 @@ import numpy as np
 from plantar.csv_table import csv_text
 from plantar.shoes.build import Shoe, ShoeBuild
 from plantar.shoes.checks.printability import BOARD_UP, Weights
+from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.cell_room import tail_lines
 from plantar.shoes.plan.shoe_plan import ShoePlan
-from plantar.shoes.units import to_mm
+from plantar.shoes.plan.wiring import channel_lines, length_of, wire_lines
 
 WINDOW = 5.0  # diameter in mm of a hole in the pad through which a taxel's infrared sensor looks
 
@@ -51,10 +52,9 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
     cut = int((build.fit.shares < 1.0 - 1e-6).sum())
     patches = f"in {len(plan.connectors)} patch(es)" if plan.connectors else "wired by themselves"
     note = patches + (f"; {cut} of them trimmed at the rim" if cut else "")
-    height = p.taxel_protrusion + p.pocket_depth
     made = p.made_by
     base = f"base {made.slide:g} mm smaller a side than its pocket, {made.sag + 2.0 * made.scatter:.2g} mm lower"
-    size = f"{build.fit.cell_area:g} mm2 x {height:g} mm, {base}"
+    size = f"{build.fit.cell_area:g} mm2 x {p.taxel_protrusion + p.pocket_depth:g} mm, {base}"
     cell = plan.cell
     if cell is None:
         parts.append(Part("taxel", len(shoe.layout), "skin", size, weights.skin, note))
@@ -70,7 +70,7 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
         size = f"{p.board_length:g} x {BOARD_UP:g} x {p.board_thickness:g} mm"
         parts.append(Part("connection board", 1, "FR4", size, weights.board, "slides into the rails behind the heel"))
     if plan.connectors:
-        length = f"{_cable(shoe):.0f} mm or longer"
+        length = f"{math.ceil(_cable(plan, p))} mm or longer"
         parts.append(Part("cable", len(plan.connectors), "flat", length, None, "patch to heel, in the channel"))
     parts += _holding(build, high_y - low_y)
     return parts
@@ -81,10 +81,15 @@ def _window(plan: ShoePlan) -> str:
     return f"holes of {WINDOW:g} mm at the taxels' centres where infrared looks out" if proximity else "no holes"
 
 
-def _cable(shoe: Shoe) -> float:
-    x, y = shoe.plan.heel.x, shoe.plan.heel.y
-    at = to_mm(shoe.layout.positions[list(shoe.plan.connectors), :2])
-    return float(np.hypot(at[:, 0] - x, at[:, 1] - y).max()) + 20.0
+def _cable(plan: ShoePlan, p: ShoeParameters) -> float:
+    wires, pockets, ways = wire_lines(plan), np.array([q.centroid.coords[0] for q in plan.pockets]), dict[int, float]()
+    for connector, line in zip(plan.connectors, channel_lines(plan, p), strict=True):
+        before = min(ways, key=lambda i: math.dist(pockets[i], line[-1]), default=connector)
+        ways[connector] = length_of(line) + ways.get(before, 0.0)
+        for i, j in plan.route:  # a tree, from the connectors outwards
+            if i in ways and j not in ways:
+                ways[j] = ways[i] + length_of(wires[j])
+    return max(ways[c] for c in plan.connectors) + (p.thickness - p.bottom + BOARD_UP if plan.heel.board else 0.0)
 
 
 def _holding(build: ShoeBuild, width: float) -> list[Part]:

@@ -60,8 +60,7 @@ def render(
     front = (normal[:, 2] > 1e-9 * length) & (length > 1e-9)
     pixel, normal, colours = pixel[front], normal[front] / length[front, None], colours[front]
     depth, which = _nearest(pixel, height, width)
-    light = np.array([-0.35, 0.5, 0.79])
-    shade = 0.42 + 0.58 * np.clip(normal @ light, 0.0, 1.0)
+    shade = 0.42 + 0.58 * np.clip(normal @ np.array([-0.35, 0.5, 0.79]), 0.0, 1.0)  # lit from there
     picture = np.vstack([shade[:, None] * colours, np.ones(3)]).astype(np.float32)[which]
     picture[_edges(depth, which, normal, 1.2 / scale + 0.15)] *= _EDGE
     return picture

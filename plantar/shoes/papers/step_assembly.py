@@ -49,8 +49,7 @@ def _taxels(plan: ShoePlan, p: ShoeParameters) -> list[StepPart]:
         x, y = np.array(blocks[-1].low.centroid.coords[0]).round(4).tolist()
         own = [Block(shapely.affinity.translate(b.low, -x, -y), b.z_low, b.z_high) for b in blocks]
         key = b"".join(_from_lowest(ring(b.low), _SAME).tobytes() for b in own)
-        called = what if len(plan.pockets) == 1 else f"{what} {number}"
-        shapes.setdefault(key, (own, {}))[1][called] = (x, y, 0.0)
+        shapes.setdefault(key, (own, {}))[1][what if len(plan.pockets) == 1 else f"{what} {number}"] = (x, y, 0.0)
     return [
         StepPart(what if len(shapes) == 1 else f"{what} shape {n}", _solid(*blocks), places)
         for n, (blocks, places) in enumerate(shapes.values(), start=1)

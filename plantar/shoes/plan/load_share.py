@@ -73,8 +73,7 @@ def apparent_modulus(hardness: float, area: float, perimeter: float, thickness: 
     in mm.
     """
     shape = area / (perimeter * thickness)
-    factor = float(np.interp(hardness, _HARDNESS, _FACTOR))
-    return shore_modulus(hardness) * (1.0 + 2.0 * factor * shape**2)
+    return shore_modulus(hardness) * (1.0 + 2.0 * float(np.interp(hardness, _HARDNESS, _FACTOR)) * shape**2)
 
 
 def pad_modulus(parameters: ShoeParameters, area: float, perimeter: float, thickness: float, pressure: float) -> float:

@@ -14,8 +14,11 @@ from plantar import read_layout
 from plantar.errors import InputError
 from plantar.shoes import build_shoe, export_shoe
 from plantar.shoes.checks import check
+from plantar.shoes.checks.printability import Weights
 from plantar.shoes.foot.mesh_file import read_mesh
+from plantar.shoes.papers.bill import bill_of_parts
 from plantar.shoes.parameters import ShoeParameters, read_parameters
+from plantar.shoes.plan.wiring import channel_lines, length_of
 from plantar.shoes.solid.step_model import read_step
 
 
@@ -75,6 +78,18 @@ def test_the_bill_lists_what_a_shoe_needs(exported):
     assert int(left["taxel"]["quantity"]) == len(report.build.shoes[0].layout)
     assert float(left["shoe, left"]["mass_g"]) == report.checks["left"].mass_g
     assert left["shoe, left"]["material"] == "PA12"
+
+
+def test_the_cable_of_the_bill_reaches_the_board_through_a_floor_of_any_thickness(small_foot):
+    lengths = []
+    for floor in (5.0, 30.0):
+        build = build_shoe(small_foot, side="left", layout_only=True, parameters=ShoeParameters(floor=floor))
+        (shoe,), p = build.shoes, build.parameters
+        (cable,) = (q for q in bill_of_parts(shoe, build, Weights(0.0, 0.0, 0.0, 0.0)) if q.part == "cable")
+        lengths.append(float(cable.size.removesuffix(" mm or longer")))
+        channel = length_of(channel_lines(shoe.plan, p)[0])
+        assert lengths[-1] >= channel + p.thickness - p.bottom
+    assert lengths[1] - lengths[0] == pytest.approx(25.0)
 
 
 def test_a_report_gives_the_same_shoe_again(exported):
