@@ -86,8 +86,7 @@ def check_mounting(
         if height < hooks:
             way = min(way, float(foot.passing(top).distance(solid)))
     touching = foot.support if foot.support is not None and not foot.support.is_empty else foot.sole
-    below = section(shoe, floor - p.mark_depth - 0.05)
-    share = float(shapely.intersection(touching, below).area / touching.area)
+    share = float(touching.intersection(section(shoe, floor - p.mark_depth - 0.05)).area / touching.area)
     others = keep_out(foot)
     met = _links_met(others.links, shoe, p)
     if retention.kind == "straps":

@@ -116,8 +116,7 @@ def _links(
     """Pairs of cells under two pitches apart, no pocket between: cable ways."""
     centres = lattice.centres(axial)
     far = 1.01 * max(pattern.width, math.hypot(0.5 * pattern.width, pattern.rise), pattern.rise)
-    gaps = np.hypot(*(centres[:, None] - centres[None]).transpose(2, 0, 1))
-    pairs = np.argwhere(np.triu(gaps <= far, 1))
+    pairs = np.argwhere(np.triu(np.hypot(*(centres[:, None] - centres[None]).transpose(2, 0, 1)) <= far, 1))
     tree = shapely.STRtree([shapely.Polygon(p) for p in pockets])
     lines = shapely.linestrings(centres[pairs])
     met = np.zeros(len(pairs), dtype=int)

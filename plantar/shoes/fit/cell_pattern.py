@@ -148,8 +148,7 @@ def pattern_of(cell: Cell, rib: float) -> CellPattern:
         if cell.kind == "tile":
             return hex_pattern(0.5 * math.sqrt(3.0) * width**2)
         return CellPattern(width, 0.5 * math.sqrt(3.0) * width, 0.5 * width, parts, math.pi / 3.0)
-    staggered = cell.lattice == "hex" or (cell.lattice == "auto" and cell.shape == "round")
-    shift = 0.5 * width if staggered else 0.0
+    shift = 0.5 * width if cell.lattice == "hex" or (cell.lattice == "auto" and cell.shape == "round") else 0.0
     rise = _pitch(cell, "y", _least_rise(parts, width, shift, high[1] - low[1]), rib)
     if cell.kind == "tile":
         parts = (_rectangle(width, rise),)

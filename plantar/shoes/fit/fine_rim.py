@@ -182,8 +182,7 @@ def fit_fine_rim(foot: Any, *, cell_area: float, overhang: float, border: float)
     region, face = tidy(grown(foot, overhang)), tidy(grown(foot, overhang + border))
     strip, inside = strip_cells(region, face, cell_area)
     core, lattice, bound = _core(inside, cell_area)
-    ends = np.concatenate(strip)
-    polygons = [shapely.Polygon(c) for c in (*strip, *(gathered(c, ends) for c in core))]
+    polygons = [shapely.Polygon(c) for c in (*strip, *(gathered(c, np.concatenate(strip)) for c in core))]
     polygons.sort(key=lambda c: (round(c.centroid.x, 3), round(c.centroid.y, 3)))
     areas = shapely.area(polygons)
     cells = tuple(shapely.get_coordinates(c.exterior)[:-1] for c in polygons)

@@ -77,8 +77,7 @@ def whole_cell_region(region: Any, parts: Sequence[NDArray[np.float64]], angle: 
     c, s = math.cos(angle), math.sin(angle)
     turn = np.array([[c, s], [-s, c]])
     region = region.buffer(_SLACK, join_style="mitre")
-    points = np.array(region.exterior.coords)
-    swept = [_swept(points, part @ turn) for part in parts]
+    swept = [_swept(np.array(region.exterior.coords), part @ turn) for part in parts]
     return region.difference(shapely.union_all([hull for hulls in swept for hull in hulls]))
 
 
@@ -204,8 +203,7 @@ def _angles(pattern: CellPattern) -> list[float]:
     period = round(math.degrees(pattern.period))
     steps = [float(a) for a in range(0, period, _TAILED_STEP if period == 360 else _ANGLE_STEP)]
     straight = _straight(pattern)
-    halves = [a for a in steps if a % 30.0 == 15.0]
-    return list(dict.fromkeys([*straight, *halves, *steps]))
+    return list(dict.fromkeys([*straight, *(a for a in steps if a % 30.0 == 15.0), *steps]))
 
 
 def _edge_angles(sole: Any, pattern: CellPattern) -> list[float]:
@@ -287,8 +285,7 @@ def _difference_vectors(allowed: Any, lattice: Lattice) -> NDArray[np.float64]:
 def _count(allowed: Any, lattice: Lattice, offsets: NDArray[np.float64]) -> NDArray[np.int64]:
     centres = _near_centres(allowed, lattice)[1]
     x = centres[None, :, 0] + offsets[:, None, 0]
-    y = centres[None, :, 1] + offsets[:, None, 1]
-    return np.asarray(shapely.contains_xy(allowed, x, y).sum(axis=1))
+    return np.asarray(shapely.contains_xy(allowed, x, centres[None, :, 1] + offsets[:, None, 1]).sum(axis=1))
 
 
 def _near_centres(allowed: Any, lattice: Lattice) -> tuple[NDArray[np.int64], NDArray[np.float64]]:

@@ -65,8 +65,7 @@ def foot_from_drawing(
     outline = _closed_area(lines, str(path))
     notes = _what_was_drawn(outline, lines)
     box = outline.bounds
-    extent = max(box[2] - box[0], box[3] - box[1]) * factor
-    scale, note = unit_scale(extent, unit, file_unit, str(path))
+    scale, note = unit_scale(max(box[2] - box[0], box[3] - box[1]) * factor, unit, file_unit, str(path))
     notes = [note, *notes]
     axis: Axis = forward or ("y" if box[3] - box[1] > 1.05 * (box[2] - box[0]) else "x")
     if axis != "x":
@@ -124,8 +123,7 @@ def _closed_area(lines: Lines, where: str) -> Any:
     for line in lines:
         _refuse_crossing(line, grid, where)
     united = shapely.union_all(shapely.set_precision([shapely.LineString(line) for line in lines], grid))
-    faces = shapely.polygonize([united])
-    area = shapely.union_all([shapely.Polygon(f.exterior) for f in faces.geoms])
+    area = shapely.union_all([shapely.Polygon(f.exterior) for f in shapely.polygonize([united]).geoms])
     if area.is_empty or area.area < 1e-3 * extent**2:
         raise FootError(f"{where}: no closed line; draw the outline of the sole as one")
     # `single_outline` thinks in mm: bring a foot of any unit to about its size.

@@ -112,8 +112,7 @@ def relieved(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tupl
     p = parameters
     if p.strengthen == "no":
         return p, ()
-    cells = sum(c.area for c in plan.cells)
-    pressure = load.force / (p.load_share * cells)
+    pressure = load.force / (p.load_share * sum(c.area for c in plan.cells))
     needed = _RESERVE * pressure / taxel_stiffness(plan, p, pressure)
     relief = max(p.pad_relief, math.ceil(needed / _STEP - 1e-6) * _STEP)
     # Where the taxels stand on one side of a foothold the print tilts towards its other.
