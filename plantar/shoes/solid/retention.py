@@ -27,6 +27,7 @@ _ROOT = 6.0  # mm of an arm's root within the plate
 _HEAVY = 1.4e-6  # kg/mm^3: worn mass over contact face and thickness, wall and skin counted
 _SAMPLES = 1.5  # mm between points on the foot
 _ROUND = 8.0  # mm that a wall may bend away along a lug
+_SCREW_REACH = 1.2  # of its diameter: how far a screw that fills its nut comes out of the wall
 _PLAY = 0.2  # mm between a clip's hook and the foot's edge
 
 
@@ -76,23 +77,17 @@ class Retention:
 
 
 def choose_retention(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> Retention:
-    """Gives clips where a foot has edges, else strap lugs, or the kind in the parameters; plan is the left sole.
+    """Gives clips where a foot has edges, else strap lugs, or the parameters' kind, by left plan.
 
     Raises:
-        FootError: If clips lack an edge.
+        FootError: If clips lack an edge, or screws a side.
     """
     p = parameters
     length = plan.foot.bounds[2] - plan.foot.bounds[0]
     if p.retention == "none":
         return Retention("none", (), 0.0, 0.0, "nothing holds the shoe but the fit, as asked for")
     if p.retention == "screws":
-        return Retention(
-            "screws",
-            _screw_places(plan, p),
-            p.screw_diameter,
-            0.0,
-            "four clamping screws through the wall, as asked for",
-        )
+        return _screws(foot, plan, p, "four clamping screws through the wall, as asked for")
     reason = "as asked for"
     if p.retention in ("auto", "clips"):
         clips, reason = _clips(foot, plan, p)
@@ -106,9 +101,25 @@ def choose_retention(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> 
         reason = f"{reason}; the robot's other links leave no room for a strap"
         if p.retention == "straps":
             raise FootError(f"no straps: {reason}; use screws")
-        return Retention("screws", _screw_places(plan, p), p.screw_diameter, 0.0, f"four clamping screws: {reason}")
+        return _screws(foot, plan, p, f"four clamping screws: {reason}")
     text = "a strap" if len(places) == 2 else "two straps"
     return Retention("straps", places, width, 0.0, f"lugs for {text} of {width:g} mm: {reason}")
+
+
+def _screws(foot: Foot, plan: ShoePlan, p: ShoeParameters, note: str) -> Retention:
+    places, wide, middle = _screw_places(plan, p), p.screw_diameter, plan.foot.centroid.y
+    if foot.triangles is not None:
+        x, y, above = (surface_points(foot.triangles, _SAMPLES) - np.array([0.0, 0.0, 0.5 * p.rim_height])).T
+        level = (above >= 0.25 * wide) & (above <= wide)
+        for q in places:
+            wall = q.side * _wall_line(plan.cavity, q.x, q.side, 0.5 * wide, middle)[0]
+            gap = wall - np.max(q.side * y[level & (np.abs(x - q.x) <= wide)], initial=-math.inf)
+            if gap > _SCREW_REACH * wide:
+                raise FootError(
+                    f"no screws: M{wide:g} screws {0.5 * p.rim_height:g} mm above the sole (half of rim_height) would "
+                    "pass over the foot, or not reach it; use straps, or another rim_height"
+                )
+    return Retention("screws", places, wide, 0.0, note)
 
 
 def _screw_places(plan: ShoePlan, p: ShoeParameters) -> tuple[_Place, ...]:
@@ -274,8 +285,7 @@ def _lugs(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -
     bevel = min(p.fillet + 1.0, _LUG_END - 1.0)
     blocks, cuts = [], []
     for place in retention.places:
-        window = _window(place.x, place.side, half, middle)
-        lug = outer.intersection(window)
+        lug = outer.intersection(_window(place.x, place.side, half, middle))
         blocks.append(Block(tidy(lug), p.bottom, p.thickness + top))
         slot = _window(place.x, place.side, 0.5 * (retention.width + _SLOT_PLAY), middle)
         bevels = (_bevel(place, end, half, bevel, middle, p.thickness + top) for end in (-1, 1))
@@ -302,8 +312,7 @@ def _arms(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -
     gaps, arms = [], []
     for place in retention.places:
         side = place.side
-        window = _window(place.x, side, half + _ARM_GAP, middle)
-        gaps.append(Block(window, p.thickness, p.rim_top + 100.0))
+        gaps.append(Block(_window(place.x, side, half + _ARM_GAP, middle), p.thickness, p.rim_top + 100.0))
         farthest, _ = _wall_line(outline, place.x, side, half, middle)
         inner = farthest + side * p.clearance
         outer = inner + side * p.clip_thickness

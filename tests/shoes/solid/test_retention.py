@@ -57,6 +57,16 @@ def test_a_short_foot_takes_one_narrow_strap(small_foot):
     assert narrow.width == pytest.approx(120.0 / 6.0)
 
 
+def test_screws_are_refused_that_would_pass_over_the_foot(plate):
+    foot, plan = plate
+    assert len(choose_retention(foot, plan, ShoeParameters(retention="screws")).places) == 4
+    for low in (3.0, 6.0):
+        flat = replace(foot, triangles=foot.triangles * [1.0, 1.0, low / 18.0])
+        with pytest.raises(FootError, match=r"M4 screws 6 mm above the sole .* would pass over the foot"):
+            choose_retention(flat, plan, ShoeParameters(retention="screws"))
+    assert choose_retention(flat, plan, ShoeParameters(retention="screws", rim_height=6.0)).kind == "screws"
+
+
 def test_what_is_asked_for_is_given(plate):
     foot, plan = plate
     for kind, places in (("none", 0), ("screws", 4), ("straps", 4), ("clips", 4)):
