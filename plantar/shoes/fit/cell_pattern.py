@@ -104,8 +104,7 @@ class RowLattice:
         cells = []
         for j in range(math.floor((across.min() - more) / p.rise), math.ceil((across.max() + more) / p.rise) + 1):
             first = math.floor((along.min() - more - j * p.shift) / p.width)
-            last = math.ceil((along.max() + more - j * p.shift) / p.width)
-            i = np.arange(first, last + 1)
+            i = np.arange(first, math.ceil((along.max() + more - j * p.shift) / p.width) + 1)
             cells.append(np.column_stack([i, np.full_like(i, j)]))
         axial = np.concatenate(cells).astype(np.int64)
         centres = self.centres(axial)

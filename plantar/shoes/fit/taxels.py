@@ -114,8 +114,7 @@ def fit_taxels(
         FootError: If they do not fit.
     """
     if taxels is None:
-        face = tidy(grown(foot, overhang))
-        fit = replace(fit_lattice(face, cell_area=cell_area), overhang=overhang)
+        fit = replace(fit_lattice(tidy(grown(foot, overhang)), cell_area=cell_area), overhang=overhang)
         return _whole(foot, fit, cell_area, border, ())
     problem: FootError | None = None
     for wanted in sorted({border, min(border, LEAST_BORDER)}, reverse=True):

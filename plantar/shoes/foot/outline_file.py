@@ -135,8 +135,7 @@ def _closed_area(lines: Lines, where: str) -> Any:
 
 def _refuse_tangle(lines: Lines, where: str) -> None:
     """Their crossings would grow with the square of their number."""
-    ends = np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in lines])
-    drawn = shapely.linestrings(ends)
+    drawn = shapely.linestrings(np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in lines]))
     tree = shapely.STRtree(drawn)
     met = 0
     for start in range(0, len(drawn), _BLOCK):
@@ -151,8 +150,7 @@ def _refuse_crossing(line: NDArray[np.float64], grid: float, where: str) -> None
     drawn = shapely.LineString(line)
     if drawn.is_simple:
         return
-    faces = shapely.polygonize([shapely.union_all(shapely.set_precision([drawn], grid))])
-    areas = sorted(f.area for f in faces.geoms)
+    areas = sorted(f.area for f in shapely.polygonize([shapely.union_all(shapely.set_precision([drawn], grid))]).geoms)
     if len(areas) > 1 and areas[-2] > _LOOP_MAX * sum(areas):
         raise FootError(f"{where}: the outline crosses itself; draw the outline of the sole as one closed line")
 

@@ -152,7 +152,6 @@ def outline_below(triangles: NDArray[np.float64], height: float) -> Any:
     Raises:
         FootError: If it has no area.
     """
-
     return outline_of(cut_below(triangles, height), height)
 
 
