@@ -25,7 +25,7 @@ class FootSource:
         None, "Length, width and corner radius of a box instead of a file, in mm.", metavar="LxW[xR]"
     )
     mesh_side: str | None = _option(
-        None, "Which foot the file shows: left or right. Default: by the body's name, or left."
+        None, "Which foot the file shows: left or right. Default: by the body's or file's name, or left."
     )
     unit: str | None = _option(None, "Unit of the file: m, cm, mm, in. Default: from its size.")
     up: str | None = _option(None, "Axis that points up: x, -x, y, -y, z, -z. Default: found.")

@@ -1,5 +1,6 @@
 """Foot sources: mesh, robot model, drawing, built-in robot, or dimensions."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
@@ -11,7 +12,7 @@ from plantar.shoes.foot.foot import Foot, foot_from_dimensions
 from plantar.shoes.foot.foot_mesh import foot_from_mesh, foot_from_triangles
 from plantar.shoes.foot.mesh_file import MESH_FORMATS
 from plantar.shoes.foot.outline_file import OUTLINE_FORMATS, foot_from_drawing
-from plantar.shoes.foot.robot_model import MODEL_FORMATS, read_foot_body
+from plantar.shoes.foot.robot_model import MODEL_FORMATS, read_foot_body, side_of_name
 from plantar.shoes.order import FootSource
 from plantar.sides import SIDES
 
@@ -21,6 +22,8 @@ _ALLOWED = {
     "up": ("x", "-x", "y", "-y", "z", "-z"),
     "forward": ("x", "-x", "y", "-y"),
 }
+
+_ASSUMED = "taken to be a left foot: the file's name does not show the side (or give --mesh-side right)"
 
 
 def read_foot(source: FootSource, *, sole_band: float) -> tuple[Foot, int | None]:
@@ -65,13 +68,15 @@ def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
             f"{path}: a foot is not read from '{kind or path.name}'; allowed: a mesh ({meshes}), a robot's model with "
             f"--body ({models}), the outline of a sole ({outlines})"
         )
-    side = cast(Any, source.mesh_side or "left")
+    named = source.mesh_side or side_of_name(re.sub(r"(?i)r\d+", " ", path.stem))  # a foot_r2 is no right one
+    assumed, side = (() if named else (_ASSUMED,)), cast(Any, named or "left")
     options: dict[str, Any] = {"unit": source.unit, "forward": source.forward}
     if kind in OUTLINE_FORMATS:
         for option, value in (("--body", source.body), ("--sole-z", source.sole_z), ("--up", source.up)):
             if value is not None:
                 raise InputError(f"{option} is for meshes and models; {path} is the outline of a sole")
-        return foot_from_drawing(path, mesh_side=side, **options)
+        foot = foot_from_drawing(path, mesh_side=side, **options)
+        return replace(foot, notes=(*foot.notes, *assumed))
     options |= {"up": source.up, "sole_z": source.sole_z, "sole_band": sole_band}
     if kind in MODEL_FORMATS:
         found = read_foot_body(path, source.body, options["unit"])
@@ -82,7 +87,8 @@ def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
         return replace(foot, mass=found.mass, notes=(*found.notes, *foot.notes))
     if source.body is not None:
         raise InputError(f"--body is for a robot's model ({', '.join(MODEL_FORMATS)}); {path} is none")
-    return foot_from_mesh(path, mesh_side=side, **options)
+    foot = foot_from_mesh(path, mesh_side=side, **options)
+    return replace(foot, notes=(*foot.notes, *assumed))
 
 
 def _box_foot(text: str) -> Foot:

@@ -58,3 +58,21 @@ def test_a_robots_foot_is_the_same_by_either_way():
     assert taxels == same == 42
     assert again.sole.equals(foot.sole)
     assert (again.name, again.mass, again.notes) == (foot.name, foot.mass, foot.notes)
+
+
+@pytest.mark.parametrize(
+    ("name", "side"),
+    [("sole_right", "right"), ("R-foot", "right"), ("left", "left"), ("foot_r2", None), ("sole", None)],
+)
+def test_the_side_is_that_of_the_files_name_or_assumed_with_a_note(name, side, tmp_path):
+    def foot(name, **options):
+        file = tmp_path / f"{name}.geojson"
+        file.write_text(
+            '{"type": "Polygon", "coordinates": [[[-70, -30], [120, -30], [140, 10], [-70, 30], [-70, -30]]]}'
+        )
+        return read(file=file, **options)[0]
+
+    found, given = foot(name), foot("sole", mesh_side=side or "left")
+    assert found.sole.equals(given.sole)
+    assert any("taken to be a left foot" in note for note in found.notes) == (side is None)
+    assert not any("taken to be a left foot" in note for note in given.notes)
