@@ -156,6 +156,7 @@ def check_plan(plan: ShoePlan, build: ShoeBuild) -> tuple[Check, ...]:
     return (
         _least("length of the sole over that of the foot's lower part, %", 100.0 * long, 100.0 * _LONG),
         *(() if rim is None else (_most("blind rim beyond the taxels' centres, mm", plan.blind_rim, rim, 2),)),
+        _most("overhang, mm", plan.overhang, build.parameters.overhang_max, 2, 1e-2),
         *_contact_checks(plan, build),
         _least("load that the taxels carry on flat ground, %", 100.0 * share.flat, 100.0 * _FLAT_SHARE),
         _least("load that the taxels carry on half the sole, %", 100.0 * share.half, 100.0 * _HALF_SHARE),
@@ -230,7 +231,6 @@ def _mounting_checks(m: Mounting, reach: float, shoe: Shoe, build: ShoeBuild) ->
     yield Check("undercut of the foot's place, mm2", m.undercut == 0.0, m.undercut, "0")
     yield _most("gap between foot and floor, mm", m.floor_gap, 0.05, 3)
     yield _least("touching area over the floor, %", 100.0 * m.support_share, 97.0, 2)
-    yield _most("overhang, mm", shoe.plan.overhang, p.overhang_max, 2, 1e-2)
     yield _most("reach of lugs, clips and holder, mm", reach, p.reach_max, 2, 1e-2)
 
 

@@ -115,6 +115,14 @@ def test_only_layouts_are_written_where_only_they_were_asked_for(small_foot, tmp
     assert "mass" not in told
 
 
+def test_a_face_that_reaches_too_far_beyond_the_foot_is_no_good_layout_either(small_foot, tmp_path):
+    near = build_shoe(small_foot, side="left", layout_only=True, parameters=ShoeParameters(overhang_max=1.0))
+    assert near.shoes[0].plan.overhang > 1.1
+    report = export_shoe(near, tmp_path)
+    assert [c.name for c in report.plan_checks["left"] if not c.holds] == ["overhang, mm"]
+    assert not report.holds
+
+
 def test_a_missing_folder_is_refused(small_foot, tmp_path):
     with pytest.raises(InputError, match="cannot write"):
         export_shoe(build_shoe(small_foot, layout_only=True), tmp_path / "none")
