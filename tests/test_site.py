@@ -30,7 +30,7 @@ def follow(page: Path, folder: Path) -> None:
     env = os.environ | {"PATH": f"{scripts}{os.pathsep}{os.environ.get('PATH', '')}"}
     names: dict[str, object] = {"__name__": "page"}
     port = str(free_port())
-    content = page.read_text(encoding="utf-8").replace("tcp://192.0.2.1:8786", f"tcp://127.0.0.1:{port}")
+    content = page.read_text(encoding="utf-8").replace("192.0.2.1:8786", f"127.0.0.1:{port}")
     content = content.replace("--nworkers 8", "--nworkers 1").replace("--seeds 20", "--seeds 1")
     with ExitStack() as servers:
         for language, text in BLOCK.findall(content):
@@ -39,7 +39,11 @@ def follow(page: Path, folder: Path) -> None:
                 continue
             for line in text.splitlines():
                 words = shlex.split(line, comments=True)
-                if words[:1] == ["dask"]:
+                if words[:1] == ["openssl"]:
+                    subprocess.run(words, cwd=folder, env=env, check=True, capture_output=True)
+                elif words[:1] == ["export"]:
+                    env |= dict(word.split("=", 1) for word in words[1:])
+                elif words[:1] == ["dask"]:
                     at = ["--host", "127.0.0.1", "--port", port] if words[1] == "scheduler" else []
                     log = servers.enter_context((folder / f"{words[1]}.log").open("w"))
                     server = subprocess.Popen(
