@@ -39,6 +39,7 @@ _BAND = 5e-3  # m: the lowest part of a foot, which is its sole
 _APART = 0.05  # of the sole's width between two soles side by side
 _HIGHEST = 1.0  # of a torque limit
 _ROCKING = 1.5  # the same of quick steps that rock: H1 walks with 1.4, at its ankles' limit for a tenth of the time
+_HURRIED = 2.0  # of a usable speed: h1 walks level ground at 1.3, and with limits so low that it is 2.2
 _MOVING = 1.2  # of a torque limit: what is missing for some ticks, the other joints make up for
 
 
@@ -341,9 +342,10 @@ class _Checked:
         j = int(share.argmax())
         if share[j] == 0.0:
             return []
-        limit, holds = float(reach.speed[j] / share[j]), bool(share[j] <= 1.0)
+        limit, holds = float(reach.speed[j] / share[j]), bool(share[j] <= _HURRIED)
         text = f"{self.names[j]} turns by up to {reach.speed[j]:.3g} rad/s" + _unless(
-            holds, f"; allowed: {limit:.3g}, {SPEED_SHARE:g} of its limit; a longer single_support helps"
+            holds,
+            f"; allowed: {_HURRIED:g} x {limit:.3g}, {SPEED_SHARE:g} of its limit; longer single_support helps",
         )
         return [Finding("speed", round(float(reach.speed[j]), 3), round(limit, 3), "rad/s", holds, text)]
 

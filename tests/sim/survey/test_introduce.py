@@ -139,6 +139,11 @@ def test_the_check_knows_how_fast_joints_turn(made, limit, holds):
     assert 0.2 < speed.value < 10.0
 
 
+@pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
+def test_a_built_in_robot_passes_the_check_of_what_it_walks(robot):
+    assert check_robot(robot, "flat").holds
+
+
 def test_swapped_legs_are_refused_as_a_run_does(made):
     text = (made[2] / "robot.toml").read_text()
     swapped = re.sub(r"\[legs\.(left|right)\]", lambda m: f"[legs.{'left' if m[1] == 'right' else 'right'}]", text)
