@@ -37,13 +37,12 @@ def record(
         `seconds` recorded, and the `frames`, `rate_hz` and largest gap `gap_max_s` of each of the `feet`.
 
     Raises:
-        InputError: If no reading comes, or time does not go on.
+        InputError: If no reading comes, or sole or time is wrong.
         RecordingError: If the file cannot be written.
     """
     if not seconds > 0.0:
         raise InputError(f"cannot record {seconds} s; allowed: above 0")
-    first = next(stream.readings, None)
-    if first is None:
+    if (first := next(stream.readings, None)) is None:
         raise InputError("no reading came from the source")
     start, shown, latest = first[1].time, -math.inf, 0.0
     times: dict[Side, list[float]] = {side: [] for side in stream.soles}
@@ -54,6 +53,8 @@ def record(
         skins = {side: recorder.channel(f"/skin/{side}", [("force", len(s))]) for side, s in stream.soles.items()}
         try:
             for side, reading in chain([first], stream.readings):
+                if side not in times:
+                    raise InputError(f"a reading is of a sole {side!r}; allowed: {', '.join(times)}")
                 now, before = reading.time - start, times[side]
                 if before and now <= before[-1]:
                     raise InputError(
@@ -75,15 +76,10 @@ def record(
 
 def _text(side: Side, stream: LiveStream, reading: Reading) -> str:
     percept = Percept(stream.soles[side], reading)
-    at = (
-        ""
-        if (place := percept.position_cop_in_sole) is None
-        else f" at {round(1e3 * place[0])}, {round(1e3 * place[1])} mm"
-    )
-    return f"{side} {percept.vertical_force:.0f} N{at}"
+    place, load = percept.position_cop_in_sole, f"{side} {percept.vertical_force:.0f} N"
+    return load if place is None else f"{load} at {round(1e3 * place[0])}, {round(1e3 * place[1])} mm"
 
 
 def _summary(times: list[float]) -> dict[str, float | None]:
-    steps = np.diff(times)
-    rate, gap = (round(1.0 / steps.mean(), 3), round(steps.max(), 4)) if len(steps) else (None, None)
+    rate, gap = (round(1.0 / steps.mean(), 3), round(steps.max(), 4)) if len(steps := np.diff(times)) else (None, None)
     return {"frames": len(times), "rate_hz": rate, "gap_max_s": gap}

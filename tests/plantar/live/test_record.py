@@ -39,6 +39,12 @@ def test_what_comes_is_recorded_and_shown(tmp_path):
     assert shown[0] == (0.0, f"0.0 s  left {2 * len(SOLE)} N at 0, 0 mm")
 
 
+def test_a_reading_of_no_sole_is_refused(tmp_path):
+    stream = LiveStream({"left": SOLE}, ((side.title(), reading) for side, reading in readings([0.0, 0.1])))
+    with pytest.raises(InputError, match="a reading is of a sole 'Left'; allowed: left"):
+        record(stream, tmp_path / "run.mcap")
+
+
 def test_lines_of_both_soles_with_missing_taxels(tmp_path, monkeypatch):
     row = ",".join(["1.5"] * (len(SOLE) - 1))
     text = "".join(f"{side},{0.1 * k},{row},{'' if k else 7.0}\n" for k in range(5) for side in ("left", "right"))
