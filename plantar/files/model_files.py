@@ -13,7 +13,6 @@ import os
 import re
 import tempfile
 from collections.abc import Iterator
-from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 from xml.etree.ElementTree import Element
@@ -30,6 +29,7 @@ VARIABLE = "PLANTAR_MODEL_FOLDERS"
 
 _MOST_INCLUDES = 100
 _LARGEST_PART = 100e6  # bytes of a mesh, or of a texture or height field once it is unpacked
+_PASSED: set[tuple[Path, int]] = set()
 _OWN = Path(__file__).resolve().parents[1]
 
 
@@ -157,14 +157,11 @@ def check_model(file: Path, error: type[PlantarError]) -> None:
     _check_names(file, error, {Path(os.path.realpath(file))})
     if find_spec("mujoco") is not None:
         quiet_mujoco()
-        if not (resolved := file.resolve()).is_relative_to(_OWN):
-            _try(resolved, file.stat().st_mtime_ns, file, error)  # type: ignore[arg-type]
-
-
-@cache
-def _try(resolved: Path, changed: int, file: Path, error: type[PlantarError]) -> None:
-    if (bodies := int(read_apart("model", file, error)["bodies"])) > MOST_PARTS:
-        raise error(f"{file}: has {bodies} bodies; allowed: up to {MOST_PARTS} of a robot's model")
+        key = file.resolve(), file.stat().st_mtime_ns
+        if key not in _PASSED and not key[0].is_relative_to(_OWN):
+            if (bodies := int(read_apart("model", file, error)["bodies"])) > MOST_PARTS:
+                raise error(f"{file}: has {bodies} bodies; allowed: up to {MOST_PARTS} of a robot's model")
+            _PASSED.add(key)
 
 
 def _check_names(file: Path, error: type[PlantarError], seen: set[Path]) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from plantar.errors import PlantarError
+from plantar.errors import PlantarError, RobotError
 from plantar.files import gate
 from plantar.files.gate import HELPERS, PROMISES, Helper, read_apart
 from plantar.files.model_files import check_model
@@ -105,6 +105,16 @@ def test_models_that_attach_each_other_are_refused_after_a_trial(tmp_path):
         (tmp_path / f"b{i}.xml").write_text(body)
     with pytest.raises(PlantarError, match=r"has \d+ bodies; allowed: up to 2000|longer than"):
         check_model(tmp_path / "b0.xml", PlantarError)
+
+
+def test_a_model_is_tried_once_whoever_asks(tmp_path, monkeypatch):
+    pytest.importorskip("mujoco")
+    file, tried = tmp_path / "a.xml", list[str]()
+    file.write_text('<mujoco><worldbody><body name="b"><geom size="1"/></body></worldbody></mujoco>')
+    monkeypatch.setattr("plantar.files.model_files.read_apart", lambda kind, *_: tried.append(kind) or {"bodies": 2})
+    for error in (PlantarError, RobotError):
+        check_model(file, error)
+    assert tried == ["model"]
 
 
 def test_mujoco_s_warnings_of_a_model_go_to_the_caller_alone(tmp_path, monkeypatch, capfd):
