@@ -21,7 +21,7 @@ from plantar.shoes.solid.step_text import with_shared_entities
 
 _TOLERANCE = 1e-5  # mm
 _SAME = 1e-6  # mm between the centres of a cone's two arcs
-_ON = 9e-8  # mm between corners and their line or plane; the kernel allows 1e-7
+_ON = 1e-9  # mm between corners and their line or plane: edges one degree apart meet 60 times as far off
 
 Array = NDArray[np.float64]
 _Known = dict[tuple[float, ...], list[tuple[Any, Array, Array]]]  # lines and planes by about where they are

@@ -5,7 +5,7 @@ from collections import Counter
 
 _REFERENCE = re.compile(r"('[^']*')|#(\d+)")
 _NUMBER = re.compile(r"-?\d+\.\d*(?:E[+-]?\d+)?")
-_DECIMALS = {"CARTESIAN_POINT": 6, "DIRECTION": 9}
+_DECIMALS = {"CARTESIAN_POINT": 9, "DIRECTION": 11}
 _SHARED = (*_DECIMALS, "VECTOR", "AXIS2_PLACEMENT_3D", "LINE", "CIRCLE", "PLANE")  # each of those before
 
 

@@ -116,3 +116,20 @@ def test_a_bent_wall_that_stays_flat_is_counted_and_a_corner_is_not(tmp_path, mo
     for body, flat in ((disc, 8.0 * 64 * 60.0 * math.sin(math.pi / 64)), (chamfered, 0.0)):
         write_step([StepPart("a", body, {})], tmp_path / "a.step", "a")
         assert bent_walls(tmp_path / "a.step") == (pytest.approx(flat, rel=1e-3), 0.0)
+
+
+def test_edges_that_are_nearly_in_line_are_valid_however_the_solid_is_turned(tmp_path):
+    # A strap's lug: its right side bends by one degree, where 1e-6 mm move the crossing of two lines by 6e-5.
+    wall = np.array(
+        [(-75.4782, 2.0433, 4.9), (-75.4782, 2.0433, 4.5), (-81.7576, 3.1505, 4.5), (-81.7576, 3.1505, 7.0)]
+    )
+    front = np.array([*wall, (-75.4387, 2.0363, 7.0)])
+    across = np.array([0.173652, 0.984807, 0.0])
+    front -= np.outer((front - front[2]) @ across, across)
+    loops = [(0, 1, 2, 3, 4), (9, 8, 7, 6, 5)] + [((i + 1) % 5, i, i + 5, (i + 1) % 5 + 5) for i in range(5)]
+    for angle in np.radians(np.random.default_rng(5).uniform(0.0, 360.0, 12)):
+        c, s = math.cos(angle), math.sin(angle)
+        corners = np.vstack([front, front - 3.0 * across]) @ np.array([(c, s, 0.0), (-s, c, 0.0), (0.0, 0.0, 1.0)])
+        body = Polyhedron(corners, tuple((loop,) for loop in loops))
+        write_step([StepPart("a", body, {})], tmp_path / "a.step", "a")
+        assert read_step(tmp_path / "a.step").valid, angle

@@ -12,7 +12,7 @@ def entities(text: str) -> dict[str, str]:
 
 
 def test_equal_lines_and_planes_are_stored_once_and_each_reference_holds():
-    point = "CARTESIAN_POINT('',(1.000000000001,-2.5E-09,{}))"
+    point = "CARTESIAN_POINT('',(1.000000000001,-2.5E-10,{}))"
     rows = [point.format("3."), point.format("3.0000000001"), point.format("4."), "DIRECTION('#1',(0.,0.,1.))"]
     rows += [f"AXIS2_PLACEMENT_3D('',#{n},#4,$)" for n in (1, 2, 3)] + [f"PLANE('',#{n})" for n in (5, 6, 7)]
     rows.append("FACES((#8,#9,#10))")
