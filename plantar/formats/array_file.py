@@ -60,7 +60,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def recording_of_arrays(arrays: Mapping[str, NDArray[Any]], options: ReadOptions, name: Path) -> PressureRecording:
-    """Returns recording of a name from arrays, by options; FormatError without frames of cells."""
+    """Returns recording from arrays, by options; FormatError without cells."""
     held = {}
     for key, values in arrays.items():
         values = values[:, None] if values.ndim == 1 and side_of(key) is not None else values
@@ -70,40 +70,22 @@ def recording_of_arrays(arrays: Mapping[str, NDArray[Any]], options: ReadOptions
 
 def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> PressureRecording:
     warnings: list[str] = []
-    tables = {k: a for k, a in arrays.items() if len(a.shape) in (2, 3) and a.dtype.kind in "iufb" and a.size}
-    if not tables:
-        held = ", ".join(f"{k} {a.shape}" for k, a in islice(arrays.items(), _SHOWN)) or "nothing"
-        raise FormatError(f"no array of frames and cells; the file holds {held}")
-    if other := next((k for k, a in arrays.items() if side_of(k) and a.dtype.kind not in "iufbUS"), None):
-        raise FormatError(f"the array {other!r} holds what is no real number; allowed: numbers, a row a frame")
-    force_like = {k: t for k, t in tables.items() if k.split("/")[-1] in ("force", "pressure")}
-    by_side: dict[Side, tuple[str, _Array]] = {}
-    for key, array in (force_like or tables).items():
-        side = side_of(key.replace("/", " "))
-        if side is not None:
-            by_side.setdefault(side, (key, array))
-    own_export = any(k.startswith("skin/") for k, _ in by_side.values())
+    tables = _tables(arrays)
+    named = {side: key for key in reversed(tables) if (side := side_of(key.replace("/", " ")))}
+    own_export = any(key.startswith("skin/") for key in named.values())
     unit = unit_of_values(_text(arrays, "unit", "units") or ("N" if own_export else None), options, warnings)
-    clock = ""
-    if by_side:
-        counts = [by_side[side][1].shape[0] for side in SIDES if side in by_side]
-        if counts[0] != counts[-1]:
-            raise FormatError(f"the feet have {counts[0]} and {counts[-1]} frames")
-        split = [(side, _frames(by_side[side][1])) for side in SIDES if side in by_side]
-        group = by_side[split[0][0]][0].rpartition("/")[0]
-        clock = f"{group}/time" if group else ""
+    if named:
+        split = [(side, _frames(tables[named[side]])) for side in SIDES if side in named]
+        if len(split[0][1]) != len(split[-1][1]):
+            raise FormatError(f"the feet have {len(split[0][1])} and {len(split[-1][1])} frames")
     else:
-        key, largest = max((force_like or tables).items(), key=lambda item: item[1].size)
-        table = _frames(largest)
-        if len(tables) > 1:
-            warnings.append(f"no array names a foot: the largest one, {key!r}, is read")
-        stated = options.side or side_of(_text(arrays, "side", "foot") or "")
-        split = [(stated, table)] if stated else halves(table, options, warnings)
+        split = _unnamed_feet(arrays, tables, options, warnings)
     feet = {
         side: cells_of_foot(side, values, unit, options, warnings, own=_layout(arrays, side, warnings))
         for side, values in split
     }
-    time, rate, notes = _times(arrays, clock, len(split[0][1]), options, warnings)
+    group = named[split[0][0]].rpartition("/")[0] if named else ""
+    time, rate, notes = _times(arrays, f"{group}/time" if group else "", len(split[0][1]), options, warnings)
     stated_kind = "robot" if own_export else _text(arrays, "kind")
     kind: Kind = next((k for k in get_args(Kind) if k == stated_kind), "insole")
     if len({foot.force.shape for foot in feet.values()}) < len(feet) and kind == "platform":
@@ -123,6 +105,27 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
     )
 
 
+def _tables(arrays: dict[str, _Array]) -> dict[str, _Array]:
+    """Arrays of frames and cells, or those named force or pressure."""
+    tables = {k: a for k, a in arrays.items() if len(a.shape) in (2, 3) and a.dtype.kind in "iufb" and a.size}
+    if not tables:
+        held = ", ".join(f"{k} {a.shape}" for k, a in islice(arrays.items(), _SHOWN)) or "nothing"
+        raise FormatError(f"no array of frames and cells; the file holds {held}")
+    if other := next((k for k, a in arrays.items() if side_of(k) and a.dtype.kind not in "iufbUS"), None):
+        raise FormatError(f"the array {other!r} holds what is no real number; allowed: numbers, a row a frame")
+    return {k: t for k, t in tables.items() if k.split("/")[-1] in ("force", "pressure")} or tables
+
+
+def _unnamed_feet(
+    arrays: dict[str, _Array], tables: dict[str, _Array], options: ReadOptions, warnings: list[str]
+) -> list[tuple[Side, NDArray[np.float64]]]:
+    key, largest = max(tables.items(), key=lambda item: item[1].size)
+    if len(tables) > 1:
+        warnings.append(f"no array names a foot: the largest one, {key!r}, is read")
+    stated = options.side or side_of(_text(arrays, "side", "foot") or "")
+    return [(stated, _frames(largest))] if stated else halves(_frames(largest), options, warnings)
+
+
 @contextmanager
 def _arrays(path: Path) -> Iterator[dict[str, _Array]]:
     """File's arrays by name, readable while it is open."""
@@ -133,10 +136,10 @@ def _arrays(path: Path) -> Iterator[dict[str, _Array]]:
             yield {"values": _array(path, "values", lambda: path.open("rb"), size)}
             return
     with open_archive(path, FormatError, _LARGEST) as (archive, _):
-        parts = {p.filename: p for p in archive.infolist() if p.filename.endswith(".npy")}
         yield {
-            name.removesuffix(".npy"): _array(path, name, partial(archive.open, name), part.file_size)
-            for name, part in parts.items()
+            p.filename.removesuffix(".npy"): _array(path, p.filename, partial(archive.open, p.filename), p.file_size)
+            for p in archive.infolist()
+            if p.filename.endswith(".npy")
         }
 
 
