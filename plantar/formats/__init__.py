@@ -25,6 +25,7 @@ __all__ = ["Format", "ReadOptions", "detect_format", "formats", "is_study_folder
 _HEADS = (1 << 16, 1 << 22)
 # Makers of exports without a public description: a table of theirs may be anything
 _UNDESCRIBED = ("GAITRite", "zebris")
+_PACKED = (b"PK\x03\x04", b"\x1f\x8b", b"BZh", b"\xfd7zXZ", b"7z\xbc\xaf", b"(\xb5/\xfd")  # ZIP to zst
 
 
 def formats() -> dict[str, Format]:
@@ -87,10 +88,9 @@ def detect_format(path: str | os.PathLike[str]) -> Format:
                     f"{path}: an export of {maker}, whose format has no public description; allowed: a table of forces "
                     "or pressures with named columns (--format csv reads this file as one)"
                 )
-    if head.startswith(b"PK\x03\x04") and b"xl/" in head:
-        raise FormatError(
-            f"{path}: an Excel workbook (.xlsx); allowed: its sheet saved as CSV (a report of steps: --events)"
-        )
+    if head.startswith(_PACKED):
+        sheet = "an Excel workbook (.xlsx); allowed: its sheet saved as CSV (a report of steps: --events)"
+        raise FormatError(f"{path}: {sheet if b'xl/' in head else 'packed; allowed: what it holds, unpacked'}")
     raise FormatError(f"{path}: not a recording of a known format; known: {names}")
 
 

@@ -1,5 +1,8 @@
 """The registry of formats."""
 
+import bz2
+import gzip
+import lzma
 import zipfile
 
 import pytest
@@ -36,3 +39,11 @@ def test_an_excel_workbook_is_named(tmp_path):
         archive.writestr("xl/workbook.xml", "<workbook/>")
     with pytest.raises(FormatError, match=r"an Excel workbook \(.xlsx\); allowed: its sheet saved as CSV"):
         detect_format(tmp_path / "walk.xlsx")
+
+
+@pytest.mark.parametrize("packed", [gzip.compress, bz2.compress, lzma.compress])
+def test_a_packed_recording_is_to_be_unpacked(packed, tmp_path):
+    file = tmp_path / "walk.csv.packed"
+    file.write_bytes(packed(b"time,left,right\n0,1,2\n0.01,2,3\n"))
+    with pytest.raises(FormatError, match="packed; allowed: what it holds, unpacked"):
+        read_recording(file)
