@@ -34,7 +34,11 @@ def test_parts_add_up_to_what_there_could_have_been(row):
     readings = row.skipped["taxel forces"] + row.computed["taxel forces"]
     assert readings == pytest.approx(2 * 42 * 250 * row.sim_s, rel=0.01)
     assert 0 < row.skipped["taxel forces"] < row.computed["taxel forces"]  # one foot swings for a part of the time
-    assert row.computed["proximity rays"] == 0  # nobody looks ahead on level ground
+    rays = row.computed["proximity rays"]
+    assert rays + row.skipped["proximity rays"] == readings
+    assert (
+        0 < rays < row.skipped["taxel forces"] + 0.02 * readings
+    )  # those of a foot in the air, and a few ticks about it
 
 
 @pytest.mark.long
