@@ -190,8 +190,7 @@ def _page(results: Sequence[Result]) -> str:
         (t.what, t.limit, f"{cell(t.figure)} {t.unit}", t.where, "yes" if t.met else "**no**") for t in targets(results)
     ]
     head = _HEAD.format(made=made_on(), form="compiled" if compiled else "interpreted")
-    table = markdown_table(("kernel", "wanted", "reached", "at", "met"), rows)
-    return f"{head}\n## Targets\n\n{table}\n"
+    return f"{head}\n## Targets\n\n{markdown_table(('kernel', 'wanted', 'reached', 'at', 'met'), rows)}\n"
 
 
 _PANELS = (

@@ -65,9 +65,7 @@ def _environment(folder: str) -> dict[str, str]:
 def _reason(done: subprocess.CompletedProcess[bytes], memory: float, seconds: float) -> str:
     if done.returncode < 0:
         name = signal.Signals(-done.returncode).name
-        if name == "SIGXCPU":
-            return f"it takes longer than {seconds:.0f} s"
-        return f"the library ended with {name}"
+        return f"it takes longer than {seconds:.0f} s" if name == "SIGXCPU" else f"the library ended with {name}"
     lines = done.stderr.decode(errors="replace").strip().splitlines()
     last = one_line(lines[-1])[:160] if lines else f"the library ended with {done.returncode}"
     if "MemoryError" in last or "bad_alloc" in last:

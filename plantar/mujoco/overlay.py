@@ -16,10 +16,10 @@ _EDGE, _COP = np.array([0.1, 0.35, 0.9, 1.0]), np.array([1.0, 0.85, 0.1, 1.0])
 
 
 def draw_skin(scene: Any, feel: BoundSkin, data: Any, *, full: float | None = None, lift: float = _LIFT) -> int:
-    """Add a skin to `viewer.user_scn`, or to a renderer's `scene` after `update_scene`.
+    """Add a skin to `viewer.user_scn`, or a renderer's `scene` after `update_scene`.
 
     Args:
-        scene: The `mujoco.MjvScene`; geoms are added while there is room.
+        scene: The `mujoco.MjvScene`, as far as it has room.
         feel: The skin.
         data: The MjData.
         full: Force in N of a taxel in full color; None for the reading's largest.
@@ -51,17 +51,12 @@ def draw_skin(scene: Any, feel: BoundSkin, data: Any, *, full: float | None = No
     return int(scene.ngeom - start)
 
 
-def _next(scene: Any) -> Any:
-    if scene.ngeom >= scene.maxgeom:
-        return None
-    scene.ngeom += 1
-    return scene.geoms[scene.ngeom - 1]
-
-
 def _add(
     scene: Any, kind: Any, size: ArrayLike, place: NDArray[np.float64], turn: NDArray[np.float64], colour: ArrayLike
 ) -> Any:
-    if (geom := _next(scene)) is not None:
-        mujoco.mjv_initGeom(geom, kind, np.asarray(size), place, turn.ravel(), np.asarray(colour, dtype=np.float32))
-        geom.category = mujoco.mjtCatBit.mjCAT_DECOR
+    if scene.ngeom >= scene.maxgeom:
+        return None
+    geom, scene.ngeom = scene.geoms[scene.ngeom], scene.ngeom + 1
+    mujoco.mjv_initGeom(geom, kind, np.asarray(size), place, turn.ravel(), np.asarray(colour, dtype=np.float32))
+    geom.category = mujoco.mjtCatBit.mjCAT_DECOR
     return geom

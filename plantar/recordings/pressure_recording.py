@@ -100,8 +100,7 @@ class FootRecording:
         with np.errstate(invalid="ignore"):
             loaded = self.vertical_force >= max(minimum_force, 1e-9)
         if self.cop is not None:
-            known = loaded & np.isfinite(self.cop).all(axis=1)
-            return np.where(known[:, None], self.cop, np.nan)
+            return np.where(loaded[:, None] & np.isfinite(self.cop).all(axis=1, keepdims=True), self.cop, np.nan)
         if self.layout is None:
             return None
         normal = self.layout.rotations[:, 2, 2]
@@ -163,9 +162,7 @@ def _product(values: NDArray[np.float64], matrix: NDArray[np.float64]) -> NDArra
 
 def layout_for(side: Side, given: SoleLayout | None) -> SoleLayout | None:
     """Returns layout of a `side`: `given` of either side, mirrored for the other; None for None."""
-    if given is None or given.side == side:
-        return given
-    return mirrored(given)
+    return given if given is None or given.side == side else mirrored(given)
 
 
 def true_runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:

@@ -94,6 +94,4 @@ def tapered(polygon: Any, start: float, end: float, z_low: float, z_high: float)
     edge would vanish.
     """
     low, high = moved_edges(ring(polygon), start), moved_edges(ring(polygon), end)
-    if low is None or high is None:
-        return None
-    return Block(shapely.Polygon(low), z_low, z_high, shapely.Polygon(high))
+    return None if low is None or high is None else Block(shapely.Polygon(low), z_low, z_high, shapely.Polygon(high))

@@ -249,9 +249,7 @@ def _edge_height(samples: Any, outline: Any, p: ShoeParameters, x: float, side: 
     if bend > 1.0:
         return None
     inside = (np.abs(samples[:, 0] - x) <= half) & (side * (farthest - samples[:, 1]) <= p.clip_hook + 1.0 + bend)
-    if not inside.any():
-        return None
-    return float(samples[inside, 2].max())
+    return float(samples[inside, 2].max()) if inside.any() else None
 
 
 def _hook_height(p: ShoeParameters) -> float:
@@ -268,9 +266,7 @@ def retention_steps(
         return _lugs(foot, plan, retention, parameters)
     if retention.kind == "clips":
         return [], _arms(foot, plan, retention, parameters)
-    if retention.kind == "screws":
-        return _bosses(plan, retention, parameters)
-    return [], []
+    return _bosses(plan, retention, parameters) if retention.kind == "screws" else ([], [])
 
 
 def _lugs(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -> tuple[list[Block], list[Step]]:

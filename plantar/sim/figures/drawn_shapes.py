@@ -74,9 +74,7 @@ def _primitives(model: Any, geom: int) -> list[Message]:
         tops = [tuple((np.array(position) + end * _axis(model, geom)).tolist()) for end in ends]
         caps = [sphere(pose(top, rotation), ball, colour) for top in tops]
         return [cylinder(place, (2 * a, 2 * a, 2 * b), colour), *caps]
-    if kind == _Geom.mjGEOM_MESH:
-        return [_mesh(model, geom, colour)]
-    return []
+    return [_mesh(model, geom, colour)] if kind == _Geom.mjGEOM_MESH else []
 
 
 def _axis(model: Any, geom: int) -> NDArray[np.float64]:

@@ -184,9 +184,7 @@ def _long_side(points: Array) -> float:
             best, angle, size = length * width, a, (length, width)
     if size[1] > size[0]:
         angle += 0.5 * math.pi
-    if max(size) < _SLENDER * min(size):
-        return 0.0
-    return math.remainder(angle, math.pi)
+    return 0.0 if max(size) < _SLENDER * min(size) else math.remainder(angle, math.pi)
 
 
 def _covered(triangles: Array) -> float:

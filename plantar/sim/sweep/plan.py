@@ -147,8 +147,7 @@ class Sweep(Plan):
 
     def points(self) -> list[tuple[str, ...]]:
         """Settings of every grid point."""
-        axes = [[f"{name}={value}" for value in values] for name, values in self.grid]
-        return list(itertools.product(*axes))
+        return list(itertools.product(*([f"{name}={value}" for value in values] for name, values in self.grid)))
 
     @property
     def axes(self) -> tuple[str, ...]:

@@ -35,6 +35,4 @@ def plan_from_texts(
     sweep = Sweep.from_texts(scene, grid, count, robot, settings, first_seed)
     if limit is not None:
         return LimitSearch(sweep, ValueRange.from_text(limit, "limit"), within)
-    if random:
-        return RandomSearch(sweep, tuple(ValueRange.from_text(text, "random") for text in random))
-    return sweep
+    return RandomSearch(sweep, tuple(ValueRange.from_text(text, "random") for text in random)) if random else sweep

@@ -62,9 +62,7 @@ class CartesianPose(Task):
 
     def position_error(self, robot: RobotDynamics) -> NDArray[np.float64]:
         """To the target position (3,), world frame, in m; zeros without."""
-        if self.target_position is None:
-            return np.zeros(3)
-        return self.target_position - self._place(robot)[0]
+        return np.zeros(3) if self.target_position is None else self.target_position - self._place(robot)[0]
 
     def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
         position, rotation = self._place(robot)

@@ -112,8 +112,7 @@ class Visit:
     def place(self, time: float) -> NDArray[np.float64]:
         """Place (2,) in m of the person at a time in s."""
         way = float(np.linalg.norm(self.goal - self.far)) / self.speed
-        near = come_and_go(time, self.start, self.end, way)
-        return self.far + near * (self.goal - self.far)
+        return self.far + come_and_go(time, self.start, self.end, way) * (self.goal - self.far)
 
 
 class Visitor:
