@@ -83,6 +83,13 @@ class Work:
     carried: wp.array(dtype=wp.int32)
 
 
+@_func
+def _row(contacts: Contacts, i: wp.int32, j: wp.int32, world: wp.int32) -> wp.float64:
+    if contacts.address[i, j] < 0:  # dropped for want of room
+        return wp.float64(0.0)
+    return wp.float64(contacts.force[world, contacts.address[i, j]])
+
+
 @_kernel
 def gather(sole: Sole, contacts: Contacts, work: Work):
     """Add each of the `contacts` to the lists of the `sole` in `work`, in its frame; a thread a contact."""
@@ -103,10 +110,10 @@ def gather(sole: Sole, contacts: Contacts, work: Work):
         for j in range(dim):
             value = wp.float64(0.0)
             if contacts.elliptic or dim == 1:
-                value = wp.float64(contacts.force[world, contacts.address[i, j]])
+                value = _row(contacts, i, j, world)
             elif j > 0:
-                plus = wp.float64(contacts.force[world, contacts.address[i, 2 * j - 2]])
-                minus = wp.float64(contacts.force[world, contacts.address[i, 2 * j - 1]])
+                plus = _row(contacts, i, 2 * j - 2, world)
+                minus = _row(contacts, i, 2 * j - 1, world)
                 local[0] += plus + minus
                 value = (plus - minus) * wp.float64(contacts.friction[i, j - 1])
             if j < 3:
@@ -193,8 +200,7 @@ def _cover(sole: Sole, work: Work, s: wp.int32, size: wp.int32):
         length = wp.length(way)
         way /= wp.max(length, wp.float64(1e-300))  # a single point has none
         work.edges[k, s] = wp.vec3d(way[0], way[1], length)
-    half = wp.float64(0.5)
-    least = wp.float64(1e300)
+    half, least = wp.float64(0.5), wp.float64(1e300)
     for i in range(sole.areas.shape[0]):
         gap = _distance(work, s, corners, wp.vec2d(sole.positions[i][0], sole.positions[i][1]))
         work.gaps[i, s] = gap
@@ -222,9 +228,7 @@ def _is_beyond(sole: Sole, at: wp.vec2d) -> wp.bool:
 def _tilt(
     sole: Sole, work: Work, weights: wp.array2d(dtype=wp.float64), s: wp.int32, force: wp.float64, at: wp.vec2d
 ) -> wp.bool:
-    zero = wp.float64(0.0)
-    one = wp.float64(1.0)
-    total = wp.float64(0.0)
+    zero, one, total = wp.float64(0.0), wp.float64(1.0), wp.float64(0.0)
     middle = wp.vec2d()
     for i in range(sole.areas.shape[0]):
         total += weights[i, s]
@@ -243,9 +247,7 @@ def _tilt(
     off = (at - middle) / scale
     load, field = wp.vec3d(one, off[0], off[1]), wp.vec3d(one, zero, zero)
     step = wp.vec3d()
-    slope = wp.float64(0.0)
-    value = wp.float64(0.0)
-    rate = wp.float64(1.0)
+    slope, value, rate = wp.float64(0.0), wp.float64(0.0), wp.float64(1.0)
     for turn in range(60):
         matrix = wp.mat33d()
         for i in range(sole.areas.shape[0]):
@@ -300,9 +302,7 @@ def _spread_pairs(sole: Sole, work: Work, w: wp.int32, s: wp.int32, count: wp.in
             if work.pair[j, w] == work.pair[k, w] and _counts(sole, work, w, j):
                 known = True
         if not known:
-            force = wp.float64(0.0)
-            about = wp.vec2d()
-            size = wp.int32(0)
+            force, about, size = wp.float64(0.0), wp.vec2d(), wp.int32(0)
             for j in range(k, count):
                 if work.pair[j, w] == work.pair[k, w] and _counts(sole, work, w, j):
                     at, f = work.at[j, w], work.force[j, w]
@@ -374,9 +374,7 @@ def _carry(sole: Sole, work: Work, s: wp.int32, force: wp.float64, at: wp.vec2d)
 
 @_func
 def _shear(sole: Sole, work: Work, w: wp.int32, s: wp.int32, force: wp.vec3d, about_z: wp.float64) -> wp.bool:
-    middle = wp.vec2d()
-    spread = wp.float64(0.0)
-    turn = wp.float64(0.0)
+    middle, spread, turn = wp.vec2d(), wp.float64(0.0), wp.float64(0.0)
     for i in range(sole.areas.shape[0]):
         middle += work.normal[i, s] / force[2] * wp.vec2d(sole.positions[i][0], sole.positions[i][1])
     for i in range(sole.areas.shape[0]):

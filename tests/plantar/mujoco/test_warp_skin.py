@@ -55,3 +55,20 @@ def test_worlds_are_read_apart_and_their_number_is_checked():
     assert not few.numpy()[2].any()
     with pytest.raises(InputError, match="3 worlds; the skin was made for 2"):
         WarpSkin(feel, 2).read(worlds)
+
+
+def test_constraints_that_have_no_room_carry_nothing():
+    model = mujoco.MjModel.from_xml_string(models.box(6))
+    feel = Skin(body="foot").bind(model)
+    worlds, many = mjw.put_data(model, mujoco.MjData(model), nworld=2, njmax=32), WarpSkin(feel, 2)
+    for _ in range(30):
+        mjw.step(mjw.put_model(model), worlds)
+    many.read(worlds)
+    count, force = worlds.nacon.numpy()[0], worlds.efc.force.numpy()
+    loads = np.zeros(2)
+    for world, rows in zip(
+        worlds.contact.worldid.numpy()[:count], worlds.contact.efc_address.numpy()[:count], strict=True
+    ):
+        loads[world] += force[world, rows[rows >= 0]].sum()
+    assert (rows < 0).any()
+    assert many.numpy()[1][:, 2] == pytest.approx(loads, rel=1e-5)
