@@ -5,6 +5,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from plantar.kernels.contacts.foot_contacts import ContactList, FootContacts, gather_feet
 
@@ -24,12 +25,12 @@ class ContactReader:
     """
 
     def __init__(self, model: Any, data: Any, feet: Sequence[Collection[int]]) -> None:
-        self._model, self._data = model, data
+        self._model, self._data = getattr(data, "model", model), data  # a copy's may differ
         own = np.zeros((len(feet), model.ngeom), dtype=np.uint8)
         for mask, geom_ids in zip(own, feet, strict=True):
             mask[list(geom_ids)] = 1
         self._feet = tuple(FootContacts(mask) for mask in own)
-        self._options = getattr(data, "model", model).opt  # a copy's may differ
+        self._options = self._model.opt
         self._cone = self._options.cone
         self._lists: dict[int, ContactList] = {}
 
@@ -49,5 +50,16 @@ class ContactReader:
             friction = c.friction if self._cone != _ELLIPTIC else None
             listed = ContactList(c.geom, c.pos, c.frame, c.dist, c.efc_address, c.dim, friction)
             self._lists[n] = listed
-        gather_feet(self._feet, listed, data.efc_force)
+        sticks = getattr(self._model, "flg_adhesion", False)  # of geoms, since MuJoCo 4
+        gather_feet(self._feet, listed, _net_forces(data, self._cone) if sticks else data.efc_force)
         return self._feet
+
+
+def _net_forces(data: Any, cone: int) -> NDArray[np.float64]:
+    """Constraint forces less geoms' adhesion, as `mj_contactForce`."""
+    forces: NDArray[np.float64] = data.efc_force.copy()
+    for c in data.contact:
+        if c.efc_address >= 0:
+            edges = 1 if c.dim == 1 or cone == _ELLIPTIC else 2  # opposite ones, whose difference is friction
+            forces[c.efc_address : c.efc_address + edges] -= c.adhesion / edges
+    return forces

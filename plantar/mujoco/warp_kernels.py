@@ -51,6 +51,7 @@ class Contacts:
     dim: wp.array(dtype=wp.int32)
     friction: wp.array2d(dtype=wp.float32)
     address: wp.array2d(dtype=wp.int32)
+    adhesion: wp.array(dtype=wp.float32)
     force: wp.array2d(dtype=wp.float32)
     xpos: wp.array2d(dtype=wp.vec3f)
     xmat: wp.array2d(dtype=wp.mat33f)
@@ -120,6 +121,8 @@ def gather(sole: Sole, contacts: Contacts, work: Work):
                 local[j] += value
             else:
                 twist[j - 3] = value
+        if contacts.adhesion:
+            local[0] -= wp.float64(contacts.adhesion[i])
     sign = wp.where(sole.own[first] != 0, wp.float64(-1.0), wp.float64(1.0))
     turn = wp.mat33d(contacts.xmat[world, sole.body])
     to_sole = wp.transpose(turn @ sole.turn)

@@ -90,6 +90,7 @@ class WarpSkin:
         contacts.frame, contacts.geom, contacts.dim = listed.frame, listed.geom, listed.dim
         contacts.friction = listed.friction.view(wp.float32) if listed.friction.ndim == 1 else listed.friction
         contacts.address, contacts.force = listed.efc_address, data.efc.force
+        contacts.adhesion = getattr(listed, "adhesion", None)  # since MuJoCo Warp 4
         contacts.xpos, contacts.xmat, contacts.elliptic = data.xpos, data.xmat, self._elliptic
         self._work.size.zero_()
         wp.launch(warp_kernels.gather, dim=listed.dist.shape[0], inputs=[self._sole, contacts, self._work])

@@ -118,6 +118,17 @@ def test_a_load_on_the_back_does_not_relieve_the_sole(contact_wrench):
     assert not reading.carried
 
 
+@pytest.mark.parametrize("condim", [1, 4])
+@pytest.mark.parametrize("cone", ["pyramidal", "elliptic"])
+def test_a_geom_that_sticks_presses_with_what_it_does_not_pull(condim, cone, contact_wrench):
+    sticky = models.box(condim, f'cone="{cone}"').replace("condim=", 'adhesion="5" condim=')
+    model = mujoco.MjModel.from_xml_string(sticky)
+    feel, data = Skin(body="foot").bind(model), mujoco.MjData(model)
+    mujoco.mj_step(model, data, 1000)
+    assert np.allclose(feel(data).wrench, contact_wrench(feel, data), atol=1e-9)
+    assert feel(data).vectors.sum(axis=0)[2] == pytest.approx(11.0 * 9.81, rel=1e-3)
+
+
 def test_a_load_far_beyond_the_taxels_is_on_their_nearest_edge():
     """Place and force of three contacts on a ball with much shear, of which no patch has the moment."""
     ball = '<mujoco><worldbody><body name="foot"><freejoint/><geom size=".023"/></body></worldbody></mujoco>'

@@ -17,10 +17,15 @@ mjw = pytest.importorskip("mujoco_warp")
 spec = importlib.util.spec_from_file_location("warp_skin_models", Path(__file__).with_name("conftest.py"))
 models = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(models)
+MODELS = {
+    **models.KINDS,
+    "load on the back": models.STACK,
+    "geom that sticks": models.box().replace("condim=", 'adhesion="5" condim='),
+}
 pytestmark = [pytest.mark.long, pytest.mark.filterwarnings("ignore")]  # compiles for a minute
 
 
-@pytest.mark.parametrize("text", [*models.KINDS.values(), models.STACK], ids=[*models.KINDS, "load on the back"])
+@pytest.mark.parametrize("text", MODELS.values(), ids=MODELS)
 def test_forces_are_those_of_the_skin(text):
     model = mujoco.MjModel.from_xml_string(text)
     data, feel = mujoco.MjData(model), Skin(body="foot").bind(model)
