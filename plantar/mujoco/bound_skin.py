@@ -22,6 +22,7 @@ from plantar.percepts.sole_pose import SolePose
 from plantar.sensing.reading import Reading
 
 _LIFT = 0.02  # m inside the body at which proximity rays begin
+_PASSED = 20  # surfaces of its own that a ray passes at most
 _MOST_DATA = 64  # whose contacts it keeps in view, and so in memory, unless more are read at once
 
 
@@ -32,7 +33,7 @@ class SkinReading(Reading):
         force: (n,) along each taxel's axis in N.
         vectors: Force (n, 3) on each taxel in N.
         wrench: Wrench (6,) of MuJoCo's contacts on body about sole origin in N and N m.
-        depth: Overlap (n,) of geoms at each taxel in m, 0 elsewhere.
+        depth: Overlap (n,) of geoms in m, 0 elsewhere.
         carried: Whether the vectors have the whole wrench; else only the load on the sole, as its center of pressure is
             beyond the taxels or the body is pressed from above as well.
     """
@@ -85,6 +86,7 @@ class BoundSkin:
         self.rotation_to_body = np.array(rotation)
         self.reach = reach
         self._range = proximity
+        self._nearest = _least_gaps(model, body)
         axes = layout.rotations[:, :, 2]
         widths = [
             float(np.hypot(*(layout.cell_polygon(i) - layout.positions[i, :2]).T).max()) for i in range(len(layout))
@@ -108,17 +110,9 @@ class BoundSkin:
     def __call__(self, data: Any) -> SkinReading:
         """Read the skin after a step or `mj_forward`; InputError for another model's MjData."""
         view = self._views.get(id(data)) or self._look_in(data)
-        load = view.load()
-        proximity = None if self._range is None else self._distances(view)
-        return _made(
-            data.time,
-            load.forces.copy(),
-            proximity,
-            load.vectors.copy(),
-            load.wrench.copy(),
-            load.depths.copy(),
-            load.carried,
-        )
+        load, proximity = view.load(), None if self._range is None else self._distances(view)
+        now = load.forces.copy(), proximity, load.vectors.copy(), load.wrench.copy(), load.depths.copy(), load.carried
+        return _made(data.time, *now)
 
     def percept(self, data: Any) -> Percept:
         """The skin's reading as a `plantar.Percept`."""
@@ -210,15 +204,20 @@ class BoundSkin:
         return view
 
     def _distances(self, view: "_View") -> NDArray[np.float64]:
-        """Distance (n,) from each taxel outwards to another body in m; inf beyond range."""
+        """Distance (n,) outwards to another body in m; inf beyond range."""
         axes = self.static[1] @ view.rotation.T
         starts = view.origin + self.static[0] @ view.rotation.T + _LIFT * axes
-        geom = np.empty(1, dtype=np.int32)
-        out = np.full(len(self), math.inf)
+        geom, out = np.empty(1, dtype=np.int32), np.full(len(self), math.inf)
         for i, (start, axis) in enumerate(zip(starts, axes, strict=True)):
-            gap = mujoco.mj_ray(self.model, view.data, start, -axis, None, 1, self.body, geom) - _LIFT
-            if -_LIFT <= gap <= float(self._range or 0.0):
-                out[i] = gap
+            gap = -_LIFT
+            for _ in range(_PASSED):
+                gap += mujoco.mj_ray(self.model, view.data, start - (gap + _LIFT) * axis, -axis, None, 1, -1, geom)
+                if geom[0] < 0 or gap > float(self._range or 0.0):
+                    break
+                if gap >= self._nearest[geom[0]]:
+                    out[i] = gap
+                    break
+                gap += 1e-6
         return out
 
 
@@ -246,6 +245,17 @@ class _View:
         return self._load
 
 
+def _least_gaps(model: Any, body: int) -> NDArray[np.float64]:
+    """Gap (geoms,) in m from which on rays see each: inf for a body's own, 0 for links before it."""
+    weld, same = model.body_weldid, model.body_rootid[model.geom_bodyid] == model.body_rootid[body]
+    links = [body]
+    while model.body_parentid[links[-1]]:
+        links.append(model.body_parentid[links[-1]])
+    of_geoms = np.where(same, weld[model.geom_bodyid], -1)
+    gaps = np.where(np.isin(of_geoms, weld[links]), 0.0, -math.inf)
+    return np.where(of_geoms == weld[body], math.inf, gaps)
+
+
 def _made(
     time: float,
     force: NDArray[np.float64],
@@ -263,7 +273,6 @@ def _made(
 def _shared(work: Any, threads: int) -> None:
     if threads == 1:
         work(0)
-        return
-    with ThreadPoolExecutor(threads) as pool:
-        for done in [pool.submit(work, t) for t in range(threads)]:
-            done.result()
+    else:
+        with ThreadPoolExecutor(threads) as pool:
+            list(pool.map(work, range(threads)))

@@ -176,6 +176,19 @@ def test_proximity_is_the_distance_to_the_ground(make_box):
     assert not feel(data).force.any()
 
 
+def test_proximity_does_not_see_the_foots_own_parts():
+    """A foot of 1 cm whose sole and looks are bodies of their own, below a shank that reaches into it."""
+    box = '<geom type="box" size="{}" {}/>'
+    shank = box.format(".03 .03 .2", 'pos="0 0 .2"') + '<body name="ankle"><joint/>' + box.format(".02 .02 .005", "")
+    sole, looks = box.format(".1 .05 .005", ""), box.format(".11 .06 .006", 'contype="0" conaffinity="0"')
+    parts = f'{shank}<body name="sole">{sole}</body><body>{looks}</body></body>'
+    model = mujoco.MjModel.from_xml_string(models.world(models.PLANE, parts, 0.055))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    for body in ("ankle", "sole"):
+        assert Skin(body=body, proximity=0.1).bind(model)(data).proximity == pytest.approx(0.05, abs=1e-9)
+
+
 def test_many_and_rollout_are_what_single_readings_are(make_box):
     model = mujoco.MjModel.from_xml_string(make_box())
     feel, kind = Skin(body="foot").bind(model), mujoco.mjtState.mjSTATE_FULLPHYSICS
