@@ -169,7 +169,7 @@ class BoundSkin:
         flat = np.ascontiguousarray(given.reshape(-1, given.shape[-1]))
         control = None
         if controls is not None:
-            control = array(controls, "controls", (*lead, self.model.nu)).reshape(-1, self.model.nu)
+            control = array(controls, "controls", (*lead, self.model.nu)).reshape(len(flat), self.model.nu)
         vectors, wrenches = np.empty((len(flat), len(self), 3)), np.empty((len(flat), 6))
         threads = min(integer(threads, "threads", 1), max(len(flat), 1))
 
