@@ -20,7 +20,7 @@ from plantar.mujoco.contacts import REACH
 from plantar.mujoco.named_id import named_id
 from plantar.mujoco.quaternions import quaternion_of
 from plantar.mujoco.sole_shape import SoleShape, rigid_geoms, sole_shape
-from plantar.sides import other_side
+from plantar.sides import SIDES, Side, other_side
 
 _CELL_AREA = 691e-6  # m^2, of the papers' soles
 _CELLS = 30  # at least so many of a sole that is fitted
@@ -190,7 +190,7 @@ class Skin:
         return hex_layout(
             shape.outline,
             name=self.body,
-            side="left" if shape.side == "left" else "right",
+            side=_side_in(self.body) or shape.side,
             cell_area=area,
             origin=(float(middle[0]), float(middle[1])),
         )
@@ -251,8 +251,8 @@ def _fit(cells: Any, sole: Any) -> float:
     return float(cells.intersection(sole).area / cells.union(sole).area)
 
 
-def _side_in(name: str) -> str | None:
-    """The side that a body's name contains as a word, or None."""
+def _side_in(name: str) -> Side | None:
+    """The side in a body's name, as a word or else a letter, or None."""
     words = re.split(r"[^a-z]+", re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower())
-    sides = {"left" for w in words if w in ("left", "l")} | {"right" for w in words if w in ("right", "r")}
+    sides = {side for side in SIDES if side in words} or {side for side in SIDES if side[0] in words}
     return sides.pop() if len(sides) == 1 else None

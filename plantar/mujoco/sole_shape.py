@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import RobotError
 from plantar.mujoco.mesh_surface import mesh_surface
+from plantar.sides import Side
 
 _DEPTH = 0.01  # m above the lowest point: what of a round sole a load brings to the ground
 _TILT = math.cos(math.radians(35.0))  # a face that is turned farther from down is no sole
@@ -23,14 +24,14 @@ class SoleShape(NamedTuple):
         position: Sole origin (3,): the body's projected onto the face.
         rotation: Rotation (3, 3) from sole to body; columns forward, left, into body.
         outline: Convex outline (k, 2) in sole frame, counter-clockwise.
-        side: "left" where the body is left of the world's x axis in reference pose, else "right".
-        is_flat: Whether the geoms have a face; else the sole is round, in the world's frame.
+        side: "left" where the body is left of its robot's root, along x in reference pose, else "right".
+        is_flat: Whether the geoms have a face; else the sole is round.
     """
 
     position: NDArray[np.float64]
     rotation: NDArray[np.float64]
     outline: NDArray[np.float64]
-    side: str
+    side: Side
     is_flat: bool
 
 
@@ -90,7 +91,9 @@ def sole_shape(
     lowest = max(float((p.points @ down).max()) for p in parts)
     position = lowest * down
     outline = _outline(parts, position, rotation)
-    return SoleShape(position, rotation, outline, "left" if place[1] >= 0.0 else "right", is_flat)
+    root = int(model.body_rootid[body])
+    aside = float((turn @ rotation[:, 1]) @ (place - data.xpos[root if root != body else 0]))
+    return SoleShape(position, rotation, outline, "left" if aside > -1e-9 else "right", is_flat)
 
 
 class _Part(NamedTuple):

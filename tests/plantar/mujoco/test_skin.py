@@ -185,6 +185,20 @@ def test_bodies_that_are_fixed_to_it_belong_to_it():
     assert np.allclose(of_toe.rotation_to_body, np.eye(3))
 
 
+def test_a_foot_has_the_side_of_its_name_or_else_of_its_place_on_its_robot():
+    """Three robots, one of them right of the world's x axis and one that faces back."""
+    robots = "".join(
+        f'''<body name="{name}" pos="{at}" euler="0 0 {turn}"><freejoint/><geom size=".05"/>
+        <body name="{name}/left_foot" pos="0 .1 -.4"><joint/><geom type="box" size=".1 .05 .02"/></body>
+        <body name="{name}/paw" pos="0 -.1 -.4"><joint/><geom type="box" size=".1 .05 .02"/></body></body>'''
+        for name, at, turn in (("r", "0 2 1", 0), ("s", "0 -2 1", 0), ("t", "0 0 1", 180))
+    )
+    model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{robots}</worldbody></mujoco>")
+    for robot in "rst":
+        assert Skin(body=f"{robot}/left_foot").bind(model).layout.side == "left"
+        assert Skin(body=f"{robot}/paw", forward=(1, 0, 0)).bind(model).layout.side == "right"
+
+
 def test_a_model_without_a_body_that_collides_is_refused():
     spec = mujoco.MjSpec.from_string(
         '<mujoco><worldbody><body name="foot"><freejoint/><geom size=".1" contype="0" conaffinity="0"/></body>'
