@@ -174,8 +174,8 @@ def read_layout(path: str | os.PathLike[str]) -> SoleLayout:
         ...     len(read_layout(write_layout(layout, f"{folder}/mat.json")))
         8
     """
-    source = read_json(path, LayoutError, f"{path}:", "a JSON layout file")
-    return layout_from_dict(source, where=str(path))
+    file = instance(path, str | os.PathLike, "layout", LayoutError)
+    return layout_from_dict(read_json(file, LayoutError, f"{path}:", "a JSON layout file"), where=str(path))
 
 
 def write_layout(layout: SoleLayout, path: str | os.PathLike[str]) -> Path:

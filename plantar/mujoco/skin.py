@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike
 
-from plantar.arguments import instance, number, positive
+from plantar.arguments import instance, items, number, positive
 from plantar.errors import InputError, LayoutError, RobotError
 from plantar.layouts.layout import SoleLayout, mirrored
 from plantar.layouts.layout_file import read_layout
@@ -68,10 +68,7 @@ class Skin:
         proximity: float | None = None,
         reach: float = REACH,
     ) -> None:
-        if layout is None or isinstance(layout, SoleLayout):
-            self.layout = layout
-        else:
-            self.layout = read_layout(layout if isinstance(layout, str) else instance(layout, os.PathLike, "layout"))
+        self.layout = layout if layout is None or isinstance(layout, SoleLayout) else read_layout(layout)
         if self.layout is not None and not (self.layout.rotations[:, 2, 2] > 0.1).all():
             raise LayoutError("layout field 'rotations' holds a taxel that does not face the ground")
         if not isinstance(body, str) or not body:
@@ -79,7 +76,7 @@ class Skin:
         if isinstance(geoms, str):
             raise InputError(f"geoms is {geoms!r}; expected a list of names")
         self.body = body
-        self.geoms = None if geoms is None else tuple(str(name) for name in geoms)
+        self.geoms = None if geoms is None else tuple(str(name) for name in items(geoms, "geoms"))
         self.site = site
         self.outward = outward
         self.forward = forward
@@ -151,7 +148,7 @@ class Skin:
         return geoms, shape if self.site is None else self._at_site(model, body, shape)
 
     def _at_site(self, model: Any, body: int, shape: SoleShape) -> SoleShape:
-        """The sole with a site as its frame, on the face, facing the same way."""
+        """The sole with a site as its frame."""
         site = named_id(model, "site", str(self.site))
         owner = int(model.site_bodyid[site])
         if model.body_weldid[owner] != model.body_weldid[body]:
@@ -197,6 +194,7 @@ class Skin:
 
     def _check(self, layout: SoleLayout, shape: SoleShape) -> None:
         import shapely
+        from shapely.affinity import rotate
 
         side = _side_in(self.body)
         if side == other_side(layout.side):
@@ -206,17 +204,14 @@ class Skin:
         sole = shapely.Polygon(shape.outline)
         wide = sole.buffer(_RIM)
         span, extent = (float(np.hypot(*np.ptp(p[:, :2], axis=0))) for p in (layout.positions, shape.outline))
-        best, fit = "", _fit(_cells(layout), sole)
+        cells, other = _cells(layout), _cells(mirrored(layout))
+        best, fit = "", _fit(cells, sole)
         for turn in range(4):
-            for name, other in (("", layout), ("mirrored", mirrored(layout))):
-                c, s = [(1, 0), (0, 1), (-1, 0), (0, -1)][turn]
-                cells = shapely.transform(_cells(other), lambda p, c=c, s=s: p @ np.array([[c, s], [-s, c]]))
-                value = _fit(cells, sole)
+            for name, way in (("", cells), ("mirrored", other)):
+                value = _fit(rotate(way, 90 * turn, (0, 0)), sole)
                 if value > fit + _BETTER:
-                    words = [name] if name else []
-                    words += [f"turned by {90 * turn} deg"] if turn else []
-                    best, fit = " and ".join(words), value
-        cells = _cells(layout)
+                    turned = f"turned by {90 * turn} deg" if turn else ""
+                    best, fit = " and ".join(filter(None, (name, turned))), value
         outside = 1.0 - cells.intersection(wide).area / cells.area
         covered = cells.intersection(sole).area / sole.area
         where = f"layout '{layout.name}' on body '{self.body}'"
