@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import instance, number
+from plantar.arguments import instance, number, positive
 from plantar.errors import InputError
 from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.plan.walk_plan import vrp_of_step
@@ -51,7 +51,7 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
     Args:
         task: "stand", "step", "walk" or "board".
         robot: Built-in name or robot file.
-        period: Step in s; `physics_period` likewise.
+        period: Step in s, whole `physics_period`s.
         skin: Whether it is observed.
         faults: Of taxels, drawn at each reset, or None.
         scale: Angle in rad of an action of 1.
@@ -59,8 +59,7 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         render_mode: "rgb_array" or None.
 
     Raises:
-        InputError: If an argument is invalid.
-        RobotError: If the robot is invalid.
+        InputError, RobotError: If an argument is invalid.
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 50}  # noqa: RUF012
@@ -82,9 +81,11 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
             raise InputError(f"task is {task!r}; allowed: {', '.join(TASKS)}")
         if render_mode not in (None, "rgb_array"):
             raise InputError(f"render_mode is {render_mode!r}; allowed: rgb_array or None")
-        step = number(physics_period, "physics_period", finite=True)
-        if not step > 0.0 or number(period, "period", finite=True) < step:
-            raise InputError(f"period is {period} s and physics_period {step} s; allowed: above 0, a period no shorter")
+        step = positive(physics_period, "physics_period", "s")
+        self._substeps = round(min(positive(period, "period", "s") / step, 1e6))
+        self.period = self._substeps * step
+        if not math.isclose(self.period, period, rel_tol=1e-6):
+            raise InputError(f"period is {period} s; allowed: whole multiples of physics_period, {step} s")
         self.scale, self.difficulty = number(scale, "scale", finite=True), number(difficulty, "difficulty", finite=True)
         if self.difficulty < 0.0:
             raise InputError(f"difficulty is {difficulty}; allowed: 0 or more")
@@ -97,8 +98,6 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         self.world = build_world(self.robot, self.task.ground(), step)
         self.model, self.data = self.world.model, self.world.data
         self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_MIDPHASE  # its boxes do not follow moved ground
-        self._substeps = max(1, round(period / step))
-        self.period = self._substeps * step
         walk = Walk().for_body(self.body)
         height = com_height_of(walk, self.robot)
         feet = start_of_walk(walk, self.robot, height).feet

@@ -90,6 +90,7 @@ def test_without_skin_and_with_faults():
         ({"task": "fly"}, "allowed: stand, step, walk, board"),
         ({"render_mode": "human"}, "rgb_array"),
         ({"period": 0.0}, "above 0"),
+        ({"period": 0.005}, "whole multiples of physics_period, 0.002 s"),
         ({"physics_period": -1.0}, "above 0"),
         ({"difficulty": -1.0}, "0 or more"),
         ({"faults": 0.1}, "expected a TaxelFaults"),
