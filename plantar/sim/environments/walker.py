@@ -26,7 +26,7 @@ from plantar.sides import SIDES, Side
 from plantar.sim.environments.gymnasium_base import Env, spaces
 from plantar.sim.environments.tasks import TASKS, Task
 from plantar.sim.figures.render import Camera, View
-from plantar.sim.model.world import build_world
+from plantar.sim.model.world import DIVERGED, build_world
 from plantar.sim.run.servos import LegServos
 from plantar.sim.run.standing import stand
 from plantar.sim.sensing.sensors import imu_to
@@ -45,8 +45,8 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
     - skin_left, skin_right (n,): force on each taxel in body weights;
     - task (m,): see `plantar.sim.environments.tasks`.
 
-    An episode ends where the torso tilts by 40 degrees or sinks by 30 %. `info`: "time" in s, "velocity" (2,) in m/s in
-    its heading, "load" of both soles in body weights, and the task's.
+    An episode ends where the torso tilts by 40 degrees or sinks by 30 %, or physics diverge. `info`: "time" in s,
+    "velocity" (2,) in m/s in its heading, "load" of both soles in body weights, and the task's.
 
     Args:
         task: "stand", "step", "walk" or "board".
@@ -165,8 +165,9 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         observation = self._observe()
         reward = self.task.reward() - 0.05 * float(np.square(moved - self.last_action).mean())
         self.last_action[:] = moved
-        up, height = data.xmat[self.world.torso, 8], data.xpos[self.world.torso, 2]
-        fell = bool(not up > _FALLEN_UP or height < _FALLEN_HEIGHT * self._height)
+        height = data.xpos[self.world.torso, 2]
+        lost = data.warning.number[list(DIVERGED)].any()  # MuJoCo has put it back to its reference pose
+        fell = bool(lost or not self.up > _FALLEN_UP or height < _FALLEN_HEIGHT * self._height)
         return observation, reward, fell, False, self._info()
 
     def render(self) -> Any:

@@ -69,6 +69,15 @@ def test_ground_and_command_of_a_walk_are_drawn_again():
     assert np.ptp(second[0][:, 2]) > 0.0
 
 
+def test_physics_that_diverge_end_the_episode():
+    env = PlantarEnv("stand")
+    env.reset(seed=1)
+    env.data.qvel[0] = 1e11
+    assert env.step(np.zeros(12))[2]
+    env.reset(seed=1)
+    assert not env.step(np.zeros(12))[2]
+
+
 def test_a_robot_that_falls_ends_the_episode():
     env = PlantarEnv("stand")
     env.reset(seed=0)
