@@ -90,6 +90,7 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         if self.difficulty < 0.0:
             raise InputError(f"difficulty is {difficulty}; allowed: 0 or more")
         self.render_mode = render_mode
+        self.metadata = {**self.metadata, "render_fps": round(1.0 / self.period)}
         self.robot = load_robot(robot)
         self.faults = None if faults is None else instance(faults, TaxelFaults, "faults")
         legs = build_leg_model(self.robot)
