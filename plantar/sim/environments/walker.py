@@ -182,19 +182,19 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
 
     @property
     def up(self) -> float:
-        """Share of the torso's z that points up."""
+        """The torso's z, upwards."""
         return float(self.data.xmat[self.world.torso, 8])
 
     @property
     def velocity(self) -> NDArray[np.float64]:
         """The torso's velocity (forward, left) in m/s in its heading, and turn in rad/s."""
-        turn = self.data.xmat[self.world.torso].reshape(3, 3)
-        c, s = turn[0, 0], turn[1, 0]
+        data, torso = self.data, self.world.torso
+        root = self.model.body_rootid[torso]
+        spin = data.xmat[root].reshape(3, 3) @ data.qvel[3:6]
+        vx, vy, _ = data.qvel[:3] + np.cross(spin, data.xpos[torso] - data.xpos[root])
+        c, s = data.xmat[torso, [0, 3]]
         length = math.hypot(c, s) or 1.0
-        vx, vy = self.data.qvel[:2]
-        return np.array(
-            [(c * vx + s * vy) / length, (c * vy - s * vx) / length, float((turn @ self.data.qvel[3:6])[2])]
-        )
+        return np.array([(c * vx + s * vy) / length, (c * vy - s * vx) / length, float(spin[2])])
 
     def _observe(self) -> dict[str, NDArray[np.float32]]:
         data, world = self.data, self.world

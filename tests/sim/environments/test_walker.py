@@ -1,5 +1,7 @@
 """The environments: Gymnasium's own checker, the same seed the same episode, skin that adds up, vectors of them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -7,6 +9,7 @@ from plantar import InputError
 from plantar.sensing.taxel_faults import TaxelFaults
 
 gymnasium = pytest.importorskip("gymnasium")
+mujoco = pytest.importorskip("mujoco")
 
 from gymnasium.utils.env_checker import check_env  # noqa: E402
 
@@ -67,6 +70,20 @@ def test_ground_and_command_of_a_walk_are_drawn_again():
     assert not np.array_equal(first[0], second[0])
     assert not np.array_equal(first[1], second[1])
     assert np.ptp(second[0][:, 2]) > 0.0
+
+
+def test_velocities_are_those_of_a_torso_that_is_turned_on_its_base():
+    env = PlantarEnv("stand")
+    env.reset(seed=1)
+    chest = env.model.body("chest")
+    chest.pos, chest.quat = (0.1, 0.0, 0.2), (0.5, 0.5, 0.5, 0.5)
+    env.world = replace(env.world, torso=chest.id)
+    env.data.qvel[:6] = 0.1, 0.2, 0.3, 0.4, 0.5, 0.6
+    mujoco.mj_forward(env.model, env.data)
+    true = np.zeros(6)
+    mujoco.mj_objectVelocity(env.model, env.data, mujoco.mjtObj.mjOBJ_XBODY, chest.id, true, 0)
+    assert np.hypot(*env.velocity[:2]) == pytest.approx(np.hypot(*true[3:5]))
+    assert env.velocity[2] == pytest.approx(true[2])
 
 
 def test_physics_that_diverge_end_the_episode():
