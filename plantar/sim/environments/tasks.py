@@ -38,7 +38,7 @@ class Simulated(Protocol):
 
     @property
     def up(self) -> float:
-        """Share of the torso's z that points up."""
+        """The torso's z, upwards."""
 
 
 class Task:
@@ -64,7 +64,7 @@ class Task:
         """Draw an episode."""
 
     def disturb(self, rng: np.random.Generator) -> None:
-        """Before a step's physics."""
+        """Before a step's physics, and after a reset."""
 
     def observe(self) -> NDArray[np.float64]:
         """What the task asks for."""
@@ -136,8 +136,6 @@ class Step(Task):
 
     def _to_target(self) -> NDArray[np.float64]:
         env = self.env
-        if self._target is None:
-            return np.zeros(2)
         return np.asarray(self._target - env.data.site_xpos[env.world.sole_sites[SIDES[self._swing]], :2])
 
     def _off(self) -> float:

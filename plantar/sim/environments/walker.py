@@ -143,6 +143,7 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         if self.faults is not None:
             layouts = self.robot.layouts
             self._worn = {s: self.faults.worn(layouts[s], self.np_random.integers(2**63)) for s in SIDES}
+        self.task.disturb(self.np_random)  # its first target or command is observed
         return self._observe(), self._info()
 
     def step(

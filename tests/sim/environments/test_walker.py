@@ -72,6 +72,15 @@ def test_ground_and_command_of_a_walk_are_drawn_again():
     assert np.ptp(second[0][:, 2]) > 0.0
 
 
+@pytest.mark.parametrize("task", ["walk", "step"])
+def test_what_a_step_is_rewarded_for_is_observed_before_it(task):
+    env = PlantarEnv(task)
+    first = env.reset(seed=1)[0]["task"]
+    then = env.step(np.zeros(12))[0]["task"]
+    assert first.any()
+    assert np.array_equal(first, then) if task == "walk" else first[2:] == pytest.approx(then[2:], abs=0.02)
+
+
 def test_velocities_are_those_of_a_torso_that_is_turned_on_its_base():
     env = PlantarEnv("stand")
     env.reset(seed=1)
