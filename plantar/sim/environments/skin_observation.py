@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.arguments import instance
 from plantar.errors import InputError
 from plantar.mujoco.bound_skin import BoundSkin, SkinReading
 from plantar.mujoco.skin import Skin
@@ -45,7 +46,7 @@ class SkinObservation(ObservationWrapper[Any, Any, Any]):
             raise InputError(f"observation already has {', '.join(taken)}; allowed: other names for the skins")
         self._is_dict = isinstance(own, spaces.Dict)
         self._skins: dict[str, BoundSkin] = {name: skin.bind(model) for name, skin in skins.items()}
-        self._faults = faults
+        self._faults = None if faults is None else instance(faults, TaxelFaults, "faults")
         self._worn: dict[str, WornFaults] = {}
         self.readings: dict[str, SkinReading] = {}
         low = 0.0 if faults is None else -np.inf

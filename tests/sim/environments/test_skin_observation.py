@@ -69,3 +69,5 @@ def test_what_has_no_model_and_names_that_are_taken_are_refused():
         SkinObservation(Falling(), {"observation": Skin(body="box")})
     with pytest.raises(InputError, match="allowed: names and Skin objects"):
         SkinObservation(Falling(), {"pad": "box"})
+    with pytest.raises(InputError, match="expected a TaxelFaults"):
+        SkinObservation(Falling(), {"pad": Skin(body="box")}, 0.1)
