@@ -1,4 +1,4 @@
-"""The examples of the companion do what they say."""
+"""The examples of skins do what they say, and so does the page of skins in one's own simulation."""
 
 import re
 import subprocess
@@ -27,3 +27,16 @@ def test_a_task_of_ones_own_is_kept(repository):
     with_it, without = map(float, re.findall(r"turns by ([\d.]+) degrees", run("skin_new_task", repository)))
     assert with_it < 0.5
     assert without > 10.0
+
+
+def test_the_page_of_skins_runs_as_it_is_printed(repository, tmp_path):
+    """But what needs MuJoCo Warp, mjlab or a window."""
+    (tmp_path / "robot.xml").write_text("""<mujoco><worldbody><geom type="plane" size="1 1 .1"/>
+      <body name="left_ankle_roll_link" pos="0 0 .02"><freejoint/><geom type="box" size=".12 .05 .02"/></body>
+      </worldbody></mujoco>""")
+    page = (repository / "docs" / "skin.md").read_text("utf-8")
+    blocks = re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    code = "".join(block for block in blocks if not re.search("warp|mjlab|viewer", block))
+    code += "print(forces.shape, wrenches.shape)"
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert done.stdout == "(8, 100, 39, 3) (8, 100, 6)\n", done.stderr
