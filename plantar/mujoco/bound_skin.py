@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
+from threading import Lock
 from typing import Any
 
 import mujoco
@@ -78,9 +79,7 @@ class BoundSkin:
         reach: float,
         proximity: float | None,
     ) -> None:
-        self.model = model
-        self.layout = layout
-        self.body = body
+        self.model, self.layout, self.body = model, layout, body
         self.geom_ids = tuple(int(g) for g in geom_ids)
         self.position_in_body = np.array(position)
         self.rotation_to_body = np.array(rotation)
@@ -110,8 +109,9 @@ class BoundSkin:
     def __call__(self, data: Any) -> SkinReading:
         """Read the skin after a step or `mj_forward`; InputError for another model's MjData."""
         view = self._views.get(id(data)) or self._look_in(data)
-        load, proximity = view.load(), None if self._range is None else self._distances(view)
-        now = load.forces.copy(), proximity, load.vectors.copy(), load.wrench.copy(), load.depths.copy(), load.carried
+        with view.lock:
+            load, near = view.load(), None if self._range is None else self._distances(view)
+            now = load.forces.copy(), near, load.vectors.copy(), load.wrench.copy(), load.depths.copy(), load.carried
         return _made(data.time, *now)
 
     def percept(self, data: Any) -> Percept:
@@ -141,8 +141,9 @@ class BoundSkin:
 
         def work(start: int) -> None:
             for i in range(start, len(views), threads):
-                load = views[i].load()
-                vectors[i], wrenches[i] = load.vectors, load.wrench
+                with views[i].lock:
+                    load = views[i].load()
+                    vectors[i], wrenches[i] = load.vectors, load.wrench
 
         _shared(work, integer(threads, "threads", 1))
         return vectors, wrenches
@@ -199,7 +200,7 @@ class BoundSkin:
         ):
             raise InputError("the data are of another model than the skin was bound to; bind it to that model")
         if len(self._views) >= self._most:
-            self._views.pop(next(iter(self._views)))
+            self._views.pop(next(iter(self._views)), None)
         view = self._views[id(data)] = _View(self, data)
         return view
 
@@ -225,11 +226,9 @@ class _View:
     """A skin's contacts in one MjData, alive with it."""
 
     def __init__(self, skin: BoundSkin, data: Any) -> None:
-        self.data = data
+        self.data, self.lock = data, Lock()  # of one thread at a time
         self._reader = ContactReader(skin.model, data, (skin.geom_ids,))
-        self._load = TaxelLoad(*skin.static)
-        self._seen = ContactsInSole()
-        self._reach = skin.reach
+        self._load, self._seen, self._reach = TaxelLoad(*skin.static), ContactsInSole(), skin.reach
         self._place, self._turn = data.xpos[skin.body], data.xmat[skin.body].reshape(3, 3)
         self._position, self._rotation = skin.position_in_body, skin.rotation_to_body
         self.origin, self.rotation = np.zeros(3), np.eye(3)

@@ -212,6 +212,19 @@ def test_many_and_rollout_are_what_single_readings_are(make_box):
         feel.rollout(np.zeros((2, 3)))
 
 
+def test_threads_may_read_the_same_data(make_box):
+    model = mujoco.MjModel.from_xml_string(make_box())
+    feel, data = Skin(body="foot", cell_area=1e-4).bind(model), mujoco.MjData(model)
+    mujoco.mj_step(model, data, 200)
+    alone, interval = feel(data), sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        forces = np.array([feel.many([data] * 8, threads=4)[0] for _ in range(600)])
+    finally:
+        sys.setswitchinterval(interval)
+    assert (forces == alone.vectors).all()
+
+
 def test_a_reading_is_one_of_its_own(make_box):
     model = mujoco.MjModel.from_xml_string(make_box())
     feel, data = Skin(body="foot").bind(model), mujoco.MjData(model)
