@@ -100,7 +100,8 @@ class Skin:
             raise RobotError(f"the model has a site '{self.body}_skin' already; edit it once")
         body = next(b for b in spec.bodies if b.name == self.body)
         quat = quaternion_of(shape.rotation)
-        body.add_site(name=f"{self.body}_skin", pos=shape.position, quat=quat, size=[0.005] * 3, group=4)
+        site = body.add_site(name=f"{self.body}_skin", pos=shape.position, quat=quat, size=[0.005] * 3, group=4)
+        site.alt.type = mujoco.mjtOrientation.mjORIENTATION_QUAT  # whatever the model's default for sites is
 
     def bind(self, model: Any) -> BoundSkin:
         """Place the skin in a compiled MjModel.

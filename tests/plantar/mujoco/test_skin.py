@@ -151,8 +151,9 @@ def test_physics_are_the_same_to_the_last_bit(make_box):
     assert np.array_equal(*paths)
 
 
-def test_edit_shows_the_sole_frame(make_box):
-    spec = mujoco.MjSpec.from_string(make_box())
+@pytest.mark.parametrize("defaults", ["", '<default><site euler="0 0 90"/></default>'])
+def test_edit_shows_the_sole_frame(make_box, defaults):
+    spec = mujoco.MjSpec.from_string(make_box().replace("<option", f"{defaults}<option"))
     skin = Skin(body="foot")
     skin.edit(spec)
     model = spec.compile()
