@@ -98,8 +98,8 @@ def gather(sole: Sole, contacts: Contacts, work: Work):
     if i >= contacts.count[0]:
         return
     geoms = contacts.geom[i]
-    first, second = geoms[0], geoms[1]
-    if first < 0 or second < 0 or (sole.own[first] != 0) == (sole.own[second] != 0):
+    first = geoms[0] >= 0 and sole.own[wp.max(geoms[0], 0)] != 0  # -1 is a flex
+    if first == (geoms[1] >= 0 and sole.own[wp.max(geoms[1], 0)] != 0):
         return
     world = contacts.world[i]
     k = wp.atomic_add(work.size, world, 1)
@@ -123,7 +123,7 @@ def gather(sole: Sole, contacts: Contacts, work: Work):
                 twist[j - 3] = value
         if contacts.adhesion:
             local[0] -= wp.float64(contacts.adhesion[i])
-    sign = wp.where(sole.own[first] != 0, wp.float64(-1.0), wp.float64(1.0))
+    sign = wp.where(first, wp.float64(-1.0), wp.float64(1.0))
     turn = wp.mat33d(contacts.xmat[world, sole.body])
     to_sole = wp.transpose(turn @ sole.turn)
     origin = wp.vec3d(contacts.xpos[world, sole.body]) + turn @ sole.place

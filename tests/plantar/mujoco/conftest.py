@@ -40,6 +40,10 @@ MOVING = (
     '<body name="slab" pos="0 0 -.1"><joint type="slide" axis="1 0 0" damping="20"/><geom type="box" size=".5 .5 .1" '
     'mass="20" friction="1"/></body>'
 )
+SOFT = (
+    '<flexcomp name="soft" type="grid" count="4 3 2" spacing=".1 .1 .05" pos="0 0 .045" dim="3" mass="5">'
+    '<edge equality="true"/><contact selfcollide="none"/></flexcomp><geom type="plane" size="3 3 1"/>'
+)
 TWO = (
     '<mujoco><worldbody><body pos="0 0 .05"><freejoint/><geom type="box" size=".5 .5 .05" mass="30"/></body>'
     f'{PLANE}<body name="foot" pos="0 .2 .121"><freejoint/><geom type="box" size=".1 .05 .02" mass="8"/></body>'
@@ -67,6 +71,7 @@ KINDS = {
     "several slabs": box(ground=SLABS),
     "height field": world('<geom type="hfield" hfield="hills"/>', BOX.format(condim=3), 0.05, assets=HILLS),
     "moving ground": box(ground=MOVING),
+    "soft ground": box(ground=SOFT, z=0.097),
     "two soles on a slab": TWO,
     "arm that presses a table": ARM,
 }
