@@ -19,7 +19,7 @@ class MujocoDynamics:
 
     Attributes:
         velocity: Generalized (n,).
-        joints: Indices (k,) of coordinates with an actuator, ascending; without actuators, of all hinges and slides.
+        joints: Indices (k,) of coordinates with an actuator of their own, ascending; without, all hinges and slides.
         jacobians: Number of computed link Jacobians.
 
     Raises:
@@ -29,12 +29,12 @@ class MujocoDynamics:
     def __init__(self, model: Any) -> None:
         self.model = model
         self.data = mujoco.MjData(model)
-        self.time = 0.0
-        self.jacobians = 0
+        self.time, self.jacobians = 0.0, 0
         simple = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE)
         moved = np.flatnonzero(np.isin(model.jnt_type, [int(kind) for kind in simple]))
         if model.nu:
-            moved = np.intersect1d(moved, model.actuator_trnid[:, 0])
+            own = model.actuator_trntype <= int(mujoco.mjtTrn.mjTRN_JOINTINPARENT)  # others drive no single joint
+            moved = np.intersect1d(moved, model.actuator_trnid[own, 0])
         if not len(moved):
             raise InputError("the model has no hinge or slide joint with an actuator; it needs one at least")
         self.joints: NDArray[np.int64] = model.jnt_dofadr[moved].astype(np.int64)
@@ -101,7 +101,7 @@ class MujocoDynamics:
         return self._places_of_links[body].copy(), self._turns_of_links[body].copy()
 
     def place(self, link: str, point: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Returns the place (3,) in m of a `point` (3,) in the frame of `link`."""
+        """Place (3,) in m of a `point` (3,) in the frame of `link`."""
         origin, rotation = self.pose(link)
         return origin + rotation @ point
 

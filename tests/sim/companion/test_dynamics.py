@@ -25,6 +25,7 @@ CHAIN = """
   {actuators}
 </mujoco>"""
 MOTORS = '<actuator><motor joint="c"/><motor joint="a"/></actuator>'
+TENDON = '<tendon><fixed name="t"><joint joint="b" coef="1"/><joint joint="d" coef="1"/></fixed></tendon>'
 
 
 @pytest.fixture(params=["fixed", "floating"])
@@ -108,6 +109,12 @@ def test_joints_are_those_with_actuators_in_the_order_of_the_model():
     qpos[7:] = [0.1, 0.2, 0.3, 0.4]
     robot.update(qpos, np.zeros(model.nv), 0.0)
     assert robot.joint_positions.tolist() == [0.1, 0.3]
+
+
+def test_an_actuator_of_a_tendon_is_none_of_the_joint_of_its_number():
+    motors = TENDON + MOTORS.replace('<motor joint="a"/>', '<motor tendon="t"/>')
+    model = mujoco.MjModel.from_xml_string(CHAIN.format(base="", actuators=motors))
+    assert MujocoDynamics(model).joints.tolist() == [2]
 
 
 def test_an_unknown_link_is_named_with_those_near_to_it(robot):
