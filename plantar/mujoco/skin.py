@@ -4,6 +4,7 @@ import math
 import os
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import mujoco
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from plantar.arguments import instance, items, number, positive
 from plantar.errors import InputError, LayoutError, RobotError
+from plantar.gravity import GRAVITY
 from plantar.layouts.layout import SoleLayout, mirrored
 from plantar.layouts.layout_file import read_layout
 from plantar.layouts.tiling import hex_layout
@@ -24,6 +26,7 @@ from plantar.sides import SIDES, Side, other_side
 
 _CELL_AREA = 691e-6  # m^2, of the papers' soles
 _CELLS = 30  # at least so many of a sole that is fitted
+_ACTIVE = 0.073  # of its robot's weight over its taxels: 0.15 kg of the papers' 86 kg over 42
 _RIM = 0.005  # m: a shoe's sole may be so much wider than the shapes that collide
 _OUTSIDE = 0.1  # of a layout's cells: more than this beside the body's sole is a wrong layout or frame
 _COVERED = 0.3  # of the body's sole: a layout that covers less is too small to be of it
@@ -77,11 +80,8 @@ class Skin:
             raise InputError(f"geoms is {geoms!r}; expected a list of names")
         self.body = body
         self.geoms = None if geoms is None else tuple(str(name) for name in items(geoms, "geoms"))
-        self.site = site
-        self.outward = outward
-        self.forward = forward
+        self.site, self.outward, self.forward, self.partial = site, outward, forward, partial
         self.cell_area = None if cell_area is None else number(cell_area, "cell area", finite=True)
-        self.partial = partial
         self.proximity = None if proximity is None else positive(proximity, "proximity range", "m")
         self.reach = number(reach, "reach", finite=True)
         if self.reach < 0.0:
@@ -99,8 +99,13 @@ class Skin:
         if mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, f"{self.body}_skin") >= 0:
             raise RobotError(f"the model has a site '{self.body}_skin' already; edit it once")
         body = next(b for b in spec.bodies if b.name == self.body)
-        quat = quaternion_of(shape.rotation)
-        site = body.add_site(name=f"{self.body}_skin", pos=shape.position, quat=quat, size=[0.005] * 3, group=4)
+        site = body.add_site(
+            name=f"{self.body}_skin",
+            pos=shape.position,
+            quat=quaternion_of(shape.rotation),
+            size=[0.005] * 3,
+            group=4,
+        )
         site.alt.type = mujoco.mjtOrientation.mjORIENTATION_QUAT  # whatever the model's default for sites is
 
     def bind(self, model: Any) -> BoundSkin:
@@ -114,10 +119,10 @@ class Skin:
                 down, scaled, mirrored, another body's.
         """
         geoms, shape = self._place(model)
-        layout = self.layout or self._fitted(shape)
+        body = named_id(model, "body", self.body)
+        layout = self.layout or self._fitted(model, body, shape)
         if self.layout is not None:
             self._check(layout, shape)
-        body = named_id(model, "body", self.body)
         return BoundSkin(
             model, layout, body, geoms, shape.position, shape.rotation, reach=self.reach, proximity=self.proximity
         )
@@ -176,7 +181,7 @@ class Skin:
         )
         return shape._replace(position=position, rotation=rotation, outline=(outline @ rotation)[:, :2])
 
-    def _fitted(self, shape: SoleShape) -> SoleLayout:
+    def _fitted(self, model: Any, body: int, shape: SoleShape) -> SoleLayout:
         import shapely
 
         area = (
@@ -185,25 +190,26 @@ class Skin:
             else min(_CELL_AREA, shapely.Polygon(shape.outline).area / _CELLS)
         )
         middle = shape.outline.mean(axis=0)
-        return hex_layout(
+        layout = hex_layout(
             shape.outline,
             name=self.body,
             side=_side_in(self.body) or shape.side,
             cell_area=area,
             origin=(float(middle[0]), float(middle[1])),
         )
+        weight = GRAVITY * float(model.body_subtreemass[model.body_rootid[body]])
+        level = min(layout.force_threshold, _ACTIVE * weight / len(layout))
+        return replace(layout, thresholds={**layout.thresholds, "force": level})
 
     def _check(self, layout: SoleLayout, shape: SoleShape) -> None:
         import shapely
         from shapely.affinity import rotate
 
-        side = _side_in(self.body)
-        if side == other_side(layout.side):
+        if (side := _side_in(self.body)) == other_side(layout.side):
             raise RobotError(
                 f"layout '{layout.name}' is of the {layout.side} foot; body '{self.body}' is the {side} one"
             )
         sole = shapely.Polygon(shape.outline)
-        wide = sole.buffer(_RIM)
         span, extent = (float(np.hypot(*np.ptp(p[:, :2], axis=0))) for p in (layout.positions, shape.outline))
         cells, other = _cells(layout), _cells(mirrored(layout))
         best, fit = "", _fit(cells, sole)
@@ -213,7 +219,7 @@ class Skin:
                 if value > fit + _BETTER:
                     turned = f"turned by {90 * turn} deg" if turn else ""
                     best, fit = " and ".join(filter(None, (name, turned))), value
-        outside = 1.0 - cells.intersection(wide).area / cells.area
+        outside = 1.0 - cells.intersection(sole.buffer(_RIM)).area / cells.area
         covered = cells.intersection(sole).area / sole.area
         where = f"layout '{layout.name}' on body '{self.body}'"
         if not 0.15 <= span / extent <= 3.0:

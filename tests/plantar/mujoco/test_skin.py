@@ -201,6 +201,17 @@ def test_a_foot_has_the_side_of_its_name_or_else_of_its_place_on_its_robot():
         assert Skin(body=f"{robot}/paw", forward=(1, 0, 0)).bind(model).layout.side == "right"
 
 
+@pytest.mark.parametrize("mass", [0.01, 1.0, 1e3])
+def test_a_percept_counts_the_load_of_a_light_and_of_a_heavy_body(mass):
+    model = mujoco.MjModel.from_xml_string(f"""<mujoco><worldbody><geom type="plane" size="1 1 .1"/>
+      <body name="foot" pos="0 0 .02"><freejoint/><geom type="box" size=".12 .05 .02" mass="{mass}"/></body>
+      </worldbody></mujoco>""")
+    feel, data = Skin(body="foot").bind(model), mujoco.MjData(model)
+    mujoco.mj_step(model, data, 500)
+    assert feel.percept(data).vertical_force == pytest.approx(9.81 * mass, rel=1e-3)
+    assert feel.layout.force_threshold <= 0.15 * 9.81
+
+
 def test_a_model_without_a_body_that_collides_is_refused():
     spec = mujoco.MjSpec.from_string(
         '<mujoco><worldbody><body name="foot"><freejoint/><geom size=".1" contype="0" conaffinity="0"/></body>'
