@@ -20,7 +20,7 @@ class MujocoDynamics:
     Attributes:
         velocity: Generalized (n,).
         joints: Indices (k,) of coordinates with an actuator of their own, ascending; without, all hinges and slides.
-        jacobians: Number of computed link Jacobians.
+        jacobians: Computed so far.
 
     Raises:
         InputError: If no joint can move.
@@ -101,7 +101,7 @@ class MujocoDynamics:
         return self._places_of_links[body].copy(), self._turns_of_links[body].copy()
 
     def place(self, link: str, point: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Place (3,) in m of a `point` (3,) in the frame of `link`."""
+        """Returns the place (3,) in m of a `point` (3,) in the frame of `link`."""
         origin, rotation = self.pose(link)
         return origin + rotation @ point
 
