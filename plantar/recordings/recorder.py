@@ -60,10 +60,7 @@ class Channel(Generic[_Message]):
     """One recorded `topic`, such as "/skin/left", made by a `Recorder`."""
 
     def __init__(self, recorder: "Recorder", number: int, topic: str, encode: _Encode[_Message]) -> None:
-        self.topic = topic
-        self._recorder = recorder
-        self._number = number
-        self._encode = encode
+        self.topic, self._recorder, self._number, self._encode = topic, recorder, number, encode
         self._times: list[int] = []
         self._messages: list[_Message] = []
         self._written = 0
@@ -84,8 +81,7 @@ class Channel(Generic[_Message]):
         self._messages.append(message)
 
     def _take_messages(self) -> _Gathered:
-        times, messages = self._times, self._messages
-        self._times, self._messages = [], []
+        times, messages, self._times, self._messages = self._times, self._messages, [], []
         encoded, count, size = self._encode(times, messages), len(times), _MESSAGE_HEAD.itemsize
         lengths = np.array([len(message) for message in encoded]) + size
         heads = np.empty(count, dtype=_MESSAGE_HEAD)
@@ -108,9 +104,11 @@ class _NumbersChannel(Channel[NDArray[np.float64]]):
         self._width = width
 
     def write(self, time_s: float, message: NDArray[np.float64]) -> None:
-        if len(message) != self._width:
-            raise RecordingError(f"topic {self.topic} takes {self._width} values a message; got {len(message)}")
-        super().write(time_s, np.array(message, dtype="<f8"))
+        row = np.array(message, dtype="<f8")
+        if row.shape != (self._width,):
+            given = " x ".join(map(str, row.shape)) or "one number"
+            raise RecordingError(f"topic {self.topic} takes {self._width} values a message; got {given}")
+        super().write(time_s, row)
 
 
 def _as_cdr(times: list[int], rows: list[NDArray[np.float64]]) -> NDArray[np.uint8]:

@@ -172,6 +172,8 @@ def test_bad_calls_name_what_is_wrong(tmp_path):
         channel = recorder.channel("/a", [("x", 3)])
         with pytest.raises(RecordingError, match="takes 3 values a message; got 2"):
             channel.write(0.0, np.zeros(2))
+        with pytest.raises(RecordingError, match="takes 3 values a message; got 3 x 2"):
+            channel.write(0.0, np.zeros((3, 2)))
         for bad in (-1.0, float("nan"), float("inf")):
             with pytest.raises(RecordingError, match="allowed: 0 to"):
                 channel.write(bad, np.zeros(3))
