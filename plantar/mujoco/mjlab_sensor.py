@@ -85,7 +85,7 @@ class SkinSensor(_Sensor):
     @property
     def wrench(self) -> torch.Tensor:
         """Wrench (B, 6) of the contacts about sole origin in N and N m."""
-        return self._read(self._many.wrench)
+        return self._read(self._many.wrench).float()
 
     @property
     def carried(self) -> torch.Tensor:

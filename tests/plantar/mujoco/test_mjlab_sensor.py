@@ -55,6 +55,7 @@ def test_an_mjlab_scene_has_the_skins_data(cone):
     for name in ("left_foot", "right_foot"):
         sensor = scene[name]
         assert tuple(sensor.data.shape) == (3, len(sensor.skin.layout), 3)
+        assert str(sensor.wrench.dtype) == str(sensor.data.dtype) == "torch.float32"  # as all else that a policy sees
         sums = sensor.data.sum(dim=1).numpy()
         assert np.allclose(sums, sensor.wrench.numpy()[:, :3], atol=1e-5 * weight)
         assert sensor.carried.all()
