@@ -141,15 +141,15 @@ class Step(Task):
     def _off(self) -> float:
         return float(np.hypot(*self._to_target()))
 
+    def _share(self) -> float:
+        return min((float(self.env.data.time) - self._begin) / (3.0 * self.beat), 1.0)
+
     def observe(self) -> NDArray[np.float64]:
         (x, y), (c, s) = self._to_target() / self.leg, self._heading()
-        share = (float(self.env.data.time) - self._begin) / (3.0 * self.beat)
-        return np.array([1.0 - 2.0 * self._swing, share, c * x + s * y, c * y - s * x])
+        return np.array([1.0 - 2.0 * self._swing, self._share(), c * x + s * y, c * y - s * x])
 
     def reward(self) -> float:
-        env = self.env
-        share = (float(env.data.time) - self._begin) / (3.0 * self.beat)
-        in_air = self._load() < 0.05
+        share, in_air = self._share(), self._load() < 0.05
         self._lifted = self._lifted or in_air
         lifted = 0.2 * in_air if share < 0.8 else 0.2
         return lifted + 0.4 * self.upright + 0.4 * share * math.exp(-((self._off() / (0.1 * self.leg)) ** 2))

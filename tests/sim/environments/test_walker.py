@@ -81,6 +81,14 @@ def test_what_a_step_is_rewarded_for_is_observed_before_it(task):
     assert np.array_equal(first, then) if task == "walk" else first[2:] == pytest.approx(then[2:], abs=0.02)
 
 
+def test_a_swing_is_never_over_its_end():
+    """Its time is no whole number of steps, and what is rewarded grows with the share of it that is over."""
+    env = PlantarEnv("step")
+    env.reset(seed=0)
+    shares = [env.step(np.zeros(12))[0]["task"][1] for _ in range(60)]
+    assert max(shares) == 1.0
+
+
 def test_velocities_are_those_of_a_torso_that_is_turned_on_its_base():
     env = PlantarEnv("stand")
     env.reset(seed=1)
