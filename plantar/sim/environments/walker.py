@@ -160,6 +160,8 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         moved = np.clip(np.asarray(action, dtype=np.float32), -1.0, 1.0)
         if moved.shape != self.last_action.shape or not np.isfinite(moved).all():
             raise InputError(f"action has shape {moved.shape}; expected {self.last_action.shape} finite numbers")
+        if not self.readings:
+            raise InputError("the environment has no episode yet; call reset() before step()")
         data, servos = self.data, self.world.servos
         data.ctrl[servos] = self._start[1][servos] + self.scale * moved
         self.task.disturb(self.np_random)

@@ -148,6 +148,11 @@ def test_a_video_runs_at_the_environments_pace():
     assert [PlantarEnv(period=period).metadata["render_fps"] for period in (0.02, 0.01)] == [50, 100]
 
 
+def test_a_step_before_the_first_reset_is_refused():
+    with pytest.raises(InputError, match="call reset"):
+        PlantarEnv().step(np.zeros(12))
+
+
 def test_many_at_once():
     envs = gymnasium.make_vec("plantar.sim.environments:PlantarStand-v0", num_envs=2, vectorization_mode="sync")
     seen, _ = envs.reset(seed=3)
