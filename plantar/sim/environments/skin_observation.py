@@ -49,8 +49,8 @@ class SkinObservation(ObservationWrapper[Any, Any, Any]):
         self._faults = None if faults is None else instance(faults, TaxelFaults, "faults")
         self._worn: dict[str, WornFaults] = {}
         self.readings: dict[str, SkinReading] = {}
-        low = 0.0 if faults is None else -np.inf
         for name, skin in self._skins.items():
+            low = 0.0 if faults is None and skin.layout.is_flat else -np.inf  # shear pulls at inclined cells
             boxes[name] = spaces.Box(low, np.inf, (len(skin),), np.float32)
         self.observation_space = spaces.Dict(boxes)
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from plantar import InputError
+from plantar import InputError, grid_layout, laid_over
 from plantar.mujoco import Skin
 from plantar.sensing.taxel_faults import TaxelFaults
 
@@ -53,6 +53,18 @@ def test_the_skin_is_added_and_the_motion_stays():
 def test_two_wrappers_one_on_the_other():
     worn = SkinObservation(SkinObservation(Falling(), {"a": Skin(body="box")}), {"b": Skin(body="box", cell_area=1e-3)})
     assert set(worn.reset(seed=0)[0]) == {"observation", "a", "b"}
+
+
+def test_what_a_curved_sole_reads_is_in_the_space():
+    """The shear of a box that slides pulls along the axes of inclined taxels."""
+    flat = grid_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]], pitch=(0.02, 0.02))
+    curved = laid_over(flat, lambda x, y: 10.0 * (0.01 - x**2))
+    worn = SkinObservation(Falling(), {"pad": Skin(curved, "box")})
+    worn.reset(seed=0)
+    worn.unwrapped.data.qvel[0] = 5.0
+    seen = [worn.step(np.zeros(1))[0] for _ in range(10)]
+    assert min(one["pad"].min() for one in seen) < 0.0
+    assert all(one in worn.observation_space for one in seen)
 
 
 def test_faults_are_drawn_by_the_seed():
