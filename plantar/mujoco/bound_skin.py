@@ -85,7 +85,7 @@ class BoundSkin:
         self.rotation_to_body = np.array(rotation)
         self.reach = reach
         self._range = proximity
-        self._nearest = _least_gaps(model, body)
+        self._nearest = _least_gaps(model, body).tolist()
         axes = layout.rotations[:, :, 2]
         widths = [
             float(np.hypot(*(layout.cell_polygon(i) - layout.positions[i, :2]).T).max()) for i in range(len(layout))
@@ -209,16 +209,16 @@ class BoundSkin:
         axes = self.static[1] @ view.rotation.T
         starts = view.origin + self.static[0] @ view.rotation.T + _LIFT * axes
         geom, out = np.empty(1, dtype=np.int32), np.full(len(self), math.inf)
+        reach, nearest = float(self._range or 0.0), self._nearest
         for i, (start, axis) in enumerate(zip(starts, axes, strict=True)):
-            gap = -_LIFT
+            gap = mujoco.mj_ray(self.model, view.data, start, -axis, None, 1, self.body, geom) - _LIFT
             for _ in range(_PASSED):
-                gap += mujoco.mj_ray(self.model, view.data, start - (gap + _LIFT) * axis, -axis, None, 1, -1, geom)
-                if geom[0] < 0 or gap > float(self._range or 0.0):
+                if (hit := geom.item()) < 0 or gap > reach or gap >= nearest[hit]:
                     break
-                if gap >= self._nearest[geom[0]]:
-                    out[i] = gap
-                    break
-                gap += 1e-6
+                place = start - (gap + _LIFT + 1e-6) * axis
+                gap += 1e-6 + mujoco.mj_ray(self.model, view.data, place, -axis, None, 1, self.body, geom)
+            if hit >= 0 and nearest[hit] <= gap <= reach:
+                out[i] = gap
         return out
 
 
