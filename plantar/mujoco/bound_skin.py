@@ -192,11 +192,11 @@ class BoundSkin:
         if not isinstance(data, mujoco.MjData):
             raise InputError(f"a skin is read from a mujoco.MjData; got a {type(data).__name__}")
         shapes = (data.qpos.size, data.qvel.size, len(data.xpos), len(data.geom_xpos))
-        model, other = self.model, getattr(data, "model", self.model)
+        model, other, own = self.model, getattr(data, "model", self.model), list(self.geom_ids)
         if shapes != (model.nq, model.nv, model.nbody, model.ngeom) or not (
-            np.array_equal(other.geom_bodyid, model.geom_bodyid)
-            and np.array_equal(other.geom_type, model.geom_type)
-            and other.names == model.names
+            other.names == model.names
+            and all(np.array_equal(getattr(other, n), getattr(model, n)) for n in ("geom_bodyid", "geom_type"))
+            and all(np.array_equal(getattr(other, n)[own], getattr(model, n)[own]) for n in ("geom_size", "geom_pos"))
         ):
             raise InputError("the data are of another model than the skin was bound to; bind it to that model")
         if len(self._views) >= self._most:

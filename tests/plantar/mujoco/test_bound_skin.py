@@ -253,6 +253,9 @@ def test_data_of_another_model_are_refused(make_box):
     ]
     with pytest.raises(InputError, match="another model"):  # as many bodies, in another order
         Skin(body="foot").bind(swapped[0])(mujoco.MjData(swapped[1]))
+    for old, new in (('size=".12', 'size=".1'), ('<geom type="box"', '<geom type="box" pos="0 0 .01"')):
+        with pytest.raises(InputError, match="another model"):  # a foot of another size, or elsewhere on its body
+            feel(mujoco.MjData(mujoco.MjModel.from_xml_string(make_box().replace(old, new))))
     for read in (feel, feel.pose, feel.many, feel.rollout):
         with pytest.raises(InputError, match=r"got a str|not numeric"):
             read("data")
