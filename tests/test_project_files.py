@@ -52,6 +52,13 @@ def test_the_pythons_of_the_workflow_are_those_of_the_wheels_and_not_older_than_
     assert project["project"]["requires-python"] == f">={built[0]}"
 
 
+def test_the_oldest_mujoco_has_what_the_sources_call():
+    """Before 3.10 `mj_fullM` takes no MjData, and before 3.4 no model lets bodies sleep."""
+    needed = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]["sim"]
+    oldest = next(re.fullmatch(r"mujoco>=(\d+)\.(\d+)", text) for text in needed if text.startswith("mujoco"))
+    assert (int(oldest[1]), int(oldest[2])) >= (3, 10)
+
+
 def test_the_citation_names_this_version_and_licence():
     cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     assert cited["version"] == plantar.__version__
