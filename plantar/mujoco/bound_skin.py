@@ -166,8 +166,7 @@ class BoundSkin:
         """
         kind = mujoco.mjtState.mjSTATE_FULLPHYSICS
         given = array(states, "states", (..., mujoco.mj_stateSize(self.model, kind)))
-        lead = given.shape[:-1]
-        flat = np.ascontiguousarray(given.reshape(-1, given.shape[-1]))
+        lead, flat = given.shape[:-1], np.ascontiguousarray(given.reshape(-1, given.shape[-1]))
         control = None
         if controls is not None:
             control = array(controls, "controls", (*lead, self.model.nu)).reshape(len(flat), self.model.nu)
@@ -241,6 +240,8 @@ class _View:
         np.dot(self._turn, self._position, self.origin)
         self.origin += self._place
         self._load.press(foot, self._seen, self._reach)
+        if math.isnan(self._load.wrench[2]):  # diverged: neither in the air nor on the ground
+            self._load.vectors[:] = self._load.forces[:, None] = math.nan
         return self._load
 
 

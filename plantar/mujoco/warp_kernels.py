@@ -425,7 +425,7 @@ def press(sole: Sole, work: Work):
         work.wrench[w, 3 + j] = moment[j] + back_moment[j]
     for i in range(sole.areas.shape[0]):
         work.prior[i, s] = wp.float64(0.0)
-        work.vectors[w, i] = wp.vec3d()
+        work.vectors[w, i] = force - force  # 0, or NaN where the world diverged
     if not force[2] > wp.float64(0.0):
         work.carried[w] = wp.where(holds and wp.length(force) + wp.length(moment) == wp.float64(0.0), 1, 0)
         return

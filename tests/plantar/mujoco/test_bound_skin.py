@@ -212,6 +212,21 @@ def test_many_and_rollout_are_what_single_readings_are(make_box):
         feel.rollout(np.zeros((2, 3)))
 
 
+def test_a_diverged_state_is_not_in_the_air(make_box):
+    model = mujoco.MjModel.from_xml_string(make_box())
+    feel, data = Skin(body="foot").bind(model), mujoco.MjData(model)
+    mujoco.mj_step(model, data, 200)
+    data.qvel[2] = np.nan
+    mujoco.mj_forward(model, data)
+    reading = feel(data)
+    assert np.isnan(reading.force).all()
+    assert np.isnan(feel.many([data])[0]).all()
+    assert not reading.carried
+    mujoco.mj_resetData(model, data)
+    mujoco.mj_step(model, data, 200)
+    assert feel(data).force.sum() == pytest.approx(11.0 * 9.81, rel=1e-2)
+
+
 def test_threads_may_read_the_same_data(make_box):
     model = mujoco.MjModel.from_xml_string(make_box())
     feel, data = Skin(body="foot", cell_area=1e-4).bind(model), mujoco.MjData(model)

@@ -55,6 +55,10 @@ def test_worlds_are_read_apart_and_their_number_is_checked():
     many.read(worlds)
     loads = many.numpy()[1][:, 2]
     assert loads == pytest.approx(feel(data).wrench[2] * np.array([1.0, 2.0, 1.0]), rel=1e-5)
+    worlds.efc.force.assign(np.where(np.arange(3)[:, None] == 1, np.nan, force))  # world 1 diverged
+    many.read(worlds)
+    assert np.isnan(many.numpy()[0]).any(axis=(1, 2)).tolist() == [False, True, False]
+    worlds.efc.force.assign(force)
     few = WarpSkin(feel, 3, contacts=2)
     few.read(worlds)
     assert not few.numpy()[2].any()
