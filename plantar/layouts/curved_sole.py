@@ -18,19 +18,19 @@ _STEP = 1e-5  # Half width in m of the differences that give the slope
 
 
 def laid_over(layout: SoleLayout, surface: Surface) -> SoleLayout:
-    """A layout on a curved sole z(x, y), unchanged from above (soleT_i of T 4.23).
+    """Layout on a curved sole z(x, y), unchanged from above (soleT_i of T 4.23).
 
     Each taxel turns the shortest way that brings its z axis onto the normal.
 
     Args:
         layout: The flat layout.
-        surface: Height of the sole's outer face in m; smooth, called with arrays.
+        surface: Height of sole's outer face in m; smooth, called with arrays.
 
     Returns:
-        The layout on the surface: positions, vertices, rotations R_i, areas.
+        Layout on surface: positions, vertices, rotations R_i, areas.
 
     Raises:
-        LayoutError: If not flat, or a height is not finite.
+        LayoutError: Not flat, or a height is not finite.
 
     Example:
         >>> from plantar import hex_layout
@@ -62,8 +62,7 @@ def laid_over(layout: SoleLayout, surface: Surface) -> SoleLayout:
     slope_y = (height(x, y + _STEP) - height(x, y - _STEP)) / (2.0 * _STEP)
     normals = np.column_stack([-slope_x, -slope_y, np.ones(len(layout))])
     positions = np.column_stack([x, y, height(x, y)])
-    corner_x, corner_y = layout.vertices[:, 0], layout.vertices[:, 1]
-    vertices = np.column_stack([corner_x, corner_y, height(corner_x, corner_y)])
+    vertices = np.column_stack([layout.vertices[:, :2], height(*layout.vertices[:, :2].T)])
     return replace(
         layout,
         positions=positions,
@@ -93,6 +92,7 @@ def rotations_to_normals(normals: ArrayLike) -> NDArray[np.float64]:
 
 
 def _fan(centre: NDArray[np.float64], ring: NDArray[np.float64]) -> float:
-    """Area in m^2 of triangles from a cell's center to its edges."""
+    """Area in m^2 of triangles from a cell's center to its edges, signed as seen from above."""
     arm = ring - centre
-    return 0.5 * float(np.linalg.norm(np.cross(arm, np.roll(arm, -1, axis=0)), axis=1).sum())
+    twice = np.cross(arm, np.roll(arm, -1, axis=0))
+    return 0.5 * float(np.copysign(np.linalg.norm(twice, axis=1), twice[:, 2]).sum())

@@ -62,6 +62,9 @@ def test_an_inclined_plane_tilts_all_taxels_alike(a, b, c):
 
 
 def test_a_flat_surface_changes_nothing_but_the_height(flat):
+    bay = [[0.006, 0.0], [-0.1, -0.04], [0.1, -0.04], [0.1, 0.04], [-0.1, 0.04]]  # its cells are not all convex
+    for one in (flat, hex_layout(bay)):
+        assert laid_over(one, lambda x, y: 0.0 * x).areas == pytest.approx(one.areas, rel=1e-9)
     layout = laid_over(flat, lambda x, y: 0.01)
     assert layout.rotations.tolist() == flat.rotations.tolist()
     assert layout.areas == pytest.approx(flat.areas, rel=1e-9)
