@@ -21,14 +21,16 @@ _LONGEST = 1 << 20  # bytes of a line: 50,000 taxels
 def _open(address: str, layout: SoleLayout | None) -> LiveStream:
     kind = next((kind for kind in get_args(Kind) if kind == (address or "robot")), None)
     if kind is None or layout is None:
-        ways = ", ".join(f"lines:{kind}" for kind in get_args(Kind))
-        raise InputError(f"lines come on stdin, for a sole that is known; allowed: lines, {ways}, with --layout FILE")
+        ways = ", lines:".join(("lines", *get_args(Kind)))
+        raise InputError(f"lines come on stdin, for a sole that is known; allowed: {ways}, with --layout FILE")
     soles = {side: found for side in SIDES if (found := layout_for(side, layout)) is not None}
     return LiveStream(soles, _readings(sys.stdin.buffer, soles), kind)
 
 
 def _readings(stream: BinaryIO, soles: Mapping[Side, SoleLayout]) -> Iterator[tuple[Side, Reading]]:
     for number, line in enumerate(iter(lambda: stream.readline(_LONGEST), b""), 1):
+        if len(line) < _LONGEST and not line.endswith(b"\n"):
+            return  # the program ended within a line: its last number may be cut
         name, *cells = line.decode("utf-8", "replace").strip().split(",")
         try:
             at, *force = (float(cell or math.nan) for cell in cells)
@@ -38,8 +40,7 @@ def _readings(stream: BinaryIO, soles: Mapping[Side, SoleLayout]) -> Iterator[tu
         if side is None:
             raise InputError(f"line {number} begins with {name[:20]!r}; allowed: left, right")
         if len(force) != len(soles[side]):
-            taxels = len(soles[side])
-            raise InputError(f"line {number} holds {len(force)} forces; allowed: {taxels}, one a taxel of the layout")
+            raise InputError(f"line {number} holds {len(force)} forces; allowed: {len(soles[side])}, one a taxel")
         yield side, Reading(at, force)
 
 

@@ -62,10 +62,11 @@ def test_lines_of_both_soles_with_missing_taxels(tmp_path, monkeypatch):
         ("left,0.1,1\n", "line 1 holds 1 forces; allowed: 8"),
         ("middle,0.1,1\n", "line 1 begins with 'middle'; allowed: left, right"),
         ("left,now,1\n", "line 1 holds no time and forces"),
+        ("left,1,2,3,4,5,6,7,8,9", "no reading came"),  # cut within a line: the last force may be 90
         ("left\n", "line 1 holds no time and forces"),
         ("left,,1,1,1,1,1,1,1,1\n", "'time' is NaN"),
         ("left,0.2,1,1,1,1,1,1,1,1\nleft,0.1,1,1,1,1,1,1,1,1\n", "0.1 s after 0.2 s; allowed: times that go on"),
-        ("\0\xff" * 1000, "line 1 holds no time"),
+        ("\0\xff" * 1000 + "\n", "line 1 holds no time"),
     ],
 )
 def test_lines_that_cannot_be_meant_are_refused(text, words, tmp_path, monkeypatch):
