@@ -133,7 +133,8 @@ def test_a_live_source_of_a_users_package(plugin):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as device:
             for k in count():
                 packet = np.array([0.01 * k, *np.full(len(sole), 2.0)]).tobytes()
-                device.sendto(b"" if over.wait(0.01) else packet, ("127.0.0.1", port))
+                for each in (b"",) if over.wait(0.01) else (b"?", packet, packet):  # a stranger's, and one twice
+                    device.sendto(each, ("127.0.0.1", port))
                 if over.is_set():
                     return
 
