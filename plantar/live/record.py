@@ -2,7 +2,7 @@
 
 import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from itertools import chain
 from typing import Any
 
@@ -16,6 +16,7 @@ from plantar.sensing.reading import Reading
 from plantar.sides import Side
 
 _SHOWN = 0.2  # s of the source's time between two lines of what comes
+_EARLY = 1.0  # s by which the second sole's readings may lie before the first one
 
 
 def record(
@@ -24,8 +25,8 @@ def record(
     seconds: float = math.inf,
     show: Callable[[float, str], object] | None = None,
 ) -> dict[str, Any]:
-    """Record what comes into a file that reads up to its last half second at any time, until the stream ends,
-    `seconds` of it have passed, or Ctrl-C.
+    """Record forces from the first reading's time on into a file that reads up to its last half second at any time,
+    until the stream ends, `seconds` of it have passed, or Ctrl-C.
 
     Args:
         stream: From `plantar.live.source.open_live`.
@@ -37,12 +38,13 @@ def record(
         `seconds` recorded, and the `frames`, `rate_hz` and largest gap `gap_max_s` of each of the `feet`.
 
     Raises:
-        InputError: If no reading comes, or sole or time is wrong.
-        RecordingError: If the file cannot be written.
+        InputError: No reading, wrong sole or time, or the source fails.
+        RecordingError: File cannot be written.
     """
     if not seconds > 0.0:
         raise InputError(f"cannot record {seconds} s; allowed: above 0")
-    if (first := next(stream.readings, None)) is None:
+    readings = _readings(stream)
+    if (first := next(readings, None)) is None:
         raise InputError("no reading came from the source")
     start, shown, latest = first[1].time, -math.inf, 0.0
     times: dict[Side, list[float]] = {side: [] for side in stream.soles}
@@ -52,18 +54,21 @@ def record(
     ) as recorder:
         skins = {side: recorder.channel(f"/skin/{side}", [("force", len(s))]) for side, s in stream.soles.items()}
         try:
-            for side, reading in chain([first], stream.readings):
+            for side, reading in chain([first], readings):
                 if side not in times:
                     raise InputError(f"a reading is of a sole {side!r}; allowed: {', '.join(times)}")
                 now, before = reading.time - start, times[side]
-                if before and now <= before[-1]:
+                last = before[-1] if before else -_EARLY
+                if now <= last:
                     raise InputError(
-                        f"the {side} sole got {reading.time:.13g} s after {start + before[-1]:.13g} s; "
-                        "allowed: times that go on"
+                        f"the {side} sole got {reading.time:.13g} s after {start + max(last, 0.0):.13g} s; "
+                        "allowed: times that go on, of both soles by one clock"
                     )
+                if now < 0.0:
+                    continue  # from before the first reading, with which the recording begins
                 if now > seconds:
                     break
-                skins[side].write(max(now, 0.0), reading.force)
+                skins[side].write(now, reading.force)
                 before.append(now)
                 seen[side], latest = reading, max(latest, now)
                 if show is not None and now >= shown + _SHOWN:
@@ -72,6 +77,13 @@ def record(
         except KeyboardInterrupt:
             pass  # the usual end of a recording
     return {"seconds": round(latest, 3), "feet": {side: _summary(when) for side, when in times.items() if when}}
+
+
+def _readings(stream: LiveStream) -> Iterator[tuple[Side, Reading]]:
+    try:
+        yield from stream.readings
+    except OSError as error:  # of the device: not of what is written
+        raise InputError(f"the source cannot be read: {error.strerror or error}") from None
 
 
 def _text(side: Side, stream: LiveStream, reading: Reading) -> str:

@@ -65,4 +65,7 @@ def open_live(text: str, layout: SoleLayout | None = None) -> LiveStream:
     known = live_sources()
     if name not in known:
         raise InputError(f"unknown live source {name!r}; allowed: {', '.join(known)}")
-    return known[name].open(address, layout)
+    try:
+        return known[name].open(address, layout)
+    except OSError as error:
+        raise InputError(f"live source {text!r} cannot be opened: {error.strerror or error}") from None

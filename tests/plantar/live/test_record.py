@@ -7,11 +7,12 @@ import time
 import numpy as np
 import pytest
 
-from plantar import InputError, PlantarError, grid_layout
+from plantar import InputError, PlantarError, grid_layout, mirrored
 from plantar.commands.live import live
 from plantar.formats import read_recording
 from plantar.live.record import record
 from plantar.live.source import LiveStream, open_live
+from plantar.recordings.recording import read_mcap
 from plantar.sensing.reading import Reading
 
 SOLE = grid_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]], pitch=(0.05, 0.05), side="left")
@@ -43,6 +44,33 @@ def test_a_reading_of_no_sole_is_refused(tmp_path):
     stream = LiveStream({"left": SOLE}, ((side.title(), reading) for side, reading in readings([0.0, 0.1])))
     with pytest.raises(InputError, match="a reading is of a sole 'Left'; allowed: left"):
         record(stream, tmp_path / "run.mcap")
+
+
+def test_a_recording_begins_with_its_first_reading_and_has_one_clock(tmp_path):
+    def both(late: float):
+        """The right sole's readings from 10 s on, each before the left one's, whose clock is late."""
+        for k in range(100):
+            for side, at in (("right", 10.0 + 0.01 * k), ("left", 10.0 + 0.01 * k - late)):
+                yield side, Reading(at, np.full(len(SOLE), float(k)))
+
+    stream = LiveStream({"left": SOLE, "right": mirrored(SOLE)}, both(0.505))
+    found = record(stream, tmp_path / "run.mcap")
+    assert {side: foot["frames"] for side, foot in found["feet"].items()} == {"left": 49, "right": 100}
+    left = read_mcap(tmp_path / "run.mcap").topics["/skin/left"]
+    assert left.time == pytest.approx(0.005 + 0.01 * np.arange(49))
+    assert left.fields["force"][:, 0].tolist() == [float(k) for k in range(51, 100)]
+    with pytest.raises(InputError, match=r"the left sole got 7 s after 10 s; allowed: .* by one clock"):
+        record(stream._replace(readings=both(3.0)), tmp_path / "run.mcap")
+
+
+def test_a_device_that_goes_away_ends_the_recording_in_a_line(tmp_path):
+    def lost():
+        yield from readings([0.0, 0.1, 0.2])
+        raise BrokenPipeError(32, "Broken pipe")
+
+    with pytest.raises(InputError, match="the source cannot be read: Broken pipe"):
+        record(LiveStream({"left": SOLE}, lost()), tmp_path / "run.mcap")
+    assert len(read_recording(tmp_path / "run.mcap").time) == 3
 
 
 def test_lines_of_both_soles_with_missing_taxels(tmp_path, monkeypatch):
