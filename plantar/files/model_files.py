@@ -55,8 +55,7 @@ def named_file(path: Path, folders: tuple[Path, ...], error: type[PlantarError],
 
 
 def _besides() -> tuple[Path, ...]:
-    texts = os.environ.get(VARIABLE, "").split(os.pathsep)
-    return tuple(Path(text).resolve() for text in texts if text)
+    return tuple(Path(text).resolve() for text in os.environ.get(VARIABLE, "").split(os.pathsep) if text)
 
 
 def _is_a_package(folder: Path) -> bool:

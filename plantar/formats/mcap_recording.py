@@ -64,8 +64,7 @@ def _placement(recording: Recording, side: Side, time: NDArray[np.float64]) -> N
     position, rotation = truth.fields["position"], truth.fields["rotation"]
     if position.shape[1] != 3 or rotation.shape[1] != 9:
         return None
-    turn = np.unwrap(np.arctan2(rotation[:, 3], rotation[:, 0]))
-    columns = (position[:, 0], position[:, 1], turn)
+    columns = (position[:, 0], position[:, 1], np.unwrap(np.arctan2(rotation[:, 3], rotation[:, 0])))
     return np.column_stack([np.interp(time, truth.time, column) for column in columns])
 
 

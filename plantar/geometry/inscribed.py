@@ -125,8 +125,7 @@ def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.flo
     """
     if not len(outline):
         return np.empty((0, 2))
-    shapes = convex_shapes()
-    return np.asarray(shapes.rectangle_in_outline(outline.points, outline.starts, float(angle)))
+    return np.asarray(convex_shapes().rectangle_in_outline(outline.points, outline.starts, float(angle)))
 
 
 def rectangle_in_outline_any_angle(outline: Outline, looks: int = _LOOKS) -> BoundedRectangle:

@@ -248,5 +248,4 @@ def _outline_of(polygons: Sequence[object], grain: float) -> NDArray[np.float64]
     union = shapely.union_all(polygons, grid_size=1e-3 * grain)
     if union.geom_type != "Polygon":
         union = shapely.union_all(polygons).convex_hull
-    ring = shapely.geometry.polygon.orient(shapely.Polygon(union.exterior))
-    return np.asarray(shapely.get_coordinates(ring)[:-1])
+    return np.asarray(shapely.get_coordinates(shapely.geometry.polygon.orient(shapely.Polygon(union.exterior)))[:-1])

@@ -128,5 +128,4 @@ class HexLattice:
             cells.append(np.column_stack([q, np.full_like(q, r)]))
         axial = np.concatenate(cells).astype(np.int64)
         centres = self.centres(axial)
-        near = np.all((centres >= low - 2 * self.side) & (centres <= high + 2 * self.side), axis=1)
-        return np.asarray(axial[near])
+        return np.asarray(axial[np.all((centres >= low - 2 * self.side) & (centres <= high + 2 * self.side), axis=1)])

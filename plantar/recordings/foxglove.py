@@ -112,8 +112,7 @@ class Template:
         """Whether a message differs only in what is filled in."""
         if len(message) != len(self._data):
             return False
-        same = np.frombuffer(message, dtype=np.uint8) == self._data
-        return bool((same | self._filled_in).all())
+        return bool(((np.frombuffer(message, dtype=np.uint8) == self._data) | self._filled_in).all())
 
     def values_of(self, messages: Sequence[bytes]) -> NDArray[np.float64]:
         """Slot values (n, k) of `messages` made by `filled`; ValueError for another template's."""

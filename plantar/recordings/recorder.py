@@ -272,12 +272,11 @@ class Recorder:
         about = (low, high, offset, zlib.crc32(data), len(_COMPRESSION), _COMPRESSION, len(packed))
         start = self._put(_CHUNK_HEAD.pack(_CHUNK, _CHUNK_HEAD.size - 9 + len(packed), *about))
         self._put(packed)
-        offsets = {number: self._put(index) for number, index in indexes}
         self._chunk_indexes.append(
             self._records.ChunkIndex(
                 chunk_start_offset=start,
                 chunk_length=_CHUNK_HEAD.size + len(packed),
-                message_index_offsets=offsets,
+                message_index_offsets={number: self._put(index) for number, index in indexes},
                 message_index_length=sum(len(index) for _, index in indexes),
                 message_start_time=low,
                 message_end_time=high,

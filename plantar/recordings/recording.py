@@ -83,8 +83,7 @@ class Recording:
             for name, table in zip(names, self.topics.values(), strict=True):
                 header = ["time_s"]
                 for key, values in table.fields.items():
-                    wide = values.shape[1] > 1
-                    header += [f"{key}_{i}" if wide else key for i in range(values.shape[1])]
+                    header += [f"{key}_{i}" for i in range(values.shape[1])] if values.shape[1] > 1 else [key]
                 rows = np.column_stack([table.time, *table.fields.values()])
                 np.savetxt(out / name, rows, fmt="%.17g", delimiter=",", header=",".join(header), comments="")
         return [Path(folder) / name for name in [*texts, *names]]
