@@ -42,24 +42,16 @@ class Entity:
 
 
 def transforms(message: bytes) -> Iterator[tuple[str, str, tuple[float, ...]]]:
-    """Decode foxglove.FrameTransforms: yields name, parent and pose (position in m, quaternion x, y, z, w) of each
-    frame.
-
-    Raises:
-        ValueError: If damaged.
+    """Yields each frame's name, parent and pose (position in m, quaternion x, y, z, w) of a foxglove.FrameTransforms;
+    ValueError if damaged.
     """
     for frame in message_of("foxglove.FrameTransforms", message).transforms:
         yield frame.child_frame_id, frame.parent_frame_id, _pose(frame.translation, frame.rotation)
 
 
 def transform_template(message: bytes) -> Template:
-    """Template of `plantar.recordings` with a given message's frames; slots are poses (k, 7) in sequence.
-
-    Raises:
-        ValueError: If damaged.
-    """
-    slots = ([slot(7 * i + j) for j in range(7)] for i in count())
-    frames = zip(transforms(message), slots, strict=False)
+    """Template of `plantar.recordings` with a message's frames, slots their poses (k, 7); ValueError if damaged."""
+    frames = zip(transforms(message), ([slot(7 * i + j) for j in range(7)] for i in count()), strict=False)
     return Template(*(frame_transform(name, s[:3], s[3:], parent) for (name, parent, _), s in frames))
 
 
@@ -69,11 +61,7 @@ def deleted_all(message: bytes) -> bool:
 
 
 def entities(message: bytes) -> list[Entity]:
-    """Entities of a foxglove.SceneUpdate, with the drawn primitives.
-
-    Raises:
-        ValueError: If damaged.
-    """
+    """Entities of a foxglove.SceneUpdate, with the drawn primitives; ValueError if damaged."""
     found = []
     for entity in message_of(_SCENE, message).entities:
         lists = (getattr(entity, kind if kind == "triangles" else f"{kind}s") for kind in _KINDS)

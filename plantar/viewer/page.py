@@ -20,12 +20,15 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.arguments import instance, items
 from plantar.atomic import keep_inputs, replacing
 from plantar.errors import InputError
+from plantar.layouts.layout import SoleLayout
 from plantar.pages.page import with_policy
+from plantar.recordings.pressure_recording import FootRecording
 from plantar.viewer.messages import Entity, Shape
 from plantar.viewer.walk import Walk, read_walk
 
 _MOST = 2  # walks side by side
 _NOT_MEASURED = 0xFFFF
+_LOADED = 0.02  # of the weight: a sole with less has no CoP
 _FARTHEST = 1e9  # m, or s: what damaged numbers of 32 bits are limited to
 _EXPORT = re.compile(r"export\s*\{([^}]*)\};?\s*$")
 
@@ -33,7 +36,7 @@ _EXPORT = re.compile(r"export\s*\{([^}]*)\};?\s*$")
 def write_page(
     recordings: str | os.PathLike[str] | Sequence[str | os.PathLike[str]], path: str | os.PathLike[str] = "view.html"
 ) -> dict[str, Any]:
-    """Write a browser page of one of the `recordings` (MCAP files), or two side by side, at `path` (HTML).
+    """Write a page of one of the `recordings` (MCAP files), or two side by side, at `path` (HTML).
 
     Returns file, size in bytes, each walk's name, duration in s and number of log lines, and warnings. An InputError
     for too many or an unwritable file, a FormatError for one that is unreadable or without soles.
@@ -92,8 +95,7 @@ def _three() -> str:
     code = _asset("three.module.min.js")
     exported = _EXPORT.search(code)
     assert exported is not None, "three.module.min.js ends with its exports"
-    names = [entry.split(" as ") for entry in exported[1].split(",")]
-    members = ",".join(f"{name[-1]}:{name[0]}" for name in names)
+    members = ",".join(f"{name[-1]}:{name[0]}" for name in (e.split(" as ") for e in exported[1].split(",")))
     return f"{code[: exported.start()]}\nconst THREE={{{members}}};\n"
 
 
@@ -133,9 +135,8 @@ def _walk(walk: Walk) -> dict[str, Any]:
         "soles": {
             side: {
                 "cells": [layout.vertices[list(corners), :2].round(5).tolist() for corners in layout.corners],
-                "centers": layout.positions[:, :2].round(5).tolist(),
                 "outline": layout.outline.round(5).tolist(),
-                **_forces(walk.force[side]),
+                **_forces(layout, walk.force[side], _LOADED * walk.weight),
             }
             for side, layout in walk.layouts.items()
         },
@@ -149,12 +150,17 @@ def _walk(walk: Walk) -> dict[str, Any]:
     }
 
 
-def _forces(force: NDArray[np.float32]) -> dict[str, str]:
-    """Forces in 0.1 N as 16-bit numbers, the largest for unmeasured ones; in N where one is too large or negative."""
+def _forces(layout: SoleLayout, force: NDArray[np.float32], least: float) -> dict[str, str]:
+    """Forces in 0.1 N as 16-bit numbers, the largest for unmeasured ones; in N where one is too large or negative; sum,
+    and CoP from a least sum on.
+    """
+    foot = FootRecording(layout.side, force.astype(float), layout)
+    cop = _packed(np.asarray(foot.center_of_pressure(least)), "<f4")
     known, rounded = np.isfinite(force), np.round(force * 10.0)
     small = (~known | ((rounded >= 0.0) & (rounded < _NOT_MEASURED))).all()
     name, values, kind = ("decinewtons", rounded, "<u2") if small else ("force", force, "<f4")
-    return {name: _packed(np.where(known, values, _NOT_MEASURED if small else np.nan), kind)}
+    cells = _packed(np.where(known, values, _NOT_MEASURED if small else np.nan), kind)
+    return {name: cells, "total": _packed(foot.vertical_force, "<f4"), "cop": cop}
 
 
 def _entity(entity: Entity) -> dict[str, Any]:

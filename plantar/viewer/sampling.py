@@ -15,6 +15,7 @@ class Latest:
     Args:
         times: Wanted (n,) in s, ascending.
         keep: Called with a row slice and value.
+        reach: Farthest time in s from a value's own.
 
     Attributes:
         count: Values taken.
@@ -29,9 +30,8 @@ class Latest:
         (None, [7.0, 7.0, 8.0])
     """
 
-    def __init__(self, times: NDArray[np.float64], keep: Callable[[slice, Any], None]) -> None:
-        self._times = times
-        self._keep = keep
+    def __init__(self, times: NDArray[np.float64], keep: Callable[[slice, Any], None], reach: float = np.inf) -> None:
+        self._times, self._keep, self._reach = times, keep, reach
         self._row = 0
         self._held: Callable[[], Any] | None = None
         self._since = -np.inf
@@ -56,7 +56,9 @@ class Latest:
 
     def _fill(self, end: int) -> None:
         if self._held is not None and end > self._row:
-            self._keep(slice(self._row, end), self._held())
+            first, last = np.searchsorted(self._times, (self._since - self._reach, self._since + self._reach))
+            if (begin := max(self._row, int(first))) < min(end, int(last)):
+                self._keep(slice(begin, min(end, int(last))), self._held())
             self._row = end
 
 
@@ -72,15 +74,10 @@ class FramePoses:
         self.latest = Latest(times, self.poses.__setitem__)
         self._rows = {name: i for i, name in enumerate(names)}
         self._start = np.tile([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], (len(names), 1))
-        own = [name for name, _, _ in transforms(first)]
-        self._template = transform_template(first) if own == names else None
+        self._template = transform_template(first) if [name for name, _, _ in transforms(first)] == names else None
 
     def take(self, time: float, message: bytes) -> None:
-        """Take a message of a time in s.
-
-        Raises:
-            ValueError: If damaged.
-        """
+        """Take a message of a time in s; ValueError if damaged."""
         template = self._template
         if template is not None and template.matches(message):
             self.latest.take(time, lambda: template.values_of([message]).reshape(-1, 7))

@@ -33,12 +33,8 @@ class Walk {
       if (!sole) continue;
       sole.force = sole.force ? unpack(sole.force, Float32Array)
         : Float32Array.from(unpack(sole.decinewtons, Uint16Array), v => v === NOT_MEASURED ? NaN : v / 10);
-      const n = sole.centers.length;
-      this.totals[side] = Float32Array.from(this.time, (_, i) => {
-        let sum = 0;
-        for (let k = i * n; k < (i + 1) * n; k++) sum += sole.force[k] || 0;
-        return sum;
-      });
+      this.totals[side] = unpack(sole.total, Float32Array);
+      sole.cop = unpack(sole.cop, Float32Array);
     }
   }
   get duration() { return this.time[this.time.length - 1]; }
@@ -61,15 +57,11 @@ class Walk {
   }
   force(side, taxel, i) {
     const sole = this.soles[side];
-    return sole.force[i * sole.centers.length + taxel];
+    return sole.force[i * sole.cells.length + taxel];
   }
   cop(side, i) {
-    let x = 0, y = 0, sum = 0;
-    this.soles[side].centers.forEach((c, k) => {
-      const f = this.force(side, k, i) || 0;
-      x += f * c[0]; y += f * c[1]; sum += f;
-    });
-    return sum > 0.02 * this.weight ? [x / sum, y / sum] : null;
+    const cop = this.soles[side].cop.subarray(2 * i, 2 * i + 2);
+    return Number.isNaN(cop[0]) ? null : cop;
   }
 }
 
@@ -246,7 +238,7 @@ class Space {
   }
   drawSole(side, i) {
     const walk = this.walk, {geometry, owner} = this.cells[side], colours = geometry.getAttribute('color');
-    const known = walk.soles[side].centers.map((_, k) => {
+    const known = walk.soles[side].cells.map((_, k) => {
       const force = walk.force(side, k, i);
       return Number.isNaN(force) ? [0.5, 0.5, 0.5] : viridis(force / (FULL * walk.weight));
     }).map(c => new THREE.Color().setRGB(c[0], c[1], c[2], THREE.SRGBColorSpace));
@@ -332,7 +324,7 @@ function drawSoles(walk, canvas, i) {
 }
 
 function drawForces(walk, canvas, time, end) {
-  const {pen, width, height} = flat(canvas), most = Math.max(...SIDES.map(s => walk.totals[s] ? walk.totals[s].reduce((a, b) => Math.max(a, b), 1) : 1));
+  const {pen, width, height} = flat(canvas), most = Math.max(...SIDES.map(s => walk.totals[s] ? walk.totals[s].reduce((a, b) => Math.max(a, b || 1), 1) : 1));
   const x = t => width * t / Math.max(end, 1e-6), y = f => height - 4 - (height - 20) * f / most;
   pen.font = '12px system-ui, sans-serif';
   pen.fillStyle = style('--soft');
@@ -343,7 +335,11 @@ function drawForces(walk, canvas, time, end) {
     const step = Math.max(1, Math.floor(total.length / (2 * width)));
     pen.strokeStyle = style('--' + side);
     pen.beginPath();
-    for (let i = 0; i < total.length; i += step) pen[i ? 'lineTo' : 'moveTo'](x(walk.time[i]), y(total[i]));
+    let on = false;
+    for (let i = 0; i < total.length; i += step) {
+      if (!Number.isNaN(total[i])) pen[on ? 'lineTo' : 'moveTo'](x(walk.time[i]), y(total[i]));
+      on = !Number.isNaN(total[i]);
+    }
     pen.stroke();
   }
   pen.strokeStyle = style('--ink');
@@ -368,7 +364,8 @@ const spaces = walks.map((walk, k) => {
 
 function said(walk) {
   const i = walk.index(time);
-  return SIDES.filter(s => walk.totals[s]).map(s => `${s} ${walk.totals[s][i].toFixed(0)} N`).join(', ');
+  const load = total => Number.isNaN(total) ? 'not measured' : total.toFixed(0) + ' N';
+  return SIDES.filter(s => walk.totals[s]).map(s => `${s} ${load(walk.totals[s][i])}`).join(', ');
 }
 
 function draw() {

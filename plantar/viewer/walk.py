@@ -27,6 +27,7 @@ from plantar.sides import SIDES, Side
 from plantar.viewer.messages import Entity, deleted_all, entities, transforms
 from plantar.viewer.sampling import FramePoses, Latest
 
+_HELD = 0.1  # s for which the last forces are shown where no more come, or 2.5 usual steps
 _RATE = 50.0  # pictures a second, as many as "/tf" has
 _MOST = 30_000  # pictures of a walk: 10 min; a longer one is shown with fewer a second
 _CORNERS = 12  # of a support polygon
@@ -58,7 +59,7 @@ class Walk:
     """Recording at n times.
 
     Attributes:
-        time: (n,) in s, from 0 on.
+        time: (n,) in s.
         poses: Each frame's position and quaternion (x, y, z, w), (n, 7), world in m.
         layouts: Soles, by side; frames "sole_left" and "sole_right".
         force: (n, k) in N on each sole's taxels, float32.
@@ -84,11 +85,7 @@ class Walk:
 
 
 def read_walk(path: str | os.PathLike[str]) -> Walk:
-    """Read a recording in two passes, in pieces: memory does not grow with its length.
-
-    Raises:
-        FormatError: If unreadable or without layouts.
-    """
+    """Read a recording in two passes, in pieces, in constant memory; FormatError if unreadable or without layouts."""
     drawn = _Drawn()
     content = McapContent(drawn.sinks())
     take_mcap(path, content)
@@ -132,6 +129,7 @@ class _Skin:
     width: int
     first: float
     last: float
+    count: int = 0
 
 
 class _Drawn:
@@ -173,10 +171,9 @@ class _Drawn:
         return sink
 
     def _take_skin(self, side: Side, time: float, message: bytes, fields: Fields) -> None:
-        span = _span(fields, "force")
-        if span is not None:
+        if (span := _span(fields, "force")) is not None:
             found = self.skin.setdefault(side, _Skin(span[1] - span[0], time, time))
-            found.first, found.last = min(found.first, time), max(found.last, time)
+            found.first, found.last, found.count = min(found.first, time), max(found.last, time), found.count + 1
 
     def _take_frames(self, time: float, message: bytes) -> None:
         self.frame_times.append(time)
@@ -224,7 +221,10 @@ class _Shown:
         self.force = {side: np.full((n, len(layout)), np.nan, np.float32) for side, layout in layouts.items()}
         self.zmp, self.polygon = np.full((n, 3), np.nan), np.full((n, _CORNERS, 3), np.nan)
         self._poses = _sole_poses(n, layouts)
-        self._latest = {f"/skin/{side}": Latest(time, self.force[side].__setitem__) for side in layouts}
+        self._latest = {}
+        for side, skin in ((side, drawn.skin[side]) for side in layouts):
+            reach = max(_HELD, 2.5 * (skin.last - skin.first) / skin.count)
+            self._latest[f"/skin/{side}"] = Latest(time, self.force[side].__setitem__, reach)
         self._latest["/scene/balance"] = Latest(time, self._keep_balance)
         self._framed: FramePoses | None = None
         if {f"sole_{side}" for side in SIDES} <= set(drawn.frames):
@@ -305,8 +305,7 @@ def _span(fields: Fields, wanted: str) -> tuple[int, int] | None:
     start = 0
     for name, width in fields or ():
         if name == wanted:
-            sized = _WIDTHS.get(name, width)
-            return (start, start + width) if width == sized else None
+            return (start, start + width) if width == _WIDTHS.get(name, width) else None
         start += width
     return None
 
@@ -316,8 +315,7 @@ def _times(drawn: _Drawn, layouts: Mapping[Side, SoleLayout]) -> NDArray[np.floa
     if len(frames) > 1:
         return np.asarray(frames[:: -(-len(frames) // _MOST)])
     first, last = min(drawn.skin[s].first for s in layouts), max(drawn.skin[s].last for s in layouts)
-    count = int(np.clip((last - first) * _RATE, 1, _MOST - 1))
-    return np.linspace(first, last, count + 1)
+    return np.linspace(first, last, int(np.clip((last - first) * _RATE, 1, _MOST - 1)) + 1)
 
 
 def _sole_poses(count: int, layouts: Mapping[Side, SoleLayout]) -> dict[str, NDArray[np.float64]]:

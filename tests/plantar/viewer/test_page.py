@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from plantar import InputError
+from plantar import InputError, laid_over
 from plantar.viewer.page import view_text, write_page
 
 from ...gait.analysis.browser import visit
@@ -102,6 +102,16 @@ def test_large_and_negative_forces_are_not_clipped(tmp_path, monkeypatch):
     write_page([write_walk(tmp_path / "run.mcap")], tmp_path / "view.html")
     found = visit(tmp_path / "view.html", READY + "return document.querySelector('.readout').textContent;", tmp_path)
     assert found.found == "left 72000 N, right -16 N"
+
+
+def test_the_force_is_vertical_and_none_where_nothing_was_measured(tmp_path, monkeypatch):
+    left, right = small_walk.soles().values()
+    rocker = laid_over(left, lambda x, y: 0.5 * x**2 / 0.2)
+    monkeypatch.setattr(small_walk, "soles", lambda: {"left": rocker, "right": right})
+    monkeypatch.setattr(small_walk, "forces", lambda time: {"left": np.full(8, 100.0), "right": np.full(8, np.nan)})
+    write_page([write_walk(tmp_path / "run.mcap")], tmp_path / "view.html")
+    found = visit(tmp_path / "view.html", READY + "return document.querySelector('.readout').textContent;", tmp_path)
+    assert found.found == f"left {100.0 * rocker.rotations[:, 2, 2].sum():.0f} N, right not measured"
 
 
 @pytest.mark.long

@@ -69,6 +69,17 @@ def test_a_robots_own_recording_shows_its_soles_side_by_side(tmp_path):
     assert 0.0 < walk.weight <= 8 * 190.0  # nobody says it: nine tenths of the time the soles carry less
 
 
+def test_a_sole_that_sends_nothing_shows_no_force(tmp_path):
+    with Recorder(tmp_path / "run.mcap", {}, soles()) as recorder:
+        left, right = (recorder.channel(f"/skin/{side}", [("force", 8)]) for side in ("left", "right"))
+        for i in range(400):
+            (left if i < 200 else right).write(5.0 + 0.01 * i, np.full(8, 50.0))
+    walk = read_walk(tmp_path / "run.mcap")
+    measured = {side: walk.time[np.isfinite(force).all(axis=1)] - 5.0 for side, force in walk.force.items()}
+    assert measured["left"][[0, -1]] == pytest.approx([0.0, 2.08], abs=0.021)  # held for a dropout of 0.1 s
+    assert measured["right"][[0, -1]] == pytest.approx([1.91, 3.99], abs=0.021)
+
+
 def test_what_has_no_soles_is_refused_in_a_line(tmp_path):
     path = tmp_path / "other.mcap"
     with Recorder(path) as recorder:
