@@ -103,9 +103,10 @@ def _view(number: int, walk: Walk, alone: bool) -> str:
     name = html.escape(walk.name)
     warnings = "".join(f"<li>{html.escape(line)}</li>" for line in walk.warnings)
     lines = "".join(
-        f'<li class="{event.level}"><button type="button" data-time="{event.time:.3f}">{event.time:.2f} s</button> '
+        f'<li class="{event.level}"><button type="button" data-time="{at:.3f}">{at:.2f} s</button> '
         f"{html.escape(event.text)}</li>"
         for event in walk.events
+        for at in [event.time - walk.time[0]]
     )
     log = f'<ol class="log">{lines}</ol>' if lines else "<p>No messages.</p>"
     return f"""<section class="walk" id="walk-{number}" aria-labelledby="name-{number}">

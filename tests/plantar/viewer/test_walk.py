@@ -13,7 +13,7 @@ from mcap.reader import make_reader
 
 from plantar import FormatError, grid_layout
 from plantar.layouts.layout import mirrored
-from plantar.recordings.foxglove import Template, frame_transform, message_of, slot
+from plantar.recordings.foxglove import Template, frame_transform, log_message, message_of, slot
 from plantar.recordings.recorder import Recorder
 from plantar.viewer.page import write_page
 from plantar.viewer.walk import read_walk
@@ -69,15 +69,19 @@ def test_a_robots_own_recording_shows_its_soles_side_by_side(tmp_path):
     assert 0.0 < walk.weight <= 8 * 190.0  # nobody says it: nine tenths of the time the soles carry less
 
 
-def test_a_sole_that_sends_nothing_shows_no_force(tmp_path):
+def test_a_sole_that_sends_nothing_shows_no_force_and_the_log_leads_to_its_instants(tmp_path):
     with Recorder(tmp_path / "run.mcap", {}, soles()) as recorder:
         left, right = (recorder.channel(f"/skin/{side}", [("force", 8)]) for side in ("left", "right"))
+        log = recorder.message_channel("/log", "foxglove.Log")
         for i in range(400):
             (left if i < 200 else right).write(5.0 + 0.01 * i, np.full(8, 50.0))
+        log.write(7.0, log_message(7.0, "the left sole is gone"))
     walk = read_walk(tmp_path / "run.mcap")
     measured = {side: walk.time[np.isfinite(force).all(axis=1)] - 5.0 for side, force in walk.force.items()}
     assert measured["left"][[0, -1]] == pytest.approx([0.0, 2.08], abs=0.021)  # held for a dropout of 0.1 s
     assert measured["right"][[0, -1]] == pytest.approx([1.91, 3.99], abs=0.021)
+    write_page([tmp_path / "run.mcap"], tmp_path / "view.html")
+    assert re.findall(r'data-time="([\d.]+)">([^<]*)<', (tmp_path / "view.html").read_text()) == [("2.000", "2.00 s")]
 
 
 def test_what_has_no_soles_is_refused_in_a_line(tmp_path):
