@@ -91,8 +91,7 @@ def feet_of_plates(
     found = sides_of_contacts(used, contacts, every, rate, options.side, warnings, markers, events)
     sides = [None if c in both else s for c, s in zip(contacts, found, strict=True)]
     weights = _weights(used, contacts, sides, round(_BESIDE * rate))
-    feet = {side: _foot(side, used, weights[side]) for side in SIDES if side in weights}
-    return feet, every
+    return {side: _foot(side, used, weights[side]) for side in SIDES if side in weights}, every
 
 
 def _zeroed(plate: Plate, rate: float, warnings: list[str]) -> Plate:

@@ -218,8 +218,7 @@ def _plate(
     moments, moment = own.get("moment", {}), None
     if cop is None and {"x", "y", "z"} <= set(moments) and {"x", "y", "z"} <= set(forces):
         turned = np.column_stack([table[:, moments[a]] for a in (ahead, across, up)])
-        stated = plain(columns[moments[up]].unit)
-        turn = MOMENTS.get(stated)
+        turn = MOMENTS.get(plain(columns[moments[up]].unit))
         if turn is None:
             large = float(np.nanpercentile(np.abs(turned), 99.0)) > 0.5 * float(np.nanpercentile(np.abs(force), 99.0))
             turn = 1e-3 if large else 1.0

@@ -123,5 +123,4 @@ def with_layout(options: ReadOptions | None, layout: SoleLayout | str | os.PathL
     options = options or ReadOptions()
     if layout is None:
         return options
-    own = layout if isinstance(layout, SoleLayout) else read_layout(layout)
-    return dataclasses.replace(options, layout=own)
+    return dataclasses.replace(options, layout=layout if isinstance(layout, SoleLayout) else read_layout(layout))

@@ -167,8 +167,7 @@ def _footprint(
     back = float((rings @ axis).min())
     origin = through + (back - float(through @ axis)) * axis
     print_ = Footprint(side, origin, axis, rings, areas, pressure)
-    turned = print_.in_foot(rings.reshape(-1, 2)).reshape(rings.shape)
-    return replace(print_, rings=turned)
+    return replace(print_, rings=print_.in_foot(rings.reshape(-1, 2)).reshape(rings.shape))
 
 
 def _axis(

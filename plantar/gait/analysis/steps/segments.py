@@ -75,8 +75,7 @@ def with_activities(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
         steps = [replace(s, activity=found[side, s.number]) for s in gait.steps]
         for i, (step, after) in enumerate(pairwise(steps)):
             if step.activity != after.activity:  # its stride is of neither
-                known = {k: v for k, v in step.measures.items() if k not in _OF_STRIDE}
-                steps[i] = replace(step, measures=known)
+                steps[i] = replace(step, measures={k: v for k, v in step.measures.items() if k not in _OF_STRIDE})
         if hops:
             steps = [replace(s, measures={k: v for k, v in s.measures.items() if k not in _IN_TURNS}) for s in steps]
         out[side] = replace(gait, steps=tuple(steps))

@@ -67,8 +67,7 @@ class Comparison:
 def compare_conditions(results: Sequence[RecordingResult]) -> list[Comparison]:
     """Comparisons of every two conditions in order of appearance; six pairs at most."""
     names = list(dict.fromkeys(r.who.condition for r in results if r.who.condition and not r.error))
-    pairs = list(combinations(names, 2))[:MOST_PAIRS]
-    return [_compared(results, a, b) for a, b in pairs]
+    return [_compared(results, a, b) for a, b in list(combinations(names, 2))[:MOST_PAIRS]]
 
 
 def _compared(results: Sequence[RecordingResult], a: str, b: str) -> Comparison:
