@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.atomic import output_folder, replacing
-from plantar.errors import FormatError
+from plantar.errors import FormatError, InputError
 from plantar.files.input_file import open_input
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import layout_to_dict
@@ -54,6 +54,7 @@ class Recording:
         """Write all tables to one compressed NPZ at `path` (".npz" added without suffix); returns its path.
 
         Keys: "<topic>/time" and "<topic>/<field>" without leading slash; "metadata" and "layout_<side>" hold JSON.
+        InputError for a field "time".
         """
         final = Path(path)
         final = final if final.suffix else final.with_suffix(".npz")
@@ -61,6 +62,8 @@ class Recording:
         for side, layout in self.layouts.items():
             arrays[f"layout_{side}"] = json.dumps(layout_to_dict(layout))
         for topic, table in self.topics.items():
+            if "time" in table.fields:
+                raise InputError(f"topic {topic} has a field 'time', as its times are called; allowed: to_csv")
             arrays[f"{topic.lstrip('/')}/time"] = table.time
             for name, values in table.fields.items():
                 arrays[f"{topic.lstrip('/')}/{name}"] = values
@@ -71,12 +74,14 @@ class Recording:
     def to_csv(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write a CSV a topic, metadata.json and layout files to `folder`; returns the paths.
 
-        Columns are "time_s", then "<field>" or "<field>_<index>", with all digits.
+        Columns are "time_s", then "<field>" or "<field>_<index>", with all digits. InputError for topics of one name.
         """
         texts = {"metadata.json": json.dumps(dict(self.metadata), indent=1) + "\n"}
         for side, layout in self.layouts.items():
             texts[f"layout_{side}.json"] = json.dumps(layout_to_dict(layout), indent=1) + "\n"
         names = [f"{topic.strip('/').replace('/', '_')}.csv" for topic in self.topics]
+        if twice := [topic for topic, name in zip(self.topics, names, strict=True) if names.count(name) > 1]:
+            raise InputError(f"topics {', '.join(twice)} would be one CSV file; allowed: names that differ, or to_npz")
         with output_folder(folder) as out:
             for name, text in texts.items():
                 (out / name).write_text(text, encoding="utf-8")

@@ -170,6 +170,8 @@ def test_bad_calls_name_what_is_wrong(tmp_path):
         Recorder(tmp_path / "run.mcap", {"x": object()})
     with Recorder(tmp_path / "run.mcap") as recorder:
         channel = recorder.channel("/a", [("x", 3)])
+        with pytest.raises(RecordingError, match=r"takes 3 values a message; got \(3, 1\)"):
+            channel.write(0.0, np.zeros((3, 1)))
         with pytest.raises(RecordingError, match="takes 3 values a message; got 2"):
             channel.write(0.0, np.zeros(2))
         with pytest.raises(RecordingError, match="takes 3 values a message; got 3 x 2"):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from mcap.writer import CompressionType, Writer
 
-from plantar import FormatError, hex_layout, read_layout
+from plantar import FormatError, InputError, hex_layout, read_layout
 from plantar.recordings.recorder import Recorder
 from plantar.recordings.recording import read_mcap
 
@@ -47,6 +47,17 @@ def test_csv_export_keeps_all_digits_and_the_layout(run, tmp_path):
     n = len(recording.layouts["left"])
     assert (back[:, 1 : 1 + n] == recording.topics["/skin/left"].fields["force"]).all()
     assert len(read_layout(tmp_path / "csv" / "layout_left.json")) == n
+
+
+def test_an_export_that_would_lose_a_table_is_refused(tmp_path):
+    with Recorder(tmp_path / "run.mcap") as recorder:
+        for topic, field in (("/arm/left", "q"), ("/arm_left", "q"), ("/clock", "time")):
+            recorder.channel(topic, [(field, 1)]).write(0.0, np.ones(1))
+    with pytest.raises(InputError, match="topics /arm/left, /arm_left would be one CSV file"):
+        read_mcap(tmp_path / "run.mcap").to_csv(tmp_path / "csv")
+    with pytest.raises(InputError, match="topic /clock has a field 'time'"):
+        read_mcap(tmp_path / "run.mcap").to_npz(tmp_path / "run.npz")
+    assert {path.name for path in tmp_path.iterdir()} == {"run.mcap"}
 
 
 @pytest.mark.parametrize(
