@@ -132,8 +132,7 @@ def _arrays(path: Path) -> Iterator[dict[str, _Array]]:
     with open_input(path, FormatError) as stream:
         if stream.read(2) != b"PK":
             stream.seek(0)
-            size = path.stat().st_size
-            yield {"values": _array(path, "values", lambda: path.open("rb"), size)}
+            yield {"values": _array(path, "values", lambda: path.open("rb"), path.stat().st_size)}
             return
     with open_archive(path, FormatError, _LARGEST) as (archive, _):
         yield {

@@ -44,8 +44,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         times, (rows, columns), table = _take_frames(path, iter(stream), warnings)
     time, rate = _times(times, options, warnings)
     time, rate, notes = sampling(time, rate)
-    turned = rows == _COLUMNS != columns
-    pitch = (_ACROSS, _ALONG) if turned else (_ALONG, _ACROSS)
+    pitch = (_ACROSS, _ALONG) if rows == _COLUMNS != columns else (_ALONG, _ACROSS)
     warnings.append(
         f"the file states no size of its cells: {_ACROSS * 1e3:g} x {_ALONG * 1e3:g} mm, as plates have them"
     )

@@ -238,8 +238,7 @@ def _is_of_both(plate: Plate, contact: PlateContact) -> bool:
 
 def _sees_all(contacts: Sequence[PlateContact], plates: int) -> bool:
     """Whether plates are a treadmill's, stepped on again and again."""
-    counts = np.bincount([c.plate for c in contacts], minlength=plates)
-    return plates > 1 and bool((counts >= 4).sum() >= 2)
+    return plates > 1 and bool((np.bincount([c.plate for c in contacts], minlength=plates) >= 4).sum() >= 2)
 
 
 def _weights(
@@ -283,5 +282,4 @@ def _foot(side: Side, plates: Sequence[Plate], masks: Sequence[NDArray[np.bool_]
     )
     x, y = np.nan_to_num(cop).T
     moment = np.column_stack([y * force[:, 2], -x * force[:, 2], x * force[:, 1] - y * force[:, 0] + free])
-    wrench = np.column_stack([force, moment])
-    return FootRecording(side, force[:, 2:3], None, total=force[:, 2], cop=cop, wrench=wrench)
+    return FootRecording(side, force[:, 2:3], None, total=force[:, 2], cop=cop, wrench=np.column_stack([force, moment]))

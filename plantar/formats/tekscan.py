@@ -78,8 +78,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     present = _measuring(table.rows)
     if not present.any():
         raise FormatError("no cell of the matrix holds a number")
-    large = columns * pitch[1] > _WIDEST_FOOT or rows * pitch[0] > _LONGEST_FOOT
-    kind: Kind = "platform" if large else "insole"
+    kind: Kind = "platform" if columns * pitch[1] > _WIDEST_FOOT or rows * pitch[0] > _LONGEST_FOOT else "insole"
     side = options.side or side_of(header.get("FILENAME", ""), header.get("COMMENTS", ""), path.stem)
     if side is None and kind == "insole":
         warnings.append("the file does not state which foot it is: taken as the left one (--side overrides)")

@@ -100,8 +100,7 @@ def in_one_window(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
         )
         names = ", ".join(map(str, late))
         text = f"steps {names} of the {side} foot lie outside the other foot's steps in the means: left out"
-        notes = [text] if late else []
-        out[side] = replace(gait, steps=steps, warnings=(*gait.warnings, *notes))
+        out[side] = replace(gait, steps=steps, warnings=(*gait.warnings, *([text] if late else [])))
     return out
 
 

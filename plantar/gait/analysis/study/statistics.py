@@ -82,8 +82,7 @@ class PermutationTest:
     @property
     def significant(self) -> NDArray[np.bool_]:
         """Values (k,) in a cluster with p at most 0.05."""
-        kept = [number for number, p in enumerate(self.cluster_p, 1) if p <= 0.05]
-        return np.isin(self.clusters, kept)
+        return np.isin(self.clusters, [number for number, p in enumerate(self.cluster_p, 1) if p <= 0.05])
 
 
 @lru_cache(maxsize=256)

@@ -219,8 +219,7 @@ def _draw_effects(one: Comparison) -> Any | None:
         face = "#111111" if effect.p_all < 0.05 else "#ffffff"
         axes.plot(effect.effect_size, place, "o", color="#111111", markerfacecolor=face, markersize=6)
     axes.axvline(0.0, color=COLOURS["reference"], linewidth=0.8)
-    titles = [full_title(key) for key, _ in known]
-    axes.set_yticks(np.arange(len(known))[::-1], titles)
+    axes.set_yticks(np.arange(len(known))[::-1], [full_title(key) for key, _ in known])
     axes.set_xlabel(f"Hedges' g: above 0 larger in {one.b}")
     axes.grid(axis="x", alpha=0.3)
     return figure
