@@ -84,8 +84,7 @@ def nominal_insole(size: str, side: Side) -> SoleLayout:
     corners: list[tuple[int, ...]] = []
     spans: list[tuple[int, float, float]] = []
     for row, cells in enumerate(rows):
-        ends = np.concatenate([[0.0], np.cumsum(cells)]) / cells.sum()
-        for a, b in pairwise(ends.tolist()):
+        for a, b in pairwise((np.concatenate([[0.0], np.cumsum(cells)]) / cells.sum()).tolist()):
             # counter-clockwise with y to the medial side: lateral heel, lateral toe, medial toe, medial heel
             corners.append((vertex(row, b), vertex(row + 1, b), vertex(row + 1, a), vertex(row, a)))
             spans.append((row, a, b))

@@ -12,7 +12,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import integer, number
+from plantar.arguments import instance, integer, number
 from plantar.errors import InputError
 from plantar.geometry.enclosing import bounding_box, convex_shapes
 from plantar.geometry.outline import Outline
@@ -89,13 +89,13 @@ def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.fl
 
     Args:
         polygon: Convex polygon (k, 2) in m.
-        angle: Angle of first side against x in rad.
+        angle: Of first side against x in rad; InputError unless finite.
 
     Returns:
         Corners (4, 2) in m from the lower left one at angle 0; area exact to 1e-12; to 1e-8 where edges are almost
         parallel to sides.
     """
-    return np.asarray(convex_shapes().rectangle(convex_ring(polygon), angle))
+    return np.asarray(convex_shapes().rectangle(convex_ring(polygon), number(angle, "angle", finite=True)))
 
 
 def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
@@ -113,7 +113,7 @@ def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.flo
 
     Args:
         outline: Outline with islands and holes in m.
-        angle: Angle of first side against x in rad.
+        angle: Of first side against x in rad; InputError unless finite.
 
     Returns:
         Corners (4, 2) in m; area exact to 1e-12; to 1e-7 where edges are almost parallel to sides. (0, 2) if empty.
@@ -123,9 +123,10 @@ def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.flo
         >>> rectangle_in_outline(corner).tolist()
         [[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [0.0, 1.0]]
     """
-    if not len(outline):
+    if not len(instance(outline, Outline, "outline")):
         return np.empty((0, 2))
-    return np.asarray(convex_shapes().rectangle_in_outline(outline.points, outline.starts, float(angle)))
+    turn = number(angle, "angle", finite=True)
+    return np.asarray(convex_shapes().rectangle_in_outline(outline.points, outline.starts, turn))
 
 
 def rectangle_in_outline_any_angle(outline: Outline, looks: int = _LOOKS) -> BoundedRectangle:
@@ -149,8 +150,8 @@ def rectangle_in_outline_any_angle(outline: Outline, looks: int = _LOOKS) -> Bou
         >>> rectangle_in_outline_any_angle(tilted).gap < 0.01
         True
     """
-    most = integer(looks, "looks", 1)
-    return _scan(lambda angle: rectangle_in_outline(outline, angle), outline.points, most, np.zeros(1))
+    points, most = instance(outline, Outline, "outline").points, integer(looks, "looks", 1)
+    return _scan(lambda angle: rectangle_in_outline(outline, angle), points, most, np.zeros(1))
 
 
 def _scan(

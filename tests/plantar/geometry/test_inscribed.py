@@ -60,6 +60,17 @@ def gap_outside(polygon, points):
 # --- convex polygon -----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("angle", [math.nan, math.inf, "steep", None])
+def test_an_angle_that_is_none_is_refused(angle):
+    square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+    with pytest.raises(InputError, match="angle is"):
+        inscribed_rectangle(square, angle)
+    with pytest.raises(InputError, match="angle is"):
+        rectangle_in_outline(Outline.of_rings([square]), angle)
+    with pytest.raises(InputError, match="outline is a list; expected"):
+        rectangle_in_outline_any_angle(square)
+
+
 def test_triangle_where_the_linear_walk_fails():
     """The polygon with which Keikha et al. 2017 (arXiv:1705.11035) refuted the walk in O(n)."""
     polygon = convex_hull([[1, 1000], [1250, 5], [2500, 30], [3000, 150], [1500, 1500], [400, 1350]])
