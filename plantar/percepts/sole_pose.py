@@ -13,6 +13,7 @@ from plantar.errors import InputError
 from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import convex_hull
 from plantar.kernels.geometry import convex as _kernel
+from plantar.layouts.cell_edges import WELD
 from plantar.layouts.layout import SoleLayout
 from plantar.lazy import lazy
 from plantar.mechanics.rotation import level_rotation
@@ -88,7 +89,7 @@ class SolePose:
         return polygon_in_world(polygon, self.rotation_sole_to_world, self.position_in_world)
 
     def outline_to_world(self, outline: Outline, layout: SoleLayout) -> Outline:
-        """A contact's outline from above in world in m, corners on the sole's surface.
+        """A contact's outline from above in world in m, on the sole's surface.
 
         Args:
             outline: Outline in sole frame in m, as of `concave_outline`.
@@ -97,9 +98,9 @@ class SolePose:
         Returns:
             Outline.
         """
-        height = {(x, y): z for x, y, z in layout.vertices.tolist()}
-        corners = [np.array([[x, y, height.get((x, y), 0.0)] for x, y in ring.tolist()]) for ring in outline.rings]
-        return Outline.of_rings([self.to_world(ring)[:, :2] for ring in corners])
+        if layout.is_level:
+            return outline.moved(self.rotation_sole_to_world, self.position_in_world)
+        return Outline.of_rings([self.to_world(_on_surface(ring, layout.vertices))[:, :2] for ring in outline.rings])
 
     def wrench_to_world(self, wrench: ArrayLike) -> NDArray[np.float64]:
         """Wrenches (..., 6) about the sole's origin as about the world's, in N and N m."""
@@ -116,6 +117,18 @@ class SolePose:
         turn = self.rotation_sole_to_world.T
         x, y, z = self.position_in_world.tolist()
         return turn, turn @ np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
+
+
+def _on_surface(ring: NDArray[np.float64], vertices: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Corners (m, 3) of a ring (k, 2), with those of a sole's `vertices` (v, 3) that lie on its edges."""
+    height = {(x, y): z for x, y, z in vertices.tolist()}
+    points = []
+    for (x, y), along in zip(ring.tolist(), np.roll(ring, -1, axis=0) - ring, strict=True):
+        off = (vertices[:, :2] - (x, y)) / (along @ along)
+        share, beside = off @ along, off @ (-along[1], along[0])
+        between = np.flatnonzero((share > WELD) & (share < 1.0 - WELD) & (np.abs(beside) <= WELD))
+        points += [(x, y, height.get((x, y), 0.0)), *vertices[between[np.argsort(share[between])]]]
+    return np.array(points)
 
 
 def wrench_of_feet(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose]) -> NDArray[np.float64]:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from plantar import FeetPercept, Percept, Reading, SolePose, hex_layout, laid_over, layout_of_cells, mirrored
+from plantar.geometry.outline import concave_outline
 from plantar.geometry.polygon import area
 from plantar.mechanics.zmp import zmp_in_plane
 from plantar.percepts.sole_pose import wrench_of_feet
@@ -139,6 +140,19 @@ def test_a_rocker_that_rolls_has_its_contact_on_its_surface(degrees):
     seen = feet.outlines_in_world[0]
     assert seen.area <= area(ring) + 1e-9
     assert np.allclose(np.vstack(seen.rings).max(axis=0), ring.max(axis=0), atol=1e-9)
+
+
+@pytest.mark.parametrize("bend", [0.0, 1.5])
+def test_an_outline_from_above_is_that_of_its_cells(bend):
+    rim = [[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]]  # straight over several cells
+    sole = laid_over(hex_layout(rim), lambda x, y: bend * x**2)
+    rng = np.random.default_rng(8)
+    for roll in (-0.4, 0.3, np.pi):  # the last one from below
+        pose = SolePose([[1, 0, 0], [0, np.cos(roll), -np.sin(roll)], [0, np.sin(roll), np.cos(roll)]], [1, 2, 3])
+        on = rng.random(len(sole)) < 0.6
+        cells = [pose.to_world(sole.vertices[list(sole.corners[i])])[:, :2] for i in np.flatnonzero(on)]
+        seen = pose.outline_to_world(concave_outline(sole, on), sole)
+        assert abs(seen.area) == pytest.approx(sum(abs(area(cell)) for cell in cells), rel=1e-12)
 
 
 def test_the_height_of_the_cop_is_exact_on_a_surface_of_second_order():
