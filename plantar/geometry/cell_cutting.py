@@ -58,7 +58,7 @@ class CellCutter:
 
         Returns:
             Each cell's area left in m^2 and first moments in m^3 about sole origin (n, 3), and cuts' chords (n, m, 3):
-            length and middle (x, y) in m.
+            length and middle (x, y) in m, of one piece where a cell has dents.
 
         Raises:
             InputError: Not (m, 3), not finite.
