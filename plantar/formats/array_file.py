@@ -194,7 +194,7 @@ def _layout(arrays: dict[str, _Array], side: Side, warnings: list[str]) -> SoleL
 
 
 def seconds(values: NDArray[Any]) -> NDArray[np.float64]:
-    """Returns values (n,), dates and durations in s from the first."""
+    """Values (n,), dates and durations in s from the first."""
     since = values - np.fmin.reduce(values) if values.dtype.kind in "mM" and len(values) else values
     return since / np.timedelta64(1, "s") if since.dtype.kind == "m" else since.astype(float)
 

@@ -24,7 +24,7 @@ _NUMBER = re.compile(r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?")
 
 
 def open_text(path: Path) -> TextIO:
-    """Returns text file at path opened for reading, with uniform line ends; FormatError if unreadable.
+    """Text file at path opened for reading, with uniform line ends; FormatError if unreadable.
 
     Encoding is found from its beginning; a line over 1 MB is an error when read.
     """
@@ -133,7 +133,7 @@ def table_of_lines(
     warnings: list[str],
     columns: Sequence[int] = (),
 ) -> NDArray[np.float64]:
-    """Returns numbers (n, k) of a file's lines at path, NaN for empty cells or none.
+    """Numbers (n, k) of a file's lines at path, NaN for empty cells or none.
 
     Warnings get repairs. FormatError without lines, or if too many are damaged.
 
@@ -221,7 +221,7 @@ _COMPILED = is_compiled("decimals")
 def number_rows(
     lines: Sequence[str], delimiter: str | None, columns: int | Sequence[int]
 ) -> NDArray[np.float64] | None:
-    """Returns numbers (n, columns) of lines as `float` gives them, NaN for missing ones.
+    """Numbers (n, columns) of lines as `float` gives them, NaN for missing ones.
 
     None for another count, anything else than finite numbers, or without the compiled kernel.
 

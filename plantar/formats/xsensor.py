@@ -94,7 +94,7 @@ class _Scan:
     delimiter: str = ","
 
     def take_row(self, line: str) -> bool:
-        """Returns whether a line is a row of the matrix, which it joins."""
+        """Whether a line is a row of the matrix, which it joins."""
         sensor, rows = self.sensor, self.rows
         if rows is None or sensor is None or not _is_row(line, len(rows), sensor.rows):
             return False

@@ -126,8 +126,7 @@ def fit_taxels(
             continue
         return _whole(foot, fit, cell_area, wanted, () if wanted == border else (_narrow(border),))
     border_left = min(border, LEAST_BORDER)
-    reach = max(overhang, (overhang_max - 0.05) / CUT_CORNER - CORNER * border_left)
-    cut = _cut_fit(foot, cell_area, taxels, reach)
+    cut = _cut_fit(foot, cell_area, taxels, max(overhang, (overhang_max - 0.05) / CUT_CORNER - CORNER * border_left))
     if cut is None:
         assert problem is not None
         raise problem

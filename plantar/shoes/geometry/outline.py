@@ -224,8 +224,7 @@ def single_outline(union: Any, hull: Any, *, detail: float = _SIMPLIFY) -> Any:
 
 def cut_below(triangles: NDArray[np.float64], height: float) -> NDArray[np.float64]:
     """Gives parts (m, 3, 3) of triangles (n, 3, 3) at or below a height z, all in mm."""
-    z = triangles[..., 2]
-    inside = z <= height
+    inside = triangles[..., 2] <= height
     count = inside.sum(axis=1)
     out = [triangles[count == 3]]
     for kept in (1, 2):

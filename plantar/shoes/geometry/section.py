@@ -19,8 +19,7 @@ def cut_segments(triangles: Array, height: float) -> tuple[Array, Array]:
     """Gives segments (m, 2, 2) where triangles (n, 3, 3) cross a height without corners, and outward unit normals (m,
     3).
     """
-    z = triangles[..., 2]
-    above = z > height
+    above = triangles[..., 2] > height
     crossing = triangles[above.any(axis=1) & ~above.all(axis=1)]
     ends = []
     for i, j in ((0, 1), (1, 2), (2, 0)):

@@ -64,8 +64,7 @@ def _from_lowest(points: NDArray[np.float64], grid: float) -> NDArray[np.int64]:
 def _pad(plan: ShoePlan, p: ShoeParameters) -> Polyhedron:
     low, high = 0.5 * p.pad_thickness, p.pad_thickness + p.pad_rim_height
     within = pad_rim(plan, p).buffer(-2.0 * _DETAIL, join_style="mitre").buffer(_DETAIL, join_style="mitre")
-    rims = shapely.get_parts(within.simplify(_DETAIL))
-    rim = [Block(q, low, high) for q in rims if not q.is_empty]
+    rim = [Block(q, low, high) for q in shapely.get_parts(within.simplify(_DETAIL)) if not q.is_empty]
     lands = [Block(q, low, land_top(plan, p)) for q in plan.lands]
     return _solid(Block(plan.contact, 0.0, p.pad_thickness), *rim, *lands)
 

@@ -132,8 +132,7 @@ def board_text(shoe: Shoe, parameters: ShoeParameters) -> str:
             points = " ".join(f"(xy {x:.3f} {-y:.3f})" for x, y in line.tolist())
             edge = f"(stroke (width {_LINE}) (type solid)) (fill none)"
             lines.append(f'(gr_poly (pts {points}) {edge} (layer "Edge.Cuts"))')
-    centres = to_mm(shoe.layout.positions[:, :2]).tolist()
-    for k, (x, y) in zip(shoe.layout.ids.tolist(), centres, strict=True):
+    for k, (x, y) in zip(shoe.layout.ids.tolist(), to_mm(shoe.layout.positions[:, :2]).tolist(), strict=True):
         own = [name for name, parts in nets.items() if f"T{k}" in parts]
         lines += _footprint(f"T{k}", "plantar:taxel", (x, y), own, number)
     lines += _footprint("J1", "plantar:connector", _connector(shoe, parameters), list(nets), number)

@@ -77,8 +77,7 @@ def find_heel(rim: Any, foot: Any, parameters: ShoeParameters) -> tuple[Heel, st
         middle = 0.5 * (rear.bounds[1] + rear.bounds[3])
         x, y = (round(float(v), 3) for v in start * along + middle * across)
         heel = Heel(x, y, turn, True)
-        corners = [heel.point(-depth, side * half) for side in (-1.0, 1.0)]
-        reach = float(max(foot.distance(shapely.points(corners))))
+        reach = float(max(foot.distance(shapely.points([heel.point(-depth, side * half) for side in (-1.0, 1.0)]))))
         score = reach + _TURN_COST * abs(degrees)
         if best is None or score < best[0] - 1e-6:
             best = (score, reach, heel)

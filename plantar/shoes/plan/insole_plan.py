@@ -42,8 +42,7 @@ def insole_foot(foot: Foot) -> Foot:
     """Foot whose sole outlines its lowest 15 mm, arch and toe gaps filled: the lowest 5 mm lack the arch."""
     if foot.triangles is None:
         return foot
-    outline = foot.passing(min(_UP_TO, foot.height))
-    smooth = outline.buffer(_ROUND).buffer(-2.0 * _ROUND).buffer(_ROUND)
+    smooth = foot.passing(min(_UP_TO, foot.height)).buffer(_ROUND).buffer(-2.0 * _ROUND).buffer(_ROUND)
     if smooth.geom_type != "Polygon" or smooth.is_empty:
         return foot
     return replace(foot, sole=tidy(smooth.simplify(0.1)))

@@ -31,8 +31,7 @@ def shoe_steps(foot: Foot, plan: ShoePlan, retention: Retention, parameters: Sho
     p = parameters
     holding, after = retention_steps(foot, plan, retention, p)
     holder, holes = wiring_steps(plan, p)
-    wall = _wall(plan, p)
-    body = (Block(plan.contact, p.bottom, p.thickness), *wall, *holding, *holder)
+    body = (Block(plan.contact, p.bottom, p.thickness), *_wall(plan, p), *holding, *holder)
     levels = cavity_levels(foot, plan, p)
     place = [Block(outline, p.thickness + low, p.thickness + high) for low, high, outline in levels]
     place.append(Block(levels[-1][2], p.rim_top - 0.5, p.rim_top + 1.0))

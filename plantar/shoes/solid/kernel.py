@@ -110,8 +110,7 @@ def _body(block: Block | Groove) -> Any:
     if isinstance(block, Groove):
         line, edge, low = ring(block.line), ring(block.edge), block.z_low - _BELOW
         levels = [_at(line, low), _at(line, block.z_high), _at(edge, block.z_low), _at(edge, low)]
-        bottom = _face(levels[0][::-1], levels[-1])
-        return _solid([bottom, *(q for pair in pairwise(levels) for q in _sides(*pair))])
+        return _solid([_face(levels[0][::-1], levels[-1]), *(q for pair in pairwise(levels) for q in _sides(*pair))])
     if block.high is None:
         return _prism(block)
     levels = [_at(ring(block.low), block.z_low), _at(ring(block.high), block.z_high)]
