@@ -222,8 +222,7 @@ def _with_touching_vertices(
     import shapely
 
     edges = [(a, b) for ring in corners for a, b in zip(ring, [*ring[1:], ring[0]], strict=True)]
-    ends = np.array(edges)
-    lines = shapely.linestrings(vertices[ends])
+    lines = shapely.linestrings(vertices[np.array(edges)])
     on_edge, vertex = shapely.STRtree(shapely.points(vertices)).query(lines, predicate="dwithin", distance=tolerance)
     between: dict[int, list[tuple[float, int]]] = {}
     for e, v in zip(on_edge.tolist(), vertex.tolist(), strict=True):

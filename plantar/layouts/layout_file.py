@@ -84,7 +84,7 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
 
     Args:
         source: The result of `layout_to_dict`.
-        where: Name of source, for messages.
+        where: Source's name, for messages.
 
     Returns:
         The layout.
@@ -182,9 +182,10 @@ def write_layout(layout: SoleLayout, path: str | os.PathLike[str]) -> Path:
     """Write a layout file, whole or not at all; returns the path.
 
     Args:
-        layout: The layout.
+        layout: The layout; LayoutError if `read_layout` would refuse it.
         path: Replaced if it exists.
     """
+    check_cells(instance(layout, SoleLayout, "layout"))
     return write_text(path, json.dumps(layout_to_dict(layout), indent=1) + "\n")
 
 

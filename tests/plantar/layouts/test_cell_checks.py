@@ -1,10 +1,11 @@
 """Layout files whose cells contradict themselves are refused in one line that names the taxel."""
 
 import copy
+from dataclasses import replace
 
 import pytest
 
-from plantar import grid_layout, hex_layout, laid_over, write_layout
+from plantar import grid_layout, hex_layout, laid_over, layout_of_cells, write_layout
 from plantar.errors import InputError, LayoutError
 from plantar.layouts.layout_file import layout_from_dict, layout_to_dict
 
@@ -48,3 +49,11 @@ def test_what_is_no_layout_is_not_written(tmp_path):
     with pytest.raises(InputError, match="layout"):
         write_layout("x", tmp_path / "x.json")
     assert len(repr(SOLE)) < 100
+
+
+def test_what_could_not_be_read_again_is_not_written(tmp_path):
+    beside = layout_of_cells([SOLE.cell_polygon(0)], positions=[[0.5, 0.5]])
+    for layout, words in ((replace(SOLE, areas=2.0 * SOLE.areas), "'area'"), (beside, "'position' of taxel 0")):
+        with pytest.raises(LayoutError, match=words):
+            write_layout(layout, tmp_path / "sole.json")
+    assert not list(tmp_path.iterdir())
