@@ -29,7 +29,7 @@ def live(
     from plantar.live.record import record
     from plantar.live.source import open_live
 
-    keep_inputs(output, [source.partition(":")[2]])
+    keep_inputs(output, [source.partition(":")[2], layout])
     stream = open_live(source, None if layout is None else read_layout(layout))
     with parent_folder(output), progress_bar() as progress:
         found = {"file": str(output), **record(stream, output, seconds, progress)}

@@ -133,10 +133,12 @@ def test_what_measured_is_kept(tmp_path, monkeypatch):
     assert open_live("lines:insole", SOLE).kind == "insole"
 
 
-def test_a_replayed_recording_is_not_replaced(tmp_path):
+def test_a_replayed_recording_and_a_layout_are_not_replaced(tmp_path):
     (tmp_path / "run.mcap").write_text("a walk")
     with pytest.raises(InputError, match="it is what this is made of"):
         live(f"replay:{tmp_path / 'run.mcap'}", output=tmp_path / "run.mcap")
+    with pytest.raises(InputError, match="it is what this is made of"):
+        live("lines", layout=tmp_path / "run.mcap", output=tmp_path / "run.mcap")
     assert (tmp_path / "run.mcap").read_text() == "a walk"
 
 
