@@ -490,7 +490,7 @@ function turnable(canvas) {
 }
 
 $('time').max = String(end);
-$('full').textContent = (FULL * walks[0].weight).toFixed(0) + ' N';
+$('full').textContent = [...new Set(walks.map(walk => (FULL * walk.weight).toFixed(0) + ' N'))].join(', ');  // of each
 new ResizeObserver(() => { for (const space of spaces) if (space) space.resize(); soon(); }).observe($('walks'));
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { for (const space of spaces) if (space) space.recolour(); soon(); });
 const asked = /^#t=(\d+(?:\.\d+)?)$/.exec(location.hash);  // a link to an instant

@@ -96,6 +96,13 @@ def test_the_page_plays_steps_jumps_and_asks_for_nothing(page, tmp_path):
     assert [line for line in seen.console if "GPU stall" not in line and "GL Driver" not in line] == []
 
 
+def test_the_scale_is_that_of_each_walk(tmp_path):
+    runs = [write_walk(tmp_path / f"{mass}.mcap", mass=mass) for mass in (40.0, 80.0)]
+    write_page(runs, tmp_path / "view.html")
+    found = visit(tmp_path / "view.html", READY + "return byId('scale').textContent;", tmp_path, webgl=True)
+    assert found.found.startswith("0 N39 N, 78 N on a taxel.")
+
+
 def test_large_and_negative_forces_are_not_clipped(tmp_path, monkeypatch):
     heavy = {"left": np.full(8, 9000.0), "right": np.full(8, -2.0)}
     monkeypatch.setattr(small_walk, "forces", lambda time: heavy)
