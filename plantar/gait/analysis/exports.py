@@ -29,7 +29,7 @@ class GroundReaction(NamedTuple):
     """Ground reaction on one foot.
 
     Attributes:
-        force: Force (n, 3) in N; horizontal parts 0 if unmeasured.
+        force: Force (n, 3) in N, NaN if unmeasured; horizontal parts 0 without wrench.
         cop: Point (n, 2) in m, 0 without load.
         free: Free vertical moment (n,) there in N m.
     """
@@ -44,14 +44,15 @@ def ground_reactions(analysis: Analysis) -> dict[Side, GroundReaction]:
     out: dict[Side, GroundReaction] = {}
     for side, gait in analysis.feet.items():
         foot = gait.foot
-        vertical = np.nan_to_num(foot.vertical_force)
+        vertical, known = foot.vertical_force, foot.center_of_pressure(1e-6)
         force = np.column_stack([np.zeros((len(vertical), 2)), vertical])
-        free, known = np.zeros(len(vertical)), foot.center_of_pressure(1e-6)
+        free = np.zeros(len(vertical))
         cop = np.zeros((len(vertical), 2)) if known is None else np.nan_to_num(known)
         if foot.wrench is not None:
             wrench = np.nan_to_num(foot.wrench)
             force[:, :2] = wrench[:, :2]
             free = wrench[:, 5] - cop[:, 0] * force[:, 1] + cop[:, 1] * force[:, 0]
+        force[np.isnan(vertical)] = np.nan
         out[side] = GroundReaction(force, cop, free)
     return out
 
@@ -254,13 +255,12 @@ def _write_c3d(analysis: Analysis, path: Path) -> None:
     analog["SCALE"]["value"] = [1.0] * (6 * len(reactions))
     analog["OFFSET"]["value"] = [0] * (6 * len(reactions))
     channels, corners = [], []
-    for side, reaction in reactions.items():
+    for reaction in reactions.values():
         low, high = reaction.cop.min(axis=0) - 0.05, reaction.cop.max(axis=0) + 0.05
         x, y = (reaction.cop - 0.5 * (low + high)).T  # moments are about the middle of the plate
         fx, fy, fz = reaction.force.T
-        gone = lost | ~np.isfinite(analysis.feet[side].foot.vertical_force[at])
         six = np.array([fx, fy, fz, y * fz, -x * fz, x * fy - y * fx + reaction.free])[:, at]
-        channels.append(np.where(gone, np.nan, six))
+        channels.append(np.where(lost | np.isnan(fz[at]), np.nan, six))
         corners.append([[high[0], high[1], 0.0], [low[0], high[1], 0.0], [low[0], low[1], 0.0], [high[0], low[1], 0.0]])
     plates = parameters["FORCE_PLATFORM"]
     for name, value in (

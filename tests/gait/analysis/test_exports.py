@@ -55,6 +55,18 @@ def test_a_gap_in_time_is_a_gap_of_a_c3d_file(tmp_path, analysis):
         assert [s["peak_force_N"] for s in steps] == pytest.approx([s["peak_force_N"] for s in gait.steps], rel=0.01)
 
 
+def test_frames_that_were_not_measured_are_no_forces_of_zero(tmp_path, analysis):
+    soles = dict(analysis.recording.feet)
+    soles["left"] = replace(soles["left"], force=soles["left"].force.copy())
+    soles["left"].force[100:125] = np.nan
+    recording = replace(analysis.recording, feet=soles)
+    feet = analyse_feet(recording)
+    path = export_analysis(Analysis(recording, feet, metrics_of(recording, feet)), tmp_path / "walk.mot")[0]
+    names, *rows = [line.split("\t") for line in path.read_text().splitlines()[6:]]
+    force = np.array([row[names.index("ground_force_left_vy")] for row in rows], dtype=float)
+    assert np.flatnonzero(np.isnan(force)).tolist() == list(range(100, 125))
+
+
 @pytest.mark.parametrize("suffix", [".npz", ".csv"])
 def test_what_was_exported_measures_the_same(tmp_path, analysis, suffix):
     files = export_analysis(analysis, tmp_path / "made" / f"walk{suffix}")
