@@ -59,7 +59,7 @@ def live_sources() -> dict[str, LiveSource]:
 
 def open_live(text: str, layout: SoleLayout | None = None) -> LiveStream:
     """Returns the stream of a source by its `text`, such as "replay:run.mcap"; its soles have a `layout`, mirrored for
-    the other foot, or their own. InputError if it is unknown or cannot be opened.
+    the other foot, or their own. PlantarError if it is unknown or cannot be opened.
     """
     name, _, address = text.partition(":")
     known = live_sources()
