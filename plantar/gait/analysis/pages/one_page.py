@@ -132,7 +132,7 @@ def _draw_butterfly(panel: Any, recording: PressureRecording, feet: Mapping[Side
     if len(known) < 2:
         panel.text(0.5, 0.5, "takes both feet with cells", ha="center", va="center", transform=panel.transAxes)
         return
-    force = {s: np.nan_to_num(g.foot.vertical_force) for s, g in known.items()}
+    force = {s: g.foot.vertical_force for s, g in known.items()}  # NaN: of two feet one has no CoP
     total = np.sum(list(force.values()), axis=0)
     beside = {"left": np.array([0.0, _APART]), "right": np.array([0.0, -_APART])}
     plates = recording.kind in ("plate", "platform")
@@ -143,7 +143,7 @@ def _draw_butterfly(panel: Any, recording: PressureRecording, feet: Mapping[Side
             if g.cop is not None
         ]
         both = np.sum(parts, axis=0) / total[:, None]
-    on = total > 0.3 * float(np.percentile(total, 98.0))
+    on = total > 0.3 * float(np.nanpercentile(total, 98.0))
     step = next(iter(known.values())).used
     window = (recording.time >= step[0].heel_strike_s) & (recording.time <= step[-1].toe_off_s) & on
     points = np.where(window[:, None], both, np.nan)[: max(1, round(20.0 * recording.rate_hz)) + int(np.argmax(window))]
