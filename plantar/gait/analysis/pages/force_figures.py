@@ -112,7 +112,11 @@ def figure_wrench(recording: PressureRecording, feet: Mapping[Side, FootGait]) -
     if recording.kind != "robot" or recording.raw:
         return None
     feet_of_cells = ((side, gait.foot, gait.foot.layout) for side, gait in feet.items())
-    wrenches = {s: foot.measured @ layout.wrench_map.T for s, foot, layout in feet_of_cells if layout is not None}
+    wrenches = {
+        s: np.where(np.isnan(foot.vertical_force)[:, None], np.nan, foot.measured @ layout.wrench_map.T)
+        for s, foot, layout in feet_of_cells
+        if layout is not None
+    }
     if not wrenches:
         return None
     figure, axes = new_figure(10.0, 5.6, rows=3, grid=True, sharex=True)
