@@ -47,7 +47,7 @@ def identify_faults(layout: SoleLayout, time: ArrayLike, force: ArrayLike, read:
         layout: Sole, n taxels.
         time: Times (t,) in s, increasing, 20 or more.
         force: Known normal force (t, n) on each taxel in N, rising and falling.
-        read: Readings (t, n) in N; NaN if dead.
+        read: Readings (t, n) in N; NaN if dead, or in frames to leave out.
 
     Returns faults; raises ReadingError under 20 frames.
     """
@@ -56,11 +56,16 @@ def identify_faults(layout: SoleLayout, time: ArrayLike, force: ArrayLike, read:
         raise ReadingError("faults are identified from 20 frames or more, at times that increase")
     truth = array(force, "forces", (len(times), len(layout)), ReadingError, finite=True)
     seen = array(read, "readings", truth.shape, ReadingError)
-    seen = np.where(np.abs(seen) > LARGEST, np.nan, seen)
+    lost = ~(np.abs(seen) <= LARGEST)
+    dead = lost.mean(axis=0) > 0.5
+    whole = ~lost[:, ~dead].any(axis=1)  # frames that the others all measured
+    times, truth, seen = times[whole], truth[whole], np.where(lost, np.nan, seen)[whole]
+    if len(times) < 20:
+        raise ReadingError(f"{len(times)} frames were measured by all taxels that are not dead; allowed: 20 or more")
     loaded = np.ptp(truth, axis=0) > 0.0
     if not loaded.any():
         raise ReadingError("no taxel's load changes; press each with loads that come on and go off")
-    dead = ~np.isfinite(seen).all(axis=0) | (loaded & (np.ptp(np.nan_to_num(seen), axis=0) == 0.0))
+    dead |= loaded & (np.ptp(np.nan_to_num(seen), axis=0) == 0.0)
     used = np.flatnonzero(loaded & ~dead)
     if not len(used):
         raise ReadingError("all taxels that are loaded are dead")
@@ -81,14 +86,13 @@ def identify_faults(layout: SoleLayout, time: ArrayLike, force: ArrayLike, read:
     offsets[used], drifts[used], gains[used] = solved
     left[used] = np.sqrt(np.square(residual).mean(axis=0))
     error[used] = fit.gain_error(shares, residual)
-    noise = math.sqrt(max(0.0, float(np.median(left[used])) ** 2 - resolution**2 / 12.0))
     statistics = replace(
         common,
         gain=float(gains[used].std()),
         offset=float(offsets[used].std()),
         drift=float(drifts[used].std()),
         dead=min(0.9, float(dead.mean())),
-        noise=noise,
+        noise=math.sqrt(max(0.0, float(np.median(left[used])) ** 2 - resolution**2 / 12.0)),
         resolution=resolution,
     )
     gains, offsets, drifts = np.where(

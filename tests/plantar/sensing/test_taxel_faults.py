@@ -114,6 +114,18 @@ def test_resolution_is_found_and_none_where_there_is_none():
         assert identify_faults(SOLE, time, force, read).faults.resolution == pytest.approx(resolution, abs=1e-6)
 
 
+def test_frames_that_were_lost_kill_no_taxel():
+    time, force, read, worn = recording(TaxelFaults(gain=0.1, dead=0.1), frames=60)
+    read[20], read[30, 0] = np.nan, np.inf
+    found = identify_faults(SOLE, time, force, read)
+    assert np.array_equal(found.worn.dead, worn.dead)
+    assert np.abs(found.worn.gains - worn.gains)[~worn.dead].max() < 0.01
+    read[:18, 1] = np.nan
+    read[22:40, 2] = np.nan
+    with pytest.raises(ReadingError, match="allowed: 20 or more"):
+        identify_faults(SOLE, time[:40], force[:40], read[:40])
+
+
 def test_recordings_that_identify_nothing_are_refused():
     time, force, read, _ = recording(TaxelFaults(), frames=30)
     with pytest.raises(ReadingError, match="20 frames"):
