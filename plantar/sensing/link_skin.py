@@ -64,8 +64,7 @@ class SkinPatch:
     @property
     def from_middle(self) -> NDArray[np.int64]:
         """Indices (t,) of the taxels, nearest to the patch's middle first."""
-        off = np.linalg.norm(self.positions - self.positions.mean(axis=0), axis=1)
-        return np.asarray(np.argsort(off))
+        return np.asarray(np.argsort(np.linalg.norm(self.positions - self.positions.mean(axis=0), axis=1)))
 
 
 class BodySkin:

@@ -131,8 +131,7 @@ def _inside(layout: SoleLayout, cell: int, beside: NDArray[np.int64], loaded: ND
         return False
     way = layout.positions[on, :2] - layout.positions[cell, :2]
     angles = np.sort(np.degrees(np.arctan2(way[:, 1], way[:, 0])))
-    gap = float(np.diff(np.append(angles, angles[0] + 360.0)).max())
-    return gap < _GAP or (mirror and len(on) == len(beside))
+    return float(np.diff(np.append(angles, angles[0] + 360.0)).max()) < _GAP or (mirror and len(on) == len(beside))
 
 
 def silent_cell_doubts(recording: PressureRecording) -> list[str]:

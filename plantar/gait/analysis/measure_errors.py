@@ -100,14 +100,13 @@ def _places(layout: SoleLayout, levels: Levels, middle: Mapping[str, float]) -> 
     ahead, across = (float(np.hypot(n, _FRAME * pitch / np.sqrt(loaded))) for n in noise)
     pieces = max(1.0, middle["contact_time_s"] / 0.05)
     path = float(np.hypot(np.hypot(ahead, across) * min(np.sqrt(2.0 * pieces), 2.0), 2.0**0.5 * np.hypot(*at_ends)))
-    width = float(np.ptp(layout.outline[:, 1]))
     return {
         "cop_path_m": path,
         "cop_excursion_ap_m": 2.0**0.5 * float(np.hypot(ahead, at_ends[0])),
         "cop_excursion_ml_m": 2.0**0.5 * float(np.hypot(across, at_ends[1])),
         "cop_velocity_m_s": path / middle["contact_time_s"],
         "cop_velocity_max_m_s": 2.0**0.5 * float(np.hypot(ahead, across)) / 0.05,
-        "cpei_percent": 100.0 * 1.5 * across / width,
+        "cpei_percent": 100.0 * 1.5 * across / float(np.ptp(layout.outline[:, 1])),
         "cop_margin_m": across,
         "cop_margin_polygon_m": 0.5 * pitch,
         "cop_margin_polygon_mean_m": 0.5 * pitch / np.sqrt(pieces),

@@ -200,8 +200,7 @@ def analyse_foot(
     for group in [[c] for c in complete] if platform else loads.blocks(complete):
         load = loads.of(*group)
         print_, region = footprint_of_step(recording, gait, loads, group[0], prints)
-        lasts = [cast(float, c.toe_off) - cast(float, c.heel_strike) for c in group]
-        regions = _regions(load, region, lasts)
+        regions = _regions(load, region, [cast(float, c.toe_off) - cast(float, c.heel_strike) for c in group])
         pressures = [{}] * len(group) if load.pressure is None else pressure_measures(load, gait.foot.layout)
         for contact, pressure, own in zip(group, pressures, regions, strict=True):
             times = time_measures(contact, before[id(contact)], next(strides), next(longest), others)

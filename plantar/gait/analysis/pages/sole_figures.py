@@ -63,7 +63,7 @@ def _draw_pictures(
 
 
 def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Returns figure of maximum pressure and CoP paths of a recording's feet; None without geometry."""
+    """Figure of maximum pressure and CoP paths of a recording's feet; None without geometry."""
     pictured = {side: gait for side, gait in feet.items() if gait.picture is not None}
     if not pictured:
         return None
@@ -123,7 +123,7 @@ def _mean_path(paths: Sequence[NDArray[np.float64]]) -> NDArray[np.float64] | No
 
 
 def figure_pair(recordings: Sequence[tuple[str, PressureRecording, Mapping[Side, FootGait]]]) -> Any | None:
-    """Returns maximum pressure pictures of recordings (name, recording, feet) on one scale; None without geometry."""
+    """Maximum pressure pictures of recordings (name, recording, feet) on one scale; None without geometry."""
     if not all(any(gait.picture is not None for gait in feet.values()) for _, _, feet in recordings):
         return None
     panels = [
@@ -145,7 +145,7 @@ class _Regions(NamedTuple):
 
 
 def figure_regions(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Returns figure of regions, axes and thirds of a recording's feet; of platforms each first print.
+    """Figure of regions, axes and thirds of a recording's feet; of platforms each first print.
 
     None without regions.
     """
@@ -202,7 +202,7 @@ _MARGIN = 0.01  # Width in m of the frame around the cells
 
 
 def stepped_on(layout: SoleLayout, hit: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Returns indices (m,) of stepped-on cells and neighbours, and corners (4, 2) in m around them.
+    """Indices (m,) of stepped-on cells and neighbours, and corners (4, 2) in m around them.
 
     Args:
         layout: Platform, k cells.

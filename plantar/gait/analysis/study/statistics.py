@@ -253,8 +253,7 @@ def _independent_t(both: NDArray[np.float64], first: NDArray[np.float64]) -> NDA
 
 
 def _ratio(mean: NDArray[np.float64], error: NDArray[np.float64]) -> NDArray[np.float64]:
-    least = 1e-12 * np.maximum(np.abs(mean), 1e-300)
-    return np.asarray(np.where(mean == 0.0, 0.0, mean / np.maximum(error, least)))
+    return np.asarray(np.where(mean == 0.0, 0.0, mean / np.maximum(error, 1e-12 * np.maximum(np.abs(mean), 1e-300))))
 
 
 def _clusters(
