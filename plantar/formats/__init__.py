@@ -48,7 +48,7 @@ def _formats() -> dict[str, Format]:
 
 
 def named_format(path: str | os.PathLike[str], name: str | None = None) -> Format:
-    """Format of a name, or of the content of the file at path if name is None; else FormatError."""
+    """Returns format of a name, or of the content of the file at path if name is None; else FormatError."""
     known = formats()
     if name is not None and name not in known:
         raise FormatError(f"unknown format {name!r}; allowed: {', '.join(known)}")

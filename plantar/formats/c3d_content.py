@@ -36,7 +36,7 @@ def foot_of_marker(label: str) -> Side | None:
 
 
 def event_of(label: str, context: str = "") -> tuple[Side, str] | None:
-    """Foot and "strikes" or "lifts" of an event's label and context, or None.
+    """Returns foot and "strikes" or "lifts" of an event's label and context, or None.
 
     Example:
         >>> event_of("LHS"), event_of("RTO"), event_of("Foot Off", "Right"), event_of("start", "General")

@@ -20,7 +20,7 @@ _IN_AIR, _ALONE = 0.05, 0.15
 def unit_of_values(
     stated: str | None, options: ReadOptions, warnings: list[str], what: str = "the file", pressures: bool = False
 ) -> Unit:
-    """Unit of values: the options', the stated one, or raw counts with warnings that name what.
+    """Returns unit of values: the options', the stated one, or raw counts with warnings that name what.
 
     FormatError if unknown, or a force's for pressures.
     """
@@ -44,7 +44,7 @@ def cells_of_foot(
     ids: Sequence[int] | None = None,
     own: SoleLayout | None = None,
 ) -> FootRecording:
-    """One foot's forces from values in a unit; FormatError for an unfit layout, or pressures without areas.
+    """Returns one foot's forces from values in a unit; FormatError for an unfit layout, or pressures without areas.
 
     Args:
         side: Foot.
@@ -84,7 +84,7 @@ def foot_of_matrix(
     name: str,
     threshold: float,
 ) -> FootRecording:
-    """Forces of a cell matrix, on the user's layout or rectangles; FormatError if unfit.
+    """Returns forces of a cell matrix, on the user's layout or rectangles; FormatError if unfit.
 
     Args:
         side: Foot.
@@ -113,7 +113,7 @@ def scale_to_force(values: NDArray[np.float64], unit: Unit, areas: NDArray[np.fl
 def halves(
     values: NDArray[np.float64], options: ReadOptions, warnings: list[str]
 ) -> list[tuple[Side, NDArray[np.float64]]]:
-    """Feet and columns of values (n, k) that name none, by options; warnings get assumptions."""
+    """Returns feet and columns of values (n, k) that name none, by options; warnings get assumptions."""
     k, side, why = values.shape[1], options.side, ""
     if options.layout is not None and k == 2 * len(options.layout):
         why = "there are twice the layout's cells"

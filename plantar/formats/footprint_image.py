@@ -55,7 +55,7 @@ class FootprintImage:
 
 
 def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintImage:
-    """Footprints in an image at path, of mm_per_pixel mm or the file's resolution.
+    """Returns footprints in an image at path, of mm_per_pixel mm or the file's resolution.
 
     Raises:
         FormatError: If unreadable or without footprint.

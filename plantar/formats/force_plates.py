@@ -43,7 +43,7 @@ def feet_of_plates(
     markers: Mapping[Side, NDArray[np.float64]] | None = None,
     events: Mapping[Side, StatedEvents] | None = None,
 ) -> tuple[dict[Side, FootRecording], bool]:
-    """Feet on force plates, and whether plates see every step, as a treadmill's do.
+    """Returns feet on force plates, and whether plates see every step, as a treadmill's do.
 
     Each plate's zero is the mean of its empty frames; its sign that of its load.
 
@@ -197,7 +197,7 @@ def _refuse_no_foot(plate: Plate) -> None:
 
 
 def on_its_surface(plate: Plate, warnings: list[str]) -> Plate:
-    """Plate with centre of pressure on its surface and free moment about its normal; adds to `warnings`."""
+    """Returns a plate with centre of pressure on its surface and free moment about its normal; adds to `warnings`."""
     vertical = np.where(plate.force[:, 2] > LEAST, plate.force[:, 2], np.nan)
     cop, free = plate.cop, plate.free
     if plate.moment is not None:

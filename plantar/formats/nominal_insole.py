@@ -49,7 +49,7 @@ def insole_outline(length: float) -> NDArray[np.float64]:
 
 
 def nominal_insole(size: str, side: Side) -> SoleLayout:
-    """Parametric insole of a side: 99 quadrilateral cells with the size's published areas (`CELL_AREAS`).
+    """Returns parametric insole of a side: 99 quadrilateral cells with the size's published areas (`CELL_AREAS`).
 
     Row heights are proportional to cell areas. Origin in the middle of the heel edge; x to the toe; ids 1 to 99.
 
@@ -140,7 +140,7 @@ _AREA_SIZE = 7
 
 
 def moticon_insole(size: int | None, side: Side, areas: NDArray[np.float64] | None = None) -> SoleLayout:
-    """Insole of a size (7 if unknown) and side, cut into the parts nearest to each cell.
+    """Returns insole of a size (7 if unknown) and side, cut into the parts nearest to each cell.
 
     Origin in the middle of the heel edge, ids 1 to 16. Areas (16,) in m^2 are the recording's, if known.
 

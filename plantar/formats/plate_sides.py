@@ -65,7 +65,7 @@ class PlateContact:
 
 
 def plate_contacts(plate: int, vertical: NDArray[np.float64], rate: float) -> list[PlateContact]:
-    """Plate contacts by vertical force (n,) in N at a rate in Hz, cut ones too; none if throughout."""
+    """Returns plate contacts by vertical force (n,) in N at a rate in Hz, cut ones too; none if throughout."""
     force = np.nan_to_num(vertical)
     loaded = force > max(LEAST, _SHARE * float(np.percentile(force, 99.5)))
     out: list[PlateContact] = []
@@ -87,7 +87,7 @@ def sides_of_contacts(
     markers: Mapping[Side, NDArray[np.float64]] | None = None,
     events: Mapping[Side, StatedEvents] | None = None,
 ) -> list[Side]:
-    """Foot of each of the plates' contacts; its reason is added to the warnings.
+    """Returns foot of each of the plates' contacts; its reason is added to the warnings.
 
     Args:
         plates: May name their foot.

@@ -16,7 +16,7 @@ from plantar.layouts.layout import DEFAULT_RANGES, Side, SoleLayout
 def grid_cells(
     present: NDArray[np.bool_], row_pitch: float, column_pitch: float, *, side: Side, name: str, threshold: float
 ) -> SoleLayout:
-    """Layout of a matrix' present cells; first row front, first column left.
+    """Returns layout of a matrix' present cells; first row front, first column left.
 
     Origin in the middle of the hind edge; ids count the whole matrix.
 
@@ -62,7 +62,7 @@ def grid_cells(
 
 
 def polygon_layout(rings: Sequence[NDArray[np.float64]], *, ids: Sequence[int], side: Side, name: str) -> SoleLayout:
-    """Named layout of a side from rings: corners (k, 2) of each cell in m, counter-clockwise, and ids.
+    """Returns named layout of a side from rings: corners (k, 2) of each cell in m, counter-clockwise, and ids.
 
     Cells sharing two corners are neighbours, the outline is the convex hull, the threshold 10 kPa. FormatError for
     repeated ids or cells without area.
@@ -97,7 +97,7 @@ def flat_sole(
     cell_shape: str = "polygon",
     threshold: float = 10e3,
 ) -> SoleLayout:
-    """Flat layout of a name, side and outline (k, 2); FormatError if it is not valid.
+    """Returns flat layout of a name, side and outline (k, 2); FormatError if it is not valid.
 
     Its force cells have ids, places (n, 2), corners among vertices (m, 2), neighbours, areas (n,), a cell_shape and
     usual cell_area, in m, and are loaded from a threshold in Pa.
@@ -126,7 +126,7 @@ def flat_sole(
 
 
 def cells_by_id(layout: SoleLayout, ids: Sequence[int]) -> SoleLayout | None:
-    """Layout's cells of ids in their order; None for others or twice the same."""
+    """Returns a layout's cells of ids in their order; None for others or twice the same."""
     index = {int(v): i for i, v in enumerate(layout.ids)}
     if len(set(ids)) < len(ids) or not set(ids) <= set(index):
         return None
@@ -135,7 +135,7 @@ def cells_by_id(layout: SoleLayout, ids: Sequence[int]) -> SoleLayout | None:
 
 
 def subset(layout: SoleLayout, cells: Sequence[int]) -> SoleLayout:
-    """Layout of cells by indices, each once, in their order; vertices and outline stay.
+    """Returns layout of cells by indices, each once, in their order; vertices and outline stay.
 
     Example:
         >>> from plantar import hex_layout
@@ -157,7 +157,7 @@ def subset(layout: SoleLayout, cells: Sequence[int]) -> SoleLayout:
 
 
 def corner_table(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np.float64] | None:
-    """Corners (cells, 4, 2) in m in file axes, from rows "x[0]" .. "y[3]" (in cm) of its tail.
+    """Returns corners (cells, 4, 2) in m in file axes, from rows "x[0]" .. "y[3]" (in cm) of its tail.
 
     None without a whole table; reported in warnings.
     """
@@ -183,7 +183,7 @@ def corner_table(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np
 
 
 def layout_of_corners(corners: NDArray[np.float64], cells: list[int], side: Side) -> SoleLayout:
-    """Layout of a side's quadrilateral cells by corners (n, 4, 2) in m in file axes.
+    """Returns layout of a side's quadrilateral cells by corners (n, 4, 2) in m in file axes.
 
     File y becomes x (forward), file x becomes -y (right).
     """

@@ -31,7 +31,7 @@ _FOLDERS = "metadata.yaml"
 
 
 def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
-    """Recording of a bag's arrays.
+    """Returns recording of a bag's arrays.
 
     Args:
         path: ROS 2 bag folder, or one of its files.

@@ -77,7 +77,7 @@ def number_of_side(cell: str) -> str:
 
 
 def rows_of_sides(values: NDArray[np.float64], warnings: list[str]) -> dict[Side, NDArray[np.int64]]:
-    """Each foot's row indices by values (n,) of a side column; warnings get assumptions."""
+    """Returns each foot's row indices by values (n,) of a side column; warnings get assumptions."""
     kinds = np.unique(values[np.isfinite(values)])
     if len(kinds) > 2 or len(kinds) == 0:
         raise FormatError(
@@ -99,7 +99,7 @@ def rows_of_sides(values: NDArray[np.float64], warnings: list[str]) -> dict[Side
 def on_one_time(
     feet: Mapping[Side, tuple[NDArray[np.float64], NDArray[np.float64]]], warnings: list[str]
 ) -> tuple[NDArray[np.float64], dict[Side, NDArray[np.float64]]]:
-    """Feet, of times (n,) and values (n, k) each, on one time base: times (m,) and values (m, k).
+    """Returns feet, of times (n,) and values (n, k) each, on one time base: times (m,) and values (m, k).
 
     Where times differ, `warnings` tell that the right foot is interpolated at the left's; NaN where a foot pauses.
     FormatError for a foot without time.

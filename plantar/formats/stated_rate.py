@@ -36,7 +36,7 @@ _THOUSANDS = re.compile(r"[1-4][.,]\d{3}")  # Hz: no gait is seen in four frames
 
 
 def stated_rate(facts: Mapping[str, str], warnings: list[str]) -> float | None:
-    """Rate in Hz by the first of named facts that states it or a frame's time; None without.
+    """Returns rate in Hz by the first of named facts that states it or a frame's time; None without.
 
     The unit decides which, else the name; warnings get assumptions. FormatError for no number, or outside RATES.
 
@@ -75,7 +75,7 @@ def stated_rate(facts: Mapping[str, str], warnings: list[str]) -> float | None:
 
 
 def or_usual(rate: float | None, without: str, warnings: list[str]) -> float:
-    """Rate in Hz, else the usual one; warnings tell what the file is without."""
+    """Returns rate in Hz, else the usual one; warnings tell what the file is without."""
     if rate is None:
         warnings.append(f"{without}: {_USUAL:g} Hz is assumed (--rate overrides)")
     return rate or _USUAL

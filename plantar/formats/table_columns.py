@@ -33,7 +33,7 @@ def recording_of_columns(
     facts: dict[str, str] | None = None,
     warnings: list[str] | None = None,
 ) -> PressureRecording:
-    """Recording from a table of numbers and its column names.
+    """Returns recording from a table of numbers and its column names.
 
     Columns are plates' forces, moments and CoP, a foot's forces, or cells, by quantity; others are left out with a
     warning. FormatError without load columns, for trial curves, or an unknown unit.

@@ -50,7 +50,7 @@ def feet_of_forces(
     stated: str | None,
     warnings: list[str],
 ) -> tuple[dict[Side, FootRecording], bool, str, bool]:
-    """Feet; whether every step is seen; "plate" or "insole"; and whether forces are percent of body weight.
+    """Returns feet; whether every step is seen; "plate" or "insole"; and whether forces are percent of body weight.
 
     Args:
         table: Numbers (n, k).

@@ -216,7 +216,7 @@ _SINCE = datetime(2020, 1, 1)
 
 
 def names_of_row(line: str, delimiter: str | None) -> list[str]:
-    """Unquoted cells of a names line between a delimiter (None: blanks), which quotes may contain."""
+    """Returns unquoted cells of a names line between a delimiter (None: blanks), which quotes may contain."""
     if delimiter is None or '"' not in line:
         return [cell.strip() for cell in line.split(delimiter)]
     (cells,) = csv.reader([line], delimiter=delimiter)

@@ -133,7 +133,7 @@ def table_of_lines(
     warnings: list[str],
     columns: Sequence[int] = (),
 ) -> NDArray[np.float64]:
-    """Numbers (n, k) of a file's lines at path, NaN for empty cells or none.
+    """Returns numbers (n, k) of a file's lines at path, NaN for empty cells or none.
 
     Warnings get repairs. FormatError without lines, or if too many are damaged.
 

@@ -89,7 +89,7 @@ def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.fl
 
     Args:
         polygon: Convex polygon (k, 2) in m.
-        angle: Of first side against x in rad; InputError unless finite.
+        angle: Of first side against x in rad, finite.
 
     Returns:
         Corners (4, 2) in m from the lower left one at angle 0; area exact to 1e-12; to 1e-8 where edges are almost
@@ -113,7 +113,7 @@ def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.flo
 
     Args:
         outline: Outline with islands and holes in m.
-        angle: Of first side against x in rad; InputError unless finite.
+        angle: Of first side against x in rad, finite.
 
     Returns:
         Corners (4, 2) in m; area exact to 1e-12; to 1e-7 where edges are almost parallel to sides. (0, 2) if empty.

@@ -22,7 +22,7 @@ _NOISE = 1e-15  # of a polygon's extent: corners that a cut leaves nearer to eac
 
 
 def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
-    """Returns convex hull (k, 2) of points (n, 2) in m, counter-clockwise from the lowest x, without vertices on
+    """Convex hull (k, 2) of points (n, 2) in m, counter-clockwise from the lowest x, without vertices on
     straight edges: Andrew's monotone chain.
 
     Vertices are input points; those not finite, or beyond 1e100 m, are left out. Every turn is decided exactly; a

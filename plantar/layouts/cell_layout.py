@@ -45,7 +45,7 @@ def layout_of_cells(
         The layout; its `cell_area` is the median.
 
     Raises:
-        LayoutError: If cells or fields are invalid.
+        LayoutError: Invalid cells or fields.
 
     Example:
         >>> square = np.array([[0.0, 0.0], [0.02, 0.0], [0.02, 0.02], [0.0, 0.02]])
@@ -105,7 +105,7 @@ def joined_layout(
         Cells in order with ids 0, 1, ...; quantities, ranges and thresholds of the first part.
 
     Raises:
-        LayoutError: If parts do not fit together.
+        LayoutError: Parts do not fit.
 
     Example:
         >>> from plantar import grid_layout, hex_layout

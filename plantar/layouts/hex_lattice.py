@@ -41,7 +41,7 @@ class HexLattice:
         angle: Rotation of rows against x in rad.
 
     Raises:
-        InputError: If a value is invalid.
+        InputError: Invalid value.
 
     Example:
         >>> lattice = HexLattice(area=691e-6)

@@ -75,7 +75,7 @@ class SoleLayout:
         thresholds: Activation threshold of each in SI.
 
     Raises:
-        LayoutError: If a field is invalid; the message names it.
+        LayoutError: Invalid field, named in the message.
 
     Example:
         >>> from plantar import grid_layout
@@ -274,13 +274,13 @@ class SoleLayout:
 
 
 def mirrored(layout: SoleLayout) -> SoleLayout:
-    """Returns the same sole for the other foot: y changes sign, order stays.
+    """Same sole for the other foot: y changes sign, order stays.
 
     Args:
         layout: Layout of one side.
 
     Raises:
-        InputError: If it is not a layout.
+        InputError: Not a layout.
 
     Example:
         >>> from plantar import hex_layout

@@ -90,7 +90,7 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
         The layout.
 
     Raises:
-        LayoutError: If a field, unit or cell is wrong.
+        LayoutError: Wrong field, unit or cell.
     """
     if not isinstance(source, Mapping):
         raise LayoutError(f"{where}: not a JSON object")

@@ -57,13 +57,13 @@ def figures_of(figures: Iterable[tuple[Path, str]]) -> Section:
 
 
 def embedded(figures: Iterable[tuple[Path, str]], names: Sequence[str] | None = None) -> str:
-    """HTML of embedded figures: PNG files with captions, those of the given names (stems), or all."""
+    """Returns HTML of embedded figures: PNG files with captions, those of the given names (stems), or all."""
     taken = (one for one in figures if names is None or one[0].stem in names)
     return "".join(figure(path.read_bytes(), caption) for path, caption in taken)
 
 
 def figure(content: bytes, caption: str) -> str:
-    """HTML of an embedded figure: content is a PNG's bytes, caption plain text."""
+    """Returns HTML of an embedded figure: content is a PNG's bytes, caption plain text."""
     data, text = base64.b64encode(content).decode(), html.escape(caption)
     width = int.from_bytes(content[16:20], "big")  # of the PNG's first chunk
     wide = f' class="wide" tabindex="0" aria-label="{text}"' if width > _WIDE else ""

@@ -120,7 +120,7 @@ class SolePose:
 
 
 def _on_surface(ring: NDArray[np.float64], vertices: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Corners (m, 3) of a ring (k, 2), with those of a sole's `vertices` (v, 3) that lie on its edges."""
+    """A ring's corners (m, 3), with the sole's `vertices` (v, 3) on its edges."""
     height = {(x, y): z for x, y, z in vertices.tolist()}
     points = []
     for (x, y), along in zip(ring.tolist(), np.roll(ring, -1, axis=0) - ring, strict=True):

@@ -53,7 +53,7 @@ def _classes() -> dict[str, Any]:
 
 
 def message_of(schema: str, encoded: bytes) -> Message:
-    """An `encoded` message of a `schema` of SCHEMAS; ValueError if damaged or too large."""
+    """Returns an `encoded` message of a `schema` of SCHEMAS; ValueError if damaged or too large."""
     from google.protobuf.message import DecodeError
 
     if len(encoded) > _LARGEST:
@@ -94,11 +94,11 @@ class Template:
             self._filled_in[at] = True
 
     def filled(self, time_s: float, values: ArrayLike = ()) -> bytes:
-        """Encoded message at `time_s` in s, 0 or more, with the `values` of its slots."""
+        """Returns encoded message at `time_s` in s, 0 or more, with the `values` of its slots."""
         return self.filled_all([round(time_s * 1e9)], np.asarray(values, dtype=float).reshape(1, -1)).tobytes()
 
     def filled_all(self, times: ArrayLike, values: NDArray[np.float64]) -> NDArray[np.uint8]:
-        """Encodings (m, l) of messages at `times` (m,) in ns, with the slots' `values` (m, k)."""
+        """Returns encodings (m, l) of messages at `times` (m,) in ns, with the slots' `values` (m, k)."""
         seconds, nanoseconds = np.divmod(np.asarray(times, dtype=np.uint64), np.uint64(10**9))
         out = np.tile(self._data, (len(seconds), 1))
         if len(self._slots):
@@ -132,13 +132,13 @@ def _long_varints(values: NDArray[np.uint64]) -> NDArray[np.uint8]:
 
 
 def frame_transform(frame: str, translation: Numbers, rotation: Numbers, parent: str = "world") -> Message:
-    """foxglove.FrameTransforms: `translation` and `rotation` of `frame` in its `parent`."""
+    """Returns foxglove.FrameTransforms: `translation` and `rotation` of `frame` in its `parent`."""
     own = {"parent_frame_id": parent, "child_frame_id": frame, "translation": _xyz(translation)}
     return _classes()[SCHEMAS[0]](transforms=[{**own, "timestamp": _TIME, "rotation": _xyz(rotation)}])
 
 
 def entity(name: str, frame: str, *primitives: Message, locked: bool = True) -> Message:
-    """foxglove.SceneUpdate of an entity: `primitives` in `frame` coordinates under a `name`.
+    """Returns foxglove.SceneUpdate of an entity: `primitives` in `frame` coordinates under a `name`.
 
     Replaces the topic's entity of that name. A `locked` one moves with its frame.
     """
@@ -163,51 +163,51 @@ def _primitive(kind: str, colour: Numbers, **fields: Any) -> Message:
 
 
 def pose(position: Numbers, rotation: Numbers = _UPRIGHT) -> dict[str, Any]:
-    """Primitive's pose: `position` and `rotation`."""
+    """Returns primitive's pose: `position` and `rotation`."""
     return {"position": _xyz(position), "orientation": _xyz(rotation)}
 
 
 def cube(place: dict[str, Any], size: Numbers, colour: Numbers) -> Message:
-    """Box with edges `size` (x, y, z) and `colour`, centred at `place`."""
+    """Returns box with edges `size` (x, y, z) and `colour`, centred at `place`."""
     return _primitive("cubes", colour, pose=place, size=_xyz(size))
 
 
 def sphere(place: dict[str, Any], size: Numbers, colour: Numbers) -> Message:
-    """Sphere or ellipsoid with diameters `size` (x, y, z) and `colour` at `place`."""
+    """Returns sphere or ellipsoid with diameters `size` (x, y, z) and `colour` at `place`."""
     return _primitive("spheres", colour, pose=place, size=_xyz(size))
 
 
 def cylinder(place: dict[str, Any], size: Numbers, colour: Numbers) -> Message:
-    """Cylinder along z with diameters and height `size` (x, y, z) and `colour` at `place`."""
+    """Returns cylinder along z with diameters and height `size` (x, y, z) and `colour` at `place`."""
     return _primitive("cylinders", colour, pose=place, size=_xyz(size), bottom_scale=1.0, top_scale=1.0)
 
 
 def arrow(place: dict[str, Any], length: float, thickness: float, colour: Numbers) -> Message:
-    """Arrow along x from `place`: shaft `length` and `thickness`, and `colour`; its head is twice as wide."""
+    """Returns arrow along x from `place`: shaft `length` and `thickness`, and `colour`; its head is twice as wide."""
     sizes = {"shaft_length": length, "shaft_diameter": thickness}
     head = {"head_length": 2.0 * thickness, "head_diameter": 2.0 * thickness}
     return _primitive("arrows", colour, pose=place, **sizes, **head)
 
 
 def line_loop(points: Iterable[Numbers], thickness: float, colour: Numbers) -> Message:
-    """Closed line through `points` (x, y, z) of a `thickness` and `colour`."""
+    """Returns closed line through `points` (x, y, z) of a `thickness` and `colour`."""
     corners = [_xyz(point) for point in points]
     return _primitive("lines", colour, type=_LINE_LOOP, pose=pose(_ORIGIN), thickness=thickness, points=corners)
 
 
 def triangles(points: Iterable[Numbers], indices: ArrayLike, colour: Numbers) -> Message:
-    """Triangles of one `colour`: three `indices` each into `points`, counter-clockwise from outside."""
+    """Returns triangles of one `colour`: three `indices` each into `points`, counter-clockwise from outside."""
     corners, faces = [_xyz(point) for point in points], np.ravel(indices).tolist()
     return _primitive("triangles", colour, pose=pose(_ORIGIN), points=corners, indices=faces)
 
 
 def words(place: dict[str, Any], value: str, size: float, colour: Numbers) -> Message:
-    """Text `value` at `place` facing the viewer, with letters of height `size` and `colour`."""
+    """Returns text `value` at `place` facing the viewer, with letters of height `size` and `colour`."""
     return _primitive("texts", colour, pose=place, billboard=True, font_size=size, text=value)
 
 
 def log_message(time_s: float, message: str, level: str = "info", name: str = "plantar") -> bytes:
-    """Encoded foxglove.Log: `message` at `time_s` with a `level` of LEVELS, from source `name`."""
+    """Returns encoded foxglove.Log: `message` at `time_s` with a `level` of LEVELS, from source `name`."""
     return Template(_classes()[SCHEMAS[2]](timestamp=_TIME, level=LEVELS[level], message=message, name=name)).filled(
         time_s
     )

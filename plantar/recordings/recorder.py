@@ -190,7 +190,7 @@ class Recorder:
         self._flush_at = 0.0
 
     def channel(self, topic: str, fields: Sequence[tuple[str, int]]) -> Channel[NDArray[np.float64]]:
-        """Channel of a new number `topic`; RecordingError if it exists or lacks "/", or a field is invalid.
+        """Returns channel of a new number `topic`; RecordingError if it exists or lacks "/", or a field is invalid.
 
         Names of `fields` are lower case, as in ROS 2, 1 value or more each; messages are copied.
         """
@@ -210,7 +210,7 @@ class Recorder:
         return channel
 
     def message_channel(self, topic: str, schema: str) -> Channel[bytes]:
-        """Channel of a new `topic` of encoded messages of a `schema` of `foxglove.SCHEMAS`, else
+        """Returns channel of a new `topic` of encoded messages of a `schema` of `foxglove.SCHEMAS`, else
         RecordingError.
         """
         return self._drawn(topic, schema, lambda times, messages: messages)
@@ -222,7 +222,7 @@ class Recorder:
         template: Template,
         values: Callable[[NDArray[np.float64]], NDArray[np.float64]] = np.asarray,
     ) -> Channel[NDArray[np.float64]]:
-        """Channel of a new `topic` whose `schema` messages fill a `template`, encoded by chunk.
+        """Returns channel of a new `topic` whose `schema` messages fill a `template`, encoded by chunk.
 
         `values` maps written rows (m, j) to slot values (m, k). Errors as of `message_channel`.
         """

@@ -47,7 +47,7 @@ def identify_faults(layout: SoleLayout, time: ArrayLike, force: ArrayLike, read:
         layout: Sole, n taxels.
         time: Times (t,) in s, increasing, 20 or more.
         force: Known normal force (t, n) on each taxel in N, rising and falling.
-        read: Readings (t, n) in N; NaN if dead, or in frames to leave out.
+        read: Readings (t, n) in N; NaN if dead or lost.
 
     Returns faults; raises ReadingError under 20 frames.
     """

@@ -152,9 +152,7 @@ def _walk(walk: Walk) -> dict[str, Any]:
 
 
 def _forces(layout: SoleLayout, force: NDArray[np.float32], least: float) -> dict[str, str]:
-    """Forces in 0.1 N as 16-bit numbers, the largest for unmeasured ones; in N where one is too large or negative; sum,
-    and CoP from a least sum on.
-    """
+    """Forces in 0.1 N as 16-bit numbers, the largest if unmeasured; in N where one does not fit; sum and CoP."""
     foot = FootRecording(layout.side, force.astype(float), layout)
     cop = _packed(np.asarray(foot.center_of_pressure(least)), "<f4")
     known, rounded = np.isfinite(force), np.round(force * 10.0)

@@ -100,7 +100,7 @@ def _mean(feet: Mapping[Side, FootGait], key: str) -> float | None:
 
 
 def symmetry(feet: Mapping[Side, FootGait]) -> dict[str, float | None]:
-    """Returns symmetry index in percent of each measure of two feet, 100 (L - R) / ((L + R) / 2) (Robinson 1987).
+    """Symmetry index in percent of each measure of two feet, 100 (L - R) / ((L + R) / 2) (Robinson 1987).
 
     Left larger is positive; None for missing values, differing signs, unresolved ones and angles.
     """

@@ -81,7 +81,7 @@ class SoleMjcf(NamedTuple):
 
 
 def bounding_rectangle(layout: SoleLayout) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Returns the middle (2,) and half size (2,) in m of a `layout`'s outline."""
+    """Middle (2,) and half size (2,) in m of a `layout`'s outline."""
     low, high = layout.outline.min(axis=0), layout.outline.max(axis=0)
     return 0.5 * (low + high), 0.5 * (high - low)
 

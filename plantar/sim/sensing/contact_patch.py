@@ -34,7 +34,7 @@ class Patches(Generic[T]):
         self._made: dict[tuple[tuple[int, int], ...], T] = {}
 
     def of(self, points: Sequence[tuple[float, float]]) -> T:
-        """Returns the result of contact `points` (k, 2) in m, in any order."""
+        """Result of contact `points` (k, 2) in m, in any order."""
         key = patch_key(points, self._grid)
         if key not in self._made:
             if len(self._made) >= self._most:

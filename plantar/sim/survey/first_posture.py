@@ -57,7 +57,7 @@ def stance_width(robot: Robot, legs: LegModel) -> float:
 
 
 def least_stance(robot: Robot) -> float:
-    """Returns the least distance in m of a `robot`'s feet, by their soles."""
+    """Least distance in m of a `robot`'s feet, by their soles."""
     across = robot.layouts["left"].outline[:, 1]
     return -2.0 * float(across.min()) + _SOLE_GAP * float(np.ptp(across))
 

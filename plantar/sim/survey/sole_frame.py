@@ -151,7 +151,7 @@ def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> S
 
 
 def level_axes(normal: Array) -> Array:
-    """Returns axes (3, 3), as columns, on a plane with an outward `normal` (3,): forward, left and up."""
+    """Axes (3, 3), as columns, on a plane with an outward `normal` (3,): forward, left and up."""
     forward = np.array([1.0, 0.0, 0.0]) - normal[0] * normal
     forward /= float(np.linalg.norm(forward))
     return np.stack([forward, np.cross(forward, normal), -normal], axis=1)

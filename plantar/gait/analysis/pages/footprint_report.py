@@ -82,7 +82,7 @@ def analyse_image(
 
 
 def footprint_in_image(part: Print, pixel: float, side: Side) -> Footprint:
-    """Footprint with toe line of an image part's mask, for a pixel's size in m and a side.
+    """Returns footprint with toe line of an image part's mask, for a pixel's size in m and a side.
 
     The narrower end of its longest axis is the heel.
     """
@@ -128,7 +128,7 @@ def _centres(part: Print, pixel: float) -> NDArray[np.float64]:
 
 
 def measures_of_footprint(print_: Footprint, scaled: bool) -> dict[str, Any]:
-    """Measures of footprint `print_` by key, lengths and areas None unless scaled (in m).
+    """Returns measures of footprint `print_` by key, lengths and areas None unless scaled (in m).
 
     axis_angle_deg is to the image's vertical, left positive.
     """
@@ -175,7 +175,7 @@ class _Scale:
 
 
 def draw_footprints(image: FootprintImage, prints: Mapping[Side, Footprint]) -> Any:
-    """Figure of an image's prints in order, drawn on it."""
+    """Returns figure of an image's prints in order, drawn on it."""
     scale = _Scale("pixels", 1.0, 1.0) if image.pixel is None else _Scale("mm", 1e3 * image.pixel, 1e3)
     height, width = image.picture.shape[:2]
     figure, axes = new_figure(min(9.0, 1.5 + 6.0 * width / height) if width < 1.6 * height else 9.0, 6.4)
@@ -223,7 +223,7 @@ _FOOTPRINT = (
 
 
 def footprint_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], title: str) -> str:
-    """Footprint page as HTML without other files, by metrics, PNG figures with captions and title."""
+    """Returns footprint page as HTML without other files, by metrics, PNG figures with captions and title."""
     sections = [Section("measures", "Measures", _table(metrics))]
     if metrics["warnings"]:
         sections.append(Section("assumed", "What was assumed", warning_list(metrics["warnings"])))

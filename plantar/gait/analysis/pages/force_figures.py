@@ -37,7 +37,7 @@ _COMPARED = (
 
 
 def figure_force(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any:
-    """Figure of vertical force and events of a recording's feet over time."""
+    """Returns figure of vertical force and events of a recording's feet over time."""
     shared: dict[str, bool] = {"sharex": True, "sharey": True, "squeeze": False}
     figure, axes = new_figure(10.0, 2.6 * len(feet) + 0.6, rows=len(feet), grid=True, **shared)
     for panel, (side, gait) in zip(axes[:, 0], feet.items(), strict=True):
@@ -73,7 +73,7 @@ def _shade_cut_contacts(panel: Any, recording: PressureRecording, gait: FootGait
 
 
 def figure_steps(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Figure of a recording's force curves of its feet over the stance, with mean and SD; None without used
+    """Returns figure of a recording's force curves of its feet over the stance, with mean and SD; None without used
     steps.
     """
     shown = {side: gait for side, gait in feet.items() if gait.used}
@@ -100,7 +100,7 @@ def draw_sd(panel: Any, curves: NDArray[np.float64], **look: Any) -> None:
 
 
 def stance_curves(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
-    """Forces (steps, 101) in N of a recording over the stance of used steps of a gait."""
+    """Returns forces (steps, 101) in N of a recording over the stance of used steps of a gait."""
     known = np.isfinite(gait.foot.vertical_force)
     time, force = recording.time[known], gait.foot.vertical_force[known]
     moments = [s.heel_strike_s + 0.01 * STANCE * (s.toe_off_s - s.heel_strike_s) for s in gait.used]
@@ -108,7 +108,7 @@ def stance_curves(recording: PressureRecording, gait: FootGait) -> NDArray[np.fl
 
 
 def figure_wrench(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Figure of each robot sole's wrench about its frame in a recording; None of other feet."""
+    """Returns figure of each robot sole's wrench about its frame in a recording; None of other feet."""
     if recording.kind != "robot" or recording.raw:
         return None
     feet_of_cells = ((side, gait.foot, gait.foot.layout) for side, gait in feet.items())

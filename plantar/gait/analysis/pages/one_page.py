@@ -99,7 +99,7 @@ def _band(key: str, means: Mapping[str, float], factor: float) -> str:
 
 
 def figure_summary(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Figure of a recording's mean forces, CoP butterfly of its feet and trend; None without used steps."""
+    """Returns figure of a recording's mean forces, CoP butterfly of its feet and trend; None without used steps."""
     shown = {side: gait for side, gait in feet.items() if gait.used}
     if not shown:
         return None

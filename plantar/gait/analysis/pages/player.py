@@ -22,7 +22,7 @@ MOST_BYTES = 900_000  # Largest size of the packed pressures; a mat of very many
 
 
 def player_data(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> dict[str, Any] | None:
-    """A recording's player data as plain JSON values; None if none of its feet has geometry.
+    """Returns a recording's player data as plain JSON values; None if none of its feet has geometry.
 
     Cells are rings in mm, right and forward; pressures bytes (0 if not loaded, else 1 + 254 p / highest), deflated, in
     base64.

@@ -141,7 +141,7 @@ def _player(data: Mapping[str, Any]) -> str:
 
 
 def facts_of(metrics: Mapping[str, Any], file: str) -> str:
-    """A report's HTML heading, from metrics and the name of its file."""
+    """Returns a report's HTML heading, from metrics and the name of its file."""
     robot, length = metrics["kind"] == "robot", metrics["subject"]["foot_length_m"]
     facts = [
         ("Robot" if robot else "Participant", _participant(metrics)),
@@ -158,7 +158,7 @@ def facts_of(metrics: Mapping[str, Any], file: str) -> str:
 
 
 def facts_of_image(metrics: Mapping[str, Any], file: str) -> str:
-    """An image report's HTML heading, from metrics and the name of its file."""
+    """Returns an image report's HTML heading, from metrics and the name of its file."""
     width, height = metrics["size_px"]
     scale = "" if metrics["mm_per_pixel"] is None else f", {metrics['mm_per_pixel']:.4g} mm a pixel"
     facts = [
@@ -198,7 +198,7 @@ def _size(feet: Mapping[str, Mapping[str, Any]]) -> str:
 
 
 def analysis_text(metrics: Mapping[str, Any], name: str = "") -> str:
-    """Main figures of an analysis as lines, from its metrics; with a name for one of two."""
+    """Returns main figures of an analysis as lines, from its metrics; with a name for one of two."""
     rate = "" if metrics["rate_hz"] is None else f" at {metrics['rate_hz']:.6g} Hz"
     lines = [f"{name + ': ' if name else ''}{metrics['format']}: {metrics['frames']} frame(s){rate}"]
     for side, foot in metrics["feet"].items():

@@ -63,7 +63,7 @@ def _draw_pictures(
 
 
 def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Figure of maximum pressure and CoP paths of a recording's feet; None without geometry."""
+    """Returns figure of maximum pressure and CoP paths of a recording's feet; None without geometry."""
     pictured = {side: gait for side, gait in feet.items() if gait.picture is not None}
     if not pictured:
         return None
@@ -145,7 +145,7 @@ class _Regions(NamedTuple):
 
 
 def figure_regions(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Figure of regions, axes and thirds of a recording's feet; of platforms each first print.
+    """Returns figure of regions, axes and thirds of a recording's feet; of platforms each first print.
 
     None without regions.
     """
@@ -202,7 +202,7 @@ _MARGIN = 0.01  # Width in m of the frame around the cells
 
 
 def stepped_on(layout: SoleLayout, hit: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Indices (m,) of stepped-on cells and neighbours, and corners (4, 2) in m around them.
+    """Returns indices (m,) of stepped-on cells and neighbours, and corners (4, 2) in m around them.
 
     Args:
         layout: Platform, k cells.

@@ -35,7 +35,7 @@ def shown_as(key: str, measure: Measure, raw: bool) -> _Shown:
 
 
 def mean_and(spread: Mapping[str, Any] | None, key: str, factor: float) -> str:
-    """A spread's mean ± its `key`, times a factor, as text; a dash without one."""
+    """Returns a spread's mean ± its `key`, times a factor, as text; a dash without one."""
     if spread is None or spread["mean"] is None:
         return "–"
     more = "" if spread.get(key) is None else f"\u00a0±\u00a0{number(spread[key] * factor, 2)}"

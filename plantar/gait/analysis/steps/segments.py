@@ -115,7 +115,7 @@ def _of_stride(step: Step, beside: Sequence[Step], key: str) -> list[float]:
 
 
 def most_common(names: Sequence[str]) -> str:
-    """Returns the name that most have, empty ones left out; empty without any."""
+    """Name that most have, empty ones left out; empty without any."""
     known = [n for n in names if n]
     return max(dict.fromkeys(known), key=known.count) if known else ""
 
