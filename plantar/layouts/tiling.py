@@ -152,7 +152,7 @@ def _sole_polygon(outline: ArrayLike, cell_area: float, minimum_fraction: float,
     if limited and polygon.area > MOST_TAXELS * cell_area:
         raise LayoutError(
             f"cells of {cell_area * 1e6:.3g} mm^2 on a sole of {polygon.area * 1e6:.0f} mm^2 make more than "
-            f"{MOST_TAXELS} taxels; use a larger cell area"
+            f"{MOST_TAXELS} taxels; use a larger cell area, and an outline in m"
         )
     if far > LARGEST_COORDINATE:
         raise LayoutError(f"outline reaches {far:.3g} m; allowed: within {LARGEST_COORDINATE:.0f} m of the origin")
