@@ -54,7 +54,7 @@ def spread(values: Sequence[float] | NDArray[np.float64], circular: bool = False
 
 
 # Values below which two feet differ by noise alone, by the unit at a key's end: no symmetry index is formed.
-_RESOLVED = {"_s": 2e-3, "_percent": 0.2, "_m": 5e-4, "_m2": 5e-6, "_N": 1.0, "_Ns": 0.5, "_Pa": 500.0, "_Pas": 100.0}
+_RESOLVED = {"s": 2e-3, "percent": 0.2, "m": 5e-4, "m2": 5e-6, "N": 1.0, "Nm": 0.05, "Ns": 0.5, "Pa": 5e2, "Pas": 1e2}
 
 
 _OF_BOTH = ("double_support_percent", "single_support_percent", "step_length_m", "step_width_m", "stride_length_m")
@@ -111,7 +111,7 @@ def symmetry(feet: Mapping[Side, FootGait]) -> dict[str, float | None]:
     for name in MEASURES:
         a, b = left[name].mean, right[name].mean
         out[name] = None
-        small = max(abs(a or 0.0), abs(b or 0.0)) < _RESOLVED.get(name[name.rfind("_") :], 0.0)
+        small = max(abs(a or 0.0), abs(b or 0.0)) < _RESOLVED.get(name.rpartition("_")[2], 0.0)
         angle = name.endswith("_deg")
         if a is not None and b is not None and a * b >= 0.0 and a + b != 0.0 and not small and not angle:
             out[name] = 200.0 * (a - b) / (a + b)

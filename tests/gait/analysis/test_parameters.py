@@ -1,6 +1,7 @@
 """Measures of steps against closed forms."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -48,6 +49,13 @@ def test_noise_does_not_count_as_contact_area(walk):
     made = walk(steps=8, noise=1.4715)
     gait = analyse_foot(made.recording, "left")
     assert gait.cell_threshold == pytest.approx([3 * 1.4715] * len(gait.cell_threshold), rel=0.2)
+
+
+def test_moments_of_rounding_have_no_symmetry():
+    moments = {"left": (2e-15, 2.2), "right": (1e-15, 1.8)}
+    feet = {s: SimpleNamespace(columns={"tx_peak_Nm": [x], "ty_peak_Nm": [y]}) for s, (x, y) in moments.items()}
+    found = symmetry(feet)
+    assert (found["tx_peak_Nm"], found["ty_peak_Nm"]) == (None, pytest.approx(20.0))
 
 
 def test_symmetry_index_has_the_sign_of_the_larger_side(walk):
