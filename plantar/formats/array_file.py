@@ -23,7 +23,7 @@ from plantar.files.structured_text import JSON_MOST
 from plantar.files.zip_archive import open_archive
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.side import side_of
+from plantar.formats.side import on_one_time, side_of
 from plantar.formats.stated_rate import in_seconds, or_usual, stated_rate
 from plantar.formats.table_text import time_unit
 from plantar.layouts.layout import Side, SoleLayout

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from plantar import FormatError, InputError, SoleLayout, hex_layout, write_layout
+from plantar import FormatError, InputError, SoleLayout, hex_layout, mirrored, write_layout
 from plantar.formats import detect_format, read_recording
 from plantar.formats.format import ReadOptions
 from plantar.formats.table_text import time_unit
@@ -270,6 +270,26 @@ def test_a_plantar_recording_survives_the_way_over_npz_and_csv(tmp_path, layout,
         tmp_path / "out" / "skin_left.csv", options=ReadOptions(layout=layout, unit="N", side="left")
     )
     assert table.feet["left"].force == pytest.approx(values)
+
+
+def test_an_export_of_two_clocks_is_read_as_its_recording(tmp_path, layout, values):
+    from plantar.recordings.recorder import Recorder
+    from plantar.recordings.recording import read_mcap
+
+    soles = {"left": layout, "right": mirrored(layout)}
+    with Recorder(tmp_path / "run.mcap", {"kind": "insole"}, soles) as recorder:
+        left, right = (recorder.channel(f"/skin/{side}", [("force", len(layout))]) for side in soles)
+        for i, row in enumerate(values):
+            left.write(i * 0.02, row)
+            if i != 20:
+                right.write(i * 0.02 + 0.008, row)
+    run = read_recording(tmp_path / "run.mcap")
+    arrays = read_recording(read_mcap(tmp_path / "run.mcap").to_npz(tmp_path / "run.npz"))
+    assert (arrays.kind, run.kind) == ("insole", "insole")
+    assert arrays.time == pytest.approx(run.time)
+    for side in soles:
+        assert arrays.feet[side].force == pytest.approx(run.feet[side].force, nan_ok=True)
+    assert arrays.warnings == run.warnings
 
 
 def test_damage(tmp_path, layout, values):
