@@ -80,8 +80,7 @@ def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintI
     prints = _prints(cv2, mask, pixel, warnings)
     if not prints:
         raise FormatError(f"{path}: no footprint stands out from the background of the image")
-    picture = np.ascontiguousarray(image[:, :, ::-1])
-    return FootprintImage(path, pixel, picture, tuple(prints), tuple(warnings))
+    return FootprintImage(path, pixel, np.ascontiguousarray(image[:, :, ::-1]), tuple(prints), tuple(warnings))
 
 
 def _decoded(path: Path, data: bytes) -> tuple[NDArray[np.uint8], float]:

@@ -114,8 +114,7 @@ def _zeroed(plate: Plate, rate: float, warnings: list[str]) -> Plate:
             )
     elif np.nanmax(np.abs(vertical), initial=0.0) > LEAST:
         warnings.append(f"{plate.name} is never empty: its zero is taken as it is")
-    least = max(LEAST, _NOISES * noise)
-    loaded = np.abs(np.nan_to_num(force[:, 2])) > least
+    loaded = np.abs(np.nan_to_num(force[:, 2])) > max(LEAST, _NOISES * noise)
     if loaded.sum() < max(3, _SHORTEST * rate):
         return replace(plate, force=force, moment=moment, stepped=False)
     if float(np.nanmedian(force[loaded, 2])) < 0.0:
@@ -155,8 +154,7 @@ def _empty_frames(vertical: NDArray[np.float64], rate: float) -> NDArray[np.bool
         beside = max(float((known > level - width).mean()), float((known < level + width).mean()))
         if beside < _ONE_SIDE or abs(level - middle) < 0.5 * half or width > _FLAT * half:
             return None
-    wide = max(width, _FAR * float(np.ptp(known)))
-    flat = np.abs(np.nan_to_num(vertical, nan=np.inf) - level) <= wide
+    flat = np.abs(np.nan_to_num(vertical, nan=np.inf) - level) <= max(width, _FAR * float(np.ptp(known)))
     block = max(2, round(0.5 * _SHORTEST * rate))
     whole = np.pad(vertical, (0, -len(vertical) % block), constant_values=np.nan).reshape(-1, block)
     noise = 1.4826 * float(np.median(np.abs(np.diff(known, 2)))) / np.sqrt(6.0)

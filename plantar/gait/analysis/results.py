@@ -105,8 +105,7 @@ def write_analysis(
     from plantar.gait.analysis.pages.report import report_page
 
     embedded = draw_figures(recording, feet, folder, progress)
-    player = player_data(recording, feet)
-    page = report_page(metrics, embedded, title=recording.path.name, player=player)
+    page = report_page(metrics, embedded, title=recording.path.name, player=player_data(recording, feet))
     (folder / "report.html").write_text(page, encoding="utf-8")
     sheet = write_figures(
         [("summary", figure_summary(recording, feet), "Force, butterfly and trend of the steps")], folder

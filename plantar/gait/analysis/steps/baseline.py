@@ -93,8 +93,7 @@ def _usual_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None
     swing = np.zeros(n, dtype=bool)
     for part, a in zip(frames, begins, strict=True):
         swing[a : a + len(part)] = part
-    middles = 0.5 * np.add(begins, ends)
-    return RestingLevel(np.interp(np.arange(n), middles, levels), swing, float(np.median(spans)))
+    return RestingLevel(np.interp(np.arange(n), 0.5 * np.add(begins, ends), levels), swing, float(np.median(spans)))
 
 
 def _level(force: NDArray[np.float64], rate: float) -> tuple[float, float, NDArray[np.bool_]] | None:

@@ -164,8 +164,7 @@ def _least(values: NDArray[np.float64], width: int) -> NDArray[np.float64]:
 
 def _usual_range(course: NDArray[np.float64], rate: float) -> float:
     rows = min(max(1, round(_STRETCH * rate)), len(course))
-    parts = course[: len(course) // rows * rows].reshape(-1, rows)
-    low, high = np.percentile(parts, (3.0, 92.0), axis=1)
+    low, high = np.percentile(course[: len(course) // rows * rows].reshape(-1, rows), (3.0, 92.0), axis=1)
     return float(np.median(high - low))
 
 
