@@ -1,6 +1,6 @@
 """Lines of text on stdin, from any program that reads a device: side, time in s, and the force of each taxel in N.
 
-A line is "left,0.01,3.2,0,..."; a force that is missing is empty or nan.
+A line is "left,0.01,3.2,0,..."; a missing force is empty or nan.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""A recording as it came: each frame at its time."""
+"""A recording's frames at their times, both feet on one clock."""
 
 import time
 from collections.abc import Iterator, Mapping
