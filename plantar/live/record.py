@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from plantar.arguments import instance
 from plantar.errors import InputError
 from plantar.live.source import LiveStream
 from plantar.percepts.percept import Percept
@@ -46,7 +47,7 @@ def record(
     readings = _readings(stream)
     if (first := next(readings, None)) is None:
         raise InputError("no reading came from the source")
-    start, shown, latest = first[1].time, -math.inf, 0.0
+    start, shown, latest = instance(first[1], Reading, "reading").time, -math.inf, 0.0
     times: dict[Side, list[float]] = {side: [] for side in stream.soles}
     seen: dict[Side, Reading] = {}
     with Recorder(

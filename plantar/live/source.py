@@ -7,6 +7,7 @@ from pathlib import Path
 from pkgutil import iter_modules
 from typing import NamedTuple
 
+from plantar.arguments import instance
 from plantar.errors import InputError
 from plantar.extensions import extensions
 from plantar.layouts.layout import SoleLayout
@@ -66,6 +67,6 @@ def open_live(text: str, layout: SoleLayout | None = None) -> LiveStream:
     if name not in known:
         raise InputError(f"unknown live source {name!r}; allowed: {', '.join(known)}")
     try:
-        return known[name].open(address, layout)
+        return instance(known[name].open(address, layout), LiveStream, f"stream of live source {name!r}")
     except OSError as error:
         raise InputError(f"live source {text!r} cannot be opened: {error.strerror or error}") from None

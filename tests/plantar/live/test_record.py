@@ -11,7 +11,7 @@ from plantar import InputError, PlantarError, grid_layout, mirrored
 from plantar.commands.live import live
 from plantar.formats import read_recording
 from plantar.live.record import record
-from plantar.live.source import LiveStream, open_live
+from plantar.live.source import LiveSource, LiveStream, open_live
 from plantar.recordings.recording import read_mcap
 from plantar.sensing.reading import Reading
 
@@ -61,6 +61,15 @@ def test_a_recording_begins_with_its_first_reading_and_has_one_clock(tmp_path):
     assert left.fields["force"][:, 0].tolist() == [float(k) for k in range(51, 100)]
     with pytest.raises(InputError, match=r"the left sole got 7 s after 10 s; allowed: .* by one clock"):
         record(stream._replace(readings=both(3.0)), tmp_path / "run.mcap")
+
+
+def test_a_source_that_gives_something_else_is_named(tmp_path, monkeypatch):
+    with pytest.raises(InputError, match="reading is a tuple; expected a Reading"):
+        record(LiveStream({"left": SOLE}, iter([("left", (0.0, [1.0] * 8))])), tmp_path / "run.mcap")
+    mine = LiveSource("mine", "none", lambda address, layout: None)
+    monkeypatch.setattr("plantar.live.source.live_sources", lambda: {"mine": mine})
+    with pytest.raises(InputError, match="stream of live source 'mine' is None; expected a LiveStream"):
+        open_live("mine")
 
 
 def test_a_device_that_goes_away_ends_the_recording_in_a_line(tmp_path):
