@@ -76,8 +76,7 @@ def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintI
         else:
             warnings.append(f"{mm_per_pixel:.4g} mm a pixel, from the resolution that the image states")
     pixel = None if mm_per_pixel is None else mm_per_pixel * 1e-3 / factor
-    mask = _foreground(cv2, image)
-    prints = _prints(cv2, mask, pixel, warnings)
+    prints = _prints(cv2, _foreground(cv2, image), pixel, warnings)
     if not prints:
         raise FormatError(f"{path}: no footprint stands out from the background of the image")
     return FootprintImage(path, pixel, np.ascontiguousarray(image[:, :, ::-1]), tuple(prints), tuple(warnings))

@@ -223,8 +223,7 @@ def _stretches(rest: RestingLevel) -> tuple[list[float], list[tuple[int, int]]]:
     if rest.each is not None:
         return rest.each.places.tolist(), [(int(a), int(b)) for a, b in rest.each.spans]
     n, drifts = len(rest.level), float(np.ptp(rest.level)) > 0.05 * rest.span
-    swings = int((np.diff(rest.swing.astype(np.int8)) == 1).sum())
-    count = min(20, max(1, swings // 5)) if drifts else 1
+    count = min(20, max(1, int((np.diff(rest.swing.astype(np.int8)) == 1).sum()) // 5)) if drifts else 1
     edges = np.unique(np.linspace(0, n, 1 + count).astype(int)).tolist()
     stretches = [(a, b) for a, b in pairwise(edges) if rest.swing[a:b].any()]
     return [0.5 * (a + b) for a, b in stretches], stretches
