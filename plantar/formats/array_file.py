@@ -49,6 +49,9 @@ class _Array:
         return math.prod(self.shape)
 
 
+_Feet = tuple[dict[str, _Array], str, list[tuple[Side, NDArray[np.float64]]]]
+
+
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
     try:
         with _arrays(path) as arrays:
@@ -74,20 +77,16 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
     named = {side: key for key in reversed(tables) if (side := side_of(key.replace("/", " ")))}
     own_export = any(key.startswith("skin/") for key in named.values())
     unit = unit_of_values(_text(arrays, "unit", "units") or ("N" if own_export else None), options, warnings)
-    if named:
-        split = [(side, _frames(tables[named[side]])) for side in SIDES if side in named]
-        if len(split[0][1]) != len(split[-1][1]):
-            raise FormatError(f"the feet have {len(split[0][1])} and {len(split[-1][1])} frames")
-    else:
-        split = _unnamed_feet(arrays, tables, options, warnings)
+    found = _named_feet(arrays, tables, named, warnings) if named else _unnamed_feet(arrays, tables, options, warnings)
+    arrays, clock, split = found
     feet = {
         side: cells_of_foot(side, values, unit, options, warnings, own=_layout(arrays, side, warnings))
         for side, values in split
     }
-    group = named[split[0][0]].rpartition("/")[0] if named else ""
-    time, rate, notes = _times(arrays, f"{group}/time" if group else "", len(split[0][1]), options, warnings)
-    stated_kind = "robot" if own_export else _text(arrays, "kind")
-    kind: Kind = next((k for k in get_args(Kind) if k == stated_kind), "insole")
+    time, rate, notes = _times(arrays, clock, len(split[0][1]), options, warnings)
+    held = json.loads(_text(arrays, "metadata") or "{}") if own_export else {"kind": _text(arrays, "kind")}
+    stated = held.get("kind") if isinstance(held, dict) else None
+    kind: Kind = next((k for k in get_args(Kind) if k == stated), "robot" if own_export else "insole")
     if len({foot.force.shape for foot in feet.values()}) < len(feet) and kind == "platform":
         feet = {"left": replace(feet["left"], force=feet["left"].force + feet["right"].force)}
     elif len(feet) == 1 and kind != "platform":
@@ -106,7 +105,7 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
 
 
 def _tables(arrays: dict[str, _Array]) -> dict[str, _Array]:
-    """Arrays of frames and cells, or those named force or pressure."""
+    """Arrays of cells, or those named force or pressure."""
     tables = {k: a for k, a in arrays.items() if len(a.shape) in (2, 3) and a.dtype.kind in "iufb" and a.size}
     if not tables:
         held = ", ".join(f"{k} {a.shape}" for k, a in islice(arrays.items(), _SHOWN)) or "nothing"
@@ -116,14 +115,30 @@ def _tables(arrays: dict[str, _Array]) -> dict[str, _Array]:
     return {k: t for k, t in tables.items() if k.split("/")[-1] in ("force", "pressure")} or tables
 
 
+def _named_feet(
+    arrays: dict[str, _Array], tables: dict[str, _Array], named: dict[Side, str], warnings: list[str]
+) -> _Feet:
+    """Arrays, name of the times, cells by foot."""
+    parts = {side: _frames(tables[named[side]]) for side in SIDES if side in named}
+    clocks = {side: f"{named[side].rpartition('/')[0]}/time" for side in parts}
+    clock = next(iter(clocks.values()))
+    if all(c in arrays and arrays[c].shape == (len(parts[s]),) for s, c in clocks.items()):
+        timed = {side: (seconds(arrays[clocks[side]].read()), table) for side, table in parts.items()}
+        base, parts = on_one_time(timed, warnings)
+        arrays = {**arrays, clock: _Array(base.shape, base.dtype, lambda: base)}
+    elif len({len(table) for table in parts.values()}) > 1:
+        raise FormatError(f"the feet have {' and '.join(str(len(table)) for table in parts.values())} frames")
+    return arrays, clock, list(parts.items())
+
+
 def _unnamed_feet(
     arrays: dict[str, _Array], tables: dict[str, _Array], options: ReadOptions, warnings: list[str]
-) -> list[tuple[Side, NDArray[np.float64]]]:
+) -> _Feet:
     key, largest = max(tables.items(), key=lambda item: item[1].size)
     if len(tables) > 1:
         warnings.append(f"no array names a foot: the largest one, {key!r}, is read")
     stated = options.side or side_of(_text(arrays, "side", "foot") or "")
-    return [(stated, _frames(largest))] if stated else halves(_frames(largest), options, warnings)
+    return arrays, "", [(stated, _frames(largest))] if stated else halves(_frames(largest), options, warnings)
 
 
 @contextmanager

@@ -106,8 +106,7 @@ class _NumbersChannel(Channel[NDArray[np.float64]]):
     def write(self, time_s: float, message: NDArray[np.float64]) -> None:
         row = np.array(message, dtype="<f8")
         if row.shape != (self._width,):
-            given = " x ".join(map(str, row.shape)) or "one number"
-            raise RecordingError(f"topic {self.topic} takes {self._width} values a message; got {given}")
+            raise RecordingError(f"topic {self.topic} takes {self._width} values a message; got shape {row.shape}")
         super().write(time_s, row)
 
 
