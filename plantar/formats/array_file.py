@@ -63,7 +63,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def recording_of_arrays(arrays: Mapping[str, NDArray[Any]], options: ReadOptions, name: Path) -> PressureRecording:
-    """Returns recording from arrays, by options; FormatError without cells."""
+    """Returns recording of a name from arrays, by options; FormatError without cells."""
     held = {}
     for key, values in arrays.items():
         values = values[:, None] if values.ndim == 1 and side_of(key) is not None else values
@@ -105,7 +105,7 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
 
 
 def _tables(arrays: dict[str, _Array]) -> dict[str, _Array]:
-    """Arrays of cells, or those named force or pressure."""
+    """Arrays of cells, or of force or pressure."""
     tables = {k: a for k, a in arrays.items() if len(a.shape) in (2, 3) and a.dtype.kind in "iufb" and a.size}
     if not tables:
         held = ", ".join(f"{k} {a.shape}" for k, a in islice(arrays.items(), _SHOWN)) or "nothing"
