@@ -118,7 +118,7 @@ def _tables(arrays: dict[str, _Array]) -> dict[str, _Array]:
 def _named_feet(
     arrays: dict[str, _Array], tables: dict[str, _Array], named: dict[Side, str], warnings: list[str]
 ) -> _Feet:
-    """Arrays, name of the times, cells by foot."""
+    """Arrays, times' name, cells by foot."""
     parts = {side: _frames(tables[named[side]]) for side in SIDES if side in named}
     clocks = {side: f"{named[side].rpartition('/')[0]}/time" for side in parts}
     clock = next(iter(clocks.values()))

@@ -84,7 +84,7 @@ def or_usual(rate: float | None, without: str, warnings: list[str]) -> float:
 def in_seconds(
     time: NDArray[np.float64], unit: float | None, stated: float | None, warnings: list[str], longest: float = 1.0
 ) -> NDArray[np.float64]:
-    """Returns `time` (n,) in s; warnings get an assumed unit, of frames up to longest; `stated` counts stay."""
+    """Returns `time` (n,) in s; warnings get an assumed unit (frames last up to longest); counts of `stated` stay."""
     if not unit:
         steps = np.diff(time[np.isfinite(time)])
         step = float(np.median(steps)) if len(steps) else 0.0
