@@ -74,15 +74,17 @@ def limit_text(item: str) -> str:
 
 
 def table_alone(rows: Sequence[dict[str, str]]) -> str:
+    """Completed runs of each item by level, of all walks and both robots together."""
     lines = []
     for item in Plant.items():
-        for scene in ALONE:
-            for robot in ROBOTS:
-                found = [outcome(rows, _alone(item, level, scene), robot) for level in LEVELS]
-                if any(runs for _, runs in found):
-                    cells = (f"{good}/{runs}" if runs else "" for good, runs in found)
-                    lines.append((f"`{item}`, {limit_text(item)}", f"`{scene}`", robot, *cells))
-    return markdown_table(("item, its limit at level 2", "walk", "robot", *(f"level {v:g}" for v in LEVELS)), lines)
+        cells = []
+        for level in LEVELS:
+            found = [outcome(rows, _alone(item, level, scene), robot) for scene in ALONE for robot in ROBOTS]
+            good, runs = (sum(counts) for counts in zip(*found, strict=True))
+            cells.append(f"{good}/{runs}" if runs else "-")
+        if set(cells) != {"-"}:
+            lines.append((f"`{item}`, {limit_text(item)}", *cells))
+    return markdown_table(("item, its limit at level 2", *(f"level {v:g}" for v in LEVELS)), lines)
 
 
 def table_together(rows: Sequence[dict[str, str]]) -> str:
