@@ -39,6 +39,7 @@ _FEWEST, _AWAY = 3, 0.15  # Heel strikes that show how far stated ones are, and 
 _BORNE = 0.5  # Share of its mean force at other times that a foot carries at least in contacts that a file states
 # Share of both feet's contacts that is common where they step on and off at once, and time in s from which they stand.
 _TOGETHER, _STAND = 0.8, 1.2
+_LIGHT = 0.3  # Share of a foot's peak that a foot which drags in swing does not reach
 _CARRIED = 0.2  # Share of a foot's peak that shoes and creases do not press in swing
 # How many times its usual height the level of heel strikes is from which events move by more than 20 and 35 ms.
 _RAISED = 1.4
@@ -120,8 +121,16 @@ def _check_stated(recording: PressureRecording) -> None:
 
 
 def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint], stated: bool) -> dict[Side, FootGait]:
-    events = _by_passes(recording, prints, {side: _events_of(recording, side, stated) for side in recording.feet})
+    found = {side: _events_of(recording, side, stated) for side in recording.feet}
+    brushes = {} if stated else {side: _brushes(recording, side, found) for side in recording.feet}
+    found = {s: (levels, [c for c in own if c not in brushes.get(s, ())]) for s, (levels, own) in found.items()}
+    events = _by_passes(recording, prints, found)
     feet = {side: analyse_foot(recording, side, prints, stated, events) for side in recording.feet}
+    for side, own in brushes.items():
+        if own:
+            text = f"the {side} foot touches the ground lightly {len(own)} time(s) while the other one stands, first at"
+            text += f" {recording.time[own[0].begin]:.1f} s: it drags, and these are no steps"
+            feet[side] = replace(feet[side], warnings=(*feet[side].warnings, text))
     if stated:
         feet = {side: replace(g, warnings=(*g.warnings, *_away(recording, g))) for side, g in feet.items()}
     placed = {side: [c for c in gait.contacts if c.complete or c.cut] for side, gait in feet.items()}
@@ -131,6 +140,16 @@ def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint]
         return feet
     rows = {s: zip(placed[s], own, strict=True) for s, own in step_geometry(known).items()}
     return {side: _with_measures(gait, [row for c, row in rows[side] if c.complete]) for side, gait in feet.items()}
+
+
+def _brushes(recording: PressureRecording, side: Side, events: _Events) -> list[Contact]:
+    """Light contacts inside the other foot's, of no step."""
+    (levels, own), (_, others) = events[side], events.get(other_side(side), (None, []))
+    if levels is None or recording.kind == "robot":
+        return []
+    force, most = recording.feet[side].vertical_force, levels.rest + _LIGHT * (levels.peak - levels.rest)
+    light = [c for c in own if np.nanmax(force[c.begin : c.end]) < most]
+    return [c for c in light if any(o.begin < c.begin and c.end < o.end for o in others)]
 
 
 def _away(recording: PressureRecording, gait: FootGait) -> list[str]:

@@ -1,5 +1,6 @@
 """Measures of steps against closed forms."""
 
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -49,6 +50,16 @@ def test_noise_does_not_count_as_contact_area(walk):
     made = walk(steps=8, noise=1.4715)
     gait = analyse_foot(made.recording, "left")
     assert gait.cell_threshold == pytest.approx([3 * 1.4715] * len(gait.cell_threshold), rel=0.2)
+
+
+def test_a_foot_that_drags_in_swing_makes_no_steps_of_it():
+    made = made_walk(strides=8, stride=1.6, stance=0.6)
+    recording, foot = made.recording, made.recording.feet["right"]
+    touches = sum(150.0 * (np.abs(recording.time - lift - 0.32) < 0.12) for lift in made.lifts["right"][:-1])
+    dragged = replace(foot, force=foot.force + touches[:, None] / foot.force.shape[1])
+    feet = analyse_feet(replace(recording, feet={**recording.feet, "right": dragged}))
+    assert [len(gait.steps) for gait in feet.values()] == [8, 8]
+    assert any("lightly 7 time(s)" in w for w in feet["right"].warnings)
 
 
 def test_moments_of_rounding_have_no_symmetry():
