@@ -10,6 +10,7 @@ import pytest
 from plantar.errors import InputError
 from plantar.formats.nominal_insole import nominal_insole
 from plantar.gait.analysis.activity import activity_of, progression_doubts, sway_measures
+from plantar.gait.analysis.analyse import analyse
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.parameters import analyse_feet
@@ -97,6 +98,12 @@ def test_a_foot_that_is_rolled_over_backwards_is_told():
     assert all("order of the cells" in d for d in doubts)
     robot = replace(recording, kind="robot")
     assert all("sets its soles down flat" in d for d in progression_doubts(robot, analyse_feet(robot)))
+
+
+def test_heart_and_breath_of_a_body_that_stands_on_one_leg_are_no_steps():
+    time = np.arange(0.0, 20.0, 0.01)
+    force = 700.0 + 3.0 * np.sin(5.0 * time)
+    assert analyse({"left": force, "unit": "N"}, rate_hz=100.0).metrics["activity"]["name"] == "standing"
 
 
 def test_feet_that_were_not_recorded_at_one_time_are_told():

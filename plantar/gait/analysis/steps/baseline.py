@@ -34,6 +34,7 @@ _ABOVE, _SPARSE = 0.30, 0.7
 # passes the lower half of its force (0.03 to 0.15 s in walking, 0.3 s and more where weight is shifted), and largest
 # share of the time in swing.
 _LONGEST_CONTACT, _QUICK, _FEW_SHARE = 2.0, 0.2, 0.95
+_HIGHEST = 20.0  # How many times the range of a walk the level in swing is at most: heart and breath move less
 # Where the level of a single swing lies farther from the usual one, as a share of the range, each swing has a level
 # of its own: events lie at 5 % of the range.
 FOLLOWED = 0.025
@@ -70,13 +71,12 @@ def resting_level(force: NDArray[np.float64], rate: float) -> RestingLevel | Non
         >>> float(resting_level(walk, 100.0).level[0]), resting_level(500.0 + 20.0 * np.sin(time), 100.0)
         (300.0, None)
     """
-    usual, each = _usual_level(force, rate), swing_levels(force, rate)
-    if each is None:
-        return usual
-    level = 0.0 if usual is None else float(np.median(usual.level))
-    if np.abs(each.level - level)[each.swing].max() <= FOLLOWED * each.span:
-        return usual
-    return RestingLevel(each.level, each.swing, each.span, each)
+    found, each = _usual_level(force, rate), swing_levels(force, rate)
+    if each is not None:
+        level = 0.0 if found is None else float(np.median(found.level))
+        if np.abs(each.level - level)[each.swing].max() > FOLLOWED * each.span:
+            found = RestingLevel(each.level, each.swing, each.span, each)
+    return found if found is None or np.median(found.level) <= _HIGHEST * found.span else None
 
 
 def _usual_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None:
