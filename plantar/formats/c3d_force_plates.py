@@ -92,7 +92,8 @@ def _cut_short(head: bytes, held: Mapping[str, NDArray[Any]]) -> list[str]:
 def _axes(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     """Plate axes as columns (3, 3) in the laboratory, from corners +x +y, -x +y, -x -y, +x -y (C3D guide)."""
     x = corners[0] + corners[3] - corners[1] - corners[2]
-    z = np.cross(x, corners[0] + corners[1] - corners[2] - corners[3])
+    y = corners[0] + corners[1] - corners[2] - corners[3]
+    z = np.cross(x, y)
     if not np.linalg.norm(z) > 0.0:
         return np.eye(3)
     x, z = x / np.linalg.norm(x), z / np.linalg.norm(z)

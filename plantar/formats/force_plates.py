@@ -30,6 +30,7 @@ _NOISES = 6.0
 _SHEAR = 0.6
 # Share of loaded frames whose CoP is outside the plate by more than 0.05 m from which its geometry is doubted.
 _OUTSIDE, _EDGE = 0.3, 0.05
+_BRINK = 0.01  # Distance in m of the CoP from a plate's edge below which a part of the foot may be beside it
 # Time in s before and after a contact in which its plate is read: another plate's drift is no load of this foot.
 _BESIDE = 0.3
 _STATED = 2.0  # Offset in N from which it is reported
@@ -87,7 +88,7 @@ def feet_of_plates(
         text = f"both feet are on one plate ({names}): its centre of pressure goes farther than a foot is long or wide"
         if len(both) == len(contacts):
             raise FormatError(f"{text}; allowed: a plate for each foot")
-        warnings.append(f"{text}; left out")
+        warnings.append(f"{text}; left out, and a step that is partly on another plate is too small there")
     found = sides_of_contacts(used, contacts, every, rate, options.side, warnings, markers, events)
     sides = [None if c in both else s for c, s in zip(contacts, found, strict=True)]
     weights = _weights(used, contacts, sides, round(_BESIDE * rate))
@@ -114,7 +115,8 @@ def _zeroed(plate: Plate, rate: float, warnings: list[str]) -> Plate:
             )
     elif np.nanmax(np.abs(vertical), initial=0.0) > LEAST:
         warnings.append(f"{plate.name} is never empty: its zero is taken as it is")
-    loaded = np.abs(np.nan_to_num(force[:, 2])) > max(LEAST, _NOISES * noise)
+    least = max(LEAST, _NOISES * noise)
+    loaded = np.abs(np.nan_to_num(force[:, 2])) > least
     if loaded.sum() < max(3, _SHORTEST * rate):
         return replace(plate, force=force, moment=moment, stepped=False)
     if float(np.nanmedian(force[loaded, 2])) < 0.0:
@@ -154,7 +156,8 @@ def _empty_frames(vertical: NDArray[np.float64], rate: float) -> NDArray[np.bool
         beside = max(float((known > level - width).mean()), float((known < level + width).mean()))
         if beside < _ONE_SIDE or abs(level - middle) < 0.5 * half or width > _FLAT * half:
             return None
-    flat = np.abs(np.nan_to_num(vertical, nan=np.inf) - level) <= max(width, _FAR * float(np.ptp(known)))
+    wide = max(width, _FAR * float(np.ptp(known)))
+    flat = np.abs(np.nan_to_num(vertical, nan=np.inf) - level) <= wide
     block = max(2, round(0.5 * _SHORTEST * rate))
     whole = np.pad(vertical, (0, -len(vertical) % block), constant_values=np.nan).reshape(-1, block)
     noise = 1.4826 * float(np.median(np.abs(np.diff(known, 2)))) / np.sqrt(6.0)
@@ -209,14 +212,26 @@ def on_its_surface(plate: Plate, warnings: list[str]) -> Plate:
     cop = np.where(np.isfinite(vertical)[:, None] & np.isfinite(cop), cop, np.nan)
     known = cop[np.isfinite(cop).all(axis=1) & (plate.force[:, 2] > 0.2 * np.nanmax(plate.force[:, 2]))]
     if plate.corners is not None and len(known):
-        low, high = plate.corners.min(axis=0) - _EDGE, plate.corners.max(axis=0) + _EDGE
-        outside = float(((known < low) | (known > high)).any(axis=1).mean())
-        if outside > _OUTSIDE:
+        inside = _from_edge(plate.corners, known)
+        outside = float((inside < -_EDGE).mean())
+        if outside <= _OUTSIDE and (inside < _BRINK).any():
+            warnings.append(
+                f"the centre of pressure of {plate.name} comes within {1e3 * _BRINK:g} mm of its edge: where a part of "
+                "a foot is beside the plate, forces and contact times are too small"
+            )
+        elif outside > _OUTSIDE:
             warnings.append(
                 f"the centre of pressure of {plate.name} lies outside its corners in {100.0 * outside:.0f} % of its "
                 "loaded frames: check corners, origin and channels; forces do not depend on them"
             )
     return replace(plate, cop=cop, free=free)
+
+
+def _from_edge(corners: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Distance in m of points (n, 2) to a plate's nearest edge, below 0 outside."""
+    edges, away = np.roll(corners, -1, axis=0) - corners, points[:, None] - corners
+    turns = (edges[:, 0] * away[..., 1] - edges[:, 1] * away[..., 0]) / np.maximum(np.linalg.norm(edges, axis=1), 1e-9)
+    return np.asarray((turns * np.sign(np.cross(np.append(edges[0], 0.0), np.append(edges[1], 0.0))[2])).min(axis=1))
 
 
 def _is_of_both(plate: Plate, contact: PlateContact) -> bool:
@@ -248,6 +263,9 @@ def _weights(
         own = [(c, s) for c, s in zip(contacts, sides, strict=True) if c.plate == i]
         if not own:
             out[plate.side or "left"][i][:] = True
+        elif len(feet := {s for _, s in own}) == 1 and (foot := feet.pop()) and sides.count(foot) == len(own):
+            out[foot][i][:] = True  # whole, with its noise between and beside the contacts
+            continue
         for k, (contact, side) in enumerate(own):
             if side is None:
                 continue

@@ -120,6 +120,16 @@ def test_markers_show_that_both_contacts_are_of_one_foot(tmp_path):
         analyse(path, options=ReadOptions(plates=("left",)))
 
 
+def test_a_foot_that_may_be_partly_beside_its_plate_is_told(tmp_path):
+    def smaller(file: Any) -> None:
+        corners = file["parameters"]["FORCE_PLATFORM"]["CORNERS"]["value"]
+        corners += 0.65 * (corners.mean(axis=1, keepdims=True) - corners)  # 21 cm long; the CoP goes 20 cm
+
+    for change, told in ((lambda file: None, 0), (smaller, 2)):
+        write(tmp_path / "walk.c3d", change=change)
+        assert sum("mm of its edge" in w for w in read_recording(tmp_path / "walk.c3d").warnings) == told
+
+
 def test_one_plate_is_of_one_foot(tmp_path):
     path = tmp_path / "walk.c3d"
     write(path, WALK[:1], change=without_sides)
