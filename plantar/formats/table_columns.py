@@ -22,6 +22,7 @@ from plantar.sides import SIDES, Side
 
 _MOST_NAMED = 10  # Columns that are left out by name in the warnings; of more their number is given
 _SUMS = 0.02  # How near a column is to the sum of others, relative to its largest value, where it is their total
+_SIGNED = 0.3  # Share of the largest reading that cells do not reach on both sides of zero
 _CURVES = 40  # Numbered columns without a time from which rows that name trials are curves and no frames
 
 
@@ -76,8 +77,6 @@ def recording_of_columns(
         _report_left_out([names[i] for i in columns if i not in used], warnings, "load")
     else:
         feet, raw = _cells(table, names, headings, columns, both, facts, options, warnings)
-    if len(feet) == 1 and side_of(*names) is not None:
-        warnings.append(f"the file holds the {next(iter(feet))} foot only")
     return PressureRecording(
         path=path,
         format="csv",
@@ -224,30 +223,36 @@ def _chosen_cells(headings: Sequence[Heading], columns: Sequence[int]) -> list[i
     return rest if len(stems) == 1 else []
 
 
-def _without_totals(
+def _sampled(table: NDArray[np.float64], columns: Sequence[int]) -> NDArray[np.float64]:
+    values = table[:: max(1, len(table) // 2000)][:, columns]
+    return np.asarray(values[np.isfinite(values).all(axis=1)])
+
+
+def _is_sum(total: NDArray[np.float64], parts: NDArray[np.float64]) -> bool:
+    top = float(np.abs(total).max(initial=0.0))
+    return top > 0.0 and float(np.abs(total - parts.sum(axis=1)).max()) <= _SUMS * top
+
+
+def _total_of(table: NDArray[np.float64], columns: list[int]) -> int | None:
+    values = _sampled(table, columns)
+    if len(columns) < 3 or not len(values):
+        return None
+    k = int(np.argmax(values.sum(axis=0)))
+    return columns[k] if _is_sum(values[:, k], np.delete(values, k, axis=1)) else None
+
+
+def _with_totals(
     table: NDArray[np.float64], columns: list[int], warnings: list[str]
 ) -> tuple[list[int], dict[Side, list[int]]]:
-    """Columns without sums of others; of two such, each foot's columns."""
-    n = len(columns)
-    if n < 5:
-        return columns, {}
-    values = table[:: max(1, len(table) // 2000)][:, columns]
-    values, half = values[np.isfinite(values).all(axis=1)], (n - 2) // 2
-
-    def is_sum(total: NDArray[np.float64], parts: NDArray[np.float64]) -> bool:
-        top = float(np.abs(total).max(initial=0.0))
-        return top > 0.0 and float(np.abs(total - parts.sum(axis=1)).max()) <= _SUMS * top
-
-    pairs = n % 2 == 0 and half >= 2 and len(values) > 0
-    if pairs and is_sum(values[:, -2], values[:, :half]) and is_sum(values[:, -1], values[:, half:-2]):
+    """Columns, and each foot's where the last two are the sums of a half each."""
+    values, half = _sampled(table, columns), (len(columns) - 2) // 2
+    pairs = len(columns) % 2 == 0 and half >= 2 and len(values) > 0
+    if pairs and _is_sum(values[:, -2], values[:, :half]) and _is_sum(values[:, -1], values[:, half:-2]):
         warnings.append(
-            f"the last two of {n} columns are the sums of {half} before them each: taken as {half} cells of the left "
-            "foot, then of the right one, in N, and their totals left out (as in PhysioNet's gaitpdb)"
+            f"the last two of {len(columns)} columns are the sums of {half} before them each: taken as {half} cells of "
+            "the left foot, then of the right one, in N, and their totals left out (as in PhysioNet's gaitpdb)"
         )
         return columns[:-2], {"left": columns[:half], "right": columns[half:-2]}
-    if len(values) and is_sum(values[:, -1], values[:, :-1]):
-        warnings.append("the last column is the sum of the others: left out as their total")
-        return columns[:-1], {}
     return columns, {}
 
 
@@ -265,7 +270,13 @@ def _cells(
     if names:
         _report_left_out([names[i] for i in columns if i not in chosen], warnings, "cell")
     else:
-        chosen, both = _without_totals(table, chosen, warnings)
+        low, high = float(np.nanmin(table[:, chosen], initial=0.0)), float(np.nanmax(table[:, chosen], initial=0.0))
+        if min(-low, high) > _SIGNED * max(-low, high):
+            raise FormatError(
+                f"columns without names go from {low:.4g} to {high:.4g}, as forces and moments of a plate do and no "
+                "cells; allowed: a row of names (FP1 Fx, FP1 Fy, FP1 Fz, FP1 Mx, ...)"
+            )
+        chosen, both = _with_totals(table, chosen, warnings)
     found = [headings[i].unit for i in chosen if headings[i].unit] if names else []
     if len({find_unit(u) for u in found}) > 1:
         raise FormatError(f"the columns are in different units: {', '.join(sorted(set(found)))}")
@@ -282,6 +293,11 @@ def _cells(
     for i in chosen:
         side = next((s for s, own in both.items() if i in own), headings[i].side if names else None)
         by_side.setdefault(side, []).append(i)
+    for own in by_side.values():
+        if (total := _total_of(table, own)) is not None:
+            own.remove(total)
+            name = repr(names[total]) if names else total + 1
+            warnings.append(f"column {name} is the sum of its foot's others: left out as their total")
     nameless = by_side.get(None, [])
     if len(by_side) > 1 and nameless:
         _report_left_out([names[i] for i in nameless], warnings, "named foot's cell")
