@@ -23,17 +23,18 @@ BODY_WEIGHTS: dict[str, float] = {
 """Units of force relative to the body's weight; N/kg is apart, since it is of the mass."""
 
 _WORDS_OF_KIND = {
-    "left": "l left links linker linke gauche izquierdo izquierda izq sinistro sinistra lt",
-    "right": "r right rechts rechter rechte droit droite derecho derecha destro destra rt",
-    "force": "f force forces for kraft kracht grf grfs load last fuerza forza reaction vgrf",
-    "pressure": "pressure druck press pression presion kpa",
+    "left": "l left links linker linke li gauche izquierdo izquierda izq sinistro sinistra lt esquerdo esquerda 左",
+    "right": "r right rechts rechter rechte re droit droite derecho derecha der destro destra rt direito direita 右",
+    "force": "f force forces for kraft kracht grf grfs load last fuerza forza força reaction vgrf 荷重 力",
+    "pressure": "pressure druck press pression presion presión kpa 圧力",
     "cop": "cop copp pressurecenter copposition",
     "moment": "m mom moment moments torque t tz free drehmoment",
-    "vertical": "vertical vert v normal vertikal senkrecht verticale",
+    "vertical": "vertical vert v normal vertikal vertikale senkrecht verticale verticaal 垂直",
     "ap": "ap anteroposterior anterior posterior",
     "ml": "ml mediolateral lateral medial",
-    "plate": "fp plate forceplate platform plattform belt treadmill tm ground amti kistler",
-    "plain": "net foot feet fuss leg limb side of the in insole sole shoe component comp value data signal ch",
+    "plate": "fp plate forceplate platform plattform belt treadmill tm ground amti kistler bertec",
+    "plain": "net foot feet fuss fuß pied pie piede voet pé 足 leg limb side of the in insole insoles sole shoe "
+    "component comp value data signal ch noraxon ultium loadsol",
     "total": "total sum gesamt summe totale tot",
     "cell": "cell cells sensor sens taxel sensel fsr fsrs pad zelle s c p a adc heel hindfoot rearfoot calcaneus mid "
     "midfoot arch met meta metatarsal mt mth forefoot toe toes hallux bigtoe big great ball ferse zehe inner outer mtp "
@@ -42,12 +43,13 @@ _WORDS_OF_KIND = {
     "gyroscope mag magnetometer quat quaternion emg emgs imu angular rate temp temperature temperatur battery volt "
     "voltage current trigger sync pin frame frames sample index counter count knee hip ankle pelvis trunk power event "
     "phase status flag label subject trial session id participant state step stride cycle roll pitch yaw incline slope "
-    "distance area humidity hr",
+    "distance area humidity hr off",
 }
 _KINDS: dict[str, str] = {w: kind for kind, words in _WORDS_OF_KIND.items() for w in words.split()}
 _KINDS |= {axis: axis for axis in "xyz"}
 _PLACES = frozenset(w for w, kind in _KINDS.items() if kind == "cell" and len(w) > 1) - {"adc"}
 _LONGEST = max(map(len, _KINDS))
+_SHORT = {"s", "c", "p", "a", "li", "re", "der"}  # Words of which many others could be put together, such as Czas
 _UNIT = re.compile(
     r"[\[(<{]\s*([^\])>}]*?)\s*[\])>}]|[_ ](kpa|n|pa|mmhg|psi|raw|kg|lbf|nm|nmm|mm|cm|bw|%bw|newtons?)$", re.I
 )
@@ -134,7 +136,10 @@ def _fewest(text: str) -> list[str] | None:
                 continue
             if best[end] is None or len(before) + 1 < len(best[end] or []):
                 best[end] = [*before, word]
-    return best[-1]
+    letters = [word for word in best[-1] or () if not word.isdigit()]
+    short, beside = [w for w in letters if w in _SHORT], [w for w in letters if len(w) < 3 and w not in _SHORT]
+    unlikely = short and (len(short) > 1 or len(set(beside)) < len(beside) or not set(beside) <= set("lrxyz"))
+    return None if unlikely else best[-1]
 
 
 def _heading(name: str, unit: str) -> Heading:
@@ -172,7 +177,8 @@ def _quantity(words: tuple[str, ...], found: set[str], axis: str, ground: bool) 
     alone = {"a", "c", "p", "l", "r", "left", "right", *filter(str.isdigit, words)}
     if "foreign" in found:
         return "foreign"
-    if axis in ("x", "y", "z") and set(words) - {axis} <= alone:
+    of_plate = "plate" in found and {"a", "c", "p"} & set(words) and not {"force", "moment"} & found
+    if axis in ("x", "y", "z") and (set(words) - {axis} <= alone or of_plate):
         return "place"
     if "place" in found or cells:
         return "cell"

@@ -8,12 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError, InputError
+from plantar.formats.column_names import heading_of
 from plantar.sides import SIDES, Side, other_side
 
 _MARKS: dict[Side, re.Pattern[str]] = {
-    "left": re.compile(r"left|links|gauche|izquierd|sinistr|(?:(?<=[\W_\d])|^)(?:l|lf|lt)(?=[\W_\d]|$)", re.IGNORECASE),
+    "left": re.compile(
+        r"(?i)left|links|linke[mnrs]?\b|gauche|izquierd|sinistr|esquerd|左|(?:(?<=[\W_\d])|^)(?:l|lf|lt)(?=[\W_\d]|$)"
+    ),
     "right": re.compile(
-        r"right|rechts|droit|derech|destr[oa]|(?:(?<=[\W_\d])|^)(?:r|rf|rt)(?=[\W_\d]|$)", re.IGNORECASE
+        r"(?i)right|rechts|rechte[mnrs]?\b|droit|derech|destr[oa]|direit|右|(?:(?<=[\W_\d])|^)(?:r|rf|rt)(?=[\W_\d]|$)"
     ),
 }
 
@@ -49,7 +52,8 @@ def sides_of_plates(text: str | None) -> tuple[Side | None, ...]:
 
 
 _SIDE_COLUMN = re.compile(
-    r"\W*(?:side|foot|sole|insole|shoe|leg|limb|fu(?:ss|ß)|seite|pied|pie)(?:[ _-]?(?:side|id))?\W*", re.IGNORECASE
+    r"(?i)\W*(?:body )?(?:side|foot|sole|insole|shoe|leg|limb|fuss|fuß|seite|pied|côté|pie|lado|lato|piede|zijde)"
+    r"(?:[ _-]?(?:side|id))?\W*|足"
 )
 # Usual distances between a foot's rows over which its values are interpolated, whatever the unit of the times: more
 # was not measured, and is filled or not as in any recording.
@@ -72,7 +76,8 @@ def is_side_column(name: str) -> bool:
 @lru_cache(maxsize=64)
 def number_of_side(cell: str) -> str:
     """Cell of a side column as 0 (left) or 1 (right); unchanged if it names no foot."""
-    side = side_of(cell.strip().strip('"'))
+    text = cell.strip().strip('"')
+    side = side_of(text) or heading_of(text).side
     return cell if side is None else _MARK[side]
 
 
