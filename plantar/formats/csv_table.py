@@ -4,6 +4,7 @@ OpenSim's .mot and .sto, Cortex' .forces, loadsol's text, and nameless tables wh
 gaitpdb) count, too.
 """
 
+import re
 from collections.abc import Iterator
 from itertools import chain, islice
 from pathlib import Path
@@ -22,11 +23,12 @@ from plantar.formats.table_text import (
     with_column,
     without_quotes,
 )
-from plantar.formats.text import head_text, open_text, table_of_lines
+from plantar.formats.text import head_text, number, open_text, table_of_lines
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import SIDES
 
 _MOST_COLUMNS, _HEAD = 100_000, 200
+_POINT = re.compile(r"(?<!\d)0\.|\.(?!\d{3}(?!\d))|\d{4}\.|\.\d+[eE]")  # that is no mark between thousands
 _FEWEST = 3  # Numbers of a row from which lines are a table by themselves; a row of two needs names
 
 
@@ -60,6 +62,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         rows: Iterator[str] = chain((x for x in first if not x.startswith("#")), more)
         if delimiter == "," and any(map(has_quoted_commas, first)):
             rows = without_quotes(rows)
+        if delimiter != "," and any("," in x for x in first) and not any(map(_POINT.search, first)):
+            rows = (x.replace(".", "") for x in rows)
         if delimiter == "," and not names and head.first and 2 * lines[head.first - 1].count(",") + 2 == head.width:
             raise FormatError(
                 "rows have twice as many cells as names: a comma cannot be decimal sign and delimiter, too"
@@ -68,6 +72,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         if clock is not None:
             rows = with_column(rows, delimiter, clock, CountedSeconds())
             names[clock : clock + 1] = [f"time {side_of(names[clock]) or ''} [s]"] if names else []
+        for i in head.labels:
+            rows = with_column(rows, delimiter, i, lambda cell: "nan" if number(cell) is None else cell)
         of_side = next((i for i, n in enumerate(names) if is_side_column(n)), None)
         if of_side is not None:
             rows = with_column(rows, delimiter, of_side, number_of_side)

@@ -5,16 +5,18 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from itertools import pairwise
 
 from plantar.formats.column_names import heading_of
-from plantar.formats.side import side_of
-from plantar.formats.text import number
-from plantar.formats.units import FORCES, LENGTHS, MOMENTS, PASCALS, plain
+from plantar.formats.side import number_of_side, side_of
+from plantar.formats.text import MISSING, cells_of_row, number, ungrouped
+from plantar.formats.units import FORCES, LENGTHS, MOMENTS, PASCALS, RAW, plain
 
 _ROWS = 10  # Rows of numbers in a row from which a table begins, where there are so many
+_ALIKE = 3  # Rows from which a text that stands in all of them is a label
 _LONGEST_NAME = 200
-_OTHERS = "s sec secs ms hz - % %bw bw raw v deg"
-_UNITS = {*FORCES, *PASCALS, *LENGTHS, *MOMENTS, *_OTHERS.split(), ""}
+_OTHERS = "s sec secs ms hz - % %bw bw xbw n/kg deg"
+_UNITS = {*FORCES, *PASCALS, *LENGTHS, *MOMENTS, *RAW, *_OTHERS.split(), ""}
 
 
 @dataclass(frozen=True)
@@ -27,6 +29,7 @@ class TableHead:
         width: Cells of a row.
         first: Line number of the first row.
         facts: Of lines above the table, by lower-case name.
+        labels: Columns of one text.
     """
 
     names: list[str]
@@ -34,6 +37,7 @@ class TableHead:
     width: int
     first: int
     facts: dict[str, str]
+    labels: tuple[int, ...] = ()
 
 
 def head_of_table(lines: Sequence[str]) -> TableHead | None:
@@ -43,7 +47,10 @@ def head_of_table(lines: Sequence[str]) -> TableHead | None:
             continue
         rows = [x for x in lines[first : first + 2 * _ROWS] if not x.startswith("#")][:_ROWS]
         delimiter = _delimiter(rows)
-        width = _width(rows, delimiter)
+        labels = _labels(rows, delimiter)
+        for i in labels:
+            rows = list(with_column(iter(rows), delimiter, i, lambda _: "nan"))
+        width = _width(rows, delimiter, len(cells_of_row(lines[first - 1], delimiter)) if first else 0)
         if width == 1 and first and _numbers(rows[0], "\t"):
             alone = _name_alone(lines[:first])
             if alone is not None:
@@ -66,8 +73,13 @@ def head_of_table(lines: Sequence[str]) -> TableHead | None:
             if numbered or ascending:
                 return TableHead([c.strip() for c in rows[0].split(delimiter)], delimiter, width, 1, {})
         names, above = _names(lines[:first], delimiter, width)
-        return TableHead(names, delimiter, width, first, _facts(lines[:above], delimiter))
+        return TableHead(names, delimiter, width, first, _facts(lines[:above], delimiter), labels)
     return None
+
+
+def _labels(rows: Sequence[str], delimiter: str | None) -> tuple[int, ...]:
+    columns = zip(*(_cells(x, delimiter) for x in rows), strict=False)
+    return tuple(i for i, c in enumerate(columns) if len(c) >= _ALIKE and len(set(c)) == 1 and not _is_cell(c[0]))
 
 
 def _name_alone(above: Sequence[str]) -> str | None:
@@ -89,10 +101,11 @@ def _cells(line: str, delimiter: str | None) -> list[str]:
     return next(without_quotes(iter([line]))).split(delimiter) if delimiter == "," else line.split(delimiter)
 
 
-def _width(rows: Sequence[str], delimiter: str | None) -> int:
-    counts = [len(_cells(x, delimiter)) for x in rows]
+def _width(rows: Sequence[str], delimiter: str | None, named: int) -> int:
+    cells = [_cells(x, delimiter) for x in rows]
+    counts = list(map(len, cells))
     width = max(set(counts), key=counts.count, default=0)
-    while width > 1 and all(len(c) >= width and not c[width - 1].strip() for c in (_cells(x, delimiter) for x in rows)):
+    while width > max(1, named) and all(len(c) >= width and not c[width - 1].strip() for c in cells):
         width -= 1
     return width
 
@@ -128,9 +141,12 @@ def _is_cell(text: str) -> bool:
     return (
         not stripped
         or _is_number(text)
-        or stripped in ("nan", "na", "n/a", "null", "inf", "-")
-        or (len(text) < 12 and side_of(stripped) is not None)
+        or stripped in MISSING
+        or (len(text) < 12 and number_of_side(stripped) != stripped)
     )
+
+
+_PLATE = re.compile(r".*\b(?:plate|platform|fp)\W*(\d+)\b.*", re.IGNORECASE)  # of a device, by a longer name
 
 
 def _names(above: Sequence[str], delimiter: str | None, width: int) -> tuple[list[str], int]:
@@ -154,7 +170,7 @@ def _names(above: Sequence[str], delimiter: str | None, width: int) -> tuple[lis
     if len(rows) > 1 and side_of(*names) is None and len(rows[-2]) > 1:
         groups, last = [], ""
         for cell in rows[-2] + [""] * (width - len(rows[-2])):
-            last = cell or last
+            last = _PLATE.sub(r"FP\1", cell) or last
             groups.append(last)
         if len(rows[-2]) <= width and any(side_of(g) or heading_of(g).plate for g in groups):
             names = [f"{g} {n}".strip() if time_unit(n) is None else n for g, n in zip(groups, names, strict=True)]
@@ -174,7 +190,9 @@ def _are_numbered(cells: Sequence[str]) -> bool:
 def _facts(lines: Sequence[str], delimiter: str | None) -> dict[str, str]:
     """Facts of lines like "# unit: kPa", "SampleRate=1200", "rate<tab>100" and "200 Hz"."""
     out: dict[str, str] = {}
-    for line in lines:
+    for before, line in pairwise(["", *lines]):
+        if before.startswith("Devices") and line.strip(",;\t ").isdigit():  # of Vicon Nexus: the rate, without a name
+            line = f"rate: {line}"
         line = line.lstrip("#").replace('"', "").strip(",;\t ")
         alone = _RATE_ALONE.fullmatch(line)
         line = f"{alone[1] or 'rate'}: {alone[2]}" if alone else line
@@ -198,7 +216,7 @@ _SECONDS |= {"min": 60.0, "minute": 60.0, "h": 3600.0, "hour": 3600.0}
 _BY = "abs|absolute|elapsed|frame|sample|sampling|relative|rel|recording|measurement|system|local|unix|utc"
 _SIDE = "(?:l|r|left|right)"
 _TIMES = f"ts|t|times?|times?[ _-]{_SIDE}|(?-i:t)[ _-]{_SIDE}|{_SIDE}[ _-]times?"  # a foot's own clock
-_TIMES += "|time[ _-]?stamps?|date[ /_-]?time|zeit|uhrzeit|zeitstempel|temps|tempo|tiempo|tijd"
+_TIMES += "|time[ _-]?stamps?|date[ /_-]?time|zeit|uhrzeit|zeitstempel|temps|tempo|tiempo|tijd|czas|時間|時刻"
 _UNIT = "|".join(rf"{name}s?" for name in _SECONDS)
 # Units that are a column's name by themselves; "min" may be the least of something.
 _ALONE = "(?:sec|second|ms|us|msec|millisec|millisecond|millis|micros)s?"
@@ -252,10 +270,7 @@ def without_quotes(lines: Iterator[str]) -> Iterator[str]:
 
 
 def _plain(quoted: re.Match[str]) -> str:
-    text = quoted[1]
-    if "," in text and "." in text:  # one of them parts the thousands: the one that comes first
-        return text.replace(",", "") if text.rfind(",") < text.rfind(".") else text.replace(".", "").replace(",", ".")
-    return text.replace(",", ".")
+    return ungrouped(quoted[1]).replace(",", ".")
 
 
 def has_quoted_commas(line: str) -> bool:

@@ -21,6 +21,9 @@ _BLOCK, _BLOCK_VALUES, _FIRST = 2048, 4_000_000, 32
 _ZEROS = 0.01  # Share of zeros that damage may put into a text
 _MARKED_AGAIN = re.compile(rb"(?:(\xff\xfe|\xfe\xff|\xef\xbb\xbf)(?=\1))+")  # byte order marks before the last one
 _NUMBER = re.compile(r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?")
+_THOUSANDS = re.compile(r"[-+]?\d{1,3}(?:(?:[\s'’]\d{3})+(?:[.,]\d*)?|(?:\.\d{3})+,\d*|(?:,\d{3})+\.\d*)")
+MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "null", "none", "inf", "-inf", "-", "--", "---", "*"])
+"""What stands for a value that was not measured, in lower case."""
 
 
 def open_text(path: Path) -> TextIO:
@@ -110,14 +113,19 @@ def number(text: str) -> float | None:
     """Number with decimal point or comma; None if none or not finite.
 
     Example:
-        >>> number(" 1,5 "), number("1.5e3"), number("1.2.3"), number("nan")
-        (1.5, 1500.0, None, None)
+        >>> number(" 1,5 "), number("1.5e3"), number("1.2.3"), number("nan"), number("1.234,5")
+        (1.5, 1500.0, None, None, 1234.5)
     """
-    cleaned = text.strip().strip('"')
+    cleaned = ungrouped(text.strip().strip("\"'").replace("−", "-"))
     if not _NUMBER.fullmatch(cleaned):
         return None
     value = float(cleaned.replace(",", "."))
     return value if np.isfinite(value) else None
+
+
+def ungrouped(text: str) -> str:
+    """Text without marks between thousands, if it is a number that has them."""
+    return re.sub(r"[\s'’]|[.,](?=.*[.,])", "", text) if _THOUSANDS.fullmatch(text) else text
 
 
 def number_in(text: str) -> float | None:
@@ -210,7 +218,7 @@ def row_of_numbers(cells: Sequence[str]) -> tuple[NDArray[np.float64], int]:
         value = number(cell)
         if value is not None:
             out[i] = value
-        elif cell.strip():
+        elif cell.strip().lower() not in MISSING:
             bad += 1
     return out, bad
 

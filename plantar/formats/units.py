@@ -31,9 +31,10 @@ FORCES = _each(
     ("n newton newtons nt", 1.0),
     ("kn", 1e3),
     ("mn", 1e-3),
-    ("kgf kg", _KILOGRAM),
+    ("dan", 10.0),
+    ("kgf kg kp", _KILOGRAM),
     ("g gf", 1e-3 * _KILOGRAM),
-    ("lb lbf lbs", _POUND),
+    ("lb lbf lbs pound pounds", _POUND),
 )
 """Force units by their plain lower-case name, in N; a mass means its weight."""
 

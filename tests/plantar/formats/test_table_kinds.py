@@ -1,5 +1,6 @@
 """Tables of forces by any sensible heading, and text formats of laboratories: columns are taken by what they hold."""
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
@@ -29,33 +30,19 @@ AHEAD = {"left": 0.2 * LEFT * (GONE_LEFT - 0.5), "right": 0.2 * RIGHT * (GONE_RI
 LEFTWARD = {"left": -0.04 * LEFT, "right": 0.04 * RIGHT}
 PLACE = {"left": 0.2 * GONE_LEFT, "right": 0.2 * GONE_RIGHT}
 
-HEADINGS = (
-    "Left Fz (N)|Right Fz (N)",
-    "Fz_left|Fz_right",
-    "FzL|FzR",
-    "L_Fz|R_Fz",
-    "vGRF_L|vGRF_R",
-    "GRF left [N]|GRF right [N]",
-    "Fz1|Fz2",
-    "FP1_Fz|FP2_Fz",
-    "ground_force_l_vy|ground_force_r_vy",
-    "Force.Fz1|Force.Fz2",
-    "Left Force|Right Force",
-    "GRFz_L|GRFz_R",
-    "LeftVerticalForce_N|RightVerticalForce_N",
-    "Belt1 Fz|Belt2 Fz",
-    "Kraft links [N]|Kraft rechts [N]",
-    "F1Y1|F2Y1",
-    "Left total force(N)|Right total force(N)",
-    "Force Z (Left)|Force Z (Right)",
-    "Left [N]|Right [N]",
-    "LFoot_Fz|RFoot_Fz",
-    "Treadmill Left Fz|Treadmill Right Fz",
-    "Plate 1 Vertical (N)|Plate 2 Vertical (N)",
-    "fz_left_newton|fz_right_newton",
-    "force_sum_left|force_sum_right",
-    "Forza sinistra (N)|Forza destra (N)",
-    "Kracht links (N)|Kracht rechts (N)",
+HEADINGS = re.split(
+    r";\s+",
+    """Left Fz (N)|Right Fz (N); Fz_left|Fz_right; FzL|FzR; L_Fz|R_Fz; vGRF_L|vGRF_R; GRF left [N]|GRF right [N];
+Fz1|Fz2; FP1_Fz|FP2_Fz; ground_force_l_vy|ground_force_r_vy; Force.Fz1|Force.Fz2; Left Force|Right Force; GRFz_L|GRFz_R;
+LeftVerticalForce_N|RightVerticalForce_N; Belt1 Fz|Belt2 Fz; Kraft links [N]|Kraft rechts [N]; F1Y1|F2Y1;
+Left total force(N)|Right total force(N); Force Z (Left)|Force Z (Right); Left [N]|Right [N]; LFoot_Fz|RFoot_Fz;
+Treadmill Left Fz|Treadmill Right Fz; Plate 1 Vertical (N)|Plate 2 Vertical (N); fz_left_newton|fz_right_newton;
+force_sum_left|force_sum_right; Forza sinistra (N)|Forza destra (N); Kracht links (N)|Kracht rechts (N);
+Linker Fuß Kraft [N]|Rechter Fuß Kraft [N]; Kraft li (N)|Kraft re (N);
+Force verticale pied gauche [N]|Force verticale pied droit [N]; Fuerza vertical izq (N)|Fuerza vertical der (N);
+Pie izquierdo (N)|Pie derecho (N); Piede sinistro [N]|Piede destro [N]; Linkervoet [N]|Rechtervoet [N];
+Força esquerda (N)|Força direita (N); 左足 荷重 (N)|右足 荷重 (N);
+Noraxon Insoles.LT Force-Total (N)|Noraxon Insoles.RT Force-Total (N)""",
 )
 
 
@@ -144,6 +131,26 @@ def forces() -> str:
     return f"[Force Data]\nNumberOfForcePlates=2\nSampleRate=100.000\n#Sample\t{names}\n" + rows(columns)
 
 
+def vicon() -> str:
+    """Vicon Nexus: a rate without a name, devices in groups, and units below the names."""
+    columns = [v for side, force in (("left", LEFT), ("right", RIGHT)) for v in (AHEAD[side], LEFTWARD[side], force)]
+    groups = ",,,".join(f"Imported AMTI OR6 Series Force Plate #{i} - Force" for i in (1, 2))
+    head = f"Devices\n100\n,,{groups},,\nFrame,Sub Frame,Fx,Fy,Fz,Fx,Fy,Fz\n,,N,N,N,N,N,N\n"
+    return head + rows([np.arange(1.0, len(TIME) + 1.0), NONE, *columns], ",")
+
+
+def with_empty_names() -> str:
+    """A column for a task, one for markers that is empty in most rows, and values that were not measured."""
+    walk = [f"walk,{t:.2f},{a:.1f},{b:.1f},NaN,NaN," for t, a, b in WALK]
+    walk[300] += "patient turns"
+    return "Task,Time (s),Left Fz (N),Right Fz (N),Left COPx (m),Right COPx (m),Marker\n" + "\n".join(walk)
+
+
+def parts_and_totals() -> str:
+    columns = [part * force for force in (LEFT, RIGHT) for part in (0.4, 0.6, 1.0)]
+    return "time,L heel [N],L toes [N],L [N],R heel [N],R toes [N],R [N]\n" + rows([TIME, *columns], ",")
+
+
 def loadsol() -> str:
     parts = [part * force for force in (LEFT, RIGHT) for part in (0.4, 0.3, 0.3, 1.0)]
     names = "Time[secs]\theel-Force[N]\tmedial-Force[N]\tlateral-Force[N]\tForce[N]"
@@ -182,6 +189,9 @@ def bioware() -> str:
         ("GaCo01_01.txt", gaitpdb, "insole", ("left", "right")),
         ("d_flow.txt", d_flow, "plate", ("left", "right")),
         ("bioware.txt", bioware, "plate", ("right",)),
+        ("vicon.csv", vicon, "plate", ("left", "right")),
+        ("markers.csv", with_empty_names, "plate", ("left", "right")),
+        ("regions.csv", parts_and_totals, "insole", ("left", "right")),
     ],
 )
 def test_text_of_laboratories(tmp_path, name, text, kind, sides):
@@ -190,6 +200,17 @@ def test_text_of_laboratories(tmp_path, name, text, kind, sides):
     walk = analyse(path)
     check(walk, sides)
     assert walk.recording.kind == kind
+
+
+@pytest.mark.parametrize(
+    ("mark", "point", "digits"),
+    [(".", ",", 0), (".", ",", 2), (" ", ",", 0), (" ", ",", 2), ("'", ".", 2), (",", ".", 2)],
+)
+def test_marks_between_thousands(tmp_path, mark, point, digits):
+    lines = [f"{t:.2f};{2.0 * a:,.{digits}f};{2.0 * b:,.{digits}f}" for t, a, b in WALK]
+    lines = [line.translate(str.maketrans({",": mark, ".": point})) for line in lines]
+    (tmp_path / "walk.csv").write_text("Time (s);Left Fz (N);Right Fz (N)\n" + "\n".join(lines))
+    check(analyse(tmp_path / "walk.csv"), weight=1600.0)
 
 
 def test_sensors_by_place_and_times_in_milliseconds(tmp_path):
@@ -223,6 +244,9 @@ def test_sensors_by_place_and_times_in_milliseconds(tmp_path):
             + "".join(f"\n23:59:55:{i:02d}" + 12 * ",7" for i in range(30)),
             "no times that increase",
         ),
+        ("time,Left Fz,Right Fz\ns,mV,mV\n" + rows([TIME, LEFT, RIGHT], ","), "unknown unit of force 'mV'"),
+        ("Czas (s),F lewa (N),F prawa (N)\n" + rows([TIME, LEFT, RIGHT], ","), "no column of the table is a load"),
+        (rows([AHEAD["left"], LEFT, 90.0 * AHEAD["left"], NONE], ","), "as forces and moments of a plate do"),
         ("time,Fz\n" + rows([TIME, 700.0 + 200.0 * np.sin(12.0 * TIME)], ","), "both feet walk on one plate"),
     ],
 )
@@ -345,6 +369,15 @@ def trials(begins: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
     """Force (n,) of a foot that steps on a plate at some times, and how far each contact has gone."""
     share = np.sum([np.where((t < TIME) & (t + 0.7 > TIME), (TIME - t) / 0.7, 0.0) for t in begins], axis=0)
     return 800.0 * np.sin(np.pi * share), share
+
+
+def test_a_noisy_belt_that_is_empty_before_and_after_the_walk(tmp_path):
+    path, rng = tmp_path / "walk.csv", np.random.default_rng(1)
+    walk = [LEFT * ((TIME > 2.9) & (TIME < 6.2)), RIGHT * ((TIME > 3.4) & (TIME < 6.7))]
+    for _ in range(4):
+        columns = [force + rng.normal(0.0, 11.0, len(TIME)) for force in walk]
+        path.write_text("time (s),Left Fz (N),Right Fz (N)\n" + rows([TIME, *columns], ","))
+        assert [len(gait.steps) for gait in analyse(path).feet.values()] == [3, 3]
 
 
 @pytest.mark.parametrize("names", ["Left Fz (N),Right Fz (N)", "left (N),right (N)", "FP1_Fz,FP2_Fz"])

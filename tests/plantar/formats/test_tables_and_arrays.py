@@ -303,7 +303,7 @@ def test_damage(tmp_path, layout, values):
     write_layout(layout, tmp_path / "layout.json")
 
 
-@pytest.mark.parametrize("words", [("left", "right"), ("L", "R"), ("0", "1"), ("1", "2")])
+@pytest.mark.parametrize("words", [("left", "right"), ("L", "R"), ("0", "1"), ("1", "2"), ("Li", "Re")])
 @pytest.mark.parametrize("shift", [0.0, 0.004])
 def test_a_table_with_a_column_of_sides_is_two_feet(tmp_path, layout, values, words, shift):
     """Rows of both feet in turn; with a shift, the right foot is measured between the left one's times."""
