@@ -84,13 +84,10 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
         for side, values in split
     }
     time, rate, notes = _times(arrays, clock, len(split[0][1]), options, warnings)
-    held = json.loads(_text(arrays, "metadata") or "{}") if own_export else {"kind": _text(arrays, "kind")}
-    stated = held.get("kind") if isinstance(held, dict) else None
+    stated = _kind_of_metadata(_text(arrays, "metadata") or "{}") if own_export else _text(arrays, "kind")
     kind: Kind = next((k for k in get_args(Kind) if k == stated), "robot" if own_export else "insole")
     if len({foot.force.shape for foot in feet.values()}) < len(feet) and kind == "platform":
         feet = {"left": replace(feet["left"], force=feet["left"].force + feet["right"].force)}
-    elif len(feet) == 1 and kind != "platform":
-        warnings.append(f"the file holds the {next(iter(feet))} foot only")
     return PressureRecording(
         path=path,
         format=FORMAT.name,
@@ -102,6 +99,14 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
         raw=unit.kind == "raw",
         kind=kind,
     )
+
+
+def _kind_of_metadata(text: str) -> object:
+    try:
+        held = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise FormatError(f"the text 'metadata' is no JSON ({error}); allowed: an object such as {{}}") from None
+    return held.get("kind") if isinstance(held, dict) else None
 
 
 def _tables(arrays: dict[str, _Array]) -> dict[str, _Array]:

@@ -52,6 +52,7 @@ def test_what_holds_no_frames_is_refused(given):
         ({"time": np.arange(190) / 50.0}, "'time' holds 190 times for 200 frames"),
         ({"rate_hz": np.array([50.0, 60.0])}, "'rate_hz' is no number"),
         ({"left": np.full((200, 3), 1.0 + 2.0j)}, "'left' holds what is no real number"),
+        ({"skin/left/force": np.full((200, 3), 1.0), "metadata": "{cut"}, "'metadata' is no JSON"),
     ],
 )
 def test_arrays_that_are_there_and_cannot_be_used_are_refused(more, words):
