@@ -13,11 +13,10 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.files.input_file import open_input
-from plantar.formats.cells_of_foot import foot_of_matrix
+from plantar.formats.cells_of_foot import foot_of_matrix, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
 from plantar.formats.text import cells_of_row, frames_of_lines, head_text, number, open_text, row_of_numbers
-from plantar.formats.units import find_unit
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import PressureRecording, possible_rate, sampling
 
@@ -44,12 +43,12 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         times, (rows, columns), table = _take_frames(path, iter(stream), warnings)
     time, rate = _times(times, options, warnings)
     time, rate, notes = sampling(time, rate)
-    pitch = (_ACROSS, _ALONG) if rows == _COLUMNS != columns else (_ALONG, _ACROSS)
+    turned = rows == _COLUMNS != columns
+    pitch = (_ACROSS, _ALONG) if turned else (_ALONG, _ACROSS)
     warnings.append(
         f"the file states no size of its cells: {_ACROSS * 1e3:g} x {_ALONG * 1e3:g} mm, as plates have them"
     )
-    side, unit = options.side or side_of(path.stem), find_unit(options.unit or "N")
-    assert unit is not None
+    side, unit = options.side or side_of(path.stem), unit_of_values("N", options, warnings)
     whole, name = np.ones((rows, columns), dtype=bool), f"platform of {rows} x {columns} cells"
     foot = foot_of_matrix(side or "left", table.rows, unit, options, whole, pitch, name, _THRESHOLD)
     return PressureRecording(

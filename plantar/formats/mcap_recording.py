@@ -36,7 +36,6 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         if own is None:
             warnings.append(f"no layout of the {side} sole: forces only, give one with --layout for pressures and CoP")
         feet[side] = FootRecording(side, force, own, placement=_placement(recording, side, time))
-    warnings += [f"no taxel forces of the {side} foot: one foot is analysed" for side in SIDES if side not in feet]
     return PressureRecording(
         path=path,
         format=FORMAT.name,

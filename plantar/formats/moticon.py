@@ -48,8 +48,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     time, rate, notes = sampling(in_seconds(table[:, 0], None, None, warnings, 0.5), None, options.rate_hz)
     size = _size(header, warnings)
     feet: dict[Side, FootRecording] = {}
-    units: set[str] = set()
-    raw = False
+    units: set[Unit] = set()
     for side in SIDES:
         columns = _columns(names, side)
         cells = sorted(
@@ -58,8 +57,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         if not cells or np.isnan(table[:, [i for _, i, _ in cells]]).all():
             continue
         unit = _unit(options, [stated for _, _, stated in cells], warnings)
-        raw = raw or unit.kind == "raw"
-        units.add(unit.name)
+        units.add(unit)
         pressure = table[:, [i for _, i, _ in cells]]
         total = _total(columns, table, side, warnings)
         layout = _layout(side, size, pressure, unit, total, options, warnings)
@@ -71,18 +69,16 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     if not feet:
         raise FormatError("no channel 'left pressure 1' or 'right pressure 1' holds values")
     if len(units) > 1:
-        warnings.append(f"the feet are in different units ({', '.join(sorted(units))})")
-    if len(feet) == 1:
-        warnings.append(f"the file holds the {next(iter(feet))} foot only")
+        warnings.append(f"the feet are in different units ({', '.join(sorted(u.name for u in units))})")
     return PressureRecording(
         path=path,
         format=FORMAT.name,
         rate_hz=rate,
         time=time,
         feet=feet,
-        metadata={**header, "unit": next(iter(units))},
+        metadata={**header, "unit": next(iter(units)).name},
         warnings=(*warnings, *notes),
-        raw=raw,
+        raw=any(u.kind == "raw" for u in units),
     )
 
 

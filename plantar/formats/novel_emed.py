@@ -236,21 +236,20 @@ def _sensor_size(facts: dict[str, str], warnings: list[str]) -> tuple[float, flo
     area = number_in(facts.get("area", ""))
     in_mm = re.search(r"mm", facts.get("area", "")) is not None
     area = None if area is None or area <= 0.0 else area * (1e-6 if in_mm else 1e-4)
+    square = _USUAL_SIZE if area is None else float(np.sqrt(area))
     if len(numbers) == 2 and min(numbers) > 0.0 and unit is not None:
         size = numbers[1] * unit, numbers[0] * unit
-        if area is not None and abs(size[0] * size[1] - area) > 0.02 * area:
-            side = float(np.sqrt(area))
-            warnings.append(
-                f"the file states sensors of {size[1] * 1e3:g} x {size[0] * 1e3:g} mm and of {area * 1e6:g} mm2, which "
-                "do not agree: the area is used"
-            )
-            return side, side
-        return size
-    if area is not None:
+        if area is None or abs(size[0] * size[1] - area) <= 0.02 * area:
+            return size
+        warnings.append(
+            f"the file states sensors of {size[1] * 1e3:g} x {size[0] * 1e3:g} mm and of {area * 1e6:g} mm2, which "
+            "do not agree: the area is used"
+        )
+    elif area is not None:
         warnings.append("the file states no sensor size: square sensors of its sensor area are assumed")
-        return float(np.sqrt(area)), float(np.sqrt(area))
-    warnings.append("the file states neither sensor size nor area: 5 x 5 mm is assumed")
-    return _USUAL_SIZE, _USUAL_SIZE
+    else:
+        warnings.append("the file states neither sensor size nor area: 5 x 5 mm is assumed")
+    return square, square
 
 
 def _unit(

@@ -6,7 +6,6 @@ numbers; where they restart, the next foot begins. Pliance exports may end with 
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import chain, islice
 from pathlib import Path
 from typing import TextIO
@@ -46,25 +45,22 @@ def _recognises(head: bytes) -> bool:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    notes: list[str] = []
+    warnings: list[str] = []
     with open_text(path) as stream:
         header, columns, delimiter = _take_header(stream)
         text = "\n".join(header)
-        sides = _sides(text, columns, options, notes)
-        rows, tail = _take_rows(path, stream, delimiter, len(columns), [span for _, span in sides])
-    warnings = [*rows.warnings, *notes]
+        sides = _sides(text, columns, options, warnings)
+        time, parts, tail = _take_rows(path, stream, delimiter, len(columns), [span for _, span in sides], warnings)
     layout, unit = options.layout, _unit(text, options, warnings)
     named = {name: _field(text, rf"{words}:?\s*({_NUMBER})") or "" for name, words in _RATES.items()}
-    time, rate, doubts = sampling(rows.time, options.rate_hz or stated_rate(named, warnings), options.rate_hz)
+    time, rate, doubts = sampling(time, options.rate_hz or stated_rate(named, warnings), options.rate_hz)
     warnings += doubts
     geometry = corner_table(tail, len(columns), warnings) if layout is None else None
     feet: dict[Side, FootRecording] = {}
-    for (side, span), values in zip(sides, rows.values, strict=True):
+    for (side, span), values in zip(sides, parts, strict=True):
         sole = _layout(side, columns[span.start : span.stop], layout, geometry, text, warnings, options.insole_size)
         feet[side] = FootRecording(side, values, sole)
         scale_to_force(values, unit, sole.areas)
-    if len(feet) == 1:
-        warnings.append(f"the file holds the {next(iter(feet))} foot only")
     return PressureRecording(
         path=path,
         format=FORMAT.name,
@@ -95,18 +91,10 @@ def _take_header(lines: Iterable[str]) -> tuple[list[str], list[int], str | None
     raise FormatError("not a pedar or pliance export: no row of column names that starts with time[secs]")
 
 
-@dataclass(frozen=True, eq=False)
-class _Rows:
-    """Frames: times (n,) in s, values (n, span) of each column span (NaN if damaged), and repairs."""
-
-    time: NDArray[np.float64]
-    values: list[NDArray[np.float64]]
-    warnings: tuple[str, ...]
-
-
 def _take_rows(
-    path: Path, stream: TextIO, delimiter: str | None, cells: int, spans: Sequence[range]
-) -> tuple[_Rows, list[str]]:
+    path: Path, stream: TextIO, delimiter: str | None, cells: int, spans: Sequence[range], warnings: list[str]
+) -> tuple[NDArray[np.float64], list[NDArray[np.float64]], list[str]]:
+    """Times (n,) in s, values (n, span) of each column span (NaN if damaged), and lines of cell corners."""
     times, values = FrameTable(1, 0), [FrameTable(len(span), 0) for span in spans]
     bad, lost, tail = 0, [], list[str]()
     blocks = _blocks(stream, max(1, min(_BLOCK, _BLOCK_VALUES // (cells + 1))))
@@ -131,11 +119,8 @@ def _take_rows(
         bad += int(lost[-1].sum())
         if bad > max(0.5 * len(times), 8):  # no use in reading on
             break
-    if not len(times):
-        raise FormatError(f"the file holds no whole frame of {cells} cells")
-    damaged = np.concatenate(lost)
-    warnings: list[str] = []
-    if damaged[-1]:
+    damaged = np.concatenate(lost) if lost else np.zeros(0, dtype=bool)
+    if damaged[-1:].any():
         for table in (times, *values):
             table.drop_last()
         warnings.append("the last frame is cut short: left out")
@@ -146,7 +131,7 @@ def _take_rows(
         raise FormatError(f"{bad} of {n} frames do not have {cells} numbers; the file is damaged")
     if bad:
         warnings.append(f"{bad} damaged frame(s) are treated as not measured")
-    return _Rows(times.rows[:, 0], [table.rows for table in values], tuple(warnings)), tail
+    return times.rows[:, 0], [table.rows for table in values], tail
 
 
 def _blocks(stream: TextIO, most: int) -> Iterator[list[str]]:
@@ -260,9 +245,7 @@ def _layout(
     warnings: list[str],
     insole_size: str | None = None,
 ) -> SoleLayout:
-    if given is not None:
-        sole = layout_for(side, given)
-        assert sole is not None
+    if (sole := layout_for(side, given)) is not None:
         return cells_by_id(sole, cells) or sole
     if geometry is not None:
         warnings.append(

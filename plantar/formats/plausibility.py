@@ -46,6 +46,8 @@ def doubts(recording: PressureRecording) -> list[str]:
         out.append("the readings are raw counts: forces and pressures cannot be given")
     if not _RATE[0] <= recording.rate_hz <= _RATE[1]:
         out.append(f"{recording.rate_hz:.4g} frames a second is an unusual rate: check it")
+    if len(recording.feet) == 1 and recording.kind != "platform":
+        out.append(f"the recording holds the {next(iter(recording.feet))} foot only")
     for side, foot in recording.feet.items():
         if recording.kind not in ("robot", "plate"):
             out += _clipped_or_held(foot, recording.rate_hz, recording.raw)

@@ -171,15 +171,11 @@ def corner_table(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np
                 rows[match[1]] = []
     if not rows:
         return None
-    names = [f"{axis}[{corner}]" for corner in range(4) for axis in "xy"]
-    if any(len(rows.get(name, [])) != cells for name in names):
-        warnings.append("the file's table of cell corners is not whole: not used")
+    table = [rows.get(f"{axis}[{corner}]", []) for corner in range(4) for axis in "xy"]
+    if any(len(row) != cells or not np.isfinite(row).all() for row in table):
+        warnings.append("the file's table of cell corners is not whole, or holds values that are no numbers: not used")
         return None
-    corners = np.array([rows[name] for name in names]).T.reshape(cells, 4, 2) * 1e-2
-    if not np.isfinite(corners).all():
-        warnings.append("the file's table of cell corners holds values that are not numbers: not used")
-        return None
-    return corners
+    return np.array(table).T.reshape(cells, 4, 2) * 1e-2
 
 
 def layout_of_corners(corners: NDArray[np.float64], cells: list[int], side: Side) -> SoleLayout:

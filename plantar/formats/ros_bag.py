@@ -22,7 +22,7 @@ from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import on_one_time, side_of
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import FrameTable
-from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
+from plantar.recordings.pressure_recording import PressureRecording, sampling
 from plantar.sides import SIDES
 
 _LEAST_CELLS, _MOST_CELLS = 3, 20_000  # Numbers in an array that may be a sole: a picture has more
@@ -72,11 +72,7 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
     else:
         parts = dict(halves(values, options, warnings))
     time, rate, notes = sampling(stamps - stamps[0], None, options.rate_hz)
-    feet: dict[Side, FootRecording] = {}
-    for side, values in parts.items():
-        feet[side] = cells_of_foot(side, values, unit, options, warnings)
-    if len(feet) == 1:
-        warnings.append(f"the bag holds the {next(iter(feet))} foot only")
+    feet = {side: cells_of_foot(side, part, unit, options, warnings) for side, part in parts.items()}
     return PressureRecording(
         path=path,
         format=FORMAT.name,

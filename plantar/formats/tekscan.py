@@ -78,7 +78,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     present = _measuring(table.rows)
     if not present.any():
         raise FormatError("no cell of the matrix holds a number")
-    kind: Kind = "platform" if columns * pitch[1] > _WIDEST_FOOT or rows * pitch[0] > _LONGEST_FOOT else "insole"
+    large = columns * pitch[1] > _WIDEST_FOOT or rows * pitch[0] > _LONGEST_FOOT
+    kind: Kind = "platform" if large else "insole"
     side = options.side or side_of(header.get("FILENAME", ""), header.get("COMMENTS", ""), path.stem)
     if side is None and kind == "insole":
         warnings.append("the file does not state which foot it is: taken as the left one (--side overrides)")
@@ -229,25 +230,19 @@ def _pitch(header: dict[str, str], warnings: list[str]) -> tuple[float, float]:
             warnings.append(f"{key} states no unit of length: mm is assumed")
         return None if value is None or value <= 0.0 else value * (unit or 1e-3)
 
-    rows, columns = length("ROW_SPACING"), length("COL_SPACING")
-    area = number_in(header.get("SENSEL_AREA", ""))
-    if area is not None and area > 0.0:
-        text = header["SENSEL_AREA"].lower()
-        area *= 1e-4 if "cm" in text else 0.0254**2 if "in" in text else 1e-6
-    else:
-        area = None
-    if rows is None and columns is None and area is not None:
-        rows = columns = float(np.sqrt(area))
+    stated = [pitch for key in ("ROW_SPACING", "COL_SPACING") if (pitch := length(key)) is not None]
+    text = header.get("SENSEL_AREA", "").lower()
+    area = (number_in(text) or 0.0) * (1e-4 if "cm" in text else 0.0254**2 if "in" in text else 1e-6)
+    if not stated and area > 0.0:
         warnings.append("the header states no spacing: square cells of its sensel area are assumed")
-    if rows is None and columns is None:
-        rows = columns = _USUAL_PITCH
+        return float(np.sqrt(area)), float(np.sqrt(area))
+    if not stated:
         warnings.append("the header states no spacing of rows and columns: 5.08 mm is assumed")
-    elif rows is None or columns is None:
-        rows = columns = rows or columns
+        return _USUAL_PITCH, _USUAL_PITCH
+    if len(stated) == 1:
         warnings.append("the header states one spacing of rows and columns: taken for both")
-    assert rows is not None
-    assert columns is not None
-    if area is not None and abs(rows * columns - area) > 0.02 * area:
+    rows, columns = stated[0], stated[-1]
+    if area > 0.0 and abs(rows * columns - area) > 0.02 * area:
         warnings.append(
             f"spacings of {rows * 1e3:g} x {columns * 1e3:g} mm and a sensel area of {area * 1e6:g} mm2 do not agree: "
             "the spacings are used, check the forces"

@@ -154,12 +154,9 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     sensors = {name: s for name, s in scan.sensors.items() if s.frames}
     if not frames or not sensors:
         raise FormatError("the file holds no frame with a matrix of SENSELS")
-    last = max(s.frames[-1] for s in sensors.values())
-    if any(s.frames[-1] < frames - 1 for s in sensors.values()):
-        whole = min(s.frames[-1] for s in sensors.values()) + 1 if len(sensors) > 1 else last + 1
-        if frames - whole == 1:
-            frames = whole
-            warnings.append("the last frame is cut short: left out")
+    if min(s.frames[-1] for s in sensors.values()) == frames - 2:
+        frames -= 1
+        warnings.append("the last frame is cut short: left out")
     unit = _unit(scan.facts, options, warnings)
     time, rate, notes = _times(scan.clock[:frames], scan.numbers[:frames], options, warnings)
     _check_repeated(sensors.values(), warnings)
@@ -277,13 +274,11 @@ def _places(numbers: list[float], warnings: list[str]) -> NDArray[np.float64]:
     """Frames' places (n,) in the recording by number, or in sequence where these do not rise by 1."""
     places = np.array(numbers) - numbers[0]
     steps = np.diff(places)
-    if not np.isfinite(places).all() or not ((steps >= 1.0) & (steps == np.round(steps))).all():
-        return np.arange(len(numbers), dtype=np.float64)
-    missing = int(places[-1]) + 1 - len(numbers)
-    if missing > len(numbers):  # such numbers are damaged, or count something else
+    missing = places[-1] + 1.0 - len(numbers)  # of more than there are, they are damaged, or count something else
+    if not ((steps >= 1.0) & (steps == np.round(steps))).all() or not missing <= len(numbers):
         return np.arange(len(numbers), dtype=np.float64)
     if missing:
-        warnings.append(f"{missing} frame number(s) are missing: gaps in time")
+        warnings.append(f"{missing:.0f} frame number(s) are missing: gaps in time")
     return places
 
 

@@ -167,7 +167,8 @@ class WornFaults:
         (before, first), (after, second) = late[0], late[min(1, len(late) - 1)]
         if due <= before or after <= before:
             return first
-        return np.asarray(first + (due - before) / (after - before) * (second - first))
+        share = (due - before) / (after - before)
+        return np.asarray(first + share * (second - first))
 
 
 def crosstalk_matrix(layout: SoleLayout, crosstalk: float) -> NDArray[np.float64]:
