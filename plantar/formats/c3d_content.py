@@ -104,25 +104,25 @@ def _plates(parameters: Any, analogs: NDArray[np.float64]) -> dict[str, Any]:
     out: dict[str, Any] = {"plates": count}
     for i in range(count):
         kind = int(types[i]) if i < len(types) else 0
-        numbers: Sequence[int] = [int(c) - 1 for c in channels[:, i]] if channels.ndim == 2 else []
         wanted = {1: 6, 2: 6, 3: 8, 4: 6, 5: 8}.get(kind, 0)
-        numbers = numbers[:wanted]
+        numbers: Sequence[int] = [int(c) - 1 for c in channels[:wanted, i]] if channels.ndim == 2 else []
         there = len(numbers) == wanted and all(0 <= c < len(analogs) for c in numbers)
         out[f"type_{i}"] = kind
         out[f"channels_{i}"] = analogs[numbers] if there and wanted else np.zeros((0, analogs.shape[1]))
         out[f"units_{i}"] = np.array([units[c] if c < len(units) else "" for c in numbers] or [""])
-        place, origin = _of_plate(corners, (3, 4), i), _of_plate(origins, (3,), i)
-        matrix = _of_plate(matrices, (6, wanted), i) if kind in (4, 5) else None
-        out[f"corners_{i}"] = np.zeros((0, 3)) if place is None else place.T
-        out[f"origin_{i}"] = np.zeros(3) if origin is None else origin
-        out[f"matrix_{i}"] = np.zeros((0, 0)) if matrix is None else matrix
+        out[f"corners_{i}"] = _of_plate(corners, (3, 4), i, np.zeros((3, 0))).T
+        out[f"origin_{i}"] = _of_plate(origins, (3,), i, np.zeros(3))
+        own = matrices if kind in (4, 5) else np.zeros(0)
+        out[f"matrix_{i}"] = _of_plate(own, (6, wanted), i, np.zeros((0, 0)))
     return out
 
 
-def _of_plate(values: NDArray[np.float64], shape: tuple[int, ...], i: int) -> NDArray[np.float64] | None:
+def _of_plate(
+    values: NDArray[np.float64], shape: tuple[int, ...], i: int, without: NDArray[np.float64]
+) -> NDArray[np.float64]:
     size = math.prod(shape)
     part = values.ravel("F")[i * size : (i + 1) * size]
-    return part.reshape(shape, order="F") if part.size == size else None
+    return part.reshape(shape, order="F") if part.size == size else without
 
 
 def _events(content: Any) -> dict[str, NDArray[np.float64]]:

@@ -33,10 +33,7 @@ _FEWEST = 3  # Numbers of a row from which lines are a table by themselves; a ro
 
 
 def _recognises(head: bytes) -> bool:
-    text = head_text(head)
-    if text is None:
-        return False
-    lines = [x for x in text.splitlines() if x.strip()]
+    lines = [x for x in head_text(head).splitlines() if x.strip()]
     found = head_of_table(lines[:-1] if len(lines) > 3 else lines)
     if found is None or not (found.width >= _FEWEST or found.names):
         return False

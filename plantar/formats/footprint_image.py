@@ -159,8 +159,8 @@ def _foreground(cv2: Any, image: NDArray[np.uint8]) -> NDArray[np.uint8]:
     smooth = cv2.GaussianBlur(image, (0, 0), max(1.0, max(image.shape[:2]) / 500.0))
     lab = cv2.cvtColor(smooth, cv2.COLOR_BGR2LAB).astype(np.float32)
     rim = max(2, min(image.shape[:2]) // 60)
-    border = np.concatenate([lab[:rim].reshape(-1, 3), lab[-rim:].reshape(-1, 3), lab[:, :rim].reshape(-1, 3)])
-    border = np.concatenate([border, lab[:, -rim:].reshape(-1, 3)])
+    sides = (lab[:rim], lab[-rim:], lab[:, :rim], lab[:, -rim:])
+    border = np.concatenate([side.reshape(-1, 3) for side in sides])
     distance = np.sqrt(((lab - np.median(border, axis=0)) ** 2).sum(axis=2))
     scaled = np.clip(distance * (255.0 / max(float(distance.max()), 1e-6)), 0, 255).astype(np.uint8)
     if float(distance.max()) < 12.0:
@@ -183,8 +183,8 @@ def _prints(cv2: Any, mask: NDArray[np.uint8], pixel: float | None, warnings: li
     if not big:
         return []
     boxes = {i: stats[i, :4].astype(float) for i in big}
-    length = max(max(b[2], b[3]) for b in boxes.values())
-    upright = mask.shape[0] >= mask.shape[1] or _tall(boxes, length)
+    longest = max(boxes.values(), key=lambda b: float(max(b[2], b[3])))
+    length, upright = max(longest[2:]), mask.shape[0] >= mask.shape[1] or longest[3] >= longest[2]
     groups: list[list[int]] = []
     for i in sorted(big, key=lambda k: -stats[k, cv2.CC_STAT_AREA]):
         near = [g for g in groups if _belongs(boxes, stats, g, i, upright, length)]
@@ -206,11 +206,6 @@ def _prints(cv2: Any, mask: NDArray[np.uint8], pixel: float | None, warnings: li
         contours = tuple(c.reshape(-1, 2).astype(float) for c in found if len(c) >= 3)
         out.append(Print(own, contours))
     return out
-
-
-def _tall(boxes: dict[int, NDArray[np.float64]], length: float) -> bool:
-    longest = max(boxes.values(), key=lambda b: float(max(b[2], b[3])))
-    return bool(longest[3] >= longest[2])
 
 
 def _belongs(

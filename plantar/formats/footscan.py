@@ -30,8 +30,7 @@ _EXCEL = b"\xd0\xcf\x11\xe0"
 
 
 def _recognises(head: bytes) -> bool:
-    text = head_text(head)
-    return text is not None and re.search(r"(?:^|\n)" + _FRAME.pattern, text, re.IGNORECASE) is not None
+    return re.search(r"(?:^|\n)" + _FRAME.pattern, head_text(head), re.IGNORECASE) is not None
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:

@@ -228,7 +228,7 @@ def on_its_surface(plate: Plate, warnings: list[str]) -> Plate:
 
 
 def _from_edge(corners: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Distance in m of points (n, 2) to a plate's nearest edge, below 0 outside."""
+    # Below 0 outside.
     edges, away = np.roll(corners, -1, axis=0) - corners, points[:, None] - corners
     turns = (edges[:, 0] * away[..., 1] - edges[:, 1] * away[..., 0]) / np.maximum(np.linalg.norm(edges, axis=1), 1e-9)
     return np.asarray((turns * np.sign(np.cross(np.append(edges[0], 0.0), np.append(edges[1], 0.0))[2])).min(axis=1))

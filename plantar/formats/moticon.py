@@ -29,11 +29,8 @@ _LARGEST_HEADER, _MOST_CHANNELS, _LONGEST_NAME = 1000, 10_000, 200
 
 
 def _recognises(head: bytes) -> bool:
-    text = head_text(head)
-    return (
-        text is not None
-        and re.search(r"^\W*#?\s*time[^\n]*(left|right) pressure 1", text, re.MULTILINE | re.IGNORECASE) is not None
-    )
+    channels = r"^\W*#?\s*time[^\n]*(left|right) pressure 1"
+    return re.search(channels, head_text(head), re.MULTILINE | re.IGNORECASE) is not None
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:

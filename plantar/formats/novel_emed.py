@@ -42,7 +42,7 @@ _FACTS = {
 
 def _recognises(head: bytes) -> bool:
     text = head_text(head)
-    return text is not None and re.search(r"Pict-No\.?\s*:", text) is not None and "ensor" in text
+    return re.search(r"Pict-No\.?\s*:", text) is not None and "ensor" in text
 
 
 @dataclass

@@ -39,7 +39,7 @@ _LATEST = 1e9  # Time in s from which a line is damaged
 
 
 def _recognises(head: bytes) -> bool:
-    text = (head_text(head) or "").lower()
+    text = head_text(head).lower()
     columns = re.search(r"^\s*\"?time\s*\[\s*s(?:ecs?)?\s*\]\"?[\s;,]+\d+", text, re.MULTILINE) is not None
     return columns and ("pressure values" in text or "scanning rate" in text)
 
@@ -94,7 +94,7 @@ def _take_header(lines: Iterable[str]) -> tuple[list[str], list[int], str | None
 def _take_rows(
     path: Path, stream: TextIO, delimiter: str | None, cells: int, spans: Sequence[range], warnings: list[str]
 ) -> tuple[NDArray[np.float64], list[NDArray[np.float64]], list[str]]:
-    """Times (n,) in s, values (n, span) of each column span (NaN if damaged), and lines of cell corners."""
+    """Times in s, each span's values, and lines of cell corners."""
     times, values = FrameTable(1, 0), [FrameTable(len(span), 0) for span in spans]
     bad, lost, tail = 0, [], list[str]()
     blocks = _blocks(stream, max(1, min(_BLOCK, _BLOCK_VALUES // (cells + 1))))
@@ -221,15 +221,12 @@ def _sides(text: str, columns: list[int], options: ReadOptions, warnings: list[s
         raise FormatError(f"the column names count {len(restarts) + 1} sensors; one or two feet can be read")
     if listed.get("left") and listed.get("right") and sum(listed.values()) == len(columns):
         return [("left", range(listed["left"])), ("right", range(listed["left"], len(columns)))]
-    if options.side is not None:
-        return [(options.side, range(len(columns)))]
-    if len(listed) == 1:
-        return [(next(iter(listed)), range(len(columns)))]
     marks = set(re.findall(r"\d([lr])(?![a-z])", _sensor_type(text)))
-    if len(marks) == 1:
-        return [("left" if marks == {"l"} else "right", range(len(columns)))]
-    warnings.append("the file does not state which foot it is: taken as the left one (--side overrides)")
-    return [("left", range(len(columns)))]
+    marked: list[Side] = [*listed] if len(listed) == 1 else ["left" if mark == "l" else "right" for mark in marks]
+    side = options.side or (marked[0] if len(marked) == 1 else None)
+    if side is None:
+        warnings.append("the file does not state which foot it is: taken as the left one (--side overrides)")
+    return [(side or "left", range(len(columns)))]
 
 
 def _sensor_type(text: str) -> str:

@@ -36,7 +36,9 @@ _SLENDER = (1.8, 4.2)  # How many times longer than wide insoles are, with room;
 def checked(recording: PressureRecording) -> PressureRecording:
     """Recording with missing-value marks as NaN, warnings of these and of all doubts."""
     found = without_marks(recording)
-    return replace(found, warnings=tuple(dict.fromkeys([*found.warnings, *doubts(found)])))
+    alone = [f"the recording holds the {side} foot only" for side in found.feet if len(found.feet) == 1]
+    told = [*found.warnings, *(alone if found.kind != "platform" else ()), *doubts(found)]
+    return replace(found, warnings=tuple(dict.fromkeys(told)))
 
 
 def doubts(recording: PressureRecording) -> list[str]:
@@ -46,8 +48,6 @@ def doubts(recording: PressureRecording) -> list[str]:
         out.append("the readings are raw counts: forces and pressures cannot be given")
     if not _RATE[0] <= recording.rate_hz <= _RATE[1]:
         out.append(f"{recording.rate_hz:.4g} frames a second is an unusual rate: check it")
-    if len(recording.feet) == 1 and recording.kind != "platform":
-        out.append(f"the recording holds the {next(iter(recording.feet))} foot only")
     for side, foot in recording.feet.items():
         if recording.kind not in ("robot", "plate"):
             out += _clipped_or_held(foot, recording.rate_hz, recording.raw)

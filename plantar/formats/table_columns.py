@@ -244,7 +244,7 @@ def _total_of(table: NDArray[np.float64], columns: list[int]) -> int | None:
 def _with_totals(
     table: NDArray[np.float64], columns: list[int], warnings: list[str]
 ) -> tuple[list[int], dict[Side, list[int]]]:
-    """Columns, and each foot's where the last two are the sums of a half each."""
+    """Columns, and each foot's before their two sums."""
     values, half = _sampled(table, columns), (len(columns) - 2) // 2
     pairs = len(columns) % 2 == 0 and half >= 2 and len(values) > 0
     if pairs and _is_sum(values[:, -2], values[:, :half]) and _is_sum(values[:, -1], values[:, half:-2]):

@@ -68,7 +68,7 @@ def feet_of_forces(
         for key, own in loaded.items()
         if (a := next((a for a in ("vertical", up, "") if a in own["force"]), None)) is not None
     }
-    _check_units(columns, loaded, options)
+    _check_units([columns[i] for own in loaded.values() for i in own["force"].values()], options)
     unit, relative = _unit(
         table, columns, [loaded[k]["force"][a] for k, a in verticals.items()], options, stated, warnings
     )
@@ -119,10 +119,8 @@ def _by_plate(columns: Mapping[int, Heading]) -> dict[_Key, dict[str, dict[str, 
     return {key: own for key, own in groups.items() if "force" in own}
 
 
-def _check_units(
-    columns: Mapping[int, Heading], loaded: Mapping[_Key, dict[str, dict[str, int]]], options: ReadOptions
-) -> None:
-    units = dict.fromkeys(columns[i].unit for own in loaded.values() for i in own["force"].values() if columns[i].unit)
+def _check_units(forces: Sequence[Heading], options: ReadOptions) -> None:
+    units = dict.fromkeys(h.unit for h in forces if h.unit)
     if len(set(map(plain, units))) > 1 and not options.unit:
         raise FormatError(f"the forces are in different units: {', '.join(units)}; allowed: one unit, or --unit")
 

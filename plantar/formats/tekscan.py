@@ -1,7 +1,6 @@
 """Tekscan ASCII exports (.asf, .csv): header of KEY value lines, then a matrix a frame.
 
-F-Scan insoles, mats and walkways share it. "B" marks places without a cell. UNITS names a pressure, a force a cell, or
-raw counts.
+F-Scan insoles, mats and walkways share it. "B" marks places without a cell.
 """
 
 import re
@@ -47,7 +46,7 @@ _LONGEST_FOOT = 0.36
 
 
 def _recognises(head: bytes) -> bool:
-    text = (head_text(head) or "").upper()
+    text = head_text(head).upper()
     keys = sum(re.search(rf"^\W*{k}\b", text, re.MULTILINE) is not None for k in ("ROWS", "COLS", "UNITS", "DATA_TYPE"))
     return keys >= 3 or ("TEKSCAN" in text and keys >= 1) or "SECONDS_PER_FRAME" in text
 

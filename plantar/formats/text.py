@@ -88,16 +88,16 @@ def frames_of_lines(
         yield begin, body
 
 
-def head_text(head: bytes) -> str | None:
-    r"""The beginning of a text, with uniform line ends; None if it is no text.
+def head_text(head: bytes) -> str:
+    r"""The beginning of a text, with uniform line ends; empty if it is no text.
 
     Example:
         >>> head_text("Units:;N/cm²\r\n1;2\r\n".encode("utf-16")), head_text(bytes(range(20)) * 9)
-        ('Units:;N/cm²\n1;2\n', None)
+        ('Units:;N/cm²\n1;2\n', '')
     """
     text = head.decode(encoding_of(head), errors="replace")
     if text.count("\0") > _ZEROS * len(text):
-        return None
+        return ""
     return text.replace("\0", "").lstrip("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
 
 
@@ -124,7 +124,7 @@ def number(text: str) -> float | None:
 
 
 def ungrouped(text: str) -> str:
-    """Text without marks between thousands, if it is a number that has them."""
+    """A number's text without marks between thousands."""
     return re.sub(r"[\s'’]|[.,](?=.*[.,])", "", text) if _THOUSANDS.fullmatch(text) else text
 
 

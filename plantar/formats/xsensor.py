@@ -35,7 +35,7 @@ _ENOUGH = 50.0  # Load in N from which the header's figures are taken to check t
 
 
 def _recognises(head: bytes) -> bool:
-    text = head_text(head) or ""
+    text = head_text(head)
     return re.search(r"^\W*SENSELS\b", text, re.MULTILINE) is not None and "SENSOR" in text and "FRAME" in text
 
 

@@ -49,11 +49,11 @@ def custom_measures(
         analysis: Analysis.
         measures: Functions by name; each gives a number, NaN if unknown, else an InputError.
     """
-    out: dict[Side, dict[str, NDArray[np.float64]]] = {}
-    for side, gait in analysis.feet.items():
-        views = list(_views(analysis, gait))
-        out[side] = {name: np.array([_value(name, f(v), v.step) for v in views]) for name, f in measures.items()}
-    return out
+    views = {side: _views(analysis, gait) for side, gait in analysis.feet.items()}
+    return {
+        side: {name: np.array([_value(name, f(v), v.step) for v in own]) for name, f in measures.items()}
+        for side, own in views.items()
+    }
 
 
 def _value(name: str, value: Any, step: Step) -> float:

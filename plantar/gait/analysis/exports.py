@@ -168,10 +168,8 @@ def _unit(analysis: Analysis) -> str:
 
 
 def _events(analysis: Analysis) -> list[tuple[str, str, float]]:
-    found: list[tuple[str, str, float]] = []
-    for side, gait in analysis.feet.items():
-        found += [(side, "heel_strike", t) for t in gait.heel_strikes]
-        found += [(side, "toe_off", t) for t in gait.toe_offs]
+    found = [(side, "heel_strike", t) for side, gait in analysis.feet.items() for t in gait.heel_strikes]
+    found += [(side, "toe_off", t) for side, gait in analysis.feet.items() for t in gait.toe_offs]
     return sorted(found, key=lambda one: one[2])
 
 
@@ -240,21 +238,8 @@ def _write_c3d(analysis: Analysis, path: Path) -> None:
     for i, cop in enumerate(cops.values()):
         points[:2, i] = np.nan_to_num(cop[at]).T
     unknown = np.array([np.isnan(cop[at, 0]) | lost for cop in cops.values()] or [np.ones(frames, dtype=bool)])
-    file = ezc3d.c3d()
-    parameters = file["parameters"]
-    parameters["POINT"]["RATE"]["value"] = [recording.rate_hz]
-    parameters["POINT"]["UNITS"]["value"] = ["m"]
-    parameters["POINT"]["LABELS"]["value"] = list(cops) or ["none"]
-    reactions = ground_reactions(analysis)
-    analog, unit = parameters["ANALOG"], _unit(analysis)
-    analog["RATE"]["value"] = [recording.rate_hz]
-    analog["LABELS"]["value"] = [
-        f"{side}.{axis}" for side in reactions for axis in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
-    ]
-    analog["UNITS"]["value"] = [unit, unit, unit, f"{unit}m", f"{unit}m", f"{unit}m"] * len(reactions)
-    analog["SCALE"]["value"] = [1.0] * (6 * len(reactions))
-    analog["OFFSET"]["value"] = [0] * (6 * len(reactions))
-    channels, corners = [], []
+    file, unit, reactions = ezc3d.c3d(), _unit(analysis), ground_reactions(analysis)
+    channels, corners, count = [], [], len(reactions)
     for reaction in reactions.values():
         low, high = reaction.cop.min(axis=0) - 0.05, reaction.cop.max(axis=0) + 0.05
         x, y = (reaction.cop - 0.5 * (low + high)).T  # moments are about the middle of the plate
@@ -262,16 +247,24 @@ def _write_c3d(analysis: Analysis, path: Path) -> None:
         six = np.array([fx, fy, fz, y * fz, -x * fz, x * fy - y * fx + reaction.free])[:, at]
         channels.append(np.where(lost | np.isnan(fz[at]), np.nan, six))
         corners.append([[high[0], high[1], 0.0], [low[0], high[1], 0.0], [low[0], low[1], 0.0], [high[0], low[1], 0.0]])
-    plates = parameters["FORCE_PLATFORM"]
-    for name, value in (
-        ("USED", np.array([len(reactions)])),
-        ("TYPE", np.full(len(reactions), 2)),
-        ("ZERO", np.array([1, 0])),
-        ("CORNERS", np.array(corners).transpose(2, 1, 0)),
-        ("ORIGIN", np.zeros((3, len(reactions)))),
-        ("CHANNEL", np.arange(1, 6 * len(reactions) + 1).reshape(-1, 6).T),
+    axes = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
+    for group, name, value in (
+        ("POINT", "RATE", [recording.rate_hz]),
+        ("POINT", "UNITS", ["m"]),
+        ("POINT", "LABELS", list(cops) or ["none"]),
+        ("ANALOG", "RATE", [recording.rate_hz]),
+        ("ANALOG", "LABELS", [f"{side}.{axis}" for side in reactions for axis in axes]),
+        ("ANALOG", "UNITS", [unit, unit, unit, f"{unit}m", f"{unit}m", f"{unit}m"] * count),
+        ("ANALOG", "SCALE", [1.0] * (6 * count)),
+        ("ANALOG", "OFFSET", [0] * (6 * count)),
+        ("FORCE_PLATFORM", "USED", np.array([count])),
+        ("FORCE_PLATFORM", "TYPE", np.full(count, 2)),
+        ("FORCE_PLATFORM", "ZERO", np.array([1, 0])),
+        ("FORCE_PLATFORM", "CORNERS", np.array(corners).transpose(2, 1, 0)),
+        ("FORCE_PLATFORM", "ORIGIN", np.zeros((3, count))),
+        ("FORCE_PLATFORM", "CHANNEL", np.arange(1, 6 * count + 1).reshape(-1, 6).T),
     ):
-        plates[name]["value"] = value
+        file["parameters"][group][name]["value"] = value
     file["data"]["points"] = points
     file["data"]["meta_points"] = {  # residual -1: the point is not there, as without load
         "residuals": np.where(unknown, -1.0, 0.0)[None],

@@ -66,14 +66,9 @@ def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> Sil
     silent = zero & mirror if (zero & mirror).sum() >= _MANY * len(layout) else np.zeros(len(layout), dtype=bool)
     for _ in range(3):  # silent cells next to silent ones are found by those that were found
         loaded = carries | silent
-        found = np.array(
-            [
-                i
-                for i in np.flatnonzero(zero & ~silent).tolist()
-                if _inside(layout, i, beside[i], loaded, bool(mirror[i]))
-            ]
-        )
-        if not len(found):
+        dark = np.flatnonzero(zero & ~silent).tolist()
+        found = [i for i in dark if _inside(layout, i, beside[i], loaded, bool(mirror[i]))]
+        if not found:
             break
         silent[found] = True
     cells = np.flatnonzero(silent)
@@ -258,14 +253,11 @@ def weight_doubts(recording: PressureRecording, weight: float | None) -> list[st
     """Returns warnings where a recording implies an impossible weight in N, or taxels exceed their range."""
     if recording.kind == "robot":
         return [line for foot in recording.feet.values() if (line := _overload(recording, foot.side))]
-    if weight is None:
-        return []
-    mass = weight / GRAVITY
-    if MASSES[0] <= mass <= MASSES[1]:
+    if weight is None or MASSES[0] <= weight / GRAVITY <= MASSES[1]:
         return []
     return [
-        f"the forces imply a person of {mass:.3g} kg; people of {MASSES[0]:g} to {MASSES[1]:g} kg are usual: check the "
-        "unit, the cell size and the insole's size (--unit, --layout, --insole-size override)"
+        f"the forces imply a person of {weight / GRAVITY:.3g} kg; people of {MASSES[0]:g} to {MASSES[1]:g} kg are "
+        "usual: check the unit, the cell size and the insole's size (--unit, --layout, --insole-size override)"
     ]
 
 

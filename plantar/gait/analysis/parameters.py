@@ -58,12 +58,6 @@ def analyse_feet(
         options: Steps in the means.
     """
     known = options or AnalysisOptions()
-    if known.events != "own" and not set(recording.feet) <= set(recording.events):
-        raise InputError(
-            f"{recording.path.name} states no events of "
-            f"{' and '.join(s for s in recording.feet if s not in recording.events)}"
-            "; --events allows own, or a file of events of each foot"
-        )
     if known.events != "own":
         _check_stated(recording)
     feet = with_activities(_out_of_time(_measured_feet(recording, prints, known.events != "own")))
@@ -97,8 +91,13 @@ def _out_of_time(feet: dict[Side, FootGait]) -> dict[Side, FootGait]:
 
 
 def _check_stated(recording: PressureRecording) -> None:
-    """Refuse stated events of another time base, in ms or another clock, or in swing."""
+    """Refuse stated events of one foot, another time base, or in swing."""
     begin, end = float(recording.time[0]), float(recording.time[-1])
+    without = " and ".join(side for side in recording.feet if side not in recording.events)
+    if without:
+        raise InputError(
+            f"{recording.path.name} states no events of {without}; --events allows own, or a file of those of each foot"
+        )
     for side in recording.feet:
         events = recording.events[side]
         stated = np.concatenate([events.heel_strikes, events.toe_offs])
@@ -122,15 +121,16 @@ def _check_stated(recording: PressureRecording) -> None:
 
 def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint], stated: bool) -> dict[Side, FootGait]:
     found = {side: _events_of(recording, side, stated) for side in recording.feet}
-    brushes = {} if stated else {side: _brushes(recording, side, found) for side in recording.feet}
+    brushes = {side: own for side in found if not stated and (own := _brushes(recording, side, found))}
     found = {s: (levels, [c for c in own if c not in brushes.get(s, ())]) for s, (levels, own) in found.items()}
     events = _by_passes(recording, prints, found)
     feet = {side: analyse_foot(recording, side, prints, stated, events) for side in recording.feet}
     for side, own in brushes.items():
-        if own:
-            text = f"the {side} foot touches the ground lightly {len(own)} time(s) while the other one stands, first at"
-            text += f" {recording.time[own[0].begin]:.1f} s: it drags, and these are no steps"
-            feet[side] = replace(feet[side], warnings=(*feet[side].warnings, text))
+        note = (
+            f"the {side} foot touches the ground lightly {len(own)} time(s) while the other one stands, first at "
+            f"{recording.time[own[0].begin]:.1f} s: it drags, and these are no steps"
+        )
+        feet[side] = replace(feet[side], warnings=(*feet[side].warnings, note))
     if stated:
         feet = {side: replace(g, warnings=(*g.warnings, *_away(recording, g))) for side, g in feet.items()}
     placed = {side: [c for c in gait.contacts if c.complete or c.cut] for side, gait in feet.items()}
@@ -143,7 +143,7 @@ def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint]
 
 
 def _brushes(recording: PressureRecording, side: Side, events: _Events) -> list[Contact]:
-    """Light contacts inside the other foot's, of no step."""
+    # No step begins and ends while the other foot stands.
     (levels, own), (_, others) = events[side], events.get(other_side(side), (None, []))
     if levels is None or recording.kind == "robot":
         return []

@@ -73,9 +73,7 @@ def _shade_cut_contacts(panel: Any, recording: PressureRecording, gait: FootGait
 
 
 def figure_steps(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Returns figure of a recording's force curves of its feet over the stance, with mean and SD; None without used
-    steps.
-    """
+    """Returns figure of a recording's forces of its feet over the stance, mean and SD; None without used steps."""
     shown = {side: gait for side, gait in feet.items() if gait.used}
     if not shown:
         return None

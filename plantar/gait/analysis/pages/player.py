@@ -47,7 +47,7 @@ def _packed(
 ) -> tuple[NDArray[np.int64], list[dict[str, Any]]]:
     chosen = _frames(recording, feet)
     held = ((gait, np.nan_to_num(gait.foot.force[chosen])) for gait in feet.values())
-    highest = max(float(_shown(recording, gait, force).max(initial=0.0)) for gait, force in held)
+    highest = max(float(_shown(recording, gait, force).max(initial=0.0)) for gait, force in held) or 1.0
     while True:
         packed = [_foot(recording, gait, chosen, highest) for gait in feet.values()]
         # Base64 takes 4 bytes for 3.
@@ -79,7 +79,7 @@ def _shown(recording: PressureRecording, gait: FootGait, force: NDArray[np.float
     return force if recording.raw else force / gait.foot.layout.areas / 1e3
 
 
-def _foot(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64], most: float) -> dict[str, Any]:
+def _foot(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64], highest: float) -> dict[str, Any]:
     layout = gait.foot.layout
     assert layout is not None
     force = np.nan_to_num(gait.foot.force[chosen])
@@ -87,7 +87,6 @@ def _foot(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64
     cells, outline = np.arange(len(layout)), layout.outline
     if recording.kind == "platform":
         cells, outline = stepped_on(layout, np.asarray(loaded.any(axis=0)))
-    highest = most or 1.0
     cop = gait.cop[chosen] if gait.cop is not None else np.full((len(chosen), 2), np.nan)
     return {
         "side": gait.foot.side,

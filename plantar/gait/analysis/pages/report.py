@@ -29,9 +29,7 @@ _GAIT = (
 def report_page(
     metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], title: str, player: Mapping[str, Any] | None = None
 ) -> str:
-    """Returns HTML of one recording without other files: metrics, figures (PNG files, captions), title, and a player's
-    data if any.
-    """
+    """Returns HTML of one recording: metrics, figures (PNG files, captions), title, and a player's data if any."""
     sections = [Section("summary", "Summary", f"<p>{html.escape(summary_text(metrics))}</p>{_tiles(metrics)}")]
     if metrics["warnings"]:
         sections.append(Section("assumed", "What was assumed", warning_list(metrics["warnings"])))
@@ -107,15 +105,15 @@ def comparison_page(
 
     Relative links lead to their own reports.
     """
-    parts, unlike = [], warning_list(comparison["warnings"])
-    for key, name, link in zip(("a", "b"), names, links, strict=True):
-        metrics = comparison[key]
-        parts.append(
-            f"<div><h3>{key.upper()}: {html.escape(name)}</h3>{_tiles(metrics)}{warning_list(metrics['warnings'])}"
-            f'<p><a href="{html.escape(link)}">Full report of {key.upper()}</a></p></div>'
-        )
+    parts = "".join(
+        f"<div><h3>{key.upper()}: {html.escape(name)}</h3>{_tiles(comparison[key])}"
+        f"{warning_list(comparison[key]['warnings'])}"
+        f'<p><a href="{html.escape(link)}">Full report of {key.upper()}</a></p></div>'
+        for key, name, link in zip(("a", "b"), names, links, strict=True)
+    )
+    unlike = warning_list(comparison["warnings"])
     sections = [
-        Section("summary", "Summary", f'{unlike}<div class="columns">{"".join(parts)}</div>'),
+        Section("summary", "Summary", f'{unlike}<div class="columns">{parts}</div>'),
         Section("measures", "Measures side by side", comparison_table(comparison)),
         figures_of(figures),
     ]

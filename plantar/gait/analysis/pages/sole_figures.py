@@ -110,16 +110,11 @@ def _draw_paths(panel: Any, gait: FootGait) -> None:
 
 
 def _mean_path(paths: Sequence[NDArray[np.float64]]) -> NDArray[np.float64] | None:
-    known = [path[np.isfinite(path[:, 0])] for path in paths]
-    known = [path for path in known if len(path) >= 2]
+    known = [part for path in paths if len(part := path[np.isfinite(path[:, 0])]) >= 2]
     if not known:
         return None
-    shares = [np.linspace(0.0, 1.0, len(path)) for path in known]
-    even = [
-        np.column_stack([np.interp(_STANCE, share, column) for column in path.T])
-        for share, path in zip(shares, known, strict=True)
-    ]
-    return np.asarray(np.mean(even, axis=0))
+    even = [[np.interp(_STANCE, np.linspace(0.0, 1.0, len(path)), column) for column in path.T] for path in known]
+    return np.asarray(np.mean(even, axis=0)).T
 
 
 def figure_pair(recordings: Sequence[tuple[str, PressureRecording, Mapping[Side, FootGait]]]) -> Any | None:

@@ -130,26 +130,13 @@ def steps_table(metrics: Mapping[str, Any]) -> str:
 def regions_tables(metrics: Mapping[str, Any]) -> str:
     """HTML table of region means over complete steps, for each foot."""
     shown = [shown_as(key, measure, bool(metrics.get("raw"))) for key, measure in REGION_MEASURES.items()]
-    return "".join(
-        table(
-            f"Regions of the {side} foot",
-            f"The {side} foot, means over its complete steps.",
-            ["Region", *(title for _, title, _ in shown)],
-            [
-                row(
-                    title,
-                    [
-                        number(scaled(foot["regions"][region].get(key, {}).get("mean"), factor))
-                        for key, _, factor in shown
-                    ],
-                )
-                for region, title in REGIONS.items()
-                if region in foot["regions"]
-            ],
-        )
-        for side, foot in metrics["feet"].items()
-        if foot["regions"]
-    )
+    head, out = ["Region", *(title for _, title, _ in shown)], ""
+    for side, foot in metrics["feet"].items():
+        held = {title: foot["regions"][region] for region, title in REGIONS.items() if region in foot["regions"]}
+        means = {t: [scaled(own.get(s.key, {}).get("mean"), s.factor) for s in shown] for t, own in held.items()}
+        if rows := [row(title, [*map(number, values)]) for title, values in means.items()]:
+            out += table(f"Regions of the {side} foot", f"The {side} foot, means over its complete steps.", head, rows)
+    return out
 
 
 def comparison_table(comparison: Mapping[str, Any]) -> str:

@@ -100,9 +100,8 @@ def cells_of_prints(load: PlatformLoad, threshold: float) -> list[PrintCells]:
 
 
 def _pieces(load: PlatformLoad, loaded: NDArray[np.bool_]) -> Iterator[_Piece]:
-    for first, after in _without_breaks(
-        load.time, np.asarray(loaded.any(axis=1))
-    ):  # a later pass loads the same cells again
+    # A later pass loads the same cells again.
+    for first, after in _without_breaks(load.time, np.asarray(loaded.any(axis=1))):
         part = loaded[first:after]
         for cells in _components(load.layout, np.asarray(part.any(axis=0))):
             for a, b in _without_breaks(load.time[first:after], np.asarray(part[:, cells].any(axis=1))):

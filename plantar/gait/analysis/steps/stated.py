@@ -13,15 +13,11 @@ _SAME = 0.25  # Longest time in s between a stated event and a found one that ar
 
 
 def stated_contacts(time: NDArray[np.float64], events: StatedEvents) -> list[Contact]:
-    """Returns contacts of stated `events` at frame times `time` (n,) in s, from each heel strike to the last toe off
-    before the next; incomplete at the ends.
-    """
+    """Returns contacts of stated `events` at `time` (n,) in s: heel strike to the toe off after it; cut at the ends."""
     strikes, lifts = events.heel_strikes, events.toe_offs
     ends = np.append(strikes[1:], np.inf)[: len(strikes)]
-    pairs: list[tuple[float | None, float | None]] = []
-    if len(strikes):
-        early = lifts[lifts <= strikes[0]]
-        pairs += [(None, float(early[-1]))] if len(early) else []
+    early = lifts[lifts <= strikes[0]] if len(strikes) else lifts[:0]
+    pairs: list[tuple[float | None, float | None]] = [(None, float(early[-1]))] if len(early) else []
     for strike, end in zip(strikes, ends, strict=True):
         own = lifts[(lifts > strike) & (lifts < end)]
         pairs.append((float(strike), float(own[0]) if len(own) else None))

@@ -15,13 +15,12 @@ FEWEST_STEPS = 12
 
 _FEWEST_TO_JUDGE = 5  # Steps of a foot from which a usual step differs from an odd one
 _ODD = 4.0  # Robust standard deviations from the median beyond which a step is odd: one of 16,000 of a normal variable
-# Measures by which a step is judged, and the least standard deviation, as a share of the median.
-_JUDGED = {"contact_time_s": 0.03, "stride_time_s": 0.03, "peak_force_N": 0.04, "impulse_Ns": 0.05}
-_WORDS = {
-    "contact_time_s": ("contact", "s"),
-    "stride_time_s": ("stride", "s"),
-    "peak_force_N": ("peak force", "N"),
-    "impulse_Ns": ("impulse", "N s"),
+# Measures by which a step is judged: the least standard deviation, as a share of the median; name and unit.
+_JUDGED = {
+    "contact_time_s": (0.03, "contact", "s"),
+    "stride_time_s": (0.03, "stride", "s"),
+    "peak_force_N": (0.04, "peak force", "N"),
+    "impulse_Ns": (0.05, "impulse", "N s"),
 }
 
 
@@ -57,7 +56,8 @@ def with_used_steps(
         first, last = options.steps
         used &= np.array([first <= step.number <= last for step in steps])
         reason = f"not one of the steps {first}-{last}"
-    within = np.array([_within(step, options) for step in steps])
+    begin, end = -np.inf if options.begin is None else options.begin, np.inf if options.end is None else options.end
+    within = [step.heel_strike_s >= begin and step.toe_off_s <= end for step in steps]
     out = [
         replace(step, used=bool(u and w), unused=reason if not u else "" if w else "outside --from and --to", odd=o)
         for step, u, w, o in zip(steps, used, within, odd, strict=True)
@@ -104,21 +104,15 @@ def in_one_window(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
     return out
 
 
-def _within(step: Step, options: AnalysisOptions) -> bool:
-    begin, end = options.begin, options.end
-    return (begin is None or step.heel_strike_s >= begin) and (end is None or step.toe_off_s <= end)
-
-
 def _odd(steps: Sequence[Step], raw: bool) -> list[str]:
     out = [""] * len(steps)
-    for key, least in _JUDGED.items():
+    for key, (least, word, unit) in _JUDGED.items():
         values = np.array([step[key] for step in steps])
         known = np.isfinite(values)
         if known.sum() < _FEWEST_TO_JUDGE:
             continue
         middle = float(np.median(values[known]))
         spread = max(1.4826 * float(np.median(np.abs(values[known] - middle))), least * abs(middle))
-        word, unit = _WORDS[key]
         for i in np.flatnonzero(known & (np.abs(values - middle) > _ODD * spread)):
             shown = unit.replace("N", "counts") if raw else unit
             out[i] = out[i] or f"{word} of {values[i]:.3g} {shown}, the median is {middle:.3g} {shown}"
