@@ -22,6 +22,7 @@ from plantar.files.input_file import open_input
 from plantar.files.structured_text import JSON_MOST
 from plantar.files.zip_archive import open_archive
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
+from plantar.formats.column_names import heading_of
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import on_one_time, side_of
 from plantar.formats.stated_rate import in_seconds, or_usual, stated_rate
@@ -34,6 +35,7 @@ from plantar.sides import SIDES
 
 _SLOWEST = 0.05  # s of a frame of times that are taken to be in ms, us or ns
 _LARGEST = 4e9  # Largest size of all arrays in bytes
+_NO_LOADS = ("foreign", "cop", "moment", "place")
 _SHOWN = 20  # arrays in a message
 _LONGEST_FACT = 400  # bytes
 
@@ -117,7 +119,8 @@ def _tables(arrays: dict[str, _Array]) -> dict[str, _Array]:
         raise FormatError(f"no array of frames and cells; the file holds {held}")
     if other := next((k for k, a in arrays.items() if side_of(k) and a.dtype.kind not in "iufbUS"), None):
         raise FormatError(f"the array {other!r} holds what is no real number; allowed: numbers, a row a frame")
-    return {k: t for k, t in tables.items() if k.split("/")[-1] in ("force", "pressure")} or tables
+    loads = {k: t for k, t in tables.items() if heading_of(k).quantity not in _NO_LOADS} or tables
+    return {k: t for k, t in loads.items() if k.split("/")[-1] in ("force", "pressure")} or loads
 
 
 def _named_feet(
@@ -125,6 +128,7 @@ def _named_feet(
 ) -> _Feet:
     """Arrays, times' name, cells by foot."""
     parts = {side: _frames(tables[named[side]]) for side in SIDES if side in named}
+    warnings += [f"the array {key!r} is left out" for key in tables if key not in named.values()]
     clocks = {side: f"{named[side].rpartition('/')[0]}/time" for side in parts}
     clock = next(iter(clocks.values()))
     if all(c in arrays and arrays[c].shape == (len(parts[s]),) for s, c in clocks.items()):
@@ -142,8 +146,12 @@ def _unnamed_feet(
     key, largest = max(tables.items(), key=lambda item: item[1].size)
     if len(tables) > 1:
         warnings.append(f"no array names a foot: the largest one, {key!r}, is read")
-    stated = options.side or side_of(_text(arrays, "side", "foot") or "")
-    return arrays, "", [(stated, _frames(largest))] if stated else halves(_frames(largest), options, warnings)
+    stated, table = options.side or side_of(_text(arrays, "side", "foot") or ""), _frames(largest)
+    if "time" not in arrays and len(table) > 2 < table.shape[1] and (np.diff(table[:, 0]) > 0.0).all():
+        warnings.append(f"the first column of {key!r} increases throughout: taken as times")
+        time, table = table[:, 0], table[:, 1:]
+        arrays = {**arrays, "time": _Array(time.shape, time.dtype, lambda: time)}
+    return arrays, "", [(stated, table)] if stated else halves(table, options, warnings)
 
 
 @contextmanager

@@ -133,4 +133,5 @@ def _in_turns(values: NDArray[np.float64]) -> bool:
     one, other = np.nansum(values[:, :half], axis=1), np.nansum(values[:, half:], axis=1)
     loaded = [x > _IN_AIR * float(np.percentile(x, 98.0)) for x in (one, other)]
     alone = (float((loaded[0] & ~loaded[1]).mean()), float((loaded[1] & ~loaded[0]).mean()))
-    return min(alone) > _ALONE and float((loaded[0] | loaded[1]).mean()) > 1.0 - 0.5 * _ALONE
+    on = np.flatnonzero(loaded[0] | loaded[1])
+    return min(alone) > _ALONE and len(on) > (1.0 - 0.5 * _ALONE) * (on[-1] - on[0] + 1)

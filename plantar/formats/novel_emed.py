@@ -210,8 +210,7 @@ def _frames(pages: list[_Page], warnings: list[str]) -> list[_Page]:
     if len(frames) > 1 and frames[-1].cells < 0.95 * usual and frames[-1].force is None:
         frames.pop()
         warnings.append("the last frame is cut short: left out")
-    damaged = sum(f.damaged > 0 for f in frames)
-    if damaged:
+    if damaged := sum(f.damaged > 0 for f in frames):
         warnings.append(f"{damaged} frame(s) hold cells that are no numbers: these count as not measured")
     return frames
 
@@ -234,8 +233,7 @@ def _sensor_size(facts: dict[str, str], warnings: list[str]) -> tuple[float, flo
     numbers = [float(v.replace(",", ".")) for v in re.findall(r"\d+(?:[.,]\d+)?", facts.get("size", ""))]
     unit = next((LENGTHS[w] for w in re.findall(r"[a-z]+", facts.get("size", "").lower()) if w in LENGTHS), None)
     area = number_in(facts.get("area", ""))
-    in_mm = re.search(r"mm", facts.get("area", "")) is not None
-    area = None if area is None or area <= 0.0 else area * (1e-6 if in_mm else 1e-4)
+    area = None if area is None or area <= 0.0 else area * (1e-6 if "mm" in facts["area"] else 1e-4)
     square = _USUAL_SIZE if area is None else float(np.sqrt(area))
     if len(numbers) == 2 and min(numbers) > 0.0 and unit is not None:
         size = numbers[1] * unit, numbers[0] * unit

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import FormatError, LayoutError
+from plantar.formats.text import row_of_numbers
 from plantar.geometry.polygon import area, centroid, convex_hull
 from plantar.layouts.cell_layout import edge_neighbours, shared_vertices
 from plantar.layouts.layout import DEFAULT_RANGES, Side, SoleLayout
@@ -161,17 +162,13 @@ def corner_table(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np
 
     None without a whole table; reported in warnings.
     """
-    rows: dict[str, list[float]] = {}
+    rows: dict[str, NDArray[np.float64]] = {}
     for line in tail:
-        match = re.match(r"\s*([xy]\[[0-3]\])\s+(.*)", line)
-        if match:
-            try:
-                rows[match[1]] = [float(v.replace(",", ".")) for v in match[2].split()]
-            except ValueError:
-                rows[match[1]] = []
+        if match := re.match(r"\s*([xy]\[[0-3]\])\s+(.*)", line):
+            rows[match[1]], _ = row_of_numbers(match[2].split())
     if not rows:
         return None
-    table = [rows.get(f"{axis}[{corner}]", []) for corner in range(4) for axis in "xy"]
+    table = [rows.get(f"{axis}[{corner}]", np.zeros(0)) for corner in range(4) for axis in "xy"]
     if any(len(row) != cells or not np.isfinite(row).all() for row in table):
         warnings.append("the file's table of cell corners is not whole, or holds values that are no numbers: not used")
         return None

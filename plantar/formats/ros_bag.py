@@ -58,8 +58,7 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
         if side is not None:
             by_side.setdefault(side, key)
     chosen = list(by_side.values()) or [max(series, key=lambda k: len(series[k][1]))]
-    left_out = sorted(set(series) - set(chosen))
-    if left_out:
+    if left_out := sorted(set(series) - set(chosen)):
         warnings.append(f"other arrays are left out: {', '.join(left_out)}")
     words = " ".join(chosen).lower()
     agreed = "N" if "force" in words or "wrench" in words else "Pa" if "pressure" in words else None

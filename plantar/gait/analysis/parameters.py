@@ -344,5 +344,4 @@ def _travel_of_steps(gait: FootGait) -> list[float]:
     if gait.cop is None:
         return []
     ahead = [gait.cop[c.begin : c.end, 0] for c in gait.contacts if c.complete]
-    known = (path[np.isfinite(path)] for path in ahead)
-    return [float(path[-1] - path[0]) for path in known if len(path) >= 4]
+    return [float(known[-1] - known[0]) for path in ahead if len(known := path[np.isfinite(path)]) >= 4]

@@ -40,6 +40,19 @@ def test_arrays_keep_their_values_and_are_not_changed():
     assert values.max() == 2.0
 
 
+def test_arrays_that_hold_no_load_and_columns_of_times_are_no_cells():
+    time, turns = np.arange(0.0, 10.0, 0.01), np.random.default_rng(0).normal(size=(1000, 6))
+    left, right = (
+        np.clip(np.sin(2.0 * np.pi * (time - late)), 0.0, None)[:, None] + np.zeros(4) for late in (0.0, 0.5)
+    )
+    beside = {"left_imu": turns, "right_imu": turns, "time": time, "unit": "N"}
+    found = recording_of({**beside, "left": left, "right": right})
+    np.testing.assert_allclose(found.feet["right"].force, right)
+    found = recording_of(np.column_stack([time, left, right])[30:], options=ReadOptions(unit="N"))
+    assert found.rate_hz == pytest.approx(100.0)
+    np.testing.assert_allclose(found.feet["right"].force, right[30:])
+
+
 @pytest.mark.parametrize("given", [3, object(), {"left": np.zeros(0)}, np.zeros((2, 0)), [["a"], ["b"]]])
 def test_what_holds_no_frames_is_refused(given):
     with pytest.raises((InputError, FormatError)):

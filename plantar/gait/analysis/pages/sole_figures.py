@@ -103,8 +103,7 @@ def _draw_paths(panel: Any, gait: FootGait) -> None:
     for i, path in enumerate(paths[::every]):
         name = None if i else "CoP path of a step"
         panel.plot(-path[:, 1], path[:, 0], color="#ffffff", linewidth=0.7, alpha=0.6, label=name)
-    mean = _mean_path(paths)
-    if mean is not None:
+    if (mean := _mean_path(paths)) is not None:
         panel.plot(-mean[:, 1], mean[:, 0], color="#ffffff", linewidth=3.4)
         panel.plot(-mean[:, 1], mean[:, 0], color=COLOURS["cop"], linewidth=1.8, label="mean CoP path")
 
