@@ -15,14 +15,14 @@ def _each(*named: tuple[str, float]) -> Mapping[str, float]:
 PASCALS = _each(
     ("pa pascal n/m2", 1.0),
     ("hpa mbar", 1e2),
-    ("kpa kilopascal kn/m2", 1e3),
-    ("n/cm2 newton/cm2", 1e4),
+    ("kpa kilopascal kn/m2 mn/mm2", 1e3),
+    ("n/cm2 newton/cm2 ncm-2 n·cm-2", 1e4),
     ("bar", 1e5),
     ("mpa n/mm2", 1e6),
-    ("mmhg", 133.322387415),
+    ("mmhg torr", 133.322387415),
     ("psi lb/in2 lbf/in2", _PSI),
-    ("kg/cm2 kgf/cm2", 1e4 * _KILOGRAM),
-    ("g/cm2", 10.0 * _KILOGRAM),
+    ("kg/cm2 kgf/cm2 kp/cm2", 1e4 * _KILOGRAM),
+    ("g/cm2 gf/cm2", 10.0 * _KILOGRAM),
     ("atm", 101325.0),
 )
 """Pressure units by their plain lower-case name, in Pa."""

@@ -127,7 +127,7 @@ def take_mcap(path: str | os.PathLike[str], content: McapContent) -> None:
         if not head:
             raise FormatError(f"{path}: the file is empty")
         if head != MCAP_MAGIC:
-            raise FormatError(f"{path}: not an MCAP recording (its first bytes are {head!r})")
+            raise FormatError(f"{path}: not an MCAP recording (it begins with {head!r}); allowed: one of Plantar")
         try:
             content.take_file(stream)
         except FormatError as error:
