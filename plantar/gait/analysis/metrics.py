@@ -42,7 +42,8 @@ def metrics_of(
     warnings, activity = list(recording.warnings), activity_of(recording, feet)
     standing = activity.name == "standing"
     if standing:
-        warnings.append(f"this is standing: {activity.why}; sway is measured, steps are not")
+        measured = "loads and sway" if any(gait.cop is not None for gait in feet.values()) else "loads"
+        warnings.append(f"this is standing: {activity.why}; {measured} are measured, steps are not")
     warnings += inverted_doubts(recording, feet)
     for side, gait in feet.items():
         if standing:

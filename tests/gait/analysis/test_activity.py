@@ -13,6 +13,8 @@ from plantar.gait.analysis.activity import activity_of, progression_doubts, sway
 from plantar.gait.analysis.analyse import analyse
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.options import AnalysisOptions
+from plantar.gait.analysis.pages.report import summary_text
+from plantar.gait.analysis.pages.sole_figures import figure_pressure
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.gait.analysis.steps.baseline import without_baselines
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, StatedEvents
@@ -146,6 +148,11 @@ def test_standing_is_named_and_its_sway_measured():
         assert 0.002 < sway["sway_ap_m"] < 0.005
         assert sway["sway_ap_m"] > 1.4 * sway["sway_ml_m"]
         assert sway["sway_velocity_m_s"] == pytest.approx(sway["sway_path_m"] / 20.0, rel=0.01)
+    assert any("loads and sway are measured" in w for w in metrics["warnings"])
+    assert summary_text(metrics).count(f"(95 % of its CoP in {1e4 * sway['sway_ellipse_m2']:.3g} cm²)") >= 1
+    *panels, bar = figure_pressure(recording, feet).axes
+    assert [panel.get_title() for panel in panels] == ["left foot, all frames", "right foot, all frames"]
+    assert bar.get_ylabel() == "maximum pressure (kPa)"
     walk = made_walk().recording
     assert metrics_of(walk, analyse_feet(walk))["feet"]["left"]["sway"] is None
 

@@ -71,7 +71,10 @@ def summary_text(metrics: Mapping[str, Any]) -> str:
         else (
             f"This is standing for {number(metrics['duration_s'])} s: "
             + ", ".join(
-                f"{number(foot['sway']['load_percent'])} % on the {side} foot" for side, foot in metrics["feet"].items()
+                f"{number(foot['sway']['load_percent'])} % on the {side} foot"
+                + (f" (95 % of its CoP in {number(1e4 * area)} cm²)" if area is not None else "")
+                for side, foot in metrics["feet"].items()
+                for area in (foot["sway"].get("sway_ellipse_m2"),)
             )
             + "."
         )

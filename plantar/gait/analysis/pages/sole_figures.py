@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from plantar.formats.recorded_layouts import subset
 from plantar.gait.analysis.prints.footprint import Footprint
 from plantar.gait.analysis.prints.regions import REGIONS
-from plantar.gait.analysis.steps.events import Contact
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.geometry.polygon import convex_hull, signed_margin
 from plantar.layouts.layout import SoleLayout
@@ -71,7 +70,8 @@ def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait])
     shown = {side: _shown(gait, platform) for side, gait in pictured.items()}
     figure, axes = _panels(shown, 1.6)
     panels = [(f"{s} foot, {_steps_of_picture(gait)}", gait, shown[s]) for s, gait in pictured.items()]
-    what = "maximum pressure" if platform else "maximum pressure, mean of the steps"
+    of_steps = not platform and any(gait.steps for gait in pictured.values())
+    what = f"maximum pressure{', mean of the steps' if of_steps else ''}"
     _draw_pictures(figure, axes, panels, what, recording.raw)
     for panel, gait in zip(axes[0], pictured.values(), strict=True):
         _draw_paths(panel, gait)
@@ -81,7 +81,7 @@ def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait])
 
 def _steps_of_picture(gait: FootGait) -> str:
     if not gait.steps:
-        return "no complete step:\nlargest of all frames"
+        return "all frames"
     return f"{len(gait.steps)} step{'' if len(gait.steps) == 1 else 's'}"
 
 
@@ -95,11 +95,10 @@ def _legend(figure: Any, panels: Iterable[Any], place: str, **look: Any) -> None
 
 
 def _draw_paths(panel: Any, gait: FootGait) -> None:
-    complete: list[Contact] = [step.contact for step in gait.used]
-    if gait.cop is None or not complete:
+    if gait.cop is None or not gait.used:
         return
-    every = -(-len(complete) // MOST_PATHS)
-    paths = [gait.cop[contact.begin : contact.end] for contact in complete]
+    paths = [gait.cop[step.contact.begin : step.contact.end] for step in gait.used]
+    every = -(-len(paths) // MOST_PATHS)
     for i, path in enumerate(paths[::every]):
         name = None if i else "CoP path of a step"
         panel.plot(-path[:, 1], path[:, 0], color="#ffffff", linewidth=0.7, alpha=0.6, label=name)
