@@ -11,6 +11,7 @@ from plantar.errors import InputError
 from plantar.formats import ReadOptions, read_recording
 from plantar.formats.array_file import recording_of_arrays, seconds
 from plantar.formats.plausibility import checked
+from plantar.formats.side import is_side_column, number_of_side
 from plantar.formats.table_columns import recording_of_columns
 from plantar.formats.table_text import CountedSeconds, seconds_of_time, time_unit
 from plantar.formats.text import row_of_numbers
@@ -78,18 +79,17 @@ def _array(given: Any) -> Any:
 
 
 def _columns(frame: Any) -> tuple[np.ndarray[Any, Any], list[str]]:
-    names, at = [str(name) for name in frame.columns], getattr(frame, "iloc", None)  # pandas has columns of one name
+    at = getattr(frame, "iloc", None)  # pandas has columns of one name, and names of several words
+    names = [" ".join(map(str, name)) if isinstance(name, tuple) else str(name) for name in frame.columns]
     columns = [np.asarray(frame[n] if at is None else at[:, i]) for i, n in enumerate(frame.columns)]
-    index = getattr(frame, "index", ())
-    values = np.asarray(index)
+    values = np.asarray(index := getattr(frame, "index", ()))
     if values.ndim == 1 and len(values):
         dated = values.dtype.kind in "mM" or seconds_of_time(str(values[0])) is not None
         if name := "time" if dated else getattr(index, "name", None):
-            names.insert(0, str(name))
-            columns.insert(0, values)
-    return np.column_stack([_numbers(c) for c in columns]) if columns else np.zeros((0, 0)), names
+            names, columns = [str(name), *names], [values, *columns]
+    return np.column_stack(list(map(_numbers, columns, names))) if columns else np.zeros((0, 0)), names
 
 
-def _numbers(column: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-    counted = CountedSeconds()  # of times of day, or dates with a zone
-    return seconds(column) if column.dtype.kind in "iufbmM" else row_of_numbers(list(map(counted, map(str, column))))[0]
+def _numbers(column: np.ndarray[Any, Any], name: str = "") -> np.ndarray[Any, Any]:
+    read = number_of_side if is_side_column(name) else CountedSeconds()  # of times of day, or dates with a zone
+    return seconds(column) if column.dtype.kind in "iufbmM" else row_of_numbers(list(map(read, map(str, column))))[0]

@@ -32,6 +32,17 @@ def test_a_data_frame_is_read_as_its_table_would_be():
     np.testing.assert_allclose(recording.feet["left"].force, np.column_stack(list(cells.values())))
 
 
+def test_a_data_frame_of_a_row_a_foot_and_one_of_names_in_parts():
+    time, left, right = np.arange(200) / 50.0, np.arange(200.0), np.arange(200.0)[::-1]
+    rows = {"time": np.tile(time, 2), "side": np.repeat(["left", "right"], 200), "heel [N]": np.append(left, right)}
+    parts = {("left", "heel [N]"): left, ("right", "heel [N]"): right}
+    for columns, options in ((rows, ReadOptions()), (parts, ReadOptions(rate_hz=50.0))):
+        found = recording_of(Frame(columns), options=options)
+        assert found.rate_hz == pytest.approx(50.0)
+        for side, force in (("left", left), ("right", right)):
+            np.testing.assert_allclose(found.feet[side].vertical_force, force)
+
+
 def test_arrays_keep_their_values_and_are_not_changed():
     values = np.full((200, 3), 2.0)
     recording = recording_of({"right": values, "unit": "kg"}, options=ReadOptions(rate_hz=50.0))
