@@ -53,6 +53,7 @@ _SHORT = {"s", "c", "p", "a", "li", "re", "der"}  # Words of which many others c
 _UNIT = re.compile(
     r"[\[(<{]\s*([^\])>}]*?)\s*[\])>}]|[_ ](kpa|n|pa|mmhg|psi|raw|kg|lbf|nm|nmm|mm|cm|bw|%bw|newtons?)$", re.I
 )
+_LETTER = re.compile(r"(plate|platform|fp|belt)[ _-]?([a-d])(?![a-z])", re.IGNORECASE)  # instead of a number
 _STATED = {**FORCES, **PASCALS, **LENGTHS, **MOMENTS, **BODY_WEIGHTS}
 
 
@@ -90,16 +91,14 @@ def heading_of(text: str) -> Heading:
         >>> [heading_of(t).quantity for t in ("FP1.CopX", "ground_torque_z", "met5", "R_12", "LHEE.PosX", "knee angle")]
         ['cop', 'moment', 'cell', 'number', 'foreign', 'foreign']
     """
-    name, unit = text.strip().strip('"'), ""
-    match = _UNIT.search(name)
-    while match is not None:
+    name, unit = _LETTER.sub(lambda m: f"{m[1]} {ord(m[2].lower()) - 96} ", text.strip().strip('"')), ""
+    while match := _UNIT.search(name):
         stated = match[1] if match[1] is not None else match[2]
         known = plain(stated) in _STATED or find_unit(stated) is not None or "/" in stated or "%" in stated
         if known or not _words(stated):
             unit, name = unit or stated, name[: match.start()] + " " + name[match.end() :]
         else:
             name = name[: match.start()] + " " + stated + " " + name[match.end() :]
-        match = _UNIT.search(name)
     return _heading(name, unit)
 
 

@@ -146,7 +146,7 @@ def _is_cell(text: str) -> bool:
     )
 
 
-_PLATE = re.compile(r".*\b(?:plate|platform|fp)\W*(\d+)\b.*", re.IGNORECASE)  # of a device, by a longer name
+_PLATE = re.compile(r".*\b(?:\w*plat(?:e|te|t?form|eforme)|fp|kistler|amti|bertec)\b.*?(\d+)\D*$", re.IGNORECASE)
 
 
 def _names(above: Sequence[str], delimiter: str | None, width: int) -> tuple[list[str], int]:
@@ -170,7 +170,7 @@ def _names(above: Sequence[str], delimiter: str | None, width: int) -> tuple[lis
     if len(rows) > 1 and side_of(*names) is None and len(rows[-2]) > 1:
         groups, last = [], ""
         for cell in rows[-2] + [""] * (width - len(rows[-2])):
-            last = _PLATE.sub(r"FP\1", cell) or last
+            last = (cell if side_of(cell) else _PLATE.sub(r"FP\1", cell)) or last
             groups.append(last)
         if len(rows[-2]) <= width and any(side_of(g) or heading_of(g).plate for g in groups):
             names = [f"{g} {n}".strip() if time_unit(n) is None else n for g, n in zip(groups, names, strict=True)]

@@ -41,7 +41,7 @@ force_sum_left|force_sum_right; Forza sinistra (N)|Forza destra (N); Kracht link
 Linker Fuß Kraft [N]|Rechter Fuß Kraft [N]; Kraft li (N)|Kraft re (N);
 Force verticale pied gauche [N]|Force verticale pied droit [N]; Fuerza vertical izq (N)|Fuerza vertical der (N);
 Pie izquierdo (N)|Pie derecho (N); Piede sinistro [N]|Piede destro [N]; Linkervoet [N]|Rechtervoet [N];
-Força esquerda (N)|Força direita (N); 左足 荷重 (N)|右足 荷重 (N);
+Força esquerda (N)|Força direita (N); 左足 荷重 (N)|右足 荷重 (N); PlateA Fz|PlateB Fz;
 Noraxon Insoles.LT Force-Total (N)|Noraxon Insoles.RT Force-Total (N)""",
 )
 
