@@ -119,8 +119,7 @@ def number(text: str) -> float | None:
     cleaned = ungrouped(text.strip().strip("\"'").replace("−", "-"))
     if not _NUMBER.fullmatch(cleaned):
         return None
-    value = float(cleaned.replace(",", "."))
-    return value if np.isfinite(value) else None
+    return value if np.isfinite(value := float(cleaned.replace(",", "."))) else None
 
 
 def ungrouped(text: str) -> str:

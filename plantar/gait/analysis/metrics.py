@@ -30,6 +30,8 @@ from plantar.gait.analysis.summary import gait_of_feet, regions_of_foot, spread,
 from plantar.layouts.layout import Side
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
+_FEWEST_FRAMES = 12.0  # Frames a second below which forces of steps cannot be told from noise
+
 
 def metrics_of(
     recording: PressureRecording, feet: Mapping[Side, FootGait], subject: Subject | None = None
@@ -92,7 +94,8 @@ def _why_no_contact(recording: PressureRecording, gait: FootGait) -> str:
     force, levels = gait.foot.vertical_force, gait.levels
     if levels is not None and find_contacts(recording.time, force, levels, minimum_stance=0.0):
         return f"has no contact of {MINIMUM_STANCE:g} s or longer"
-    return "carries no load above its noise"
+    few = f", as far as {recording.rate_hz:g} frames a second show (steps take {_FEWEST_FRAMES:g} or more)"
+    return f"carries no load above its noise{few if recording.rate_hz < _FEWEST_FRAMES else ''}"
 
 
 def _segment(segment: Segment, feet: Mapping[Side, FootGait]) -> dict[str, Any]:

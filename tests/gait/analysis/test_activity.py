@@ -108,6 +108,11 @@ def test_heart_and_breath_of_a_body_that_stands_on_one_leg_are_no_steps():
     assert analyse({"left": force, "unit": "N"}, rate_hz=100.0).metrics["activity"]["name"] == "standing"
 
 
+def test_too_few_frames_for_steps_are_told():
+    recording = made_walk(rate=8.0).recording
+    assert any("steps take 12 or more" in w for w in metrics_of(recording, analyse_feet(recording))["warnings"])
+
+
 def test_feet_that_were_not_recorded_at_one_time_are_told():
     """A walk whose right foot is 0.3 s late seems to fly; a run, which does, is not doubted."""
     recording = made_walk(strides=6).recording
