@@ -10,7 +10,7 @@ import numpy as np
 
 from plantar.arguments import instance
 from plantar.errors import InputError
-from plantar.live.source import LiveStream
+from plantar.live.source import LiveStream, device_errors
 from plantar.percepts.percept import Percept
 from plantar.recordings.recorder import Recorder
 from plantar.sensing.reading import Reading
@@ -81,10 +81,8 @@ def record(
 
 
 def _readings(stream: LiveStream) -> Iterator[tuple[Side, Reading]]:
-    try:
+    with device_errors("the source cannot be read"):  # not around what is written
         yield from stream.readings
-    except OSError as error:  # of the device: not of what is written
-        raise InputError(f"the source cannot be read: {error.strerror or error}") from None
 
 
 def _text(side: Side, stream: LiveStream, reading: Reading) -> str:

@@ -1,6 +1,7 @@
 """Live sources, which read soles as they are sampled: modules here with a `SOURCE`, and entry points "plantar.live"."""
 
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
@@ -66,7 +67,14 @@ def open_live(text: str, layout: SoleLayout | None = None) -> LiveStream:
     known = live_sources()
     if name not in known:
         raise InputError(f"unknown live source {name!r}; allowed: {', '.join(known)}")
-    try:
+    with device_errors(f"live source {text!r} cannot be opened"):
         return instance(known[name].open(address, layout), LiveStream, f"stream of live source {name!r}")
+
+
+@contextmanager
+def device_errors(what: str) -> Iterator[None]:
+    """Raises an InputError of one line, `what` first, for an OSError of a device in its block."""
+    try:
+        yield
     except OSError as error:
-        raise InputError(f"live source {text!r} cannot be opened: {error.strerror or error}") from None
+        raise InputError(f"{what}: {error.strerror or error}") from None
