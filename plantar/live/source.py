@@ -73,7 +73,7 @@ def open_live(text: str, layout: SoleLayout | None = None) -> LiveStream:
 
 @contextmanager
 def device_errors(what: str) -> Iterator[None]:
-    """Raises an InputError of one line, `what` first, for an OSError of a device in its block."""
+    """An OSError in its block becomes an InputError that begins with `what`."""
     try:
         yield
     except OSError as error:

@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import instance
 from plantar.errors import InputError, LayoutError, RobotError
-from plantar.files.input_file import check_input, is_file
+from plantar.files.input_file import check_input
 from plantar.files.model_files import named_file
-from plantar.files.structured_text import read_json, read_toml
+from plantar.files.structured_text import builtin_or_file, packaged_files, read_json, read_toml
 from plantar.gait.balance.balance_laws import balance_gains
 from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table
 from plantar.layouts.layout import SoleLayout
@@ -67,7 +66,11 @@ _KEYS: Mapping[str, tuple[str, ...]] = {
 
 def builtin_robots() -> tuple[str, ...]:
     """Names of the built-in robots."""
-    return tuple(sorted(p.parent.name for p in _FOLDER.glob("*/robot.toml")))
+    return tuple(_builtin())
+
+
+def _builtin() -> dict[str, Path]:
+    return {path.parent.name: path for path in packaged_files("plantar.robots", "*/robot.toml")}
 
 
 def load_robot(name: str | os.PathLike[str]) -> Robot:
@@ -83,14 +86,7 @@ def load_robot(name: str | os.PathLike[str]) -> Robot:
         >>> load_robot("h1").biped.total_mass
         86.0
     """
-    path = Path(instance(name, str | os.PathLike, "robot", RobotError))
-    if path.suffix == ".toml":
-        if not os.path.exists(path):
-            raise RobotError(f"robot file {path} does not exist")
-    else:
-        path = _FOLDER / str(name) / "robot.toml"
-        if os.sep in str(name) or not is_file(path):
-            raise RobotError(f"unknown robot '{name}'; allowed: {', '.join(builtin_robots())}, or a robot .toml file")
+    path = builtin_or_file(name, "robot", _builtin(), RobotError)
     return _RobotFile(read_toml(path, RobotError, f"robot file {path}"), path).robot()
 
 

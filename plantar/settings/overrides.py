@@ -1,7 +1,7 @@
 """`key=value` settings: a key's table, and its text's meaning."""
 
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from typing import Any
 
@@ -61,6 +61,26 @@ def owner_of(key: str, text: str, *groups: Mapping[str, Sequence[str]]) -> tuple
     raise SceneError(
         f"setting '{key}={text}': no such key; {hint}`plantar list settings` lists all; allowed: {', '.join(allowed)}"
     )
+
+
+def put_settings(
+    tables: dict[str, Any],
+    settings: Iterable[tuple[str, str]],
+    own: Mapping[str, str],
+    *groups: Mapping[str, Sequence[str]],
+) -> None:
+    """Put `settings` of `split_setting` into a scene's `tables`; `own` are fields outside of them, `groups` as of
+    `owner_of`.
+    """
+    for key, text in settings:
+        if key in own:
+            tables[own[key]] = text
+            continue
+        owner, name = owner_of(key, text, *groups)
+        table = tables.setdefault(owner, {})
+        if not isinstance(table, dict):
+            raise SceneError(f"scene section '{owner}' is not a table")
+        table[name] = value_of(text)
 
 
 def value_of(text: str) -> Any:

@@ -1,6 +1,6 @@
-"""Unknown keys of tables."""
+"""Keys of tables that are unknown or hold no text."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
 
 from plantar.errors import InputError, PlantarError
@@ -24,6 +24,15 @@ def refuse_unknown_keys(
         if key not in known:
             hint = nearest(str(key), known)
             raise error(f"{where} has an unknown key '{key}'; {hint}allowed{note}: {', '.join(known)}")
+
+
+def refuse_other_than_texts(
+    table: Mapping[str, object], keys: Iterable[str], where: str, error: type[PlantarError]
+) -> None:
+    """Raises `error` if one of `keys` in a `table` holds no text; `where` names it."""
+    for key in keys:
+        if not isinstance(table.get(key, ""), str):
+            raise error(f"{where}: '{key}' is not a text")
 
 
 def nearest(name: str, known: Sequence[str]) -> str:

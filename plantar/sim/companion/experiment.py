@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from plantar.errors import SceneError
 from plantar.extensions import extensions
 from plantar.sensing.link_skin import BodySkin, SkinReading
-from plantar.settings.overrides import owner_of, split_setting, value_of
+from plantar.settings.overrides import owner_of, put_settings, split_setting
 from plantar.settings.schema import Settings, choice, number
-from plantar.settings.unknown_keys import nearest, refuse_unknown_keys
+from plantar.settings.unknown_keys import nearest, refuse_other_than_texts, refuse_unknown_keys
 from plantar.sim.body_skin.sensing import SkinSensing, SkinSensor
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion.lidar import LidarSettings
@@ -209,6 +209,9 @@ def experiment_class(name: str) -> type[Experiment]:
     return own[0]
 
 
+_MACHINE = {"robot": "machine", "machine": "machine"}  # keys of settings that name it, by field
+
+
 @dataclass(frozen=True)
 class CompanionScene:
     """A scene: a machine `robot`, an experiment's `kind`, settings of both."""
@@ -228,7 +231,7 @@ class CompanionScene:
         Raises:
             SceneError: If unknown.
         """
-        if key.strip() in ("robot", "machine"):
+        if key.strip() in _MACHINE:
             return "robot"
         kinds = {section: kind.names() for section, kind in companion_tables(self.kind).items()}
         return ".".join(owner_of(key.strip(), "", kinds))
@@ -272,20 +275,10 @@ def companion_scene(
     result["experiment"] = table
     paper, settings = with_paper(settings, path.stem, machine or str(result.get("machine", "")))
     kinds = companion_tables(kind)
-    for setting in settings:
-        key, text = split_setting(setting)
-        if key in ("robot", "machine"):
-            result["machine"] = text
-            continue
-        owner, name = owner_of(key, text, {section: k.names() for section, k in kinds.items()})
-        held = result.setdefault(owner, {})
-        if not isinstance(held, dict):
-            raise SceneError(f"scene section '{owner}' is not a table")
-        held[name] = value_of(text)
+    names = {section: own.names() for section, own in kinds.items()}
+    put_settings(result, map(split_setting, settings), _MACHINE, names)
     refuse_unknown_keys(result, ("name", "description", "machine", *kinds), where, SceneError)
-    for key in ("name", "description", "machine"):
-        if not isinstance(result.get(key, ""), str):
-            raise SceneError(f"{where}: '{key}' is not a text")
+    refuse_other_than_texts(result, ("name", "description", "machine"), where, SceneError)
     if not (machine or result.get("machine")):
         raise SceneError(f'{where} names no machine; it needs machine = "..."')
     parts: dict[str, Any] = {

@@ -14,14 +14,13 @@ from numpy.typing import NDArray
 from plantar.errors import RobotError
 from plantar.files.input_file import is_file
 from plantar.files.model_files import check_model, named_file
-from plantar.files.structured_text import read_toml
+from plantar.files.structured_text import builtin_or_file, packaged_files, read_toml
 from plantar.mechanics.lip import GRAVITY
 from plantar.mujoco.deletion import delete_all
 from plantar.settings.schema import Settings, choice, number, tables, text
-from plantar.settings.unknown_keys import nearest, refuse_unknown_keys
+from plantar.settings.unknown_keys import nearest, refuse_other_than_texts, refuse_unknown_keys
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 
-_FOLDER = Path(__file__).parent / "machines"
 _KEYS = ("name", "description", "model", "base", "servo", "joint_defaults", "joints", "patch")
 _UNSEEN = 4  # geom group that pictures leave out
 _ONE_DOF = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE)
@@ -142,7 +141,11 @@ class Machine:
 
 def builtin_machines() -> tuple[str, ...]:
     """Names of the built-in machines."""
-    return tuple(sorted(p.parent.name for p in _FOLDER.glob("*/machine.toml")))
+    return tuple(_builtin())
+
+
+def _builtin() -> dict[str, Path]:
+    return {path.parent.name: path for path in packaged_files("plantar.sim", "companion/machines/*/machine.toml")}
 
 
 def load_machine(name: str | os.PathLike[str]) -> Machine:
@@ -155,22 +158,11 @@ def load_machine(name: str | os.PathLike[str]) -> Machine:
         >>> load_machine("planar-arm").base.kind
         'fixed'
     """
-    path = Path(name)
-    if path.suffix == ".toml":
-        if not os.path.exists(path):
-            raise RobotError(f"machine file {path} does not exist")
-        where = str(path)
-    else:
-        path = _FOLDER / str(name) / "machine.toml"
-        if os.sep in str(name) or not is_file(path):
-            known = ", ".join(builtin_machines())
-            raise RobotError(f"unknown machine '{name}'; allowed: {known}, or a machine .toml file")
-        where = f"machine '{name}'"
+    path, own = builtin_or_file(name, "machine", _builtin(), RobotError), Path(name).suffix == ".toml"
+    where = str(path) if own else f"machine '{name}'"
     source = read_toml(path, RobotError, f"machine file {path}")
     refuse_unknown_keys(source, _KEYS, where, RobotError)
-    for key in ("name", "description"):
-        if not isinstance(source.get(key, ""), str):
-            raise RobotError(f"{where}: '{key}' is not a text")
+    refuse_other_than_texts(source, ("name", "description"), where, RobotError)
     model_file = _model_file(source, path, where)
     spec = _parsed(model_file, where)
     base = BaseTable.from_table(source.get("base", {}), f"{where}: [base]", RobotError)

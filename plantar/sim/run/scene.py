@@ -3,28 +3,23 @@
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-from plantar.arguments import instance
 from plantar.errors import InputError, SceneError
-from plantar.files.input_file import is_file
-from plantar.files.structured_text import read_toml
+from plantar.files.structured_text import builtin_or_file, packaged_files, read_toml
 from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table, controller_keys
 from plantar.robots.walk import Control, Walk
 from plantar.settings.body_scale import BodyScale
-from plantar.settings.overrides import owner_of, split_setting, value_of
+from plantar.settings.overrides import put_settings, split_setting
 from plantar.settings.schema import Settings, choice, number, switch, whole
-from plantar.settings.unknown_keys import refuse_unknown_keys
+from plantar.settings.unknown_keys import refuse_other_than_texts, refuse_unknown_keys
 from plantar.sim.arms.settings import ArmSettings
 from plantar.sim.papers.preset import with_paper
 from plantar.sim.partner.settings import GuideSettings, PartnerSettings
 from plantar.sim.plant.settings import Plant
 from plantar.sim.sensing.settings import Sensing
 from plantar.sim.terrain import Flat, Terrain, terrain_kinds
-
-_FOLDER = Path(__file__).parent.parent / "scenes"
 
 
 class Push(Settings):
@@ -178,7 +173,11 @@ class Scene:
 
 def builtin_scenes() -> tuple[str, ...]:
     """Names of the built-in scenes."""
-    return tuple(sorted(p.stem for p in _FOLDER.glob("*.toml")))
+    return tuple(sorted(_builtin()))
+
+
+def _builtin() -> dict[str, Path]:
+    return {path.stem: path for path in packaged_files("plantar.sim", "scenes/*.toml")}
 
 
 def override(source: Mapping[str, Any], settings: Sequence[str]) -> dict[str, Any]:
@@ -214,15 +213,7 @@ def override(source: Mapping[str, Any], settings: Sequence[str]) -> dict[str, An
             pairs.append((key, text))
     keys = {name: kind.names() for name, kind in (SECTIONS | _terrain_kind(result)).items()}
     parts = {name: controller_keys(name) for name in CONTROLLER_TABLES}
-    for key, text in pairs:
-        if key == "robot":
-            result["robot"] = text
-            continue
-        owner, name = owner_of(key, text, keys, parts)
-        table = result.setdefault(owner, {})
-        if not isinstance(table, dict):
-            raise SceneError(f"scene section '{owner}' is not a table")
-        table[name] = value_of(text)
+    put_settings(result, pairs, {"robot": "robot"}, keys, parts)
     return result
 
 
@@ -244,34 +235,13 @@ def scene_file(name: str | os.PathLike[str]) -> Path:
         >>> scene_file("flat").name
         'flat.toml'
     """
-    path = Path(instance(name, str | os.PathLike, "scene", SceneError))
-    if path.suffix == ".toml":
-        if not os.path.exists(path):
-            raise SceneError(f"scene file {path} does not exist")
-    else:
-        path = _FOLDER / f"{name}.toml"
-        if os.sep in str(name) or not is_file(path):
-            near = get_close_matches(str(name), builtin_scenes(), 2)
-            hint = f"did you mean {' or '.join(near)}? " if near else ""
-            raise SceneError(
-                f"unknown scene '{name}'; {hint}allowed: {', '.join(builtin_scenes())}, or a scene .toml file"
-            )
-    return path
+    return builtin_or_file(name, "scene", _builtin(), SceneError)
 
 
 def load_scene(name: str | os.PathLike[str], settings: Sequence[str] = (), robot: str | None = None) -> Scene:
-    """Load a scene.
+    """Returns a scene, by built-in name (`builtin_scenes()`) or TOML path.
 
-    Args:
-        name: Built-in (`builtin_scenes()`) or a TOML's path.
-        settings: `key=value`, overriding the file's.
-        robot: Instead of the file's.
-
-    Returns:
-        The scene.
-
-    Raises:
-        SceneError: If name or field is invalid.
+    `key=value` `settings` and `robot` replace the file's. A SceneError if name or field is invalid.
 
     Example:
         >>> load_scene("flat", ["steps=4"]).walk.steps
@@ -282,20 +252,7 @@ def load_scene(name: str | os.PathLike[str], settings: Sequence[str] = (), robot
 
 
 def scene_of(source: Mapping[str, Any], path: Path, settings: Sequence[str] = (), robot: str | None = None) -> Scene:
-    """Make a scene of TOML content.
-
-    Args:
-        source: TOML content.
-        path: For names and messages.
-        settings: `key=value`, overriding the file's.
-        robot: Instead of the file's.
-
-    Returns:
-        The scene.
-
-    Raises:
-        SceneError: If a field is invalid.
-    """
+    """Returns the scene of TOML content `source`; `path` is for names and messages, the rest as of `load_scene`."""
     given = set(source)
     paper, settings = with_paper(settings, path.stem, robot or str(source.get("robot", "h1")))
     source = override(source, settings)
@@ -303,9 +260,7 @@ def scene_of(source: Mapping[str, Any], path: Path, settings: Sequence[str] = ()
     refuse_unknown_keys(source, ("name", "description", "robot", *SECTIONS, *CONTROLLER_TABLES), where, SceneError)
     if given.isdisjoint(_LEAST):
         raise SceneError(f"scene file {path} names neither ground nor gait; it needs [terrain] or [walk], or both")
-    for key in ("name", "description", "robot"):
-        if not isinstance(source.get(key, ""), str):
-            raise SceneError(f"{where}: '{key}' is not a text")
+    refuse_other_than_texts(source, ("name", "description", "robot"), where, SceneError)
     parts: dict[str, Any] = {
         section: kind.from_table(source.get(section, {}), f"{where}: [{section}]", SceneError)
         for section, kind in (SECTIONS | _terrain_kind(source)).items()

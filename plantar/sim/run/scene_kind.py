@@ -20,18 +20,9 @@ if TYPE_CHECKING:
 def open_scene(
     name: str | os.PathLike[str], settings: Sequence[str] = (), robot: str | None = None
 ) -> Scene | CompanionScene:
-    """Load a scene, of a walk or an experiment.
+    """Returns a scene, of a walk or an experiment, by built-in name or TOML path.
 
-    Args:
-        name: Built-in or a TOML's path.
-        settings: `key=value`, overriding the file's.
-        robot: Or machine, instead of the file's.
-
-    Returns:
-        The scene.
-
-    Raises:
-        SceneError: If name or field is invalid.
+    `key=value` `settings` and `robot`, or machine, replace the file's. A SceneError if name or field is invalid.
 
     Example:
         >>> open_scene("flat", ["steps=4"]).walk.steps

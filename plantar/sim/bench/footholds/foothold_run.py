@@ -5,14 +5,12 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import mujoco
 import numpy as np
 
 from plantar.errors import InputError
 from plantar.gravity import GRAVITY
 from plantar.robots.controller import JointTargets
 from plantar.sim.bench.footholds.policy import Action, WalkTask
-from plantar.sim.model.world import check_stable
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import Scene, scene_of
 
@@ -128,13 +126,7 @@ def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) 
         if k % tick_every == 0:
             angles, torques, moved = _checked(_called(policy.step, run.sensors.read_body()), stance.angles.shape)
             run.servos.follow(angles, torques)
-        run.servos.drive()
-        run.pusher.apply(world)
-        if world.moving_ground:
-            world.move_ground()
-        mujoco.mj_step(world.model, data)
-        if judge.step():
-            check_stable(data.warning.number)
+        run.advance()
         if k % tick_every == 0:
             judge.update(data.time, data.subtree_com[world.torso], None, moved, run.pusher.pushing)
         if k % look_every == 0 and taken_all is None and judge.steps.count().taken == len(run.steps):
