@@ -1,6 +1,5 @@
 """An experiment of the companion: surroundings, actors, success, and its scene."""
 
-import math
 import pkgutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -22,6 +21,7 @@ from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion.lidar import LidarSettings
 from plantar.sim.companion.machine import Machine
 from plantar.sim.figures.render import View
+from plantar.sim.judging.unmet import unmet as unmet  # for experiments
 from plantar.sim.papers.preset import with_paper
 from plantar.wholebody.dynamics import RobotDynamics
 
@@ -80,23 +80,6 @@ def add_moved(
     body = spec.worldbody.add_body(name=name, mocap=True, pos=AWAY)
     shape = body.add_geom(name=name, type=kind, size=size, group=OBSTACLE_GROUP, rgba=rgba)
     shape.contype = shape.conaffinity = 0
-
-
-def unmet(*criteria: tuple[bool, str, float, float, str]) -> list[dict[str, Any]]:
-    """Those of the `criteria` that are not met, for summaries.
-
-    Each: whether met, name_with_underscores, value (not finite becomes None), limit, text.
-    """
-    return [
-        {
-            "criterion": name,
-            "value": round(float(value), 6) if math.isfinite(value) else None,
-            "limit": limit,
-            "text": text,
-        }
-        for met, name, value, limit, text in criteria
-        if not met
-    ]
 
 
 @dataclass(frozen=True)

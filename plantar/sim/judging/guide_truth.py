@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.sides import SIDES
+from plantar.sim.judging.unmet import unmet
 from plantar.sim.model.world import World
 
 YIELDED = 0.15
@@ -73,22 +74,15 @@ class GuideTruth:
 
     def reasons(self) -> list[dict[str, Any]]:
         """Failed criteria, as `verdict.reasons`."""
-        found = []
-        for name, what, value, share in (
-            ("yielded", "the arm gave way by", self.yielded, YIELDED),
-            ("followed", "the feet followed", self.followed, FOLLOWED),
-        ):
-            limit = share * self._way
-            if not value >= limit:
-                text = f"{what} {value:.3f} m; a hand that goes {self._way:.3f} m asks for {limit:.3f} m"
-                found.append({"criterion": name, "value": round(value, 4), "limit": round(limit, 4), "text": text})
-        limit = ASTRAY * self._way
-        if not self.astray <= limit:
-            text = f"the feet went {self.astray:.3f} m to a side; allowed: {limit:.3f} m on a way of {self._way:.3f} m"
-            found.append(
-                {"criterion": "astray", "value": round(self.astray, 4), "limit": round(limit, 4), "text": text}
-            )
-        return found
+        gone, asked = self._way, f"m; a hand that goes {self._way:.3f} m asks for"
+        least, way, aside = (round(share * gone, 4) for share in (YIELDED, FOLLOWED, ASTRAY))
+        yielded, followed = f"the arm gave way by {self.yielded:.3f}", f"the feet followed {self.followed:.3f}"
+        astray = f"the feet went {self.astray:.3f} m to a side; allowed: {aside:.3f} m on a way of {gone:.3f} m"
+        return unmet(
+            (self.yielded >= YIELDED * gone, "yielded", self.yielded, least, f"{yielded} {asked} {least:.3f} m"),
+            (self.followed >= FOLLOWED * gone, "followed", self.followed, way, f"{followed} {asked} {way:.3f} m"),
+            (self.astray <= ASTRAY * gone, "astray", self.astray, aside, astray),
+        )
 
     def summary(self) -> dict[str, Any]:
         """Arm's largest yield, feet's final way and across in m, and an arm joint's largest turn in degrees."""

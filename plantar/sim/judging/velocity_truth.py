@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from plantar.gait.plan.phases import Timing
 from plantar.gait.propose.velocity_command import VelocityTable
+from plantar.sim.judging.unmet import unmet
 from plantar.sim.model.world import World
 
 SPEED_ERROR = 0.1
@@ -95,18 +96,21 @@ class VelocityTruth:
 
     def reasons(self, landings: list[float]) -> list[dict[str, Any]]:
         """Failed criteria, as `verdict.reasons`, by touchdowns `landings` in s."""
-        figures, found = self.summary(landings), []
-        for name, words in (("speed_ratio", "speed"), ("turn_ratio", "rate of turn")):
-            ratio = figures[name]
-            if ratio is not None and not abs(ratio - 1.0) <= SPEED_ERROR:
-                text = f"the mean {words} was {ratio:.2f} of the command; allowed: within {SPEED_ERROR:g} of it"
-                found.append({"criterion": name, "value": ratio, "limit": SPEED_ERROR, "text": text})
+        figures = self.summary(landings)
         steps, speed = figures["steps_after_stop"], figures["last_speed_m_s"]
-        if steps is not None and steps > STEPS_TO_REST:
-            text = f"{steps} steps after the command to stop; allowed: {STEPS_TO_REST}"
-            found.append({"criterion": "stop", "value": steps, "limit": STEPS_TO_REST, "text": text})
         at_rest = round(self._world.body.in_si("leg/beat") * AT_REST, 4)
-        if steps is not None and not speed < at_rest:
-            text = f"the CoM moved at {speed:.3f} m/s in the end; allowed: less than {at_rest:g} m/s"
-            found.append({"criterion": "rest", "value": speed, "limit": at_rest, "text": text})
-        return found
+        within = f"of the command; allowed: within {SPEED_ERROR:g} of it"
+        ratios = [
+            (abs(ratio - 1.0) <= SPEED_ERROR, name, ratio, SPEED_ERROR, f"the mean {words} was {ratio:.2f} {within}")
+            for name, words in (("speed_ratio", "speed"), ("turn_ratio", "rate of turn"))
+            if (ratio := figures[name]) is not None
+        ]
+        if steps is None:
+            return unmet(*ratios)
+        late = f"{steps} steps after the command to stop; allowed: {STEPS_TO_REST}"
+        moves = f"the CoM moved at {speed:.3f} m/s in the end; allowed: less than {at_rest:g} m/s"
+        return unmet(
+            *ratios,
+            (steps <= STEPS_TO_REST, "stop", steps, STEPS_TO_REST, late),
+            (speed < at_rest, "rest", speed, at_rest, moves),
+        )
