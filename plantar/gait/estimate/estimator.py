@@ -19,8 +19,8 @@ from plantar.gait.estimate.dcm_filter import DcmFilter
 from plantar.gait.estimate.encoder_offsets import standing_base
 from plantar.gait.estimate.gyro_bias import GyroBias
 from plantar.gait.estimate.push_estimate import PushEstimate
-from plantar.gait.estimate.steady_load import SteadyLoad
 from plantar.kernels.gait.floating_base import FloatingBase
+from plantar.kernels.gait.gyro_bias import SteadyLoad
 from plantar.layouts.layout import Side
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.leg_inertia import LegInertia
@@ -160,7 +160,7 @@ class FloatingBaseEstimator:
             (gains.averaging, gains.gravity, gains.yaw, gains.observer, gains.minimum_load),
             state,
             None if self.gyro_bias is None else self.gyro_bias.kernel,
-            None if self.steady is None else self.steady.kernel,
+            self.steady,
         )
         self._begun = False
         self._posture = live_kinematics(self.kinematics)

@@ -3,13 +3,10 @@
 Compared in pieces short enough for a slip to exceed noise.
 """
 
-from collections.abc import Mapping
-
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.kernels.gait.gyro_bias import GyroBias as _Kernel
-from plantar.sides import Side
 
 # What a tick counts in which one foot carries, of one in which both do: in a second of single support a foot turns by
 # 0.3 mrad by chance, while in one of standing the gyro's noise of 2 mrad/s leaves 0.1 mrad
@@ -51,20 +48,3 @@ class GyroBias:
     def missed(self) -> NDArray[np.float64] | None:
         """Angle (3,) in rad, base frame, that the legs turned more in a just ended piece without slip, or None."""
         return self._missed.copy() if self.kernel.concluded else None
-
-    def update(
-        self,
-        gyro: NDArray[np.float64],
-        turn: NDArray[np.float64] | None,
-        weights: Mapping[Side, float],
-    ) -> NDArray[np.float64]:
-        """Returns bias (3,) in rad/s after a tick.
-
-        By the `gyro` (3,) in rad/s and the base's `turn` (3,) in rad by still feet, None without, both in the base
-        frame; `weights` is each foot's load in any unit, 0 if not still.
-        """
-        gx, gy, gz = gyro.tolist()
-        tx, ty, tz = (0.0, 0.0, 0.0) if turn is None else turn.tolist()
-        both = weights["left"] > 0.0 and weights["right"] > 0.0
-        self.kernel.update(gx, gy, gz, turn is not None, tx, ty, tz, both)
-        return self.value

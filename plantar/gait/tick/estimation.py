@@ -14,10 +14,10 @@ from plantar.gait.estimate.gyro_bias import GyroBias
 from plantar.gait.estimate.identified_body import IdentifiedBody
 from plantar.gait.estimate.push_estimate import PushEstimate
 from plantar.gait.estimate.skin_load import percept_to_its_limit
-from plantar.gait.estimate.steady_load import SteadyLoad
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase
 from plantar.kernels.base.vectors import vector2
+from plantar.kernels.gait.gyro_bias import SteadyLoad
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.external_wrench import external_acceleration
@@ -71,7 +71,7 @@ class Estimation:
             self.body = IdentifiedBody(kinematics, settings.mass * GRAVITY, places, rules, period)
             if rules.gyro:
                 bias = GyroBias(period, rules.gyro_time, rules.gyro_largest, rules.gyro_piece, rules.gyro_slip)
-                steady = SteadyLoad(period, rules.steady_share, rules.steady_time, rules.steady_band)
+                steady = SteadyLoad(rules.steady_share, min(1.0, period / rules.steady_time), rules.steady_band)
         self.estimator = FloatingBaseEstimator(
             kinematics if self.body is None else self.body,
             self.omega,

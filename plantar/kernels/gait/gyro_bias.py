@@ -1,4 +1,4 @@
-"""Kernel of `plantar.gait.estimate.gyro_bias` and `steady_load`; feet as `plantar.sides.SIDES`."""
+"""Kernel of `plantar.gait.estimate.gyro_bias`, and which feet are still; feet as `plantar.sides.SIDES`."""
 
 __all__ = ["GyroBias", "SteadyLoad"]
 
@@ -7,6 +7,8 @@ _INFINITE = float("inf")
 
 class SteadyLoad:
     """Compares each foot's load with the total and its own running mean.
+
+    Landing and lifting feet always turn the same way, which would add up in heading.
 
     Args:
         share: Share of total load from which only this foot is still.

@@ -1,20 +1,20 @@
 """Which feet stand still, over the loads of a walk."""
 
-from plantar.gait.estimate.steady_load import SteadyLoad
-from plantar.sides import Side
+from plantar.kernels.gait.gyro_bias import SteadyLoad
 
 PERIOD, WEIGHT = 0.005, 800.0
 
 
 def counted(shares: list[float]) -> list[tuple[bool, bool]]:
     """Which feet count, by the share of the weight that the left one carries in each tick."""
-    steady = SteadyLoad(PERIOD, 0.8, 0.5, 0.05 * WEIGHT)
+    steady = SteadyLoad(0.8, PERIOD / 0.5, 0.05 * WEIGHT)
     out = []
     for share in shares:
-        loads: dict[Side, float] = {"left": share * WEIGHT, "right": (1.0 - share) * WEIGHT}
-        found = steady.update(loads)
-        assert all(found[side] in (0.0, loads[side]) for side in loads)
-        out.append((found["left"] > 0.0, found["right"] > 0.0))
+        loads = share * WEIGHT, (1.0 - share) * WEIGHT
+        steady.update(*loads)
+        assert steady.left in (0.0, loads[0])
+        assert steady.right in (0.0, loads[1])
+        out.append((steady.left > 0.0, steady.right > 0.0))
     return out
 
 
