@@ -2,7 +2,8 @@
 
 import os
 from collections.abc import Mapping
-from typing import Any, Self
+from contextlib import ExitStack
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,18 +27,12 @@ _FULL_TAXEL = 0.01  # weight on a taxel of a body that has the last colour
 _LINES, _INK = 4, (40, 40, 40)  # patches whose force is written, and in which colour
 
 
-class _Filmed:
+class _Filmed(ExitStack):
     def __init__(self, path: str | os.PathLike[str], model: Any, body: int, **shown: Any) -> None:
-        self._writer = VideoWriter(path)
+        super().__init__()
         self._camera = Camera(model, body, _WIDTH, _HEIGHT, fast=True, **shown)
-
-    def __enter__(self) -> Self:
-        self._writer.__enter__()
-        return self
-
-    def __exit__(self, *error: Any) -> None:
-        self._writer.__exit__(*error)
-        self._camera.close()
+        self.callback(self._camera.close)
+        self._writer = self.enter_context(VideoWriter(path))
 
 
 class Film(_Filmed):

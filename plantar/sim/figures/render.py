@@ -2,9 +2,10 @@
 
 import os
 from collections.abc import Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -157,7 +158,7 @@ def save_picture(picture: NDArray[np.uint8], path: str | os.PathLike[str]) -> Pa
     return Path(path)
 
 
-class VideoWriter:
+class VideoWriter(ExitStack):
     """Writes an MP4 at `path`, `rate` frames a second; a context manager.
 
     Raises:
@@ -165,16 +166,12 @@ class VideoWriter:
     """
 
     def __init__(self, path: str | os.PathLike[str], rate: float = FRAME_RATE) -> None:
+        super().__init__()
         if Path(path).suffix != ".mp4":
             raise InputError(f"video {path} needs a name that ends in .mp4")
-        self._cv2 = opencv()
-        self._rate = rate
-        self._replacing = replacing(path)
+        self._cv2, self._rate = opencv(), rate
+        self._temporary = self.enter_context(replacing(path))
         self._writer: Any = None
-
-    def __enter__(self) -> Self:
-        self._temporary = self._replacing.__enter__()
-        return self
 
     def add(self, picture: NDArray[np.uint8]) -> None:
         """Add an RGB frame (height, width, 3)."""
@@ -182,11 +179,7 @@ class VideoWriter:
             height, width = picture.shape[:2]
             code = self._cv2.VideoWriter.fourcc(*"mp4v")
             self._writer = self._cv2.VideoWriter(str(self._temporary), code, self._rate, (width, height))
+            self.callback(self._writer.release)  # before the file gets its name
             if not self._writer.isOpened():
                 raise InputError("cannot encode MP4: this OpenCV has no video encoder")
         self._writer.write(picture[:, :, ::-1])
-
-    def __exit__(self, *error: Any) -> None:
-        if self._writer is not None:
-            self._writer.release()
-        self._replacing.__exit__(*error)

@@ -1,8 +1,8 @@
 """The topics of a run's MCAP file."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +27,7 @@ MOST_VERTICES = 24
 """Vertices of a recorded support polygon; further ones are left out."""
 
 
-class RunLog:
+class RunLog(ExitStack):
     """Writes a run's recording; a context manager.
 
     Args:
@@ -49,10 +49,11 @@ class RunLog:
         touch: Touch | None = None,
         arm: CompliantArm | None = None,
     ) -> None:
+        super().__init__()
         k = len(world.servos)
         self._world = world
-        self._recorder = Recorder(path, metadata, {s: world.robot.layouts[s] for s in SIDES})
-        channel = self._recorder.channel
+        recorder = self.enter_context(Recorder(path, metadata, {s: world.robot.layouts[s] for s in SIDES}))
+        channel = recorder.channel
         self._skin = {s: channel(f"/skin/{s}", [("force", len(world.robot.layouts[s]))]) for s in SIDES}
         self._joints = channel("/joints", [("position", k), ("command", k), ("torque", k)])
         self._estimate = channel("/estimate", [("com", 3), ("com_velocity", 3), ("dcm", 2), ("zmp", 2)])
@@ -84,14 +85,7 @@ class RunLog:
             self._guides = channel("/guide", [("place", 3), ("held", 3), ("reference", 1), ("moved", 1), ("force", 1)])
         self._joint_row, self._estimate_row, self._reference_row = np.empty(3 * k), np.empty(10), np.empty(11)
         self._foot_row, self._body_row = np.empty(13), np.empty(21)
-        self._drawn = DrawnRun(self._recorder, world)
-
-    def __enter__(self) -> "RunLog":
-        self._recorder.__enter__()
-        return self
-
-    def __exit__(self, *error: Any) -> None:
-        self._recorder.__exit__(*error)
+        self._drawn = DrawnRun(recorder, world)
 
     def skin(self, readings: Mapping[Side, Reading]) -> None:
         """Record the soles' latest readings at their sample times."""
