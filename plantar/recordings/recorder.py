@@ -65,11 +65,11 @@ class Channel(Generic[_Message]):
         self._messages: list[_Message] = []
         self._written = 0
 
-    def write(self, time_s: float, message: _Message) -> None:
+    def write(self, time_s: float, *message: Any) -> None:
         """Append a `message`, unchanged until the next flush, at `time_s` in s.
 
-        A message is a flat array of all fields' values, or bytes, by topic kind. RecordingError for times outside 0 to
-        1e9 s, or a wrong number of values.
+        A message is bytes, or a flat array of all fields' values, or, of a topic with fields, a value for each, where
+        one number fills its field. RecordingError for times outside 0 to 1e9 s, or a wrong number of values.
         """
         if not 0.0 <= time_s < 1e9:
             raise RecordingError(f"topic {self.topic} got the time {time_s} s; allowed: 0 to 1e9 s")
@@ -78,7 +78,7 @@ class Channel(Generic[_Message]):
             recorder.flush()
             recorder._flush_at = time_s + recorder.chunk_duration
         self._times.append(round(time_s * 1e9))
-        self._messages.append(message)
+        self._messages.append(message[0])
 
     def _take_messages(self) -> _Gathered:
         times, messages, self._times, self._messages = self._times, self._messages, [], []
@@ -99,12 +99,19 @@ class Channel(Generic[_Message]):
 
 
 class _NumbersChannel(Channel[NDArray[np.float64]]):
-    def __init__(self, recorder: "Recorder", number: int, topic: str, width: int) -> None:
+    def __init__(self, recorder: "Recorder", number: int, topic: str, widths: Sequence[int]) -> None:
         super().__init__(recorder, number, topic, _as_cdr)
-        self._width = width
+        ends = np.cumsum(widths).tolist()
+        self._spans = [slice(end - width, end) for end, width in zip(ends, widths, strict=True)]
+        self._width = ends[-1]
 
-    def write(self, time_s: float, message: NDArray[np.float64]) -> None:
-        row = np.array(message, dtype="<f8")
+    def write(self, time_s: float, *message: Any) -> None:
+        row = np.empty(self._width) if len(message) > 1 else np.array(message[0], dtype="<f8")
+        try:
+            for span, value in zip(self._spans, message, strict=True) if len(message) > 1 else ():
+                row[span] = value
+        except ValueError as error:
+            raise RecordingError(f"topic {self.topic} takes values of {len(self._spans)} fields: {error}") from None
         if row.shape != (self._width,):
             raise RecordingError(f"topic {self.topic} takes {self._width} values a message; got shape {row.shape}")
         super().write(time_s, row)
@@ -202,7 +209,7 @@ class Recorder:
                     f"field {name!r} of topic {topic} with {width} values is not valid; "
                     "allowed: lower-case names of letters, digits and single underscores, 1 value or more"
                 )
-        channel = _NumbersChannel(self, len(self._channels) + 1, topic, sum(width for _, width in fields))
+        channel = _NumbersChannel(self, len(self._channels) + 1, topic, [width for _, width in fields])
         lines = [f"float64 {n}" if width == 1 else f"float64[{width}] {n}" for n, width in fields]
         kind = "".join(part[:1].upper() + part[1:] for part in re.split(r"[^A-Za-z0-9]+", topic))
         self._declare(channel, f"plantar_msgs/msg/{kind}", "ros2msg", "\n".join(lines).encode(), "cdr")

@@ -121,9 +121,9 @@ class Companion(Run):
         used = 1e6 * (clock.perf_counter() - start)
         self.drives.command(self.robot, torque)
         if self._channels is not None:
-            rows = reading.force, np.concatenate([qpos, torque]), self.skin.wrenches.ravel()
+            rows = (reading.force,), (qpos, torque), (self.skin.wrenches.ravel(),)
             for channel, row in zip(self._channels, rows, strict=True):
-                channel.write(float(data.time), row)
+                channel.write(float(data.time), *row)
         return used
 
     def advance(self) -> None:

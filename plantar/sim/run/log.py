@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +21,6 @@ from plantar.sim.model.world import World
 from plantar.sim.partner.guide import Guide
 from plantar.sim.partner.mobile_robot import MobileRobot
 from plantar.sim.partner.touch import Touch
-
-_NAN2 = np.full(2, np.nan)
 
 MOST_VERTICES = 24
 """Vertices of a recorded support polygon; further ones are left out."""
@@ -83,8 +82,6 @@ class RunLog(ExitStack):
         self._guide = None if touch is None else next((p for p in touch.partners if isinstance(p, Guide)), None)
         if self._guide is not None:
             self._guides = channel("/guide", [("place", 3), ("held", 3), ("reference", 1), ("moved", 1), ("force", 1)])
-        self._joint_row, self._estimate_row, self._reference_row = np.empty(3 * k), np.empty(10), np.empty(11)
-        self._foot_row, self._body_row = np.empty(13), np.empty(21)
         self._drawn = DrawnRun(recorder, world)
 
     def skin(self, readings: Mapping[Side, Reading]) -> None:
@@ -96,16 +93,13 @@ class RunLog(ExitStack):
     def zmps(self, time: float, skin: NDArray[np.float64] | None, force_torque: NDArray[np.float64] | None) -> None:
         """Record filtered ZMPs (2,) in m of `skin` and ankles (`force_torque`) at `time` in s; NaN for none."""
         if self._zmps is not None:
-            row = [_NAN2 if zmp is None else zmp for zmp in (skin, force_torque)]
-            self._zmps.write(time, np.concatenate(row))
+            self._zmps.write(time, _or_nan(skin), _or_nan(force_torque))
 
     def _footholds(self, time: float, command: Command) -> None:
         for found in command.footholds:
-            row = np.full(5 + 2 * MOST_VERTICES, np.nan)
-            row[:5] = found.step, SIDES.index(found.side), found.area_ratio, *found.vrp
-            ring = found.polygon[:MOST_VERTICES].ravel()
-            row[5 : 5 + len(ring)] = ring
-            self._foothold.write(time, row)
+            ring, polygon = found.polygon[:MOST_VERTICES].ravel(), np.full(2 * MOST_VERTICES, np.nan)
+            polygon[: len(ring)] = ring
+            self._foothold.write(time, found.step, SIDES.index(found.side), found.area_ratio, found.vrp, polygon)
 
     def note(self, time: float, text: str, level: str = "info") -> None:
         """Record a `text` with a `level` ("info", "warning" or "error") at `time` in s."""
@@ -132,40 +126,26 @@ class RunLog(ExitStack):
         """
         w, time = self._world, sensors.time
         data, state, reference = w.data, command.state, command.reference
-        k = len(w.servos)
-        row = self._joint_row
-        row[:k], row[k : 2 * k], row[2 * k :] = sensors.joint_positions, joints, data.actuator_force[w.servos]
-        self._joints.write(time, row)
-        row = self._estimate_row
-        row[:3], row[3:6], row[6:8] = state.com, state.com_velocity, command.dcm
-        row[8:] = _NAN2 if state.zmp is None else state.zmp
-        self._estimate.write(time, row)
-        row = self._reference_row
-        row[:3], row[3:5], row[5:7], row[7:9] = command.com, reference.dcm, reference.vrp, command.zmp_desired
-        row[9], row[10] = command.phase.kind, command.phase.step
-        self._reference.write(time, row)
-        row = self._foot_row
+        self._joints.write(time, sensors.joint_positions, joints, data.actuator_force[w.servos])
+        self._estimate.write(time, state.com, state.com_velocity, command.dcm, _or_nan(state.zmp))
+        planned = command.com, reference.dcm, reference.vrp, command.zmp_desired
+        self._reference.write(time, *planned, command.phase.kind, command.phase.step)
         for load, (side, channel) in zip(loads, self._truth.items(), strict=True):
             site = w.sole_sites[side]
-            row[0], row[1:4], row[4:] = load, data.site_xpos[site], data.site_xmat[site]
-            channel.write(time, row)
-        row = self._body_row
-        row[:3], row[6:15], row[15:] = data.subtree_com[w.torso], data.xmat[w.torso], truth.wrench
-        row[3:5] = _NAN2 if truth.zmp is None else truth.zmp
-        row[5] = np.nan if truth.margin is None else truth.margin
-        self._body.write(time, row)
+            channel.write(time, load, data.site_xpos[site], data.site_xmat[site])
+        balance = data.subtree_com[w.torso], _or_nan(truth.zmp), _or_nan(truth.margin)
+        self._body.write(time, *balance, data.xmat[w.torso], truth.wrench)
         if command.footholds:
             self._footholds(time, command)
         self._drawn.tick(time, command, plan, truth, loads)
         if self._touch is not None:
             self._record_touch(self._touch, sensors, command)
         if self._arm is not None:
-            row = np.concatenate([self._arm.true_angles, self._arm.posture, self._arm.torque])
-            self._arms.write(time, row)
+            self._arms.write(time, self._arm.true_angles, self._arm.posture, self._arm.torque)
         if self._guide is not None:
             guide = self._guide
             along = (guide.sign * guide.reference, guide.sign * guide.moved, guide.sign * guide.force)
-            self._guides.write(time, np.concatenate([guide.position(w), guide.held(w)[0], along]))
+            self._guides.write(time, guide.position(w), guide.held(w)[0], *along)
 
     def _record_touch(self, touch: Touch, sensors: Sensors, command: Command) -> None:
         measured = np.full(3, np.nan)
@@ -177,8 +157,11 @@ class RunLog(ExitStack):
                 own = np.flatnonzero(active[skin.slices[patch.name]]) + skin.slices[patch.name].start
                 turn = world.data.body(patch.link).xmat.reshape(3, 3)
                 measured += turn @ (sensors.skin.force[own] @ skin.normals[own])
-        self._touched.write(sensors.time, np.concatenate([touch.force, measured]))
-        self._feet.write(sensors.time, np.concatenate([command.feet[side].position for side in SIDES]))
+        self._touched.write(sensors.time, touch.force, measured)
+        self._feet.write(sensors.time, *(command.feet[side].position for side in SIDES))
         if self._partner is not None:
-            row = np.array([self._partner.moved, self._partner.law.position, self._partner.force])
-            self._partners.write(sensors.time, row)
+            self._partners.write(sensors.time, self._partner.moved, self._partner.law.position, self._partner.force)
+
+
+def _or_nan(value: Any) -> Any:
+    return np.nan if value is None else value

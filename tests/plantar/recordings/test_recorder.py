@@ -176,6 +176,11 @@ def test_bad_calls_name_what_is_wrong(tmp_path):
             channel.write(0.0, np.zeros(2))
         with pytest.raises(RecordingError, match=r"takes 3 values a message; got shape \(3, 2\)"):
             channel.write(0.0, np.zeros((3, 2)))
+        parts = recorder.channel("/b", [("x", 3), ("y", 1)])
+        for message in ((np.zeros(2), 1.0), (np.zeros(3), 1.0, 2.0)):
+            with pytest.raises(RecordingError, match=r"topic /b takes values of 2 fields"):
+                parts.write(0.0, *message)
+        parts.write(0.0, np.nan, 7)
         for bad in (-1.0, float("nan"), float("inf")):
             with pytest.raises(RecordingError, match="allowed: 0 to"):
                 channel.write(bad, np.zeros(3))
