@@ -4,7 +4,7 @@ Ridge regression (K 14), exact at both ends, unlike K 16, which overwrites two c
 swing, the reference kept monotone (K 2.4).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 import numpy as np
@@ -35,7 +35,6 @@ class SwingFitRules(SwingKind, table="swing_fit", needs={"control.swing_shape": 
     order: int = whole(6, "1", 5, 9)
     damping: float = number(1e-6, "1", 1e-9, 1e3)
     position: float = number(1.0, "1", 1e-9, 1e3)
-    observation: ClassVar[float] = 1e-4  # sigma_obs on measurements of the foot
     # gamma: share of the swing after which, and before whose end, it is that high
     height_share: ClassVar[float] = 1.0 / 3.0
 
@@ -44,7 +43,8 @@ class SwingFitRules(SwingKind, table="swing_fit", needs={"control.swing_shape": 
         flight = PolynomialSwing().begin(start)
         if start.rises_first:
             return flight
-        return _FittedSwing(flight, SwingFit(self, start.position, start.period, start.height))
+        fit = SwingFit(self, start.position, start.period, start.height)
+        return _FittedSwing(**vars(flight), fit=fit)
 
 
 class SwingPoint(Record, frozen=True):
@@ -82,7 +82,6 @@ class SwingFit:
         self._rules, self._height = rules, height
         self._start: NDArray[np.float64] = array(start, "start of the swing", (3,), finite=True).copy()
         self._state = np.array([self._start, np.zeros(3), np.zeros(3)])  # of the tick before
-        self._seen: tuple[NDArray[np.float64], float] | None = None
         self._falls = False
         n = rules.order
         # Conditions that every swing has, in shares of it: rest at both ends, and for z the two heights. With both ends
@@ -97,16 +96,15 @@ class SwingFit:
         same = [rules.damping * (np.eye(n - 1) + 1.0), *(weight * _reduced(r).T @ _reduced(r) for r in rests)]
         pulls = [np.full(n - 1, rules.damping), *(-weight * _reduced(r).T @ r[:, n] for r in rests)]
         self._same = np.array([np.column_stack(parts).ravel() for parts in zip(same, pulls, strict=True)])
-        self._conditions, self._work = np.zeros((4, 4)), np.zeros((7 + 2 * (n - 1), n + 1))
+        self._conditions, self._work = np.zeros((3, 4)), np.zeros((6 + 2 * (n - 1), n + 1))
 
-    def aim(self, goal: ArrayLike, elapsed: float, duration: float, observed: ArrayLike | None = None) -> SwingPoint:
+    def aim(self, goal: ArrayLike, elapsed: float, duration: float) -> SwingPoint:
         """Reference now towards a goal (K 13-16); at the goal after the duration.
 
         Args:
             goal: Landing place (3,) in m.
             elapsed: T_c since lift-off in s; a control period more each call.
             duration: T_s from lift-off to touchdown in s.
-            observed: Measured (3,) at the last tick in m, or None.
 
         Returns:
             Desired motion.
@@ -117,42 +115,31 @@ class SwingFit:
         end = array(goal, "goal of the swing", (3,), finite=True)
         now = checked_number(elapsed, "time since lift-off", finite=True)
         lasts = checked_number(duration, "duration of the swing", finite=True)
-        seen = None if observed is None else array(observed, "observed position", (3,), finite=True)
         if now >= lasts or lasts <= 0.0:
             self._state = np.array([end, np.zeros(3), np.zeros(3)])
         else:
-            found = self._fitted(end, now, lasts, seen)
-            self._seen = None if seen is None else (seen, now - self._period)
+            found = self._fitted(end, now, lasts)
             self._keep_monotone(found, end, now / lasts)
             self._state = found
         return SwingPoint(*self._state.copy())
 
-    def _fitted(
-        self, end: NDArray[np.float64], now: float, lasts: float, seen: NDArray[np.float64] | None
-    ) -> NDArray[np.float64]:
+    @property
+    def falls(self) -> float:
+        """Downward speed in m/s at the last tick."""
+        return -float(self._state[1, 2])
+
+    def _fitted(self, end: NDArray[np.float64], now: float, lasts: float) -> NDArray[np.float64]:
         """Reference now (3, 3), a row a derivative."""
         rules, n, start, conditions = self._rules, self._rules.order, self._start, self._conditions
         tick, way = self._period / lasts, end - start
         units = np.array(((1.0,), (lasts,), (lasts * lasts,)))
-        np.multiply(self._state, units, out=conditions[:3, 1:])
+        np.multiply(self._state, units, out=conditions[:, 1:])
         conditions[0, 1:] -= start
-        weights = [rules.position, rules.position * tick, rules.position * tick * tick, 0.0]
-        earlier = 0.0
-        if seen is not None and rules.observation > 0.0:
-            # What is measured is of the same moments as the path of before: one condition each, weighed together.
-            part = rules.observation / (rules.observation + rules.position)
-            conditions[0, 1:] += part * (seen - self._state[0])
-            weights[0] += rules.observation
-            if self._seen is not None:
-                conditions[1, 1:] += part * ((seen - self._seen[0]) / tick - conditions[1, 1:])
-                conditions[3, 1:] = self._seen[0] - start
-                weights[1] += rules.observation * tick
-                weights[3], earlier = rules.observation, max(self._seen[1], 0.0) / lasts
-        conditions[:, 0] = weights
+        conditions[:, 0] = rules.position, rules.position * tick, rules.position * tick * tick
         same = (np.array((1.0, tick, tick * tick)) @ self._same).reshape(n - 1, n)
         top, found = max(0.0, float(way[2])) + self._height, np.empty((3, 3))
         before = max(now - self._period, 0.0) / lasts
-        fit(n, now / lasts, before, earlier, conditions, same, self._high, top, way, self._work, found)
+        fit(n, now / lasts, before, conditions, same, self._high, top, way, self._work, found)
         found /= units
         found[0] += start
         return found
@@ -170,49 +157,24 @@ class SwingFit:
                 found[:, k] = kept, (kept - was) / self._period, 0.0
 
 
-@dataclass
-class _FittedSwing:
+@dataclass(frozen=True)
+class _FittedSwing(SwingFlight):
     """Fitted swing with its flight's heading and slow approach."""
 
-    flight: SwingFlight
-    fit: SwingFit
-    _falls: float = 0.0
-
-    @property
-    def end(self) -> NDArray[np.float64]:
-        return self.flight.end
-
-    @property
-    def yaw_end(self) -> float:
-        return self.flight.yaw_end
-
-    @property
-    def duration(self) -> float:
-        return self.flight.duration
+    fit: SwingFit = field(kw_only=True)
 
     def at(self, time: float) -> tuple[NDArray[np.float64], float]:
-        path, flight = self.flight.path, self.flight
         # A swing with a slow approach is above its place before that, and goes down along its flight.
-        approaches = path.approach_height > 0.0
-        share = path.arrived / path.duration if approaches else 1.0
-        point = self.fit.aim(flight.end, time, share * flight.duration)
-        position, self._falls = point.position, -point.velocity.item(2)
-        planned, yaw = flight.at(time)
+        approaches = self.path.approach_height > 0.0
+        share = self.path.arrived / self.path.duration if approaches else 1.0
+        position = self.fit.aim(self.end, time, share * self.duration).position
+        planned, yaw = self.along(time)
         if approaches:
             position[2] = planned.item(2)
         return position, yaw
 
     def falling(self, time: float, height: float) -> float:
-        return self._falls if self.flight.path.approach_height == 0.0 else self.flight.falling(time, height)
-
-    def risen(self, time: float) -> float:
-        return self.flight.risen(time)
-
-    def comes_down(self, time: float) -> bool:
-        return self.flight.comes_down(time)
-
-    def aimed(self, time: float, place: NDArray[np.float64], yaw: float, duration: float) -> "_FittedSwing":
-        return _FittedSwing(self.flight.aimed(time, place, yaw, duration), self.fit, self._falls)
+        return self.fit.falls if self.path.approach_height == 0.0 else super().falling(time, height)
 
 
 def _rows(s: float, order: int) -> tuple[list[float], list[float], list[float]]:

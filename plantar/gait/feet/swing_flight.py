@@ -128,7 +128,7 @@ class SwingFlight:
 
     def falling(self, time: float, height: float) -> float:
         """Returns the downward speed in m/s at a time and height in m."""
-        return (height - self.at(time + self.period)[0].item(2)) / self.period
+        return (height - self.along(time + self.period)[0].item(2)) / self.period
 
     def comes_down(self, time: float) -> bool:
         """Whether half of the swing is over at a time in s since lift-off."""
@@ -136,6 +136,10 @@ class SwingFlight:
 
     def at(self, time: float) -> tuple[NDArray[np.float64], float]:
         """Sole position (3,) in m and heading in rad at a time in s since lift-off; held outside."""
+        return self.along(time)
+
+    def along(self, time: float) -> tuple[NDArray[np.float64], float]:
+        """The same on its trajectory."""
         position, yaw = self.path.at(self.progress(time))
         if self._course is not None and time >= self._course.since:
             x, y, yaw = self._course.at(time).tolist()
@@ -171,7 +175,7 @@ class SwingFlight:
         return replace(flight, yaw_end=turn, _course=course)
 
     def _horizontal(self, time: float) -> NDArray[np.float64]:
-        position, yaw = self.at(max(0.0, time))
+        position, yaw = self.along(max(0.0, time))
         return np.array([position[0], position[1], yaw])
 
 

@@ -18,12 +18,12 @@ def path(form, seed: int, now: float | None = None) -> tuple[np.ndarray, np.ndar
     m = order - 1
     same, high = rng.normal(size=(2, m, m))
     same, high = (np.column_stack([a @ a.T + np.eye(m), rng.normal(size=(m, 2))]) for a in (same, high))
-    conditions = rng.normal(size=(4, 4))
+    conditions = rng.normal(size=(3, 4))
     conditions[:, 0] **= 2
-    way, out, work = rng.normal(size=3), np.full((3, 3), np.nan), np.full((7 + 2 * m, order + 1), np.nan)
-    before, earlier, at = rng.uniform(size=3)
+    way, out, work = rng.normal(size=3), np.full((3, 3), np.nan), np.full((6 + 2 * m, order + 1), np.nan)
+    before, at = rng.uniform(size=2)
     same = np.ascontiguousarray(same[:, : m + 1])
-    form.fit(order, at if now is None else now, before, earlier, conditions, same, high, 0.3, way, work, out)
+    form.fit(order, at if now is None else now, before, conditions, same, high, 0.3, way, work, out)
     return out, way
 
 
