@@ -25,7 +25,6 @@ class DcmFilterRules(Part, table="dcm_filter", needs={"control.dcm_estimate": ("
     """
 
     com_noise: float = fixed(0.00333, "leg")  # Of the kinematic CoM in m
-    velocity_noise: float = fixed(0.0206, "leg/beat")  # Of its velocity in m/s, where measured
     zmp_noise: float = fixed(0.04, "sole")  # Of the ZMP, less the measured offset, in m
     unfelt_rate: float = share(0.495, "sole/beat", 0, 100)
 
@@ -71,45 +70,31 @@ class DcmFilter:
         if count == 3:
             self._step[:2, 2] = -self._input
             noise[2, 2] = (rules.unfelt_rate * tick) ** 2
-        place = np.eye(1, count)
-        speed = np.array([[-w, w, 0.0][:count]])
-        self._by_place = _stationary_gain(self._step, noise, place, np.array([[rules.com_noise**2]]))
-        both = np.diag([rules.com_noise**2, rules.velocity_noise**2])
-        self._measured = np.vstack([place, speed])
-        self._by_both = _stationary_gain(self._step, noise, self._measured, both)
-        self._omega = w
+        self._gain = _stationary_gain(self._step, noise, np.eye(1, count), np.array([[rules.com_noise**2]]))
         self._state: NDArray[np.float64] | None = None
 
     def reset(self) -> None:
         """Restart at the next update."""
         self._state = None
 
-    def update(
-        self, com: ArrayLike, com_velocity: ArrayLike | None, zmp: ArrayLike | None, offset: ArrayLike
-    ) -> PushedPendulum:
-        """Returns CoM and DCM after a tick; at first as measured.
+    def update(self, com: ArrayLike, zmp: ArrayLike | None, offset: ArrayLike) -> PushedPendulum:
+        """Returns CoM and DCM after a tick; at first as measured, at rest.
 
-        By the kinematic `com` (2,) in m, its measured `com_velocity` (2,) in m/s or None, the `zmp` (2,) since the
-        last tick in m, None without load, and the VRP's `offset` u_w (2,) by the measured push in m
-        (`plantar.mechanics.external_wrench.vrp_offset`). An InputError for others.
+        By the kinematic `com` (2,) in m, the `zmp` (2,) since the last tick in m, None without load, and the VRP's
+        `offset` u_w (2,) by the measured push in m (`plantar.mechanics.external_wrench.vrp_offset`). An InputError for
+        others.
         """
         place = array(com, "CoM", (2,), finite=True)
         felt = array(offset, "VRP offset", (2,), finite=True)
-        speed = None if com_velocity is None else array(com_velocity, "velocity of the CoM", (2,), finite=True)
         if self._state is None:
             self._state = np.zeros((len(self._step), 2))
             self._state[:2] = place
-            if speed is not None:
-                self._state[1] += speed / self._omega
             return self._told()
         # Without ground the only acceleration is that of the push: as with the ZMP under the CoM.
         ground = self._state[0] if zmp is None else array(zmp, "ZMP", (2,), finite=True)
         state = self._step @ self._state
         state[:2] += np.outer(self._input, ground - felt)
-        if speed is None:
-            state += self._by_place * (place - state[0])
-        else:
-            state += self._by_both @ (np.stack([place, speed]) - self._measured @ state)
+        state += self._gain * (place - state[0])
         self._state = state
         return self._told()
 

@@ -297,5 +297,5 @@ class FloatingBaseEstimator:
         self, dcm_filter: DcmFilter, posture: Posture, zmp: NDArray[np.float64] | None, swinging: NDArray[np.float64]
     ) -> None:
         com = self._position + self._rotation.dot(posture.com)
-        filtered = dcm_filter.update(com[:2], None, zmp, (self.push_acceleration + swinging) / self.omega**2)
+        filtered = dcm_filter.update(com[:2], zmp, (self.push_acceleration + swinging) / self.omega**2)
         self._com[:2], self._velocity[:2] = filtered.com, self.omega * (filtered.dcm - filtered.com)

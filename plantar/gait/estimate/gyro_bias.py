@@ -32,19 +32,14 @@ class GyroBias:
     """
 
     def __init__(self, period: float, time_constant: float, largest: float, piece: float, slip: float) -> None:
-        self._value, self._missed = np.zeros(3), np.zeros(3)
+        self._value = np.zeros(3)
         most_ticks = max(1, round(piece / period))
         self.kernel = _Kernel(
             *(period, period / time_constant, largest, most_ticks, slip),
-            *(_ONE_FOOT, _FIRST_PIECES * most_ticks, self._value, self._missed),
+            *(_ONE_FOOT, _FIRST_PIECES * most_ticks, self._value, np.zeros(3)),
         )
 
     @property
     def value(self) -> NDArray[np.float64]:
         """Bias (3,), base frame, in rad/s."""
         return self._value.copy()
-
-    @property
-    def missed(self) -> NDArray[np.float64] | None:
-        """Angle (3,) in rad, base frame, that the legs turned more in a just ended piece without slip, or None."""
-        return self._missed.copy() if self.kernel.concluded else None

@@ -95,8 +95,8 @@ def test_a_slip_is_no_bias_and_no_turn_of_the_base():
         slid = 0.005 * min(max(k - slipping.start, 0), len(slipping)) / len(slipping)
         now = Rotation.from_rotvec([0.0, 0.0, slid]).as_matrix()
         advance(identified, np.array([0.0, 0.0, 0.002]), sine_vector(before @ now.T))
-        if identified.missed is not None:
-            missed += identified.missed
+        if identified.kernel.concluded:
+            missed += identified.kernel.missed
         before = now
     assert identified.value[2] == pytest.approx(0.002, abs=1e-4)  # without the limit 5e-4
     assert abs(missed[2]) < 6e-4
