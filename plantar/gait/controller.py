@@ -133,11 +133,6 @@ class WalkingController:
         return self.schedule.end
 
     @property
-    def stopped(self) -> bool:
-        """Whether it stopped for good, in its `safe_state`."""
-        return self.safe_state is not None
-
-    @property
     def raised(self) -> tuple[int, str]:
         """Ticks that raised, and the last error: the shell caught them."""
         return (0, "") if self.shell is None else (self.shell.errors, self.shell.error)

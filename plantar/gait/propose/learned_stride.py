@@ -51,11 +51,6 @@ class LearnedStride:
         self._step, self._aimed, self._learned = -1, np.zeros(2), False
         self._asked: tuple[PlanChange, NDArray[np.float64]] | None = None
 
-    @property
-    def factor(self) -> NDArray[np.float64]:
-        """On strides along and across the walk (2,)."""
-        return self._factor.copy()
-
     def propose(self, tick: Tick) -> PlanChange | None:
         """Footsteps from the next on, if factors changed."""
         plan, swings = tick.plan, tick.phase.swing is not None

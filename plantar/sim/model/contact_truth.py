@@ -107,17 +107,8 @@ def feet_contacts(model: Any, data: Any, feet: Sequence[Collection[int]]) -> tup
 
 def contact_wrench_in_world(contacts: ContactSet, point: NDArray[np.float64]) -> NDArray[np.float64]:
     """Returns the wrench (6,) in N, N m of `contacts` about a `point` (3,) in m, world axes."""
-    out = np.zeros(6)
-    if contacts.size:
-        f = contacts.forces
-        # sum of r x f from the 3 x 3 matrix of first moments: one product instead of k cross products.
-        moment = (contacts.positions - point).T @ f
-        tau = contacts.torques.sum(axis=0)
-        f.sum(axis=0, out=out[:3])
-        out[3] = moment[1, 2] - moment[2, 1] + tau[0]
-        out[4] = moment[2, 0] - moment[0, 2] + tau[1]
-        out[5] = moment[0, 1] - moment[1, 0] + tau[2]
-    return out
+    moments = np.cross(contacts.positions - point, contacts.forces) + contacts.torques
+    return np.concatenate([contacts.forces.sum(axis=0), moments.sum(axis=0)])
 
 
 def contact_wrench_in_frame(

@@ -47,9 +47,9 @@ def test_strides_that_are_pushed_become_the_robots_own(plan_of, tick_at, early):
     assert changes[2].reason == "strides learned"
     assert all(changes[k] is None for k in (0, 1, 7, 8, 9, 10, 11))
     kept = strides(plan)[-3:-1]  # the last one closes with half a stride
-    assert learns.factor[0] == pytest.approx((1.0 + RULES.rate * 0.1 / usual * 4), rel=0.05)
-    assert kept == pytest.approx([usual * learns.factor[0]] * 2, rel=0.02)
-    assert learns.factor[1] == 1.0  # steps in place across the walk have no stride
+    assert learns._factor[0] == pytest.approx((1.0 + RULES.rate * 0.1 / usual * 4), rel=0.05)
+    assert kept == pytest.approx([usual * learns._factor[0]] * 2, rel=0.02)
+    assert learns._factor[1] == 1.0  # steps in place across the walk have no stride
     assert plan.view.count == 12
 
 
@@ -66,5 +66,5 @@ def test_strides_never_become_shorter_than_planned_nor_too_long(plan_of, tick_at
         pass
     for _ in walk(plan_of(8), tick_at, far, lambda step: 0.3):
         pass
-    assert back.factor.tolist() == [1.0, 1.0]
-    assert far.factor.tolist() == [1.2, 1.0]
+    assert back._factor.tolist() == [1.0, 1.0]
+    assert far._factor.tolist() == [1.2, 1.0]
