@@ -252,7 +252,7 @@ def load_scene(name: str | os.PathLike[str], settings: Sequence[str] = (), robot
 
 
 def scene_of(source: Mapping[str, Any], path: Path, settings: Sequence[str] = (), robot: str | None = None) -> Scene:
-    """Returns the scene of TOML content `source`; `path` is for names and messages, the rest as of `load_scene`."""
+    """Returns the scene of TOML content `source`; `path` is for messages, `settings` and `robot` as of `load_scene`."""
     given = set(source)
     paper, settings = with_paper(settings, path.stem, robot or str(source.get("robot", "h1")))
     source = override(source, settings)
