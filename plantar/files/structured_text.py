@@ -4,13 +4,11 @@ import json
 import os
 import re
 import tomllib
-from collections.abc import Iterable, Mapping
-from difflib import get_close_matches
+from collections.abc import Iterable
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from plantar.arguments import instance
 from plantar.errors import InputError, PlantarError
 from plantar.files.input_file import read_input
 
@@ -86,22 +84,6 @@ def read_json(path: str | os.PathLike[str], error: type[PlantarError], where: st
         raise error(f"{where} is not {kind} (nested too deep)") from None
     except ValueError as problem:
         raise error(f"{where} is not {kind} ({problem})") from None
-
-
-def builtin_or_file(
-    name: str | os.PathLike[str], what: str, builtin: Mapping[str, Path], error: type[PlantarError]
-) -> Path:
-    """Returns the TOML file at a path or of a `builtin` name; raises `error`, with `what` it is, for none."""
-    path = Path(instance(name, str | os.PathLike, what, error))
-    if path.suffix == ".toml":
-        if not path.exists():
-            raise error(f"{what} file {path} does not exist")
-        return path
-    if str(name) not in builtin:
-        near = get_close_matches(str(name), builtin, 2)
-        hint = f"did you mean {' or '.join(near)}? " if near else ""
-        raise error(f"unknown {what} '{name}'; {hint}allowed: {', '.join(builtin)}, or a {what} .toml file")
-    return builtin[str(name)]
 
 
 def packaged_files(package: str, pattern: str) -> list[Path]:

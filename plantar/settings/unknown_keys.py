@@ -1,7 +1,9 @@
-"""Keys of tables that are unknown or hold no text."""
+"""Keys of tables that are unknown or hold no text, and names that none of a list has."""
 
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
+from pathlib import Path
 
 from plantar.errors import InputError, PlantarError
 
@@ -44,3 +46,21 @@ def nearest(name: str, known: Sequence[str]) -> str:
     """
     near = ", ".join(get_close_matches(name, known))
     return f"nearest: {near}; " if near else ""
+
+
+def builtin_or_file(
+    name: str | os.PathLike[str], what: str, builtin: Mapping[str, Path], error: type[PlantarError]
+) -> Path:
+    """Returns the TOML file at a path or of a `builtin` name; raises `error`, with `what` it is, for none."""
+    from plantar.arguments import instance  # numpy, which lists of names do not load
+
+    path = Path(instance(name, str | os.PathLike, what, error))
+    if path.suffix == ".toml":
+        if not path.exists():
+            raise error(f"{what} file {path} does not exist")
+        return path
+    if str(name) not in builtin:
+        near = get_close_matches(str(name), builtin, 2)
+        hint = f"did you mean {' or '.join(near)}? " if near else ""
+        raise error(f"unknown {what} '{name}'; {hint}allowed: {', '.join(builtin)}, or a {what} .toml file")
+    return builtin[str(name)]
