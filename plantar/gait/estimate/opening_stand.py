@@ -1,17 +1,13 @@
 """Sensor means of the opening stand."""
 
 from collections.abc import Mapping
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.gait.estimate.estimator import SoleLoad
 from plantar.sides import SIDES, Side
-
-
-class _Sole(Protocol):
-    @property
-    def wrench_in_sole(self) -> NDArray[np.float64]: ...
 
 
 class Stood(NamedTuple):
@@ -38,7 +34,7 @@ class OpeningStand:
         self._wrenches: dict[Side, NDArray[np.float64]] = {side: np.zeros(6) for side in SIDES}
 
     def update(
-        self, joint_positions: NDArray[np.float64], accelerometer: NDArray[np.float64], soles: Mapping[Side, _Sole]
+        self, joint_positions: NDArray[np.float64], accelerometer: NDArray[np.float64], soles: Mapping[Side, SoleLoad]
     ) -> None:
         """Add a control tick: encoders `joint_positions` (k,) in rad, specific force `accelerometer` (3,) of the base,
         base frame, in m/s^2, and each sole's load, `soles`.

@@ -75,11 +75,6 @@ class CompliantArm:
         """True joint angles (k,) in rad, for the judge."""
         return np.array(self._world.data.qpos[self._places])
 
-    def place(self) -> None:
-        """Put the joints into the posture, at rest."""
-        self._world.data.qpos[self._places] = self.posture
-        self._world.data.qvel[self._speeds] = 0.0
-
     def read(self) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
         """Read the encoders.
 

@@ -50,7 +50,9 @@ def compliant(worn: WornArm, world: World, skin: bool = True, **settings: float)
     """Its controller without noise, with the joints in the posture."""
     given = ArmSettings(side="left", speed_noise=0.0, **settings)
     arm = CompliantArm(worn, worn.skin if skin else None, given, world, PERIOD, 0.0, 0)
-    arm.place()
+    for name, angle in zip(worn.joints, arm.posture, strict=True):
+        world.data.joint(name).qpos = angle
+        world.data.joint(name).qvel = 0.0
     mujoco.mj_forward(world.model, world.data)
     return arm
 
