@@ -39,7 +39,7 @@ cdef class PressedPatch:
     cdef double cx, cy, scale
     cdef readonly double x, y
     cpdef bint spread(self, double force, double x, double y, double[::1] out) except *
-    @cython.locals(nearest="double[::1]")
+    cdef bint _some_carried(self) noexcept
     cdef int _to_reach(self) except -1
     cpdef bint part(self, double force, double[::1] out) noexcept
     @cython.locals(a=double, b=double, c=double, total=double, pressure=double, rows="double[:, ::1]")

@@ -205,18 +205,19 @@ class PressedPatch:
         if spread_whole(self.u, self.area, self.inverse, self.x, self.y, force, self.cells, out):
             return True
         self._to_reach()
-        some = False
+        return self._some_carried() and self.part(force, out)
+
+    def _some_carried(self):
         for i in range(self.carried.shape[0]):
             if self.carried[i]:
-                some = True
-        return some and self.part(force, out)
+                return True
+        return False
 
     def _to_reach(self):
         if self.turn != 0:
             _margin, self.x, self.y = convex._nearest(self.reach, self.turn, self.x, self.y)
         else:
-            nearest = convex.closest_point(self.reach, self.x, self.y)
-            self.x, self.y = nearest[0], nearest[1]
+            self.x, self.y = convex.nearest(self.reach, self.x, self.y)
 
     def part(self, force, out):
         """Spread the last load, `force` in N, from `carried` cells into `out`; whether found."""
@@ -226,11 +227,8 @@ class PressedPatch:
         """As `part` where `spread` found no carrying cells: from those that would press if all could pull, else by
         `_tilted`.
         """
-        inverse, some = self.inverse, False
-        for i in range(self.carried.shape[0]):
-            if self.carried[i]:
-                some = True
-        if not some:
+        inverse = self.inverse
+        if not self._some_carried():
             a = inverse[0, 0] + inverse[0, 1] * self.x + inverse[0, 2] * self.y
             b = inverse[1, 0] + inverse[1, 1] * self.x + inverse[1, 2] * self.y
             c = inverse[2, 0] + inverse[2, 1] * self.x + inverse[2, 2] * self.y

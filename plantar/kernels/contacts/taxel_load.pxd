@@ -2,6 +2,7 @@ cimport cython
 from .foot_contacts cimport ContactsInSole
 from .foot_contacts cimport FootContacts
 from . cimport pressed_patch
+from ..geometry cimport convex
 
 cdef double _SPREAD, _FAINT, _EXACT
 
@@ -35,7 +36,6 @@ cdef class TaxelLoad:
         pressure=double
     )
     cdef bint _tilt(self, double[::1] weights, double force, double x, double y) noexcept
-    @cython.locals(p=double, q=double)
     cdef bint _is_beyond(self, double x, double y) noexcept
     @cython.locals(about_x=double, about_y=double, off_x=double, off_y=double)
     cdef void _balance(self, double force) noexcept
@@ -47,5 +47,3 @@ cdef class TaxelLoad:
 cdef Py_ssize_t _join(double[:, ::1] ring, Py_ssize_t corners, Py_ssize_t floor, double x, double y) noexcept
 @cython.locals(deepest=double, nearest=double, px=double, py=double, along=double, gap=double)
 cdef double _distance(double[:, ::1] ring, double[:, ::1] edges, Py_ssize_t corners, double x, double y) noexcept
-@cython.locals(best=double, along=double)
-cdef (double, double) _nearest(const double[:, ::1] hull, double x, double y) noexcept

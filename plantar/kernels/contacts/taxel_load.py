@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from . import pressed_patch
+from ..geometry import convex
 
 __all__ = ["TaxelLoad"]
 
@@ -241,13 +242,7 @@ class TaxelLoad:
 
     def _is_beyond(self, x, y):
         """Whether a place is beyond the outermost taxels: no pressure has its moment."""
-        corners = self.hull.shape[0]
-        for k in range(corners):
-            j = k + 1 if k + 1 < corners else 0
-            p, q = self.hull[j, 0] - self.hull[k, 0], self.hull[j, 1] - self.hull[k, 1]
-            if p * (y - self.hull[k, 1]) - q * (x - self.hull[k, 0]) < 0.0:
-                return True
-        return False
+        return convex.margin_of_clean(self.hull, x, y) < 0.0
 
     def _balance(self, force):
         count = self.areas.shape[0]
@@ -298,7 +293,7 @@ class TaxelLoad:
             if self._tilt(self.weights, force, x, y):
                 return True
         # From the nearest place among the outermost taxels, a little inside.
-        near_x, near_y = _nearest(self.hull, x, y)
+        _margin, near_x, near_y = convex._nearest(self.hull, 1.0, x, y)
         for _ in range(20):
             near_x += 1e-3 * (self.middle[0] - near_x)
             near_y += 1e-3 * (self.middle[1] - near_y)
@@ -367,19 +362,3 @@ def _distance(ring, edges, corners, x, y):
         if gap < nearest:
             nearest = gap
     return math.sqrt(nearest)
-
-
-def _nearest(hull, x, y):
-    best, best_x, best_y = 1e300, x, y
-    corners = hull.shape[0]
-    for k in range(corners):
-        j = k + 1 if k + 1 < corners else 0
-        ax, ay = hull[j, 0] - hull[k, 0], hull[j, 1] - hull[k, 1]
-        px, py = x - hull[k, 0], y - hull[k, 1]
-        square = ax * ax + ay * ay
-        along = (ax * px + ay * py) / square if square > 0.0 else 0.0
-        along = 0.0 if along < 0.0 else (1.0 if along > 1.0 else along)
-        gap = (px - along * ax) ** 2 + (py - along * ay) ** 2
-        if gap < best:
-            best, best_x, best_y = gap, hull[k, 0] + along * ax, hull[k, 1] + along * ay
-    return best_x, best_y
