@@ -1,6 +1,5 @@
 """A copy of a robot's model as it walks: upright floating base, leg joints, the rest held."""
 
-import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from plantar.atomic import write_text
 from plantar.mujoco.mesh_surface import mesh_surface
+from plantar.mujoco.quaternions import quaternion_of
 from plantar.sim.survey.body_surface import SHAPES
 from plantar.sim.survey.leg_chains import Legs
 from plantar.sim.survey.surface_file import simplified, stl_bytes
@@ -76,18 +76,18 @@ class _Copy:
         SubElement(root, "compiler", angle="radian", autolimits="true", meshdir=MESH_FOLDER, balanceinertia="true")
         assets = SubElement(root, "asset")
         world = SubElement(root, "worldbody")
-        top = self._top()
+        top = int(model.body_rootid[legs.pelvis])
         turned = legs.rotation @ self.rotations[top]
         upright = model.body(top).name
         parent = world
-        self.origin = self.positions[top].copy()
         base = np.array([0.0, 0.0, self._height(top)])
         if not np.allclose(turned, np.eye(3), atol=1e-4):
             upright = UPRIGHT if UPRIGHT not in {model.body(i).name for i in range(model.nbody)} else f"{UPRIGHT}_base"
             parent = SubElement(world, "body", name=upright, pos=_text(base))
-            SubElement(parent, "freejoint", name="root")
             base = np.zeros(3)
-        self._body(parent, top, base, turned, free=parent is world)
+        self._body(parent, top, base, turned)
+        taken = "root" in {model.joint(joint).name for joint in self.hinges}
+        world[0].insert(0, Element("freejoint", {} if taken else {"name": "root"}))
         if imu is not None:
             self._imu(root, *imu)
         if not self.meshes:
@@ -98,23 +98,15 @@ class _Copy:
         write_text(self.folder / "model.xml", ElementTree.tostring(root, encoding="unicode") + "\n")
         return str(upright)
 
-    def _top(self) -> int:
-        body = self.legs.pelvis
-        while self.model.body_parentid[body] > 0:
-            body = int(self.model.body_parentid[body])
-        return body
-
     def _height(self, top: int) -> float:
         ankle = min(float((self.legs.rotation @ leg.ankle)[2]) for leg in self.legs.by_side.values())
         return 1.2 * (float((self.legs.rotation @ self.positions[top])[2]) - ankle)
 
-    def _body(self, parent: Element, body: int, position: NDArray[np.float64], rotation: Any, free: bool) -> None:
+    def _body(self, parent: Element, body: int, position: NDArray[np.float64], rotation: Any) -> None:
         model = self.model
         element = SubElement(
-            parent, "body", name=model.body(body).name, pos=_text(position), quat=_quaternion(rotation)
+            parent, "body", name=model.body(body).name, pos=_text(position), quat=_text(quaternion_of(rotation))
         )
-        if free:
-            SubElement(element, "freejoint", name="root")
         if model.body_mass[body] > 0.0:
             SubElement(
                 element,
@@ -134,7 +126,7 @@ class _Copy:
             if child != body and child != 0:
                 back = self.rotations[body].T
                 at = back @ (self.positions[child] - self.positions[body])
-                self._body(element, child, at, back @ self.rotations[child], free=False)
+                self._body(element, child, at, back @ self.rotations[child])
 
     def _joint(self, element: Element, joint: int) -> None:
         model = self.model
@@ -195,9 +187,3 @@ class _Copy:
 
 def _text(values: Any) -> str:
     return " ".join(f"{float(v) + 0.0:.9g}" for v in values)
-
-
-def _quaternion(rotation: NDArray[np.float64]) -> str:
-    quaternion = np.empty(4)
-    mujoco.mju_mat2Quat(quaternion, np.ascontiguousarray(rotation).ravel())
-    return _text(quaternion / math.sqrt(float(quaternion @ quaternion)))

@@ -22,6 +22,7 @@ from plantar.sim.run.runner import run_scene
 from plantar.sim.run.scene import load_scene
 from plantar.sim.survey.check import check_robot
 from plantar.sim.survey.introduce import introduce
+from plantar.sim.survey.model_copy import write_model_copy
 from plantar.sim.survey.robot_text import roll_pitch_yaw
 from plantar.sim.survey.survey import survey_model
 
@@ -200,6 +201,15 @@ def test_what_is_no_biped_is_refused_in_one_line(tmp_path, body, words):
         introduce(file, tmp_path, shoe_for_surface)
     assert words in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_a_joint_called_root_has_that_name_in_the_copy(tmp_path):
+    truth = random_biped(SEED, tmp_path)
+    truth.file.write_text(truth.file.read_text().replace(f'"{truth.joints["left"][2]}"', '"root"'))
+    found = survey_model(truth.file, tmp_path)
+    write_model_copy(found.source.model, found.legs, tmp_path, "r", found.held, None)
+    copy = mujoco.MjModel.from_xml_path(str(tmp_path / "model.xml"))
+    assert (copy.joint("root").type, copy.nq) == (mujoco.mjtJoint.mjJNT_HINGE, 7 + 2 * len(truth.joints["left"]))
 
 
 def test_legs_that_are_closed_chains_are_found_by_their_tree(tmp_path):
