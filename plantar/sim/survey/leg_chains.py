@@ -18,6 +18,7 @@ LEAST_JOINTS = 4
 _NEAR_FLOOR = 0.15  # of the height of its joint: how far a part of the foot may be above the sole
 _FLAT = 0.25  # share of its silhouette that the plane has that a foot rests on
 _AS_LOW = 0.1  # of the robot's height: how far two feet of a pair may differ
+_STANDS = 0.45  # of a limb's farthest reach: a model that is lower than twice that lies, or has another axis up
 _AXES_APART = math.cos(math.radians(20.0))  # how far the line between the feet may be off an axis
 _ON_AXIS, _ALONG = math.cos(math.radians(2.0)), math.cos(math.radians(0.5))  # it may be so far, and off the hips' line
 _AHEAD = 0.03  # of the foot's length: what shows toes from heel
@@ -112,7 +113,7 @@ class _Tree:
 
 def _upwards(tree: _Tree, where: str) -> tuple[Array, tuple[str, ...]]:
     """Up (3,) in the model's world: away from the farthest hanging part."""
-    model, data = tree.model, tree.data
+    model, com = tree.model, tree.data.subtree_com[0]
     ends = [i for i in tree.points if len(tree.hinges(tree.chain(i))) >= LEAST_JOINTS]
     if not ends:
         longest = max(tree.points, key=lambda i: len(tree.hinges(tree.chain(i))), default=0)
@@ -125,22 +126,16 @@ def _upwards(tree: _Tree, where: str) -> tuple[Array, tuple[str, ...]]:
             f"{where}: no chain of {LEAST_JOINTS} hinges or more ends in a body with a shape; {there}; a leg that "
             "walks has roll and pitch in its hip, a knee, and pitch in its ankle"
         )
-    z = np.array([0.0, 0.0, 1.0])
-    com = data.subtree_com[0]
-    lowest = min(float(tree.points[i][:, 2].min()) for i in ends)
-    rest = [p for i, p in tree.points.items() if i not in ends]
-    if lowest < com[2] and (not rest or lowest <= min(float(p[:, 2].min()) for p in rest) + 1e-6):
-        return z, ()
-    best, reach = z, -math.inf
-    for axis in np.concatenate([np.eye(3), -np.eye(3)]):
-        far = max(float((tree.points[i] @ -axis).max()) for i in ends) + float(com @ axis)
-        sole = max(ends, key=lambda i: float((tree.points[i] @ -axis).max()))
-        score = far + (0.2 * far if len(tree.hinges(tree.chain(sole))) <= 8 else 0.0)
-        if score > reach:
-            best, reach = axis, score
-    if best[2] > 0.9:
-        return z, ()
-    return best, (f"the model lies: its {_axis_name(best)} axis points up",)
+    axes = np.concatenate([np.eye(3), -np.eye(3)])
+    below = {i: ((com - p) @ axes.T).max(axis=0) for i, p in tree.points.items()}  # the CoM, seen along each axis
+    soles = [max(ends, key=lambda i: float(below[i][k])) for k in range(6)]
+    reach = np.array([below[sole][k] for k, sole in enumerate(soles)])
+    up = int((reach * [1.2 if len(tree.hinges(tree.chain(sole))) <= 8 else 1.0 for sole in soles]).argmax())
+    rest = max((float(b[2]) for i, b in below.items() if i not in ends), default=-math.inf)
+    half = 0.5 * float(max(b[2] for b in below.values()) + max(b[5] for b in below.values()))
+    if up == 2 or (reach[2] > max(0.0, rest - 1e-6) and max(reach[2], half) > _STANDS * reach.max()):
+        return axes[2], ()
+    return axes[up], (f"the model lies: its {_axis_name(axes[up])} axis points up",)
 
 
 def _axis_name(axis: Array) -> str:

@@ -43,18 +43,21 @@ def test_legs_of_four_joints_are_found(seed, tmp_path):
     assert len(truth.joints["left"]) == 4
 
 
-@pytest.mark.parametrize("degrees", [10.0, -30.0, 150.0])
-def test_a_model_that_is_turned_about_z_is_turned_back(degrees, tmp_path):
+@pytest.mark.parametrize(
+    ("axis", "degrees", "words"),
+    [*(("z", degrees, "turned by") for degrees in (10.0, -30.0, 150.0)), ("x", -90.0, "y axis points up")],
+)
+def test_a_model_that_is_turned_or_has_y_up_is_turned_back(axis, degrees, words, tmp_path):
     truth = random_biped(10, tmp_path)
     spec = mujoco.MjSpec.from_file(str(truth.file))
-    turn, trunk = Rotation.from_euler("z", degrees, True), spec.body("trunk")
+    turn, trunk = Rotation.from_euler(axis, degrees, True), spec.body("trunk")
     trunk.pos = turn.apply(trunk.pos)
     trunk.quat = np.roll((turn * Rotation.from_quat(np.roll(trunk.quat, -1))).as_quat(), 1)
     spec.compile()
     truth.file.write_text(spec.to_xml())
     found = survey_model(truth.file, tmp_path)
     np.testing.assert_allclose(found.legs.rotation, truth.rotation.T @ turn.inv().as_matrix(), atol=1e-4)
-    assert any("turned by" in note for note in found.notes)
+    assert any(words in note for note in found.notes)
 
 
 def _origin(model, body: int) -> np.ndarray:
