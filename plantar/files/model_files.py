@@ -5,16 +5,16 @@
   files.
 - `package://name/...` is looked for in the folders above the model that are called so.
 - Folders in the environment variable PLANTAR_MODEL_FOLDERS (separated as PATH is) are allowed in addition.
-
-Links are followed before a place is judged.
 """
 
 import os
 import re
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable
 from importlib.util import find_spec
+from itertools import product
 from pathlib import Path
+from typing import Any
 from xml.etree.ElementTree import Element
 
 from plantar.errors import PlantarError
@@ -36,7 +36,7 @@ _OWN = Path(__file__).resolve().parents[1]
 def named_file(path: Path, folders: tuple[Path, ...], error: type[PlantarError], where: str) -> Path:
     """Returns path of a file named by another, if it lies in `folders`, links followed, or below.
 
-    Else raises `error`, its message beginning with `where`: what names it.
+    Else raises `error`, naming `where`.
 
     Example:
         >>> named_file(Path("/etc/passwd"), (Path("/robots/mine"),), PlantarError, "robot.toml")
@@ -80,7 +80,7 @@ def folders_of_model(file: Path) -> tuple[Path, ...]:
 def mesh_of_urdf(file: Path, name: str, error: type[PlantarError], where: str) -> Path:
     """Returns path, perhaps missing, of mesh `name` of a URDF `file`; `package://` is found in the folders above it.
 
-    Raises `error`, its message beginning with `where`, for forbidden places.
+    Raises `error`, naming `where`, for forbidden places.
 
     Example:
         >>> mesh_of_urdf(Path("/robots/mine/mine.urdf"), "foot.stl", PlantarError, "mine.urdf").as_posix()
@@ -100,6 +100,22 @@ def mesh_of_urdf(file: Path, name: str, error: type[PlantarError], where: str) -
             if os.path.isfile(candidate):
                 return named_file(candidate, allowed, error, where)
     return named_file(file.parent / inside, allowed, error, where)
+
+
+def mesh_of_mjcf(file: Path, spec: Any, mesh: Any, attached: Iterable[Path], error: type[PlantarError]) -> Path:
+    """Returns path, perhaps missing, of a `mesh` of MJCF `file`, read as `spec`, with models `attached`.
+
+    Raises `error` for forbidden places.
+    """
+    name = re.split(r"[/\\]", mesh.file)[-1] if spec.strippath else mesh.file
+    places = [path.parent / mesh.compiler.meshdir / name for path in (file, *attached)]
+    found = next((place for place in places if place.is_file()), places[0])
+    return named_file(found, folders_of_model(file), error, f"{file}: <mesh name='{mesh.name}'>")
+
+
+def attached_models(file: Path, root: Element) -> list[Path]:
+    """Returns models that MJCF `file`, outermost element `root`, attaches."""
+    return [file.parent / element.get("file", "") for element in root.iter("model") if element.get("file")]
 
 
 def parsed_model(file: Path, error: type[PlantarError]) -> Element:
@@ -131,6 +147,11 @@ def _included(file: Path, main: Path, seen: set[Path], error: type[PlantarError]
     seen.add(place)
     root = parse_xml(read_input(file, error, XML_MOST), error, str(file))
     if root.tag == "robot":
+        for compiler, mesh in product(root.findall("mujoco/compiler"), root.findall("link/*/geometry/mesh")):
+            drawn = Path(mesh.get("filename", ""))
+            inside = Path(compiler.get("meshdir", ""), drawn.name)  # where MuJoCo takes it from
+            if not (file.parent / drawn).is_file() and (file.parent / inside).is_file():
+                mesh.set("filename", str(inside))
         return root
     for parent in list(root.iter()):
         for index, child in reversed(list(enumerate(parent))):
@@ -169,6 +190,7 @@ def _check_names(file: Path, error: type[PlantarError], seen: set[Path]) -> None
     compiler = {k: v for element in root.iter("compiler") for k, v in element.attrib.items()}
     urdf = root.tag == "robot"
     strip = compiler.get("strippath", "true" if urdf else "false") == "true"  # MuJoCo's own defaults
+    inside = [compiler[key] for key in ("meshdir", "texturedir", "assetdir") if key in compiler] or [""]
     folders = folders_of_model(file)
     for element in root.iter():
         for key, name in element.attrib.items():
@@ -177,7 +199,7 @@ def _check_names(file: Path, error: type[PlantarError], seen: set[Path]) -> None
             where = f"{file}: <{element.tag}>"
             if urdf and not strip:
                 mesh_of_urdf(file, name, error, where)
-            for folder in _asset_folders(compiler):
+            for folder in inside:
                 path = file.parent / folder / (re.split(r"[/\\]", name)[-1] if strip else name)
                 if not urdf or strip:
                     named_file(path, folders, error, where)
@@ -203,8 +225,3 @@ def _check_size(path: Path, tag: str, error: type[PlantarError], where: str) -> 
             raise error(
                 f"{where}: {path} takes {size.memory / 1e6:.0f} MB; allowed: up to {_LARGEST_PART / 1e6:.0f} MB"
             )
-
-
-def _asset_folders(compiler: dict[str, str]) -> Iterator[str]:
-    found = [compiler[key] for key in ("meshdir", "texturedir", "assetdir") if key in compiler]
-    yield from found or [""]

@@ -1,7 +1,6 @@
 """Robot model through MuJoCo's reader: body shapes, places, mass; only needed parts are compiled."""
 
 import math
-import re
 import warnings
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FootError
 from plantar.files.input_file import check_input
-from plantar.files.model_files import check_model, folders_of_model, mesh_of_urdf, named_file, parsed_model
+from plantar.files.model_files import attached_models, check_model, mesh_of_mjcf, mesh_of_urdf, parsed_model
 from plantar.files.model_limits import check_model_size, quiet_mujoco
 from plantar.files.xml_file import XML_MOST
 from plantar.mujoco.deletion import delete_all
@@ -67,13 +66,13 @@ class ModelSource:
     Attributes:
         urdf: Text for MuJoCo; None of an MJCF.
         mesh_names: URDF meshes by names in its text.
-        folders: Mesh folders of an MJCF and attached models.
+        attached: Models that an MJCF attaches.
     """
 
     file: Path
     urdf: str | None
     mesh_names: dict[str, str] = field(default_factory=dict)
-    folders: tuple[Path, ...] = ()
+    attached: tuple[Path, ...] = ()
 
     def spec(self) -> Any:
         """Editable model, without what lacks mass and shape.
@@ -89,12 +88,13 @@ class ModelSource:
             )
         except Exception as error:  # MuJoCo raises ValueError, OSError and its own
             raise FootError(f"{self.file}: cannot be read as a robot's model: {' '.join(str(error).split())}") from None
-        delete_all(spec, [*(geom for geom in spec.geoms if geom.hfieldname), *spec.hfields])
+        flat = (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD)
+        delete_all(spec, [*(geom for geom in spec.geoms if geom.type in flat), *spec.hfields])
         for material in spec.materials:
             material.textures = [""] * len(material.textures)
         for part in _NOT_NEEDED:
             delete_all(spec, getattr(spec, part, ()))
-        for compiler in (spec.compiler, *(_compiler(spec, body) for body in spec.bodies)):
+        for compiler in (spec.compiler, *(body.compiler for body in spec.bodies)):
             compiler.balanceinertia = True
             compiler.boundmass = max(compiler.boundmass, _LEAST)
             compiler.boundinertia = max(compiler.boundinertia, _LEAST)
@@ -143,7 +143,7 @@ class ModelSource:
         for read_all in (False, True):
             try:
                 spec = self.spec()
-                stated = [body for body in spec.bodies if not _weighed_by_shapes(spec, body)]
+                stated = [body for body in spec.bodies if not _weighed_by_shapes(body)]
                 delete_all(spec, [g for body in stated for g in body.geoms if g.meshname])
                 self._give_meshes(spec, read_all)
                 model = self._placed(spec)[0]
@@ -185,8 +185,6 @@ class ModelSource:
         drawn: list[Array] = []
         colliding: list[Array] = []
         for g in range(model.ngeom):
-            if model.geom_type[g] in (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD):
-                continue
             local = _surface(model, g, f"{self.file}: <geom name='{model.geom(g).name}'>")
             turn = data.geom_xmat[g].reshape(3, 3)
             (drawn if model.geom_group[g] == _DRAWN else colliding).append(local @ turn.T + data.geom_xpos[g] - origin)
@@ -225,8 +223,6 @@ class ModelSource:
         for mesh in spec.meshes:
             mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
         model, data = self._placed(spec)
-        flat = (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD)
-        geoms = [g for g in range(model.ngeom) if model.geom_type[g] not in flat]
         foot = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name)
         joints, start = _hinges_above(model, foot), data.xmat[foot].reshape(3, 3).copy()
 
@@ -235,22 +231,21 @@ class ModelSource:
             mujoco.mj_kinematics(model, data)
             turn = start @ data.xmat[foot].reshape(3, 3).T
             return [
-                (turn @ data.geom_xmat[g].reshape(3, 3), turn @ (data.geom_xpos[g] - data.xpos[foot])) for g in geoms
+                (turn @ data.geom_xmat[g].reshape(3, 3), turn @ (data.geom_xpos[g] - data.xpos[foot]))
+                for g in range(model.ngeom)
             ]
 
         ranges = [
             (low, high) if model.jnt_limited[j] and low < high < low + math.tau else (-_UNLIMITED, _UNLIMITED)
             for j, (low, high) in zip(joints, model.jnt_range[joints].tolist(), strict=True)
         ]
-        return [_surface(model, g, str(self.file)) for g in geoms], ranges, poses
+        return [_surface(model, g, str(self.file)) for g in range(model.ngeom)], ranges, poses
 
     def _few_enough(self, model: Any, name: str) -> None:
         """Refuse too many triangles before making them: meshes may be reused many times."""
-        meshes = model.geom_dataid >= 0
-        faces = np.zeros(model.ngeom, dtype=np.int64)
-        faces[meshes] = model.mesh_facenum[model.geom_dataid[meshes]]
         drawn = model.geom_group == _DRAWN
-        count = int(faces[drawn].sum() if drawn.any() else faces.sum())
+        meshes = model.geom_dataid[drawn if drawn.any() else slice(None)]
+        count = int(model.mesh_facenum[meshes[meshes >= 0]].sum())
         if count > MOST_TRIANGLES:
             raise FootError(
                 f"{self.file}: body '{name}' has {count} triangles; allowed: up to {MOST_TRIANGLES}; reduce its meshes"
@@ -277,14 +272,10 @@ class ModelSource:
                 mesh.userface = np.arange(3 * len(triangles), dtype=np.int32)
 
     def _path(self, spec: Any, mesh: Any) -> Path:
+        if self.urdf is None:
+            return mesh_of_mjcf(self.file, spec, mesh, self.attached, FootError)
         where = f"{self.file}: <mesh name='{mesh.name}'>"
-        if self.urdf is not None:
-            return mesh_of_urdf(self.file, self.mesh_names.get(mesh.file, mesh.file), FootError, where)
-        name = re.split(r"[/\\]", mesh.file)[-1] if spec.strippath else mesh.file
-        inside = str(getattr(_compiler(spec, mesh), "meshdir", spec.meshdir))
-        places = [folder / inside / name for folder in self.folders]
-        found = next((place for place in places if place.is_file()), places[0])
-        return named_file(found, folders_of_model(self.file), FootError, where)
+        return mesh_of_urdf(self.file, self.mesh_names.get(mesh.file, mesh.file), FootError, where)
 
     def _placed(self, spec: Any) -> tuple[Any, Any]:
         import mujoco
@@ -322,15 +313,10 @@ def read_model_source(file: Path) -> ModelSource:
         for key, text in element.attrib.items():
             if key not in ("name", "class") and "nan" in text.lower().split():
                 raise FootError(f"{file}: <{element.tag}>: {key} is '{text[:40]}'; allowed: finite numbers")
-    attached = [file.parent / e.get("file", "") for e in root.iter("model") if e.get("file")]
+    attached = tuple(attached_models(file, root))
     for path in attached:
         check_input(path, FootError, XML_MOST)
-    return ModelSource(file, None, folders=(file.parent, *(path.parent for path in attached)))
-
-
-def _compiler(spec: Any, element: Any) -> Any:
-    """Compiler settings of an element's own file; older MuJoCo has one set."""
-    return getattr(element, "compiler", spec.compiler)
+    return ModelSource(file, None, attached=attached)
 
 
 def _fixed_to(body: Any) -> Iterator[Any]:
@@ -361,11 +347,11 @@ def _collides(geom: Any) -> bool:
     return bool(geom.contype or geom.conaffinity)
 
 
-def _weighed_by_shapes(spec: Any, body: Any) -> bool:
+def _weighed_by_shapes(body: Any) -> bool:
     import mujoco
 
     kind = mujoco.mjtInertiaFromGeom
-    chosen = int(_compiler(spec, body).inertiafromgeom)
+    chosen = int(body.compiler.inertiafromgeom)
     return chosen == int(kind.mjINERTIAFROMGEOM_TRUE) or (
         chosen == int(kind.mjINERTIAFROMGEOM_AUTO) and not body.explicitinertial
     )

@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 
 from plantar.errors import RobotError
-from plantar.files.model_files import check_model, mesh_of_urdf, parsed_model
+from plantar.files.model_files import attached_models, check_model, mesh_of_mjcf, mesh_of_urdf, parsed_model
 from plantar.mujoco.deletion import delete_all
 from plantar.robots.model_file import forget_own_simulation
 from plantar.sim.survey.body_surface import SHAPES
@@ -99,7 +99,7 @@ def read_model(file: Path, folder: Path) -> ModelSource:
     _check_limits(spec, file)
     posture = _first_keyframe(spec)
     _drop_other_things(spec, stated.notes)
-    _drop_unreadable(spec, file, folder, stated.notes)
+    _drop_unreadable(spec, file, attached_models(file, root), folder, stated.notes)
     loops = [(e.name1, e.name2) for e in spec.equalities if e.type in _LOOPS and e.active]
     stated.coupled += [(e.name1, e.name2) for e in spec.equalities if e.type == mujoco.mjtEq.mjEQ_JOINT and e.name2]
     _collect_motors(spec, stated)
@@ -213,7 +213,7 @@ def _joints_below(body: Any) -> list[Any]:
     return [*body.joints, *(joint for child in body.bodies for joint in _joints_below(child))]
 
 
-def _drop_unreadable(spec: Any, file: Path, folder: Path, notes: list[str]) -> None:
+def _drop_unreadable(spec: Any, file: Path, attached: list[Path], folder: Path, notes: list[str]) -> None:
     for material in spec.materials:
         material.textures = [""] * len(material.textures)
     for part in ("textures", "skins", "hfields", "flexes"):
@@ -227,8 +227,7 @@ def _drop_unreadable(spec: Any, file: Path, folder: Path, notes: list[str]) -> N
     for mesh in list(spec.meshes):  # a hull holds for open surfaces, too, but weighs more
         if mesh.inertia == mujoco.mjtMeshInertia.mjMESH_INERTIA_LEGACY and mesh.name not in weighing:
             mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX
-    place = file.parent / spec.meshdir
-    drawn = [(m, place / (Path(m.file).name if spec.strippath else m.file)) for m in spec.meshes if m.file]
+    drawn = [(mesh, mesh_of_mjcf(file, spec, mesh, attached, RobotError)) for mesh in spec.meshes if mesh.file]
     meshes = meshes_for_mujoco((path for _, path in drawn), folder, file)
     for mesh, path in drawn:
         found = meshes[path]
@@ -331,7 +330,7 @@ def _check_limits(spec: Any, file: Path) -> None:
         if known and not -math.inf < low < high < math.inf:
             raise RobotError(f"{where}; allowed: finite ones, lower below upper, or none")
         turns = 0.0 if kind or element.type != mujoco.mjtJoint.mjJNT_HINGE else max(-low, high)
-        if _MOST_TURNED < turns <= _IN_DEGREES and not spec.compiler.degree:
+        if _MOST_TURNED < turns <= _IN_DEGREES and not element.compiler.degree:
             raise RobotError(
                 f"{where} rad, which look like degrees; allowed: {_MOST_TURNED:g} rad, 3 turns, at most, or none"
             )

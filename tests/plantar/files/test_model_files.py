@@ -113,6 +113,15 @@ def test_a_mesh_of_a_urdf_is_found(package, name):
     assert found.resolve() == package / "meshes" / "foot.stl"
 
 
+@pytest.mark.parametrize(("place", "name"), [("../meshes", "package://mine/cad/foot.stl"), ("../meshes/", "foot.stl")])
+def test_the_folder_that_a_urdf_states_for_mujoco_counts(package, place, name):
+    mesh = f'<link name="a"><visual><geometry><mesh filename="{name}"/></geometry></visual></link>'
+    file = package / "xml" / "robot.urdf"
+    file.write_text(f'<robot name="r"><mujoco><compiler meshdir="{place}"/></mujoco>{mesh}</robot>')
+    found = next(parsed_model(file, RobotError).iter("mesh")).get("filename")
+    assert (file.parent / found).resolve() == package / "meshes" / "foot.stl"
+
+
 @pytest.mark.parametrize(
     "name", ["package://etc/passwd", "file:///etc/passwd", "/etc/passwd", "package://robot/../other/x"]
 )

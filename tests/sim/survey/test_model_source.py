@@ -300,6 +300,23 @@ def test_a_mesh_is_found_and_weighs_as_in_mujoco(tmp_path):
     assert mass == pytest.approx(mujoco.mj_getTotalmass(mujoco.MjModel.from_xml_path(str(file))))
 
 
+def test_an_attached_model_keeps_its_own_angles_and_folder_of_meshes(tmp_path):
+    (tmp_path / "robot" / "cad").mkdir(parents=True)
+    (tmp_path / "robot" / "cad" / "a.obj").write_text(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+    )
+    body = "<body name='b'><joint name='j' range='-90 90'/><geom type='mesh' mesh='a'/></body>"
+    head = "<compiler angle='degree' meshdir='cad'/><asset><mesh name='a' file='a.obj'/></asset>"
+    (tmp_path / "robot" / "r.xml").write_text(f"<mujoco>{head}<worldbody>{body}</worldbody></mujoco>")
+    attached = "<asset><model name='r' file='robot/r.xml'/></asset><worldbody><attach model='r' body='b' prefix='c_'/>"
+    file = tmp_path / "scene.xml"
+    file.write_text(f"<mujoco><compiler angle='radian'/>{attached}</worldbody></mujoco>")
+    source = read_model(file, tmp_path)
+    assert source.notes == []
+    assert source.model.nmesh == 1
+    np.testing.assert_allclose(source.model.jnt_range[0], [-0.5 * np.pi, 0.5 * np.pi])
+
+
 def test_a_foot_without_a_shape_is_refused_by_its_name(tmp_path):
     truth = random_biped(10, tmp_path)
     spec = mujoco.MjSpec.from_file(str(truth.file))
