@@ -137,7 +137,6 @@ class ModelSource:
 
     def mass(self, name: str) -> tuple[float | None, str]:
         """Mass in kg of a body's robot, None if unknown; and a note."""
-        import mujoco
 
         model, problem = None, ""
         for read_all in (False, True):
@@ -152,9 +151,12 @@ class ModelSource:
                 problem = str(error).removeprefix(f"{self.file}: ")
         if model is None:
             return None, f"the robot's mass is not read: {problem[:120]}"
-        body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name)
-        mass = float(model.body_subtreemass[model.body_rootid[body]])
-        if not (math.isfinite(mass) and mass > model.nbody * 2.0 * _LEAST):
+        body = model.body(name).id
+        while model.body(model.body_parentid[body]).name not in (_WORLD, BELOW):
+            body = int(model.body_parentid[body])
+        mass = float(model.body_subtreemass[body])
+        known = stated or self.urdf is None  # of a URDF, what collides weighs as water, and what is drawn nothing
+        if not (known and math.isfinite(mass) and mass > model.nbody * 2.0 * _LEAST):
             return None, "the robot's model states no mass"
         return mass, f"the robot's mass is {mass:.4g} kg, of its model"
 

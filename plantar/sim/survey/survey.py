@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import RobotError
+from plantar.gravity import GRAVITY
 from plantar.sides import SIDES, Side
 from plantar.sim.survey.leg_chains import Legs, find_legs
 from plantar.sim.survey.model_source import ModelSource, named_note, read_model
@@ -18,6 +19,7 @@ from plantar.sim.survey.sole_frame import Sole, find_sole
 _SPEEDS = (0.5, 100.0)  # rad/s: what a model states outside of them is a placeholder
 NO_SPEED = 1e3  # rad/s: stands for no limit
 _Limit = TypeVar("_Limit", float, tuple[float, float])
+_TORQUE = 50.0  # of the robot's weight times its size: what is larger stands for no limit, or is in N mm
 _WEIGHTS = (0.1, 1000.0)  # kg: the least that walk weigh 1 kg, 1000 in g
 
 
@@ -99,7 +101,11 @@ def survey_model(file: Path, folder: Path) -> Survey:
         "the joints' springs are left out",
         [name for name in names["left"] + names["right"] if model.joint(name).stiffness.any()],
     )
-    _check_masses(model, file)
+    feet = sum(float(model.body_mass[list(legs.by_side[side].parts)].sum()) for side in SIDES)
+    _check_masses(model, feet, file)
+    most = _TORQUE * mujoco.mj_getTotalmass(model) * GRAVITY * float(model.stat.extent)
+    strong = [f"{name} {e:g}" for name, e in zip(names["left"], efforts, strict=True) if e is not None and e > most]
+    notes += named_note(f"torque limits beyond {most:.2g} N m limit nothing (N m are read, not N mm)", strong)
     gains = [pair for pair in (_lesser(source.gains, pair) for pair in pairs) if pair is not None]
     return Survey(
         *(source, legs, soles, held, imu, efforts, tuple(usable) if min(usable) < NO_SPEED else ()),
@@ -107,7 +113,7 @@ def survey_model(file: Path, folder: Path) -> Survey:
     )
 
 
-def _check_masses(model: Any, file: Path) -> None:
+def _check_masses(model: Any, feet: float, file: Path) -> None:
     weight, size = float(mujoco.mj_getTotalmass(model)), 0.5 * float(model.stat.extent)
     radius = np.sqrt(model.body_inertia.max(axis=1) / np.maximum(model.body_mass, 0.01 * weight))
     widest = int(radius.argmax())
@@ -115,6 +121,11 @@ def _check_masses(model: Any, file: Path) -> None:
         raise RobotError(
             f"{file}: the robot weighs {weight:.3g} kg, and '{model.body(widest).name}' turns as if its mass were "
             f"{radius[widest]:.2g} m off; allowed: 0.1 to 1000 kg, {size:.2g} m (masses in kg, inertias in kg m^2)"
+        )
+    if feet > 0.5 * weight:
+        raise RobotError(
+            f"{file}: {100.0 * feet / weight:.0f} % of the robot's {weight:.3g} kg are in its feet; allowed: half at "
+            "most; give its other links a mass"
         )
 
 

@@ -195,8 +195,13 @@ def test_a_urdf_is_the_sum_of_its_links(tmp_path):
     file = tmp_path / "robot.urdf"
     file.write_text("<robot name='r'>" + link.format("a", 30.5) + link.format("b", 2) + joint + "</robot>")
     assert told_mass(file, "b")[0] == pytest.approx(32.5)
-    file.write_text("<robot name='r'><link name='a'/></robot>")
-    assert told_mass(file, "a") == (None, "the robot's model states no mass")
+    apart = link.format("table", 100)  # hangs on no link of the robot
+    file.write_text("<robot name='r'>" + link.format("a", 30.5) + link.format("b", 2) + joint + apart + "</robot>")
+    assert told_mass(file, "b")[0] == pytest.approx(32.5)
+    shaped = "<collision><geometry><box size='.2 .1 .02'/></geometry></collision>"
+    for inside in ("", shaped):  # as water the foot alone would be all of the robot
+        file.write_text(f"<robot name='r'><link name='a'/><link name='b'>{inside}</link>{joint}</robot>")
+        assert told_mass(file, "b") == (None, "the robot's model states no mass")
 
 
 def test_a_model_of_too_many_triangles_is_read_once(tmp_path, monkeypatch):

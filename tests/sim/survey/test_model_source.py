@@ -149,6 +149,27 @@ def test_masses_and_inertias_in_other_units_are_refused(tmp_path, mass, inertia,
         survey_model(truth.file, tmp_path)
 
 
+def test_a_robot_whose_feet_alone_have_a_mass_is_refused(tmp_path):
+    truth = random_biped(10, tmp_path)
+    spec = mujoco.MjSpec.from_file(str(truth.file))
+    for body in spec.bodies[1:]:
+        body.mass, body.inertia = (1.0, [0.001] * 3) if body.name in truth.feet.values() else (1e-6, [1e-9] * 3)
+    truth.file.write_text(spec.to_xml())
+    with pytest.raises(RobotError, match="100 % of the robot's 2 kg are in its feet; allowed: half at most"):
+        survey_model(truth.file, tmp_path)
+
+
+def test_torque_limits_in_other_units_are_noted(tmp_path):
+    truth = random_biped(10, tmp_path)
+    knee = truth.joints["left"][3]
+    plain = truth.file.read_text()
+    for most, noted in ((200, False), (200_000, True)):
+        limit = f'<actuator><motor joint="{knee}" ctrlrange="{-most} {most}"/></actuator>'
+        truth.file.write_text(plain.replace("</mujoco>", f"{limit}</mujoco>"))
+        notes = survey_model(truth.file, tmp_path).notes
+        assert any(note.endswith(f"limit nothing (N m are read, not N mm): {knee} 200000") for note in notes) == noted
+
+
 def test_springs_of_legs_are_left_out_with_a_note(tmp_path):
     truth = random_biped(10, tmp_path)
     knee = truth.joints["left"][3]
