@@ -182,7 +182,7 @@ def _lesser(limits: Mapping[str, _Limit], pair: tuple[str, str]) -> _Limit | Non
 def _coupled_notes(source: ModelSource, names: Mapping[Side, list[str]]) -> list[str]:
     return [
         f"'{follower}' follows '{leader}' in the model; here each is driven by itself"
-        for follower, leader in source.coupled
+        for follower, leader in dict.fromkeys(source.coupled)
         if any(follower in own for own in names.values())
     ]
 

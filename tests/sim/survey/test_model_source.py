@@ -116,6 +116,14 @@ def test_what_is_called_an_imu_is_one(tmp_path, name, imu):
     assert read_model(file, tmp_path).imus == ((("site", name),) if imu else ())
 
 
+def test_a_joint_that_follows_another_is_reported_once(tmp_path):
+    truth = random_biped(10, tmp_path)
+    follower, leader = truth.joints["left"][3:5]
+    coupled = f'<equality>{2 * f"""<joint joint1="{follower}" joint2="{leader}"/>"""}</equality>'
+    truth.file.write_text(truth.file.read_text().replace("</mujoco>", f"{coupled}</mujoco>"))
+    assert sum("follows" in note for note in survey_model(truth.file, tmp_path).notes) == 1
+
+
 def test_links_of_a_urdf_that_are_weighed_by_their_shapes_are_named(tmp_path):
     file = tmp_path / "robot.urdf"
     box = '<collision><geometry><box size=".1 .1 .1"/></geometry></collision>'
