@@ -193,11 +193,11 @@ class ModelSource:
         return drawn, colliding
 
     def links_above(self, name: str, count: int) -> tuple[list[Array], list[tuple[float, float]], Poses]:
-        """Shapes of links above a body, and how the ankle moves them.
+        """Shapes of links above a foot and its toes, and how the ankle moves them.
 
         Args:
             name: Body.
-            count: Moving links.
+            count: Links above.
 
         Returns:
             Triangles (n, 3, 3) in m of each shape; ranges in rad of the last two hinges above; function from their
@@ -210,7 +210,7 @@ class ModelSource:
 
         spec = self.spec()
         own = {body.name for body in _fixed_to(spec.body(name))}
-        kept, link = set(), _moving(spec.body(name))
+        kept, link = {body.name for body in spec.body(name).find_all("body")}, _moving(spec.body(name))
         for _ in range(count + 1):
             kept |= {body.name for body in _fixed_to(link)}
             if link.parent is None or link.parent.name == "world":

@@ -80,6 +80,7 @@ def read_foot_body(path: str | os.PathLike[str], body: str | None, unit: Unit | 
     unit_scale(float(np.ptp(triangles, axis=(0, 1)).max()), unit, "m", where)  # sweeping one in mm takes minutes
     mass, note = source.mass(body)
     read = f"body '{body}': {len(shapes)} {'drawn' if drawn else 'colliding'} shape(s), in {unit or 'm as models are'}"
+    read += ", without what moves below it" if bodies[body].carries else ""
     foreign = None, "the links above the foot are read in m alone"
     links, swept = swept_points(source, body, triangles) if unit in (None, "m") else foreign
     return BodyGeometry(triangles, side_of_name(body), mass, (read, note, swept), links)

@@ -61,6 +61,18 @@ def test_simple_shapes_of_a_body_and_what_is_fixed_to_it(tmp_path, box, angle):
     assert bounds(found.triangles) == pytest.approx([-0.07, -0.04, -0.1, 0.15, 0.04, -0.06], abs=1e-3)
 
 
+def test_toes_that_move_are_among_what_the_shoe_must_leave_free(tmp_path, box):
+    path = mjcf(tmp_path, box)
+    fixed = read_foot_body(path, "left_foot")
+    path.write_text(path.read_text().replace('-.08"><geom type="capsule"', '-.08"><joint/><geom type="capsule"'))
+    found = read_foot_body(path, "left_foot")
+    assert bounds(found.triangles) == pytest.approx([-0.07, -0.04, -0.1, 0.13, 0.04, -0.06], abs=1e-3)
+    assert fixed.links is None
+    assert found.links is not None
+    assert found.links[:, 0].max() == pytest.approx(0.15, abs=2e-3)
+    assert found.notes[0].endswith("without what moves below it")
+
+
 def test_what_is_drawn_comes_before_what_collides(tmp_path, box):
     found = read_foot_body(mjcf(tmp_path, box, '<geom class="visual" mesh="foot"/>'), "left_foot")
     assert "1 drawn shape(s)" in found.notes[0]
