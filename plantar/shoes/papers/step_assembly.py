@@ -76,9 +76,11 @@ def _straps(shoe: Shoe, build: ShoeBuild) -> list[StepPart]:
     out, foot = [], keep_out(build.foot)
     flip = 1.0 if shoe.side == "left" else -1.0
     for n, x in enumerate(dict.fromkeys(q.x for q in retention.places), start=1):
-        ends = slot_lines(build.foot.passing(p.rim_height), x, retention.width, p)
-        path = strap_path(foot.surface, x, retention.width, ends, p.rim_height + 1.0)
-        line = shapely.LineString(path + np.array([0.0, p.thickness + 0.5 * p.strap_thickness])).simplify(0.5)
+        right, left = slot_lines(build.foot.passing(p.rim_height), x, retention.width, p)
+        slot, lug = p.rim_height + 1.0, p.rim_thickness + 0.5 * p.strap_thickness  # it comes up between lug and foot
+        over = strap_path(foot.surface, x, retention.width, (right + lug, left - lug), slot)
+        path = np.vstack([[right, slot], over, [left, slot]]) + np.array([0.0, p.thickness + 0.5 * p.strap_thickness])
+        line = shapely.LineString(path).simplify(0.5)
         band = line.buffer(0.5 * p.strap_thickness, cap_style="flat", join_style="mitre")
         flat = _solid(Block(band, 0.0, retention.width))
         y, z, along = flat.corners.T
