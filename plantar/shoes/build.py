@@ -89,8 +89,8 @@ def _blind_note(plan: ShoePlan, fit: TaxelFit) -> tuple[str, ...]:
     if fit.cell is not None or fit.blind_most is not None or plan.blind_rim <= BLIND_MOST:
         return ()
     return (
-        f"blind rim of {plan.blind_rim:.0f} mm beyond the outermost taxels' centres; a fine rim (--rim fine) has "
-        f"smaller cells along the edge and leaves {BLIND_MOST:g} mm at most",
+        f"blind rim of {plan.blind_rim:.0f} mm beyond the outermost taxels' centres; a fine rim (--rim fine), "
+        f"where one fits, has smaller cells along the edge and leaves {BLIND_MOST:g} mm at most",
     )
 
 
