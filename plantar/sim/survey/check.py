@@ -257,9 +257,8 @@ class _Checked:
             lowest = float((points @ -foot.normal).min())
             tilt = math.acos(min(1.0, -float(foot.normal[2]))) if foot.share >= 0.25 else 0.0
             turned, key = level_axes(foot.normal), "_right" * (side == "right")
-            if ((data.xanchor[model.joint(self.robot.legs[side].joints[-3]).id] - data.site_xpos[site]) @ to_sole.T)[
-                2
-            ] < 0:
+            shank = data.xanchor[model.joint(self.robot.legs[side].joints[-3]).id]
+            if float((to_sole @ (shank - data.site_xpos[site]))[2]) < 0.0:
                 tilt, turned = math.pi - tilt, turned @ np.diag([1.0, -1.0, -1.0])  # the leg is below
             level = tilt <= _TILT
             text = f"it is tilted by {math.degrees(tilt):.1f} degrees against the foot" + _unless(
