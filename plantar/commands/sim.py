@@ -56,9 +56,6 @@ def sim(
         )
     if seed < 0:
         raise InputError(f"--seed is {seed}; allowed: 0 or more")
-    for option, file, ending in (("--record", record, ".mcap"), ("--video", video, ".mp4")):
-        if file is not None and file.suffix != ending:
-            raise InputError(f"{option} {file} needs a name that ends in {ending}")
     if video is not None:
         os.environ.setdefault("MUJOCO_GL", "egl")
     need_libraries("sim", *LIBRARIES)

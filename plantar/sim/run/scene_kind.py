@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plantar.arguments import integer
-from plantar.errors import SceneError
+from plantar.errors import InputError, SceneError
 from plantar.files.structured_text import read_toml
 from plantar.sim.run.scene import Scene, scene_file, scene_of
 
@@ -99,6 +99,9 @@ def run(
         >>> run("flat", 0)["completed"]  # doctest: +SKIP
         True
     """
+    for what, file, ending in (("record", record, ".mcap"), ("video", video, ".mp4")):
+        if file is not None and Path(file).suffix != ending:
+            raise InputError(f"{what} {os.fspath(file)} needs a name that ends in {ending}")
     found: Any = scene if hasattr(scene, "robot") else open_scene(scene)
     recording, film, figures = (None if path is None else Path(path) for path in (record, video, plot))
     return simulation_of(found, integer(seed, "seed", 0)).run_to_files(recording, film, figures, progress)

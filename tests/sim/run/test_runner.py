@@ -6,7 +6,7 @@ from shutil import copytree
 import numpy as np
 import pytest
 
-from plantar.errors import SceneError
+from plantar.errors import InputError, SceneError
 from plantar.recordings.recording import read_mcap
 from plantar.sim.run.runner import Simulation, run_scene
 from plantar.sim.run.scene import load_scene
@@ -70,6 +70,12 @@ def test_the_door_takes_paths_as_texts(tmp_path):
     summary = run(scene, record=str(tmp_path / "run.mcap"), plot=str(tmp_path / "plots"))
     assert (tmp_path / "run.mcap").exists()
     assert all((tmp_path / "plots" / name.rpartition("/")[2]).exists() for name in summary["figures"])
+
+
+@pytest.mark.parametrize(("kind", "name", "ending"), [("record", "run.txt", ".mcap"), ("video", "run.gif", ".mp4")])
+def test_a_file_of_another_kind_is_refused_before_the_run(kind, name, ending):
+    with pytest.raises(InputError, match=f"{kind} {name} needs a name that ends in {ending}"):
+        run("flat", **{kind: name})
 
 
 def test_another_seed_is_another_walk(short_run, short_scene):
