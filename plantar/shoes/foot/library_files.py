@@ -77,7 +77,10 @@ def lines_of_dxf(path: Path) -> dict[str, NDArray[Any]]:
         from ezdxf.lldxf.const import DXFError
     document, _ = recover.read(io.BytesIO(path.read_bytes()))
     found = []
+    hidden = {layer.dxf.name.lower() for layer in document.layers if layer.is_off() or layer.is_frozen()}
     for entity in recursive_decompose(document.modelspace()):
+        if entity.dxf.get("layer", "0").lower() in hidden:
+            continue
         try:
             found.append(paths.make_path(entity))
         except (TypeError, DXFError):

@@ -33,7 +33,8 @@ _LARGEST, _LARGEST_DXF = 10e6, 4e6  # bytes
 _FARTHEST = 1e9  # in the drawing's unit
 _MEETINGS = 50  # segments that one meets, on average
 _BLOCK = 200  # segments
-_DXF_UNITS: dict[int, tuple[Unit, float]] = {1: ("in", 1.0), 4: ("mm", 1.0), 5: ("cm", 1.0), 6: ("m", 1.0)}
+_DXF_UNITS: dict[int, tuple[Unit, float]] = {1: ("in", 1), 2: ("in", 12), 4: ("mm", 1), 5: ("cm", 1), 6: ("m", 1)}
+_SECOND = 0.25  # of the largest outline: what lies apart and is smaller is a part of the foot
 _LOOP_MAX = 0.01  # of the enclosed area: a loop where a line's ends overlap, and no more
 _TURN_MAX, _LONG = 10.0, 1.3  # degrees off an axis at which a sole is pointed out that is so much longer than wide
 
@@ -62,14 +63,13 @@ def foot_from_drawing(
     if forward is not None and forward not in AXES[:4]:
         raise InputError(f"forward axis is {forward!r}; allowed: {', '.join(AXES[:4])}")
     lines, file_unit, factor = read_outline(path)
-    outline = _closed_area(lines, str(path))
+    outline = _closed_area(lines, str(path), forward is not None)
     notes = _what_was_drawn(outline, lines)
     box = outline.bounds
     scale, note = unit_scale(max(box[2] - box[0], box[3] - box[1]) * factor, unit, file_unit, str(path))
     notes = [note, *notes]
     axis: Axis = forward or ("y" if box[3] - box[1] > 1.05 * (box[2] - box[0]) else "x")
-    if axis != "x":
-        notes.append(f"the drawing's {axis} axis points to the toes, {'as given' if forward else 'its longer side'}")
+    notes.append(f"the drawing's {axis} axis points to the toes, {'as given' if forward else 'its longer side'}")
     turn = rotation_forward(axis)[:2, :2] * scale * factor
     if mesh_side == "right":
         turn = np.diag([1.0, -1.0]) @ turn
@@ -114,7 +114,7 @@ def read_outline(path: str | os.PathLike[str]) -> tuple[Lines, Unit | None, floa
     return lines, unit, factor
 
 
-def _closed_area(lines: Lines, where: str) -> Any:
+def _closed_area(lines: Lines, where: str, in_parts: bool) -> Any:
     extent = float(np.ptp(np.concatenate(lines), axis=0).max())
     if extent <= 0.0:
         raise FootError(f"{where}: the drawing has no size")
@@ -126,6 +126,9 @@ def _closed_area(lines: Lines, where: str) -> Any:
     area = shapely.union_all([shapely.Polygon(f.exterior) for f in shapely.polygonize([united]).geoms])
     if area.is_empty or area.area < 1e-3 * extent**2:
         raise FootError(f"{where}: no closed line; draw the outline of the sole as one")
+    parts = sorted(part.area for part in shapely.get_parts(area))
+    if not in_parts and len(parts) > 1 and parts[-2] > _SECOND * parts[-1]:
+        raise FootError(f"{where}: outlines apart from each other, two feet maybe; draw one, or give the forward axis")
     # `single_outline` thinks in mm: bring a foot of any unit to about its size.
     to_mm = 250.0 / extent
     large = shapely.affinity.scale(area, to_mm, to_mm, origin=(0.0, 0.0))
@@ -189,14 +192,10 @@ def _read_geojson(file: Path) -> tuple[Lines, Unit | None, float]:
         if not isinstance(item, dict) or depth > 20:
             raise ValueError("not a GeoJSON object")
         kind = item.get("type")
-        if kind == "FeatureCollection":
-            for feature in item["features"]:
-                yield from rings(feature, depth + 1)
-        elif kind == "Feature":
-            yield from rings(item["geometry"], depth + 1)
-        elif kind == "GeometryCollection":
-            for geometry in item["geometries"]:
-                yield from rings(geometry, depth + 1)
+        if kind in ("FeatureCollection", "Feature", "GeometryCollection"):
+            within = [*item.get("features", ()), *item.get("geometries", ())]
+            for part in within if kind != "Feature" else [item["geometry"]]:
+                yield from rings(part, depth + 1)
         elif kind == "Polygon":
             yield from ([*ring, ring[0]] for ring in item["coordinates"])  # a ring that was left open too
         elif kind == "MultiPolygon":
@@ -222,10 +221,10 @@ _SVG_UNITS: dict[str, tuple[Unit, float]] = {
     "mm": ("mm", 1.0),
     "cm": ("cm", 1.0),
     "in": ("in", 1.0),
+    "pt": ("in", 1.0 / 72.0),
+    "pc": ("in", 1.0 / 6.0),
     "px": ("in", 1.0 / 96.0),  # as SVG has it; a number without a unit has none
 }
-
-_PER_PX: dict[Unit, float] = {"mm": 25.4 / 96.0, "cm": 2.54 / 96.0, "in": 1.0 / 96.0}
 
 
 def _lines_of_svg(file: Path) -> tuple[Lines, Unit | None, float]:
@@ -247,6 +246,9 @@ def _lines_of_svg(file: Path) -> tuple[Lines, Unit | None, float]:
         walked += 1
         if walked > MOST_POINTS or uses > _MOST_USES:
             raise FootError(f"{file}: has more than {MOST_POINTS} shapes, or a shape that uses itself; reduce it")
+        look = f"display:{element.get('display', '')};{element.get('style', '')}"
+        if tag in ("defs", "symbol", "clipPath", "mask", "marker", "pattern") or re.search(r"display\s*:\s*none", look):
+            return
         if tag == "use":
             used = named.get(element.get("href", element.get(_LINK, "")).removeprefix("#"))
             place = np.eye(3)
@@ -255,8 +257,6 @@ def _lines_of_svg(file: Path) -> tuple[Lines, Unit | None, float]:
             if used is not None:
                 for drawn in used if str(used.tag).endswith("symbol") else (used,):
                     walk(drawn, here, uses + 1)
-            return
-        if tag in ("defs", "symbol", "clipPath", "mask", "marker", "pattern"):
             return
         here = outer @ _svg_transform(element.get("transform"))
         plain = ElementTree.Element(
@@ -296,8 +296,8 @@ def _svg_unit(root: ElementTree.Element) -> tuple[Unit | None, float, NDArray[np
         return None, 1.0, upright
     size, name = float(match[1]), match[2]
     if name in _SVG_UNITS:
-        unit, factor = _SVG_UNITS[name]
-        return unit, factor * size / box[2] if len(box) == 4 and box[2] > 0.0 else _PER_PX[unit], upright
+        unit, factor = _SVG_UNITS[name] if len(box) == 4 and box[2] > 0.0 else _SVG_UNITS["px"]
+        return unit, factor * size / box[2] if len(box) == 4 and box[2] > 0.0 else factor, upright
     return None, 1.0, upright
 
 

@@ -47,11 +47,16 @@ def test_every_kind_gives_the_same_outline(tmp_path):
     for path, note in (
         (dxf(tmp_path / "mm.dxf"), "unit mm as the file states"),
         (dxf(tmp_path / "m.dxf", 6, 1e-3), "unit m as the file states"),
+        (dxf(tmp_path / "feet.dxf", 2, 1.0 / 304.8), "unit in as the file states"),
         (dxf(tmp_path / "none.dxf", 0, 1e-3), "unit m, detected"),
         (svg(tmp_path / "a.svg", pieces), "unit mm as the file states"),
         (svg(tmp_path / "half.svg", f'<polygon points="{up}"/>', 'width="20cm" viewBox="0 0 200 100"'), "unit cm as"),
         (
             svg(tmp_path / "px.svg", f'<polygon points="{up}"/>', f'width="{20 / 2.54 * 96}px" viewBox="0 0 200 100"'),
+            "unit in as the file states",
+        ),
+        (
+            svg(tmp_path / "pt.svg", f'<polygon points="{up}"/>', f'width="{20 / 2.54 * 72}pt" viewBox="0 0 200 100"'),
             "unit in as the file states",
         ),
         (svg(tmp_path / "plain.svg", f'<path d="M {up} z"/>', ""), "unit mm, detected"),
@@ -141,6 +146,33 @@ def test_an_outline_that_crosses_itself_is_refused(tmp_path, kind):
         path.write_text(json.dumps({"type": "Polygon", "coordinates": [[*eight, eight[0]]]}))
     with pytest.raises(FootError, match="crosses itself"):
         foot_from_drawing(path)
+
+
+def test_two_feet_in_a_drawing_are_refused(tmp_path):
+    up = " ".join(f"{x},{-y}" for x, y in RING)
+    both = f'<polygon points="{up}"/><polygon transform="translate(0 120)" points="{up}"/>'
+    path = svg(tmp_path / "pair.svg", both)
+    with pytest.raises(
+        FootError, match="outlines apart from each other, two feet maybe; draw one, or give the forward"
+    ):
+        foot_from_drawing(path)
+    assert foot_from_drawing(path, forward="x").sole.area > 2.0 * OUTLINE.area
+
+
+def test_what_is_hidden_is_not_drawn(tmp_path):
+    import ezdxf
+
+    path = dxf(tmp_path / "hidden.dxf")
+    document = ezdxf.readfile(path)
+    document.layers.add("sheet").off()
+    document.modelspace().add_circle((0, 0), 200, dxfattribs={"layer": "Sheet"})
+    document.saveas(path)
+    up = " ".join(f"{x},{-y}" for x, y in RING)
+    sheet = "<rect x='-90' y='-90' width='300' height='200' {}/>"
+    for look in ("style='fill:none; display: none'", "display='none'"):
+        drawn = svg(tmp_path / "hidden.svg", f"{sheet.format(look)}<polygon points='{up}'/>")
+        for file in (path, drawn):
+            assert foot_from_drawing(file).sole.symmetric_difference(OUTLINE).area < 15.0
 
 
 def test_ends_that_overlap_are_no_crossing(tmp_path):
