@@ -23,7 +23,7 @@ _ALLOWED = {
     "forward": ("x", "-x", "y", "-y"),
 }
 
-_ASSUMED = "taken to be a left foot: the file's name does not show the side (or give --mesh-side right)"
+_ASSUMED = "taken to be a left foot: no name shows the side (or give --mesh-side right)"
 
 
 def read_foot(source: FootSource, *, sole_band: float) -> tuple[Foot, int | None]:
@@ -80,11 +80,11 @@ def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
     options |= {"up": source.up, "sole_z": source.sole_z, "sole_band": sole_band}
     if kind in MODEL_FORMATS:
         found = read_foot_body(path, source.body, options["unit"])
-        side = cast(Any, source.mesh_side or found.side or "left")
+        named = source.mesh_side or found.side
         where = f"{path}, body '{source.body}'"
-        options |= {"file_unit": "m", "mesh_side": side, "links": found.links}
+        options |= {"file_unit": "m", "mesh_side": named or "left", "links": found.links}
         foot = foot_from_triangles(path.stem, found.triangles, where=where, **options)
-        return replace(foot, mass=found.mass, notes=(*found.notes, *foot.notes))
+        return replace(foot, mass=found.mass, notes=(*found.notes, *foot.notes, *(() if named else (_ASSUMED,))))
     if source.body is not None:
         raise InputError(f"--body is for a robot's model ({', '.join(MODEL_FORMATS)}); {path} is none")
     foot = foot_from_mesh(path, mesh_side=side, **options)

@@ -76,3 +76,13 @@ def test_the_side_is_that_of_the_files_name_or_assumed_with_a_note(name, side, t
     assert found.sole.equals(given.sole)
     assert any("taken to be a left foot" in note for note in found.notes) == (side is None)
     assert not any("taken to be a left foot" in note for note in given.notes)
+
+
+@pytest.mark.parametrize(("body", "noted"), [("fuss_rechts", True), ("right_foot", False), ("l_foot", False)])
+def test_the_side_of_a_robots_foot_is_that_of_its_name_or_assumed_with_a_note(body, noted, tmp_path):
+    pytest.importorskip("mujoco")
+    file = tmp_path / "robot.xml"
+    shape = "<geom type='box' size='.1 .04 .02' pos='.03 0 -.08'/>"
+    file.write_text(f"<mujoco><worldbody><body name='{body}'>{shape}</body></worldbody></mujoco>")
+    notes = read(file=file, body=body)[0].notes
+    assert any("taken to be a left foot" in note for note in notes) == noted
