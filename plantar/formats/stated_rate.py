@@ -15,15 +15,15 @@ _USUAL = 100.0
 _OF = (
     "(?:the|an?|of|d|de|di|du|sampl(?:e|es|ing)|frames?|data|scan(?:ning)?|record(?:ing)?|measure(?:ment|d)?|acquisition|"
     "capture|sensors?|device|force|plates?|insoles?|pressure|analog|nominal|original|video|abtast|mess|bild|aufnahme|"
-    "échantillonnage|muestreo|campionamento)*"
+    "échantillonnage|muestreo|campionamento|bemonsterings?|amostragem|サンプリング)*"
 )
 _RATE = re.compile(
-    rf"{_OF}(?:rate|freq|frequency|frequenz|fréquence|frecuencia|frequenza|frequentie){_OF}(?:in)?"
-    r"|(?:samples|frames|images|pictures)per(?:s|sec|second)|fs|fps|sps|k?hz|sampling"
+    rf"{_OF}(?:rate|freq|frequency|frequenz|fréquence|frecuencia|frequenza|frequentie|frequência|taxa|周波数){_OF}(?:in)?"
+    r"|(?:samples|frames|images|pictures|points)per(?:s|sec|second)|fs|fps|sps|k?hz|sampling"
 )
 _PERIOD = re.compile(
     r"(?:sampl(?:e|es|ing)|frames?|scan(?:ning)?|abtast)(?:intervall?|periode?|step|spacing)(?:in)?"
-    r"|d(?:elta)?t|timestep|frametime|(?:seconds?|secs?|s|ms|time)per(?:frame|sample|picture|image)"
+    r"|d(?:elta)?t|timestep|zeitschritt|frametime|(?:seconds?|secs?|s|ms|time)per(?:frame|sample|picture|image)"
 )
 _HERTZ = {"hz": 1.0, "hertz": 1.0, "khz": 1e3, "fps": 1.0, "sps": 1.0} | {
     f"{what}per{of}": 1.0 / seconds_of_unit(of)
@@ -68,10 +68,11 @@ def stated_rate(facts: Mapping[str, str], warnings: list[str]) -> float | None:
         period = value * seconds_of_unit(unit)
         rate = value * _HERTZ.get(unit, 1.0) if unit in _HERTZ or not unit else 1.0 / period if period else np.inf
         found[name] = possible_rate(rate, f"{shown} means")
+    chosen = min(found, key=lambda name: "video" in name or "marker" in name, default="")
     if found and max(found.values()) > 1.01 * min(found.values()):
         several = ", ".join(f"{name} {rate:g} Hz" for name, rate in found.items())
-        warnings.append(f"the file states several rates, {several}: the first is taken (--rate overrides)")
-    return next(iter(found.values()), None)
+        warnings.append(f"the file states several rates, {several}: {chosen} is taken (--rate overrides)")
+    return found.get(chosen)
 
 
 def or_usual(rate: float | None, without: str, warnings: list[str]) -> float:

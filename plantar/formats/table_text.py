@@ -191,14 +191,14 @@ def _facts(lines: Sequence[str], delimiter: str | None) -> dict[str, str]:
     """Facts of lines like "# unit: kPa", "SampleRate=1200", "rate<tab>100" and "200 Hz"."""
     out: dict[str, str] = {}
     for before, line in pairwise(["", *lines]):
-        if before.startswith("Devices") and line.strip(",;\t ").isdigit():  # of Vicon Nexus: the rate, without a name
-            line = f"rate: {line}"
+        # Of Vicon Nexus: the rate, without a name.
+        line = f"rate: {line}" if before.startswith("Devices") and line.strip(",;\t ").isdigit() else line
         line = line.lstrip("#").replace('"', "").strip(",;\t ")
         alone = _RATE_ALONE.fullmatch(line)
-        line = f"{alone[1] or 'rate'}: {alone[2]}" if alone else line
-        signs = "[:=]" if delimiter is None or re.search("[:=]", line) else f"[:={delimiter}]"
+        line = f"{alone[1] or alone[3] or 'rate'}: {alone[2] or alone[4]}" if alone else line
+        signs = "[:=]" if re.search("[:=]", line) else f"[\t{delimiter or ''}]"
         name, sign, value = re.sub(signs, "\n", line, count=1).partition("\n")
-        if sign and re.fullmatch(r"[\w \[\]()/%.-]{1,60}", name):
+        if sign and re.fullmatch(r"[\w \[\]()/%.'’-]{1,60}", name):
             out.setdefault(name.strip().lower(), value.strip())
     return out
 
@@ -227,7 +227,7 @@ _NAMED = re.compile(
     re.IGNORECASE,
 )
 _LONGEST_NAME = 100  # characters: on a name of 500,000 blanks the expression takes hours
-_RATE_ALONE = re.compile(r"([^\d:=;,\t]*?)\s*(\d[\d.,]*\s*(?:k?hz|fps))", re.IGNORECASE)
+_RATE_ALONE = re.compile(r"(?i)([^\d:=;,\t]*?)\s*(\d[\d.,]*\s*(?:k?hz|fps))|([^\d:=;,\t]+?)\s+(\d[\d.,]*)")
 _DAY = 86400.0
 # Dates are counted from here: from the year 1 on, a second's millionth is less than a double resolves.
 _SINCE = datetime(2020, 1, 1)

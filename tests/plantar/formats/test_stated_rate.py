@@ -24,6 +24,13 @@ RATES = {
     "Sample rate: {} per minute": 60.0,
     "{} Hz": 1.0,
     "Sampling rate {} kHz": 1e-3,
+    "Sampling rate {}": 1.0,
+    "Scan Rate\t{}": 1.0,
+    "Points per second: {}": 1.0,
+    "Fréquence d'échantillonnage : {} Hz": 1.0,
+    "Bemonsteringsfrequentie: {} Hz": 1.0,
+    "サンプリング周波数: {} Hz": 1.0,
+    "Video Frame Rate: 25\nAnalog Rate: {}": 1.0,
 }
 PERIODS = {
     "Sample interval (ms): {}": 1e3,
@@ -34,6 +41,7 @@ PERIODS = {
     "Seconds per frame: {}": 1.0,
     "Frame Time: {}": 1.0,
     "Time/picture: {} ms": 1e3,
+    "Zeitschritt: {} ms": 1e3,
 }
 STATED = [(line, factor, 1.0) for line, factor in RATES.items()]
 STATED += [(line, factor, -1.0) for line, factor in PERIODS.items()]
