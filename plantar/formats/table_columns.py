@@ -20,6 +20,7 @@ from plantar.formats.units import find_unit, plain
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
 from plantar.sides import SIDES, Side
 
+_CLOCK = re.compile(r"(?i)time|zeit|tiempo|temp[os]|tijd|clock|elapsed|epoch|[\[({（]m?s([ei][cgk]\w*)?[\])}）]|秒|^s$")
 _MOST_NAMED = 10  # Columns that are left out by name in the warnings; of more their number is given
 _SUMS = 0.02  # How near a column is to the sum of others, relative to its largest value, where it is their total
 _SIGNED = 0.3  # Share of the largest reading that cells do not reach on both sides of zero
@@ -51,9 +52,9 @@ def recording_of_columns(
     if not names:
         warnings.append("the table has no row of names: the first column is taken as time in s if it increases")
     at = next((i for i, n in enumerate(names) if time_unit(n) is not None), None)
-    if at is None and (not names or not names[0]):
-        column = table[:, 0]
-        at = 0 if np.isfinite(column).all() and (np.diff(column) > 0.0).all() else None
+    if at is None:
+        like = 0 if not names or not names[0] else next((i for i, n in enumerate(names) if _CLOCK.search(n)), None)
+        at = like if like is not None and (np.diff(table[:, like]) > 0.0).all() else None
     of_side = next((i for i, n in enumerate(names) if is_side_column(n)), None)
     if of_side is not None:
         table, names = _side_by_side(table, names, at, of_side, warnings)
@@ -188,8 +189,7 @@ def _times(
         rate = or_usual(stated, "the table has no times and states no rate", warnings)
         return np.arange(len(table)) / rate, rate, ()
     time = in_seconds(table[:, at], time_unit(names[at]) if names else None, stated, warnings)
-    known = time[np.isfinite(time)]
-    if len(known) and abs(known[0]) > 1e5:
+    if len(known := time[np.isfinite(time)]) and abs(known[0]) > 1e5:
         warnings.append(f"the times begin at {known[0]:.10g} s: here they count from the first frame")
         time = time - known[0]
     return sampling(time, stated)

@@ -216,7 +216,7 @@ _SECONDS |= {"min": 60.0, "minute": 60.0, "h": 3600.0, "hour": 3600.0}
 _BY = "abs|absolute|elapsed|frame|sample|sampling|relative|rel|recording|measurement|system|local|unix|utc"
 _SIDE = "(?:l|r|left|right)"
 _TIMES = f"ts|t|times?|times?[ _-]{_SIDE}|(?-i:t)[ _-]{_SIDE}|{_SIDE}[ _-]times?"  # a foot's own clock
-_TIMES += "|time[ _-]?stamps?|date[ /_-]?time|zeit|uhrzeit|zeitstempel|temps|tempo|tiempo|tijd|czas|時間|時刻"
+_TIMES += "|time[ _-]?stamps?|date[ /_-]?time|zeit|uhrzeit|zeitstempel|temps|tempo|tiempo|tijd|czas|x_value|時間|時刻"
 _UNIT = "|".join(rf"{name}s?" for name in _SECONDS)
 # Units that are a column's name by themselves; "min" may be the least of something.
 _ALONE = "(?:sec|second|ms|us|msec|millisec|millisecond|millis|micros)s?"

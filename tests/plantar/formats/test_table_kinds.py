@@ -263,6 +263,18 @@ def test_what_is_no_walk_of_feet_is_refused(tmp_path, text, message):
         ("ms,left 1 (N),left 2 (N),right 1 (N),right 2 (N)", 2000.0),
         ("time_L (s),left 1 (N),left 2 (N),right 1 (N),right 2 (N)", 2.0),
         ("time,left 1,left 2,right 1,right 2\nms,N,N,N,N", 2000.0),
+        *(
+            (f"{name},left 1 (N),left 2 (N),right 1 (N),right 2 (N)", 2.0)
+            for name in (
+                "Zeit (Sekunden)",
+                "Temps (secondes)",
+                "Elapsed",
+                "Trial time (s)",
+                "時間 [秒]",
+                "Aika (s)",
+                "X_Value",
+            )
+        ),
     ],
 )
 def test_times_by_headings_that_name_a_unit_or_a_foot(tmp_path, head, scale):
