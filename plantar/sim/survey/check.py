@@ -254,9 +254,9 @@ class _Checked:
             if foot is None:
                 continue
             points, to_body = foot.surface.reshape(-1, 3), np.array(self.robot.sole_rotations[side])
-            lowest = float((points @ -foot.normal).min())
-            tilt = math.acos(min(1.0, -float(foot.normal[2]))) if foot.share >= 0.25 else 0.0
-            turned, key = level_axes(foot.normal), "_right" * (side == "right")
+            normal = foot.normal if foot.share >= 0.25 else np.array([0.0, 0.0, -1.0])  # of a rounded sole
+            lowest, tilt = float((points @ -normal).min()), math.acos(min(1.0, -float(normal[2])))
+            turned, key = level_axes(normal), "_right" * (side == "right")
             shank = data.xanchor[model.joint(self.robot.legs[side].joints[-3]).id]
             if float((to_sole @ (shank - data.site_xpos[site]))[2]) < 0.0:
                 tilt, turned = math.pi - tilt, turned @ np.diag([1.0, -1.0, -1.0])  # the leg is below

@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import mujoco
@@ -24,6 +25,7 @@ from plantar.sim.survey.check import check_robot
 from plantar.sim.survey.introduce import introduce
 from plantar.sim.survey.model_copy import write_model_copy
 from plantar.sim.survey.robot_text import roll_pitch_yaw
+from plantar.sim.survey.sole_frame import rested
 from plantar.sim.survey.survey import survey_model
 
 from .random_biped import random_biped
@@ -126,6 +128,15 @@ def test_a_shoe_beside_its_foot_or_turned_is_found_and_what_is_named_works(made,
     soles = {k: f for k, f in findings(spoilt | {field: value}).items() if "left" in k}
     assert len(soles) == 3
     assert all(f.holds for f in soles.values())
+
+
+def test_a_rounded_sole_is_checked_as_level(made, monkeypatch):
+    def rounded(*arguments):
+        return replace(rested(*arguments), share=0.1, normal=np.array([0.6, 0.0, -0.8]))
+
+    monkeypatch.setattr("plantar.sim.survey.check.rested", rounded)
+    checked = check_robot(made[2] / "robot.toml", "flat")
+    assert checked.holds, checked.text()
 
 
 @pytest.mark.parametrize(("limit", "holds"), [(0.2, False), (30.0, True)])
