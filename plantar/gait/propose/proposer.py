@@ -21,7 +21,7 @@ from plantar.gait.plan.phases import Phase
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.gait.plan.walk_plan import PlanView
-from plantar.kernels.geometry.convex import closest_point
+from plantar.kernels.geometry import convex
 from plantar.record import Record
 from plantar.sensing.reading import Reading
 from plantar.sides import Side
@@ -74,7 +74,7 @@ class Pendulum(Record, frozen=True):
         growth = math.expm1(self.omega * left)
         (x, y), (gx, gy), (wx, wy) = self.dcm.tolist(), self.goal.tolist(), self.offset.tolist()
         wanted = x + (x - gx) / growth + wx, y + (y - gy) / growth + wy
-        return growth, wanted, nearest_place(self.zmp_region, *wanted)
+        return growth, wanted, convex.nearest(self.zmp_region, *wanted)
 
 
 class Tick(Record, frozen=True):
@@ -127,22 +127,6 @@ class Proposer(Protocol):
     def propose(self, tick: Tick) -> PlanChange | None:
         """Its change at this tick, or None."""
         ...
-
-
-def nearest_place(region: NDArray[np.float64], x: float, y: float) -> tuple[float, float]:
-    """Returns a region's nearest place to a wanted one, in plain numbers.
-
-    Args:
-        region: Convex polygon (k, 2) in m, not empty.
-        x: Wanted in m.
-        y: Wanted in m.
-
-    Example:
-        >>> nearest_place(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]), 2.0, 0.5)
-        (1.0, 0.5)
-    """
-    nx, ny = closest_point(region, x, y).tolist()
-    return nx, ny
 
 
 def was_applied(change: PlanChange, tick: Tick) -> bool:

@@ -24,10 +24,11 @@ from plantar.gait.balance.ankle_strategy import (
 )
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.plan_change import PlanChange
-from plantar.gait.propose.proposer import Pendulum, Priority, Tick, nearest_place
+from plantar.gait.propose.proposer import Pendulum, Priority, Tick
 from plantar.gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeights, footstep_region, solve_ssp
 from plantar.gait.propose.step_timing import StepTiming
 from plantar.geometry.polygon import convex_hull, signed_margin
+from plantar.kernels.geometry import convex
 from plantar.settings.part import Part
 from plantar.settings.schema import choice, fixed, number, share, switch
 from plantar.sides import Side, other_side
@@ -349,8 +350,8 @@ class StepAdjustment:
         self, foot: _Foot, wanted: tuple[float, float], time: float, region: NDArray[np.float64]
     ) -> tuple[tuple[float, float], float]:
         """Landing place in a region for a wanted one, and its distance outside."""
-        x, y = self._reached(foot, nearest_place(region, *wanted), time)
-        inside = nearest_place(region, x, y)
+        x, y = self._reached(foot, convex.nearest(region, *wanted), time)
+        inside = convex.nearest(region, x, y)
         return inside, math.dist(inside, (x, y))
 
     def _reached(self, foot: _Foot, wanted: tuple[float, float], time: float) -> tuple[float, float]:

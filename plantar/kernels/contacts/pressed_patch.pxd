@@ -39,6 +39,7 @@ cdef class PressedPatch:
     cdef double cx, cy, scale
     cdef readonly double x, y
     cpdef bint spread(self, double force, double x, double y, double[::1] out) except *
+    @cython.locals(some=bint)
     cdef bint _some_carried(self) noexcept
     cdef int _to_reach(self) except -1
     cpdef bint part(self, double force, double[::1] out) noexcept

@@ -208,10 +208,10 @@ class PressedPatch:
         return self._some_carried() and self.part(force, out)
 
     def _some_carried(self):
+        some = False
         for i in range(self.carried.shape[0]):
-            if self.carried[i]:
-                return True
-        return False
+            some = some or self.carried[i] != 0
+        return some
 
     def _to_reach(self):
         if self.turn != 0:

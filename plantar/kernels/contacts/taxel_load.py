@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from . import pressed_patch
 from ..geometry import convex
+from . import pressed_patch
 
 __all__ = ["TaxelLoad"]
 
@@ -273,9 +273,9 @@ class TaxelLoad:
     def _carry(self, force, x, y):
         """Set `normal` to all contacts' load; whether the cells can carry it."""
         count = self.areas.shape[0]
-        beyond = self._is_beyond(x, y)
         if self._tilt(self.prior, force, x, y):
             return True
+        beyond = self._is_beyond(x, y)
         for stage in range(1 if beyond else 0, 2):
             area = 0.0
             for i in range(count):

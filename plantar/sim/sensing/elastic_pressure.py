@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.polygon import area as polygon_area
-from plantar.geometry.polygon import closest_point, convex_hull
+from plantar.geometry.polygon import convex_hull
+from plantar.kernels.geometry import convex
 from plantar.layouts.layout import SoleLayout
 from plantar.sim.sensing.contact_patch import Patches, patch_polygon, reach_of
 from plantar.sim.sensing.elastic_layer import LayerContact, influence
@@ -122,9 +123,7 @@ class ElasticPressure:
         shape = self._patches.of(patch)
         if shape is None:
             return self._springs.spread(patch, force, center_of_pressure)
-        inside = closest_point(shape.reach, center_of_pressure)
-        assert inside is not None
-        x, y = inside.tolist()
+        x, y = convex.nearest(shape.reach, *center_of_pressure)
         carried = np.maximum(shape.forces(np.array([1.0, x, y])), 0.0)
         return self._springs.along_taxels(force / float(carried.sum()) * carried)
 
