@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import prod
 from pathlib import Path
@@ -72,7 +72,9 @@ class Plan(Protocol):
         """The result of the rows."""
 
     def progress(self, rows: Rows) -> tuple[float, str]:
-        """Progress, 0 to 1, and in words."""
+        """Progress, 0 to 1, and in words; the share of the runs in `rows`, unless a plan knows better."""
+        done = [key_of(*run) in rows for run in self.runs(rows) if run is not None]
+        return sum(done) / len(done), f"{sum(done)} of {len(done)} rows"
 
 
 @dataclass(frozen=True)
@@ -171,9 +173,6 @@ class Sweep(Plan):
             ]
         }
 
-    def progress(self, rows: Rows) -> tuple[float, str]:
-        return progress_of(self.runs(rows), rows)
-
     def with_axes(self, axes: Sequence[tuple[str, tuple[str, ...]]]) -> Sweep:
         """This sweep with more settings in its grid, after its own."""
         return replace(self, grid=(*self.grid, *axes))
@@ -238,13 +237,6 @@ class Sweep(Plan):
             if key in seen:
                 raise InputError(f"grid points '{seen[key]}' and '{text}' are the same run; leave one out")
             seen[key] = text
-
-
-def progress_of(runs: Iterable[Run], rows: Rows) -> tuple[float, str]:
-    """Returns the share of the `runs` in `rows`, and in words."""
-    wanted = [key_of(*run) for run in runs]
-    done = sum(key in rows for key in wanted)
-    return done / len(wanted), f"{done} of {len(wanted)} rows"
 
 
 def point_result(point: Sequence[str], ran: Sequence[Mapping[str, str]]) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from plantar.errors import InputError
-from plantar.sim.sweep.plan import Plan, Rows, Run, Sweep, key_of, point_result, progress_of
+from plantar.sim.sweep.plan import Plan, Rows, Run, Sweep, key_of, point_result
 from plantar.sim.sweep.value_range import ValueRange
 
 
@@ -58,6 +58,3 @@ class RandomSearch(Plan):
             if (row := rows.get(key_of(point, seed))) is not None:
                 ran_at[point[: len(self.sweep.grid)]].append(row)
         return {"points": [point_result(point, ran) for point, ran in ran_at.items()]}
-
-    def progress(self, rows: Rows) -> tuple[float, str]:
-        return progress_of(self.runs(rows), rows)
