@@ -222,7 +222,7 @@ def _is_beyond(sole: Sole, at: wp.vec2d) -> wp.bool:
     corners = sole.hull.shape[0]
     for k in range(corners):
         way, off = sole.hull[(k + 1) % corners] - sole.hull[k], at - sole.hull[k]
-        if way[0] * off[1] - way[1] * off[0] < wp.float64(0.0):
+        if way[0] * off[1] - way[1] * off[0] < -wp.float64(1e-12) * wp.length(way):  # m: rounding
             return True
     return False
 

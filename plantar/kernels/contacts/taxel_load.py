@@ -242,7 +242,7 @@ class TaxelLoad:
 
     def _is_beyond(self, x, y):
         """Whether a place is beyond the outermost taxels: no pressure has its moment."""
-        return convex.margin_of_clean(self.hull, x, y) < 0.0
+        return convex.margin_of_clean(self.hull, x, y) < -1e-12  # m: rounding
 
     def _balance(self, force):
         count = self.areas.shape[0]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import shapely
 
-from plantar import Percept, grid_layout
+from plantar import Percept, grid_layout, layout_of_cells
 from plantar.errors import InputError
 from plantar.kernels.contacts.foot_contacts import ContactsInSole, FootContacts
 from plantar.kernels.contacts.taxel_load import TaxelLoad
@@ -116,6 +116,19 @@ def test_a_load_on_the_back_does_not_relieve_the_sole(contact_wrench):
     moment = np.cross(feel.layout.positions, reading.vectors).sum(axis=0)[:2]
     assert moment == pytest.approx([5.0 * 9.81 * 0.03, -5.0 * 9.81 * 0.05], rel=0.01)
     assert not reading.carried
+
+
+@pytest.mark.parametrize("middles", [[(-0.08, 0), (0.08, 0)], [(-0.08, -0.04), (0, 0), (0.04, 0.02)]])
+def test_a_row_of_taxels_carries_a_load_on_its_line(middles):
+    corners = [[-0.005, -0.005], [0.005, -0.005], [0.005, 0.005], [-0.005, 0.005]]
+    layout = layout_of_cells([np.add(middle, corners) for middle in middles])
+    model = mujoco.MjModel.from_xml_string(models.world(models.PLANE, '<geom type="box" size=".1 .05 .02"/>'))
+    feel, data = Skin(layout, body="foot", partial=True).bind(model), mujoco.MjData(model)
+    mujoco.mj_step(model, data, 500)
+    reading = feel(data)
+    moment = np.cross(feel.layout.positions, reading.vectors).sum(axis=0)
+    assert reading.carried
+    assert np.allclose([*reading.vectors.sum(axis=0), *moment], reading.wrench, atol=1e-9)
 
 
 @pytest.mark.parametrize("condim", [1, 4])
