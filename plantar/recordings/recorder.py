@@ -68,11 +68,12 @@ class Channel(Generic[_Message]):
     def write(self, time_s: float, *message: Any) -> None:
         """Append a `message`, unchanged until the next flush, at `time_s` in s.
 
-        A message is bytes, or a flat array of all fields' values, or, of a topic with fields, a value for each, where
-        one number fills its field. RecordingError for times outside 0 to 1e9 s, or a wrong number of values.
+        A message is bytes, or a flat array of all fields' values, or a value for each field, which one number fills.
+        RecordingError for times outside 0 to 1e9 s, or a wrong number of values.
         """
-        if not 0.0 <= time_s < 1e9:
-            raise RecordingError(f"topic {self.topic} got the time {time_s} s; allowed: 0 to 1e9 s")
+        if not 0.0 <= time_s < 1e9 or len(message) != 1:
+            got = f"topic {self.topic} got {len(message)} message(s) at the time {time_s} s"
+            raise RecordingError(f"{got}; allowed: 0 to 1e9 s, one message at a time")
         recorder = self._recorder
         if time_s >= recorder._flush_at or len(self._times) == _MOST:
             recorder.flush()
@@ -106,9 +107,9 @@ class _NumbersChannel(Channel[NDArray[np.float64]]):
         self._width = ends[-1]
 
     def write(self, time_s: float, *message: Any) -> None:
-        row = np.empty(self._width) if len(message) > 1 else np.array(message[0], dtype="<f8")
+        row = np.array(message[0], dtype="<f8") if len(message) == 1 else np.empty(self._width)
         try:
-            for span, value in zip(self._spans, message, strict=True) if len(message) > 1 else ():
+            for span, value in zip(self._spans, message, strict=True) if len(message) != 1 else ():
                 row[span] = value
         except ValueError as error:
             raise RecordingError(f"topic {self.topic} takes values of {len(self._spans)} fields: {error}") from None

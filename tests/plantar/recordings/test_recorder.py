@@ -181,6 +181,12 @@ def test_bad_calls_name_what_is_wrong(tmp_path):
             with pytest.raises(RecordingError, match=r"topic /b takes values of 2 fields"):
                 parts.write(0.0, *message)
         parts.write(0.0, np.nan, 7)
+        drawn = recorder.message_channel("/c", next(iter(foxglove.SCHEMAS)))
+        for many in ((), (b"a", b"b")):
+            with pytest.raises(RecordingError, match=f"topic /c got {len(many)} message.*one message at a time"):
+                drawn.write(0.0, *many)
+        with pytest.raises(RecordingError, match="topic /b takes values of 2 fields"):
+            parts.write(0.0)
         for bad in (-1.0, float("nan"), float("inf")):
             with pytest.raises(RecordingError, match="allowed: 0 to"):
                 channel.write(bad, np.zeros(3))
