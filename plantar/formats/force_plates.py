@@ -217,7 +217,7 @@ def on_its_surface(plate: Plate, warnings: list[str]) -> Plate:
         if outside <= _OUTSIDE and (inside < _BRINK).any():
             warnings.append(
                 f"the centre of pressure of {plate.name} comes within {1e3 * _BRINK:g} mm of its edge: where a part of "
-                "a foot is beside the plate, forces and contact times are too small"
+                "a foot is off the plate, forces and contact times are too small"
             )
         elif outside > _OUTSIDE:
             warnings.append(

@@ -37,8 +37,8 @@ def checked(recording: PressureRecording) -> PressureRecording:
     """Recording with missing-value marks as NaN, warnings of these and of all doubts."""
     found = without_marks(recording)
     alone = [f"the recording holds the {side} foot only" for side in found.feet if len(found.feet) == 1]
-    told = [*found.warnings, *(alone if found.kind != "platform" else ()), *doubts(found)]
-    return replace(found, warnings=tuple(dict.fromkeys(told)))
+    notes = [*found.warnings, *(alone if found.kind != "platform" else ()), *doubts(found)]
+    return replace(found, warnings=tuple(dict.fromkeys(notes)))
 
 
 def doubts(recording: PressureRecording) -> list[str]:

@@ -241,10 +241,16 @@ def _total_of(table: NDArray[np.float64], columns: list[int]) -> int | None:
     return columns[k] if _is_sum(values[:, k], np.delete(values, k, axis=1)) else None
 
 
-def _with_totals(
+def _nameless_cells(
     table: NDArray[np.float64], columns: list[int], warnings: list[str]
 ) -> tuple[list[int], dict[Side, list[int]]]:
-    """Columns, and each foot's before their two sums."""
+    """Columns, and each foot's before their two sums; FormatError for a plate's."""
+    low, high = float(np.nanmin(table[:, columns], initial=0.0)), float(np.nanmax(table[:, columns], initial=0.0))
+    if min(-low, high) > _SIGNED * max(-low, high):
+        raise FormatError(
+            f"columns without names go from {low:.4g} to {high:.4g}, as forces and moments of a plate do and no "
+            "cells; allowed: a row of names (FP1 Fx, FP1 Fy, FP1 Fz, FP1 Mx, ...)"
+        )
     values, half = _sampled(table, columns), (len(columns) - 2) // 2
     pairs = len(columns) % 2 == 0 and half >= 2 and len(values) > 0
     if pairs and _is_sum(values[:, -2], values[:, :half]) and _is_sum(values[:, -1], values[:, half:-2]):
@@ -270,13 +276,7 @@ def _cells(
     if names:
         _report_left_out([names[i] for i in columns if i not in chosen], warnings, "cell")
     else:
-        low, high = float(np.nanmin(table[:, chosen], initial=0.0)), float(np.nanmax(table[:, chosen], initial=0.0))
-        if min(-low, high) > _SIGNED * max(-low, high):
-            raise FormatError(
-                f"columns without names go from {low:.4g} to {high:.4g}, as forces and moments of a plate do and no "
-                "cells; allowed: a row of names (FP1 Fx, FP1 Fy, FP1 Fz, FP1 Mx, ...)"
-            )
-        chosen, both = _with_totals(table, chosen, warnings)
+        chosen, both = _nameless_cells(table, chosen, warnings)
     found = [headings[i].unit for i in chosen if headings[i].unit] if names else []
     if len({find_unit(u) for u in found}) > 1:
         raise FormatError(f"the columns are in different units: {', '.join(sorted(set(found)))}")

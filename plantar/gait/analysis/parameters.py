@@ -93,8 +93,7 @@ def _out_of_time(feet: dict[Side, FootGait]) -> dict[Side, FootGait]:
 def _check_stated(recording: PressureRecording) -> None:
     """Refuse stated events of one foot, another time base, or in swing."""
     begin, end = float(recording.time[0]), float(recording.time[-1])
-    without = " and ".join(side for side in recording.feet if side not in recording.events)
-    if without:
+    if without := " and ".join(side for side in recording.feet if side not in recording.events):
         raise InputError(
             f"{recording.path.name} states no events of {without}; --events allows own, or a file of those of each foot"
         )

@@ -1,8 +1,7 @@
 """Swing path as a polynomial, fitted each tick to its landing (K 13-16).
 
-Ridge regression (K 14) of the reference before, without the foot's measured places that K weighs beside it, exact at
-both ends, unlike K 16, which overwrites two coefficients; time is a share of the swing, the reference
-kept monotone (K 2.4).
+Ridge regression (K 14) of the reference before, without the measured places that K has too, exact at both ends,
+unlike K 16, which overwrites two coefficients; time is a share of the swing, the reference kept monotone (K 2.4).
 """
 
 from dataclasses import dataclass, field

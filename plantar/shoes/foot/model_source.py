@@ -137,7 +137,6 @@ class ModelSource:
 
     def mass(self, name: str) -> tuple[float | None, str]:
         """Mass in kg of a body's robot, None if unknown; and a note."""
-
         model, problem = None, ""
         for read_all in (False, True):
             try:
