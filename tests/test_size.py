@@ -10,7 +10,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 FILES = sorted((ROOT / "plantar").rglob("*.py"))
 
-LIMITS = {"lines": 96_343, "statements": 58_111, "docstring words": 112_686, "lines of a file": 450}
+LIMITS = {"lines": 96_341, "statements": 58_111, "docstring words": 112_682, "lines of a file": 450}
 """What the source has at most; `.pxd` files count as lines. Wanted: 80,000, 48,000, 120,000 and 450 (reached)."""
 
 
