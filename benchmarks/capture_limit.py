@@ -23,10 +23,10 @@ import daqp
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arrays import array, own
+from plantar.common.arrays import array, own
+from plantar.common.gravity import GRAVITY
 from plantar.errors import InputError
 from plantar.geometry.polygon import convex_hull
-from plantar.gravity import GRAVITY
 
 _MOST = 2.0  # m of DCM: no robot comes near
 _ROUND = np.array([(math.cos(a), math.sin(a)) for a in 2.0 * math.pi * np.arange(16) / 16])

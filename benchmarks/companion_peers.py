@@ -20,9 +20,9 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from plantar.atomic import write_text
 from plantar.bench.comparison import time_routes
 from plantar.bench.tables import markdown_table
+from plantar.common.atomic import write_text
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.machine import load_machine
 from plantar.wholebody.fusion.hierarchical_qp import HierarchicalQP, JointLimits

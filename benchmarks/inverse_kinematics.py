@@ -13,8 +13,8 @@ import mink
 import mujoco
 import numpy as np
 
-from plantar.atomic import write_text
 from plantar.bench.tables import markdown_table
+from plantar.common.atomic import write_text
 from plantar.robots import load_robot
 from plantar.robots.kinematics.robot_model import build_leg_model, robot_spec
 from plantar.sim.run.runner import Simulation

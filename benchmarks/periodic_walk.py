@@ -7,9 +7,9 @@ import numpy as np
 from capture_limit import CaptureLimits, Instant, capture_limit, mirrored
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.errors import InputError
 from plantar.mechanics.easing import minimum_jerk
-from plantar.sides import Side
 
 
 @dataclass(frozen=True)

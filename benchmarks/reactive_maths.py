@@ -13,8 +13,9 @@ from periodic_walk import PeriodicWalk, capture_map
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize
 
-from plantar.atomic import write_text
 from plantar.bench.tables import markdown_table
+from plantar.common.atomic import write_text
+from plantar.common.sides import SIDES
 from plantar.gait.balance.ankle_strategy import (
     AnkleRules,
     double_support_pull,
@@ -38,7 +39,6 @@ from plantar.gait.propose.step_adjustment import StepAdjustment, StepAdjustmentR
 from plantar.mechanics.external_wrench import vrp_offset
 from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
 from plantar.sensing.net_wrench import NetWrenchRules, net_wrench
-from plantar.sides import SIDES
 
 OMEGA, MASS, PERIOD = 3.44, 86.0, 0.005
 COUNT = 2000

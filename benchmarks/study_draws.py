@@ -18,13 +18,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.bench.tables import markdown_table
+from plantar.common.sides import SIDES
 from plantar.gait.analysis.analyse import analyse
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.study.compare_conditions import Comparison, compare_conditions
 from plantar.gait.analysis.study.one_recording import RecordingResult, measure_recording
 from plantar.gait.analysis.study.participants import Participation
 from plantar.layouts.layout_file import write_layout
-from plantar.sides import SIDES
 
 FOLDER = Path(__file__).parent
 PEOPLE, STRIDES = 10, 10

@@ -16,7 +16,7 @@ import shapely
 from resumable import append_row, rows_of, write_table
 
 from plantar.bench.tables import markdown_table
-from plantar.sides import SIDES
+from plantar.common.sides import SIDES
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import Scene, builtin_scenes, load_scene
 from plantar.sim.run.scene_kind import open_scene

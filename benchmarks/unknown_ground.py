@@ -131,9 +131,9 @@ def forces() -> None:
     """Draw the ground force on each foot on the slab, without and with (T Fig. 51 and 55)."""
     from tempfile import TemporaryDirectory
 
+    from plantar.common.sides import SIDES
     from plantar.plotting import COLOURS, new_figure, save_figure
     from plantar.recordings.recording import read_mcap
-    from plantar.sides import SIDES
     from plantar.sim.run.runner import run_scene
     from plantar.sim.run.scene import load_scene
 

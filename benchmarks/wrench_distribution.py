@@ -14,7 +14,7 @@ import qpsolvers
 import quadprog
 from scipy.optimize import minimize
 
-from plantar.atomic import write_text
+from plantar.common.atomic import write_text
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.mechanics.wrench_distribution import WrenchDistribution

@@ -40,6 +40,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING
 
+from plantar.common.version import VERSION as __version__
+
 if TYPE_CHECKING:
     from plantar import batch, mujoco
     from plantar.errors import (
@@ -77,7 +79,6 @@ if TYPE_CHECKING:
     from plantar.sim.run.scene_kind import run
     from plantar.viewer.page import write_page as view
 
-__version__ = "0.1.0"
 
 __all__ = [
     "DependencyError",

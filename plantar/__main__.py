@@ -2,7 +2,7 @@
 
 import os
 
-from plantar.console.ending import leave_at_interrupt
+from plantar.common.console.ending import leave_at_interrupt
 
 
 def main() -> None:

@@ -15,12 +15,12 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import instance, integer, number
-from plantar.arrays import held_numbers
+from plantar.common.arguments import instance, integer, number
+from plantar.common.arrays import held_numbers
+from plantar.common.lazy import lazy
 from plantar.errors import ReadingError
 from plantar.kernels.skin import frames as _kernel
 from plantar.layouts.layout import SoleLayout
-from plantar.lazy import lazy
 from plantar.sensing.ground_plane import checked_range, ground_fit
 
 BLOCK = 4096

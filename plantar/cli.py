@@ -7,11 +7,12 @@ from typing import Annotated
 
 import typer
 
-from plantar import __version__, commands
-from plantar.console.command import Command, run_command
-from plantar.console.ending import print_note, run
+from plantar import commands
+from plantar.common.console.command import Command, run_command
+from plantar.common.console.ending import print_note, run
+from plantar.common.extensions import extensions
+from plantar.common.version import VERSION
 from plantar.errors import InputError
-from plantar.extensions import extensions
 
 app = typer.Typer(
     name="plantar",
@@ -25,7 +26,7 @@ app = typer.Typer(
 
 def _print_version(wanted: bool) -> None:
     if wanted:
-        print(f"plantar {__version__}")
+        print(f"plantar {VERSION}")
         raise typer.Exit
 
 

@@ -8,8 +8,9 @@ from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
+from plantar.common.optional_library import optional_library
+from plantar.common.version import VERSION
 from plantar.errors import DependencyError
-from plantar.optional_library import optional_library
 
 LIBRARIES: dict[str, dict[str, str]] = {
     "": {
@@ -80,7 +81,7 @@ def examine(libraries: Mapping[str, Mapping[str, str]] = LIBRARIES) -> dict[str,
     ]
     wrong = [f for f in found if f["problem"] is not None and (f["problem"] != "missing" or not f["extra"])]
     return {
-        "plantar": import_module("plantar").__version__,
+        "plantar": VERSION,
         "python": platform.python_version(),
         "platform": platform.platform(),
         "compiled": bool(import_module("plantar.kernels").compiled),

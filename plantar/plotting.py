@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.atomic import replacing
+from plantar.common.atomic import replacing
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 

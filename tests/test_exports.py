@@ -107,6 +107,8 @@ def test_the_names_of_a_lazy_package_are_those_of_its_modules(package, others):
     }
     assert {n for n, _, _ in typed} | others == set(loaded.__all__)
     for name, module, called in typed:
+        if name in others:
+            continue
         assert getattr(loaded, name) is getattr(importlib.import_module(module), called)
         place, _, other = loaded._PLACES.get(name, "errors").partition(":")
         assert (f"{package}.{place}".rstrip("."), other or name) == (module, called)

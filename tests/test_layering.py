@@ -34,20 +34,23 @@ def part_of(module: str) -> str | None:
 
 ROOMS: dict[str, tuple[str, ...]] = {
     "plantar": (
-        *("errors", "sides", "gravity", "kernels", "arguments", "arrays", "plane_points"),
+        *("errors", "kernels", "common", "parts", "doctor", "mechanics", "layouts", "plotting", "geometry"),
+        *("sensing", "percepts", "batch", "mujoco", "recordings", "formats", "live", "viewer", "bench"),
+    ),
+    "plantar.common": (
         *(
+            "version",
+            "sides",
+            "gravity",
+            "arguments",
+            "arrays",
+            "plane_points",
             "lazy",
             "record",
-            "kernel_class",
             "atomic",
-            "csv_table",
-            "console",
-            "extensions",
-            "optional_library",
-            "doctor",
+            "table_writer",
         ),
-        *("files", "settings", "mechanics", "layouts", "plotting", "pages", "geometry", "sensing"),
-        *("percepts", "batch", "mujoco", "recordings", "formats", "live", "viewer", "bench"),
+        *("console", "extensions", "optional_library", "files", "settings", "pages"),
     ),
     "plantar.gait": (
         *("analysis", "plan", "estimate", "contact", "balance", "feet", "propose", "command", "safety"),
@@ -86,10 +89,10 @@ ALONE = {"plantar.gait.analysis"}
 PLACE_OF_LIBRARY = {
     "cadquery": "plantar.shoes",
     "OCP": "plantar.shoes",
-    "trimesh": ("plantar.shoes", "plantar.files.mesh_library"),
+    "trimesh": ("plantar.shoes", "plantar.common.files.mesh_library"),
     "mujoco": (
         *("plantar.sim", "plantar.robots", "plantar.mujoco"),
-        *("plantar.shoes.foot.model_source", "plantar.files.model_limits"),
+        *("plantar.shoes.foot.model_source", "plantar.common.files.model_limits"),
     ),
     "matplotlib": "plantar.plotting",
     "mpl_toolkits": "plantar.plotting",
@@ -281,7 +284,7 @@ def test_benchmarks_and_examples_do_not_import_the_command_line():
         (
             "plantar/sim/run/runner.py",
             "import trimesh",
-            "trimesh is imported outside plantar.shoes, plantar.files.mesh_library",
+            "trimesh is imported outside plantar.shoes, plantar.common.files.mesh_library",
         ),
         ("plantar/cli.py", "def shoe():\n    import cadquery as cq", "cadquery is imported outside plantar.shoes"),
         ("plantar/gait/plot.py", "from matplotlib.figure import Figure", "matplotlib is imported outside"),

@@ -19,7 +19,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from plantar.settings.schema import Settings, choice, number
+from plantar.common.settings.schema import Settings, choice, number
 from plantar.mechanics.lip import pendulum_frequency
 from plantar.geometry import polygon
 from plantar import Percept, Reading, SoleLayout, hex_layout
@@ -50,7 +50,7 @@ WRONG = """
 import plantar.nothing  # import-not-found
 import numpy as np
 
-from plantar.settings.schema import Settings, number
+from plantar.common.settings.schema import Settings, number
 from plantar.mechanics.lip import pendulum_frequency
 from plantar import Percept, Reading, hex_layout, no_such_name  # attr-defined
 from plantar.shoes.units import to_m

@@ -92,7 +92,7 @@ def _of_the_site(page: Path, path: str) -> str | None:
 
 def settings_page() -> str:
     """Every setting with default, unit and range."""
-    from plantar.settings.overrides import setting_rows
+    from plantar.common.settings.overrides import setting_rows
     from plantar.sim.run.setting_list import settings_of_robot
 
     rows = setting_rows(settings_of_robot(None, None))

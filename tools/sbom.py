@@ -15,7 +15,9 @@ ROOT = Path(__file__).resolve().parent.parent
 
 def bill() -> dict[str, object]:
     """The bill: each library with its version, licence and package URL."""
-    version = re.search(r'__version__ = "([^"]+)"', (ROOT / "plantar" / "__init__.py").read_text(encoding="utf-8"))
+    version = re.search(
+        r'VERSION = "([^"]+)"', (ROOT / "plantar" / "common" / "version.py").read_text(encoding="utf-8")
+    )
     assert version is not None
     pinned = re.findall(r"^([\w.-]+)==(\S+)$", (ROOT / "constraints.txt").read_text(encoding="utf-8"), re.MULTILINE)
     direct = {name.lower(): extras for name, extras in declared().items()}

@@ -1,4 +1,4 @@
-"""Write SECURITY.md: what is promised of files from outside, made of what `plantar.files.gate` declares.
+"""Write SECURITY.md: what is promised of files from outside, made of what `plantar.common.files.gate` declares.
 
 python tools/security_page.py          # writes the page
 python tools/security_page.py --check  # exit code 1 where it is another one
@@ -10,7 +10,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from plantar.files.gate import HELPERS, PROMISES, SIZES  # noqa: E402  of this checkout
+from plantar.common.files.gate import HELPERS, PROMISES, SIZES  # noqa: E402  of this checkout
 
 PAGE = ROOT / "SECURITY.md"
 HEAD = """# Security
@@ -24,7 +24,7 @@ the way to make it. You get an answer within a week, and are named in the change
 
 Fixes go into the latest release; older ones are not maintained.
 
-Made by `python tools/security_page.py` from `plantar/files/gate.py`.
+Made by `python tools/security_page.py` from `plantar/common/files/gate.py`.
 
 ## What protects you, and the test that fails without it
 

@@ -5,12 +5,12 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from plantar.atomic import write_text
 from plantar.bench.comparison import Result
 from plantar.bench.kernels import RANDOM, compare_random_cells, compare_shapes
 from plantar.bench.percepts import TAXELS, compare_forms, compare_percepts, compare_recordings
 from plantar.bench.soles import SIZES
 from plantar.bench.tables import Mark, cell, draw_errors, made_on, markdown_table, write_rows
+from plantar.common.atomic import write_text
 from plantar.kernels import compiled
 from plantar.plotting import new_figure, save_figure
 

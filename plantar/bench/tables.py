@@ -10,8 +10,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from plantar.atomic import write_text
-from plantar.csv_table import csv_text, mapping_rows, original_cell, write_csv_rows
+from plantar.common.atomic import write_text
+from plantar.common.table_writer import csv_text, mapping_rows, original_cell, write_csv_rows
 from plantar.errors import InputError
 from plantar.plotting import COLOURS
 

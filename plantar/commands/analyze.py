@@ -6,9 +6,9 @@ from typing import Annotated, Any, cast
 
 from typer import Argument, Option
 
-from plantar.console.command import Command, Json, Output, end_command, file_lines, with_option_groups
-from plantar.console.ending import print_note
-from plantar.console.progress import progress_bar
+from plantar.common.console.command import Command, Json, Output, end_command, file_lines, with_option_groups
+from plantar.common.console.ending import print_note
+from plantar.common.console.progress import progress_bar
 from plantar.errors import InputError
 
 _NOTES = 3  # Warnings that are printed of each recording; the files hold all

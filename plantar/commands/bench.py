@@ -5,7 +5,7 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from plantar.console.command import Command, Json, Output, end_command
+from plantar.common.console.command import Command, Json, Output, end_command
 
 
 def bench(

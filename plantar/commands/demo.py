@@ -6,10 +6,10 @@ from typing import Annotated
 
 from typer import Option
 
-from plantar.console.command import Command, Json, end_command
-from plantar.console.progress import part_of, progress_bar
-from plantar.optional_library import need_libraries
-from plantar.sides import SIDES
+from plantar.common.console.command import Command, Json, end_command
+from plantar.common.console.progress import part_of, progress_bar
+from plantar.common.optional_library import need_libraries
+from plantar.common.sides import SIDES
 from plantar.sim.libraries import LIBRARIES
 
 
@@ -25,7 +25,7 @@ def demo(
     Example: plantar demo -o out
     """
     need_libraries("sim", *LIBRARIES)
-    from plantar.atomic import output_folder, write_text
+    from plantar.common.atomic import output_folder, write_text
     from plantar.gait.analysis.analyse_one import analyse_recording
     from plantar.layouts.layout_file import read_layout
     from plantar.shoes import build_shoe, export_shoe

@@ -1,6 +1,6 @@
 """`plantar doctor`: list what is installed, missing or broken of what Plantar can use, and how to get it."""
 
-from plantar.console.command import Command, Json, end_command
+from plantar.common.console.command import Command, Json, end_command
 
 
 def doctor(as_json: Json = False) -> None:

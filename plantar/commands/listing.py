@@ -4,9 +4,9 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from plantar.console.command import Command, Json, end_command
+from plantar.common.console.command import Command, Json, end_command
+from plantar.common.optional_library import need_libraries
 from plantar.errors import InputError
-from plantar.optional_library import need_libraries
 
 
 def list_(
@@ -52,7 +52,7 @@ def list_(
             raise InputError(f"'list {what}' takes no {words}, got '{given}'; allowed: plantar list settings NAME")
     if what == "settings":
         need_libraries("sim", "mujoco")
-        from plantar.settings.overrides import setting_rows, setting_text
+        from plantar.common.settings.overrides import setting_rows, setting_text
         from plantar.sim.run.setting_list import settings_of_robot
 
         found = settings_of_robot(name, robot)

@@ -5,8 +5,8 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from plantar.console.command import Command, Json, end_command
-from plantar.console.progress import progress_bar
+from plantar.common.console.command import Command, Json, end_command
+from plantar.common.console.progress import progress_bar
 
 
 def live(
@@ -24,7 +24,7 @@ def live(
 
     Example: plantar live replay:run.mcap --seconds 5
     """
-    from plantar.atomic import keep_inputs, parent_folder
+    from plantar.common.atomic import keep_inputs, parent_folder
     from plantar.layouts.layout_file import read_layout
     from plantar.live.record import record
     from plantar.live.source import open_live

@@ -7,10 +7,10 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from plantar.console.command import Command, Json, Output, end_command
-from plantar.console.progress import part_of, progress_bar
+from plantar.common.console.command import Command, Json, Output, end_command
+from plantar.common.console.progress import part_of, progress_bar
+from plantar.common.optional_library import need_libraries
 from plantar.errors import InputError, RobotError
-from plantar.optional_library import need_libraries
 from plantar.sim.libraries import LIBRARIES
 
 
@@ -47,8 +47,8 @@ def robot(
         checked = check_robot(robot_file, scene or "flat")
         end_command(checked.as_dict(), as_json, checked.text(), checked.failures, not checked.holds)
         return
-    from plantar.atomic import output_folder
-    from plantar.files.model_files import files_of_model
+    from plantar.common.atomic import output_folder
+    from plantar.common.files.model_files import files_of_model
     from plantar.shoes.found_foot import shoe_for_surface
     from plantar.sim.survey.introduce import introduce
 
@@ -61,7 +61,7 @@ def robot(
 
 def _refuse_other(output: Path, description: str) -> None:
     """Refuse a folder that holds another robot, whose files would mix with this one's."""
-    from plantar.files.structured_text import read_toml
+    from plantar.common.files.structured_text import read_toml
 
     file = output / "robot.toml"
     other = read_toml(file, RobotError, str(file)).get("description") if file.exists() else description

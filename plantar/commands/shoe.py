@@ -6,11 +6,11 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from plantar.console.command import Command, Json, Output, end_command, with_option_groups
-from plantar.console.progress import part_of, progress_bar
+from plantar.common.console.command import Command, Json, Output, end_command, with_option_groups
+from plantar.common.console.progress import part_of, progress_bar
+from plantar.common.sides import SIDES
 from plantar.errors import InputError
 from plantar.shoes.order import FootSource, ShoeOrder
-from plantar.sides import SIDES
 
 
 @with_option_groups
@@ -54,7 +54,7 @@ def shoe(
 
     Example: plantar shoe outline_of_my_foot.svg --insole 6 --set robot_mass=72 -o out/insole
     """
-    from plantar.atomic import output_folder
+    from plantar.common.atomic import output_folder
     from plantar.shoes import ShoeParameters, export_shoe, read_parameters
     from plantar.shoes.foot.source import read_foot
     from plantar.shoes.ordered import build_ordered, coupons_text, write_ordered_coupons

@@ -6,10 +6,10 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from plantar.console.command import Command, Json, end_command
-from plantar.console.progress import progress_bar
+from plantar.common.console.command import Command, Json, end_command
+from plantar.common.console.progress import progress_bar
+from plantar.common.optional_library import need_libraries
 from plantar.errors import InputError
-from plantar.optional_library import need_libraries
 from plantar.sim.libraries import LIBRARIES
 
 

@@ -6,10 +6,10 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from plantar.console.command import Command, Json, Output, end_command
-from plantar.console.ending import Terminated, ignore_further_interrupts, print_note
-from plantar.console.progress import progress_bar
-from plantar.optional_library import need_libraries
+from plantar.common.console.command import Command, Json, Output, end_command
+from plantar.common.console.ending import Terminated, ignore_further_interrupts, print_note
+from plantar.common.console.progress import progress_bar
+from plantar.common.optional_library import need_libraries
 from plantar.sim.libraries import LIBRARIES
 
 

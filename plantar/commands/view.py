@@ -5,7 +5,7 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from plantar.console.command import Command, Json, end_command
+from plantar.common.console.command import Command, Json, end_command
 from plantar.errors import InputError
 
 
@@ -27,7 +27,7 @@ def view(
     """
     if output.suffix not in (".html", ".htm"):
         raise InputError(f"-o {output} needs a name that ends in .html")
-    from plantar.atomic import parent_folder
+    from plantar.common.atomic import parent_folder
     from plantar.viewer.page import view_text, write_page
 
     with parent_folder(output):

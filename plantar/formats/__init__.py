@@ -7,11 +7,11 @@ from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
 
-from plantar.arguments import instance
-from plantar.console.ending import one_line
+from plantar.common.arguments import instance
+from plantar.common.console.ending import one_line
+from plantar.common.extensions import extensions
+from plantar.common.files.input_file import check_input, is_file, open_input
 from plantar.errors import FormatError, InputError, PlantarError
-from plantar.extensions import extensions
-from plantar.files.input_file import check_input, is_file, open_input
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.plausibility import checked
 from plantar.formats.units import find_unit

@@ -17,10 +17,11 @@ from typing import IO, Any, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.files.input_file import open_input
+from plantar.common.files.structured_text import JSON_MOST
+from plantar.common.files.zip_archive import open_archive
+from plantar.common.sides import SIDES
 from plantar.errors import FormatError, LayoutError, PlantarError
-from plantar.files.input_file import open_input
-from plantar.files.structured_text import JSON_MOST
-from plantar.files.zip_archive import open_archive
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.column_names import heading_of
 from plantar.formats.format import Format, ReadOptions
@@ -31,7 +32,6 @@ from plantar.layouts.layout import Side, SoleLayout
 from plantar.layouts.layout_file import layout_from_dict
 from plantar.recordings.frame_table import MOST_VALUES
 from plantar.recordings.pressure_recording import Kind, PressureRecording, sampling
-from plantar.sides import SIDES
 
 _SLOWEST = 0.05  # s of a frame of times that are taken to be in ms, us or ns
 _LARGEST = 4e9  # Largest size of all arrays in bytes

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.formats.side import side_of
-from plantar.sides import SIDES, Side
 
 _FOOT = (
     "to|hee|hel|heel|ank|mal|ft|foot|foo|cal|met|mt|mh|hal|hlx|hx|big|sma|smh|vmh|d[1-5]m|p[1-5]m|st[0-9]?$|m[15]|[1-5]m|fcc|fm|"

@@ -12,15 +12,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.files.gate import read_apart
+from plantar.common.files.input_file import check_input, open_input
+from plantar.common.sides import SIDES, Side
 from plantar.errors import DependencyError, FormatError
-from plantar.files.gate import read_apart
-from plantar.files.input_file import check_input, open_input
 from plantar.formats.force_plates import feet_of_plates
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.plate_sides import Plate
 from plantar.formats.units import FORCES, LENGTHS, MOMENTS, plain
 from plantar.recordings.pressure_recording import PressureRecording, StatedEvents, possible_rate
-from plantar.sides import SIDES, Side
 
 _LARGEST, _HEAD = 256e6, 1 << 16  # bytes
 _TILT = 0.97  # Least cosine of the angle between a plate's normal and the laboratory's vertical: 14 degrees, a ramp

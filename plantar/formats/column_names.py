@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
 
+from plantar.common.sides import Side
 from plantar.formats.units import FORCES, LENGTHS, MOMENTS, PASCALS, find_unit, plain
-from plantar.sides import Side
 
 Quantity = Literal["force", "pressure", "cop", "moment", "place", "cell", "number", "foreign", "unknown"]
 """What a column holds: "number" is a heading of nothing but side and number, as cells have; "foreign" is known

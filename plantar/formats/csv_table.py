@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from itertools import chain, islice
 from pathlib import Path
 
+from plantar.common.sides import SIDES
 from plantar.errors import FormatError
 from plantar.formats.column_names import heading_of
 from plantar.formats.format import Format, ReadOptions
@@ -25,7 +26,6 @@ from plantar.formats.table_text import (
 )
 from plantar.formats.text import head_text, number, open_text, table_of_lines
 from plantar.recordings.pressure_recording import PressureRecording
-from plantar.sides import SIDES
 
 _MOST_COLUMNS, _HEAD = 100_000, 200
 _POINT = re.compile(r"(?<!\d)0\.|\.(?!\d{3}(?!\d))|\d{4}\.|\.\d+[eE]")  # that is no mark between thousands

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.files.gate import read_apart
+from plantar.common.files.input_file import check_input
 from plantar.errors import FormatError
-from plantar.files.gate import read_apart
-from plantar.files.input_file import check_input
 from plantar.formats.format import Format, ReadOptions
 from plantar.recordings.pressure_recording import PressureRecording
 

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.files.gate import read_apart
+from plantar.common.files.image_size import stated_size
+from plantar.common.files.input_file import read_input
+from plantar.common.optional_library import optional_library
 from plantar.errors import FormatError, InputError
-from plantar.files.gate import read_apart
-from plantar.files.image_size import stated_size
-from plantar.files.input_file import read_input
 from plantar.formats.format import Format
-from plantar.optional_library import optional_library
 
 _MAGIC = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"II*\0", b"MM\0*", b"BM")
 _LARGEST = 250e6  # Most bytes of a file, and of an image once it is decoded: 83 million pixels in colour

@@ -9,11 +9,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.errors import FormatError, InputError
 from plantar.formats.format import ReadOptions
 from plantar.formats.plate_sides import LEAST, Plate, PlateContact, plate_contacts, sides_of_contacts
 from plantar.recordings.pressure_recording import FootRecording, StatedEvents, true_runs
-from plantar.sides import SIDES, Side
 
 # An empty plate reads less than 0.15 of its peak, or 60 N; else the commonest level is its own, if it is an end.
 _WINDOW, _WINDOW_N = 0.15, 60.0

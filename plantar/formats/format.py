@@ -4,10 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from plantar.common.sides import SIDES, Side
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import RATES, PressureRecording
-from plantar.sides import SIDES, Side
 
 
 @dataclass(frozen=True)

@@ -7,13 +7,13 @@ from typing import get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.errors import DependencyError, FormatError
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import on_one_time
 from plantar.recordings.mcap_content import MCAP_MAGIC
 from plantar.recordings.pressure_recording import FootRecording, Kind, PressureRecording, layout_for, sampling
 from plantar.recordings.recording import Recording, Table, read_mcap
-from plantar.sides import SIDES, Side
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import scale_to_force, unit_of_values
 from plantar.formats.format import Format, ReadOptions
@@ -21,7 +22,6 @@ from plantar.formats.text import head_text, number, open_text, table_of_lines
 from plantar.formats.units import Unit, find_unit
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
-from plantar.sides import SIDES, Side
 
 _CHANNEL = re.compile(r"(left|right)\s+(.*?)\s*(?:\[(.*)\])?\s*$", re.IGNORECASE)
 _USUAL_UNIT = "N/cm2"

@@ -13,6 +13,7 @@ from typing import TextIO
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
@@ -24,7 +25,6 @@ from plantar.formats.units import Unit, find_unit, plain
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
-from plantar.sides import Side
 
 _COLUMNS = re.compile(r"\s*\"?time\s*\[\s*s(?:ecs?)?\s*\]\"?", re.IGNORECASE)
 _NUMBER = r"[-+]?\d+(?:[.,]\d*)?(?:[eE][-+]?\d+)?"

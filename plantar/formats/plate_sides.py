@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side, other_side
 from plantar.recordings.pressure_recording import StatedEvents, true_runs
-from plantar.sides import SIDES, Side, other_side
 
 LEAST = 20.0
 """Vertical force in N from which a plate counts as stepped on, and has a centre of pressure."""

@@ -13,17 +13,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.files.gate import read_apart
+from plantar.common.files.input_file import check_input, is_file
+from plantar.common.files.structured_text import JSON_MOST
+from plantar.common.sides import SIDES
 from plantar.errors import DependencyError, FormatError
-from plantar.files.gate import read_apart
-from plantar.files.input_file import check_input, is_file
-from plantar.files.structured_text import JSON_MOST
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import on_one_time, side_of
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import PressureRecording, sampling
-from plantar.sides import SIDES
 
 _LEAST_CELLS, _MOST_CELLS = 3, 20_000  # Numbers in an array that may be a sole: a picture has more
 _DEPTH = 3

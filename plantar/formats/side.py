@@ -7,9 +7,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side, other_side
 from plantar.errors import FormatError, InputError
 from plantar.formats.column_names import heading_of
-from plantar.sides import SIDES, Side, other_side
 
 _MARKS: dict[Side, re.Pattern[str]] = {
     "left": re.compile(

@@ -8,15 +8,15 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.files.input_file import open_input
+from plantar.common.files.text_table import read_text_table
+from plantar.common.files.xml_file import parse_xml
+from plantar.common.files.zip_archive import open_archive, read_part
+from plantar.common.sides import SIDES, Side
 from plantar.errors import FormatError
-from plantar.files.input_file import open_input
-from plantar.files.text_table import read_text_table
-from plantar.files.xml_file import parse_xml
-from plantar.files.zip_archive import open_archive, read_part
 from plantar.formats.side import side_of
 from plantar.formats.text import number
 from plantar.recordings.pressure_recording import StatedEvents
-from plantar.sides import SIDES, Side
 
 _MOST = 50e6  # bytes that a report may unpack to
 _MOST_SHEETS, _MOST_ROWS = 200, 100_000

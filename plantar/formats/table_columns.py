@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.column_names import Heading, heading_of
@@ -18,7 +19,6 @@ from plantar.formats.table_forces import feet_of_forces, is_force_table
 from plantar.formats.table_text import time_unit
 from plantar.formats.units import find_unit, plain
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
-from plantar.sides import SIDES, Side
 
 _CLOCK = re.compile(r"(?i)time|zeit|tiempo|temp[os]|tijd|clock|elapsed|epoch|[\[({（]m?s([ei][cgk]\w*)?[\])}）]|秒|^s$")
 _MOST_NAMED = 10  # Columns that are left out by name in the warnings; of more their number is given

@@ -6,15 +6,15 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.gravity import GRAVITY
+from plantar.common.sides import SIDES, Side
 from plantar.errors import FormatError
 from plantar.formats.column_names import BODY_WEIGHTS, Heading
 from plantar.formats.force_plates import feet_of_plates
 from plantar.formats.format import ReadOptions
 from plantar.formats.plate_sides import Plate
 from plantar.formats.units import FORCES, LENGTHS, MOMENTS, plain
-from plantar.gravity import GRAVITY
 from plantar.recordings.pressure_recording import FootRecording
-from plantar.sides import SIDES, Side
 
 _Key = tuple[Side | None, int | None]
 # The two horizontal axes, right-handed with each vertical one.

@@ -9,9 +9,9 @@ from typing import TextIO
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.files.input_file import open_input
+from plantar.common.files.text_table import encoding_of
 from plantar.errors import FormatError
-from plantar.files.input_file import open_input
-from plantar.files.text_table import encoding_of
 from plantar.kernels import is_compiled
 from plantar.kernels.formats import decimals
 from plantar.recordings.frame_table import FrameTable

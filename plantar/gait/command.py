@@ -7,7 +7,9 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arrays import read_only
+from plantar.common.arrays import read_only
+from plantar.common.record import Record
+from plantar.common.sides import Side
 from plantar.gait.contact.foot_contacts import FootholdFound
 from plantar.gait.estimate.ankle_sensor import SoleWrench
 from plantar.gait.plan.phases import Phase
@@ -15,10 +17,8 @@ from plantar.gait.plan.plan_change import MovedStep
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.mechanics.base_state import BaseState
 from plantar.percepts.percept import Percept
-from plantar.record import Record
 from plantar.sensing.link_skin import SkinReading
 from plantar.sensing.reading import Reading
-from plantar.sides import Side
 
 _NOTHING = read_only(np.zeros(2))
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.balance.balance_laws import balance_law
 from plantar.gait.balance.load_transfer import OpenLoop
 from plantar.gait.command import Command, FootTarget, Motors, Sensors
@@ -36,7 +37,6 @@ from plantar.gait.tick.footing import Footing
 from plantar.gait.tick.proposers import proposers
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
-from plantar.sides import SIDES, Side
 
 __all__ = ["Command", "FootTarget", "Sensors", "Start", "WalkingController"]
 

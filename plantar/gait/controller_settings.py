@@ -7,6 +7,8 @@ from dataclasses import field
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.schema import Settings, choice, fixed, number, share, switch
+from plantar.common.sides import Side
 from plantar.errors import InputError
 from plantar.gait.balance.ankle_strategy import AnkleRules
 from plantar.gait.balance.dcm_balance import BalanceGains
@@ -36,8 +38,6 @@ from plantar.gait.propose.step_timing import StepTimingRules
 from plantar.mechanics.leg_inertia import LegInertia
 from plantar.sensing.link_skin import BodySkin
 from plantar.sensing.net_wrench import NetWrenchRules
-from plantar.settings.schema import Settings, choice, fixed, number, share, switch
-from plantar.sides import Side
 
 
 class ControllerSettings(Settings):

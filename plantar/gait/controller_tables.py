@@ -4,13 +4,13 @@ from collections.abc import Mapping
 from types import NoneType
 from typing import Any, get_args, get_type_hints
 
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import Setting
+from plantar.common.settings.unknown_keys import refuse_unknown_keys
 from plantar.errors import InputError, PlantarError
 from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.feet.swing_kinds import swing_kinds
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
-from plantar.settings.part import Part
-from plantar.settings.schema import Setting
-from plantar.settings.unknown_keys import refuse_unknown_keys
 
 
 def _parts() -> tuple[dict[str, tuple[type[Part], ...]], frozenset[str]]:

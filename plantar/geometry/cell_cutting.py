@@ -6,7 +6,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arrays import array
+from plantar.common.arrays import array
 from plantar.kernels.geometry.cut_cells import cut_cells
 from plantar.layouts.layout import SoleLayout
 

@@ -6,9 +6,9 @@ Polygons may turn either way and repeat vertices; corners (4, 2) in m, counter-c
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.common.plane_points import plane_points
 from plantar.kernels import is_compiled
 from plantar.kernels.geometry.shapes import ConvexShapes
-from plantar.plane_points import plane_points
 
 
 def bounding_box(points: ArrayLike) -> NDArray[np.float64]:

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.optional_library import optional_library
+from plantar.common.optional_library import optional_library
 
 
 def hull_plane(

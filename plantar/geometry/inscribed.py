@@ -12,7 +12,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import instance, integer, number
+from plantar.common.arguments import instance, integer, number
 from plantar.errors import InputError
 from plantar.geometry.enclosing import bounding_box, convex_shapes
 from plantar.geometry.outline import Outline

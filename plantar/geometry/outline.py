@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import items
-from plantar.arrays import array, integers, own, read_only
+from plantar.common.arguments import items
+from plantar.common.arrays import array, integers, own, read_only
+from plantar.common.lazy import lazy
+from plantar.common.plane_points import plane_points
 from plantar.errors import InputError
 from plantar.kernels.geometry.outline import Rings, area_and_centroid
 from plantar.kernels.geometry.outline import ring_areas as areas_of_rings
 from plantar.layouts.cell_edges import EdgeTable, edge_table
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_mask
-from plantar.lazy import lazy
-from plantar.plane_points import plane_points
 
 _BOOL = np.dtype(np.bool_)
 

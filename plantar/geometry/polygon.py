@@ -9,13 +9,13 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number
+from plantar.common.arguments import number
+from plantar.common.plane_points import plane_point, plane_points
 from plantar.errors import InputError
 from plantar.kernels.geometry import convex as _kernel
 from plantar.kernels.geometry import hull as _hull
 from plantar.kernels.geometry.clean import clean_ring, extent, turning
 from plantar.kernels.geometry.cut_cells import part_below
-from plantar.plane_points import plane_point, plane_points
 
 _DENT = 1e-6  # of its hull: a polygon that lacks less than this is convex
 _NOISE = 1e-15  # of a polygon's extent: corners that a cut leaves nearer to each other are one

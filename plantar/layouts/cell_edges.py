@@ -6,10 +6,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.common.plane_points import plane_points
 from plantar.errors import InputError
 from plantar.kernels import is_compiled
 from plantar.kernels.geometry.outline import EdgeTable
-from plantar.plane_points import plane_points
 
 __all__ = ["WELD", "EdgeTable", "cells_overlap", "edge_table"]
 

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import instance, items, positive
-from plantar.arrays import array, integers, is_finite, numbers
+from plantar.common.arguments import instance, items, positive
+from plantar.common.arrays import array, integers, is_finite, numbers
+from plantar.common.plane_points import plane_points
 from plantar.errors import InputError, LayoutError
 from plantar.layouts.layout import Side, SoleLayout
-from plantar.plane_points import plane_points
 
 _GRID = 1e-6  # of the smallest cell's side
 _OVERLAP = 1e-3  # Share of the smaller cell that two cells may overlap by: rounding, not a fault

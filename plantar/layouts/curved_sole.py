@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import instance
-from plantar.arrays import array, is_finite, numbers
+from plantar.common.arguments import instance
+from plantar.common.arrays import array, is_finite, numbers
 from plantar.errors import InputError, LayoutError
 from plantar.layouts.layout import SoleLayout
 

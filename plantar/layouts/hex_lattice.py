@@ -14,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import LARGEST, number, positive
-from plantar.arrays import array, integers
+from plantar.common.arguments import LARGEST, number, positive
+from plantar.common.arrays import array, integers
+from plantar.common.plane_points import plane_point
 from plantar.errors import InputError
-from plantar.plane_points import plane_point
 
 _WIDEST = 3000  # sides: 14 million cells
 _FARTHEST = 10**9  # cells from the origin: their keys fit 64 bits, their positions have digits left

@@ -15,12 +15,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import instance, integer, items, number
-from plantar.arrays import array, integers, numbers, own, read_only
+from plantar.common.arguments import instance, integer, items, number
+from plantar.common.arrays import array, integers, numbers, own, read_only
+from plantar.common.sides import SIDES, Side, other_side
 from plantar.errors import LayoutError
 from plantar.kernels.skin.sole import SoleKernel
 from plantar.mechanics.lip import GRAVITY
-from plantar.sides import SIDES, Side, other_side
 
 __all__ = [
     "CELL_SHAPES",

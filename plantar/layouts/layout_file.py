@@ -10,10 +10,10 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import instance
-from plantar.atomic import write_text
+from plantar.common.arguments import instance
+from plantar.common.atomic import write_text
+from plantar.common.files.structured_text import read_json
 from plantar.errors import LayoutError
-from plantar.files.structured_text import read_json
 from plantar.layouts.layout import Side, SoleLayout
 
 SCHEMA = "plantar.layout/1"

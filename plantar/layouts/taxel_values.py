@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import LARGEST, does, instance
-from plantar.arrays import is_finite, mask, numbers
+from plantar.common.arguments import LARGEST, does, instance
+from plantar.common.arrays import is_finite, mask, numbers
 from plantar.errors import PlantarError, ReadingError
 from plantar.layouts.layout import SoleLayout
 

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import LARGEST, number
-from plantar.arrays import integers
+from plantar.common.arguments import LARGEST, number
+from plantar.common.arrays import integers
+from plantar.common.plane_points import plane_point
 from plantar.errors import InputError, LayoutError
 from plantar.layouts.cell_layout import checked_ring, edge_neighbours, shared_vertices
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.layouts.layout import LARGEST_COORDINATE, Side, SoleLayout
-from plantar.plane_points import plane_point
 
 MOST_TAXELS = 100_000
 """Most taxels that a lattice lays out; the papers' soles have 42 and 51."""

@@ -8,12 +8,12 @@ import sys
 from collections.abc import Iterator, Mapping
 from typing import BinaryIO, get_args
 
+from plantar.common.sides import SIDES, Side
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 from plantar.live.source import LiveSource, LiveStream
 from plantar.recordings.pressure_recording import Kind, layout_for
 from plantar.sensing.reading import Reading
-from plantar.sides import SIDES, Side
 
 _LONGEST = 1 << 20  # bytes of a line: 50,000 taxels
 

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from plantar.arguments import instance
+from plantar.common.arguments import instance
+from plantar.common.sides import Side
 from plantar.errors import InputError
 from plantar.live.source import LiveStream, device_errors
 from plantar.percepts.percept import Percept
 from plantar.recordings.recorder import Recorder
 from plantar.sensing.reading import Reading
-from plantar.sides import Side
 
 _SHOWN = 0.2  # s of the source's time between two lines of what comes
 _EARLY = 1.0  # s by which the second sole's readings may lie before the first one

@@ -3,13 +3,13 @@
 import time
 from collections.abc import Iterator, Mapping
 
+from plantar.common.sides import Side
 from plantar.errors import InputError
 from plantar.formats import read_recording
 from plantar.layouts.layout import SoleLayout
 from plantar.live.source import LiveSource, LiveStream
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sensing.reading import Reading
-from plantar.sides import Side
 
 
 def _open(address: str, layout: SoleLayout | None) -> LiveStream:

@@ -8,13 +8,13 @@ from pathlib import Path
 from pkgutil import iter_modules
 from typing import NamedTuple
 
-from plantar.arguments import instance
+from plantar.common.arguments import instance
+from plantar.common.extensions import extensions
+from plantar.common.sides import Side
 from plantar.errors import InputError
-from plantar.extensions import extensions
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import Kind
 from plantar.sensing.reading import Reading
-from plantar.sides import Side
 
 
 class LiveStream(NamedTuple):

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.record import Record
+from plantar.common.record import Record
 
 
 class BaseState(Record, frozen=True):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.lazy import lazy
+from plantar.common.lazy import lazy
 from plantar.mechanics.wrench import wrench_in_frame
 from plantar.mechanics.wrench_cone import Rectangle
 

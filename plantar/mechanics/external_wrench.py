@@ -11,9 +11,9 @@ so both push the CoM away (printed: u_F - u_tau). The vertical force is left out
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import positive
-from plantar.arrays import array
-from plantar.gravity import GRAVITY
+from plantar.common.arguments import positive
+from plantar.common.arrays import array
+from plantar.common.gravity import GRAVITY
 
 
 def vrp_offset(wrench: ArrayLike, mass: float, omega: float, virtual_mass: float = 1.0) -> NDArray[np.float64]:

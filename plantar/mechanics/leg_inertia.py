@@ -7,7 +7,7 @@ so accelerates the base against the CoM: c'' = (1 - 2 mu) b'' + mu f''.
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.record import Record
+from plantar.common.record import Record
 
 
 class LegInertia(Record, frozen=True):

@@ -5,10 +5,10 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import positive
-from plantar.arrays import is_finite, numbers
+from plantar.common.arguments import positive
+from plantar.common.arrays import is_finite, numbers
+from plantar.common.gravity import GRAVITY
 from plantar.errors import InputError
-from plantar.gravity import GRAVITY
 
 __all__ = ["GRAVITY", "divergent_component", "pendulum_frequency"]
 

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arrays import array
+from plantar.common.arrays import array
 
 
 def wrench_at(wrench: ArrayLike, point: ArrayLike) -> NDArray[np.float64]:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import positive
+from plantar.common.arguments import positive
 from plantar.errors import InputError
 
 

@@ -21,13 +21,13 @@ import daqp
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import positive
+from plantar.common.arguments import positive
+from plantar.common.record import Record
 from plantar.errors import InputError
 from plantar.kernels.mechanics.wrench_program import WrenchProgram
 from plantar.mechanics.contact import Contact, Contacts
 from plantar.mechanics.wrench_cone import Rectangle, cone_rows
 from plantar.mechanics.zmp import zmp_in_plane
-from plantar.record import Record
 
 _ROWS = 17  # of one contact: 16 facets of the cone and the least normal force
 _RIDGE = 1e-8  # on wrenches while the violations alone are minimised

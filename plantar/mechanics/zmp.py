@@ -9,10 +9,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import items, number
-from plantar.arrays import array
+from plantar.common.arguments import items, number
+from plantar.common.arrays import array
+from plantar.common.plane_points import plane_point
 from plantar.errors import InputError
-from plantar.plane_points import plane_point
 
 
 def zmp_in_plane(wrench: ArrayLike, height: float = 0.0, minimum_force: float = 0.0) -> NDArray[np.float64] | None:

@@ -33,7 +33,7 @@ if not TYPE_CHECKING:
         """Load a public name at first use: `plantar.sim` needs parts of this package, and not all of it."""
         if name not in __all__:
             raise AttributeError(f"module 'plantar.mujoco' has no attribute {name!r}")
-        from plantar.optional_library import need_libraries
+        from plantar.common.optional_library import need_libraries
 
         need_libraries("sim", "mujoco", "scipy")
         return getattr(import_module("plantar.mujoco.skin" if name == "Skin" else "plantar.mujoco.bound_skin"), name)

@@ -10,8 +10,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import integer, items
-from plantar.arrays import array
+from plantar.common.arguments import integer, items
+from plantar.common.arrays import array
 from plantar.errors import InputError
 from plantar.geometry.polygon import convex_hull
 from plantar.kernels.contacts.foot_contacts import ContactsInSole, FootContacts

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number
+from plantar.common.arguments import number
 from plantar.mujoco.bound_skin import BoundSkin
 from plantar.percepts.percept import Percept
 

@@ -11,9 +11,10 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike
 
-from plantar.arguments import instance, items, number, positive
+from plantar.common.arguments import instance, items, number, positive
+from plantar.common.gravity import GRAVITY
+from plantar.common.sides import SIDES, Side, other_side
 from plantar.errors import InputError, LayoutError, RobotError
-from plantar.gravity import GRAVITY
 from plantar.layouts.layout import SoleLayout, mirrored
 from plantar.layouts.layout_file import read_layout
 from plantar.layouts.tiling import hex_layout
@@ -22,7 +23,6 @@ from plantar.mujoco.contacts import REACH
 from plantar.mujoco.named_id import named_id
 from plantar.mujoco.quaternions import quaternion_of
 from plantar.mujoco.sole_shape import SoleShape, rigid_geoms, sole_shape
-from plantar.sides import SIDES, Side, other_side
 
 _CELL_AREA = 691e-6  # m^2, of the papers' soles
 _CELLS = 30  # at least so many of a sole that is fitted

@@ -8,9 +8,9 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.common.sides import Side
 from plantar.errors import RobotError
 from plantar.mujoco.mesh_surface import mesh_surface
-from plantar.sides import Side
 
 _DEPTH = 0.01  # m above the lowest point: what of a round sole a load brings to the ground
 _TILT = math.cos(math.radians(35.0))  # a face that is turned farther from down is no sole

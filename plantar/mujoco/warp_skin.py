@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import instance, integer
+from plantar.common.arguments import instance, integer
+from plantar.common.optional_library import need_libraries
 from plantar.errors import InputError
 from plantar.mujoco import warp_kernels
 from plantar.mujoco.bound_skin import BoundSkin
-from plantar.optional_library import need_libraries
 
 _CONTACTS = 32
 

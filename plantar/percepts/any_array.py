@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from plantar.arguments import instance, number
+from plantar.common.arguments import instance, number
 from plantar.errors import ReadingError
 from plantar.layouts.layout import SoleLayout
 

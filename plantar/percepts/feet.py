@@ -5,12 +5,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import instance, items, number
+from plantar.common.arguments import instance, items, number
+from plantar.common.lazy import lazy
 from plantar.errors import InputError
 from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import area
 from plantar.layouts.layout import SoleLayout
-from plantar.lazy import lazy
 from plantar.mechanics.zmp import zmp_in_plane
 from plantar.percepts.percept import Percept
 from plantar.percepts.sole_pose import SolePose, feet_support_polygon, wrench_of_feet

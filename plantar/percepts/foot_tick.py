@@ -5,11 +5,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number
+from plantar.common.arguments import number
+from plantar.common.plane_points import plane_point
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_values
-from plantar.plane_points import plane_point
 
 _FLOAT = np.dtype(np.float64)
 

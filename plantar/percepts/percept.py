@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import instance, number
+from plantar.common.arguments import instance, number
+from plantar.common.lazy import lazy
+from plantar.common.record import constructed_by_kernel
 from plantar.errors import ReadingError
 from plantar.kernels.base.vectors import close
 from plantar.kernels.skin.percept_fields import PerceptFields
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_mask
-from plantar.lazy import lazy
 from plantar.mechanics.zmp import zero_moment_wrench
 from plantar.percepts.percept_options import PerceptOptions
 from plantar.percepts.percept_shapes import ShapeMembers
 from plantar.percepts.percept_virtual import VirtualMembers
-from plantar.record import constructed_by_kernel
 from plantar.sensing.activation import active_taxels
 from plantar.sensing.force import scaled_by_area
 from plantar.sensing.health import TaxelHealth, fill_from_neighbours

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from plantar.arguments import number, positive
+from plantar.common.arguments import number, positive
 from plantar.errors import InputError
 from plantar.sensing.proximity import contour_levels
 

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.lazy import lazy
 from plantar.geometry import enclosing as _enclosing
 from plantar.geometry import inscribed as _inscribed
 from plantar.geometry.inscribed import BoundedRectangle, Circle, safe_rectangle
 from plantar.geometry.outline import Outline, concave_outline
 from plantar.layouts.layout import SoleLayout
-from plantar.lazy import lazy
 
 
 class ShapeMembers:

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.lazy import lazy
 from plantar.layouts.layout import SoleLayout
-from plantar.lazy import lazy
 from plantar.percepts.percept_options import PerceptOptions
 from plantar.sensing import ground_plane as _ground
 from plantar.sensing import proximity as _proximity

@@ -7,17 +7,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import instance, items, number
-from plantar.arrays import array, is_finite, numbers, own
+from plantar.common.arguments import instance, items, number
+from plantar.common.arrays import array, is_finite, numbers, own
+from plantar.common.lazy import lazy
+from plantar.common.plane_points import plane_points
 from plantar.errors import InputError
 from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import convex_hull
 from plantar.kernels.geometry import convex as _kernel
 from plantar.layouts.cell_edges import WELD
 from plantar.layouts.layout import SoleLayout
-from plantar.lazy import lazy
 from plantar.mechanics.rotation import level_rotation
-from plantar.plane_points import plane_points
 
 
 @dataclass(frozen=True, eq=False)

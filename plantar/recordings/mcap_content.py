@@ -13,9 +13,9 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.files.structured_text import JSON_MOST
+from plantar.common.files.zip_archive import ALLOWED, is_bomb
 from plantar.errors import FormatError, LayoutError
-from plantar.files.structured_text import JSON_MOST
-from plantar.files.zip_archive import ALLOWED, is_bomb
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import layout_from_dict
 from plantar.recordings.foxglove import SCHEMAS

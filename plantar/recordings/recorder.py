@@ -19,7 +19,7 @@ from typing import IO, Any, Generic, NamedTuple, Self, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.atomic import temporary_beside
+from plantar.common.atomic import temporary_beside
 from plantar.errors import InputError, RecordingError
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import layout_to_dict

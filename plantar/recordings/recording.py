@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.atomic import output_folder, replacing
+from plantar.common.atomic import output_folder, replacing
+from plantar.common.files.input_file import open_input
 from plantar.errors import FormatError, InputError
-from plantar.files.input_file import open_input
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import layout_to_dict
 from plantar.recordings.mcap_content import MCAP_MAGIC, McapContent

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.unknown_keys import refuse_unknown_keys
+from plantar.common.sides import SIDES, Side
 from plantar.errors import RobotError
-from plantar.settings.unknown_keys import refuse_unknown_keys
-from plantar.sides import SIDES, Side
 
 _JOINTS = ("hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll")
 _AXES = ("0 0 1", "1 0 0", "0 1 0", "0 1 0", "0 1 0", "1 0 0")

@@ -9,14 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import does, instance, number
-from plantar.arrays import array
+from plantar.common.arguments import does, instance, number
+from plantar.common.arrays import array
+from plantar.common.gravity import GRAVITY
+from plantar.common.settings.unknown_keys import refuse_unknown_keys
 from plantar.errors import InputError, SceneError
 from plantar.gait.command import Command, JointTargets, Sensors
 from plantar.gait.controller import WalkingController
 from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table
 from plantar.gait.plan.walk_plan import vrp_of_step
-from plantar.gravity import GRAVITY
 from plantar.robots.controller_settings import com_height_of, controller_settings
 from plantar.robots.kinematics.ankle_limits import ankle_limits
 from plantar.robots.kinematics.ankle_sensors import ankle_sensors
@@ -32,7 +33,6 @@ from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
 from plantar.robots.start import start_of_walk
 from plantar.robots.walk import Control, Walk, crouches
-from plantar.settings.unknown_keys import refuse_unknown_keys
 
 __all__ = ["JointTargets", "RobotController", "load_controller"]
 

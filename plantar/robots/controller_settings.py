@@ -7,6 +7,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import BodyScale
+from plantar.common.sides import Side
 from plantar.errors import InputError, SceneError
 from plantar.gait.balance.balance_laws import balance_gains
 from plantar.gait.controller_settings import ControllerSettings
@@ -17,8 +19,6 @@ from plantar.mechanics.leg_inertia import LegInertia
 from plantar.robots.robot import Robot
 from plantar.robots.walk import Control, Walk, crouches, walk_timing
 from plantar.sensing.link_skin import BodySkin
-from plantar.settings.body_scale import BodyScale
-from plantar.sides import Side
 
 # Heading correction by the loaded feet in 1/s where they meet ground that is not where it is expected: they turn a
 # little as they land, which only the gyro shows. (Corrected by 2.0 a walk of 100 steps drifted 42 mm off to the

@@ -8,8 +8,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.robots.robot import Robot
-from plantar.sides import SIDES, Side
 
 COLLIDES: Mapping[Side, tuple[int, int]] = {"left": (4, 8), "right": (8, 4)}
 """MuJoCo's contype and conaffinity of each leg's shapes."""

@@ -8,14 +8,14 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from plantar.common.files.model_files import check_model
+from plantar.common.sides import SIDES
 from plantar.errors import RobotError
-from plantar.files.model_files import check_model
 from plantar.mechanics.lip import GRAVITY
 from plantar.mujoco.deletion import delete_all
 from plantar.mujoco.quaternions import quaternion_of
 from plantar.robots.leg_shapes import add_leg_shapes
 from plantar.robots.robot import LegNames, Robot
-from plantar.sides import SIDES
 
 _SHOE_HEIGHT = 0.02  # m: where the shoe's mass is taken to be above the contact face, at most
 

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.layouts.layout import SoleLayout
 from plantar.robots.biped import BipedParameters
-from plantar.sides import Side
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ class Robot:
         approach_support: Least t_ss in s of a walk with slow approach, for weak motors; else 0.
         ankle_reach: Largest distance in m from the sole's origin at which the ankle carries the robot.
         rocks: Whether legs without ankle roll rock from foot to foot: own timing, no slow approach.
-        pace: Beats of leg in the time unit of quick steps (`plantar.settings.body_scale`).
+        pace: Beats of leg in the time unit of quick steps (`plantar.common.settings.body_scale`).
         stiffness: Servo position gain of each leg joint in N m/rad.
         damping: Servo velocity gain in N m s/rad.
         own_stiffness: Position gain of each joint's own motor in N m/rad (`control.drives`).

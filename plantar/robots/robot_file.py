@@ -9,10 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.files.input_file import check_input
+from plantar.common.files.model_files import named_file
+from plantar.common.files.structured_text import packaged_files, read_json, read_toml
+from plantar.common.settings.unknown_keys import builtin_or_file, refuse_unknown_keys
+from plantar.common.sides import SIDES, Side
 from plantar.errors import InputError, LayoutError, RobotError
-from plantar.files.input_file import check_input
-from plantar.files.model_files import named_file
-from plantar.files.structured_text import packaged_files, read_json, read_toml
 from plantar.gait.balance.balance_laws import balance_gains
 from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table
 from plantar.layouts.layout import SoleLayout
@@ -20,8 +22,6 @@ from plantar.layouts.layout_file import read_layout
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.robots.biped import BipedParameters
 from plantar.robots.robot import Arms, FootShape, LegNames, Robot
-from plantar.settings.unknown_keys import builtin_or_file, refuse_unknown_keys
-from plantar.sides import SIDES, Side
 
 _FOLDER = Path(__file__).parent
 _LEAST_JOINTS = 4  # of a leg: hip roll and pitch, knee, ankle pitch; the ground chooses the sole's roll

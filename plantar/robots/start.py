@@ -2,13 +2,13 @@
 
 import math
 
+from plantar.common.sides import Side, other_side
 from plantar.errors import InputError, SceneError
 from plantar.gait.controller import Start
 from plantar.gait.plan.footsteps import Footstep, straight_plan
 from plantar.gait.propose.velocity_command import Legs, VelocityCommand, VelocityTable
 from plantar.robots.robot import Robot
 from plantar.robots.walk import Walk
-from plantar.sides import Side, other_side
 
 
 def start_of_walk(

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from plantar.common.settings.body_scale import BodyScale
+from plantar.common.settings.schema import Settings, choice, number, share, switch, tables, whole
 from plantar.errors import InputError
 from plantar.gait.feet.swing_kinds import swing_kinds
 from plantar.gait.plan.phases import Timing
 from plantar.gait.propose.velocity_command import STOP, VelocityTable, table_of
 from plantar.robots.robot import Robot
-from plantar.settings.body_scale import BodyScale
-from plantar.settings.schema import Settings, choice, number, share, switch, tables, whole
 
 # Beats that the phases of a step last where neither scene nor robot states them: 0.9 and 0.3 s on a leg of 0.6 m
 _SINGLE_SUPPORT, _DOUBLE_SUPPORT = 3.64, 1.21

@@ -5,8 +5,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number
-from plantar.arrays import mask, numbers
+from plantar.common.arguments import number
+from plantar.common.arrays import mask, numbers
 from plantar.errors import InputError, ReadingError
 
 

@@ -7,8 +7,8 @@ axis out of it).
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import LARGEST, number
-from plantar.arrays import array, mask, numbers
+from plantar.common.arguments import LARGEST, number
+from plantar.common.arrays import array, mask, numbers
 from plantar.errors import InputError, ReadingError
 from plantar.layouts.taxel_values import without_dead
 

@@ -11,8 +11,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import LARGEST, number
-from plantar.arrays import is_finite, numbers
+from plantar.common.arguments import LARGEST, number
+from plantar.common.arrays import is_finite, numbers
 from plantar.errors import InputError
 
 _NEGLIGIBLE, _LOUDEST = 1e-12, 1e6  # N

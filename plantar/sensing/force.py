@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number, positive
-from plantar.arrays import array
+from plantar.common.arguments import number, positive
+from plantar.common.arrays import array
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_frames, taxel_values

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number, positive
-from plantar.arrays import read_only
+from plantar.common.arguments import number, positive
+from plantar.common.arrays import read_only
 from plantar.errors import InputError
 from plantar.kernels.skin.ground import GroundFit
 from plantar.layouts.layout import SoleLayout

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number
-from plantar.arrays import mask, numbers, read_only
+from plantar.common.arguments import number
+from plantar.common.arrays import mask, numbers, read_only
+from plantar.common.lazy import lazy
 from plantar.errors import InputError, ReadingError
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_frames
-from plantar.lazy import lazy
 
 
 @dataclass(frozen=True, eq=False)

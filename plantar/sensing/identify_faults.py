@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import LARGEST
-from plantar.arrays import array
+from plantar.common.arguments import LARGEST
+from plantar.common.arrays import array
 from plantar.errors import ReadingError
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.taxel_faults import WARMING, TaxelFaults, WornFaults

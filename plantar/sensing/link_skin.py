@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arrays import array
+from plantar.common.arrays import array
 from plantar.errors import InputError, LayoutError
 from plantar.sensing.body_skin import skin_wrench
 

@@ -10,12 +10,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arrays import array
+from plantar.common.arrays import array
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import number, share
 from plantar.errors import ReadingError
 from plantar.sensing.body_skin import active_cells, pseudo_force
 from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
-from plantar.settings.part import Part
-from plantar.settings.schema import number, share
 
 
 class NetWrenchRules(Part, table="push_felt", needs={"control.push_estimate": ("skin",)}):

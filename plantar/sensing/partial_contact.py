@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import LARGEST, number
-from plantar.arrays import array
+from plantar.common.arguments import LARGEST, number
+from plantar.common.arrays import array
 from plantar.geometry.cell_cutting import CellCutter, half_planes
 from plantar.geometry.polygon import closest_point, convex_hull, inner_offset, part_inside
 from plantar.layouts.layout import SoleLayout

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number, positive
-from plantar.arrays import array, numbers, read_only
+from plantar.common.arguments import number, positive
+from plantar.common.arrays import array, numbers, read_only
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_mask, taxel_values

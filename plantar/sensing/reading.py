@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import number
-from plantar.arrays import numbers, own
+from plantar.common.arguments import number
+from plantar.common.arrays import numbers, own
+from plantar.common.record import constructed_by_kernel
 from plantar.errors import ReadingError
 from plantar.kernels.base import vectors
 from plantar.kernels.skin.percept_fields import ReadingFields
-from plantar.record import constructed_by_kernel
 
 _TIME, _FORCE = "reading field 'time'", "reading field 'force'"
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number
-from plantar.arrays import array
+from plantar.common.arguments import number
+from plantar.common.arrays import array
 from plantar.errors import InputError, ReadingError
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.same_time import SAME_TIME

@@ -5,8 +5,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number
-from plantar.arrays import numbers
+from plantar.common.arguments import number
+from plantar.common.arrays import numbers
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_frames, taxel_values
 from plantar.sensing.proximity import cells_polygon

@@ -5,8 +5,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import LARGEST, number
-from plantar.arrays import array, is_finite
+from plantar.common.arguments import LARGEST, number
+from plantar.common.arrays import array, is_finite
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_frames

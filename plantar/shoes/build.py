@@ -7,8 +7,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.gravity import GRAVITY
+from plantar.common.sides import SIDES
 from plantar.errors import FootError, InputError
-from plantar.gravity import GRAVITY
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.shoes.cells.cell import Cell
 from plantar.shoes.fit.cell_fit import fit_cells
@@ -28,7 +29,6 @@ from plantar.shoes.solid.body import bare_floor, insole_steps, mark_outline, sho
 from plantar.shoes.solid.kernel import build_solid, load_kernel
 from plantar.shoes.solid.polyhedron import Polyhedron
 from plantar.shoes.solid.retention import Retention, choose_retention
-from plantar.sides import SIDES
 
 Sides = Literal["left", "right", "both"]  # which shoes to build
 

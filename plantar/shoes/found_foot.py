@@ -8,15 +8,15 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from plantar.common.gravity import GRAVITY
+from plantar.common.sides import SIDES
 from plantar.errors import FootError, PlantarError
-from plantar.gravity import GRAVITY
 from plantar.shoes.build import Progress, ShoeBuild, build_shoe
 from plantar.shoes.foot.foot import Foot, foot_from_outline
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.geometry.outline import tidy
 from plantar.shoes.papers.export import export_shoe
 from plantar.shoes.units import MM_PER_M, to_m
-from plantar.sides import SIDES
 
 TAXELS = 42  # taxels of the papers' soles, which a smaller sole has, too: what they measure depends on their number
 

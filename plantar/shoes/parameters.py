@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
+from plantar.common.files.structured_text import read_json, read_toml
 from plantar.errors import InputError
-from plantar.files.structured_text import read_json, read_toml
 from plantar.shoes.materials import MATERIALS, PROCESSES, Material, Process
 
 

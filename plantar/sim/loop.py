@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from plantar.atomic import output_folder, parent_folder
+from plantar.common.atomic import output_folder, parent_folder
 from plantar.sim.figures.render import FRAME_RATE
 
 Progress = Callable[[float, str], None]

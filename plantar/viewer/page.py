@@ -17,11 +17,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import instance, items
-from plantar.atomic import keep_inputs, replacing
+from plantar.common.arguments import instance, items
+from plantar.common.atomic import keep_inputs, replacing
+from plantar.common.pages.page import with_policy
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
-from plantar.pages.page import with_policy
 from plantar.recordings.pressure_recording import FootRecording
 from plantar.viewer.messages import Entity, Shape
 from plantar.viewer.walk import Walk, read_walk

@@ -16,14 +16,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.gravity import GRAVITY
+from plantar.common.sides import SIDES, Side
 from plantar.errors import FormatError
-from plantar.gravity import GRAVITY
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.rotation import vector_from_rotation
 from plantar.recordings.foxglove import LEVELS, message_of
 from plantar.recordings.mcap_content import McapContent, Sink, message_values
 from plantar.recordings.recording import take_mcap
-from plantar.sides import SIDES, Side
 from plantar.viewer.messages import Entity, deleted_all, entities, transforms
 from plantar.viewer.sampling import FramePoses, Latest
 

@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.schema import Settings, number
 from plantar.errors import InputError
-from plantar.settings.schema import Settings, number
 from plantar.wholebody.dynamics import RobotDynamics
 
 

@@ -11,10 +11,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from plantar.common.files.model_limits import check_model_size
+from plantar.common.files.structured_text import parse_toml
+from plantar.common.files.xml_file import parse_xml
 from plantar.errors import PlantarError
-from plantar.files.model_limits import check_model_size
-from plantar.files.structured_text import parse_toml
-from plantar.files.xml_file import parse_xml
 from plantar.formats import read_recording
 from plantar.formats.stated_events import read_events
 from plantar.gait.analysis.study.participants import read_participants

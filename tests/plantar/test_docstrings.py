@@ -11,7 +11,7 @@ import plantar
 from ..public_names import public_names
 
 # Recordings, files and drawing are documented where they are tested; errors are one line each.
-OTHERS = {"atomic", "errors", "partial_contact", "plotting", "pressure_recording", "recorder", "recording"}
+OTHERS = {"errors", "parts", "partial_contact", "plotting", "pressure_recording", "recorder", "recording"}
 MODULES = sorted(m.name for m in pkgutil.iter_modules(plantar.__path__) if not m.ispkg and m.name not in OTHERS)
 
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import plantar
+from plantar.common.sides import SIDES
 from plantar.errors import InputError, RobotError, SceneError
 from plantar.gait.command import Sensors
 from plantar.robots.controller import RobotController, load_controller
-from plantar.sides import SIDES
 
 
 @pytest.fixture(scope="module")

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import pytest
 
+from plantar.common.settings.body_scale import REFERENCE_BODY
 from plantar.errors import RobotError, SceneError
 from plantar.gait.controller_tables import CONTROLLER_TABLES, controller_keys, controller_settings_described
 from plantar.gait.estimate.estimator import EstimatorGains
 from plantar.robots.controller_settings import controller_settings
 from plantar.robots.robot_file import load_robot
-from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.sim.run.scene import load_scene
 
 ALL_ON = ["pfc=true", "control.feasibility=skin", "conform=true", "footholds=skin"]

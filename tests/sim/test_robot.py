@@ -6,11 +6,11 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.errors import InputError, RobotError
 from plantar.robots import load_robot
 from plantar.robots.controller_settings import controller_settings
 from plantar.robots.kinematics.robot_model import robot_spec
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sim.run.scene import load_scene
 
 

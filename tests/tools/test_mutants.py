@@ -78,8 +78,8 @@ def test_a_mutant_takes_the_place_of_its_module(tmp_path):
     source = tmp_path / "changed.py"
     source.write_text("GRAVITY = 1.0\n")
     environment = dict(os.environ, PYTHONPATH=os.pathsep.join([str(mutants.ROOT), str(mutants.ROOT / "tools")]))
-    environment |= {mutants.MODULE: "plantar.gravity", mutants.SOURCE: str(source)}
-    code = "import mutants; from plantar.gravity import GRAVITY; print(GRAVITY)"
+    environment |= {mutants.MODULE: "plantar.common.gravity", mutants.SOURCE: str(source)}
+    code = "import mutants; from plantar.common.gravity import GRAVITY; print(GRAVITY)"
     told = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
     assert told.stdout.strip() == "1.0"
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.gait.analysis.steps.cop_path import chords
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.gait.analysis.steps.segments import FLIGHT, most_common
 from plantar.recordings.pressure_recording import PressureRecording, true_runs
-from plantar.sides import Side
 
 # Stance in % of the stride of both feet above which they cannot both be in the air, with 2 % for what events err.
 _HALF = 52.0

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from plantar.atomic import output_folder
+from plantar.common.atomic import output_folder
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, named_format
 from plantar.formats.given import recording_of

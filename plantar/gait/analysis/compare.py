@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from plantar.atomic import output_folder
-from plantar.console.progress import part_of
+from plantar.common.atomic import output_folder
+from plantar.common.console.progress import part_of
+from plantar.common.sides import SIDES, Side
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, named_format
 from plantar.gait.analysis.analyse_one import analyse_one, with_layout
@@ -25,7 +26,6 @@ from plantar.gait.analysis.results import Analysis, write_analysis
 from plantar.gait.analysis.subject import Subject
 from plantar.plotting import COLOURS, new_figure
 from plantar.recordings.pressure_recording import PressureRecording
-from plantar.sides import SIDES, Side
 
 _SENSORS = {"insole": "insoles", "platform": "a platform", "robot": "a robot's soles", "plate": "force plates"}
 

@@ -12,13 +12,13 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.common.plane_points import plane_points
+from plantar.common.sides import Side
 from plantar.errors import InputError
 from plantar.gait.analysis.results import Analysis
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 from plantar.gait.analysis.steps.pressure_measures import region_measures
 from plantar.gait.analysis.steps.step_load import StepLoad, StepLoads
-from plantar.plane_points import plane_points
-from plantar.sides import Side
 
 _FARTHEST = 2.0  # Largest distance of a mask's corner from the middle of the foot, in shares of its length or width
 

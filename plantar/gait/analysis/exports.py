@@ -14,15 +14,15 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar import __version__
-from plantar.atomic import keep_inputs, parent_folder, replacing, write_text
-from plantar.csv_table import write_csv_rows
+from plantar.common.atomic import keep_inputs, parent_folder, replacing, write_text
+from plantar.common.optional_library import optional_library
+from plantar.common.sides import Side
+from plantar.common.table_writer import write_csv_rows
+from plantar.common.version import VERSION
 from plantar.errors import InputError
 from plantar.gait.analysis.results import Analysis
 from plantar.layouts.layout_file import layout_to_dict
-from plantar.optional_library import optional_library
 from plantar.recordings.pressure_recording import PressureRecording
-from plantar.sides import Side
 
 
 class GroundReaction(NamedTuple):
@@ -183,7 +183,7 @@ def _sidecar(analysis: Analysis, target: Path) -> dict[str, Any]:
         "Units": _unit(analysis),
         "Columns": {side: foot.force.shape[1] for side, foot in recording.feet.items()},
         "SoftwareName": "plantar",
-        "SoftwareVersions": __version__,
+        "SoftwareVersions": VERSION,
         "SourceFile": recording.path.name,
         "SourceFormat": recording.format,
         "Sha256": hashlib.sha256(target.read_bytes()).hexdigest(),

@@ -6,14 +6,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.gravity import GRAVITY
+from plantar.common.sides import SIDES, Side, other_side
 from plantar.gait.analysis.steps.baseline import resting_level
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.gait.analysis.summary import spread
-from plantar.gravity import GRAVITY
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.frame_table import column_maxima, let_go
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
-from plantar.sides import SIDES, Side, other_side
 
 _BESIDE = 1.7  # Usual distances between cells up to which they are neighbours: the eight around a cell of a matrix
 _CARRIES = 0.15  # Largest reading of a cell that carries load, as a share of the high ones

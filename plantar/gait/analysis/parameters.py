@@ -9,6 +9,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side, other_side
 from plantar.errors import InputError
 from plantar.gait.analysis.health import unequal_strides
 from plantar.gait.analysis.options import AnalysisOptions
@@ -29,7 +30,6 @@ from plantar.gait.analysis.steps.step_measures import step_measures
 from plantar.gait.analysis.steps.step_times import OtherFoot, longest_strides, stride_times, time_measures
 from plantar.gait.analysis.steps.walk_geometry import Place, step_geometry
 from plantar.recordings.pressure_recording import PressureRecording
-from plantar.sides import Side, other_side
 
 # Time in s over which the centre of pressure is averaged, weighted by force: a path of noise has no length.
 COP_WINDOW = 0.05

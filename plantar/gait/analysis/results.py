@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.csv_table import csv_text
+from plantar.common.table_writer import csv_text
 from plantar.errors import InputError
 from plantar.gait.analysis.measures import MEASURES, REGION_MEASURES, naming
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
@@ -69,7 +69,7 @@ class Analysis:
             write_analysis(self, Path(folder))
             page = (Path(folder) / "report.html").read_text(encoding="utf-8")
         if path is not None:
-            from plantar.atomic import write_text
+            from plantar.common.atomic import write_text
 
             write_text(Path(path), page)
         return page

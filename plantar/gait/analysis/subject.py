@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from plantar.common.gravity import GRAVITY
 from plantar.errors import InputError
 from plantar.formats import formats
-from plantar.gravity import GRAVITY
 from plantar.recordings.pressure_recording import PressureRecording
 
 BODY_MASSES, FOOT_LENGTHS = (2.0, 400.0), (0.05, 0.45)

@@ -11,11 +11,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arrays import array
+from plantar.common.arrays import array
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import choice, switch
+from plantar.common.settings.schema import number as number_setting
 from plantar.geometry.polygon import closest_point
-from plantar.settings.part import Part
-from plantar.settings.schema import choice, switch
-from plantar.settings.schema import number as number_setting
 
 SHORTEST_TIME = 1e-6
 """Time in s in which the DCM shall reach its target at least."""

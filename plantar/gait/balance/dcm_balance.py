@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import fixed, share
+from plantar.common.sides import Side
 from plantar.gait.balance.foot_admittance import AdmittanceGains, FootAdmittance
 from plantar.gait.balance.law import BalanceState, Feet, FootAction, FootState
 from plantar.gait.balance.load_transfer import transferred
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.kernels.gait.dcm_feedback import ComAdmittance, DcmFeedback
-from plantar.settings.part import Part
-from plantar.settings.schema import fixed, share
-from plantar.sides import Side
 
 _LARGEST_OFFSET = 0.5  # leg that the CoM's reference may be off its plan: no foot reaches both from there
 _HELD = 0.22  # sole that ankles move the ZMP by: half a sole's width less the margin; beyond, the CoM goes along

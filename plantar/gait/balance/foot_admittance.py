@@ -9,9 +9,9 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.schema import Settings, fixed, share
+from plantar.common.sides import SIDES, Side
 from plantar.kernels.gait.sole_admittance import SoleAdmittance
-from plantar.settings.schema import Settings, fixed, share
-from plantar.sides import SIDES, Side
 
 
 class AdmittanceGains(Settings):

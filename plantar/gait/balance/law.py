@@ -7,11 +7,11 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.record import Record
+from plantar.common.sides import Side
 from plantar.gait.estimate.command_frame import CommandFrame
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.mechanics.contact import Contact
-from plantar.record import Record
-from plantar.sides import Side
 
 
 class BalanceState(Record, frozen=True):

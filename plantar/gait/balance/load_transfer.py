@@ -6,11 +6,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.gait.balance.law import BalanceState, Feet, FootAction
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.kernels.gait.dcm_feedback import shared_load
 from plantar.mechanics.lip import GRAVITY
-from plantar.sides import Side
 
 
 def transferred(balanced: BalanceState, mass: float, feet: Feet) -> dict[Side, FootAction]:

@@ -11,6 +11,10 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import Setting, fixed, number, share
+from plantar.common.settings.unknown_keys import refuse_unknown_keys
 from plantar.errors import InputError, PlantarError
 from plantar.gait.balance.dcm_balance import DcmBalance
 from plantar.gait.balance.foot_admittance import AdmittanceGains
@@ -20,10 +24,6 @@ from plantar.layouts.layout import Side
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.wrench_distribution import DistributionWeights, WrenchDistribution
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
-from plantar.settings.part import Part
-from plantar.settings.schema import Setting, fixed, number, share
-from plantar.settings.unknown_keys import refuse_unknown_keys
 
 _NO_WRENCH = np.zeros(6)
 _LENGTH = 1 / 6  # leg: lever that makes moments as large as forces in the distribution; 0.1 m for a leg of 0.6 m

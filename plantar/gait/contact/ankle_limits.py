@@ -7,7 +7,7 @@ another part of the sole.
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arrays import own
+from plantar.common.arrays import own
 from plantar.geometry.polygon import area, centroid, closest_point, inner_offset, part_inside
 
 # Share of the torque limit that the weight may take; the rest is for the foot's own motion and the feedback

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
 
 _SPREAD = 0.012  # of a sole's length, standard deviation of an edge's place: 3 mm of a sole of 250 mm
 _TURN = 0.05  # rad, that of its direction

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.contact.ankle_limits import UPRIGHT, AnkleLimits
 from plantar.gait.contact.ankle_reach import borne_part, loaded_middle
 from plantar.gait.contact.edge_memory import EdgeMemory
@@ -21,7 +22,6 @@ from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.rotation import level_rotation
 from plantar.percepts.percept import Percept
 from plantar.percepts.sole_pose import feet_support_polygon, polygon_in_world
-from plantar.sides import SIDES, Side
 
 _FORGETS = 4  # steps after which a foothold that carried a part of the sole is no evidence of the ground ahead
 _LEANS = 0.05  # rad from which a sole on a slope moves its ankle by more than encoders err

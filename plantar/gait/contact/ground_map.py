@@ -11,13 +11,13 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import choice, share
 from plantar.kernels.gait.highest_ground import highest_plane
 from plantar.layouts.layout import SoleLayout
 from plantar.percepts.percept import Percept
 from plantar.percepts.percept_options import PROXIMITY_GAIN
 from plantar.sensing.virtual_wrench import virtual_ground_reaction_wrench
-from plantar.settings.part import Part
-from plantar.settings.schema import choice, share
 
 _LARGEST_BIAS_STEP = 0.0025  # leg that one touch changes the bias by: more is ground that moved
 _NEAR_TOUCH = 0.025  # leg that the ground may seem away at a touch for the bias to learn from it

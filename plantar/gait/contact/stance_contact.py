@@ -9,13 +9,13 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import fixed, number, switch
 from plantar.geometry.polygon import area, centroid, signed_margin
 from plantar.kernels.gait.carried_load import mark_carried, take_in
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.partial_contact import PartialContact
 from plantar.sensing.reading import Reading
-from plantar.settings.part import Part
-from plantar.settings.schema import fixed, number, switch
 
 _DENIALS = 3  # times in a row that silence denies what is remembered until it is forgotten: a load that jumps does once
 _IN_SIGHT = 1.5  # times a step down, below the range's end, from where a sole's sight of the ground counts

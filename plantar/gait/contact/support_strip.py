@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.layouts.layout import Side
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 
 _SPREAD, _AGREEMENT = 0.024, 0.16  # of a sole's length: 6 and 40 mm of one of 250 mm
 

@@ -5,11 +5,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.estimate.ankle_sensor import SoleWrench
 from plantar.gait.estimate.estimator import Posture
 from plantar.mechanics.rotation import level_rotation
 from plantar.mechanics.zmp import zmp_of_feet
-from plantar.sides import SIDES, Side
 
 
 def com_offset(

@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import positive
-from plantar.arrays import array
-from plantar.settings.part import Part
-from plantar.settings.schema import fixed, share
+from plantar.common.arguments import positive
+from plantar.common.arrays import array
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import fixed, share
 
 
 class DcmFilterRules(Part, table="dcm_filter", needs={"control.dcm_estimate": ("kalman",)}):

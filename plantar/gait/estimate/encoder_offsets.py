@@ -11,8 +11,8 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.mechanics.rotation import heading, level_rotation, orthonormalised, rotation_from_vector, sine_vector
-from plantar.sides import SIDES, Side
 
 _STEP = 1e-4  # rad of a joint over which its effect on the soles is differenced; their motion is nearly linear
 _ITERATIONS = 3  # Gauss-Newton steps; offsets of a degree are found to 1e-9 rad by the second one

@@ -13,7 +13,11 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arrays import read_only
+from plantar.common.arrays import read_only
+from plantar.common.record import Record
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import fixed, share
+from plantar.common.sides import SIDES
 from plantar.errors import InputError
 from plantar.gait.estimate.dcm_filter import DcmFilter
 from plantar.gait.estimate.encoder_offsets import standing_base
@@ -25,10 +29,6 @@ from plantar.layouts.layout import Side
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.leg_inertia import LegInertia
 from plantar.mechanics.lip import GRAVITY
-from plantar.record import Record
-from plantar.settings.part import Part
-from plantar.settings.schema import fixed, share
-from plantar.sides import SIDES
 
 
 class Posture(Record, frozen=True):

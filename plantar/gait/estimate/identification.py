@@ -2,8 +2,8 @@
 
 from typing import ClassVar
 
-from plantar.settings.part import Part
-from plantar.settings.schema import fixed, share, switch
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import fixed, share, switch
 
 
 class IdentificationRules(Part, table="identification", needs={"control.identify": (True,)}):

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.gait.estimate.com_offset import com_offset
 from plantar.gait.estimate.encoder_offsets import StandingTolerances, encoder_offsets, standing_base
 from plantar.gait.estimate.estimator import LegKinematics, Posture, SoleLoad, live_kinematics
 from plantar.gait.estimate.identification import IdentificationRules
 from plantar.gait.estimate.opening_stand import OpeningStand
-from plantar.sides import Side
 
 _TENTHS_MOST = 2.0  # that the torso leans for: h1 then by 5 degrees, which brings its CoM 3 cm nearer to the hip
 

@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.estimate.estimator import SoleLoad
-from plantar.sides import SIDES, Side
 
 
 class Stood(NamedTuple):

@@ -5,8 +5,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.settings.part import Part
-from plantar.settings.schema import share
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import share
 
 
 class PushRules(Part, table="push_estimate", needs={"control.push_estimate": ("soles", "skin")}):

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.sides import SIDES, Side, other_side
+from plantar.common.sides import SIDES, Side, other_side
 
 
 class SoleSlope:

@@ -10,11 +10,11 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number, positive
-from plantar.arrays import array
+from plantar.common.arguments import number, positive
+from plantar.common.arrays import array
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import share
 from plantar.errors import InputError
-from plantar.settings.part import Part
-from plantar.settings.schema import share
 
 MOST_OFFSET = 10.0
 """Largest expected offset in m that is handed on: far beyond what any step makes up for, and small enough that no

@@ -2,8 +2,8 @@
 
 from typing import ClassVar
 
-from plantar.settings.part import Part
-from plantar.settings.schema import choice, fixed, number, share
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import choice, fixed, number, share
 
 
 class ComplianceGains(Part, table="compliance", needs={"control.pfc": (True,)}):

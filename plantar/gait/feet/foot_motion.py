@@ -6,6 +6,8 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.record import Record
+from plantar.common.sides import SIDES, Side, other_side
 from plantar.gait.contact.ground_map import GroundView
 from plantar.gait.estimate.command_frame import CommandFrame
 from plantar.gait.feet.landing import Landing
@@ -19,8 +21,6 @@ from plantar.kernels.base.vectors import close, vector, vector2
 from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.percepts.percept import Percept
-from plantar.record import Record
-from plantar.sides import SIDES, Side, other_side
 
 # Distances as shares of the leg:
 _RETAKE_HEIGHT = 1 / 15  # above what the foot met that a step taken once more rises at most

@@ -16,14 +16,14 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import fixed, share
+from plantar.common.sides import SIDES, Side
 from plantar.gait.contact.contact_memory import ContactMemory
 from plantar.gait.plan.phases import Phase
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.percepts.percept import Percept
-from plantar.settings.part import Part
-from plantar.settings.schema import fixed, share
-from plantar.sides import SIDES, Side
 
 _ORIGIN = np.zeros(2)
 

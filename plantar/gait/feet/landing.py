@@ -1,7 +1,7 @@
 """A foot's landing."""
 
-from plantar.settings.part import Part
-from plantar.settings.schema import number, share, switch
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import number, share, switch
 
 
 class Landing(Part, table="landing", given_by={n: f"walk.{n}" for n in ("approach_height", "approach_speed")}):

@@ -12,7 +12,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.settings.schema import Settings, fixed
+from plantar.common.settings.schema import Settings, fixed
 
 
 class DampingGains(Settings):

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.kernels.gait.lean_correction import correct
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 
 _TIME_CONSTANT = 0.121  # beat: 0.03 s on a leg of 0.6 m
 _LARGEST_SHIFT = 0.1  # leg

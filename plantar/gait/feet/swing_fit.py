@@ -10,14 +10,14 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number as checked_number
-from plantar.arguments import positive
-from plantar.arrays import array
+from plantar.common.arguments import number as checked_number
+from plantar.common.arguments import positive
+from plantar.common.arrays import array
+from plantar.common.record import Record
+from plantar.common.settings.schema import number, whole
 from plantar.gait.feet.swing_flight import PolynomialSwing, SwingFlight
 from plantar.gait.feet.swing_kind import Swing, SwingKind, SwingStart
 from plantar.kernels.gait.swing_fit import fit
-from plantar.record import Record
-from plantar.settings.schema import number, whole
 
 _LEAST_SHARE = 1e-6  # of a swing: what is left of it at least, for a duration that has passed
 

@@ -6,9 +6,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.record import Record
+from plantar.common.settings.part import Part
 from plantar.gait.plan.leg_momentum import haste
-from plantar.record import Record
-from plantar.settings.part import Part
 
 _HURRIED = 0.88  # of its first duration, below which a swing is hurried; times alone shorten it by a tenth at most
 

@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from plantar.extensions import extensions
+from plantar.common.extensions import extensions
 from plantar.gait.feet.swing_fit import SwingFitRules
 from plantar.gait.feet.swing_flight import PolynomialSwing
 from plantar.gait.feet.swing_kind import SwingKind

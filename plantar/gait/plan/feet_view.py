@@ -5,9 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arrays import read_only
-from plantar.record import Record
-from plantar.sides import Side
+from plantar.common.arrays import read_only
+from plantar.common.record import Record
+from plantar.common.sides import Side
 
 _THERE = read_only(np.zeros(2))
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side, other_side
 from plantar.errors import InputError
 from plantar.mechanics.rotation import level_rotation
-from plantar.sides import Side, other_side
 
 
 @dataclass(frozen=True)

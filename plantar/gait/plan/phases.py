@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 from enum import IntEnum
 from functools import cached_property
 
+from plantar.common.settings.schema import Settings, number
+from plantar.common.sides import Side, other_side
 from plantar.errors import InputError
-from plantar.settings.schema import Settings, number
-from plantar.sides import Side, other_side
 
 
 class PhaseKind(IntEnum):

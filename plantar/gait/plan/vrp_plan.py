@@ -17,10 +17,10 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import positive
+from plantar.common.arguments import positive
+from plantar.common.record import Record
 from plantar.errors import InputError
 from plantar.kernels.mechanics.pendulum import on_segment
-from plantar.record import Record
 
 
 class LipReference(Record, frozen=True):

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.common.sides import Side, other_side
 from plantar.errors import InputError
 from plantar.gait.plan.bridge import bridged
 from plantar.gait.plan.footsteps import Footstep
@@ -19,7 +20,6 @@ from plantar.gait.plan.phases import Phase, PhaseKind, Timing, WalkSchedule
 from plantar.gait.plan.plan_change import AppliedChange, MovedStep, PlanChange
 from plantar.gait.plan.vrp_plan import LipReference, VrpPlan
 from plantar.mechanics.same_time import SAME_TIME
-from plantar.sides import Side, other_side
 
 _DELAY = 0.202  # beats by which a double support that is too short grows at a time
 _MOST_DELAY = 1.21  # beats in all

@@ -2,6 +2,8 @@
 
 import math
 
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import fixed, share
 from plantar.gait.balance.ankle_strategy import (
     AnkleRules,
     Saturation,
@@ -13,8 +15,6 @@ from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.dsp_opt import DspProblem, DspWeights, solve_dsp
 from plantar.gait.propose.proposer import Pendulum, Priority, Tick
-from plantar.settings.part import Part
-from plantar.settings.schema import fixed, share
 
 
 class DoubleSupportTimingRules(

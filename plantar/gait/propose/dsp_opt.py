@@ -13,11 +13,11 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arrays import array
+from plantar.common.arrays import array
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import number
 from plantar.errors import InputError
 from plantar.gait.balance.ankle_strategy import MOST_GROWTH, SHORTEST_TIME, double_support_pull
-from plantar.settings.part import Part
-from plantar.settings.schema import number
 
 _SAMPLES = np.linspace(0.0, 1.0, 33)
 _LEVELS = 6  # each with samples 16 times as close as the one before

@@ -5,11 +5,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Priority, Tick, was_applied
 from plantar.layouts.layout import SoleLayout
-from plantar.sides import Side
 
 # Share of the taxels that see nothing, of an edge: half of the row along a side. Fewer are a hole, or have failed.
 _LEAST_OVER = 0.08

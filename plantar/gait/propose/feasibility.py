@@ -14,11 +14,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import choice, fixed, number, share, whole
 from plantar.geometry.polygon import area
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.sensing.proximity import cells_polygon
-from plantar.settings.part import Part
-from plantar.settings.schema import choice, fixed, number, share, whole
 
 
 class FeasibilityRules(

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.gait.contact.foot_contacts import FootholdFound
 from plantar.gait.contact.support_strip import SupportStrip
 from plantar.gait.plan.phases import PhaseKind
@@ -14,7 +15,6 @@ from plantar.gait.plan.walk_plan import vrp_of_step
 from plantar.gait.propose.foothold_rules import FootholdRules
 from plantar.gait.propose.proposer import Priority, Tick, was_applied
 from plantar.mechanics.rotation import level_rotation
-from plantar.sides import Side
 
 # Share of the sole across the walk below which the ground is narrow. The widest that counts as a strip, half a sole,
 # is seen with an error of a taxel at either edge, a fourteenth of a sole of 42 taxels.

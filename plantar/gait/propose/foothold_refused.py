@@ -14,13 +14,13 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side, other_side
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase
 from plantar.gait.plan.plan_change import PlanChange, Point
 from plantar.gait.propose.feasibility import FeasibilityRules, Foothold, FootholdProbe, room_ahead, way_around
 from plantar.gait.propose.proposer import Priority, Tick
 from plantar.layouts.layout import SoleLayout
-from plantar.sides import Side, other_side
 
 _LASTING = 4  # control ticks for which ground has to look higher than expected
 

@@ -1,7 +1,7 @@
 """Limits of plan moves by unexpected footholds."""
 
-from plantar.settings.part import Part
-from plantar.settings.schema import fixed
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import fixed
 
 
 class FootholdRules(Part, table="foothold", needs={"control.footholds": ("force", "skin")}):

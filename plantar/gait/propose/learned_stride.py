@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import fixed, number
+from plantar.common.sides import Side
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.walk_plan import PlanView
 from plantar.gait.propose.proposer import Priority, Tick, was_applied
-from plantar.settings.part import Part
-from plantar.settings.schema import fixed, number
-from plantar.sides import Side
 
 
 class LearnedStrideRules(

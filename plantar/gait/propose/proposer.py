@@ -12,7 +12,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arrays import read_only
+from plantar.common.arrays import read_only
+from plantar.common.record import Record
+from plantar.common.sides import Side
 from plantar.gait.contact.foot_contacts import FootholdFound, FootholdSeen
 from plantar.gait.estimate.command_frame import CommandFrame
 from plantar.gait.plan.feet_view import FeetView
@@ -22,9 +24,7 @@ from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.gait.plan.walk_plan import PlanView
 from plantar.kernels.geometry import convex
-from plantar.record import Record
 from plantar.sensing.reading import Reading
-from plantar.sides import Side
 
 
 class Priority(IntEnum):

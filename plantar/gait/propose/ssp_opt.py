@@ -16,14 +16,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import positive
-from plantar.arrays import array
+from plantar.common.arguments import positive
+from plantar.common.arrays import array
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import number, share
+from plantar.common.sides import Side
 from plantar.errors import InputError
 from plantar.gait.balance.ankle_strategy import MOST_GROWTH, sway_share
 from plantar.geometry.polygon import part_inside
-from plantar.settings.part import Part
-from plantar.settings.schema import number, share
-from plantar.sides import Side
 
 
 class StepWeights(

@@ -15,6 +15,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import choice, fixed, number, share, switch
+from plantar.common.sides import Side, other_side
 from plantar.gait.balance.ankle_strategy import (
     AnkleRules,
     Saturation,
@@ -29,9 +32,6 @@ from plantar.gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeight
 from plantar.gait.propose.step_timing import StepTiming
 from plantar.geometry.polygon import convex_hull, signed_margin
 from plantar.kernels.geometry import convex
-from plantar.settings.part import Part
-from plantar.settings.schema import choice, fixed, number, share, switch
-from plantar.sides import Side, other_side
 
 _PEAK = 5.774  # largest acceleration of a minimum-jerk motion over its way and time: 10 / sqrt(3) way / time^2
 _COARSE, _FINE = 10, 4  # times that are tried first, and how often the best one's neighbourhood is halved

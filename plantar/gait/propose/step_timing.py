@@ -8,11 +8,11 @@ DCM between them comes back, while a swing of the foot that it lies over leaves 
 import math
 from collections.abc import Callable
 
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import fixed, number, share
 from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Pendulum, Priority, Tick
-from plantar.settings.part import Part
-from plantar.settings.schema import fixed, number, share
 
 
 class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (True,)}):

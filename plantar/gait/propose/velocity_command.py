@@ -18,13 +18,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
+from plantar.common.settings.schema import Settings, number
+from plantar.common.sides import SIDES, Side, other_side
 from plantar.errors import InputError
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Priority, Tick, was_applied
-from plantar.settings.schema import Settings, number
-from plantar.sides import SIDES, Side, other_side
 
 _AHEAD = 2  # steps that follow the command, before the one that closes
 

@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.command import Command
 from plantar.kernels.base.vectors import vector
-from plantar.sides import SIDES, Side
 
 # leg/beat at which a foot in the air is put down, and the CoM moves; thrice as fast H1 falls
 _LOWER, _SINK = 0.15, 0.03

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side, other_side
 from plantar.gait.command import Command, Sensors
 from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.safety.safe_stop import SafeStop
@@ -18,7 +19,6 @@ from plantar.kernels.safety.plausible import BodyCheck, SoleCheck
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
 from plantar.sensing.reading import Reading
-from plantar.sides import Side, other_side
 
 _STUCK = 0.12  # s for which sensors may report the very same: a train of 0.1 s is walked through
 _SLIP, _JERK = 0.02, 800.0  # rad, rad/s^2: a joint's speed changes faster only where its encoder jumps; walks reach 80

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.command import Command, FootTarget
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.walk_plan import WalkPlan
@@ -12,7 +13,6 @@ from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.percepts.percept import Percept
 from plantar.sensing.reading import Reading
-from plantar.sides import SIDES, Side
 
 
 def standing_command(

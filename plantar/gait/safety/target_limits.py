@@ -5,9 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.command import Command, FootTarget
 from plantar.kernels.safety.plausible import farthest
-from plantar.sides import SIDES, Side
 
 _FOOT, _COM = 1.1, 0.44  # leg/beat: fastest targets of a foot and of the CoM
 _TURN = 2.4  # rad/beat of a sole or the torso

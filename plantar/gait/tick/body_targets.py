@@ -5,12 +5,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES
 from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.estimate.com_height import CoMHeight
 from plantar.gait.plan.phases import Phase
 from plantar.gait.tick.footing import Footing
 from plantar.kernels.base.vectors import matrix, vector
-from plantar.sides import SIDES
 
 _ROUND = 0.2  # of the way aside over which the lean ends
 _FOLLOWS_GROUND = 1.98  # rad/beat, natural frequency of the CoM's height over ground that goes up and down

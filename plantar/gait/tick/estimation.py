@@ -5,6 +5,8 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.record import Record
+from plantar.common.sides import SIDES, Side
 from plantar.gait.command import Sensors
 from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.estimate.ankle_sensor import SoleWrench
@@ -23,9 +25,7 @@ from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.external_wrench import external_acceleration
 from plantar.mechanics.lip import GRAVITY, pendulum_frequency
 from plantar.percepts.percept import Percept
-from plantar.record import Record
 from plantar.sensing.net_wrench import net_wrench
-from plantar.sides import SIDES, Side
 
 
 class Sensed(Record, frozen=True):

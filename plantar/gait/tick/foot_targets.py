@@ -6,6 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.balance.law import Feet, FootAction, FootState
 from plantar.gait.command import FootTarget
 from plantar.gait.controller_settings import ControllerSettings
@@ -20,7 +21,6 @@ from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.rotation import level_rotation
 from plantar.mechanics.wrench_cone import Rectangle
-from plantar.sides import SIDES, Side
 
 _CONTACT_OFFSET = 0.0433  # sole that a foot's centre of pressure keeps from the edge of its contact: 10 mm in T 4.4.4
 

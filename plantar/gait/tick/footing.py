@@ -6,7 +6,8 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arrays import read_only
+from plantar.common.arrays import read_only
+from plantar.common.sides import SIDES, Side, other_side
 from plantar.errors import InputError
 from plantar.gait.balance.ankle_strategy import shrunk_support, within_support
 from plantar.gait.balance.dcm_regulation import phase_goal, regulated_vrp
@@ -34,7 +35,6 @@ from plantar.kernels.base.vectors import vector
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.rotation import heading
-from plantar.sides import SIDES, Side, other_side
 
 _NO_PUSH = read_only(np.zeros(2))
 _PROBING = 0.0237  # weight on a foot that probes the ground from which its centre of pressure turns it

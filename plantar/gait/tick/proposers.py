@@ -6,6 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.contact.support_strip import SupportStrip
 from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.plan.footsteps import Footstep
@@ -21,7 +22,6 @@ from plantar.gait.propose.ssp_opt import touching_distance
 from plantar.gait.propose.step_adjustment import StepAdjustment
 from plantar.gait.propose.step_timing import StepTiming
 from plantar.layouts.layout import SoleLayout
-from plantar.sides import SIDES, Side
 
 _NO_GROUND = 0.8  # of the taxels' sensing range: a sole that stands sees this far only where there is no ground
 _SHORTEST_WALK = 1 / 12  # leg: a walk that is shorter has no direction

@@ -1,4 +1,4 @@
-"""Compiled descriptor behind `plantar.lazy`."""
+"""Compiled descriptor behind `plantar.common.lazy`."""
 
 from . import memory
 

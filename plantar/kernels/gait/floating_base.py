@@ -1,6 +1,6 @@
 """Floating base from leg kinematics, IMU and loads (equations: `plantar.gait.estimate.estimator`).
 
-Feet are numbered as `plantar.sides.SIDES`.
+Feet are numbered as `plantar.common.sides.SIDES`.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Kernel of `plantar.gait.estimate.gyro_bias`, and which feet are still; feet as `plantar.sides.SIDES`."""
+"""Kernel of `plantar.gait.estimate.gyro_bias`, and which feet are still; feet as `plantar.common.sides.SIDES`."""
 
 __all__ = ["GyroBias", "SteadyLoad"]
 

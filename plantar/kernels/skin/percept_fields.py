@@ -88,7 +88,7 @@ class PerceptFields:
 
 
 _LARGEST = 1e300
-"""`plantar.arguments.LARGEST`: what is beyond it is looked at by `checked`."""
+"""`plantar.common.arguments.LARGEST`: what is beyond it is looked at by `checked`."""
 
 
 class ReadingFields:

@@ -4,9 +4,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.robots.kinematics.body import pitching_joints, rolling_joints, stood
 from plantar.robots.robot import Robot
-from plantar.sides import SIDES, Side
 
 
 def ankle_limits(

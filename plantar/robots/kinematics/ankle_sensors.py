@@ -4,9 +4,9 @@ from typing import Any
 
 import mujoco
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.estimate.ankle_sensor import AnkleSensor
 from plantar.robots.robot import Robot
-from plantar.sides import SIDES, Side
 
 
 def ankle_sensors(model: Any, robot: Robot) -> dict[Side, AnkleSensor]:

@@ -5,9 +5,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from plantar.common.settings.body_scale import BodyScale
+from plantar.common.sides import SIDES, Side
 from plantar.robots.robot import Robot
-from plantar.settings.body_scale import BodyScale
-from plantar.sides import SIDES, Side
 
 _RESOLUTION = 6  # decimals of a leg's length in m: sums of link lengths differ in their last bits
 _ALONG = 0.7  # cosine with an axis of the torso from which a joint turns about it: nearer to it than to the others

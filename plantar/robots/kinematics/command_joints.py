@@ -1,8 +1,8 @@
 """A walking command as joint angles and torques of the legs."""
 
+from plantar.common.sides import Side
 from plantar.gait.command import Command
 from plantar.robots.kinematics.leg_model import LegModel
-from plantar.sides import Side
 
 REACH_ERROR = 0.02
 """Miss of a reached command in rad, or in m on a leg of 0.6 m; the motion of one control period leaves 8 mm."""

@@ -6,7 +6,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arrays import read_only
+from plantar.common.arrays import read_only
+from plantar.common.sides import SIDES, Side
 from plantar.gait.estimate.estimator import Posture
 from plantar.kernels.joints.leg_targets import JointEntries, LegTargets
 from plantar.kernels.joints.static_load import StaticLoad
@@ -17,7 +18,6 @@ from plantar.robots.kinematics.tasks.com_task import ComTask
 from plantar.robots.kinematics.tasks.pose_task import OrientationTask, PoseTask, RollingPoseTask
 from plantar.robots.kinematics.tasks.posture_task import PostureTask
 from plantar.robots.kinematics.tasks.task import chain
-from plantar.sides import SIDES, Side
 
 _NOTHING = read_only(np.zeros(2))
 _FULL_LEG = 6  # joints of a leg that can give its sole any pose

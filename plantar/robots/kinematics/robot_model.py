@@ -6,16 +6,16 @@ from typing import Any, Protocol
 
 import mujoco
 
+from plantar.common.files.model_limits import quiet_mujoco
+from plantar.common.settings.body_scale import REFERENCE_BODY
+from plantar.common.sides import SIDES
 from plantar.errors import RobotError
-from plantar.files.model_limits import quiet_mujoco
 from plantar.robots.biped import biped_mjcf
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.leg_shapes import add_leg_shapes
 from plantar.robots.model_file import spec_from_file
 from plantar.robots.robot import Robot
-from plantar.settings.body_scale import REFERENCE_BODY
-from plantar.sides import SIDES
 
 
 class Visitor(Protocol):

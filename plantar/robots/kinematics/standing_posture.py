@@ -5,13 +5,13 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.errors import RobotError, SceneError
 from plantar.gait.plan.footsteps import Footstep
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.rotation import level_rotation
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
-from plantar.sides import SIDES, Side
 
 
 def solve_standing(

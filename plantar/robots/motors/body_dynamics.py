@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.sides import SIDES, Side
+from plantar.common.sides import SIDES, Side
 
 _BASE = 6  # velocities of the free base: three of its origin in the world frame, three turns in its own
 

@@ -9,13 +9,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import BodyScale
+from plantar.common.sides import SIDES, Side
 from plantar.gait.command import Command, JointTargets, Sensors
 from plantar.robots.kinematics.command_joints import REACH_ERROR, SLOW, SPEED_SHARE, follow_command
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.motors.planned_motion import PlannedMotion
 from plantar.robots.robot import Robot
-from plantar.settings.body_scale import BodyScale
-from plantar.sides import SIDES, Side
 
 
 class MotorGains(NamedTuple):

@@ -6,10 +6,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES
 from plantar.gait.command import Command
 from plantar.robots.kinematics.command_joints import carry_command
 from plantar.robots.kinematics.leg_model import LegModel
-from plantar.sides import SIDES
 
 _SMOOTH = 0.04  # beat, time constant of the low pass on the acceleration: 10 ms on a leg of 0.6 m
 

@@ -11,6 +11,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import BodyScale
+from plantar.common.sides import SIDES, Side, other_side
 from plantar.gait.command import Command, Sensors
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.wrench_cone import Rectangle
@@ -20,8 +22,6 @@ from plantar.robots.motors.command_motors import CommandMotors, MotorGains, moto
 from plantar.robots.motors.torque_program import Standing, Torques, Wish, torques_of
 from plantar.robots.robot import Robot
 from plantar.robots.walk import Control
-from plantar.settings.body_scale import BodyScale
-from plantar.sides import SIDES, Side, other_side
 
 _FRICTION = 0.6
 _SMOOTH = 0.03  # beat, time constant of the low pass on the encoders' rates: 7 ms on a leg of 0.6 m

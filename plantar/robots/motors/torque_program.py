@@ -20,9 +20,9 @@ import daqp
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.mechanics.wrench_cone import Rectangle, cone_rows
 from plantar.robots.motors.body_dynamics import BodyDynamics
-from plantar.sides import Side
 
 Array = NDArray[np.float64]
 

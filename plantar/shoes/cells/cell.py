@@ -11,9 +11,9 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any, Literal
 
+from plantar.common.files.structured_text import packaged_files, read_toml
+from plantar.common.settings.unknown_keys import refuse_unknown_keys
 from plantar.errors import InputError
-from plantar.files.structured_text import packaged_files, read_toml
-from plantar.settings.unknown_keys import refuse_unknown_keys
 from plantar.shoes.parameters import check_dimensions, checked, choice, number, text
 from plantar.shoes.parameters import length as mm
 

@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from plantar.optional_library import optional_library
+from plantar.common.optional_library import optional_library
 from plantar.shoes.build import Shoe, ShoeBuild
 from plantar.shoes.checks.features import printed_features
 from plantar.shoes.checks.mounting import Mounting, check_mounting

@@ -1,4 +1,4 @@
-"""Foot files read by libraries in a separate process (`plantar.files.confined`): solids, DXF."""
+"""Foot files read by libraries in a separate process (`plantar.common.files.confined`): solids, DXF."""
 
 import io
 from pathlib import Path
@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.optional_library import optional_library
+from plantar.common.optional_library import optional_library
 
 _CHORD, _ANGLE = 0.05, 0.2  # share of an edge, and rad: how far triangles may lie off a curved face
 

@@ -1,4 +1,4 @@
-"""Triangle meshes from files: STL, OBJ and 3MF here, others by libraries apart (`plantar.files.gate`)."""
+"""Triangle meshes from files: STL, OBJ and 3MF here, others by libraries apart (`plantar.common.files.gate`)."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from typing import Literal, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.files.gate import read_apart
+from plantar.common.files.input_file import check_input, read_input
 from plantar.errors import DependencyError, FootError
-from plantar.files.gate import read_apart
-from plantar.files.input_file import check_input, read_input
 from plantar.shoes.foot.package_3mf import triangles_of_3mf
 
 Unit = Literal["m", "cm", "mm", "in"]  # unit of length of a mesh file

@@ -11,14 +11,14 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.files.input_file import check_input
+from plantar.common.files.model_files import attached_models, check_model, mesh_of_mjcf, mesh_of_urdf, parsed_model
+from plantar.common.files.model_limits import check_model_size, quiet_mujoco
+from plantar.common.files.xml_file import XML_MOST
+from plantar.common.optional_library import optional_library
 from plantar.errors import FootError
-from plantar.files.input_file import check_input
-from plantar.files.model_files import attached_models, check_model, mesh_of_mjcf, mesh_of_urdf, parsed_model
-from plantar.files.model_limits import check_model_size, quiet_mujoco
-from plantar.files.xml_file import XML_MOST
 from plantar.mujoco.deletion import delete_all
 from plantar.mujoco.mesh_surface import mesh_surface
-from plantar.optional_library import optional_library
 from plantar.shoes.foot.mesh_file import MOST_TRIANGLES, read_mesh
 from plantar.shoes.geometry.surface import primitive
 

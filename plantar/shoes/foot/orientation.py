@@ -7,9 +7,9 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from plantar.common.optional_library import optional_library
 from plantar.errors import FootError
 from plantar.geometry.hull_plane import hull_plane
-from plantar.optional_library import optional_library
 from plantar.shoes.geometry.surface import convex_outline, corner_numbers, thinned
 
 Axis = Literal["x", "-x", "y", "-y", "z", "-z"]  # an axis of a mesh, with its direction

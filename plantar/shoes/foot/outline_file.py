@@ -15,12 +15,12 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from plantar.common.files.gate import read_apart
+from plantar.common.files.input_file import check_input, read_input
+from plantar.common.files.structured_text import read_json
+from plantar.common.files.xml_file import XML_MOST, parse_xml
+from plantar.common.optional_library import optional_library
 from plantar.errors import DependencyError, FootError, InputError
-from plantar.files.gate import read_apart
-from plantar.files.input_file import check_input, read_input
-from plantar.files.structured_text import read_json
-from plantar.files.xml_file import XML_MOST, parse_xml
-from plantar.optional_library import optional_library
 from plantar.shoes.foot.foot import Foot, foot_from_outline
 from plantar.shoes.foot.foot_mesh import unit_scale
 from plantar.shoes.foot.mesh_file import Unit

@@ -11,8 +11,8 @@ from xml.parsers import expat
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.files.zip_archive import open_archive
 from plantar.errors import FootError
-from plantar.files.zip_archive import open_archive
 
 _UNITS: dict[str, tuple[str, float]] = {
     "micron": ("mm", 1e-3),

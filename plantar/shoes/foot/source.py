@@ -5,16 +5,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
+from plantar.common.files.input_file import check_input
+from plantar.common.files.structured_text import packaged_files, read_toml
+from plantar.common.sides import SIDES
 from plantar.errors import FootError, InputError, RobotError
-from plantar.files.input_file import check_input
-from plantar.files.structured_text import packaged_files, read_toml
 from plantar.shoes.foot.foot import Foot, foot_from_dimensions
 from plantar.shoes.foot.foot_mesh import foot_from_mesh, foot_from_triangles
 from plantar.shoes.foot.mesh_file import MESH_FORMATS
 from plantar.shoes.foot.outline_file import OUTLINE_FORMATS, foot_from_drawing
 from plantar.shoes.foot.robot_model import MODEL_FORMATS, read_foot_body, side_of_name
 from plantar.shoes.order import FootSource
-from plantar.sides import SIDES
 
 _ALLOWED = {
     "mesh_side": SIDES,

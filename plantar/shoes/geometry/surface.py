@@ -6,8 +6,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from plantar.common.optional_library import optional_library
 from plantar.errors import FootError
-from plantar.optional_library import optional_library
 
 _GRID = 1e-3  # mm
 _MOST_EDGES = 60_000  # left over: more come of triangles that do not join

@@ -9,8 +9,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from plantar.gravity import GRAVITY
-from plantar.pages.page import Section, figure, page, row, table
+from plantar.common.gravity import GRAVITY
+from plantar.common.pages.page import Section, figure, page, row, table
 from plantar.shoes.build import Shoe, ShoeBuild
 from plantar.shoes.checks.check import ShoeCheck
 from plantar.shoes.checks.printability import BOARD_UP

@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from plantar.csv_table import csv_text
+from plantar.common.table_writer import csv_text
 from plantar.shoes.build import Shoe, ShoeBuild
 from plantar.shoes.checks.printability import BOARD_UP, Weights
 from plantar.shoes.parameters import ShoeParameters

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.atomic import write_text
+from plantar.common.atomic import write_text
 from plantar.errors import InputError
 from plantar.layouts.layout_file import layout_to_dict
 from plantar.shoes.build import Progress, Shoe, ShoeBuild

@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from plantar.atomic import write_text
+from plantar.common.atomic import write_text
 from plantar.plotting import new_figure, save_figure
 
 _SIZE = (420.0, 297.0)  # A3

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from plantar.csv_table import csv_text
+from plantar.common.table_writer import csv_text
 from plantar.shoes.build import Shoe, ShoeBuild
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.papers.bill import WINDOW

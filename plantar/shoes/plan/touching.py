@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from plantar.gravity import GRAVITY
+from plantar.common.gravity import GRAVITY
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.load_share import spring_forces, taxel_stiffness
 from plantar.shoes.plan.shoe_plan import ShoePlan

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.optional_library import optional_library
 from plantar.errors import FootError
-from plantar.optional_library import optional_library
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.plan.block import Block, Groove, Step
 from plantar.shoes.solid.polyhedron import Polyhedron

@@ -1,6 +1,6 @@
 """A scene's table `[arm]`: the arm that a walking robot moves."""
 
-from plantar.settings.schema import Settings, choice, number, share, tables
+from plantar.common.settings.schema import Settings, choice, number, share, tables
 
 
 class ArmSettings(Settings):

@@ -8,12 +8,12 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arrays import numbers
+from plantar.common.arrays import numbers
+from plantar.common.sides import Side
 from plantar.errors import RobotError, SceneError
 from plantar.mujoco.quaternions import rotation_of
 from plantar.robots.robot import Robot
 from plantar.sensing.link_skin import BodySkin
-from plantar.sides import Side
 from plantar.sim.body_skin.surface import skin_from_tables
 from plantar.sim.companion.machine import JointTable, load_machine
 

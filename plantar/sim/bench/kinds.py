@@ -6,11 +6,11 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from plantar.atomic import output_folder, write_text
-from plantar.console.command import file_lines
-from plantar.console.progress import Progress, part_of, progress_bar
+from plantar.common.atomic import output_folder, write_text
+from plantar.common.console.command import file_lines
+from plantar.common.console.progress import Progress, part_of, progress_bar
+from plantar.common.optional_library import need_libraries
 from plantar.errors import InputError
-from plantar.optional_library import need_libraries
 from plantar.sim.libraries import LIBRARIES
 
 

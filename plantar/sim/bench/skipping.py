@@ -13,9 +13,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.atomic import write_text
 from plantar.bench.tables import made_on, markdown_table, write_rows
-from plantar.console.progress import Progress
+from plantar.common.atomic import write_text
+from plantar.common.console.progress import Progress
 from plantar.gait.command import Command
 from plantar.percepts.percept import Percept
 from plantar.sim.bench.room_times import ROOMS, RoomTimes

@@ -6,8 +6,8 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.schema import Settings, number, whole
 from plantar.sensing.link_skin import BodySkin, SkinReading
-from plantar.settings.schema import Settings, number, whole
 
 
 class SkinElectronicsSettings(Settings):

@@ -11,9 +11,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.schema import number, switch
 from plantar.errors import RobotError
 from plantar.sensing.link_skin import BodySkin, SkinReading
-from plantar.settings.schema import number, switch
 from plantar.sim.body_skin.electronics import SkinElectronics, SkinElectronicsSettings
 from plantar.sim.body_skin.obstacle import Obstacle
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP

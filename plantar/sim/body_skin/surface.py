@@ -12,12 +12,12 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arrays import array
+from plantar.common.arrays import array
+from plantar.common.settings.schema import Settings, number, tables, text, whole
 from plantar.errors import InputError, LayoutError, RobotError
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.sensing.link_skin import BodySkin, SkinPatch
-from plantar.settings.schema import Settings, number, tables, text, whole
 
 OBSTACLE_GROUP = 3
 """MuJoCo's group of geoms that skin measures."""

@@ -10,12 +10,12 @@ from typing import Any, ClassVar, NamedTuple, Protocol, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.extensions import extensions
+from plantar.common.settings.overrides import owner_of, put_settings, split_setting
+from plantar.common.settings.schema import Settings, choice, number
+from plantar.common.settings.unknown_keys import nearest, refuse_other_than_texts, refuse_unknown_keys
 from plantar.errors import SceneError
-from plantar.extensions import extensions
 from plantar.sensing.link_skin import BodySkin, SkinReading
-from plantar.settings.overrides import owner_of, put_settings, split_setting
-from plantar.settings.schema import Settings, choice, number
-from plantar.settings.unknown_keys import nearest, refuse_other_than_texts, refuse_unknown_keys
 from plantar.sim.body_skin.sensing import SkinSensing, SkinSensor
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion.lidar import LidarSettings

@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.settings.schema import Settings, number, whole
+from plantar.common.settings.schema import Settings, number, whole
 
 _NO_ECHO = 1e6  # m: distance of a ray that meets nothing
 

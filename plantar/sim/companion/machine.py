@@ -11,14 +11,14 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.files.input_file import is_file
+from plantar.common.files.model_files import check_model, named_file
+from plantar.common.files.structured_text import packaged_files, read_toml
+from plantar.common.settings.schema import Settings, choice, number, tables, text
+from plantar.common.settings.unknown_keys import builtin_or_file, nearest, refuse_other_than_texts, refuse_unknown_keys
 from plantar.errors import RobotError
-from plantar.files.input_file import is_file
-from plantar.files.model_files import check_model, named_file
-from plantar.files.structured_text import packaged_files, read_toml
 from plantar.mechanics.lip import GRAVITY
 from plantar.mujoco.deletion import delete_all
-from plantar.settings.schema import Settings, choice, number, tables, text
-from plantar.settings.unknown_keys import builtin_or_file, nearest, refuse_other_than_texts, refuse_unknown_keys
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 
 _KEYS = ("name", "description", "model", "base", "servo", "joint_defaults", "joints", "patch")

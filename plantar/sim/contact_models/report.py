@@ -5,9 +5,9 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from plantar.atomic import write_text
 from plantar.bench.tables import Mark, draw_errors, made_on, markdown_table, plain_row, write_rows
-from plantar.console.progress import part_of
+from plantar.common.atomic import write_text
+from plantar.common.console.progress import part_of
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import read_layout
 from plantar.layouts.tiling import hex_layout

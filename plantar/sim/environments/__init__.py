@@ -2,7 +2,7 @@
 
 from importlib.util import find_spec
 
-from plantar.optional_library import need_libraries
+from plantar.common.optional_library import need_libraries
 
 __all__ = ["ENVIRONMENTS", "register"]
 

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from plantar.optional_library import need_libraries
+from plantar.common.optional_library import need_libraries
 
 __all__ = ["Env", "ObservationWrapper", "spaces"]
 

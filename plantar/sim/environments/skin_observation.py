@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import instance
+from plantar.common.arguments import instance
 from plantar.errors import InputError
 from plantar.mujoco.bound_skin import BoundSkin, SkinReading
 from plantar.mujoco.skin import Skin

@@ -11,12 +11,12 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.gravity import GRAVITY
+from plantar.common.gravity import GRAVITY
+from plantar.common.settings.body_scale import BodyScale
+from plantar.common.sides import SIDES, Side
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.mujoco.bound_skin import SkinReading
 from plantar.robots.robot import Robot
-from plantar.settings.body_scale import BodyScale
-from plantar.sides import SIDES, Side
 from plantar.sim.model.world import World
 from plantar.sim.terrain import Ground, Motion, Solid, Terrain
 

@@ -8,11 +8,12 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import instance, number, positive
+from plantar.common.arguments import instance, number, positive
+from plantar.common.gravity import GRAVITY
+from plantar.common.sides import SIDES, Side
 from plantar.errors import InputError
 from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.plan.walk_plan import vrp_of_step
-from plantar.gravity import GRAVITY
 from plantar.mujoco.bound_skin import SkinReading
 from plantar.mujoco.skin import Skin
 from plantar.robots.controller_settings import com_height_of
@@ -22,7 +23,6 @@ from plantar.robots.robot_file import load_robot
 from plantar.robots.start import start_of_walk
 from plantar.robots.walk import Walk
 from plantar.sensing.taxel_faults import TaxelFaults, WornFaults
-from plantar.sides import SIDES, Side
 from plantar.sim.environments.gymnasium_base import Env, spaces
 from plantar.sim.environments.tasks import TASKS, Task
 from plantar.sim.figures.render import Camera, View

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.command import Command
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.plan_change import AppliedChange
@@ -29,7 +30,6 @@ from plantar.recordings.foxglove import (
 )
 from plantar.recordings.recorder import Recorder
 from plantar.sensing.reading import Reading
-from plantar.sides import SIDES, Side
 from plantar.sim.figures.drawn_shapes import body_entity, drawn_bodies, frame_name
 from plantar.sim.model.contact_truth import GroundTruth
 from plantar.sim.model.world import World

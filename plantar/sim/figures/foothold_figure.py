@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.percepts.sole_pose import feet_support_polygon
 from plantar.plotting import COLOURS, new_figure
 from plantar.recordings.recording import Recording
-from plantar.sides import SIDES, Side
 
 AXES = ("x forward [m]", "y left [m]")
 """Labels of the world's axes."""

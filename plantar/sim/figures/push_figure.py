@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES
 from plantar.gait.plan.phases import PhaseKind
 from plantar.plotting import COLOURS, new_figure
 from plantar.recordings.pressure_recording import true_runs
 from plantar.recordings.recording import Recording
-from plantar.sides import SIDES
 from plantar.sim.figures.foothold_figure import sole_outline
 
 _PUSHED = 0.01  # of the largest force: less is no push

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.atomic import replacing
+from plantar.common.atomic import replacing
+from plantar.common.optional_library import optional_library
 from plantar.errors import InputError
-from plantar.optional_library import optional_library
 
 FRAME_RATE = 25.0
 """Frames a second of a video; a whole number of physics steps apart."""

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.recordings.pressure_recording import true_runs
 from plantar.recordings.recording import Recording, read_mcap
-from plantar.sides import SIDES, Side
 from plantar.sim.figures.foothold_figure import (
     AXES,
     WalkPlane,

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.reading import Reading
-from plantar.sides import SIDES, Side
 from plantar.sim.figures.drawn_run import FULL_COLOUR, scale_colours
 from plantar.sim.figures.render import opencv
 

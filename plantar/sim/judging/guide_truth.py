@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.sides import SIDES
+from plantar.common.sides import SIDES
 from plantar.sim.judging.unmet import unmet
 from plantar.sim.model.world import World
 

@@ -11,12 +11,12 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, other_side
 from plantar.gait.plan.plan_change import MovedStep
 from plantar.kernels.contacts.ground_reaction import GroundReaction
 from plantar.kernels.judging.estimate_error import EstimateError
 from plantar.kernels.judging.step_watch import FALLING, LEGS, StepWatch
 from plantar.layouts.layout import Side
-from plantar.sides import SIDES, other_side
 from plantar.sim.judging.joint_limits import JointLimits
 from plantar.sim.judging.leg_contact import LegContact
 from plantar.sim.judging.stance_ripple import StanceRipple

@@ -1,7 +1,7 @@
 """Whether one leg touches the other."""
 
+from plantar.common.sides import SIDES
 from plantar.robots.leg_shapes import COLLIDES
-from plantar.sides import SIDES
 from plantar.sim.model.world import World
 
 

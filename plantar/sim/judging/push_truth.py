@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.gravity import GRAVITY
+from plantar.common.sides import Side, other_side
 from plantar.gait.plan.footsteps import Footstep
-from plantar.gravity import GRAVITY
-from plantar.sides import Side, other_side
 from plantar.sim.judging.step_count import Stand
 
 CHANGED = 1 / 20

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sim.model.shove import Shove
 
 _ZMP_BACK = 0.025  # leg from the reference: nearer counts as back; 15 mm for H1

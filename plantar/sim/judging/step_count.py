@@ -5,9 +5,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import groupby
 
+from plantar.common.sides import SIDES
 from plantar.kernels.judging.stance_force import StandWatch
 from plantar.layouts.layout import Side
-from plantar.sides import SIDES
 from plantar.sim.judging.walk_goal import NEAR_YAW, WalkGoal, Way
 
 # Share of the weight that makes a touch a stand: probes, taps and bounces carry less, or are followed by one

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Any
 
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.mechanics.same_time import SAME_TIME
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sim.judging.joint_limits import JointLimits
 from plantar.sim.judging.leg_contact import LegContact
 

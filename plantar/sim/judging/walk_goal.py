@@ -10,12 +10,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import REFERENCE_BODY
+from plantar.common.sides import SIDES, other_side
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.plan_change import MovedStep
 from plantar.gait.plan.walk_plan import vrp_of_step
 from plantar.layouts.layout import Side
-from plantar.settings.body_scale import REFERENCE_BODY
-from plantar.sides import SIDES, other_side
 
 Way = tuple[float, float, float]
 """From one foothold to the next: forward and left in m, in the frame of the first, and the turn in rad."""

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES
 from plantar.gait.controller import Command
 from plantar.gait.estimate.ankle_sensor import SoleWrench
 from plantar.gait.estimate.skin_load import SkinLoad
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.mechanics.zmp import zmp_of_feet
-from plantar.sides import SIDES
 
 FILTER_TIME = 0.02
 """Time constant in s of both low-pass filters: that of the balance laws' own."""

@@ -9,13 +9,13 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.common.sides import SIDES, Side
 from plantar.errors import RobotError, SceneError
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.robot_model import Visitor, compiled_model, robot_spec
 from plantar.robots.leg_shapes import COLLIDES, keep_apart
 from plantar.robots.robot import Robot
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
-from plantar.sides import SIDES, Side
 from plantar.sim.model.contact_truth import REACH
 from plantar.sim.plant.body import make_true
 from plantar.sim.plant.draw import TruePlant

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from plantar.common.files.structured_text import packaged_files, read_toml
+from plantar.common.settings.overrides import split_setting
 from plantar.errors import SceneError
-from plantar.files.structured_text import packaged_files, read_toml
-from plantar.settings.overrides import split_setting
 
 
 class PaperSettings(NamedTuple):

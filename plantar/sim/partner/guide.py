@@ -11,8 +11,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import BodyScale
 from plantar.mechanics.easing import minimum_jerk
-from plantar.settings.body_scale import BodyScale
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.model.world import World
 from plantar.sim.partner.hand import body_point

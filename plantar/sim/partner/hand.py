@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.settings.body_scale import BodyScale
+from plantar.common.settings.body_scale import BodyScale
 from plantar.sim.body_skin.upper_body import FACES
 
 

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import BodyScale
 from plantar.errors import SceneError
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.sensing.link_skin import BodySkin
-from plantar.settings.body_scale import BodyScale
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.upper_body import FACES
 from plantar.sim.model.world import World

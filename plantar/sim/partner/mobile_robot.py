@@ -10,8 +10,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from plantar.common.settings.body_scale import BodyScale
 from plantar.sensing.link_skin import BodySkin
-from plantar.settings.body_scale import BodyScale
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.model.world import World
 from plantar.sim.partner.settings import PartnerSettings

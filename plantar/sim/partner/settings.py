@@ -1,6 +1,6 @@
 """A scene's tables `[partner]` and `[guide]`."""
 
-from plantar.settings.schema import Settings, choice, number, share
+from plantar.common.settings.schema import Settings, choice, number, share
 
 
 class PartnerSettings(Settings):

@@ -7,8 +7,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sensing.link_skin import BodySkin, SkinReading
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sim.body_skin.sensing import SkinSensing, SkinSensor
 from plantar.sim.model.world import World
 

@@ -7,8 +7,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import BodyScale
 from plantar.mujoco.quaternions import quaternion_of, rotation_of
-from plantar.settings.body_scale import BodyScale
 from plantar.sim.plant.draw import TruePlant
 from plantar.sim.plant.ground import make_ground_true
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.settings.body_scale import BodyScale
+from plantar.common.settings.body_scale import BodyScale
 from plantar.sim.plant.draw import TruePlant, stream
 from plantar.sim.terrain import GROUND_GROUP
 

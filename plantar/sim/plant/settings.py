@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from typing import Any, Self
 
+from plantar.common.settings.schema import Settings, choice, number, tables
 from plantar.errors import InputError, PlantarError
-from plantar.settings.schema import Settings, choice, number, tables
 
 RANDOM = "random"
 """The word in place of a number that the seed draws."""

@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.taxel_faults import TaxelFaults, WornFaults
-from plantar.sides import Side
 from plantar.sim.plant.draw import TruePlant, stream
 
 CONNECTORS = 4

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import BodyScale
+from plantar.common.sides import SIDES, Side
 from plantar.errors import SceneError
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase, WalkSchedule
 from plantar.robots.robot import Robot
 from plantar.sensing.link_skin import BodySkin, SkinPatch
-from plantar.settings.body_scale import BodyScale
-from plantar.sides import SIDES, Side
 from plantar.sim.arms.worn_arm import WornArm
 from plantar.sim.body_skin.upper_body import upper_body_skin
 from plantar.sim.model.world import World

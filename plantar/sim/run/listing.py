@@ -1,7 +1,7 @@
 """Names of robots, machines, scenes, papers, formats and live sources, without a simulator."""
 
+from plantar.common.files.structured_text import described_files, packaged_files
 from plantar.errors import InputError
-from plantar.files.structured_text import described_files, packaged_files
 from plantar.sim.papers.preset import paper_files
 
 

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES
 from plantar.gait.controller import Command, Sensors
 from plantar.gait.plan.walk_plan import PlanView
 from plantar.layouts.layout import Side
 from plantar.recordings.recorder import Recorder
 from plantar.sensing.reading import Reading
-from plantar.sides import SIDES
 from plantar.sim.arms.compliant_arm import CompliantArm
 from plantar.sim.figures.drawn_run import DrawnRun
 from plantar.sim.model.contact_truth import GroundTruth

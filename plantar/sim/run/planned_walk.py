@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 
+from plantar.common.sides import SIDES
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import WalkSchedule
 from plantar.gait.plan.walk_plan import vrp_of_step
 from plantar.layouts.layout import Side
 from plantar.robots.robot import Robot
-from plantar.sides import SIDES
 from plantar.sim.terrain import Footprint, PlannedFeet
 
 

@@ -7,14 +7,14 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import BodyScale, si_unit
+from plantar.common.settings.schema import Settings
+from plantar.common.sides import SIDES
 from plantar.gait.controller import WalkingController
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.walk_plan import vrp_of_step
 from plantar.layouts.layout import Side
 from plantar.robots.robot import Robot
-from plantar.settings.body_scale import BodyScale, si_unit
-from plantar.settings.schema import Settings
-from plantar.sides import SIDES
 from plantar.sim.judging.foothold_truth import FootholdTruth
 from plantar.sim.judging.judge import Judge
 from plantar.sim.judging.recovery import Recovery

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from plantar.console.command import file_lines
-from plantar.gravity import GRAVITY
+from plantar.common.console.command import file_lines
+from plantar.common.gravity import GRAVITY
 
 Summary = Mapping[str, Any]
 

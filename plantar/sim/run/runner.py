@@ -12,6 +12,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from plantar.common.sides import SIDES
 from plantar.errors import SceneError
 from plantar.gait.controller import Command, Sensors, Start, WalkingController
 from plantar.gait.plan.walk_plan import vrp_of_step
@@ -29,7 +30,6 @@ from plantar.robots.robot_file import load_robot
 from plantar.robots.start import start_of_walk
 from plantar.robots.walk import crouches
 from plantar.sensing.link_skin import BodySkin
-from plantar.sides import SIDES
 from plantar.sim.arms.compliant_arm import CompliantArm
 from plantar.sim.arms.settings import ArmSettings
 from plantar.sim.arms.worn_arm import WornArm

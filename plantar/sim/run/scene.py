@@ -6,14 +6,14 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from plantar.common.files.structured_text import packaged_files, read_toml
+from plantar.common.settings.body_scale import BodyScale
+from plantar.common.settings.overrides import put_settings, split_setting
+from plantar.common.settings.schema import Settings, choice, number, switch, whole
+from plantar.common.settings.unknown_keys import builtin_or_file, refuse_other_than_texts, refuse_unknown_keys
 from plantar.errors import InputError, SceneError
-from plantar.files.structured_text import packaged_files, read_toml
 from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table, controller_keys
 from plantar.robots.walk import Control, Walk
-from plantar.settings.body_scale import BodyScale
-from plantar.settings.overrides import put_settings, split_setting
-from plantar.settings.schema import Settings, choice, number, switch, whole
-from plantar.settings.unknown_keys import builtin_or_file, refuse_other_than_texts, refuse_unknown_keys
 from plantar.sim.arms.settings import ArmSettings
 from plantar.sim.papers.preset import with_paper
 from plantar.sim.partner.settings import GuideSettings, PartnerSettings

@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plantar.arguments import integer
+from plantar.common.arguments import integer
+from plantar.common.files.structured_text import read_toml
 from plantar.errors import InputError, SceneError
-from plantar.files.structured_text import read_toml
 from plantar.sim.run.scene import Scene, scene_file, scene_of
 
 if TYPE_CHECKING:

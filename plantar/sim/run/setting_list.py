@@ -2,10 +2,10 @@
 
 from difflib import get_close_matches
 
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.common.settings.schema import Setting
 from plantar.errors import InputError
 from plantar.gait.controller_tables import CONTROLLER_TABLES, controller_settings_described
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
-from plantar.settings.schema import Setting
 from plantar.sim.companion.experiment import companion_tables, experiment_names
 from plantar.sim.run.scene import SECTIONS
 from plantar.sim.terrain import terrain_kinds

@@ -6,12 +6,12 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES
 from plantar.errors import SceneError
 from plantar.gait.plan.footsteps import Footstep
 from plantar.layouts.layout import Side
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.standing_posture import solve_standing
-from plantar.sides import SIDES
 from plantar.sim.judging.leg_contact import legs_that_touch
 from plantar.sim.model.world import World, check_stable
 from plantar.sim.run.motor_drives import MotorDrives

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import BodyScale
+from plantar.common.sides import SIDES, Side
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import WalkSchedule
 from plantar.sensing.link_skin import BodySkin
-from plantar.settings.body_scale import BodyScale
-from plantar.sides import SIDES, Side
 from plantar.sim.arms.worn_arm import WornArm
 from plantar.sim.judging.guide_truth import GuideTruth
 from plantar.sim.judging.push_truth import Pushed, PushTruth, step_changes, strides

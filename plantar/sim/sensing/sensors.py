@@ -6,11 +6,11 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.controller import Sensors
 from plantar.kernels.sensors.noise_rows import SensedBody
 from plantar.sensing.link_skin import SkinReading
 from plantar.sensing.reading import Reading
-from plantar.sides import SIDES, Side
 from plantar.sim.model.contact_truth import ContactReader, FootContacts
 from plantar.sim.model.world import World
 from plantar.sim.plant.delay import Delay

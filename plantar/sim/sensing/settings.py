@@ -1,6 +1,6 @@
 """What sensors do to the truth: a scene's `[sensing]` table."""
 
-from plantar.settings.schema import Settings, choice, number, share, switch, whole
+from plantar.common.settings.schema import Settings, choice, number, share, switch, whole
 
 
 class Sensing(Settings):

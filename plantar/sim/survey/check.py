@@ -9,6 +9,8 @@ import mujoco
 import numpy as np
 from scipy.spatial import ConvexHull
 
+from plantar.common.settings.body_scale import BodyScale
+from plantar.common.sides import SIDES, Side
 from plantar.gait.plan.footsteps import Footstep, straight_plan
 from plantar.robots.controller_settings import controller_settings
 from plantar.robots.kinematics.ankle_sensors import ankle_sensors
@@ -19,8 +21,6 @@ from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
 from plantar.robots.walk import CONTROL_PERIOD
-from plantar.settings.body_scale import BodyScale
-from plantar.sides import SIDES, Side
 from plantar.sim.run.scene import Scene, load_scene
 from plantar.sim.survey.fitted_gait import ROLL_MOST
 from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled, speed_shares

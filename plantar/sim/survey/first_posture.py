@@ -5,11 +5,11 @@ import math
 import mujoco
 import numpy as np
 
+from plantar.common.sides import SIDES, Side
 from plantar.errors import RobotError
 from plantar.robots.kinematics.body import pitching_joints
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
-from plantar.sides import SIDES, Side
 
 _SOLE_GAP = 0.25  # of the sole's width between two soles that stand side by side: h1 has 0.3
 _SEED_BEND, _LEAST_BEND = math.radians(40.0), math.radians(20.0)  # of a knee

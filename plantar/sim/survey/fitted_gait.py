@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import BodyScale
+from plantar.common.sides import SIDES
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.robots.kinematics.body import body_of, pitching_joints, stood
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.robot import Robot
 from plantar.robots.walk import CONTROL_PERIOD, Walk, walk_timing
-from plantar.settings.body_scale import BodyScale
-from plantar.sides import SIDES
 from plantar.sim.survey.first_posture import bent_posture, least_stance, posture_height, stance_width
 from plantar.sim.survey.plan_reach import PlanReach, Walked, missed_aside, plan_reach, settled
 from plantar.sim.survey.servo_gains import CHATTERS, DAMPED, JointInertia, joint_inertia, servo_gains

@@ -13,14 +13,14 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.atomic import write_text
+from plantar.common.atomic import write_text
+from plantar.common.sides import SIDES
 from plantar.errors import RobotError
 from plantar.geometry.polygon import area
 from plantar.layouts.layout_file import read_layout
 from plantar.robots.robot import LegNames, Robot
 from plantar.robots.robot_file import load_robot
 from plantar.robots.walk import CONTROL_PERIOD
-from plantar.sides import SIDES
 from plantar.sim.survey.check import check_robot
 from plantar.sim.survey.fitted_gait import FittedGait, fit_gait
 from plantar.sim.survey.model_copy import add_rotors, write_model_copy

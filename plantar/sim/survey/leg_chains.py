@@ -8,8 +8,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.errors import RobotError
-from plantar.sides import Side
 from plantar.sim.survey.body_surface import geom_triangles, resting_plane, shapes_of
 
 LEAST_JOINTS = 4

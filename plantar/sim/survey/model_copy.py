@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.atomic import write_text
+from plantar.common.atomic import write_text
 from plantar.mujoco.mesh_surface import mesh_surface
 from plantar.mujoco.quaternions import quaternion_of
 from plantar.sim.survey.body_surface import SHAPES

@@ -12,8 +12,8 @@ from xml.etree import ElementTree
 import mujoco
 import numpy as np
 
+from plantar.common.files.model_files import attached_models, check_model, mesh_of_mjcf, mesh_of_urdf, parsed_model
 from plantar.errors import RobotError
-from plantar.files.model_files import attached_models, check_model, mesh_of_mjcf, mesh_of_urdf, parsed_model
 from plantar.mujoco.deletion import delete_all
 from plantar.robots.model_file import forget_own_simulation
 from plantar.sim.survey.body_surface import SHAPES

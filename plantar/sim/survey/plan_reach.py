@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.feet.swing import SwingTrajectory
 from plantar.gait.plan.footsteps import Footstep, straight_plan
@@ -22,7 +23,6 @@ from plantar.robots.kinematics.leg_inertia import angular_momentum, leg_inertia
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.standing_posture import posture_of
 from plantar.robots.robot import Robot
-from plantar.sides import SIDES, Side
 from plantar.sim.survey.servo_gains import floating_inertia
 from plantar.sim.terrain.ground import Terrain
 

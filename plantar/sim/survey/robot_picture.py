@@ -6,10 +6,10 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from plantar.common.sides import SIDES
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.robot import Robot
-from plantar.sides import SIDES
 from plantar.sim.figures.render import Camera, Line, View, save_picture
 from plantar.sim.model.world import World, build_world
 from plantar.sim.survey.plan_reach import settled

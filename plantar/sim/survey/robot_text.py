@@ -7,11 +7,11 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.gravity import GRAVITY
+from plantar.common.gravity import GRAVITY
+from plantar.common.sides import SIDES, Side
 from plantar.mechanics.rotation import vector_from_rotation
 from plantar.robots.robot import Robot
 from plantar.robots.walk import CONTROL_PERIOD
-from plantar.sides import SIDES, Side
 from plantar.sim.survey.fitted_gait import QUICK_HELD, FittedGait
 from plantar.sim.survey.servo_gains import SAMPLED, STIFFNESS
 from plantar.sim.survey.step_search import KNEE_LEAST, STEP_SHARE

@@ -8,10 +8,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.gravity import GRAVITY
+from plantar.common.gravity import GRAVITY
+from plantar.common.sides import SIDES
 from plantar.robots.kinematics.body import hanging_on
 from plantar.robots.robot import Robot
-from plantar.sides import SIDES
 
 
 @dataclass(frozen=True)

@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.gravity import GRAVITY
+from plantar.common.settings.body_scale import BodyScale
 from plantar.errors import RobotError
 from plantar.gait.plan.footsteps import straight_plan
-from plantar.gravity import GRAVITY
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
 from plantar.robots.walk import Walk, walk_timing
-from plantar.settings.body_scale import BodyScale
 from plantar.sim.survey.first_posture import least_stance
 from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, speed_shares
 from plantar.sim.survey.step_time import rocking

@@ -11,11 +11,11 @@ and back in a time T, and leans by atan(y / h), with
 import math
 from dataclasses import replace
 
-from plantar.gravity import GRAVITY
+from plantar.common.gravity import GRAVITY
+from plantar.common.sides import Side
 from plantar.robots.kinematics.body import rolling_joints, stood
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
-from plantar.sides import Side
 
 LEAN_MOST = math.radians(2.5)
 """Lean of a leg in the orbit. What a sole that stands flat does not lean, the body does."""

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.files.gate import read_apart
+from plantar.common.files.input_file import check_input, open_input
 from plantar.errors import DependencyError, RobotError
-from plantar.files.gate import read_apart
-from plantar.files.input_file import check_input, open_input
 
 _READ_BY_MUJOCO, _CONVERTED = (".obj", ".msh"), (".dae", ".stl")
 _MOST_BYTES = 400_000_000

@@ -9,9 +9,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.gravity import GRAVITY
+from plantar.common.sides import SIDES, Side
 from plantar.errors import RobotError
-from plantar.gravity import GRAVITY
-from plantar.sides import SIDES, Side
 from plantar.sim.survey.leg_chains import Legs, find_legs
 from plantar.sim.survey.model_source import ModelSource, named_note, read_model
 from plantar.sim.survey.sole_frame import Sole, find_sole

@@ -13,8 +13,8 @@ from contextlib import suppress
 from queue import Empty, SimpleQueue
 from typing import Any
 
+from plantar.common.optional_library import optional_library
 from plantar.errors import InputError, PlantarError, WorkerError
-from plantar.optional_library import optional_library
 from plantar.sim.sweep.task import Row, Task, failed, run_task
 from plantar.sim.sweep.workers import Workers
 

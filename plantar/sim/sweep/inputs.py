@@ -5,12 +5,12 @@ from collections.abc import Iterator, Mapping
 from importlib.metadata import version
 from pathlib import Path
 
-from plantar import __version__
+from plantar.common.files.input_file import is_file, open_input, sha256_of
+from plantar.common.files.structured_text import read_toml
+from plantar.common.sides import SIDES
+from plantar.common.version import VERSION
 from plantar.errors import RobotError, SceneError
-from plantar.files.input_file import is_file, open_input, sha256_of
-from plantar.files.structured_text import read_toml
 from plantar.robots import load_robot
-from plantar.sides import SIDES
 from plantar.sim.run.scene import scene_file
 
 _NAMED = re.compile(rb"""\b(?:file|filename)\s*=\s*["']([^"']+)["']""")
@@ -29,7 +29,7 @@ def inputs_of(scene: str, robot: str) -> dict[str, str]:
         ['layout layout_left.json', 'layout layout_right.json', 'mujoco']
     """
     path = scene_file(scene)
-    found = {"plantar": __version__, "mujoco": version("mujoco")}
+    found = {"plantar": VERSION, "mujoco": version("mujoco")}
     found[f"scene file {path.name}"] = sha256_of(path, SceneError)
     companion = "experiment" in read_toml(path, SceneError, f"scene file {path}")
     files = _files_of_machine(robot) if companion else _files_of(robot)

@@ -11,10 +11,10 @@ from contextlib import ExitStack, closing, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from plantar.atomic import write_text
-from plantar.csv_table import csv_row, original_cell
+from plantar.common.atomic import write_text
+from plantar.common.files.structured_text import read_json
+from plantar.common.table_writer import csv_row, original_cell
 from plantar.errors import InputError
-from plantar.files.structured_text import read_json
 from plantar.sim.sweep.inputs import changes
 from plantar.sim.sweep.plan import Key
 from plantar.sim.sweep.value_range import canonical, is_word

@@ -6,8 +6,8 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
+from plantar.common.files.structured_text import parse_toml
 from plantar.errors import InputError
-from plantar.files.structured_text import parse_toml
 
 _OPENING = ("[", "{", '"', "'")  # what a value begins with that may hold commas
 

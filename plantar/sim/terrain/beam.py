@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from plantar.settings.schema import number, share
+from plantar.common.settings.schema import number, share
 from plantar.sim.terrain.ground import Ground, PlannedFeet, Terrain
 from plantar.sim.terrain.way import Way, way_of
 

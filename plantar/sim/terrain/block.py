@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
+from plantar.common.settings.schema import choice, number, share, whole
 from plantar.errors import SceneError
 from plantar.mechanics.rotation import rotation_from_angles
-from plantar.settings.schema import choice, number, share, whole
 from plantar.sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
 
 _WAYS = ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from plantar.common.settings.schema import number, tables
+from plantar.common.settings.unknown_keys import refuse_unknown_keys
 from plantar.errors import SceneError
 from plantar.mechanics.rotation import rotation_from_angles
-from plantar.settings.schema import number, tables
-from plantar.settings.unknown_keys import refuse_unknown_keys
 from plantar.sim.terrain.ground import Ground, PlannedFeet, Solid, Terrain
 
 _SHAPES = {"box": 3, "sphere": 1, "ellipsoid": 3, "cylinder": 2}

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.schema import Settings, number, text
 from plantar.layouts.layout import Side
-from plantar.settings.schema import Settings, number, text
 
 GROUND_GROUP = 2
 """Geom group of all ground, and only of ground: what proximity sensors see."""

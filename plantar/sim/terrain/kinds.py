@@ -5,7 +5,7 @@ from functools import cache
 from importlib import import_module
 from pathlib import Path
 
-from plantar.extensions import extensions
+from plantar.common.extensions import extensions
 from plantar.sim.terrain.ground import Terrain
 
 

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
+from plantar.common.settings.schema import number
+from plantar.common.settings.schema import share as share_of_body
 from plantar.mechanics.rotation import rotation_from_angles
-from plantar.settings.schema import number
-from plantar.settings.schema import share as share_of_body
 from plantar.sim.terrain.ground import Footprint, PlannedFeet, Solid
 from plantar.sim.terrain.stones import Laid, drawn_slope, overlapping, stone_under
 

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.schema import choice, fixed, number, whole
+from plantar.common.settings.schema import share as share_of_body
+from plantar.common.sides import SIDES
 from plantar.errors import SceneError
 from plantar.mechanics.rotation import rotation_from_angles
-from plantar.settings.schema import choice, fixed, number, whole
-from plantar.settings.schema import share as share_of_body
-from plantar.sides import SIDES
 from plantar.sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
 
 _MARGIN = 0.433  # of the half length of the sole that a whole stone is larger than it, on each end: 54 mm of 250

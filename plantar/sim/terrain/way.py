@@ -8,9 +8,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.schema import number, share
 from plantar.errors import SceneError
 from plantar.mechanics.rotation import level_rotation, rotation_from_angles
-from plantar.settings.schema import number, share
 from plantar.sim.terrain.ground import Footprint, Ground, PlannedFeet, Solid, Terrain
 
 _THICK = 0.1  # m, half height of a piece

@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from typing import ClassVar, Literal, NamedTuple
 
-from plantar.settings.schema import Settings, number
+from plantar.common.settings.schema import Settings, number
 from plantar.wholebody.tasks.task import Task
 
 Arrangement = Literal["avoid", "approach", "retreat"]

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 
-from plantar.settings.schema import Settings, number
+from plantar.common.settings.schema import Settings, number
 from plantar.wholebody.tasks.task import Task
 
 

@@ -6,9 +6,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.schema import Settings, number
 from plantar.mechanics.rotation import rotation_error
 from plantar.sensing.link_skin import SkinReading
-from plantar.settings.schema import Settings, number
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 

@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.schema import Settings, number
 from plantar.sensing.body_skin import patch_signal
 from plantar.sensing.link_skin import BodySkin, SkinReading
-from plantar.settings.schema import Settings, number
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import positive
+from plantar.common.arguments import positive
 from plantar.sensing.link_skin import SkinReading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task

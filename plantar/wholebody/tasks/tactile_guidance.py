@@ -6,10 +6,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.schema import Settings, number
 from plantar.errors import InputError
 from plantar.mechanics.easing import minimum_jerk
 from plantar.sensing.link_skin import BodySkin, SkinReading
-from plantar.settings.schema import Settings, number
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.skin_interaction import DirectInteraction
 from plantar.wholebody.tasks.task import Demand, Task

@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from plantar.pages.page import with_policy
+from plantar.common.pages.page import with_policy
 
 AXE = Path(os.environ.get("PLANTAR_AXE") or Path(__file__).parents[3] / ".venv" / "axe" / "axe.min.js")
 """Where axe-core is; `sh tools/fetch-axe .venv/axe` fetches it."""

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from plantar.common.sides import SIDES
 from plantar.errors import InputError
 from plantar.formats.nominal_insole import nominal_insole
 from plantar.gait.analysis.activity import activity_of, progression_doubts, sway_measures
@@ -18,7 +19,6 @@ from plantar.gait.analysis.pages.sole_figures import figure_pressure
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.gait.analysis.steps.baseline import without_baselines
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, StatedEvents
-from plantar.sides import SIDES
 
 from .walks import made_walk
 

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from plantar.common.gravity import GRAVITY
 from plantar.gait.analysis.health import implied_weight, weight_doubts
 from plantar.gait.analysis.parameters import analyse_feet
-from plantar.gravity import GRAVITY
 from plantar.recordings.pressure_recording import PressureRecording
 
 from .walks import made_walk, two_humps

@@ -11,13 +11,13 @@ from typer.testing import CliRunner
 
 from plantar import InputError
 from plantar.cli import app
+from plantar.common.sides import SIDES
 from plantar.formats.format import ReadOptions
 from plantar.formats.nominal_insole import moticon_insole, nominal_insole
 from plantar.gait.analysis.analyse import Analysis, analyse
 from plantar.gait.analysis.exports import export_analysis
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.parameters import analyse_feet
-from plantar.sides import SIDES
 
 from .walks import made_walk
 

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from plantar.common.sides import SIDES, other_side
 from plantar.gait.analysis.health import inward_of_toes, mirrored_doubts
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
-from plantar.sides import SIDES, other_side
 
 from .vendor_texts import matrix_insoles
 from .walks import made_walk

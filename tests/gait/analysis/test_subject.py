@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 
 from plantar import InputError
 from plantar.cli import app
+from plantar.common.gravity import GRAVITY
 from plantar.formats.nominal_insole import nominal_insole
 from plantar.gait.analysis.health import implied_weight
 from plantar.gait.analysis.metrics import metrics_of
@@ -17,7 +18,6 @@ from plantar.gait.analysis.pages.report import report_page, summary_text
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.gait.analysis.steps.baseline import without_baselines
 from plantar.gait.analysis.subject import Subject, device_of, mass_doubts
-from plantar.gravity import GRAVITY
 from plantar.layouts.layout_file import layout_to_dict
 
 from .walks import made_walk

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from plantar.common.sides import SIDES
 from plantar.formats.nominal_insole import moticon_insole
 from plantar.gait.analysis.analyse import Analysis, analyse
-from plantar.sides import SIDES
 
 from .vendor_texts import Writing, moticon, pedar
 from .walks import MadeWalk, made_walk

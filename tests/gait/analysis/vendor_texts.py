@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.formats.recorded_layouts import grid_cells
 from plantar.formats.units import PASCALS
 from plantar.layouts.layout import SoleLayout
-from plantar.sides import SIDES, Side
 
 from .walks import MadeWalk
 

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.formats.nominal_insole import nominal_insole
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
-from plantar.sides import SIDES, Side
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from msgspec.structs import astuple
 
+from plantar.common.sides import SIDES, Side
 from plantar.errors import InputError
 from plantar.gait.balance.balance_laws import balance_gains, balance_law
 from plantar.gait.balance.dcm_balance import BalanceGains, DcmBalance
@@ -15,7 +16,6 @@ from plantar.gait.plan.vrp_plan import LipReference
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.wrench_cone import Rectangle, wrench_cone
 from plantar.mechanics.wrench_distribution import DistributionState
-from plantar.sides import SIDES, Side
 
 PERIOD, OMEGA, MASS = 0.005, 3.36, 65.0
 SOLE = Rectangle(-0.1, 0.13, -0.07, 0.07)

@@ -5,10 +5,10 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.estimate.com_offset import com_offset
 from plantar.gait.estimate.estimator import Posture
 from plantar.mechanics.rotation import level_rotation
-from plantar.sides import SIDES, Side
 
 WEIGHT, HEIGHT = 800.0, 0.8
 FEET: dict[Side, tuple[float, float, float, float]] = {

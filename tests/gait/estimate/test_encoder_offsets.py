@@ -5,9 +5,9 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.estimate.encoder_offsets import StandingTolerances, encoder_offsets, standing_base
 from plantar.gait.estimate.estimator import Posture
-from plantar.sides import SIDES, Side
 
 TOLERANCES = StandingTolerances(offset=3e-3, place=6e-4, turn=1e-3)
 HIPS: dict[Side, NDArray[np.float64]] = {"left": np.array([0.0, 0.08, -0.1]), "right": np.array([0.0, -0.08, -0.1])}

@@ -5,9 +5,9 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from plantar.common.sides import Side
 from plantar.gait.estimate.gyro_bias import GyroBias
 from plantar.mechanics.rotation import sine_vector
-from plantar.sides import Side
 
 PERIOD, LARGEST = 0.005, 0.05
 BOTH: dict[Side, float] = {"left": 400.0, "right": 300.0}

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.estimate.ankle_sensor import SoleWrench
 from plantar.gait.estimate.estimator import FloatingBaseEstimator, Posture
 from plantar.gait.estimate.identification import IdentificationRules
 from plantar.gait.estimate.identified_body import IdentifiedBody
-from plantar.sides import SIDES, Side
 
 PERIOD, WEIGHT, UP = 0.005, 800.0, np.array([0.0, 0.0, 9.81])
 FEET: dict[Side, tuple[float, float, float, float]] = {"left": (0.0, 0.1, 0.0, 0.0), "right": (0.0, -0.1, 0.0, 0.0)}

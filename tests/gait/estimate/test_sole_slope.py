@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from plantar.common.sides import Side
 from plantar.gait.estimate.sole_slope import SoleSlope
 from plantar.gait.feet.landing_compliance import DampingGains, LandingCompliance
 from plantar.mechanics.rotation import rotation_from_vector
-from plantar.sides import Side
 
 BOTH = {"left": 400.0, "right": 400.0}
 

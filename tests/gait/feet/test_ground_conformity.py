@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from plantar import Percept, Reading
+from plantar.common.sides import SIDES, Side
 from plantar.errors import InputError
 from plantar.gait.contact.ground_map import GroundMapSettings
 from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
@@ -16,7 +17,6 @@ from plantar.gait.plan.phases import Phase, PhaseKind
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.tiling import hex_layout
 from plantar.mechanics.base_state import BaseState
-from plantar.sides import SIDES, Side
 
 PERIOD = 0.005
 GAINS = ConformityGains()

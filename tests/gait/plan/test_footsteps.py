@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from plantar.common.sides import other_side
 from plantar.errors import InputError
 from plantar.gait.plan.footsteps import Footstep, straight_plan
-from plantar.sides import other_side
 
 
 def test_forward_walk_leads_by_one_length_and_closes():

@@ -6,6 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.common.sides import SIDES
 from plantar.gait.feet.swing import SwingTrajectory
 from plantar.gait.feet.swing_flight import PolynomialSwing
 from plantar.gait.feet.swing_kind import SwingStart
@@ -20,7 +21,6 @@ from plantar.mechanics.lip import pendulum_frequency
 from plantar.robots import load_robot
 from plantar.robots.kinematics.leg_inertia import leg_inertia
 from plantar.robots.kinematics.robot_model import build_leg_model
-from plantar.sides import SIDES
 
 PERIOD, OMEGA = 0.01, 3.4
 FREE = np.empty((0, 2))

@@ -3,10 +3,10 @@ from itertools import pairwise
 
 import pytest
 
+from plantar.common.sides import Side
 from plantar.errors import InputError
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.gait.plan.phases import PhaseKind, Timing, WalkSchedule
-from plantar.sides import Side
 
 STEPS = straight_plan(5)[1]
 FEET = [step.side for step in STEPS]

@@ -3,12 +3,12 @@ from dataclasses import FrozenInstanceError, replace
 import numpy as np
 import pytest
 
+from plantar.common.sides import other_side
 from plantar.errors import InputError
 from plantar.gait.plan.footsteps import Footstep, straight_plan
 from plantar.gait.plan.phases import PhaseKind, Timing
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.walk_plan import WalkPlan, vrp_of_step
-from plantar.sides import other_side
 
 OMEGA = 3.5
 CENTER = {"left": np.array([0.025, 0.01]), "right": np.array([0.025, -0.01])}

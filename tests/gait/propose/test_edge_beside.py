@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.edge_beside import EdgeBeside
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.tiling import hex_layout
-from plantar.sides import SIDES, Side
 
 NOWHERE = np.empty((0, 2))
 DROP, LARGEST, FIRST = 0.04, 0.02, 2.2 + 0.85  # s, when the first foot touches down

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.contact.foot_contacts import FootholdFound, FootholdSeen
 from plantar.gait.contact.support_strip import SupportStrip
 from plantar.gait.plan.plan_change import PlanChange
@@ -12,7 +13,6 @@ from plantar.gait.plan.walk_plan import WalkPlan
 from plantar.gait.propose.foothold_found import FootholdCarries
 from plantar.gait.propose.foothold_rules import FootholdRules
 from plantar.gait.propose.foothold_seen import FootholdSeenAhead
-from plantar.sides import SIDES, Side
 
 RULES = FootholdRules()
 NOWHERE = np.empty((0, 2))

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from plantar import Reading, hex_layout
+from plantar.common.sides import SIDES
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.walk_plan import WalkPlan
 from plantar.gait.propose.feasibility import FeasibilityRules
 from plantar.gait.propose.foothold_refused import StepGuard
 from plantar.gait.propose.proposer import Tick
-from plantar.sides import SIDES
 
 PERIOD = 0.005
 LAYOUT = hex_layout([[-0.1, -0.07], [0.12, -0.07], [0.12, 0.07], [-0.1, 0.07]])

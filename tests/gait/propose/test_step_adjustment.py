@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import shapely
 
+from plantar.common.sides import other_side
 from plantar.gait.balance.ankle_strategy import AnkleRules
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.gait.plan.phases import PhaseKind, Timing
@@ -15,7 +16,6 @@ from plantar.gait.plan.walk_plan import WalkPlan
 from plantar.gait.propose.proposer import Pendulum, Tick
 from plantar.gait.propose.ssp_opt import StepRegionRules, StepWeights
 from plantar.gait.propose.step_adjustment import StepAdjustment, StepAdjustmentRules
-from plantar.sides import other_side
 
 PERIOD = 0.005
 RULES = StepAdjustmentRules()

@@ -3,7 +3,7 @@
 import mujoco
 import numpy as np
 
-from plantar.record import Record
+from plantar.common.record import Record
 from plantar.sim.bench.stress.faults import FAULTS
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene

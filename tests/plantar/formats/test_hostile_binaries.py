@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from mcap.writer import CompressionType, Writer
 
+from plantar.common.files.image_size import ImageSize, stated_size
 from plantar.errors import FormatError
-from plantar.files.image_size import ImageSize, stated_size
 from plantar.formats import ReadOptions, formats, read_recording
 from plantar.formats.footprint_image import read_footprints
 from plantar.recordings.recording import read_mcap

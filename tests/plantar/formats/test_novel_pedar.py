@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from plantar import FormatError, InputError, write_layout
+from plantar.common.sides import other_side
 from plantar.formats import ReadOptions, detect_format, read_recording
 from plantar.formats.nominal_insole import CELL_AREAS, nominal_insole
 from plantar.formats.recorded_layouts import polygon_layout
-from plantar.sides import other_side
 
 from .corruption import survive_corruption
 

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from plantar.common.gravity import GRAVITY
 from plantar.errors import InputError
-from plantar.gravity import GRAVITY
 from plantar.mechanics.external_wrench import external_acceleration, vrp_offset
 from plantar.mechanics.wrench import wrench_at
 

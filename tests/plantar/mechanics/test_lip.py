@@ -35,4 +35,4 @@ def test_free_fall_stands_in_one_place():
     files = (root / "plantar").rglob("*.py")
     # 9.80665 in plantar/formats/units.py is the definition of a unit.
     found = {p.relative_to(root).as_posix() for p in files if re.search(r"\b9\.81", p.read_text(encoding="utf-8"))}
-    assert found == {"plantar/gravity.py"}
+    assert found == {"plantar/common/gravity.py"}

@@ -2,11 +2,11 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.common.sides import SIDES
 from plantar.robots.kinematics.ankle_limits import ankle_limits
 from plantar.robots.kinematics.body import body_of, stood
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.robot_file import load_robot
-from plantar.sides import SIDES
 
 
 @pytest.mark.parametrize("slope", [(0.0, 0.0), (0.17, 0.0), (-0.1, 0.08)])

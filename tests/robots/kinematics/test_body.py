@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import pytest
 
+from plantar.common.sides import SIDES
 from plantar.robots import builtin_robots, load_robot
 from plantar.robots.kinematics.body import body_of, leg_length
 from plantar.robots.kinematics.robot_model import build_leg_model
-from plantar.sides import SIDES
 
 
 @pytest.mark.parametrize("name", builtin_robots())

@@ -9,11 +9,11 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from plantar.common.sides import SIDES
 from plantar.layouts.layout import Side
 from plantar.robots import load_robot
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model, robot_spec
-from plantar.sides import SIDES
 
 STANCE: dict[Side, NDArray[np.float64]] = {"left": np.array([0.0, 0.085, 0.0]), "right": np.array([0.1, -0.085, 0.0])}
 LEVEL: dict[Side, NDArray[np.float64]] = {"left": np.eye(3), "right": np.eye(3)}

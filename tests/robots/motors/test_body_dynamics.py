@@ -2,12 +2,12 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.common.sides import SIDES
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.motors.body_dynamics import BodyDynamics
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
-from plantar.sides import SIDES
 
 
 @pytest.fixture(params=["h1", "hrp2kai"])

@@ -1,13 +1,13 @@
 import numpy as np
 import pytest
 
+from plantar.common.sides import SIDES
 from plantar.errors import SceneError
 from plantar.gait.command import Command, Sensors
 from plantar.robots.controller import RobotController, load_controller
 from plantar.robots.motors.command_motors import motor_gains, planned_wrenches
 from plantar.robots.robot_file import load_robot
 from plantar.sensing.reading import Reading
-from plantar.sides import SIDES
 
 
 def first_command(walker: RobotController) -> Command:

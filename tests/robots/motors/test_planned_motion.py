@@ -6,11 +6,11 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.common.sides import SIDES
 from plantar.robots import load_robot
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.motors.planned_motion import PlannedMotion
-from plantar.sides import SIDES
 
 PERIOD = 0.005
 

@@ -3,13 +3,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from plantar.common.sides import SIDES, Side
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.wrench_cone import Rectangle, cone_rows
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.motors.body_dynamics import BodyDynamics
 from plantar.robots.motors.torque_program import Standing, Wish, torques_of
 from plantar.robots.robot_file import load_robot
-from plantar.sides import SIDES, Side
 
 
 class Body:

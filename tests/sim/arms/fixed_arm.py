@@ -7,9 +7,9 @@ from typing import Any, cast
 import mujoco
 import numpy as np
 
+from plantar.common.settings.body_scale import REFERENCE_BODY
 from plantar.robots import load_robot
 from plantar.robots.kinematics.robot_model import Visitor
-from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.sim.arms.compliant_arm import CompliantArm
 from plantar.sim.arms.settings import ArmSettings
 from plantar.sim.arms.worn_arm import WornArm

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from plantar.common.sides import SIDES
 from plantar.errors import RobotError, SceneError
 from plantar.robots import load_robot
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.robot import Arms
-from plantar.sides import SIDES
 from plantar.sim.arms.worn_arm import WornArm
 
 

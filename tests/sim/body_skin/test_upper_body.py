@@ -4,8 +4,8 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.common.gravity import GRAVITY
 from plantar.errors import RobotError
-from plantar.gravity import GRAVITY
 from plantar.sensing.link_skin import BodySkin
 from plantar.sim.body_skin.upper_body import FACES, upper_body_skin
 

@@ -12,12 +12,12 @@ from foxglove_schemas_protobuf.Log_pb2 import Log
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from mcap.reader import make_reader
 
+from plantar.common.settings.body_scale import REFERENCE_BODY
+from plantar.common.sides import SIDES
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.plan_change import AppliedChange, MovedStep, PlanChange
 from plantar.mechanics.rotation import level_rotation
 from plantar.recordings.recording import Recording, read_mcap
-from plantar.settings.body_scale import REFERENCE_BODY
-from plantar.sides import SIDES
 from plantar.sim.figures.drawn_run import change_text
 from plantar.sim.run.runner import run_scene
 from plantar.sim.run.scene import load_scene

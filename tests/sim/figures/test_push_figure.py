@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from plantar.common.sides import SIDES
 from plantar.gait.plan.phases import PhaseKind
 from plantar.recordings.recording import Recording, Table
 from plantar.robots import load_robot
-from plantar.sides import SIDES
 from plantar.sim.figures.push_figure import draw_guide, draw_partner, draw_pushes, draw_strides, draw_swing
 
 PERIOD, STEP = 0.02, 1.0

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from plantar.common.gravity import GRAVITY
 from plantar.gait.plan.footsteps import straight_plan
-from plantar.gravity import GRAVITY
 from plantar.sim.judging.push_truth import CHANGED, Pushed, PushTruth, Stride, step_changes, strides
 from plantar.sim.judging.step_count import Stand
 

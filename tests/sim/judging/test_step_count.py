@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from plantar.common.sides import SIDES
 from plantar.gait.plan.footsteps import Footstep, straight_plan
 from plantar.gait.plan.plan_change import MovedStep
-from plantar.sides import SIDES
 from plantar.sim.judging.step_count import StepCount
 from plantar.sim.judging.walk_goal import WalkGoal
 

@@ -13,8 +13,8 @@ import pytest
 import shapely
 from scipy.spatial import ConvexHull, QhullError
 
+from plantar.common.sides import SIDES
 from plantar.mechanics.lip import GRAVITY
-from plantar.sides import SIDES
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 

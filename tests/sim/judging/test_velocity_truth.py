@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from plantar.common.settings.body_scale import REFERENCE_BODY
 from plantar.gait.plan.phases import Timing
 from plantar.gait.propose.velocity_command import VelocityTable, table_of
-from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.sim.judging.velocity_truth import VelocityTruth
 
 TIMING = Timing()

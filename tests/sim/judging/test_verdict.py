@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sim.judging.verdict import FASTER_FOR, Ending, partner_reasons, reasons
 
 STILL = SimpleNamespace(longest=np.zeros(3), fastest=np.zeros(3), names=["hip", "knee", "ankle"])

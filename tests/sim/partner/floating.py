@@ -6,7 +6,7 @@ from typing import Any, cast
 
 import mujoco
 
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sim.body_skin.upper_body import upper_body_skin
 from plantar.sim.model.world import World
 from plantar.sim.partner.touch import Partner, Touch

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from plantar.settings.body_scale import REFERENCE_BODY
+from plantar.common.settings.body_scale import REFERENCE_BODY
 from plantar.sim.judging.guide_truth import GuideTruth
 from plantar.sim.model.world import World
 from plantar.sim.partner.guide import Grip, Guide

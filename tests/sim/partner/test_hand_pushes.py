@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.errors import SceneError
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sim.model.world import World
 from plantar.sim.partner.hand_pushes import HandPush, HandPushes, faces_of
 from plantar.sim.partner.touch import Touch

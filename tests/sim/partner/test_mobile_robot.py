@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import pytest
 
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sim.partner.mobile_robot import Impedance, MobileRobot
 from plantar.sim.partner.settings import PartnerSettings
 

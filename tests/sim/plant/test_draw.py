@@ -6,9 +6,9 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.common.sides import SIDES
 from plantar.robots import load_robot
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
-from plantar.sides import SIDES
 from plantar.sim.plant.draw import RANGES, TruePlant, drawn_plant
 from plantar.sim.plant.settings import EVERYTHING, RANDOM, STATED, Plant
 

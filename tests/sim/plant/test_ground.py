@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from plantar.settings.body_scale import REFERENCE_BODY
+from plantar.common.settings.body_scale import REFERENCE_BODY
 from plantar.sim.model.contact_truth import foot_contacts
 from plantar.sim.model.world import World
 from plantar.sim.plant.ground import FOAM_MODULUS, PATCH, foam_time

@@ -6,9 +6,9 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.common.settings.body_scale import REFERENCE_BODY
+from plantar.common.sides import SIDES
 from plantar.robots import load_robot
-from plantar.settings.body_scale import REFERENCE_BODY
-from plantar.sides import SIDES
 from plantar.sim.model.world import build_world
 from plantar.sim.plant.delay import Delay
 from plantar.sim.plant.draw import TruePlant, drawn_plant

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
+from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.errors import InputError, SceneError
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sim.plant.settings import RANDOM, Plant
 from plantar.sim.run.scene import load_scene
 

@@ -6,10 +6,10 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.common.settings.body_scale import REFERENCE_BODY
+from plantar.common.sides import SIDES, Side
 from plantar.robots import load_robot
 from plantar.sensing.taxel_faults import WARMING
-from plantar.settings.body_scale import REFERENCE_BODY
-from plantar.sides import SIDES, Side
 from plantar.sim.plant.draw import TruePlant, drawn_plant
 from plantar.sim.plant.settings import Plant
 from plantar.sim.plant.taxels import CONNECTORS, SILENCE, TaxelErrors

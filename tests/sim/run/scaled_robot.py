@@ -10,11 +10,11 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from plantar.common.sides import SIDES
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import write_layout
 from plantar.robots import Robot, load_robot
 from plantar.robots.kinematics.robot_model import robot_spec
-from plantar.sides import SIDES
 
 _TOML = """name = "h1 times {s:g}"
 [model]

@@ -4,11 +4,11 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.common.settings.body_scale import REFERENCE_BODY
+from plantar.common.settings.schema import Settings
 from plantar.errors import SceneError
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.gait.plan.phases import Timing, WalkSchedule
-from plantar.settings.body_scale import REFERENCE_BODY
-from plantar.settings.schema import Settings
 from plantar.sim.partner.hand_pushes import HandPushes
 from plantar.sim.run.hand_pushing import hand_pushes
 from plantar.sim.run.pushing import Pusher

@@ -2,10 +2,10 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.common.settings.body_scale import BodyScale
 from plantar.errors import SceneError
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.gait.plan.phases import Timing, WalkSchedule
-from plantar.settings.body_scale import BodyScale
 from plantar.sim.run.pushing import Pusher
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import Push, load_scene

@@ -1,8 +1,8 @@
 import pytest
 
+from plantar.common.settings.body_scale import BodyScale
 from plantar.errors import SceneError
 from plantar.gait.propose.velocity_command import Velocity
-from plantar.settings.body_scale import BodyScale
 from plantar.sim.run.run_summary import shares_of
 from plantar.sim.run.scene import builtin_scenes, load_scene
 from plantar.sim.run.scene_kind import open_scene

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from plantar.files.structured_text import read_toml
+from plantar.common.files.structured_text import read_toml
 from plantar.gait.controller_tables import CONTROLLER_TABLES
 from plantar.sim.run.scene import builtin_scenes, scene_file
 

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from plantar.sides import SIDES
+from plantar.common.sides import SIDES
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 

@@ -5,13 +5,13 @@ from dataclasses import replace
 
 import pytest
 
+from plantar.common.settings.body_scale import BodyScale
 from plantar.errors import InputError
 from plantar.robots import load_robot
 from plantar.robots.controller_settings import controller_settings
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.walk import walk_timing
-from plantar.settings.body_scale import BodyScale
 from plantar.sim.run.scene import load_scene
 from plantar.sim.survey.fitted_gait import (
     APPROACH_HEIGHT,

@@ -7,8 +7,8 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.common.gravity import GRAVITY
 from plantar.gait.plan.footsteps import straight_plan
-from plantar.gravity import GRAVITY
 from plantar.robots import builtin_robots, load_robot
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.robot_model import build_leg_model

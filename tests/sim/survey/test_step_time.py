@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from plantar.gravity import GRAVITY
+from plantar.common.gravity import GRAVITY
+from plantar.common.sides import SIDES
 from plantar.robots import builtin_robots, load_robot
 from plantar.robots.kinematics.robot_model import build_leg_model
-from plantar.sides import SIDES
 from plantar.sim.survey.step_time import (
     LEAN_MOST,
     ankle_reach,

@@ -5,8 +5,8 @@ import re
 import numpy as np
 import pytest
 
+from plantar.common.files import gate
 from plantar.errors import RobotError
-from plantar.files import gate
 from plantar.sim.survey import surface_file
 from plantar.sim.survey.surface_file import meshes_for_mujoco, stl_bytes
 

@@ -4,13 +4,13 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from plantar.common.sides import Side
 from plantar.gait.analysis.pages.force_figures import figure_force, figure_steps, figure_symmetry, figure_wrench
 from plantar.gait.analysis.pages.sole_figures import figure_pressure, figure_regions
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.gait.analysis.summary import symmetry
 from plantar.plotting import save_figure
 from plantar.recordings.pressure_recording import PressureRecording
-from plantar.sides import Side
 
 
 def write_figures(

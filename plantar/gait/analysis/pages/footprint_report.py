@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.csv_table import csv_text
+from plantar.common.pages.page import Section, figures_of, number, page, row, scaled, table, titled, warning_list
+from plantar.common.sides import SIDES, Side
+from plantar.common.table_writer import csv_text
 from plantar.formats.footprint_image import FootprintImage, Print, read_footprints
 from plantar.gait.analysis.pages.figure_files import write_figures
 from plantar.gait.analysis.pages.report import facts_of_image
@@ -18,9 +20,7 @@ from plantar.gait.analysis.prints.footprint import Footprint, footprint_of_pixel
 from plantar.gait.analysis.prints.platform_walk import side_by_shape
 from plantar.gait.analysis.prints.regions import REGIONS, regions_of, with_toe_line
 from plantar.gait.analysis.subject import Subject
-from plantar.pages.page import Section, figures_of, number, page, row, scaled, table, titled, warning_list
 from plantar.plotting import COLOURS, draw_raster, new_figure
-from plantar.sides import SIDES, Side
 
 _LENGTHS = (0.08, 0.40)  # Lengths in m of footprints, from a child who begins to walk to the largest feet
 _MOST_PIXELS = 40_000  # Pixels a footprint is measured with; finer masks are thinned

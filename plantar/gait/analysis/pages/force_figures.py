@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.gait.analysis.measures import MEASURES
 from plantar.gait.analysis.steps.events import Levels
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.plotting import COLOURS, new_figure, thinned
 from plantar.recordings.pressure_recording import PressureRecording
-from plantar.sides import Side
 
 STANCE = np.linspace(0.0, 100.0, 101)
 """Percent of stance at which force curves are given."""

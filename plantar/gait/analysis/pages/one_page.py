@@ -8,15 +8,15 @@ from typing import Any
 
 import numpy as np
 
+from plantar.common.pages.page import Section, embedded, number, page, row, table, warning_list
+from plantar.common.sides import Side
 from plantar.gait.analysis.measures import MEASURES, full_title
 from plantar.gait.analysis.pages.force_figures import STANCE, draw_sd, force_label, stance_curves
 from plantar.gait.analysis.pages.report import asset, facts_of, summary_text
 from plantar.gait.analysis.pages.tables import mean_and, shown_as
 from plantar.gait.analysis.steps.foot_gait import FootGait
-from plantar.pages.page import Section, embedded, number, page, row, table, warning_list
 from plantar.plotting import COLOURS, new_figure
 from plantar.recordings.pressure_recording import PressureRecording
-from plantar.sides import Side
 
 # 95 % ranges of women and men of 18 to 49 years who walk freely, after Whittle 2007, Gait Analysis, 4th ed.; not yet
 # compared with the printed table.

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.gait.analysis.pages.sole_figures import stepped_on
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.recordings.pressure_recording import PressureRecording
-from plantar.sides import Side
 
 LONGEST = 60.0  # Time in s that the player shows; of a longer recording the first part that is loaded
 USUAL_RATE = 25.0  # Frames a second that the player shows of a long recording

@@ -8,11 +8,11 @@ from pathlib import Path
 from string import Template
 from typing import Any
 
-from plantar import __version__
+from plantar.common.gravity import GRAVITY
+from plantar.common.pages.page import Section, embedded, figures_of, number, page, warning_list
+from plantar.common.version import VERSION
 from plantar.gait.analysis.measures import MEASURES
 from plantar.gait.analysis.pages.tables import comparison_table, measures_table, regions_tables, steps_table
-from plantar.gravity import GRAVITY
-from plantar.pages.page import Section, embedded, figures_of, number, page, warning_list
 
 _GAIT = (
     ("cadence_steps_per_min", "Cadence", "steps/min", 1.0),
@@ -153,7 +153,7 @@ def facts_of(metrics: Mapping[str, Any], file: str) -> str:
         ("Recorded", f"{metrics['duration_s']:.4g} s, {metrics['frames']} frames at {metrics['rate_hz']:.6g} Hz"),
         ("Values", "raw counts of unknown unit" if metrics.get("raw") else ""),
         ("File", file),
-        ("Analysed by", f"Plantar {__version__}"),
+        ("Analysed by", f"Plantar {VERSION}"),
     ]
     return _listed(facts)
 
@@ -166,7 +166,7 @@ def facts_of_image(metrics: Mapping[str, Any], file: str) -> str:
         ("Participant", _participant(metrics)),
         ("Image", f"{width} x {height} pixels{scale}"),
         ("File", file),
-        ("Analysed by", f"Plantar {__version__}"),
+        ("Analysed by", f"Plantar {VERSION}"),
     ]
     return _listed(facts)
 

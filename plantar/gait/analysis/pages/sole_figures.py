@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.formats.recorded_layouts import subset
 from plantar.gait.analysis.prints.footprint import Footprint
 from plantar.gait.analysis.prints.regions import REGIONS
@@ -15,7 +16,6 @@ from plantar.geometry.polygon import convex_hull, signed_margin
 from plantar.layouts.layout import SoleLayout
 from plantar.plotting import COLOURS, draw_cells, draw_classes, new_figure
 from plantar.recordings.pressure_recording import PressureRecording
-from plantar.sides import Side
 
 # CoP paths drawn a foot, thin, next to the mean one; of more steps every n-th: the map below has to be seen.
 MOST_PATHS = 12

@@ -5,10 +5,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, NamedTuple
 
+from plantar.common.gravity import GRAVITY
+from plantar.common.pages.page import group_row, number, row, scaled, table, titled
 from plantar.gait.analysis.measures import MEASURES, REGION_MEASURES, Measure, full_title, raw_name
 from plantar.gait.analysis.prints.regions import REGIONS
-from plantar.gravity import GRAVITY
-from plantar.pages.page import group_row, number, row, scaled, table, titled
 
 EACH_STEP = ("contact_time_s", "stride_time_s", "peak_force_N", "impulse_Ns", "peak_pressure_Pa", "contact_area_m2")
 """Measures that are shown of each step."""

@@ -8,6 +8,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.errors import FormatError
 from plantar.gait.analysis.prints.footprint import Footprint
 from plantar.gait.analysis.prints.platform_walk import (
@@ -24,7 +25,6 @@ from plantar.gait.analysis.prints.platform_walk import (
 )
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
-from plantar.sides import SIDES, Side
 
 # Cells by which a footprint at the edge is shorter than the others, and the share of their width, where it is cut off.
 _SHORTER, _NARROWER = 1.5, 0.8

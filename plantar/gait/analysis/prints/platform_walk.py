@@ -12,10 +12,10 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side, other_side
 from plantar.gait.analysis.prints.footprint import Footprint, footprint_of_cells
 from plantar.gait.analysis.prints.joined import joined
 from plantar.layouts.layout import SoleLayout
-from plantar.sides import Side, other_side
 
 LONGEST, PAUSE = 0.36, 1.0
 """Largest length in m of one footprint, and time in s without load that ends a pass over the platform."""

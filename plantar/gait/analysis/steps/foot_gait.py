@@ -7,10 +7,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.gait.analysis.prints.footprint import Footprint
 from plantar.gait.analysis.steps.events import Contact, Levels
 from plantar.recordings.pressure_recording import FootRecording
-from plantar.sides import Side
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,9 +8,9 @@ from typing import cast
 
 import numpy as np
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.analysis.steps.events import Contact
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
-from plantar.sides import SIDES, Side
 
 # A contact over twice the median of the three before and the three after it, and over 1.2 s, is standing.
 _LONG, _LEAST, _BESIDE = 2.0, 1.2, 3

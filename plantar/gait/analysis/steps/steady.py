@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
-from plantar.sides import Side
 
 FEWEST_STEPS = 12
 """Steps a foot that reliable means of in-shoe pressure take (Arts & Bus 2011, Clin. Biomech. 26:880)."""

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.gait.analysis.prints.footprint import Footprint, footprint_of_cells
 from plantar.gait.analysis.prints.platform import PlatformPrint
 from plantar.gait.analysis.prints.regions import regions_of, with_toe_line
@@ -13,7 +14,6 @@ from plantar.gait.analysis.steps.events import Contact
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.gait.analysis.steps.step_load import StepLoads
 from plantar.recordings.pressure_recording import PressureRecording
-from plantar.sides import Side
 
 
 def with_picture(recording: PressureRecording, gait: FootGait, loads: StepLoads) -> FootGait:

@@ -9,9 +9,9 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.gait.analysis.steps.events import Contact, measured_spans
 from plantar.recordings.pressure_recording import PressureRecording
-from plantar.sides import Side
 
 # A stride longer than so many times the median of this many before or after it holds a pause or an unrecorded step.
 PAUSE, _BESIDE = 1.75, 7

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.sides import Side, other_side
+from plantar.common.sides import Side, other_side
 
 _LEAST_STRIDE = 0.05  # Distance in m under which two footprints of one foot give no direction
 _LONGEST_STRIDE = 3.0  # Time in s after which a footprint is not the next one of a walk

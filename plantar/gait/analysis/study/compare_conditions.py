@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.gravity import GRAVITY
 from plantar.gait.analysis.compare import unlike
 from plantar.gait.analysis.measures import COMPARED, raw_name
 from plantar.gait.analysis.study.one_recording import RecordingResult
 from plantar.gait.analysis.study.statistics import Effect, PermutationTest, effect_of, permutation_test
-from plantar.gravity import GRAVITY
 
 _Group = Sequence[Sequence[RecordingResult]]  # Recordings of each participant
 FEWEST = 3  # Participants a condition from which a difference can be tested at all

@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar import __version__
-from plantar.atomic import replacing
+from plantar.common.atomic import replacing
+from plantar.common.files.input_file import sha256_of
+from plantar.common.gravity import GRAVITY
+from plantar.common.sides import Side
+from plantar.common.version import VERSION
 from plantar.errors import FormatError
-from plantar.files.input_file import sha256_of
 from plantar.formats import ReadOptions
 from plantar.gait.analysis.analyse_one import analyse_one, with_layout
 from plantar.gait.analysis.compare import sensor_of
@@ -23,9 +25,7 @@ from plantar.gait.analysis.results import Analysis
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.gait.analysis.study.participants import Participation
 from plantar.gait.analysis.subject import Subject
-from plantar.gravity import GRAVITY
 from plantar.layouts.layout_file import layout_to_dict
-from plantar.sides import Side
 
 GRID = (36, 14)
 """Places along and across a sole at which maps are compared: about 8 mm, the pitch of in-shoe sensors."""
@@ -98,7 +98,7 @@ def key_of(
         layout_to_dict(given.layout) if given.layout else "",
         digest_of(folder / who.layout) if who.layout else "",
     )
-    decisive = [__version__, digest, asdict(who), asdict(choices), known, layouts]
+    decisive = [VERSION, digest, asdict(who), asdict(choices), known, layouts]
     return hashlib.sha256(json.dumps(decisive).encode()).hexdigest()
 
 

@@ -6,11 +6,11 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from plantar.common.files.text_table import read_text_table
+from plantar.common.sides import SIDES
 from plantar.errors import FormatError, InputError
-from plantar.files.text_table import read_text_table
 from plantar.formats.text import number
 from plantar.gait.analysis.subject import BODY_MASSES, FOOT_LENGTHS
-from plantar.sides import SIDES
 
 # Names that a column may have, by what it holds; other columns are carried through to the tables.
 _NAMES = {

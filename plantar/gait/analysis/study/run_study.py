@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar import __version__
-from plantar.atomic import write_text
-from plantar.csv_table import csv_text, mapping_rows
+from plantar.common.atomic import write_text
+from plantar.common.table_writer import csv_text, mapping_rows
+from plantar.common.version import VERSION
 from plantar.errors import InputError, PlantarError
 from plantar.formats import ReadOptions, formats
 from plantar.gait.analysis.options import AnalysisOptions
@@ -90,7 +90,7 @@ class Study:
             "conditions": list(dict.fromkeys(r.who.condition for r in self.results if r.who.condition)),
             "steps": sum(len(r.rows) for r in self.results),
             "options": asdict(self.choices),
-            "version": __version__,
+            "version": VERSION,
             "comparisons": [_plain(c) for c in self.comparisons],
             "outliers": [o._asdict() for o in outliers(self.results)],
         }
@@ -195,7 +195,7 @@ def _identity(result: RecordingResult) -> dict[str, Any]:
 def _provenance(study: Study, result: RecordingResult) -> dict[str, Any]:
     return {
         "format": result.format,
-        "version": __version__,
+        "version": VERSION,
         "options": json.dumps(asdict(study.choices), sort_keys=True),
         "sha256": result.digest,
     }

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from plantar.common.pages.page import Section, figures_of, number, page, row, scaled, table, titled, warning_list
 from plantar.gait.analysis.measures import MEASURES, full_title
 from plantar.gait.analysis.pages.force_figures import STANCE
 from plantar.gait.analysis.steps.steady import FEWEST_STEPS
 from plantar.gait.analysis.study.compare_conditions import Comparison
 from plantar.gait.analysis.study.one_recording import RecordingResult
 from plantar.gait.analysis.study.statistics import Effect, student_quantile
-from plantar.pages.page import Section, figures_of, number, page, row, scaled, table, titled, warning_list
 from plantar.plotting import COLOURS, new_figure
 
 _MOST = 200  # Rows of a table that the page shows; the CSV tables hold all

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from plantar.common.gravity import GRAVITY
 from plantar.errors import InputError
-from plantar.gravity import GRAVITY
 from plantar.robots.controller import JointTargets
 from plantar.sim.bench.footholds.policy import Action, WalkTask
 from plantar.sim.run.runner import Simulation

@@ -5,9 +5,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from plantar.atomic import write_text
 from plantar.bench.intervals import wilson_interval
 from plantar.bench.tables import GrowingTable, markdown_table
+from plantar.common.atomic import write_text
 from plantar.errors import InputError, SceneError
 from plantar.sim.bench.footholds.foothold_run import TRIALS, run_trial
 from plantar.sim.bench.footholds.policy import OwnController, load_policy

@@ -10,12 +10,12 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.errors import InputError
 from plantar.gait.command import Sensors
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.plan_change import MovedStep
 from plantar.robots.controller import JointTargets, RobotController, load_controller
-from plantar.sides import Side
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from typing import Any, NamedTuple
 
-from plantar.pages.page import Section, figure, number, page, row, table
+from plantar.common.pages.page import Section, figure, number, page, row, table
 from plantar.sim.bench.room_times import ROOMS
 
 Row = Mapping[str, Any]

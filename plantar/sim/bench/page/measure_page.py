@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from plantar import __version__
-from plantar.atomic import write_text
-from plantar.console.progress import Progress
+from plantar.common.atomic import write_text
+from plantar.common.console.progress import Progress
+from plantar.common.version import VERSION
 from plantar.sim.bench.page.bench_page import bench_page
 from plantar.sim.bench.scenes.scene_runs import TABLE
 from plantar.sim.bench.scenes.scenes_report import measure_scenes
@@ -73,7 +73,7 @@ def measure_page(
         "scenes": measure_scenes(folder, progress[0], quick=True),
         "papers": measure_papers(progress[1], quick=quick),
         "made": {
-            "version": f"Plantar {__version__}",
+            "version": f"Plantar {VERSION}",
             "date": time.strftime("%Y-%m-%d"),
             "machine": f"{platform.system()} on {platform.machine()}, Python {platform.python_version()}",
             "quick": quick,

@@ -9,13 +9,13 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.tiling import hex_layout
 from plantar.mujoco.quaternions import rotation_of
 from plantar.robots.kinematics.robot_model import Visitor
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
-from plantar.sides import SIDES, Side
 from plantar.sim.bench.scenes.scene_setting import SceneSetting
 from plantar.sim.contact_models.sole_mjcf import SPHERE_RADIUS, support_points
 from plantar.sim.model.contact_truth import ContactReader, ground_truth

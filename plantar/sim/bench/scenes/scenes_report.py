@@ -5,8 +5,8 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from plantar.atomic import write_text
 from plantar.bench.tables import Mark, draw_errors, markdown_table, plain_row, write_rows
+from plantar.common.atomic import write_text
 from plantar.errors import InputError
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sim.bench.scenes.scene_row import NOISE, KnobVerdict, SceneRow, knob_verdicts, scene_rows

@@ -7,9 +7,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES, Side
 from plantar.gait.command import Sensors
 from plantar.sensing.reading import Reading
-from plantar.sides import SIDES, Side
 
 Fault: TypeAlias = Callable[[Sensors, float], Sensors]
 """What arrives of a reading, some time in s after the fault began."""

@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.bench.tables import GrowingTable
+from plantar.common.settings.body_scale import BodyScale
+from plantar.common.sides import SIDES, Side
 from plantar.errors import InputError, PlantarError
 from plantar.gait.command import Command, Sensors
 from plantar.gait.controller import Start
 from plantar.gait.plan.footsteps import Footstep
-from plantar.settings.body_scale import BodyScale
-from plantar.sides import SIDES, Side
 from plantar.sim.bench.stress.faults import FaultySensors
 from plantar.sim.bench.stress.scenario import Scenario, draw_scenario
 from plantar.sim.run.runner import Simulation

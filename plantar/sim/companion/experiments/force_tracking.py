@@ -9,10 +9,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.schema import Settings, number, tables
 from plantar.errors import InputError
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.sensing.link_skin import BodySkin
-from plantar.settings.schema import Settings, number, tables
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion.experiment import Experiment, Verdict, World, unmet

@@ -9,9 +9,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.schema import Settings, choice, number, tables, text
 from plantar.errors import SceneError
 from plantar.sensing.link_skin import BodySkin
-from plantar.settings.schema import Settings, choice, number, tables, text
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.companion.experiment import Experiment, Verdict, World, unmet
 from plantar.sim.companion.handling.actors import come_and_go

@@ -2,8 +2,8 @@
 
 from typing import Any, ClassVar
 
+from plantar.common.settings.schema import switch
 from plantar.sensing.link_skin import BodySkin
-from plantar.settings.schema import switch
 from plantar.sim.companion.experiments.feather import FeatherControl
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.pressed import UPPER_BODY, PressedExperiment

@@ -11,9 +11,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from plantar.common.settings.schema import Settings, number, switch
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin, SkinReading
-from plantar.settings.schema import Settings, number, switch
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.experiment import Controller, Verdict, World, unmet

@@ -12,9 +12,9 @@ from typing import Any, ClassVar
 import mujoco
 import numpy as np
 
+from plantar.common.settings.schema import number, switch
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin, SkinReading
-from plantar.settings.schema import number, switch
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion.dynamics import MujocoDynamics

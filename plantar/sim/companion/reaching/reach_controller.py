@@ -6,8 +6,8 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.schema import choice, number
 from plantar.sensing.link_skin import BodySkin, SkinReading
-from plantar.settings.schema import choice, number
 from plantar.sim.companion.experiment import CompanionControl, Controller
 from plantar.sim.companion.machine import Machine
 from plantar.wholebody.behaviours.intentional_contact import ContactSettings, ContactSigns, IntentionalContact

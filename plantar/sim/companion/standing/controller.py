@@ -7,9 +7,9 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.schema import number, switch
 from plantar.mechanics.lip import GRAVITY
 from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
-from plantar.settings.schema import number, switch
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.experiment import CompanionControl, Controller
 from plantar.sim.companion.standing.stance import Stance

@@ -11,7 +11,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.settings.schema import Settings, number
+from plantar.common.settings.schema import Settings, number
 
 _STEFAN_BOLTZMANN = 5.670374e-8  # W/(m^2 K^4)
 _KELVIN = 273.15

@@ -5,12 +5,12 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.settings.schema import number
 from plantar.geometry.polygon import convex_hull
 from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.mechanics.wrench_distribution import DistributionWeights
 from plantar.sensing.link_skin import BodySkin, SkinReading
-from plantar.settings.schema import number
 from plantar.sim.companion.experiment import Controller
 from plantar.sim.companion.standing.controller import StandingControl
 from plantar.sim.companion.standing.standing import StandingExperiment

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from plantar.common.sides import Side
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.gait.analysis.steps.baseline import resting_level, without_baselines
 from plantar.gait.analysis.steps.foot_gait import FootGait
-from plantar.sides import Side
 
 from ..walks import MadeWalk, made_walk
 

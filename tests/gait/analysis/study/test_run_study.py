@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 
 from plantar import FormatError, InputError, grid_layout
 from plantar.cli import app
+from plantar.common.gravity import GRAVITY
 from plantar.formats import ReadOptions
 from plantar.formats.nominal_insole import nominal_insole
 from plantar.gait.analysis.compare import compare_recordings
@@ -21,7 +22,6 @@ from plantar.gait.analysis.study.one_recording import GRID, RecordingResult, key
 from plantar.gait.analysis.study.participants import Participation, read_participants
 from plantar.gait.analysis.study.run_study import Study, run_study
 from plantar.gait.analysis.study.study_page import study_page
-from plantar.gravity import GRAVITY
 from plantar.layouts.layout_file import layout_to_dict, write_layout
 
 from ..browser import visit
