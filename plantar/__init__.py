@@ -168,7 +168,8 @@ if not TYPE_CHECKING:  # a type checker reads the imports above, and reports a n
         place = f"plantar.{place}".rstrip(".")
         module = import_module(place) if place != "plantar" else None
         value = getattr(module, called or name, None)
-        globals()[name] = value = import_module(f"{place}.{name}") if value is None else value
+        value = import_module(f"{place}.{name}") if value is None else value
+        globals()[name] = value
         return value
 
     def __dir__() -> list[str]:

@@ -242,7 +242,9 @@ def support_polygons(
     low, high = _limits(layout, threshold)
 
     def work(rows: slice) -> list[NDArray[np.float64]]:
-        part, sizes, measured = _doubles(array[rows]), size[rows], measure[rows]
+        part = _doubles(array[rows])
+        sizes = size[rows]
+        measured = measure[rows]
         found = []
         done = 0
         while done < len(part):

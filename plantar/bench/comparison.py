@@ -39,7 +39,8 @@ def time_routes(
         >>> sorted(times), 0.0 < times["sum"].median < 1e-3
         (['max', 'sum'], True)
     """
-    repeats, limits = {}, {}
+    repeats = {}
+    limits = {}
     for name, route in routes.items():
         once = min(_seconds(route, cases[name], 1) for _ in range(2))
         repeats[name] = max(1, min(1000, round(_ONE_MEASUREMENT / max(once, 1e-9))))

@@ -19,7 +19,8 @@ def wilson_interval(completed: int, runs: int) -> tuple[float, float]:
         raise ValueError(f"{completed} of {runs} runs cannot be completed")
     if runs == 0:
         return 0.0, 1.0
-    share, square = completed / runs, _NORMAL_95**2 / runs
+    share = completed / runs
+    square = _NORMAL_95**2 / runs
     middle = (share + square / 2.0) / (1.0 + square)
     half = math.sqrt(square * (share * (1.0 - share) + square / 4.0)) / (1.0 + square)
     # Rounding would leave 1e-17 where the end is exact.

@@ -70,7 +70,8 @@ def _size(ring: Array) -> float:
 
 
 def _hull(found: Sequence[Contact]) -> Compared:
-    layout, corners = found[0].layout, rivals.Corners(found[0].layout)
+    layout = found[0].layout
+    corners = rivals.Corners(found[0].layout)
     masks = [c.active for c in found]
     points = [c.points for c in found]
     routes = [

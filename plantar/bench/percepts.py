@@ -37,7 +37,8 @@ _AIM = np.array([0.09, 0.06])  # Point in m that a tick clamps to the offset pol
 
 def compare_percepts(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
     """Yields names of tick, percepts and both feet's wrenches, and routes' results."""
-    left, right = sole_of(51), sole_of(51, "right")
+    left = sole_of(51)
+    right = sole_of(51, "right")
     pairs = [(a.force, b.force) for a, b in zip(contacts("20", 1), contacts("20", 2), strict=True)]
     feet = (left, right)
     tools = tuple(_Assembled(s) for s in feet)
@@ -201,7 +202,8 @@ def compare_recordings(frames: int = FRAMES, rounds: int = 5) -> Iterator[tuple[
     layout = sole_of(TAXELS)
     rng = np.random.default_rng(4)
     force = rng.gamma(0.6, 12.0, (frames, TAXELS))
-    target, out = np.empty_like(force), np.empty((frames, 6))
+    target = np.empty_like(force)
+    out = np.empty((frames, 6))
     back = np.ascontiguousarray(layout.wrench_map.T)
     level = layout.force_threshold
     routes = [

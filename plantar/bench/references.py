@@ -80,7 +80,9 @@ def area_exact(rings: Sequence[Array]) -> float:
 def centroid_exact(polygon: Array) -> Array:
     """Centroid (2,) in m of a simple polygon (k, 2), in fractions."""
     whole, scale = integers(polygon)
-    twice, x, y = 0, 0, 0
+    twice = 0
+    x = 0
+    y = 0
     for (ax, ay), (bx, by) in pairwise([*whole, whole[0]]):
         cross = ax * by - bx * ay
         twice += cross
@@ -96,10 +98,12 @@ def closest_point_exact(polygon: Array, point: Array) -> Array:
     found = []
     outside = False
     for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1], strict=True):
-        lx, ly = bx - ax, by - ay
+        lx = bx - ax
+        ly = by - ay
         outside |= (px - ax) * ly - (py - ay) * lx > 0
         t = max(Fraction(0), min(Fraction(1), ((px - ax) * lx + (py - ay) * ly) / (lx * lx + ly * ly)))
-        qx, qy = ax + t * lx, ay + t * ly
+        qx = ax + t * lx
+        qy = ay + t * ly
         found.append(((px - qx) ** 2 + (py - qy) ** 2, qx, qy))
     _, x, y = min(found)
     return np.array([float(x), float(y)]) if outside else np.asarray(point, dtype=float)
@@ -114,7 +118,8 @@ def inner_offset_area(polygon: Array, distance: float) -> float:
     ring = [(Fraction(float(x)), Fraction(float(y))) for x, y in polygon]
     left = ring
     for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1], strict=True):
-        lx, ly = bx - ax, by - ay
+        lx = bx - ax
+        ly = by - ay
         squared = lx * lx + ly * ly
         length = Fraction(math.isqrt(squared.numerator * unit * unit // squared.denominator), unit)
         level = Fraction(distance) * length
@@ -149,7 +154,8 @@ def least_box_area(polygon: Array) -> float:
     whole, scale = integers(polygon)
     areas = []
     for (ax, ay), (bx, by) in zip(whole, whole[1:] + whole[:1], strict=True):
-        lx, ly = bx - ax, by - ay
+        lx = bx - ax
+        ly = by - ay
         along = [x * lx + y * ly for x, y in whole]
         across = [y * lx - x * ly for x, y in whole]
         areas.append(Fraction((max(along) - min(along)) * (max(across) - min(across)), lx * lx + ly * ly))
@@ -191,20 +197,26 @@ def _golden(gain: Callable[[Array], Array], low: Array, high: Array, steps: int 
     """Maxima of many concave functions, each between its bounds (m,), by golden section."""
     best: Array = np.full_like(low, -np.inf)
     for _ in range(steps + 1):
-        c, d = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-        at_c, at_d = gain(c), gain(d)
+        c = high - _GOLDEN * (high - low)
+        d = low + _GOLDEN * (high - low)
+        at_c = gain(c)
+        at_d = gain(d)
         best = np.maximum(best, np.maximum(at_c, at_d))
         left = at_c > at_d
-        low, high = np.where(left, low, c), np.where(left, d, high)
+        low = np.where(left, low, c)
+        high = np.where(left, d, high)
     return best
 
 
 def _chains(polygon: Array, angles: Array) -> tuple[Array, Array, Array, Array]:
     """Slopes and levels (m, k) of upper and lower edges, turned back by angles (m,)."""
-    c, s = np.cos(angles)[:, None], np.sin(angles)[:, None]
+    c = np.cos(angles)[:, None]
+    s = np.sin(angles)[:, None]
     x, y = (polygon - polygon.mean(axis=0)).T
-    px, py = c * x + s * y, c * y - s * x
-    dx, dy = np.roll(px, -1, axis=1) - px, np.roll(py, -1, axis=1) - py
+    px = c * x + s * y
+    py = c * y - s * x
+    dx = np.roll(px, -1, axis=1) - px
+    dy = np.roll(py, -1, axis=1) - py
     with np.errstate(divide="ignore", invalid="ignore"):
         slope = dy / dx
         level = py - slope * px
@@ -218,7 +230,8 @@ def _chains(polygon: Array, angles: Array) -> tuple[Array, Array, Array, Array]:
 def _rectangles(polygon: Array, angles: Array) -> Array:
     """Area (m,) of the largest rectangle in a convex polygon at each angle (m,)."""
     slope, upper, lower, px = _chains(polygon, angles)
-    left, right = px.min(axis=1), px.max(axis=1)
+    left = px.min(axis=1)
+    right = px.max(axis=1)
 
     def height(x: Array, width: Array) -> Array:
         ends = (x[:, None], (x + width)[:, None])
@@ -298,7 +311,8 @@ def parallelogram_area(polygon: Array, samples: int = 240, finest: float = 1e-13
             rows = np.arange(len(chord))
             ends = []
             for at, beside in ((first, np.maximum(first - 1, 0)), (last, np.minimum(last + 1, size - 1))):
-                near, far = length[rows, at], length[rows, beside]
+                near = length[rows, at]
+                far = length[rows, beside]
                 gap = near - far
                 share = np.where(gap > 0.0, (near - chord) / np.where(gap > 0.0, gap, 1.0), 0.0)
                 ends.append(place[rows, at] + np.minimum(share, 1.0) * (place[rows, beside] - place[rows, at]))
@@ -318,18 +332,21 @@ def outline_rectangle_area(rings: Sequence[Array]) -> float:
     tail = np.concatenate(rings)
     head = np.concatenate([np.roll(r, -1, axis=0) for r in rings])
     turn = tail[:, 0] > head[:, 0]
-    left, right = np.where(turn[:, None], head, tail), np.where(turn[:, None], tail, head)
+    left = np.where(turn[:, None], head, tail)
+    right = np.where(turn[:, None], tail, head)
     with np.errstate(divide="ignore", invalid="ignore"):
         slope = (right[:, 1] - left[:, 1]) / (right[:, 0] - left[:, 0])
     rise = np.where(left[:, 0] < right[:, 0], slope, 0.0)
 
     def areas(x0: Array, x1: Array) -> Array:
-        low, high = np.maximum(left[:, 0], x0[:, None]), np.minimum(right[:, 0], x1[:, None])
+        low = np.maximum(left[:, 0], x0[:, None])
+        high = np.minimum(right[:, 0], x1[:, None])
         upright = (low == high) & (x0[:, None] < low) & (high < x1[:, None])
         crossing = (low < high) | upright
         ends = [np.where(crossing, left[:, 1] + rise * (x - left[:, 0]), np.inf) for x in (low, high)]
         ends[1] = np.where(upright, right[:, 1], ends[1])
-        bottom, top = np.minimum(*ends), np.maximum(*ends)
+        bottom = np.minimum(*ends)
+        top = np.maximum(*ends)
         order = np.argsort(bottom, axis=1)
         bottom = np.take_along_axis(bottom, order, axis=1)
         reach = np.where(np.isfinite(bottom), np.take_along_axis(top, order, axis=1), -np.inf)
@@ -353,7 +370,9 @@ def outline_rectangle_area(rings: Sequence[Array]) -> float:
     grid = np.array([(p, q) for p in np.linspace(-1.0, 1.0, 9) for q in np.linspace(-1.0, 1.0, 9)])
     most = 0.0
     for k in best.tolist():
-        at, value, reach = np.array([xs[i[k]], xs[j[k]]]), float(found[k]), step
+        at = np.array([xs[i[k]], xs[j[k]]])
+        value = float(found[k])
+        reach = step
         for _ in range(400):
             if reach < 1e-16:
                 break
@@ -361,7 +380,8 @@ def outline_rectangle_area(rings: Sequence[Array]) -> float:
             values = areas(tried[:, 0], tried[:, 1])
             index = int(values.argmax())
             if values[index] > value * (1.0 + 1e-15):
-                at, value = tried[index], float(values[index])
+                at = tried[index]
+                value = float(values[index])
             else:
                 reach *= 0.3
         most = max(most, value)

@@ -53,7 +53,8 @@ def measure_kernels(folder: Path, progress: Callable[[float, str], None], rounds
     parts += [compare_random_cells(rounds), compare_percepts(rounds)]
     parts += [compare_recordings(rounds=max(3, rounds // 2)), compare_forms(rounds)]
     results: list[Result] = []
-    total, done = 13 * len(SIZES) + len(RANDOM) + 7, 0
+    total = 13 * len(SIZES) + len(RANDOM) + 7
+    done = 0
     for part in parts:
         for name, found in part:
             results += found
@@ -150,7 +151,8 @@ def copy_share(results: Sequence[Result]) -> float | None:
 
 def kernel_text(result: Mapping[str, Any]) -> str:
     """The kernels' medians, errors and met targets as text."""
-    kernel, lines = "", []
+    kernel = ""
+    lines = []
     for row in result["results"]:
         if row["kernel"] != kernel:
             kernel = row["kernel"]

@@ -70,7 +70,8 @@ def rectangle_slsqp(polygon: Array) -> float:
 
     edge = np.roll(polygon, -1, axis=0) - polygon
     normal = np.column_stack([edge[:, 1], -edge[:, 0]]) / np.hypot(*edge.T)[:, None]
-    centre, size = polygon.mean(axis=0), float(np.ptp(polygon))
+    centre = polygon.mean(axis=0)
+    size = float(np.ptp(polygon))
     level = (normal * (polygon - centre)).sum(axis=1) / size
     rows = np.column_stack([np.minimum(normal, 0.0), np.maximum(normal, 0.0)])
     done = minimize(
@@ -132,7 +133,8 @@ def triangle(polygon: Array) -> float:
     i, j = np.triu_indices(len(polygon), 1)
     cross = x[i] * y[j] - x[j] * y[i]
     table = np.zeros((len(polygon), len(polygon)))
-    table[i, j], table[j, i] = cross, -cross
+    table[i, j] = cross
+    table[j, i] = -cross
     return float(0.5 * (table[:, :, None] + table[None, :, :] - table[:, None, :]).max())
 
 
@@ -150,5 +152,6 @@ def parallelogram_around(polygon: Array) -> float:
 
 def turned(points: Any, angles: int) -> list[Any]:
     """Returns `points` (n, 2) turned by `angles` even angles of a quarter turn."""
-    c, s = np.cos(a := 0.5 * math.pi * np.arange(angles) / angles), np.sin(a)
+    c = np.cos(a := 0.5 * math.pi * np.arange(angles) / angles)
+    s = np.sin(a)
     return [points @ np.array([[x, -y], [y, x]]) for x, y in zip(c, s, strict=True)]

@@ -46,7 +46,8 @@ class Contact:
 def foot_outline(length: float = 0.26, width: float = 0.155) -> NDArray[np.float64]:
     """Returns an ellipse-like outline (60, 2) about the origin, of `length` and `width`, in m."""
     angle = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)
-    x, y = np.cos(angle), np.sin(angle)
+    x = np.cos(angle)
+    y = np.sin(angle)
     return np.column_stack([0.5 * length * np.sign(x) * np.abs(x) ** 0.7, 0.5 * width * np.sign(y) * np.abs(y) ** 0.7])
 
 

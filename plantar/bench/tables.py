@@ -84,7 +84,8 @@ class GrowingTable:
     """
 
     def __init__(self, path: Path, columns: Sequence[str], what: str) -> None:
-        self._path, self._columns = path, tuple(columns)
+        self._path = path
+        self._columns = tuple(columns)
         self.rows: list[dict[str, str]] = []
         if not path.exists():
             return
@@ -133,7 +134,8 @@ def draw_errors(axis: Any, marks: Sequence[Mark], labels: tuple[str, str, str], 
         axis.plot([], [], "o", color=_colour(group, others), label=group)
     for m in marks:
         colour = _colour(m.group, others)
-        face, at = "none" if m.hollow else colour, (m.cost, max(m.error, least))
+        face = "none" if m.hollow else colour
+        at = (m.cost, max(m.error, least))
         axis.plot(*at, marker=m.marker, color=colour, markerfacecolor=face, linestyle="none", markersize=7)
         if m.text:
             axis.annotate(m.text, at, xytext=(4, 3), textcoords="offset points", fontsize=6.5)

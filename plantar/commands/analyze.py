@@ -210,7 +210,8 @@ def _end(result: dict[str, Any], parts: dict[str, Any], as_json: bool) -> None:
     text = "\n".join(analysis_text(metrics, name) for name, metrics in parts.items())
     end_command(result, as_json, text + file_lines(result["files"]))
     for name, metrics in () if as_json else {"": result, **parts}.items():
-        warnings, about = metrics["warnings"], f" of {name}" if name else ""
+        warnings = metrics["warnings"]
+        about = f" of {name}" if name else ""
         for warning in warnings[:_NOTES]:
             print_note(f"note{about}: {warning}")
         if len(warnings) > _NOTES:
@@ -231,7 +232,8 @@ def _analyze_study(
     from plantar.gait.analysis.study.run_study import run_study
     from plantar.gait.analysis.subject import Subject
 
-    options, choices = with_layout(file.options(order.mass), file.layout), order.choices()
+    options = with_layout(file.options(order.mass), file.layout)
+    choices = order.choices()
     if order.subject() != Subject():
         raise InputError("--participant, --mass and --foot-length are for one recording: a study has --participants")
     with progress_bar() as progress:

@@ -14,7 +14,8 @@ from plantar.errors import InputError, PlantarError
 from plantar.kernels.base.limits import points_within, values_within
 from plantar.kernels.base.member import close_all
 
-_FLOAT, _BOOL = np.dtype(np.float64), np.dtype(np.bool_)
+_FLOAT = np.dtype(np.float64)
+_BOOL = np.dtype(np.bool_)
 _MANY = 4096
 _KINDS = {"O": "objects", "U": "text", "S": "bytes", "c": "complex numbers", "m": "durations", "M": "dates"}
 _Value = TypeVar("_Value")

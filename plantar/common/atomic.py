@@ -76,7 +76,8 @@ def output_folder(path: str | os.PathLike[str], inputs: Iterable[str | os.PathLi
 
     An InputError if the folder cannot be made or written to, or a file would replace one of `inputs` (files, or None).
     """
-    final, inputs = Path(path), tuple(inputs)
+    final = Path(path)
+    inputs = tuple(inputs)
     made: list[Path] = []
     done = False
     try:

@@ -116,7 +116,8 @@ def read_recording(
         FormatError: If unknown or mismatched.
         InputError: If an option is invalid.
     """
-    chosen, known = named_format(path, format), options or ReadOptions()
+    chosen = named_format(path, format)
+    known = options or ReadOptions()
     known = known if layout is None else replace(known, layout=instance(layout, SoleLayout, "layout"))
     if known.unit is not None and find_unit(known.unit) is None:
         raise InputError(f"unknown unit {known.unit!r}; allowed: kPa, N/cm2, mmHg, psi, N, kg, raw and their like")

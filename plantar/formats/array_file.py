@@ -146,10 +146,12 @@ def _unnamed_feet(
     key, largest = max(tables.items(), key=lambda item: item[1].size)
     if len(tables) > 1:
         warnings.append(f"no array names a foot: the largest one, {key!r}, is read")
-    stated, table = options.side or side_of(_text(arrays, "side", "foot") or ""), _frames(largest)
+    stated = options.side or side_of(_text(arrays, "side", "foot") or "")
+    table = _frames(largest)
     if "time" not in arrays and len(table) > 2 < table.shape[1] and (np.diff(table[:, 0]) > 0.0).all():
         warnings.append(f"the first column of {key!r} increases throughout: taken as times")
-        time, table = table[:, 0], table[:, 1:]
+        time = table[:, 0]
+        table = table[:, 1:]
         arrays = {**arrays, "time": _Array(time.shape, time.dtype, lambda: time)}
     return arrays, "", [(stated, table)] if stated else halves(table, options, warnings)
 

@@ -97,7 +97,8 @@ def _array(parameters: Any, name: str) -> NDArray[np.float64]:
 def _plates(parameters: Any, analogs: NDArray[np.float64]) -> dict[str, Any]:
     used = _array(parameters, "USED")
     count = int(used[0]) if len(used) else 0
-    types, channels = _array(parameters, "TYPE"), _array(parameters, "CHANNEL")
+    types = _array(parameters, "TYPE")
+    channels = _array(parameters, "CHANNEL")
     corners, origins, matrices = (_array(parameters, name) for name in ("CORNERS", "ORIGIN", "CAL_MATRIX"))
     units = [str(u) for u in _values(parameters, "ANALOG", "UNITS")]
     channels = channels.reshape(-1, count, order="F") if count and channels.size % max(count, 1) == 0 else channels

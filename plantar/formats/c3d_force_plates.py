@@ -22,7 +22,9 @@ from plantar.formats.plate_sides import Plate
 from plantar.formats.units import FORCES, LENGTHS, MOMENTS, plain
 from plantar.recordings.pressure_recording import PressureRecording, StatedEvents, possible_rate
 
-_LARGEST, _HEAD = 256e6, 1 << 16  # bytes
+# bytes
+_LARGEST = 256e6
+_HEAD = 1 << 16
 _TILT = 0.97  # Least cosine of the angle between a plate's normal and the laboratory's vertical: 14 degrees, a ramp
 _LONGEST_PLATE = 2.0  # Largest distance in m of a CoP from where a plate's moments are about
 _KILONEWTONS = (0.15, 5.0)  # Largest forces of a person in kN
@@ -47,7 +49,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     if len(head) < 512 or head[1] != 0x50:
         raise FormatError("not a C3D file that can be read (no C3D header)")
     held = read_apart("c3d", path, FormatError)
-    rate, count = options.rate_hz or float(held["rate"]), int(held["plates"])
+    rate = options.rate_hz or float(held["rate"])
+    count = int(held["plates"])
     if count == 0:
         raise FormatError("the C3D file holds no force plate (group FORCE_PLATFORM)")
     possible_rate(rate, "its analog channels state")
@@ -82,7 +85,8 @@ def _cut_short(head: bytes, held: Mapping[str, NDArray[Any]]) -> list[str]:
     first, last = struct.unpack_from("<HH", head, 6)
     (samples,) = struct.unpack_from("<H", head, 18)
     read = int(held["frames"])
-    stated, processor = (last - first + 1) * samples, (head[0] - 1) * 512 + 3
+    stated = (last - first + 1) * samples
+    processor = (head[0] - 1) * 512 + 3
     other_order = processor >= len(head) or head[processor] == 86  # SGI: bytes the other way round
     if other_order or last == 65535 or last < first or not read < stated:  # long ones state their frames elsewhere
         return []
@@ -96,7 +100,8 @@ def _axes(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     z = np.cross(x, y)
     if not np.linalg.norm(z) > 0.0:
         return np.eye(3)
-    x, z = x / np.linalg.norm(x), z / np.linalg.norm(z)
+    x = x / np.linalg.norm(x)
+    z = z / np.linalg.norm(z)
     return np.column_stack([x, np.cross(z, x), z])
 
 
@@ -119,7 +124,9 @@ def _vertical_axis(corners: list[NDArray[np.float64]], warnings: list[str]) -> i
 
 
 def _plate(held: Mapping[str, NDArray[Any]], number: int, up: int, length: float, warnings: list[str]) -> Plate:
-    kind, channels, name = int(held[f"type_{number}"]), held[f"channels_{number}"], f"plate {number + 1}"
+    kind = int(held[f"type_{number}"])
+    channels = held[f"channels_{number}"]
+    name = f"plate {number + 1}"
     if not 1 <= kind <= 5 or not len(channels):
         raise FormatError(f"{name} is of type {kind} or lacks channels; allowed: types 1 to 5 with all their channels")
     matrix = held[f"matrix_{number}"]
@@ -141,10 +148,13 @@ def _plate(held: Mapping[str, NDArray[Any]], number: int, up: int, length: float
     corners = held[f"corners_{number}"]
     if len(corners) != 4 or not np.isfinite(corners).all():
         corners = np.array([[1.0, 1.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0], [1.0, -1.0, 0.0]]) * 1e-9
-    axes, order = _axes(corners), _TO_Z_UP[up]
-    known, ground = float(np.ptp(corners)) > 1e-6, length * corners[:, order][:, :2]
+    axes = _axes(corners)
+    order = _TO_Z_UP[up]
+    known = float(np.ptp(corners)) > 1e-6
+    ground = length * corners[:, order][:, :2]
     middle = ground.mean(axis=0)
-    cop = free = None
+    cop = None
+    free = None
     upward = float(np.sign(axes[order[2], 2]) or 1.0)
     if kind == 1:  # which states the CoP itself, and the free moment about its own z axis
         cop = length * (axes[:, :2] @ values[3:5]).T[:, order][:, :2] + middle
@@ -213,7 +223,8 @@ def _load(
             ]
         )
         return force, moment
-    force, moment = newton * values[:3], newton_metre * values[3:]
+    force = newton * values[:3]
+    moment = newton_metre * values[3:]
     offset = length * origin
     if offset[2] > 0.0:
         warnings.append(

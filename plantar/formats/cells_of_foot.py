@@ -14,7 +14,8 @@ from plantar.recordings.frame_table import scale_frames
 from plantar.recordings.pressure_recording import FootRecording, layout_for
 
 # Share of its high readings below which a foot is in the air; share of the time in which one of two is alone.
-_IN_AIR, _ALONE = 0.05, 0.15
+_IN_AIR = 0.05
+_ALONE = 0.15
 
 
 def unit_of_values(
@@ -114,7 +115,9 @@ def halves(
     values: NDArray[np.float64], options: ReadOptions, warnings: list[str]
 ) -> list[tuple[Side, NDArray[np.float64]]]:
     """Returns feet and columns of values (n, k) that name none, by options; warnings get assumptions."""
-    k, side, why = values.shape[1], options.side, ""
+    k = values.shape[1]
+    side = options.side
+    why = ""
     if options.layout is not None and k == 2 * len(options.layout):
         why = "there are twice the layout's cells"
     elif side is None and options.layout is None and k >= 4 and k % 2 == 0 and _in_turns(values):
@@ -130,7 +133,8 @@ def halves(
 
 def _in_turns(values: NDArray[np.float64]) -> bool:
     half = values.shape[1] // 2
-    one, other = np.nansum(values[:, :half], axis=1), np.nansum(values[:, half:], axis=1)
+    one = np.nansum(values[:, :half], axis=1)
+    other = np.nansum(values[:, half:], axis=1)
     loaded = [x > _IN_AIR * float(np.percentile(x, 98.0)) for x in (one, other)]
     alone = (float((loaded[0] & ~loaded[1]).mean()), float((loaded[1] & ~loaded[0]).mean()))
     on = np.flatnonzero(loaded[0] | loaded[1])

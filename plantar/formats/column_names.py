@@ -91,12 +91,14 @@ def heading_of(text: str) -> Heading:
         >>> [heading_of(t).quantity for t in ("FP1.CopX", "ground_torque_z", "met5", "R_12", "LHEE.PosX", "knee angle")]
         ['cop', 'moment', 'cell', 'number', 'foreign', 'foreign']
     """
-    name, unit = _LETTER.sub(lambda m: f"{m[1]} {ord(m[2].lower()) - 96} ", text.strip().strip('"')), ""
+    name = _LETTER.sub(lambda m: f"{m[1]} {ord(m[2].lower()) - 96} ", text.strip().strip('"'))
+    unit = ""
     while match := _UNIT.search(name):
         stated = match[1] if match[1] is not None else match[2]
         known = plain(stated) in _STATED or find_unit(stated) is not None or "/" in stated or "%" in stated
         if known or not _words(stated):
-            unit, name = unit or stated, name[: match.start()] + " " + name[match.end() :]
+            unit = unit or stated
+            name = name[: match.start()] + " " + name[match.end() :]
         else:
             name = name[: match.start()] + " " + stated + " " + name[match.end() :]
     return _heading(name, unit)
@@ -129,20 +131,23 @@ def _fewest(text: str) -> list[str] | None:
     best: list[list[str] | None] = [[]] + [None] * len(text)
     for end in range(1, len(text) + 1):
         for begin in range(max(0, end - _LONGEST), end):
-            before, word = best[begin], text[begin:end]
+            before = best[begin]
+            word = text[begin:end]
             split_number = word.isdigit() and (end < len(text) and text[end].isdigit())
             if before is None or split_number or not (word in _KINDS or word.isdigit()):
                 continue
             if best[end] is None or len(before) + 1 < len(best[end] or []):
                 best[end] = [*before, word]
     letters = [word for word in best[-1] or () if not word.isdigit()]
-    short, beside = [w for w in letters if w in _SHORT], [w for w in letters if len(w) < 3 and w not in _SHORT]
+    short = [w for w in letters if w in _SHORT]
+    beside = [w for w in letters if len(w) < 3 and w not in _SHORT]
     unlikely = short and (len(short) > 1 or len(set(beside)) < len(beside) or not set(beside) <= set("lrxyz"))
     return None if unlikely else best[-1]
 
 
 def _heading(name: str, unit: str) -> Heading:
-    words, last = _words(name), re.findall(r"\d+", name)
+    words = _words(name)
+    last = re.findall(r"\d+", name)
     number = int(last[-1][-9:]) if last else None
     if words is None:
         letters = "".join(re.findall(r"[^\W\d_]+", name)).lower()

@@ -27,7 +27,8 @@ from plantar.formats.table_text import (
 from plantar.formats.text import head_text, number, open_text, table_of_lines
 from plantar.recordings.pressure_recording import PressureRecording
 
-_MOST_COLUMNS, _HEAD = 100_000, 200
+_MOST_COLUMNS = 100_000
+_HEAD = 200
 _POINT = re.compile(r"(?<!\d)0\.|\.(?!\d{3}(?!\d))|\d{4}\.|\.\d+[eE]")  # that is no mark between thousands
 _FEWEST = 3  # Numbers of a row from which lines are a table by themselves; a row of two needs names
 
@@ -54,7 +55,9 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         head = head_of_table(lines)
         if head is None:
             raise FormatError("the table has no rows of numbers")
-        first, names, delimiter = lines[head.first :], list(head.names), head.delimiter
+        first = lines[head.first :]
+        names = list(head.names)
+        delimiter = head.delimiter
         more = (x.rstrip("\n") for x in stream if x.strip() and not x.startswith("#"))
         rows: Iterator[str] = chain((x for x in first if not x.startswith("#")), more)
         if delimiter == "," and any(map(has_quoted_commas, first)):

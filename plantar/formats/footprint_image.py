@@ -18,7 +18,9 @@ from plantar.formats.format import Format
 _MAGIC = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"II*\0", b"MM\0*", b"BM")
 _LARGEST = 250e6  # Most bytes of a file, and of an image once it is decoded: 83 million pixels in colour
 _IMAGE = "not an image that can be read (PNG, JPEG, TIFF or BMP of 16 x 16 pixels or more)"
-_SCAN, _MOST_SCANNED = b"\xff\xda", 2e9  # What begins each scan of a JPEG, and how many pixels all of them may go over
+# What begins each scan of a JPEG, and how many pixels all of them may go over
+_SCAN = b"\xff\xda"
+_MOST_SCANNED = 2e9
 _WORKING = 1600  # Longer side in pixels that is enough to outline a foot; larger images are reduced
 
 
@@ -147,7 +149,8 @@ def _stated_resolution(data: bytes) -> float | None:
         if at > 0 and len(data) >= at + 13 and data[at + 12] == 1:
             per_metre = float(struct.unpack_from(">I", data, at + 4)[0])
     elif data.startswith(_MAGIC[1]) and data[6:10] == b"JFIF" and len(data) > 16:
-        unit, density = data[13], float(struct.unpack_from(">H", data, 14)[0])
+        unit = data[13]
+        density = float(struct.unpack_from(">H", data, 14)[0])
         per_metre = density / 0.0254 if unit == 1 else density * 100.0 if unit == 2 else 0.0
     dpi = per_metre * 0.0254
     if dpi < 20.0 or dpi > 4800.0 or min(abs(dpi - 72.0), abs(dpi - 96.0)) < 0.6:
@@ -166,7 +169,8 @@ def _foreground(cv2: Any, image: NDArray[np.uint8]) -> NDArray[np.uint8]:
     if float(distance.max()) < 12.0:
         return np.zeros(image.shape[:2], dtype=np.uint8)
     level, _ = cv2.threshold(scaled, 0, 255, cv2.THRESH_BINARY + cv2.THRESH_OTSU)
-    noise, inside = float(np.percentile(scaled[:rim], 99.0)), scaled[scaled > 0.7 * level]
+    noise = float(np.percentile(scaled[:rim], 99.0))
+    inside = scaled[scaled > 0.7 * level]
     edge = min(level, 0.5 * float(np.median(inside)) if inside.size else level)  # halfway: where the edge is
     mask = (scaled > max(edge, min(noise + 6.0, level))).astype(np.uint8)
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (3, 3))
@@ -184,7 +188,8 @@ def _prints(cv2: Any, mask: NDArray[np.uint8], pixel: float | None, warnings: li
         return []
     boxes = {i: stats[i, :4].astype(float) for i in big}
     longest = max(boxes.values(), key=lambda b: float(max(b[2], b[3])))
-    length, upright = max(longest[2:]), mask.shape[0] >= mask.shape[1] or longest[3] >= longest[2]
+    length = max(longest[2:])
+    upright = mask.shape[0] >= mask.shape[1] or longest[3] >= longest[2]
     groups: list[list[int]] = []
     for i in sorted(big, key=lambda k: -stats[k, cv2.CC_STAT_AREA]):
         near = [g for g in groups if _belongs(boxes, stats, g, i, upright, length)]
@@ -214,7 +219,8 @@ def _belongs(
     """Whether a part is of a group's foot: in line, and apart by under 0.4 of the foot (a high arch)."""
     across, along = (0, 1) if upright else (1, 0)
     low = min(boxes[i][across] for i in group)
-    high, box = max(boxes[i][across] + boxes[i][across + 2] for i in group), boxes[part]
+    high = max(boxes[i][across] + boxes[i][across + 2] for i in group)
+    box = boxes[part]
     middle = box[across] + 0.5 * box[across + 2]
     if not low - 0.25 * (high - low) <= middle <= high + 0.25 * (high - low):
         return False

@@ -21,11 +21,15 @@ from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import PressureRecording, possible_rate, sampling
 
 _FRAME = re.compile(r"\W*frame\s*(\d{1,9})\s*\(\s*([\d.,]{1,15})\s*ms\s*\)", re.IGNORECASE)
-_ACROSS, _ALONG = 5.08e-3, 7.62e-3  # Size of a cell in m across and along the plate
+# Size of a cell in m across and along the plate
+_ACROSS = 5.08e-3
+_ALONG = 7.62e-3
 _COLUMNS = 64  # Cells across every plate: 0.5, 1, 1.5 and 2 m long plates have 64, 128, 192 and 256 along
 # Pressure in Pa from which a cell counts as loaded, about 0.08 N: the least that the plate states is 0.1 N.
 _THRESHOLD = 2e3
-_LARGEST_HEADER, _LARGEST, _MOST_ROWS = 200, 200_000, 2000
+_LARGEST_HEADER = 200
+_LARGEST = 200_000
+_MOST_ROWS = 2000
 _EXCEL = b"\xd0\xcf\x11\xe0"
 
 
@@ -47,8 +51,10 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     warnings.append(
         f"the file states no size of its cells: {_ACROSS * 1e3:g} x {_ALONG * 1e3:g} mm, as plates have them"
     )
-    side, unit = options.side or side_of(path.stem), unit_of_values("N", options, warnings)
-    whole, name = np.ones((rows, columns), dtype=bool), f"platform of {rows} x {columns} cells"
+    side = options.side or side_of(path.stem)
+    unit = unit_of_values("N", options, warnings)
+    whole = np.ones((rows, columns), dtype=bool)
+    name = f"platform of {rows} x {columns} cells"
     foot = foot_of_matrix(side or "left", table.rows, unit, options, whole, pitch, name, _THRESHOLD)
     return PressureRecording(
         path=path,
@@ -84,7 +90,9 @@ def _take_frames(
 ) -> tuple[list[float], tuple[int, int], FrameTable]:
     times: list[float] = []
     table: FrameTable | None = None
-    shape, odd, last_is_odd = (0, 0), 0, False
+    shape = (0, 0)
+    odd = 0
+    last_is_odd = False
     first = next((m for line in islice(lines, _LARGEST_HEADER + 2) if (m := _FRAME.match(line))), None)
     for mark, body in frames_of_lines(lines, _FRAME, first, _MOST_ROWS):
         time = number(mark[2])
@@ -98,7 +106,8 @@ def _take_frames(
             usual = sum(len(line) + 1 for line in body)
             table = FrameTable(shape[0] * shape[1], path.stat().st_size * 5 // (3 * usual))
         odd += last_is_odd
-        values, last_is_odd = np.full(shape, np.nan), len(body) != shape[0]
+        values = np.full(shape, np.nan)
+        last_is_odd = len(body) != shape[0]
         for r, line in enumerate(() if last_is_odd else body):
             row, wrong = row_of_numbers(cells_of_row(line, delimiter)[: shape[1]])
             last_is_odd |= wrong > 0 or len(row) != shape[1]

@@ -16,20 +16,24 @@ from plantar.formats.plate_sides import LEAST, Plate, PlateContact, plate_contac
 from plantar.recordings.pressure_recording import FootRecording, StatedEvents, true_runs
 
 # An empty plate reads less than 0.15 of its peak, or 60 N; else the commonest level is its own, if it is an end.
-_WINDOW, _WINDOW_N = 0.15, 60.0
+_WINDOW = 0.15
+_WINDOW_N = 60.0
 # Share of frames on one side of a level that is an end; share of the range in which an empty plate drifts.
-_ONE_SIDE, _FAR = 0.98, 0.05
+_ONE_SIDE = 0.98
+_FAR = 0.05
 # Largest scatter of an end's level, as a share of half the range: of a wave's turning point it is 0.1 and more.
 _FLAT = 0.05
 # Time in s of a run of empty frames, and their least share, from which they show the plate's zero.
-_SHORTEST, _FEWEST = 0.1, 0.02
+_SHORTEST = 0.1
+_FEWEST = 0.02
 _FOOT = (0.45, 0.16)  # Length and width in m that the CoP of one foot covers at most
 _NOISES = 6.0
 # Horizontal over vertical force, median of loaded frames, above which what pushes is no foot: friction of shoes on
 # floors allows 0.5, walking has 0.1.
 _SHEAR = 0.6
 # Share of loaded frames whose CoP is outside the plate by more than 0.05 m from which its geometry is doubted.
-_OUTSIDE, _EDGE = 0.3, 0.05
+_OUTSIDE = 0.3
+_EDGE = 0.05
 _BRINK = 0.01  # Distance in m of the CoP from a plate's edge below which a part of the foot may be beside it
 # Time in s before and after a contact in which its plate is read: another plate's drift is no load of this foot.
 _BESIDE = 0.3
@@ -98,7 +102,9 @@ def feet_of_plates(
 def _zeroed(plate: Plate, rate: float, warnings: list[str]) -> Plate:
     vertical = plate.force[:, 2]
     empty = _empty_frames(vertical, rate)
-    force, moment, free = plate.force, plate.moment, plate.free
+    force = plate.force
+    moment = plate.moment
+    free = plate.free
     noise = 0.0
     if empty is not None:
         zero = _zero(force, empty)
@@ -122,7 +128,8 @@ def _zeroed(plate: Plate, rate: float, warnings: list[str]) -> Plate:
     if float(np.nanmedian(force[loaded, 2])) < 0.0:
         warnings.append("the plates' forces point down: taken as those on the plate, and turned to those on the foot")
         force = -force
-        moment, free = None if moment is None else -moment, None if free is None else -free
+        moment = None if moment is None else -moment
+        free = None if free is None else -free
     return replace(plate, force=force, moment=moment, free=free, stepped=True)
 
 
@@ -149,7 +156,8 @@ def _empty_frames(vertical: NDArray[np.float64], rate: float) -> NDArray[np.bool
     if len(near) >= max(3.0, _FEWEST * len(known)) and window > 0.0:
         level, width = _level(near, window, 0.0, peak)
     else:
-        middle, half = 0.5 * float(known.max() + known.min()), 0.5 * float(np.ptp(known))
+        middle = 0.5 * float(known.max() + known.min())
+        half = 0.5 * float(np.ptp(known))
         if not half > 0.0:
             return None
         level, width = _level(known, half, middle, 2.0 * half)
@@ -200,10 +208,12 @@ def _refuse_no_foot(plate: Plate) -> None:
 def on_its_surface(plate: Plate, warnings: list[str]) -> Plate:
     """Returns a plate with centre of pressure on its surface and free moment about its normal; adds to `warnings`."""
     vertical = np.where(plate.force[:, 2] > LEAST, plate.force[:, 2], np.nan)
-    cop, free = plate.cop, plate.free
+    cop = plate.cop
+    free = plate.free
     if plate.moment is not None:
         # With r in the surface and M = r x F + f n: n x M = r (n . F) and M . F = f (n . F).
-        n, moment = plate.normal, np.column_stack([plate.moment[:, :2], np.nan_to_num(plate.moment[:, 2])])
+        n = plate.normal
+        moment = np.column_stack([plate.moment[:, :2], np.nan_to_num(plate.moment[:, 2])])
         pressing = np.nan_to_num(plate.force[:, :2]) @ n[:2] + n[2] * vertical
         free = (plate.moment * plate.force).sum(axis=1) / pressing
         cop = np.cross(n, moment)[:, :2] / pressing[:, None] + plate.origin
@@ -229,7 +239,8 @@ def on_its_surface(plate: Plate, warnings: list[str]) -> Plate:
 
 def _from_edge(corners: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
     # Below 0 outside.
-    edges, away = np.roll(corners, -1, axis=0) - corners, points[:, None] - corners
+    edges = np.roll(corners, -1, axis=0) - corners
+    away = points[:, None] - corners
     turns = (edges[:, 0] * away[..., 1] - edges[:, 1] * away[..., 0]) / np.maximum(np.linalg.norm(edges, axis=1), 1e-9)
     return np.asarray((turns * np.sign(np.cross(np.append(edges[0], 0.0), np.append(edges[1], 0.0))[2])).min(axis=1))
 

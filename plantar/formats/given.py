@@ -53,7 +53,8 @@ def recording_of(given: Any, format: str | None = None, options: ReadOptions | N
 
 
 def _whole(recording: PressureRecording) -> PressureRecording:
-    time, rate = recording.time, possible_rate(recording.rate_hz, "the recording states")
+    time = recording.time
+    rate = possible_rate(recording.rate_hz, "the recording states")
     if not recording.feet or not len(time):
         raise InputError("a recording without feet or frames; allowed: a foot and a frame at least")
     steps = np.diff(time)
@@ -86,7 +87,8 @@ def _columns(frame: Any) -> tuple[np.ndarray[Any, Any], list[str]]:
     if values.ndim == 1 and len(values):
         dated = values.dtype.kind in "mM" or seconds_of_time(str(values[0])) is not None
         if name := "time" if dated else getattr(index, "name", None):
-            names, columns = [str(name), *names], [values, *columns]
+            names = [str(name), *names]
+            columns = [values, *columns]
     return np.column_stack(list(map(_numbers, columns, names))) if columns else np.zeros((0, 0)), names
 
 

@@ -60,7 +60,8 @@ def _placement(recording: Recording, side: Side, time: NDArray[np.float64]) -> N
     truth = recording.topics.get(f"/truth/{side}")
     if truth is None or not {"position", "rotation"} <= set(truth.fields) or len(truth) < 2:
         return None
-    position, rotation = truth.fields["position"], truth.fields["rotation"]
+    position = truth.fields["position"]
+    rotation = truth.fields["rotation"]
     if position.shape[1] != 3 or rotation.shape[1] != 9:
         return None
     columns = (position[:, 0], position[:, 1], np.unwrap(np.arctan2(rotation[:, 3], rotation[:, 0])))

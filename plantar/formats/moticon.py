@@ -25,7 +25,9 @@ from plantar.recordings.pressure_recording import FootRecording, PressureRecordi
 
 _CHANNEL = re.compile(r"(left|right)\s+(.*?)\s*(?:\[(.*)\])?\s*$", re.IGNORECASE)
 _USUAL_UNIT = "N/cm2"
-_LARGEST_HEADER, _MOST_CHANNELS, _LONGEST_NAME = 1000, 10_000, 200
+_LARGEST_HEADER = 1000
+_MOST_CHANNELS = 10_000
+_LONGEST_NAME = 200
 
 
 def _recognises(head: bytes) -> bool:
@@ -60,7 +62,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         layout = _layout(side, size, pressure, unit, total, options, warnings)
         cop = _device_cop(columns, table, size, side) if options.layout is None else None
         if unit.kind == "raw":
-            total, cop = None, None
+            total = None
+            cop = None
         feet[side] = FootRecording(side, pressure, layout, total=total, cop=cop)
         scale_to_force(pressure, unit, layout.areas)
     if not feet:

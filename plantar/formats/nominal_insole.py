@@ -43,7 +43,8 @@ def insole_outline(length: float) -> NDArray[np.float64]:
     stations = np.linspace(0.0, 1.0, 41)
     half = 0.5 * np.interp(stations, _STATIONS, _WIDTH)
     centre = np.interp(stations, _STATIONS, _CENTRE)
-    lateral, medial = centre - half, centre + half
+    lateral = centre - half
+    medial = centre + half
     ring = np.concatenate([np.column_stack([stations, lateral]), np.column_stack([stations, medial])[::-1]])
     return np.asarray(ring * length)
 
@@ -67,7 +68,9 @@ def nominal_insole(size: str, side: Side) -> SoleLayout:
     stations = np.interp(share, swept / swept[-1], fine)
     half = 0.5 * np.interp(stations, _STATIONS, _WIDTH)
     centre = np.interp(stations, _STATIONS, _CENTRE)
-    medial, lateral = centre + half, centre - half  # in units of the length, y towards the medial edge
+    # in units of the length, y towards the medial edge
+    medial = centre + half
+    lateral = centre - half
 
     points: list[tuple[float, float]] = []
     index: dict[tuple[int, float], int] = {}
@@ -91,7 +94,8 @@ def nominal_insole(size: str, side: Side) -> SoleLayout:
     unit = np.array(points)
     scale = float(np.sqrt(areas.sum() / sum(area(unit[list(c)]) for c in corners)))
     edge = np.concatenate([np.column_stack([stations, lateral]), np.column_stack([stations, medial])[::-1]])
-    places, ids = np.array([centroid(scale * unit[list(c)]) for c in corners]), np.arange(1, len(corners) + 1)
+    places = np.array([centroid(scale * unit[list(c)]) for c in corners])
+    ids = np.arange(1, len(corners) + 1)
     made = ids, places, scale * unit, corners, _neighbours(spans), areas.copy()
     name = f"nominal 99-cell insole, size {size.upper()}"
     right = flat_sole(name, "right", *made, scale * edge, cell_area=float(areas.mean()))

@@ -24,9 +24,11 @@ from plantar.recordings.frame_table import MOST_VALUES
 from plantar.recordings.pressure_recording import PressureRecording
 
 _LARGEST = 1024
-_MOST_PAGES, _MOST_EMPTY = 200_000, 1000
+_MOST_PAGES = 200_000
+_MOST_EMPTY = 1000
 # Values of all frames' whole matrices that any file may mean, and for each of its bytes; usual is one a byte.
-_SMALL, _MOST_A_BYTE = 8_000_000, 8
+_SMALL = 8_000_000
+_MOST_A_BYTE = 8
 _USUAL_SIZE = 0.005
 _THRESHOLD = 1e3
 _PICTURE = re.compile(r"Pict-No\.?\s*:\s*(\d{1,9})")
@@ -62,7 +64,8 @@ class _Page:
         self.tables.append((np.array(self.labels), np.array(self.columns), np.array(self.values)))
         self.rows_shown.update(self.labels)
         self.columns_shown.update(self.columns)
-        self.labels, self.values = [], []
+        self.labels = []
+        self.values = []
 
     @property
     def cells(self) -> int:
@@ -121,7 +124,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     if starts:
         warnings.append(f"the file holds {len(starts) + 1} trials: put one after the other, with pauses of 2 s")
     side: Side | None = options.side or side_of(facts.get("file", "").rsplit("\\", 1)[-1])
-    whole, name = np.ones((rows, columns), dtype=bool), f"platform of {rows} x {columns} cells"
+    whole = np.ones((rows, columns), dtype=bool)
+    name = f"platform of {rows} x {columns} cells"
     values = pressure.reshape(len(frames), -1)
     foot = foot_of_matrix(side or "left", values, unit, options, whole, size, name, _THRESHOLD)
     return PressureRecording(

@@ -32,9 +32,13 @@ _RATES = {"scanning rate [Hz]": r"scanning\s+rate\s*\[Hz\]", "time per frame [s]
 _LABELS = re.compile(r"\s*(?:M[VP]P|x\[|y\[|area|electrical|mechanical|corner|time)", re.IGNORECASE)
 _CORNER = re.compile(r"\s*[xy]\[[0-3]\]\s")
 _MOST_CORNERS = 64
-_LARGEST_HEADER, _LONGEST_FACT = 400, 10_000
+_LARGEST_HEADER = 400
+_LONGEST_FACT = 10_000
 _WRITTEN = ("kpa", "n/cm2", "psi", "mmhg", "kg/cm2", "mpa")  # Units that the exporting programs write
-_BLOCK, _BLOCK_VALUES, _CHARACTERS = 2048, 4_000_000, 60_000  # what a processor's cache holds as text and numbers
+# what a processor's cache holds as text and numbers
+_BLOCK = 2048
+_BLOCK_VALUES = 4_000_000
+_CHARACTERS = 60_000
 _LATEST = 1e9  # Time in s from which a line is damaged
 
 
@@ -51,7 +55,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         text = "\n".join(header)
         sides = _sides(text, columns, options, warnings)
         time, parts, tail = _take_rows(path, stream, delimiter, len(columns), [span for _, span in sides], warnings)
-    layout, unit = options.layout, _unit(text, options, warnings)
+    layout = options.layout
+    unit = _unit(text, options, warnings)
     named = {name: _field(text, rf"{words}:?\s*({_NUMBER})") or "" for name, words in _RATES.items()}
     time, rate, doubts = sampling(time, options.rate_hz or stated_rate(named, warnings), options.rate_hz)
     warnings += doubts
@@ -95,8 +100,11 @@ def _take_rows(
     path: Path, stream: TextIO, delimiter: str | None, cells: int, spans: Sequence[range], warnings: list[str]
 ) -> tuple[NDArray[np.float64], list[NDArray[np.float64]], list[str]]:
     """Times in s, each span's values, and lines of cell corners."""
-    times, values = FrameTable(1, 0), [FrameTable(len(span), 0) for span in spans]
-    bad, lost, tail = 0, [], list[str]()
+    times = FrameTable(1, 0)
+    values = [FrameTable(len(span), 0) for span in spans]
+    bad = 0
+    lost = []
+    tail = list[str]()
     blocks = _blocks(stream, max(1, min(_BLOCK, _BLOCK_VALUES // (cells + 1))))
     for block in blocks:
         rows = _plain_frames(block, delimiter, cells)
@@ -111,7 +119,8 @@ def _take_rows(
         if not len(times):
             usual = sum(map(len, block)) // len(block)  # lines may be shorter; what is not written takes no memory
             expected = len(block) + path.stat().st_size // max(usual * 3 // 5, 2 * cells)
-            times, values = FrameTable(1, expected), [FrameTable(len(span), expected) for span in spans]
+            times = FrameTable(1, expected)
+            values = [FrameTable(len(span), expected) for span in spans]
         times.add(rows[:, :1])
         for table, span in zip(values, spans, strict=True):
             table.add(rows[:, 1 + span.start : 1 + span.stop])
@@ -124,7 +133,8 @@ def _take_rows(
         for table in (times, *values):
             table.drop_last()
         warnings.append("the last frame is cut short: left out")
-    n, bad = len(times), int(damaged[: len(times)].sum())
+    n = len(times)
+    bad = int(damaged[: len(times)].sum())
     if bad == n:
         raise FormatError(f"the file holds no whole frame of {cells} cells")
     if bad > 0.2 * n:
@@ -270,7 +280,8 @@ def _size(text: str, given: str | None) -> tuple[str, str]:
     stated = (_field(text, r"sensor\s+type:?[ \t]*([a-z]{1,2})(?![a-z])") or "").lower()
     if stated in CELL_AREAS:
         return stated, ""
-    sizes, used = [float(areas.mean()) for areas in CELL_AREAS.values()], float(CELL_AREAS[DEFAULT_SIZE].mean())
+    sizes = [float(areas.mean()) for areas in CELL_AREAS.values()]
+    used = float(CELL_AREAS[DEFAULT_SIZE].mean())
     return DEFAULT_SIZE, (
         f" (assumed, the file names no known size: by the true one of {', '.join(CELL_AREAS)}, forces may be "
         f"{min(sizes) / used:.2f} to {max(sizes) / used:.2f} times these; give it by --insole-size)"

@@ -14,7 +14,9 @@ LEAST = 20.0
 """Vertical force in N from which a plate counts as stepped on, and has a centre of pressure."""
 
 _SHARE = 0.05  # Share of the plate's peak above which a foot is on it
-_SHORTEST, _BRIDGED = 0.1, 0.1  # Contacts in s that are shorter are none; gaps in s that are shorter are bridged
+# Contacts in s that are shorter are none; gaps in s that are shorter are bridged
+_SHORTEST = 0.1
+_BRIDGED = 0.1
 _NEARER = 0.1  # How much nearer in m one foot's markers are to the CoP than the other's, at least
 _REACH = 0.2  # Time in s between a contact's begin and a stated heel strike of its foot, at most
 # Mean push to the middle in mid-stance, as a share of the peak, from which it shows the foot; walking has 0.03.
@@ -191,7 +193,8 @@ def _walks_on_one_foot(contacts: Sequence[PlateContact], found: Sequence[Side | 
 def _by_markers(plate: Plate, contact: PlateContact, markers: Mapping[Side, NDArray[np.float64]] | None) -> Side | None:
     if not markers or plate.cop is None:
         return None
-    span, away = slice(contact.begin, contact.end), {}
+    span = slice(contact.begin, contact.end)
+    away = {}
     for side, track in markers.items():
         gap = np.hypot(*(track[span] - plate.cop[span]).T)
         away[side] = float(np.median(gap[np.isfinite(gap)])) if np.isfinite(gap).any() else np.inf
@@ -239,7 +242,8 @@ def _forward(plates: Sequence[Plate], contacts: Sequence[PlateContact], treadmil
     """Walking direction (2,): a foot brakes first and pushes off last; else the CoP's."""
     push = np.zeros(2)
     for contact in contacts:
-        plate, length = plates[contact.plate], contact.end - contact.begin
+        plate = plates[contact.plate]
+        length = contact.end - contact.begin
         span = np.nan_to_num(plate.force[contact.begin : contact.end, :2])
         push += span[int(0.6 * length) :].sum(axis=0) - span[: int(0.4 * length)].sum(axis=0)
     way = _way(plates, contacts) * (-1.0 if treadmill else 1.0)
@@ -274,7 +278,8 @@ def _by_place(
         return []
     places = []
     for contact in contacts:
-        cop, corners = plates[contact.plate].cop, plates[contact.plate].corners
+        cop = plates[contact.plate].cop
+        corners = plates[contact.plate].corners
         own = None if cop is None else cop[contact.begin : contact.end]
         if own is not None and np.isfinite(own).all(axis=1).any():
             places.append(np.nanmean(own, axis=0))

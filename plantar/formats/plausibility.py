@@ -15,21 +15,28 @@ _CELL = (1e-6, 4e-3)
 _RATE = (20.0, 5000.0)
 # Share of loaded frames that repeat the one before from which the sensor is slower than the file; frames in a row at
 # a cell's largest reading, and cells that share that reading, from which it is the end of the sensor's range.
-_HELD, _FLAT, _CELLS = 0.4, 5, 3
+_HELD = 0.4
+_FLAT = 5
+_CELLS = 3
 _REST = 0.4  # Share of readings from which the largest is that of an unloaded cell, whose sensor counts down
 # How many times higher than both frames next to it, and from which pressure in Pa, a single value is no foot's.
-_ALONE, _HIGH = 4.0, 50e3
+_ALONE = 4.0
+_HIGH = 50e3
 _QUICK = 50.0  # Rate in Hz from which that is so: at 30 Hz a heel strike may pass a cell within one frame
 # Readings of cells that are looked at for this, from the beginning on: a minute of 99 cells at 80 Hz, 4 MB.
 _SEEN = 500_000
 # A cell's smallest reading (0.1 % of the positive ones lie below), as a share of the readings' 98th percentile, from
 # which what a sensor leaves out at low load moves events by 20 ms; and the share of readings of 0 that separates such
 # a sensor from one with an offset.
-_SWITCH, _LOW, _ZEROS = 0.20, 0.1, 0.05
+_SWITCH = 0.20
+_LOW = 0.1
+_ZEROS = 0.05
 _LONGEST_FOOT = 0.40
 # Share of its peak that a loaded foot has at least, and what is left where its samples are lost; time in s in which no
 # foot is lifted and set down again.
-_UNDER_FOOT, _GONE, _INSTANT = 0.30, 0.01, 0.10
+_UNDER_FOOT = 0.30
+_GONE = 0.01
+_INSTANT = 0.10
 _SLENDER = (1.8, 4.2)  # How many times longer than wide insoles are, with room; those of makers are 2.4 to 3.4
 
 
@@ -79,7 +86,8 @@ def doubts(recording: PressureRecording) -> list[str]:
 
 
 def _lost_or_flat(side: str, force: NDArray[np.float64], peak: float, rate: float, unit: str) -> list[str]:
-    out, beside = [], _UNDER_FOOT * peak
+    out = []
+    beside = _UNDER_FOOT * peak
     drops = [
         (a, b) for a, b in true_runs(force <= _GONE * peak) if a > 0 and b < len(force) and b - a < _INSTANT * rate
     ]
@@ -126,9 +134,11 @@ def _clipped_or_held(foot: FootRecording, rate: float, raw: bool) -> list[str]:
     loaded = part.sum(axis=1) > 0.2 * float(part.sum(axis=1).max(initial=0.0))
     if loaded.sum() < 20 or part.shape[1] <= _CELLS:
         return []
-    per, are_pressures = _areas_or_ones(foot, raw), foot.layout is not None and not raw
+    per = _areas_or_ones(foot, raw)
+    are_pressures = foot.layout is not None and not raw
     value = part / per
-    out, highest = _switched_on(foot.side, value) if are_pressures else [], float(value.max())
+    out = _switched_on(foot.side, value) if are_pressures else []
+    highest = float(value.max())
     full = value >= highest * (1.0 - 1e-9)
     runs = full[_FLAT - 1 :].copy()
     for shift in range(_FLAT - 1):
@@ -179,7 +189,8 @@ _BEYOND = 3.0
 _LEVELS = 10  # Different readings that a sensor has below a mark: a switch has two, and its upper one is no mark
 # How far in Pa below zero a reading moves a result; and the same as a share of the largest reading, where no cell
 # areas make pressures of them.
-_BELOW, _SHARE = 4e3, 0.1
+_BELOW = 4e3
+_SHARE = 0.1
 # Share of the readings up to which the one value below zero is a mark: of more, it is where the sensor ends.
 _MOST = 0.5
 _SAMPLED = 500_000  # Readings that are looked at first, all over the recording
@@ -193,9 +204,11 @@ def without_marks(recording: PressureRecording) -> PressureRecording:
     """
     if recording.kind in ("robot", "plate"):
         return recording
-    feet, warnings = dict(recording.feet), list(recording.warnings)
+    feet = dict(recording.feet)
+    warnings = list(recording.warnings)
     for side, foot in recording.feet.items():
-        force, per = foot.force, _areas_or_ones(foot, recording.raw)
+        force = foot.force
+        per = _areas_or_ones(foot, recording.raw)
         for mark in _marks(force, per, foot.layout is not None and not recording.raw):
             force, count = _left_out(force, per, mark)
             shown = _shown(mark, foot, recording.raw)
@@ -216,9 +229,11 @@ def _marks(force: NDArray[np.float64], per: NDArray[np.float64], are_pressures: 
     let_go(force)
     sample = np.unique(sample[np.isfinite(sample)])
     lowest, highest = _ends(force, per)
-    found, others = [], sample[(sample > 0.0) & ~_is(sample, highest)]
+    found = []
+    others = sample[(sample > 0.0) & ~_is(sample, highest)]
     if len(others) >= _LEVELS and highest >= _BEYOND * others[-1]:  # as of all that were read, or more
-        count, next_one = 0, 0.0
+        count = 0
+        next_one = 0.0
         for rows in blocks_of_frames(force):
             value = force[rows] / per
             marked = _is(value, highest)
@@ -228,7 +243,8 @@ def _marks(force: NDArray[np.float64], per: NDArray[np.float64], are_pressures: 
             found.append(highest)
             highest = next_one
     if lowest < -(_BELOW if are_pressures else _SHARE * highest):
-        count = below = 0
+        count = 0
+        below = 0
         for rows in blocks_of_frames(force):
             value = force[rows] / per
             count += int(_is(value, lowest).sum())
@@ -239,7 +255,8 @@ def _marks(force: NDArray[np.float64], per: NDArray[np.float64], are_pressures: 
 
 
 def _ends(force: NDArray[np.float64], per: NDArray[np.float64]) -> tuple[float, float]:
-    low, high = np.zeros(len(per)), np.zeros(len(per))
+    low = np.zeros(len(per))
+    high = np.zeros(len(per))
     for rows in blocks_of_frames(force):
         np.fmin(low, np.fmin.reduce(force[rows], axis=0, initial=0.0), out=low)
         np.fmax(high, np.fmax.reduce(force[rows], axis=0, initial=0.0), out=high)
@@ -251,7 +268,8 @@ def _is(value: NDArray[np.float64], mark: float) -> NDArray[np.bool_]:
 
 
 def _left_out(force: NDArray[np.float64], per: NDArray[np.float64], mark: float) -> tuple[NDArray[np.float64], int]:
-    out, count = room(*force.shape), 0
+    out = room(*force.shape)
+    count = 0
     for rows in blocks_of_frames(force):
         marked = _is(force[rows] / per, mark)
         out[rows] = np.where(marked, np.nan, force[rows])

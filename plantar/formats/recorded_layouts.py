@@ -57,7 +57,9 @@ def grid_cells(
     number[row + 1, column + 1] = np.arange(n)
     around = np.array([number[row + 1 + i, column + 1 + j] for i, j in ((-1, 0), (0, -1), (0, 1), (1, 0))]).T
     neighbours = tuple(tuple(sorted(j for j in near if j >= 0)) for near in around.tolist())
-    ids, places, areas = row * columns + column + 1, np.column_stack([x, y]), np.full(n, row_pitch * column_pitch)
+    ids = row * columns + column + 1
+    places = np.column_stack([x, y])
+    areas = np.full(n, row_pitch * column_pitch)
     cells = ids, places, vertices, corners.tolist(), neighbours, areas
     return flat_sole(name, side, *cells, convex_hull(vertices), cell_shape="rectangle", threshold=threshold)
 

@@ -25,7 +25,9 @@ from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import PressureRecording, sampling
 
-_LEAST_CELLS, _MOST_CELLS = 3, 20_000  # Numbers in an array that may be a sole: a picture has more
+# Numbers in an array that may be a sole: a picture has more
+_LEAST_CELLS = 3
+_MOST_CELLS = 20_000
 _DEPTH = 3
 _FOLDERS = "metadata.yaml"
 
@@ -130,7 +132,8 @@ def series_of_bag(path: Path) -> dict[str, Any]:
             if connection.topic in skipped:
                 continue
             message = reader.deserialize(data, connection.msgtype)
-            found, stamp = False, getattr(getattr(message, "header", None), "stamp", None)
+            found = False
+            stamp = getattr(getattr(message, "header", None), "stamp", None)
             seconds = nanoseconds * 1e-9 if stamp is None else float(stamp.sec) + 1e-9 * float(stamp.nanosec)
             for name, values in _arrays(message, _DEPTH):
                 found = True

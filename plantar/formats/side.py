@@ -119,7 +119,8 @@ def on_one_time(
         if len(known) == 0:
             raise FormatError(f"no row of the {side} foot has a time")
         known = known[np.argsort(time[known], kind="stable")]
-        times[side], timed[side] = time[known], values[known]
+        times[side] = time[known]
+        timed[side] = values[known]
     warnings.append("the feet have times of their own: the right foot's values are interpolated at the left one's")
     base = _common_times(times)
     return base, {side: _at_times(base, times[side], timed[side]) for side in feet}

@@ -19,7 +19,8 @@ from plantar.formats.text import number
 from plantar.recordings.pressure_recording import StatedEvents
 
 _MOST = 50e6  # bytes that a report may unpack to
-_MOST_SHEETS, _MOST_ROWS = 200, 100_000
+_MOST_SHEETS = 200
+_MOST_ROWS = 100_000
 _SHEET = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 _LINK = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}id"
 _ALLOWED = (

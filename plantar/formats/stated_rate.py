@@ -46,7 +46,8 @@ def stated_rate(facts: Mapping[str, str], warnings: list[str]) -> float | None:
     """
     found: dict[str, float] = {}
     for name, text in facts.items():
-        words, shown = _words(_clear(name)), f"{name!r} of {text[:40]!r}"
+        words = _words(_clear(name))
+        shown = f"{name!r} of {text[:40]!r}"
         end = next((k for k in range(len(words), 0, -1) if _is_stated(words[:k], words[k:])), 0)
         stated = _STATED.fullmatch(_clear(text))
         if not end or not text.strip() or (found and stated is None):
@@ -55,14 +56,17 @@ def stated_rate(facts: Mapping[str, str], warnings: list[str]) -> float | None:
             raise FormatError(
                 f"{name!r} is no number of frames a second or s a frame: {text[:40]!r} (--rate overrides)"
             )
-        before, value, rest = stated[1], float(stated[2].replace(",", ".")), _words(re.split(r"\d", stated[3])[0])
+        before = stated[1]
+        value = float(stated[2].replace(",", "."))
+        rest = _words(re.split(r"\d", stated[3])[0])
         unit = next((u for k in range(len(rest), 0, -1) if _is_unit(u := "".join(rest[:k]))), "")
         odd = bool(before or (stated[3].strip(" ,;\t") and not unit))
         unit = unit or "".join(words[end:]) or (words[0] if _is_unit(words[0]) else "")
         if not unit and _PERIOD.fullmatch("".join(words)):
             unit, odd = ("s", odd) if value < 1.0 else ("ms", True)  # a frame a second is no gait
         if _THOUSANDS.fullmatch(stated[2]) and _HERTZ.get(unit or "hz") == 1.0:
-            value, odd = 1e3 * value, True
+            value = 1e3 * value
+            odd = True
         if odd:
             warnings.append(f"{shown} is not clear, taken as {value:g} {unit or 'Hz'}: check the rate")
         period = value * seconds_of_unit(unit)

@@ -48,7 +48,8 @@ def recording_of_columns(
         facts: "unit", "rate", "side" of comments.
         warnings: Assumptions are added.
     """
-    facts, warnings = {} if facts is None else facts, [] if warnings is None else warnings
+    facts = {} if facts is None else facts
+    warnings = [] if warnings is None else warnings
     if not names:
         warnings.append("the table has no row of names: the first column is taken as time in s if it increases")
     at = next((i for i, n in enumerate(names) if time_unit(n) is not None), None)
@@ -68,7 +69,9 @@ def recording_of_columns(
     columns = [i for i in range(table.shape[1]) if i != at and i not in clocks]
     copies, both = _repeated(table, names, columns, warnings) if names else (set[int](), dict[Side, list[int]]())
     columns = [i for i in columns if i not in copies]
-    kind, every, raw = "insole", True, False
+    kind = "insole"
+    every = True
+    raw = False
     if names and is_force_table([headings[i] for i in columns]):
         named = {i: headings[i] for i in columns}
         stated = options.side or side_of(facts.get("side", ""), facts.get("foot", ""))
@@ -100,8 +103,10 @@ def _repeated(
         for i in columns
         if names[i] and (h := heading_of(names[i])).quantity in ("force", "pressure", "cell", "number")
     }
-    loads, half = list(keys), len(keys) // 2
-    one, other = loads[:half], loads[half:]
+    loads = list(keys)
+    half = len(keys) // 2
+    one = loads[:half]
+    other = loads[half:]
     axes_or_sides = any(axis or side for _, axis, side, *_ in keys.values())
     again = half >= 2 and not axes_or_sides and [keys[i] for i in one] == [keys[i] for i in other]
     if again and not np.array_equal(table[:, one], table[:, other], equal_nan=True):
@@ -158,7 +163,8 @@ def _on_one_clock(
     if len(clocks) < 2 or at not in clocks.values():
         return table, names, at
     usual = max(units[i] for i in clocks.values())
-    own, last = {side: list[int]() for side in SIDES}, SIDES[0]
+    own = {side: list[int]() for side in SIDES}
+    last = SIDES[0]
     for i, name in enumerate(names):
         if i in units:
             last = side_of(*beside[i]) or last
@@ -245,13 +251,15 @@ def _nameless_cells(
     table: NDArray[np.float64], columns: list[int], warnings: list[str]
 ) -> tuple[list[int], dict[Side, list[int]]]:
     """Columns, and each foot's before their two sums; FormatError for a plate's."""
-    low, high = float(np.nanmin(table[:, columns], initial=0.0)), float(np.nanmax(table[:, columns], initial=0.0))
+    low = float(np.nanmin(table[:, columns], initial=0.0))
+    high = float(np.nanmax(table[:, columns], initial=0.0))
     if min(-low, high) > _SIGNED * max(-low, high):
         raise FormatError(
             f"columns without names go from {low:.4g} to {high:.4g}, as forces and moments of a plate do and no "
             "cells; allowed: a row of names (FP1 Fx, FP1 Fy, FP1 Fz, FP1 Mx, ...)"
         )
-    values, half = _sampled(table, columns), (len(columns) - 2) // 2
+    values = _sampled(table, columns)
+    half = (len(columns) - 2) // 2
     pairs = len(columns) % 2 == 0 and half >= 2 and len(values) > 0
     if pairs and _is_sum(values[:, -2], values[:, :half]) and _is_sum(values[:, -1], values[:, half:-2]):
         warnings.append(

@@ -20,7 +20,9 @@ _Key = tuple[Side | None, int | None]
 # The two horizontal axes, right-handed with each vertical one.
 _UPRIGHT = {"z": ("x", "y"), "y": ("z", "x"), "x": ("y", "z")}
 # How often a mark for missing values is there at least, different values of its column, and its smallest magnitude.
-_FEWEST, _LEVELS, _LEAST = 3, 10, 9.0
+_FEWEST = 3
+_LEVELS = 10
+_LEAST = 9.0
 _WEIGHTS = (0.7, 4.0)  # Largest vertical forces without a unit that are body weights and no N
 # Weight in N that forces in body weights are read with, so that levels in N hold; they are divided by it again.
 _NOMINAL = 700.0
@@ -93,7 +95,8 @@ def feet_of_forces(
 
 def _take_out_marks(table: NDArray[np.float64], columns: Mapping[int, Heading], warnings: list[str]) -> None:
     """NaN for a repeated value that is farther from all others than half of what these range over, such as -999."""
-    count, marks = 0, dict[float, None]()
+    count = 0
+    marks = dict[float, None]()
     for i, h in columns.items():
         value, times = np.unique(table[np.isfinite(table[:, i]), i], return_counts=True)
         if h.quantity not in ("force", "cop", "moment", "place") or len(value) < _LEVELS:
@@ -102,7 +105,8 @@ def _take_out_marks(table: NDArray[np.float64], columns: Mapping[int, Heading], 
         for mark, near, often in ((value[0], value[1], times[0]), (value[-1], value[-2], times[-1])):
             if abs(mark) >= _LEAST and mark == round(mark) and often >= _FEWEST and abs(mark - near) > least:
                 table[table[:, i] == mark, i] = np.nan
-                count, marks = count + int(often), {**marks, float(mark): None}
+                count = count + int(often)
+                marks = {**marks, float(mark): None}
     if marks:
         shown = ", ".join(f"{mark:g}" for mark in marks)
         warnings.append(f"{count} value(s) are {shown}, far from all others: taken as marks for what was not measured")
@@ -140,7 +144,8 @@ def _scaled(foot: FootRecording, scale: float) -> FootRecording:
 
 
 def _vertical(table: NDArray[np.float64], groups: Mapping[_Key, dict[str, dict[str, int]]], warnings: list[str]) -> str:
-    load, named = dict.fromkeys("xyz", 0.0), False
+    load = dict.fromkeys("xyz", 0.0)
+    named = False
     for own in groups.values():
         named = named or "vertical" in own["force"]
         for axis in "xyz":
@@ -170,10 +175,13 @@ def _unit(
     weight = None if options.mass_kg is None else options.mass_kg * GRAVITY
     largest = float(np.nanpercentile(np.abs(table[:, list(verticals)]), 99.5)) if verticals and len(table) else 0.0
     if not text and _WEIGHTS[0] <= largest <= _WEIGHTS[1]:
-        text, name = "BW", "bw"
+        text = "BW"
+        name = "bw"
         warnings.append(f"the forces state no unit and reach {largest:.3g}: taken as body weights (--unit overrides)")
     if name in ("n/kg", "newton/kg", "nkg-1", "n/kgbm"):
-        text, name, factor = "N/kg", "bw", 1.0 / GRAVITY
+        text = "N/kg"
+        name = "bw"
+        factor = 1.0 / GRAVITY
     else:
         factor = BODY_WEIGHTS.get(name, 1.0)
     if name in BODY_WEIGHTS:
@@ -200,7 +208,8 @@ def _plate(
     side, number = key
     name = f"plate {number}" if number is not None else f"the {side} plate" if side else "the plate"
     up = vertical if vertical in _UPRIGHT else "z"
-    forces, unknown = own["force"], np.full(len(table), np.nan)
+    forces = own["force"]
+    unknown = np.full(len(table), np.nan)
 
     def of(quantity: Mapping[str, int], axis: str, other: str) -> NDArray[np.float64]:
         i = quantity.get(axis, quantity.get(other))
@@ -213,7 +222,8 @@ def _plate(
     if {ahead, across} <= set(places) or {"ap", "ml"} <= set(places):
         cop = np.column_stack([of(places, ahead, "ap"), of(places, across, "ml")])
         cop = cop * _length(columns[places.get(ahead, places.get("ap", 0))].unit, cop, force[:, 2], warnings)
-    moments, moment = own.get("moment", {}), None
+    moments = own.get("moment", {})
+    moment = None
     if cop is None and {"x", "y", "z"} <= set(moments) and {"x", "y", "z"} <= set(forces):
         turned = np.column_stack([table[:, moments[a]] for a in (ahead, across, up)])
         turn = MOMENTS.get(plain(columns[moments[up]].unit))

@@ -150,7 +150,8 @@ _PLATE = re.compile(r".*\b(?:\w*plat(?:e|te|t?form|eforme)|fp|kistler|amti|berte
 
 
 def _names(above: Sequence[str], delimiter: str | None, width: int) -> tuple[list[str], int]:
-    at, rows = len(above) - 1, []
+    at = len(above) - 1
+    rows = []
     for line in above[-3:]:
         cells = names_of_row(line.lstrip("#").rstrip("\r\n"), delimiter)
         cells = [c[:_LONGEST_NAME] for c in cells]
@@ -161,14 +162,16 @@ def _names(above: Sequence[str], delimiter: str | None, width: int) -> tuple[lis
         return [], len(above)
     names = rows[-1] + [""] * (width - len(rows[-1]))
     if len(rows) > 1 and all(plain(c) in _UNITS for c in names) and _names_columns(rows[-2], width):
-        units, at = names, at - 1
+        units = names
+        at = at - 1
         rows.pop()
         names = [
             f"{n} [{u}]" if u.strip("-[]() ") and "[" not in n and "(" not in n else n
             for n, u in zip(rows[-1] + [""] * (width - len(rows[-1])), units, strict=True)
         ]
     if len(rows) > 1 and side_of(*names) is None and len(rows[-2]) > 1:
-        groups, last = [], ""
+        groups = []
+        last = ""
         for cell in rows[-2] + [""] * (width - len(rows[-2])):
             last = (cell if side_of(cell) else _PLATE.sub(r"FP\1", cell)) or last
             groups.append(last)
@@ -319,14 +322,16 @@ class CountedSeconds:
 
     def __init__(self) -> None:
         self._first: float | None = None
-        self._last = self._days = 0.0
+        self._last = 0.0
+        self._days = 0.0
 
     def __call__(self, cell: str) -> str:
         seconds = seconds_of_time(cell)
         if seconds is None:
             return cell
         if self._first is None:
-            self._first = self._last = seconds
+            self._first = seconds
+            self._last = seconds
         if seconds < self._last - 0.5 * _DAY:
             self._days += _DAY
         self._last = seconds

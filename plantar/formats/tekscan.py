@@ -57,9 +57,11 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         lines = iter(stream)
         header, first = _take_header(lines)
         numbers, (rows, columns), table = _take_frames(path, first, lines, header, warnings)
-    unit, pitch = _unit(header, options, warnings), _pitch(header, warnings)
+    unit = _unit(header, options, warnings)
+    pitch = _pitch(header, warnings)
     named = {key: header.get(key, "") for key in _RATES}
-    rate, steps = options.rate_hz or stated_rate(named, warnings), np.diff(numbers)
+    rate = options.rate_hz or stated_rate(named, warnings)
+    steps = np.diff(numbers)
     rate = or_usual(rate, "the header states no SECONDS_PER_FRAME", warnings)
     if len(steps) and (steps > 0).all():
         time = (np.array(numbers, dtype=float) - numbers[0]) / rate
@@ -145,7 +147,8 @@ def _take_frames(
     usual = sum(len(line) + 1 for _, body in known for line in body) // len(known)
     table = FrameTable(shape[0] * shape[1], path.stat().st_size * 5 // max(3 * usual, 1))  # frames may be shorter
     numbers: list[int] = []
-    odd, last_is_cut = 0, False
+    odd = 0
+    last_is_cut = False
     for number_of_frame, body in chain(known, bodies):
         odd += last_is_cut  # which was not the last one
         last_is_cut = len(body) != shape[0]
@@ -172,7 +175,8 @@ def _take_frames(
 
 
 def _shape(header: dict[str, str], rows: int | None, bodies: list[list[str]]) -> tuple[tuple[int, int], str | None]:
-    first, rows = bodies[0], rows or int(np.median([len(b) for b in bodies]))
+    first = bodies[0]
+    rows = rows or int(np.median([len(b) for b in bodies]))
     delimiter = next((d for d in ";\t," if first and d in first[0]), None)
     widths = [len([c for c in cells_of_row(line, delimiter) if c.strip()]) for line in first] or [0]
     columns = _stated(header, "COLS") or int(np.median(widths))
@@ -187,7 +191,8 @@ def _matrix(body: list[str], delimiter: str | None, rows: int, columns: int) -> 
     values = _fast(body, delimiter, rows, columns)
     if values is not None:
         return values, 0
-    bad, values = 0, np.full((rows, columns), np.nan)
+    bad = 0
+    values = np.full((rows, columns), np.nan)
     for r, line in enumerate(body):
         cells = cells_of_row(line, delimiter)[:columns]
         row, wrong = row_of_numbers(["" if c.strip().upper() == "B" else c for c in cells])
@@ -223,7 +228,8 @@ def _unit(header: dict[str, str], options: ReadOptions, warnings: list[str]) -> 
 def _pitch(header: dict[str, str], warnings: list[str]) -> tuple[float, float]:
     def length(key: str) -> float | None:
         text = header.get(key, "")
-        value, words = number_in(text), re.findall(r"[a-z]+", text.lower())
+        value = number_in(text)
+        words = re.findall(r"[a-z]+", text.lower())
         unit = next((LENGTHS[w] for w in words if w in LENGTHS), None)
         if value is not None and value > 0.0 and unit is None:
             warnings.append(f"{key} states no unit of length: mm is assumed")
@@ -240,7 +246,8 @@ def _pitch(header: dict[str, str], warnings: list[str]) -> tuple[float, float]:
         return _USUAL_PITCH, _USUAL_PITCH
     if len(stated) == 1:
         warnings.append("the header states one spacing of rows and columns: taken for both")
-    rows, columns = stated[0], stated[-1]
+    rows = stated[0]
+    columns = stated[-1]
     if area > 0.0 and abs(rows * columns - area) > 0.02 * area:
         warnings.append(
             f"spacings of {rows * 1e3:g} x {columns * 1e3:g} mm and a sensel area of {area * 1e6:g} mm2 do not agree: "

@@ -16,8 +16,11 @@ from plantar.kernels import is_compiled
 from plantar.kernels.formats import decimals
 from plantar.recordings.frame_table import FrameTable
 
-_LONGEST_LINE, _CHUNK = 1_000_000, 1 << 17
-_BLOCK, _BLOCK_VALUES, _FIRST = 2048, 4_000_000, 32
+_LONGEST_LINE = 1_000_000
+_CHUNK = 1 << 17
+_BLOCK = 2048
+_BLOCK_VALUES = 4_000_000
+_FIRST = 32
 _ZEROS = 0.01  # Share of zeros that damage may put into a text
 _MARKED_AGAIN = re.compile(rb"(?:(\xff\xfe|\xfe\xff|\xef\xbb\xbf)(?=\1))+")  # byte order marks before the last one
 _NUMBER = re.compile(r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?")
@@ -33,7 +36,8 @@ def open_text(path: Path) -> TextIO:
     """
     stream = open_input(path, FormatError)
     head = stream.read(1 << 20)
-    encoding, marks = encoding_of(head), _MARKED_AGAIN.match(head)
+    encoding = encoding_of(head)
+    marks = _MARKED_AGAIN.match(head)
     stream.seek(marks.end() if marks else 0)
     lines = _Lines(stream.detach(), _CHUNK)  # type: ignore[attr-defined]
     text = io.TextIOWrapper(lines, encoding=encoding, errors="replace", newline=None)
@@ -62,7 +66,8 @@ def blocks_of_lines(lines: Iterator[str], most: int = 2048, characters: int = 16
         size += len(line)
         if len(block) == most or size >= characters:
             yield block
-            block, size = [], 0
+            block = []
+            size = 0
     if block:
         yield block
 
@@ -75,7 +80,8 @@ def frames_of_lines(
     Lines follow the first match (None for no frames); a frame over most lines ends them.
     """
     while first is not None:
-        begin, body = first, list[str]()
+        begin = first
+        body = list[str]()
         first = None
         for line in lines:
             first = mark.match(line)
@@ -154,7 +160,8 @@ def table_of_lines(
     """
     wanted = list(columns) or list(range(width))
     table = FrameTable(len(wanted), 0)
-    bad = short = 0
+    bad = 0
+    short = 0
     last = ""
     for block in blocks_of_lines(lines, max(1, min(_BLOCK, _BLOCK_VALUES // width))):
         if not len(table):
@@ -163,7 +170,9 @@ def table_of_lines(
             table = FrameTable(len(wanted), expected)
         rows, wrong, odd = _rows(block, delimiter, width, wanted)
         table.add(rows)
-        bad, short, last = bad + wrong, short + odd, block[-1]
+        bad = bad + wrong
+        short = short + odd
+        last = block[-1]
         if len(table) > _FIRST and max(short, bad / len(wanted)) > 0.5 * len(table):  # no use in reading on
             break
     if not len(table):
@@ -193,7 +202,8 @@ def _rows(
     if rows is not None:
         return rows, 0, 0
     out = np.full((len(block), len(wanted)), np.nan)
-    bad = short = 0
+    bad = 0
+    short = 0
     for i, line in enumerate(block):
         cells = line.rstrip("\n").split(delimiter)
         if len(cells) < width or any(cell.strip() for cell in cells[width:]):
@@ -212,7 +222,8 @@ def row_of_numbers(cells: Sequence[str]) -> tuple[NDArray[np.float64], int]:
             return values, 0
     except ValueError:
         pass
-    out, bad = np.full(len(cells), np.nan), 0
+    out = np.full(len(cells), np.nan)
+    bad = 0
     for i, cell in enumerate(cells):
         value = number(cell)
         if value is not None:

@@ -4,7 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-_POUND, _KILOGRAM = 4.4482216152605, 9.80665  # N
+# N
+_POUND = 4.4482216152605
+_KILOGRAM = 9.80665
 _PSI = 6894.757293168  # Pa
 
 
@@ -86,7 +88,8 @@ def find_unit(text: str) -> Unit | None:
         >>> find_unit("Raw").kind, find_unit("parsec")
         ('raw', None)
     """
-    name, stated = plain(text), text.strip()
+    name = plain(text)
+    stated = text.strip()
     if name in PASCALS and not (name == "mpa" and stated.strip("[]() ").startswith("m")):  # millipascal: a misprint
         return Unit("pressure", PASCALS[name], stated)
     if name in FORCES and not stated.strip("[]() ").startswith("MN"):

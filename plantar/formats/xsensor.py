@@ -28,7 +28,10 @@ from plantar.recordings.pressure_recording import FootRecording, PressureRecordi
 
 _USUAL_SIZE = 0.0086
 _LARGEST = 100_000  # Most cells of a matrix, and rows and columns that are believed
-_MOST_SENSORS, _MOST_FACTS, _MOST_EMPTY, _LONGEST_NAME = 100, 1000, 1000, 200
+_MOST_SENSORS = 100
+_MOST_FACTS = 1000
+_MOST_EMPTY = 1000
+_LONGEST_NAME = 200
 _THRESHOLD = 1e3
 _KEYWORDS = ("FRAME", "SENSOR", "GROUP", "SENSELS", "DATE", "TIME")
 _ENOUGH = 50.0  # Load in N from which the header's figures are taken to check the unit and the cells' area
@@ -58,11 +61,13 @@ class _Sensor:
         if self.frames[-1:] == [frame]:
             self.repeated += 1
             return
-        stated, widths = self.rows or len(rows), {len(r) for r in rows}
+        stated = self.rows or len(rows)
+        widths = {len(r) for r in rows}
         if len(rows) != stated or len(widths) != 1 or stated * len(rows[0]) > _LARGEST:
             return
         if not self.frames:
-            self.rows, self.columns = stated, len(rows[0])
+            self.rows = stated
+            self.columns = len(rows[0])
             self.values = FrameTable(self.rows * self.columns, file_size // (2 * self.rows * self.columns))
         if widths == {self.columns}:
             self.frames.append(frame)
@@ -95,7 +100,8 @@ class _Scan:
 
     def take_row(self, line: str) -> bool:
         """Whether a line is a row of the matrix, which it joins."""
-        sensor, rows = self.sensor, self.rows
+        sensor = self.sensor
+        rows = self.rows
         if rows is None or sensor is None or not _is_row(line, len(rows), sensor.rows):
             return False
         width = sensor.columns or (len(rows[0]) if rows else 1)
@@ -109,7 +115,8 @@ class _Scan:
         self.delimiter = _delimiter(text, self.delimiter)
         parts = [p.strip().strip('"') for p in text.split(self.delimiter)]
         key = parts[0].rstrip(":").strip()
-        value, word = next((p for p in parts[1:] if p), ""), key.upper()
+        value = next((p for p in parts[1:] if p), "")
+        word = key.upper()
         if word in ("FRAME", "GROUP", "SENSOR"):
             self.finish_matrix()
             self.sensor = None
@@ -221,7 +228,8 @@ def _is_row(line: str, taken: int, rows: int) -> bool:
 
 
 def _take_fact(facts: dict[str, str], sensor: _Sensor, key: str, value: str) -> None:
-    low, figure = key.lower(), number(value)
+    low = key.lower()
+    figure = number(value)
     if low in ("rows", "columns") and figure is not None and 0 < figure <= _LARGEST and figure == int(figure):
         if low == "rows":
             sensor.rows = sensor.rows or int(figure)
@@ -321,7 +329,8 @@ def _cell(
     sides: list[float] = []
     for name in ("sensel height", "sensel width"):
         text = next((v for k, v in facts.items() if k.startswith(name)), "")
-        value, length = number_in(text), re.search(r"\((\w+)\)", text)
+        value = number_in(text)
+        length = re.search(r"\((\w+)\)", text)
         factor = LENGTHS.get(length[1].lower()) if length else None
         if value is not None and value > 0.0 and factor is not None:
             sides.append(value * factor)

@@ -42,7 +42,9 @@ __all__ = ["Command", "FootTarget", "Sensors", "Start", "WalkingController"]
 
 _UNBOUNDED_REGION = np.empty((0, 2))  # leaves the desired ZMP free
 _NO_STEPS: tuple[MovedStep, ...] = ()
-_ARRIVED, _ARRIVED_SEEING = 0.94, 0.75  # of a swing, after which its foot only descends
+# of a swing, after which its foot only descends
+_ARRIVED = 0.94
+_ARRIVED_SEEING = 0.75
 _BRIDGED = 0.2  # beats without encoders or IMU: a DCM that is not followed is a fifth farther off by then
 
 
@@ -92,16 +94,20 @@ class WalkingController:
         kinematics: LegKinematics,
         motors: Motors | None = None,
     ) -> None:
-        s, feet, begin = settings, start.feet, start.time - 1.0
+        s = settings
+        feet = start.feet
+        begin = start.time - 1.0
         self.settings = settings
-        layouts = self.layouts = {side: on_its_hull(layouts[side]) for side in SIDES}
+        layouts = {side: on_its_hull(layouts[side]) for side in SIDES}
+        self.layouts = layouts
         self._motors = motors
         self.replans = 0
         limits = {side: AnkleLimits(strips, s.balance.zmp_offset) for side, strips in s.ankle_limits.items()}
         middles = {side: middle_of_sole(layouts[side], s.ankle_reach, limits.get(side)) for side in SIDES}
         self.middles = middles
         self.estimation = Estimation(s, feet, layouts, kinematics)
-        omega = self.omega = self.estimation.omega
+        omega = self.estimation.omega
+        self.omega = omega
         self.plan = WalkPlan(feet, start.steps, s.timing, middles, omega, start.time)
         arrived = _ARRIVED_SEEING if s.compliance is not None else _ARRIVED
         self.momentum = LegMomentum(self.plan, omega, s.leg_inertia.turning, arrived)
@@ -191,25 +197,32 @@ class WalkingController:
 
     def _is_lost(self, command: Command) -> bool:
         """Whether the CoM is farther from the feet than high."""
-        left, right = command.feet["left"].position, command.feet["right"].position
-        (x, y, _), (lx, ly, _), (rx, ry, _) = command.com.tolist(), left.tolist(), right.tolist()
+        left = command.feet["left"].position
+        right = command.feet["right"].position
+        x, y, _ = command.com.tolist()
+        lx, ly, _ = left.tolist()
+        rx, ry, _ = right.tolist()
         away = math.hypot(x - 0.5 * (lx + rx), y - 0.5 * (ly + ry))
         return away > self.settings.com_height
 
     def _tick(self, sensors: Sensors) -> Command:
         """A tick with encoders and IMU."""
-        time, footing, body = sensors.time, self.footing, self.estimation.body
+        time = sensors.time
+        footing = self.footing
+        body = self.estimation.body
         sensed = self.estimation.sense(sensors, self.schedule.at(time))
         legs = self.momentum.at(time)
         planned = self.plan.at(time).com_acceleration + legs.com_acceleration
         state = self.estimation.update(sensors, sensed, planned, self.momentum.foot_acceleration(legs))
-        whole, feedback = self.estimation.dcm(state), self.settings.feedback and not self.estimation.stands
+        whole = self.estimation.dcm(state)
+        feedback = self.settings.feedback and not self.estimation.stands
         dcm = whole - legs.dcm  # of the pendulum that is planned and balanced
         if feedback:
             footing.align(state)
         feet = footing.swing(sensed, state, feedback)
         tick, region = footing.perceive(sensed, state, feet, dcm if feedback else None)
-        phase, moved = tick.phase, _NO_STEPS
+        phase = tick.phase
+        moved = _NO_STEPS
         change = decide(self._proposers, tick)
         if change is not None:
             moved = self.plan.apply(change, time, region).moved

@@ -65,7 +65,8 @@ class CellCutter:
         """
         lines = np.ascontiguousarray(half_planes(lines))
         n = len(self._start) - 1
-        measure, chords = np.empty((n, 3)), np.empty((n, len(lines), 3))
+        measure = np.empty((n, 3))
+        chords = np.empty((n, len(lines), 3))
         while not cut_cells(self.points, self._start, lines, self._scratch, self._tags, measure, chords):
             self._make_room(2 * self._scratch.shape[1])
         return measure, chords

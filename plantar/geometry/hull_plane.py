@@ -32,7 +32,8 @@ def hull_plane(
         hull = ConvexHull(points)
     except (QhullError, ValueError):
         return down, 0.0
-    corners, normal = points[hull.simplices], hull.equations[:, :3]
+    corners = points[hull.simplices]
+    normal = hull.equations[:, :3]
     area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     area[normal[:, 2] > highest] = 0.0
     planes = [normal @ normal[i] > same for i in np.argsort(-area, kind="stable")[:faces]]

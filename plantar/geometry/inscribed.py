@@ -150,7 +150,8 @@ def rectangle_in_outline_any_angle(outline: Outline, looks: int = _LOOKS) -> Bou
         >>> rectangle_in_outline_any_angle(tilted).gap < 0.01
         True
     """
-    points, most = instance(outline, Outline, "outline").points, integer(looks, "looks", 1)
+    points = instance(outline, Outline, "outline").points
+    most = integer(looks, "looks", 1)
     return _scan(lambda angle: rectangle_in_outline(outline, angle), points, most, np.zeros(1))
 
 
@@ -208,7 +209,9 @@ def _climb(
             trial = largest(turned)
             size = _area(trial)
             if size > best:
-                best, angle, corners = size, turned, trial
+                best = size
+                angle = turned
+                corners = trial
                 break
         else:
             width *= 0.5
@@ -216,7 +219,8 @@ def _climb(
 
 
 def _area(corners: NDArray[np.float64]) -> float:
-    first, second = corners[1] - corners[0], corners[2] - corners[1]
+    first = corners[1] - corners[0]
+    second = corners[2] - corners[1]
     return float(math.hypot(*first) * math.hypot(*second))
 
 
@@ -251,7 +255,9 @@ def safe_rectangle(
     box = inscribed_rectangle(polygon) if method == "inscribed" else bounding_box(polygon)
     if len(box) == 0:
         return box
-    low, high = box[0], box[2]
+    low = box[0]
+    high = box[2]
     middle = 0.5 * (low + high)
-    (x1, y1), (x2, y2) = np.minimum(low + inwards, middle), np.maximum(high - inwards, middle)
+    x1, y1 = np.minimum(low + inwards, middle)
+    x2, y2 = np.maximum(high - inwards, middle)
     return np.array([[x1, y1], [x2, y1], [x2, y2], [x1, y2]])

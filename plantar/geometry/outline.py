@@ -142,7 +142,8 @@ class Outline(Rings):
         place = array(translation, "translation", ("2 or 3",), finite=True)
         if len(place) not in (2, 3):
             raise InputError(f"translation has shape {place.shape}; expected (2,) or (3,)")
-        turn, shift = whole[:2, :2], place[:2]
+        turn = whole[:2, :2]
+        shift = place[:2]
         points = self.points @ turn.T + shift
         (xx, xy), (yx, yy) = turn.tolist()
         if xx * yy < xy * yx:  # seen from below
@@ -211,7 +212,8 @@ def _shortly(values: Sequence[float]) -> str:
 def _is_around(shell: NDArray[np.float64], hole: NDArray[np.float64]) -> bool:
     """Whether a rim encloses a hole, by its first edge's middle."""
     x, y = 0.5 * (hole[0] + hole[1])
-    a, b = shell, np.roll(shell, -1, axis=0)
+    a = shell
+    b = np.roll(shell, -1, axis=0)
     crosses = (a[:, 1] > y) != (b[:, 1] > y)
     with np.errstate(divide="ignore", invalid="ignore"):
         at = a[:, 0] + (y - a[:, 1]) * (b[:, 0] - a[:, 0]) / (b[:, 1] - a[:, 1])

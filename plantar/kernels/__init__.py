@@ -48,7 +48,8 @@ def python_form(name: str) -> ModuleType:
     """
     package = f"{__name__}_in_python"
     if package not in sys.modules:
-        sys.modules[package] = parent = ModuleType(package)
+        parent = ModuleType(package)
+        sys.modules[package] = parent
         parent.__path__ = [str(_FOLDER)]
         sys.meta_path.insert(0, _SourceFinder(package))
     return import_module(f"{package}.{_full(name)}")

@@ -76,7 +76,8 @@ def _weld(
     same: dict[int, int] = {}
     for v in sorted({v for edge in lone for v in edge}):
         x, y = xy[v]
-        kx, ky = math.floor(x / tolerance), math.floor(y / tolerance)
+        kx = math.floor(x / tolerance)
+        ky = math.floor(y / tolerance)
         near = (where.get((kx + i, ky + j)) for i in (0, -1, 1) for j in (0, -1, 1))
         hit = next((w for w in near if w is not None and math.dist(xy[v], xy[w]) <= tolerance), None)
         if hit is None:

@@ -150,7 +150,8 @@ def shared_vertices(rings: Sequence[ArrayLike], tolerance: float) -> tuple[NDArr
     for ring in items(rings, "rings"):
         ids: list[int] = []
         for p in plane_points(ring, "ring"):
-            kx, ky = math.floor(p[0] / tolerance + 0.5), math.floor(p[1] / tolerance + 0.5)
+            kx = math.floor(p[0] / tolerance + 0.5)
+            ky = math.floor(p[1] / tolerance + 0.5)
             hit = next(
                 (index[k] for dx in (0, -1, 1) for dy in (0, -1, 1) if (k := (kx + dx, ky + dy)) in index),
                 None,
@@ -206,7 +207,8 @@ def _check_overlap(polygons: NDArray[np.object_]) -> None:
 
     one, other = shapely.STRtree(polygons).query(polygons, predicate="intersects")
     pairs = one < other
-    one, other = one[pairs], other[pairs]
+    one = one[pairs]
+    other = other[pairs]
     # Without a grid GEOS may give a whole cell as what two have in common that touch along a part of an edge.
     grid = _GRID * math.sqrt(float(shapely.area(polygons).min()))
     common = shapely.area(shapely.intersection(polygons[one], polygons[other], grid_size=grid))
@@ -231,7 +233,8 @@ def _with_touching_vertices(
         t = float((vertices[v] - vertices[a]) @ along / (along @ along))
         if v not in (a, b) and 0.0 < t < 1.0:
             between.setdefault(e, []).append((t, v))
-    out, e = [], 0
+    out = []
+    e = 0
     for ring in corners:
         new: list[int] = []
         for a in ring:

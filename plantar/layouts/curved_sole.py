@@ -57,7 +57,8 @@ def laid_over(layout: SoleLayout, surface: Surface) -> SoleLayout:
             raise LayoutError("the surface gives a height that is not finite")
         return np.broadcast_to(z, x.shape)
 
-    x, y = layout.positions[:, 0], layout.positions[:, 1]
+    x = layout.positions[:, 0]
+    y = layout.positions[:, 1]
     slope_x = (height(x + _STEP, y) - height(x - _STEP, y)) / (2.0 * _STEP)
     slope_y = (height(x, y + _STEP) - height(x, y - _STEP)) / (2.0 * _STEP)
     normals = np.column_stack([-slope_x, -slope_y, np.ones(len(layout))])

@@ -78,7 +78,8 @@ class HexLattice:
         whole = integers(keys, "keys", (..., 2))
         u = whole[..., 0] * (0.5 * self.width)
         v = whole[..., 1] * (0.5 * self.side)
-        c, s = math.cos(self.angle), math.sin(self.angle)
+        c = math.cos(self.angle)
+        s = math.sin(self.angle)
         return np.stack([self.origin[0] + c * u - s * v, self.origin[1] + s * u + c * v], axis=-1)
 
     @staticmethod
@@ -111,7 +112,8 @@ class HexLattice:
         low = array(lower, "lower corner", (2,), finite=True)
         high = array(upper, "upper corner", (2,), finite=True)
         middle = 0.5 * (low + high) - np.asarray(self.origin)
-        c, s = math.cos(self.angle), math.sin(self.angle)
+        c = math.cos(self.angle)
+        s = math.sin(self.angle)
         middle = np.array([c * middle[0] + s * middle[1], -s * middle[0] + c * middle[1]])
         reach = 0.5 * float(np.hypot(*(high - low))) + 2.0 * self.side
         if reach > _WIDEST * self.side or np.abs(middle).max() > _FARTHEST * self.side:

@@ -213,7 +213,9 @@ def check_cells(layout: SoleLayout) -> None:
     turned = ~shapely.is_ccw(shapely.get_exterior_ring(cells))
     if turned.any():
         raise LayoutError(f"field 'corners' of taxel {_first(layout, turned)} goes round 'vertices' clockwise")
-    seen, flat = layout.areas * layout.rotations[:, 2, 2], shapely.area(cells)  # both from above
+    # both from above
+    seen = layout.areas * layout.rotations[:, 2, 2]
+    flat = shapely.area(cells)
     wrong = np.abs(flat - seen) > _AREA * np.maximum(flat, seen)
     if wrong.any():
         i = int(np.flatnonzero(wrong)[0])

@@ -8,7 +8,8 @@ from plantar.common.arrays import is_finite, mask, numbers
 from plantar.errors import PlantarError, ReadingError
 from plantar.layouts.layout import SoleLayout
 
-_FLOAT, _BOOL = np.dtype(np.float64), np.dtype(np.bool_)
+_FLOAT = np.dtype(np.float64)
+_BOOL = np.dtype(np.bool_)
 
 
 def taxel_values(layout: SoleLayout, values: object, name: str = "forces") -> NDArray[np.float64]:

@@ -62,9 +62,11 @@ def hex_layout(
         axial = integers(cells, "cells", ("m", 2))
         if len(np.unique(axial, axis=0)) != len(axial):
             raise LayoutError("cells holds a cell twice")
-        rings, centres = list(lattice.corners(axial)), lattice.centres(axial)
+        rings = list(lattice.corners(axial))
+        centres = lattice.centres(axial)
     else:
-        low, high = np.array(polygon.bounds[:2]), np.array(polygon.bounds[2:])
+        low = np.array(polygon.bounds[:2])
+        high = np.array(polygon.bounds[2:])
         axial = lattice.cells_near(low, high)
         rings, centres = _cells_within(
             polygon,
@@ -122,10 +124,12 @@ def grid_layout(
     polygon = _sole_polygon(outline, cell_area, minimum_fraction)
     turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
     along = (np.array(polygon.exterior.coords) - origin) @ turn / pitch  # the outline in cells of the grid
-    lower, upper = np.floor(along.min(axis=0)) - 1.0, np.ceil(along.max(axis=0)) + 1.0
+    lower = np.floor(along.min(axis=0)) - 1.0
+    upper = np.ceil(along.max(axis=0)) + 1.0
     if float(np.prod(upper - lower)) > 4 * MOST_TAXELS or np.abs(along).max() > 1e15:
         raise LayoutError(f"a grid of {pitch[0]:.3g} x {pitch[1]:.3g} m over this outline makes too many cells")
-    low, high = lower.astype(np.int64), upper.astype(np.int64)
+    low = lower.astype(np.int64)
+    high = upper.astype(np.int64)
     column, row = np.meshgrid(np.arange(low[0], high[0]), np.arange(low[1], high[1]))
     corner = np.stack([column.ravel(), row.ravel()], axis=-1)[:, None, :] + [[0, 0], [1, 0], [1, 1], [0, 1]]
     candidates = (corner * pitch) @ turn.T + origin  # of integers: cells that meet share bit-identical corners
@@ -183,7 +187,8 @@ def _cells_within(
     shapely.prepare(polygon)
     whole = shapely.covers(polygon, cells)
     kept = np.flatnonzero(whole | (shapely.intersects(polygon, cells) & (minimum_fraction is not None)))
-    rings, kept_centres = [], []
+    rings = []
+    kept_centres = []
     for i in kept.tolist():
         if whole[i]:
             rings.append(candidates[i])

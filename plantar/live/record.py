@@ -47,7 +47,9 @@ def record(
     readings = _readings(stream)
     if (first := next(readings, None)) is None:
         raise InputError("no reading came from the source")
-    start, shown, latest = instance(first[1], Reading, "reading").time, -math.inf, 0.0
+    start = instance(first[1], Reading, "reading").time
+    shown = -math.inf
+    latest = 0.0
     times: dict[Side, list[float]] = {side: [] for side in stream.soles}
     seen: dict[Side, Reading] = {}
     with Recorder(
@@ -58,7 +60,8 @@ def record(
             for side, reading in chain([first], readings):
                 if side not in times:
                     raise InputError(f"a reading is of a sole {side!r}; allowed: {', '.join(times)}")
-                now, before = reading.time - start, times[side]
+                now = reading.time - start
+                before = times[side]
                 last = before[-1] if before else -_EARLY
                 if now <= last:
                     raise InputError(
@@ -71,7 +74,8 @@ def record(
                     break
                 skins[side].write(now, reading.force)
                 before.append(now)
-                seen[side], latest = reading, max(latest, now)
+                seen[side] = reading
+                latest = max(latest, now)
                 if show is not None and now >= shown + _SHOWN:
                     show(now / seconds, "  ".join([f"{now:.1f} s", *(_text(s, stream, seen[s]) for s in seen)]))
                     shown = now
@@ -87,7 +91,8 @@ def _readings(stream: LiveStream) -> Iterator[tuple[Side, Reading]]:
 
 def _text(side: Side, stream: LiveStream, reading: Reading) -> str:
     percept = Percept(stream.soles[side], reading)
-    place, load = percept.position_cop_in_sole, f"{side} {percept.vertical_force:.0f} N"
+    place = percept.position_cop_in_sole
+    load = f"{side} {percept.vertical_force:.0f} N"
     return load if place is None else f"{load} at {round(1e3 * place[0])}, {round(1e3 * place[1])} mm"
 
 

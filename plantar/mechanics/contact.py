@@ -38,7 +38,8 @@ class Contact:
     def center_in_world(self) -> tuple[float, float, float]:
         """Preferred center of pressure in world in m."""
         x, y = self.preferred or self.rectangle.center
-        (px, py, pz), (dx, dy, dz) = self.position.tolist(), self.rotation.dot(np.array((x, y, 0.0))).tolist()
+        px, py, pz = self.position.tolist()
+        dx, dy, dz = self.rotation.dot(np.array((x, y, 0.0))).tolist()
         return px + dx, py + dy, pz + dz
 
     def wrench_in_world(self, wrench: ArrayLike) -> NDArray[np.float64]:

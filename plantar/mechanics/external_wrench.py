@@ -42,7 +42,8 @@ def vrp_offset(wrench: ArrayLike, mass: float, omega: float, virtual_mass: float
     carried = positive(mass, "mass", "kg") * positive(virtual_mass, "share of the mass", "1")
     if given.ndim == 1:
         fx, fy, _, tx, ty, _ = given.tolist()
-        by_force, by_moment = 1.0 / (carried * rate * rate), 1.0 / (carried * GRAVITY)
+        by_force = 1.0 / (carried * rate * rate)
+        by_moment = 1.0 / (carried * GRAVITY)
         return np.array((fx * by_force + ty * by_moment, fy * by_force - tx * by_moment))
     out = np.empty((*given.shape[:-1], 2))
     with np.errstate(over="ignore", invalid="ignore"):  # of wrenches that are not finite

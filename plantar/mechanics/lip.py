@@ -48,7 +48,8 @@ def divergent_component(com: ArrayLike, com_velocity: ArrayLike, omega: float) -
         [0.125, 0.1]
     """
     rate = positive(omega, "pendulum frequency", "rad/s")
-    position, velocity = numbers(com, "CoM"), numbers(com_velocity, "velocity of the CoM")
+    position = numbers(com, "CoM")
+    velocity = numbers(com_velocity, "velocity of the CoM")
     if position.shape != velocity.shape:
         raise InputError(f"CoM has shape {position.shape}, its velocity {velocity.shape}; expected the same")
     if is_finite(velocity):

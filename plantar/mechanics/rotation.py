@@ -67,7 +67,8 @@ def heading(rotation: NDArray[np.float64]) -> float:
 
 def level_rotation(yaw: float) -> NDArray[np.float64]:
     """Rotation (3, 3) to world from a level frame with a heading in rad."""
-    c, s = math.cos(yaw), math.sin(yaw)
+    c = math.cos(yaw)
+    s = math.sin(yaw)
     return matrix(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0)
 
 

@@ -78,21 +78,27 @@ def nearest_within(
         Limits, widened as little as needed, and result (r,) along `own`.
     """
     reached = box.rows @ y
-    rows, low, high = box.rows @ left, box.low - reached, box.high - reached
+    rows = box.rows @ left
+    low = box.low - reached
+    high = box.high - reached
     z = target @ own
     if _miss(rows, low, high, z).max(initial=0.0) <= 0.0:
         return box, target
     seen = np.einsum("ij,ij->i", rows, rows) > _KEPT**2  # others are decided by the levels above
-    rows, low, high = rows[seen], low[seen], high[seen]
+    rows = rows[seen]
+    low = low[seen]
+    high = high[seen]
     scale = weights / weights.max()
     hessian = (own.T * scale) @ own + _LEAST * np.eye(left.shape[1])
     gradient = -(scale * target) @ own
     z, _, flag, info = daqp.solve(hessian, gradient, rows, high, low, primal_tol=_KEPT)
     if flag < 0:
         box = _widened(box, y, left)
-        low, high = (box.low - reached)[seen], (box.high - reached)[seen]
+        low = (box.low - reached)[seen]
+        high = (box.high - reached)[seen]
         z, _, flag, info = daqp.solve(hessian, gradient, rows, high, low)
-    acting, root = np.abs(info["lam"]) > 0.0, np.sqrt(scale)
+    acting = np.abs(info["lam"]) > 0.0
+    root = np.sqrt(scale)
     for _ in range(_ROUNDS):
         held = np.where(rows[acting] @ z > (low + high)[acting] / 2.0, high[acting], low[acting])
         fixed = np.linalg.lstsq(rows[acting], held, rcond=_KEPT)[0]
@@ -107,10 +113,12 @@ def nearest_within(
 
 def _widened(box: Box, y: NDArray[np.float64], left: NDArray[np.float64]) -> Box:
     """Feasible limits: accelerations' yield first, then torques'."""
-    reached, least = box.rows @ y, _LEAST * np.eye(left.shape[1])
+    reached = box.rows @ y
+    least = _LEAST * np.eye(left.shape[1])
     for hard in (box.hard, 0):
         soft = np.where(np.arange(len(box.rows)) < hard, 0, _SOFT).astype(np.int32)
-        rows, nothing = box.rows @ left, np.zeros(left.shape[1])
+        rows = box.rows @ left
+        nothing = np.zeros(left.shape[1])
         z, _, flag, _ = daqp.solve(least, nothing, rows, box.high - reached, box.low - reached, soft)
         if flag > 0:
             break

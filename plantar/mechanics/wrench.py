@@ -25,7 +25,9 @@ def wrench_at(wrench: ArrayLike, point: ArrayLike) -> NDArray[np.float64]:
     """
     out = array(wrench, "wrench", (..., 6)).copy()
     px, py, pz = array(point, "point", (3,), finite=True).tolist()
-    fx, fy, fz = out[..., 0], out[..., 1], out[..., 2]
+    fx = out[..., 0]
+    fy = out[..., 1]
+    fz = out[..., 2]
     with np.errstate(over="ignore", invalid="ignore"):  # of forces that are not finite
         out[..., 3] -= py * fz - pz * fy
         out[..., 4] -= pz * fx - px * fz
@@ -47,5 +49,6 @@ def wrench_in_frame(
         Wrench (..., 6) about origin of b.
     """
     given = np.asarray(wrench, dtype=float)
-    force, moment = given[..., :3] @ rotation.T, given[..., 3:] @ rotation.T
+    force = given[..., :3] @ rotation.T
+    moment = given[..., 3:] @ rotation.T
     return np.concatenate([force, moment + np.cross(position, force)], axis=-1)

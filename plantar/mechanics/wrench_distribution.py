@@ -138,7 +138,8 @@ class _Workspace:
 
     def forget(self) -> None:
         """Drop the state, after a request that is not finite."""
-        self.contacts, self.solver = [None] * len(self.contacts), None
+        self.contacts = [None] * len(self.contacts)
+        self.solver = None
 
 
 class WrenchDistribution:
@@ -207,7 +208,8 @@ class WrenchDistribution:
         solver = work.solver
         assert solver is not None
         scaled, _, flag, _ = solver.solve()
-        state, violation = DistributionState.TRACKED, 0.0
+        state = DistributionState.TRACKED
+        violation = 0.0
         if flag < 1:
             scaled = self._least_violating(work)
             state = DistributionState.INFEASIBLE
@@ -223,7 +225,8 @@ class WrenchDistribution:
     def _workspace(self, count: int) -> _Workspace:
         work = self._workspaces.get(count)
         if work is None:
-            work = self._workspaces[count] = _Workspace(count, self.weight, self.length, self.weights)
+            work = _Workspace(count, self.weight, self.length, self.weights)
+            self._workspaces[count] = work
         return work
 
     def program(
@@ -269,7 +272,8 @@ class WrenchDistribution:
         program = work.program
         if not program.ask(_plain(wrench), _plain(point), shares):
             return False
-        moved = limited = False
+        moved = False
+        limited = False
         for i, contact in enumerate(contacts.values()):
             last = work.contacts[i]
             if contact is last:
@@ -307,7 +311,8 @@ class WrenchDistribution:
 
     def _constrain(self, work: _Workspace, i: int, contact: Contact) -> None:
         """Cone, least force and costs of one contact, in the program's units."""
-        k, row = 6 * i, _ROWS * i
+        k = 6 * i
+        row = _ROWS * i
         x0, x1, y0, y1 = contact.rectangle
         length = self.length
         inner = Rectangle(x0 / length, x1 / length, y0 / length, y1 / length)
@@ -317,11 +322,17 @@ class WrenchDistribution:
         if len(work.contacts) > 1:
             # Moments about the preferred point: tx - y fz and ty + x fz.
             x, y = contact.preferred or contact.rectangle.center
-            x, y, ankle, own = x / length, y / length, self.weights.ankle, work.own
+            x = x / length
+            y = y / length
+            ankle = self.weights.ankle
+            own = work.own
             own[k + 2, k + 2] = ankle * (x * x + y * y)
-            own[k + 2, k + 3] = own[k + 3, k + 2] = -ankle * y
-            own[k + 2, k + 4] = own[k + 4, k + 2] = ankle * x
-            own[k + 3, k + 3] = own[k + 4, k + 4] = ankle
+            own[k + 2, k + 3] = -ankle * y
+            own[k + 3, k + 2] = -ankle * y
+            own[k + 2, k + 4] = ankle * x
+            own[k + 4, k + 2] = ankle * x
+            own[k + 3, k + 3] = ankle
+            own[k + 4, k + 4] = ankle
 
     def _least_violating(self, work: _Workspace) -> NDArray[np.float64]:
         """Solution (n,) of the least squared violations, then the least cost."""
@@ -336,7 +347,8 @@ class WrenchDistribution:
         parts = [max(0.0, share) for share in shares]
         total = sum(parts)
         if not (math.isfinite(sum(shares)) and total > 0.0):
-            parts, total = [1.0] * len(shares), float(len(shares))
+            parts = [1.0] * len(shares)
+            total = float(len(shares))
         wrenches = {}
         for (name, contact), part in zip(contacts.items(), parts, strict=True):
             x, y = contact.preferred or contact.rectangle.center

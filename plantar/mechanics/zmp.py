@@ -42,7 +42,8 @@ def _zero_moment_point(wrench: list[float], height: float, minimum_force: float)
     height, minimum_force = _levels(height, minimum_force)
     if not (fz >= minimum_force and 0.0 < fz < math.inf):
         return None
-    x, y = (height * fx - ty) / fz, (height * fy + tx) / fz
+    x = (height * fx - ty) / fz
+    y = (height * fy + tx) / fz
     return (x, y) if math.isfinite(x) and math.isfinite(y) else None
 
 
@@ -125,10 +126,13 @@ def zmp_of_feet(points: Sequence[ArrayLike | None], vertical_forces: Sequence[fl
         >>> zmp_of_feet([np.array([0.0, 0.1]), np.array([0.0, -0.1])], [300.0, 100.0]).tolist()
         [0.0, 0.05]
     """
-    places, forces = items(points, "points"), items(vertical_forces, "vertical forces")
+    places = items(points, "points")
+    forces = items(vertical_forces, "vertical forces")
     if len(places) != len(forces):
         raise InputError(f"{len(places)} points and {len(forces)} vertical forces; expected one force a point")
-    total = sum_x = sum_y = 0.0
+    total = 0.0
+    sum_x = 0.0
+    sum_y = 0.0
     for point, given in zip(places, forces, strict=True):
         force = number(given, "vertical force", nan=True)
         if force > 0.0:

@@ -79,7 +79,9 @@ class BoundSkin:
         reach: float,
         proximity: float | None,
     ) -> None:
-        self.model, self.layout, self.body = model, layout, body
+        self.model = model
+        self.layout = layout
+        self.body = body
         self.geom_ids = tuple(int(g) for g in geom_ids)
         self.position_in_body = np.array(position)
         self.rotation_to_body = np.array(rotation)
@@ -110,7 +112,8 @@ class BoundSkin:
         """Read the skin after a step or `mj_forward`; InputError for another model's MjData."""
         view = self._views.get(id(data)) or self._look_in(data)
         with view.lock:
-            load, near = view.load(), None if self._range is None else self._distances(view)
+            load = view.load()
+            near = None if self._range is None else self._distances(view)
             now = load.forces.copy(), near, load.vectors.copy(), load.wrench.copy(), load.depths.copy(), load.carried
         return _made(data.time, *now)
 
@@ -135,7 +138,8 @@ class BoundSkin:
             Force (b, n, 3) on each taxel in N and wrench (b, 6), sole frame.
         """
         datas = items(datas, "datas")
-        vectors, wrenches = np.empty((len(datas), len(self), 3)), np.empty((len(datas), 6))
+        vectors = np.empty((len(datas), len(self), 3))
+        wrenches = np.empty((len(datas), 6))
         self._most = max(self._most, len(datas))
         views = [self._views.get(id(d)) or self._look_in(d) for d in datas]
 
@@ -143,7 +147,8 @@ class BoundSkin:
             for i in range(start, len(views), threads):
                 with views[i].lock:
                     load = views[i].load()
-                    vectors[i], wrenches[i] = load.vectors, load.wrench
+                    vectors[i] = load.vectors
+                    wrenches[i] = load.wrench
 
         _shared(work, integer(threads, "threads", 1))
         return vectors, wrenches
@@ -166,11 +171,13 @@ class BoundSkin:
         """
         kind = mujoco.mjtState.mjSTATE_FULLPHYSICS
         given = array(states, "states", (..., mujoco.mj_stateSize(self.model, kind)))
-        lead, flat = given.shape[:-1], np.ascontiguousarray(given.reshape(-1, given.shape[-1]))
+        lead = given.shape[:-1]
+        flat = np.ascontiguousarray(given.reshape(-1, given.shape[-1]))
         control = None
         if controls is not None:
             control = array(controls, "controls", (*lead, self.model.nu)).reshape(len(flat), self.model.nu)
-        vectors, wrenches = np.empty((len(flat), len(self), 3)), np.empty((len(flat), 6))
+        vectors = np.empty((len(flat), len(self), 3))
+        wrenches = np.empty((len(flat), 6))
         threads = min(integer(threads, "threads", 1), max(len(flat), 1))
 
         def work(thread: int) -> None:
@@ -182,7 +189,8 @@ class BoundSkin:
                     data.ctrl[:] = control[i]
                 mujoco.mj_forward(self.model, data)
                 load = view.load()
-                vectors[i], wrenches[i] = load.vectors, load.wrench
+                vectors[i] = load.vectors
+                wrenches[i] = load.wrench
 
         _shared(work, threads)
         return vectors.reshape(*lead, len(self), 3), wrenches.reshape(*lead, 6)
@@ -191,7 +199,9 @@ class BoundSkin:
         if not isinstance(data, mujoco.MjData):
             raise InputError(f"a skin is read from a mujoco.MjData; got a {type(data).__name__}")
         shapes = (data.qpos.size, data.qvel.size, len(data.xpos), len(data.geom_xpos))
-        model, other, own = self.model, getattr(data, "model", self.model), list(self.geom_ids)
+        model = self.model
+        other = getattr(data, "model", self.model)
+        own = list(self.geom_ids)
         if shapes != (model.nq, model.nv, model.nbody, model.ngeom) or not (
             other.names == model.names
             and all(np.array_equal(getattr(other, n), getattr(model, n)) for n in ("geom_bodyid", "geom_type"))
@@ -200,15 +210,18 @@ class BoundSkin:
             raise InputError("the data are of another model than the skin was bound to; bind it to that model")
         if len(self._views) >= self._most:
             self._views.pop(next(iter(self._views)), None)
-        view = self._views[id(data)] = _View(self, data)
+        view = _View(self, data)
+        self._views[id(data)] = view
         return view
 
     def _distances(self, view: "_View") -> NDArray[np.float64]:
         """Distance (n,) outwards to another body in m; inf beyond range."""
         axes = self.static[1] @ view.rotation.T
         starts = view.origin + self.static[0] @ view.rotation.T + _LIFT * axes
-        geom, out = np.empty(1, dtype=np.int32), np.full(len(self), math.inf)
-        reach, nearest = float(self._range or 0.0), self._nearest
+        geom = np.empty(1, dtype=np.int32)
+        out = np.full(len(self), math.inf)
+        reach = float(self._range or 0.0)
+        nearest = self._nearest
         for i, (start, axis) in enumerate(zip(starts, axes, strict=True)):
             gap = mujoco.mj_ray(self.model, view.data, start, -axis, None, 1, self.body, geom) - _LIFT
             for _ in range(_PASSED):
@@ -225,12 +238,19 @@ class _View:
     """A skin's contacts in one MjData, alive with it."""
 
     def __init__(self, skin: BoundSkin, data: Any) -> None:
-        self.data, self.lock = data, Lock()  # of one thread at a time
+        # of one thread at a time
+        self.data = data
+        self.lock = Lock()
         self._reader = ContactReader(skin.model, data, (skin.geom_ids,))
-        self._load, self._seen, self._reach = TaxelLoad(*skin.static), ContactsInSole(), skin.reach
-        self._place, self._turn = data.xpos[skin.body], data.xmat[skin.body].reshape(3, 3)
-        self._position, self._rotation = skin.position_in_body, skin.rotation_to_body
-        self.origin, self.rotation = np.zeros(3), np.eye(3)
+        self._load = TaxelLoad(*skin.static)
+        self._seen = ContactsInSole()
+        self._reach = skin.reach
+        self._place = data.xpos[skin.body]
+        self._turn = data.xmat[skin.body].reshape(3, 3)
+        self._position = skin.position_in_body
+        self._rotation = skin.rotation_to_body
+        self.origin = np.zeros(3)
+        self.rotation = np.eye(3)
         self._seen.look_from(self.origin, self.rotation)
 
     def load(self) -> TaxelLoad:
@@ -241,13 +261,15 @@ class _View:
         self.origin += self._place
         self._load.press(foot, self._seen, self._reach)
         if math.isnan(self._load.wrench[2]):  # diverged: neither in the air nor on the ground
-            self._load.vectors[:] = self._load.forces[:, None] = math.nan
+            self._load.vectors[:] = math.nan
+            self._load.forces[:, None] = math.nan
         return self._load
 
 
 def _least_gaps(model: Any, body: int) -> NDArray[np.float64]:
     """Gap (geoms,) in m from which on rays see each: inf for a body's own, 0 for links before it."""
-    weld, same = model.body_weldid, model.body_rootid[model.geom_bodyid] == model.body_rootid[body]
+    weld = model.body_weldid
+    same = model.body_rootid[model.geom_bodyid] == model.body_rootid[body]
     links = [body]
     while model.body_parentid[links[-1]]:
         links.append(model.body_parentid[links[-1]])

@@ -25,7 +25,9 @@ class ContactReader:
     """
 
     def __init__(self, model: Any, data: Any, feet: Sequence[Collection[int]]) -> None:
-        self._model, self._data = getattr(data, "model", model), data  # a copy's may differ
+        # a copy's may differ
+        self._model = getattr(data, "model", model)
+        self._data = data
         own = np.zeros((len(feet), model.ngeom), dtype=np.uint8)
         for mask, geom_ids in zip(own, feet, strict=True):
             mask[list(geom_ids)] = 1
@@ -36,7 +38,8 @@ class ContactReader:
 
     def read(self) -> tuple[FootContacts, ...]:
         """Each foot's contacts after the last `mj_step` or `mj_forward`, in reused objects."""
-        data, n = self._data, self._data.ncon
+        data = self._data
+        n = self._data.ncon
         if not n:
             for foot in self._feet:
                 foot.clear()

@@ -27,7 +27,8 @@ except ImportError as problem:
         def __new__(cls, *_: object, **__: object) -> _Missing:
             raise ImportError(f"{_PROBLEM}; a skin sensor needs mjlab: pip install mjlab")
 
-    _Sensor = SensorCfg = _Missing
+    _Sensor = _Missing
+    SensorCfg = _Missing
 
 
 @dataclass
@@ -76,7 +77,8 @@ class SkinSensor(_Sensor):
 
     def initialize(self, mj_model: mujoco.MjModel, model: Any, data: Any, device: str) -> None:
         """Bind to `mj_model`, and Warp's `model` and `data` on a `device`; RobotError as `Skin.bind`."""
-        self.skin, self._worlds = self._skin.bind(mj_model), getattr(data, "struct", data)
+        self.skin = self._skin.bind(mj_model)
+        self._worlds = getattr(data, "struct", data)
         self._device = wp.device_from_torch(torch.device(device))
         cone = bool(getattr(model, "struct", model).opt.cone)
         with wp.ScopedDevice(self._device):

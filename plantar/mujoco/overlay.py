@@ -11,8 +11,10 @@ from plantar.mujoco.bound_skin import BoundSkin
 from plantar.percepts.percept import Percept
 
 _LIFT = 0.001  # m below the sole, where the ground does not hide it
-_UNLOADED, _LOADED = np.array([0.55, 0.6, 0.65, 0.5]), np.array([0.9, 0.15, 0.1, 0.9])
-_EDGE, _COP = np.array([0.1, 0.35, 0.9, 1.0]), np.array([1.0, 0.85, 0.1, 1.0])
+_UNLOADED = np.array([0.55, 0.6, 0.65, 0.5])
+_LOADED = np.array([0.9, 0.15, 0.1, 0.9])
+_EDGE = np.array([0.1, 0.35, 0.9, 1.0])
+_COP = np.array([1.0, 0.85, 0.1, 1.0])
 
 
 def draw_skin(scene: Any, feel: BoundSkin, data: Any, *, full: float | None = None, lift: float = _LIFT) -> int:
@@ -28,7 +30,8 @@ def draw_skin(scene: Any, feel: BoundSkin, data: Any, *, full: float | None = No
     Returns:
         Number of added geoms.
     """
-    reading, pose = feel(data), feel.pose(data)
+    reading = feel(data)
+    pose = feel.pose(data)
     turn = pose.rotation_sole_to_world
     top = max(float(reading.force.max(initial=0.0)), 1e-9) if full is None else number(full, "full force", finite=True)
     start = scene.ngeom
@@ -56,7 +59,8 @@ def _add(
 ) -> Any:
     if scene.ngeom >= scene.maxgeom:
         return None
-    geom, scene.ngeom = scene.geoms[scene.ngeom], scene.ngeom + 1
+    geom = scene.geoms[scene.ngeom]
+    scene.ngeom = scene.ngeom + 1
     mujoco.mjv_initGeom(geom, kind, np.asarray(size), place, turn.ravel(), np.asarray(colour, dtype=np.float32))
     geom.category = mujoco.mjtCatBit.mjCAT_DECOR
     return geom

@@ -80,7 +80,10 @@ class Skin:
             raise InputError(f"geoms is {geoms!r}; expected a list of names")
         self.body = body
         self.geoms = None if geoms is None else tuple(str(name) for name in items(geoms, "geoms"))
-        self.site, self.outward, self.forward, self.partial = site, outward, forward, partial
+        self.site = site
+        self.outward = outward
+        self.forward = forward
+        self.partial = partial
         self.cell_area = None if cell_area is None else number(cell_area, "cell area", finite=True)
         self.proximity = None if proximity is None else positive(proximity, "proximity range", "m")
         self.reach = number(reach, "reach", finite=True)
@@ -162,7 +165,8 @@ class Skin:
         data = mujoco.MjData(model)
         mujoco.mj_kinematics(model, data)
         turn = data.xmat[body].reshape(3, 3).T
-        rotation, position = turn @ data.site_xmat[site].reshape(3, 3), turn @ (data.site_xpos[site] - data.xpos[body])
+        rotation = turn @ data.site_xmat[site].reshape(3, 3)
+        position = turn @ (data.site_xpos[site] - data.xpos[body])
         up = float(rotation[:, 2] @ shape.rotation[:, 2])
         if up < -_LEVEL:
             raise RobotError(
@@ -211,14 +215,17 @@ class Skin:
             )
         sole = shapely.Polygon(shape.outline)
         span, extent = (float(np.hypot(*np.ptp(p[:, :2], axis=0))) for p in (layout.positions, shape.outline))
-        cells, other = _cells(layout), _cells(mirrored(layout))
-        best, fit = "", _fit(cells, sole)
+        cells = _cells(layout)
+        other = _cells(mirrored(layout))
+        best = ""
+        fit = _fit(cells, sole)
         for turn in range(4):
             for name, way in (("", cells), ("mirrored", other)):
                 value = _fit(rotate(way, 90 * turn, (0, 0)), sole)
                 if value > fit + _BETTER:
                     turned = f"turned by {90 * turn} deg" if turn else ""
-                    best, fit = " and ".join(filter(None, (name, turned))), value
+                    best = " and ".join(filter(None, (name, turned)))
+                    fit = value
         outside = 1.0 - cells.intersection(sole.buffer(_RIM)).area / cells.area
         covered = cells.intersection(sole).area / sole.area
         where = f"layout '{layout.name}' on body '{self.body}'"

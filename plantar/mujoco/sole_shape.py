@@ -75,7 +75,8 @@ def sole_shape(
     if model.nkey:
         mujoco.mj_resetDataKeyframe(model, data, 0)
     mujoco.mj_kinematics(model, data)
-    place, turn = data.xpos[body].copy(), data.xmat[body].reshape(3, 3).copy()
+    place = data.xpos[body].copy()
+    turn = data.xmat[body].reshape(3, 3).copy()
     parts = [_surface(model, data, g, place, turn) for g in geoms]
     gravity = model.opt.gravity if np.linalg.norm(model.opt.gravity) > 1e-6 else np.array([0.0, 0.0, -1.0])
     down = _unit(turn.T @ gravity if outward is None else outward, "outward")
@@ -105,7 +106,8 @@ class _Part(NamedTuple):
 
 
 def _surface(model: Any, data: Any, geom: int, place: NDArray[np.float64], turn: NDArray[np.float64]) -> _Part:
-    kind, size = int(model.geom_type[geom]), model.geom_size[geom]
+    kind = int(model.geom_type[geom])
+    size = model.geom_size[geom]
     kinds = mujoco.mjtGeom
     centres = None
     if kind == kinds.mjGEOM_MESH or kind == kinds.mjGEOM_SDF:
@@ -136,7 +138,8 @@ def _surface(model: Any, data: Any, geom: int, place: NDArray[np.float64], turn:
 def _ball() -> NDArray[np.float64]:
     """Points (400, 3) evenly over the unit sphere."""
     i = np.arange(400) + 0.5
-    height, angle = 1.0 - i / 200.0, math.pi * (1.0 + math.sqrt(5.0)) * i
+    height = 1.0 - i / 200.0
+    angle = math.pi * (1.0 + math.sqrt(5.0)) * i
     ring = np.sqrt(1.0 - height**2)
     return np.column_stack([ring * np.cos(angle), ring * np.sin(angle), height])
 
@@ -203,7 +206,8 @@ def _outline(parts: list[_Part], position: NDArray[np.float64], rotation: NDArra
         except QhullError:  # a flat mesh: its corners are all there is
             continue
         for a, b in ((0, 1), (1, 2), (2, 0)):
-            first, second = local[hull.simplices[:, a]], local[hull.simplices[:, b]]
+            first = local[hull.simplices[:, a]]
+            second = local[hull.simplices[:, b]]
             cut = (first[:, 2] - _DEPTH) * (second[:, 2] - _DEPTH) < 0.0
             t = ((_DEPTH - first[cut, 2]) / (second[cut, 2] - first[cut, 2]))[:, None]
             below.append((first[cut] + t * (second[cut] - first[cut]))[:, :2])

@@ -105,7 +105,8 @@ def gather(sole: Sole, contacts: Contacts, work: Work):
     k = wp.atomic_add(work.size, world, 1)
     if k >= work.gap.shape[0]:
         return
-    local, twist = wp.vec3d(), wp.vec3d()
+    local = wp.vec3d()
+    twist = wp.vec3d()
     if contacts.address[i, 0] >= 0:
         dim = contacts.dim[i]
         for j in range(dim):
@@ -203,7 +204,8 @@ def _cover(sole: Sole, work: Work, s: wp.int32, size: wp.int32):
         length = wp.length(way)
         way /= wp.max(length, wp.float64(1e-300))  # a single point has none
         work.edges[k, s] = wp.vec3d(way[0], way[1], length)
-    half, least = wp.float64(0.5), wp.float64(1e300)
+    half = wp.float64(0.5)
+    least = wp.float64(1e300)
     for i in range(sole.areas.shape[0]):
         gap = _distance(work, s, corners, wp.vec2d(sole.positions[i][0], sole.positions[i][1]))
         work.gaps[i, s] = gap
@@ -221,7 +223,8 @@ def _cover(sole: Sole, work: Work, s: wp.int32, size: wp.int32):
 def _is_beyond(sole: Sole, at: wp.vec2d) -> wp.bool:
     corners = sole.hull.shape[0]
     for k in range(corners):
-        way, off = sole.hull[(k + 1) % corners] - sole.hull[k], at - sole.hull[k]
+        way = sole.hull[(k + 1) % corners] - sole.hull[k]
+        off = at - sole.hull[k]
         if way[0] * off[1] - way[1] * off[0] < -wp.float64(1e-12) * wp.length(way):  # m: rounding
             return True
     return False
@@ -231,7 +234,9 @@ def _is_beyond(sole: Sole, at: wp.vec2d) -> wp.bool:
 def _tilt(
     sole: Sole, work: Work, weights: wp.array2d(dtype=wp.float64), s: wp.int32, force: wp.float64, at: wp.vec2d
 ) -> wp.bool:
-    zero, one, total = wp.float64(0.0), wp.float64(1.0), wp.float64(0.0)
+    zero = wp.float64(0.0)
+    one = wp.float64(1.0)
+    total = wp.float64(0.0)
     middle = wp.vec2d()
     for i in range(sole.areas.shape[0]):
         total += weights[i, s]
@@ -248,9 +253,12 @@ def _tilt(
         off = (wp.vec2d(sole.positions[i][0], sole.positions[i][1]) - middle) / scale
         work.rows[i, s] = wp.vec3d(one, off[0], off[1])
     off = (at - middle) / scale
-    load, field = wp.vec3d(one, off[0], off[1]), wp.vec3d(one, zero, zero)
+    load = wp.vec3d(one, off[0], off[1])
+    field = wp.vec3d(one, zero, zero)
     step = wp.vec3d()
-    slope, value, rate = wp.float64(0.0), wp.float64(0.0), wp.float64(1.0)
+    slope = wp.float64(0.0)
+    value = wp.float64(0.0)
+    rate = wp.float64(1.0)
     for turn in range(60):
         matrix = wp.mat33d()
         for i in range(sole.areas.shape[0]):
@@ -305,10 +313,13 @@ def _spread_pairs(sole: Sole, work: Work, w: wp.int32, s: wp.int32, count: wp.in
             if work.pair[j, w] == work.pair[k, w] and _counts(sole, work, w, j):
                 known = True
         if not known:
-            force, about, size = wp.float64(0.0), wp.vec2d(), wp.int32(0)
+            force = wp.float64(0.0)
+            about = wp.vec2d()
+            size = wp.int32(0)
             for j in range(k, count):
                 if work.pair[j, w] == work.pair[k, w] and _counts(sole, work, w, j):
-                    at, f = work.at[j, w], work.force[j, w]
+                    at = work.at[j, w]
+                    f = work.force[j, w]
                     moment = work.torque[j, w] + wp.cross(at, f)
                     force += f[2]
                     about += wp.vec2d(moment[0], moment[1])
@@ -377,7 +388,9 @@ def _carry(sole: Sole, work: Work, s: wp.int32, force: wp.float64, at: wp.vec2d)
 
 @_func
 def _shear(sole: Sole, work: Work, w: wp.int32, s: wp.int32, force: wp.vec3d, about_z: wp.float64) -> wp.bool:
-    middle, spread, turn = wp.vec2d(), wp.float64(0.0), wp.float64(0.0)
+    middle = wp.vec2d()
+    spread = wp.float64(0.0)
+    turn = wp.float64(0.0)
     for i in range(sole.areas.shape[0]):
         middle += work.normal[i, s] / force[2] * wp.vec2d(sole.positions[i][0], sole.positions[i][1])
     for i in range(sole.areas.shape[0]):
@@ -390,7 +403,8 @@ def _shear(sole: Sole, work: Work, w: wp.int32, s: wp.int32, force: wp.vec3d, ab
     elif wp.abs(twist) > wp.float64(1e-12) * force[2]:
         holds = False
     for i in range(sole.areas.shape[0]):
-        n, share = work.normal[i, s], work.normal[i, s] / force[2]
+        n = work.normal[i, s]
+        share = work.normal[i, s] / force[2]
         off = wp.vec2d(sole.positions[i][0], sole.positions[i][1]) - middle
         work.vectors[w, i] = wp.vec3d(share * force[0] - turn * n * off[1], share * force[1] + turn * n * off[0], n)
     return holds
@@ -405,8 +419,10 @@ def press(sole: Sole, work: Work):
     w = wp.tid()
     s = w % work.prior.shape[1]
     count = wp.min(work.size[w], work.gap.shape[0])
-    back_force, back_moment = wp.vec3d(), wp.vec3d()
-    force, moment = wp.vec3d(), wp.vec3d()
+    back_force = wp.vec3d()
+    back_moment = wp.vec3d()
+    force = wp.vec3d()
+    moment = wp.vec3d()
     holds = work.size[w] <= count
     for k in range(count):
         f = work.force[k, w] + wp.vec3d()  # a copy, not a reference

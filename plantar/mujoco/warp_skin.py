@@ -38,29 +38,41 @@ class WarpSkin:
         need_libraries("warp", "warp")
         import warp as wp
 
-        self._wp, self._skin = wp, instance(skin, BoundSkin, "skin")
-        self._worlds, room = integer(worlds, "worlds", 1), integer(contacts, "contacts", 1)
+        self._wp = wp
+        self._skin = instance(skin, BoundSkin, "skin")
+        self._worlds = integer(worlds, "worlds", 1)
+        room = integer(contacts, "contacts", 1)
         self._elliptic = bool(skin.model.opt.cone) if elliptic is None else elliptic
         positions, normals, areas, widths, hull = skin.static
         own = np.zeros(skin.model.ngeom, dtype=np.int32)
         own[list(skin.geom_ids)] = 1
         sole: Any = warp_kernels.Sole()
-        sole.positions, sole.normals = wp.array(positions, dtype=wp.vec3d), wp.array(normals, dtype=wp.vec3d)
-        sole.areas, sole.widths = wp.array(areas, dtype=wp.float64), wp.array(widths, dtype=wp.float64)
-        sole.hull, sole.own = wp.array(hull, dtype=wp.vec2d), wp.array(own, dtype=wp.int32)
-        sole.body, sole.reach, sole.level = skin.body, skin.reach, bool((positions[:, 2] == 0.0).all())
+        sole.positions = wp.array(positions, dtype=wp.vec3d)
+        sole.normals = wp.array(normals, dtype=wp.vec3d)
+        sole.areas = wp.array(areas, dtype=wp.float64)
+        sole.widths = wp.array(widths, dtype=wp.float64)
+        sole.hull = wp.array(hull, dtype=wp.vec2d)
+        sole.own = wp.array(own, dtype=wp.int32)
+        sole.body = skin.body
+        sole.reach = skin.reach
+        sole.level = bool((positions[:, 2] == 0.0).all())
         sole.place = wp.vec3d(*skin.position_in_body)
         sole.turn = wp.mat33d(*skin.rotation_to_body.ravel())
         self._sole = sole
         self._work = self._room(len(skin), room)
-        self.vectors, self.wrench, self.carried = self._work.vectors, self._work.wrench, self._work.carried
+        self.vectors = self._work.vectors
+        self.wrench = self._work.wrench
+        self.carried = self._work.carried
 
     def _room(self, count: int, room: int) -> Any:
-        wp, b = self._wp, self._worlds
+        wp = self._wp
+        b = self._worlds
         slots = 1 if wp.get_device().is_cpu else b  # a CPU takes one world after the other
         work: Any = warp_kernels.Work()
-        work.size, work.carried = wp.zeros(b, dtype=wp.int32), wp.zeros(b, dtype=wp.int32)
-        work.pair, work.gap = wp.zeros((room, b), dtype=wp.vec2i), wp.zeros((room, b), dtype=wp.float64)
+        work.size = wp.zeros(b, dtype=wp.int32)
+        work.carried = wp.zeros(b, dtype=wp.int32)
+        work.pair = wp.zeros((room, b), dtype=wp.vec2i)
+        work.gap = wp.zeros((room, b), dtype=wp.float64)
         for name in ("at", "force", "torque"):
             setattr(work, name, wp.zeros((room, b), dtype=wp.vec3d))
         work.points = wp.zeros((room, slots), dtype=wp.vec3d)
@@ -68,7 +80,8 @@ class WarpSkin:
         for name in ("weights", "prior", "normal", "gaps"):
             setattr(work, name, wp.zeros((count, slots), dtype=wp.float64))
         work.rows = wp.zeros((count, slots), dtype=wp.vec3d)
-        work.vectors, work.wrench = wp.zeros((b, count), dtype=wp.vec3d), wp.zeros((b, 6), dtype=wp.float64)
+        work.vectors = wp.zeros((b, count), dtype=wp.vec3d)
+        work.wrench = wp.zeros((b, 6), dtype=wp.float64)
         return work
 
     def read(self, data: Any) -> None:
@@ -79,19 +92,23 @@ class WarpSkin:
         """
         if data.xpos.shape[0] != self._worlds:
             raise InputError(f"data have {data.xpos.shape[0]} worlds; the skin was made for {self._worlds}")
-        wp, listed = self._wp, data.contact
+        wp = self._wp
+        listed = data.contact
         contacts: Any = warp_kernels.Contacts()
-        contacts.count, contacts.world, contacts.dist, contacts.pos = (
-            data.nacon,
-            listed.worldid,
-            listed.dist,
-            listed.pos,
-        )
-        contacts.frame, contacts.geom, contacts.dim = listed.frame, listed.geom, listed.dim
+        contacts.count = data.nacon
+        contacts.world = listed.worldid
+        contacts.dist = listed.dist
+        contacts.pos = listed.pos
+        contacts.frame = listed.frame
+        contacts.geom = listed.geom
+        contacts.dim = listed.dim
         contacts.friction = listed.friction.view(wp.float32) if listed.friction.ndim == 1 else listed.friction
-        contacts.address, contacts.force = listed.efc_address, data.efc.force
+        contacts.address = listed.efc_address
+        contacts.force = data.efc.force
         contacts.adhesion = getattr(listed, "adhesion", None)  # since MuJoCo Warp 4
-        contacts.xpos, contacts.xmat, contacts.elliptic = data.xpos, data.xmat, self._elliptic
+        contacts.xpos = data.xpos
+        contacts.xmat = data.xmat
+        contacts.elliptic = self._elliptic
         self._work.size.zero_()
         wp.launch(warp_kernels.gather, dim=listed.dist.shape[0], inputs=[self._sole, contacts, self._work])
         wp.launch(warp_kernels.press, dim=self._worlds, inputs=[self._sole, self._work], block_dim=32)

@@ -120,7 +120,8 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
         percept._keep(layout, reading, layout.force_threshold, None, None, cls.PLAIN[2])
         percept._take_loads(loads)
         known = percept.__dict__  # where lazy members look first
-        known["vertical_force"], known["wrench_in_sole"] = vertical, loads[:6]
+        known["vertical_force"] = vertical
+        known["wrench_in_sole"] = loads[:6]
         known["position_cop_in_sole"] = loads[7:] if 0.0 < vertical < math.inf else None
         return percept
 
@@ -191,7 +192,8 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
             return None
         if self.layout.is_level:
             return np.array([*cop.tolist(), 0.0])
-        places, axes = self.layout.positions, self.layout.rotations[:, :, 2]
+        places = self.layout.positions
+        axes = self.layout.rotations[:, :, 2]
         share = self.active_force * axes[:, 2]
         rise = ((places[:, :2] - cop) * axes[:, :2]).sum(axis=1) / axes[:, 2]
         return np.array([*cop.tolist(), share @ (places[:, 2] + 0.5 * rise) / share.sum()])

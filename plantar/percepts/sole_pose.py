@@ -125,7 +125,8 @@ def _on_surface(ring: NDArray[np.float64], vertices: NDArray[np.float64]) -> NDA
     points = []
     for (x, y), along in zip(ring.tolist(), np.roll(ring, -1, axis=0) - ring, strict=True):
         off = (vertices[:, :2] - (x, y)) / (along @ along)
-        share, beside = off @ along, off @ (-along[1], along[0])
+        share = off @ along
+        beside = off @ (-along[1], along[0])
         between = np.flatnonzero((share > WELD) & (share < 1.0 - WELD) & (np.abs(beside) <= WELD))
         points += [(x, y, height.get((x, y), 0.0)), *vertices[between[np.argsort(share[between])]]]
     return np.array(points)
@@ -144,7 +145,8 @@ def wrench_of_feet(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePo
     Raises:
         InputError: Not one pose a wrench.
     """
-    wrenches, places = items(wrenches_in_sole, "wrenches"), items(poses, "poses")
+    wrenches = items(wrenches_in_sole, "wrenches")
+    places = items(poses, "poses")
     if len(wrenches) != len(places) or not places:
         raise InputError(f"{len(wrenches)} wrenches and {len(places)} poses; expected one pose a wrench")
     turned = [instance(p, SolePose, "pose").wrench_to_world(w) for w, p in zip(wrenches, places, strict=True)]

@@ -26,8 +26,10 @@ Message = Any
 
 Numbers = Sequence[float]
 _LARGEST = 10_000_000  # bytes of a message that is read; a robot's meshes take 2 MB
-_ORIGIN, _UPRIGHT = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
-_LINE_LOOP, _ALL = 1, 1
+_ORIGIN = (0.0, 0.0, 0.0)
+_UPRIGHT = (0.0, 0.0, 0.0, 1.0)
+_LINE_LOOP = 1
+_ALL = 1
 _SLOT = b"plant\x44"  # last six bytes of a double that no quantity has, about 1e22; its first two number the slot
 _LONG = 5  # bytes of a varint that always has the same length: 35 bits
 _SHIFTS = 7 * np.arange(_LONG, dtype=np.uint64)
@@ -84,7 +86,8 @@ class Template:
         self._data = np.frombuffer(data, dtype=np.uint8)
         places = [(m.start(), *struct.unpack("<H", m[1])) for m in re.finditer(b"(..)" + _SLOT, data, re.DOTALL)]
         found = np.array(places, dtype=np.int64).reshape(-1, 2)
-        self._where, self._slots = found[:, :1] + np.arange(8), found[:, 1]
+        self._where = found[:, :1] + np.arange(8)
+        self._slots = found[:, 1]
         time = b"".join(bytes(_long_varints(np.array([v], np.uint64))[0]) + b"\x10" for v in _TIME.values())[:-1]
         times = np.array([m.start() for m in re.finditer(re.escape(time), data)], dtype=np.int64).reshape(-1, 1)
         self._seconds = times + np.arange(_LONG)
@@ -197,7 +200,8 @@ def line_loop(points: Iterable[Numbers], thickness: float, colour: Numbers) -> M
 
 def triangles(points: Iterable[Numbers], indices: ArrayLike, colour: Numbers) -> Message:
     """Returns triangles of one `colour`: three `indices` each into `points`, counter-clockwise from outside."""
-    corners, faces = [_xyz(point) for point in points], np.ravel(indices).tolist()
+    corners = [_xyz(point) for point in points]
+    faces = np.ravel(indices).tolist()
     return _primitive("triangles", colour, pose=pose(_ORIGIN), points=corners, indices=faces)
 
 

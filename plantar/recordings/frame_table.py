@@ -90,7 +90,8 @@ class FrameTable:
 
     def __init__(self, width: int, expected: int) -> None:
         self._values = room(max(0, min(expected, MOST_VALUES // max(width, 1))), width)
-        self._filled = self._written = 0
+        self._filled = 0
+        self._written = 0
 
     def __len__(self) -> int:
         return self._filled
@@ -116,7 +117,8 @@ class FrameTable:
         if self._values.flags.owndata and rows * self._values.shape[1] * 8 <= LARGE:
             self._values.resize((rows, self._values.shape[1]), refcheck=False)  # moves pages, copies nothing
             return
-        before, self._values = self._values, room(rows, self._values.shape[1])
+        before = self._values
+        self._values = room(rows, self._values.shape[1])
         for rows_of_block in blocks_of_frames(before[: self._filled]):
             self._values[rows_of_block] = before[rows_of_block]
             let_go(self._values)
@@ -132,10 +134,12 @@ class FrameTable:
 
     def columns(self, kept: NDArray[np.bool_]) -> NDArray[np.float64]:
         """Rows (n, k) of columns in mask `kept` (width,), compacted in place; uses up the table."""
-        count, flat = int(kept.sum()), self._values.reshape(-1)
+        count = int(kept.sum())
+        flat = self._values.reshape(-1)
         for rows in blocks_of_frames(self.rows):  # a row never lands behind where it is read from
             block = self._values[rows][:, kept]
             flat[rows.start * count : rows.start * count + block.size] = block.ravel()
         out = flat[: self._filled * count].reshape(self._filled, count)
-        self._values, self._filled = np.empty((0, count)), 0
+        self._values = np.empty((0, count))
+        self._filled = 0
         return out

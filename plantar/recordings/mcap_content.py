@@ -43,7 +43,8 @@ class _Topic:
         self.fields = fields
         self.lost = 0
         self._width = sum(width for _, width in fields)
-        self._times, self._values = FrameTable(1, 0), FrameTable(self._width, 0)
+        self._times = FrameTable(1, 0)
+        self._values = FrameTable(self._width, 0)
         self._gathered: list[tuple[int, bytes]] = []
 
     def gather(self, time: int, payload: bytes) -> None:
@@ -56,7 +57,8 @@ class _Topic:
             self.lost += 1
 
     def flush(self) -> None:
-        gathered, self._gathered = self._gathered, []
+        gathered = self._gathered
+        self._gathered = []
         if not gathered:
             return
         little = np.array([payload[1] == 1 for _, payload in gathered])
@@ -68,10 +70,12 @@ class _Topic:
 
     def columns(self) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
         """Times (n,) in s, in order, and each field's values (n, k)."""
-        time, values = self._times.rows[:, 0] * 1e-9, self._values.rows
+        time = self._times.rows[:, 0] * 1e-9
+        values = self._values.rows
         if (np.diff(time) < 0.0).any():
             order = np.argsort(time, kind="stable")
-            time, values = time[order], values[order]
+            time = time[order]
+            values = values[order]
         bounds = np.cumsum([width for _, width in self.fields])[:-1]
         return time, {n: c for (n, _), c in zip(self.fields, np.split(values, bounds, axis=1), strict=True)}
 
@@ -95,7 +99,10 @@ class McapContent:
         self.warnings: list[str] = []
         self._schemas: dict[int, Any] = {}
         self._others: set[int] = set()
-        self._damaged = self._undescribed = self._unpacked = self._size = 0
+        self._damaged = 0
+        self._undescribed = 0
+        self._unpacked = 0
+        self._size = 0
 
     def take_file(self, stream: BinaryIO) -> None:
         """Read all records of a file `stream` from its first; FormatError if it unpacks to too much."""
@@ -208,7 +215,8 @@ class McapContent:
             raise FormatError(
                 f"{self._size / 1e6:.3g} MB that unpack to more than {self._unpacked / 1e6:.0f} MB; allowed: {ALLOWED}"
             )
-        inside, position = _unpacked(chunk), 0
+        inside = _unpacked(chunk)
+        position = 0
         try:
             while position + 9 <= len(inside):
                 opcode, length = struct.unpack_from("<BQ", inside, position)

@@ -51,7 +51,8 @@ class FootRecording:
 
     def __post_init__(self) -> None:
         if self.layout is not None and len(self.layout) != self.force.shape[1]:
-            cells, name = self.force.shape[1], self.layout.name
+            cells = self.force.shape[1]
+            name = self.layout.name
             raise FormatError(f"the {self.side} foot has {cells} cells, layout '{name}' {len(self.layout)}")
 
     @cached_property
@@ -212,7 +213,8 @@ def _checked_times(
     steps = np.diff(time)
     back = int((steps < 0.0).sum())
     rises = np.diff(np.sort(time)) if _BEGUN * back > len(steps) > back else steps  # where rows are exchanged
-    forward, measured = rises[np.isfinite(rises) & (rises > 0.0)], None
+    forward = rises[np.isfinite(rises) & (rises > 0.0)]
+    measured = None
     if len(forward):  # the mean of the usual steps: times may be rounded to ms, and frames may be lost
         usual = forward[np.abs(forward / np.median(forward) - 1.0) <= 0.5]
         measured = 1.0 / float(usual.mean())

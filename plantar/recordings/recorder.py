@@ -27,7 +27,9 @@ from plantar.recordings.foxglove import SCHEMAS, Template, descriptor
 from plantar.recordings.mcap_content import MCAP_MAGIC
 
 _INDEX_ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])
-_MESSAGE, _CHUNK, _MESSAGE_INDEX = 0x05, 0x06, 0x07
+_MESSAGE = 0x05
+_CHUNK = 0x06
+_MESSAGE_INDEX = 0x07
 _CHUNK_HEAD = struct.Struct("<BQQQQII4sQ")  # opcode, length, first and last time, size, CRC, compression, packed size
 _INDEX_HEAD = struct.Struct("<BQHI")  # opcode, length, channel, bytes of entries
 _COMPRESSION = b"zstd"
@@ -60,7 +62,10 @@ class Channel(Generic[_Message]):
     """One recorded `topic`, such as "/skin/left", made by a `Recorder`."""
 
     def __init__(self, recorder: "Recorder", number: int, topic: str, encode: _Encode[_Message]) -> None:
-        self.topic, self._recorder, self._number, self._encode = topic, recorder, number, encode
+        self.topic = topic
+        self._recorder = recorder
+        self._number = number
+        self._encode = encode
         self._times: list[int] = []
         self._messages: list[_Message] = []
         self._written = 0
@@ -82,15 +87,21 @@ class Channel(Generic[_Message]):
         self._messages.append(message[0])
 
     def _take_messages(self) -> _Gathered:
-        times, messages, self._times, self._messages = self._times, self._messages, [], []
-        encoded, count, size = self._encode(times, messages), len(times), _MESSAGE_HEAD.itemsize
+        times = self._times
+        messages = self._messages
+        self._times = []
+        self._messages = []
+        encoded = self._encode(times, messages)
+        count = len(times)
+        size = _MESSAGE_HEAD.itemsize
         lengths = np.array([len(message) for message in encoded]) + size
         heads = np.empty(count, dtype=_MESSAGE_HEAD)
         heads["opcode"] = _MESSAGE
         heads["length"] = lengths - 9
         heads["channel"] = self._number
         heads["sequence"] = (self._written + np.arange(count)) % 2**32
-        heads["log_time"] = heads["publish_time"] = times
+        heads["log_time"] = times
+        heads["publish_time"] = times
         self._written += count
         if isinstance(encoded, np.ndarray):
             data = np.hstack([heads.view(np.uint8).reshape(count, size), encoded]).tobytes()
@@ -243,7 +254,8 @@ class Recorder:
         return channel
 
     def _declare(self, channel: Channel[Any], schema: str, language: str, text: bytes, encoding: str) -> None:
-        topic, number = channel.topic, channel._number
+        topic = channel.topic
+        number = channel._number
         if not topic.startswith("/") or any(c.topic == topic for c in self._channels):
             raise RecordingError(f"topic {topic!r} is not new or does not start with '/'")
         described = self._records.Schema(id=number, name=schema, encoding=language, data=text)
@@ -261,11 +273,13 @@ class Recorder:
         self._definitions = []
         offset = len(parts[0])
         indexes: list[tuple[int, bytes]] = []
-        low, high = 2**63, 0
+        low = 2**63
+        high = 0
         for channel in full:
             messages = channel._take_messages()
             times = messages.times
-            low, high = min(low, int(times.min())), max(high, int(times.max()))
+            low = min(low, int(times.min()))
+            high = max(high, int(times.max()))
             entries = np.empty(len(times), dtype=_INDEX_ENTRY)
             entries["log_time"] = times
             entries["offset"] = offset + messages.offsets

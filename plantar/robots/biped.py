@@ -114,7 +114,8 @@ def _mass_attributes(mass: float, size: Sequence[float], position: Sequence[floa
 
 def _leg(side: Side, p: BipedParameters, sole: Mapping[str, Any], shoe_mass: float, thickness: float) -> str:
     mirror = 1.0 if side == "left" else -1.0
-    lower, upper = list(p.joint_lower), list(p.joint_upper)
+    lower = list(p.joint_lower)
+    upper = list(p.joint_upper)
     if side == "right":
         for i, flipped in enumerate(_MIRRORED):
             if flipped:
@@ -133,7 +134,9 @@ def _leg(side: Side, p: BipedParameters, sole: Mapping[str, Any], shoe_mass: flo
     lx, ly = sole["half_size"]
     knee = f"{ax:.6g} {mirror * ay:.6g} {-p.thigh_length:.6g}"
     bottom = -(p.ankle_height + thickness)
-    foot_x, foot_y, foot_z = 2 * lx * 0.9, 2 * ly * 0.9, 0.05
+    foot_x = 2 * lx * 0.9
+    foot_y = 2 * ly * 0.9
+    foot_z = 0.05
     return f"""
     <body name="{side}_hip_yaw_link" pos="{hx:.6g} {mirror * hy:.6g} {hz:.6g}">
       {_mass_attributes(m[0], (0.08, 0.08, 0.08), (0, 0, 0.03))}
@@ -175,7 +178,8 @@ def _leg(side: Side, p: BipedParameters, sole: Mapping[str, Any], shoe_mass: flo
 
 def _chest_height(p: BipedParameters, posture: NDArray[np.float64], shoe_mass: float, thickness: float) -> float:
     """Chest's CoM above the base for a CoM at `com_height`."""
-    hip, knee = math.radians(posture[2]), math.radians(posture[3])
+    hip = math.radians(posture[2])
+    knee = math.radians(posture[3])
     hip_z = p.hip_offset[2]
     knee_z = hip_z - p.thigh_length * math.cos(hip)
     ankle_z = knee_z - p.shank_length * math.cos(hip + knee)
@@ -230,7 +234,9 @@ def biped_mjcf(
     if chest <= 0.0:
         raise RobotError(f"robot '{name}': the links weigh more than total_mass = {p.total_mass} kg")
     chest_z = _chest_height(p, np.asarray(posture, dtype=float), shoe_mass, shoe_thickness)
-    w, d, h = p.chest_size[1], p.chest_size[0], p.chest_size[2]
+    w = p.chest_size[1]
+    d = p.chest_size[0]
+    h = p.chest_size[2]
 
     def arm(side: Side) -> str:
         mirror = 1.0 if side == "left" else -1.0

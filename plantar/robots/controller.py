@@ -141,5 +141,6 @@ def load_controller(
     centers = {s: vrp_of_step(foot, controller.middles[s]) for s, foot in start.feet.items()}
     stance = JointTargets(*solve_standing(own, legs, start.feet, centers, settings.com_height))
     names = (*own.legs["left"].joints, *own.legs["right"].joints)
-    motion, place = PlannedMotion(legs, settings.period, body.beat), legs.configuration[:3]
+    motion = PlannedMotion(legs, settings.period, body.beat)
+    place = legs.configuration[:3]
     return RobotController(own, legs, controller, names, settings.period, stance, place, motion)

@@ -28,7 +28,9 @@ _YAW_ON_UNKNOWN_GROUND = 0.1
 _NO_LEGS = LegInertia()
 _QUICK_HEIGHT = 1 / 12  # Leg, clearance of the swing foot of commanded steps at most,
 # and of steps whose time is stated: in leg/pace what a knee bends of its leg's length, for clearance and for a step
-_QUICK_BEND, _STEP_BEND, _LEAST_HEIGHT = 0.058, 0.35, 1 / 30
+_QUICK_BEND = 0.058
+_STEP_BEND = 0.35
+_LEAST_HEIGHT = 1 / 30
 
 
 class Task(Protocol):

@@ -75,7 +75,8 @@ def _add_foot(spec: Any, side: Side, height: float) -> None:
 def _collide(geom: Any, side: Side) -> None:
     geom.contype, geom.conaffinity = COLLIDES[side]
     geom.condim = 1  # no friction: what counts is that they touch
-    geom.margin = geom.gap = 0.0
+    geom.margin = 0.0
+    geom.gap = 0.0
     geom.solref = [0.005, 1.0]
     geom.solimp = [0.95, 0.99, 0.001, 0.5, 2]
 
@@ -104,4 +105,5 @@ def _clear(model: Any, data: Any, pair: tuple[int, int], free: list[int], least:
         if mujoco.mj_geomDistance(model, data, *pair, least, None) >= least:
             return
         model.geom_size[free] *= _SMALLER
-    model.geom_contype[free] = model.geom_conaffinity[free] = 0
+    model.geom_contype[free] = 0
+    model.geom_conaffinity[free] = 0

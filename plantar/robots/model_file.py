@@ -63,8 +63,10 @@ def forget_own_simulation(spec: Any) -> None:
     for part in ("keys", "equalities", "tendons", "pairs", "excludes", "sensors", "actuators", "lights"):
         delete_all(spec, getattr(spec, part))
     spec.option.gravity = [0.0, 0.0, -GRAVITY]
-    spec.option.density = spec.option.viscosity = 0.0
-    spec.option.disableflags = spec.option.enableflags = 0
+    spec.option.density = 0.0
+    spec.option.viscosity = 0.0
+    spec.option.disableflags = 0
+    spec.option.enableflags = 0
     for body in spec.bodies:
         body.gravcomp = 0.0
 
@@ -73,7 +75,8 @@ def _without_collisions(spec: Any) -> list[Any]:
     """Disable collisions of all geoms; returns those that had them."""
     colliding = [geom for geom in spec.geoms if geom.contype or geom.conaffinity]
     for geom in spec.geoms:
-        geom.contype = geom.conaffinity = 0
+        geom.contype = 0
+        geom.conaffinity = 0
     return colliding
 
 
@@ -178,7 +181,9 @@ def _put_on_shoe(spec: Any, robot: Robot, side: Any) -> None:
     shoe = foot.add_body(pos=robot.sole_origins[side], quat=quaternion_of(robot.sole_rotations[side]))
     thickness = max(robot.shoe_thickness, 1e-3)
     mass = max(robot.shoe_mass, 1e-3)
-    lx, ly, lz = 2.0 * half[0], 2.0 * half[1], thickness
+    lx = 2.0 * half[0]
+    ly = 2.0 * half[1]
+    lz = thickness
     shoe.mass = mass
     shoe.ipos = [center[0], center[1], min(0.5 * thickness, _SHOE_HEIGHT)]
     shoe.inertia = mass / 12.0 * np.array([ly * ly + lz * lz, lx * lx + lz * lz, lx * lx + ly * ly])
@@ -203,7 +208,8 @@ def _add_servos(spec: Any, robot: Robot, side: Any) -> None:
             name=f"{name}_servo", target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT, biastype=mujoco.mjtBias.mjBIAS_AFFINE
         )
         servo.gainprm[0] = robot.stiffness[i]
-        servo.biasprm[1], servo.biasprm[2] = -robot.stiffness[i], -robot.damping[i]
+        servo.biasprm[1] = -robot.stiffness[i]
+        servo.biasprm[2] = -robot.damping[i]
         servo.ctrllimited = mujoco.mjtLimited.mjLIMITED_FALSE
         if limit > 0.0:
             servo.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE

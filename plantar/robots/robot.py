@@ -144,6 +144,8 @@ class Robot:
     def sole_rectangle(self, side: Side) -> tuple[tuple[float, float], tuple[float, float]]:
         """A sole's bounding rectangle: center (x, y), half size (x, y), sole frame, in m."""
         outline = self.layouts[side].outline
-        low, high = outline.min(axis=0), outline.max(axis=0)
-        center, half = 0.5 * (low + high), 0.5 * (high - low)
+        low = outline.min(axis=0)
+        high = outline.max(axis=0)
+        center = 0.5 * (low + high)
+        half = 0.5 * (high - low)
         return (float(center[0]), float(center[1])), (float(half[0]), float(half[1]))

@@ -252,7 +252,8 @@ class _RobotFile(RobotTables):
         return legs
 
     def _leg(self, side: Side) -> LegNames:
-        table, where = self.table("legs", side), self.place("legs", side)
+        table = self.table("legs", side)
+        where = self.place("legs", side)
         refuse_unknown_keys(table, ("joints", "foot_body", "sole_site"), where, RobotError)
         joints = table.get("joints")
         if not isinstance(joints, list) or not all(isinstance(j, str) for j in joints):

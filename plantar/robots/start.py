@@ -51,7 +51,8 @@ def start_of_walk(
     if velocities is None:
         return Start(feet, plan, walk.begin)
     outline = robot.layouts["left"].outline
-    (rear, inner), toe = (-outline.min(axis=0)).tolist(), float(outline[:, 0].max())
+    rear, inner = (-outline.min(axis=0)).tolist()
+    toe = float(outline[:, 0].max())
     return Start(feet, plan, walk.begin, (VelocityCommand(velocities, Legs(width, com_height, rear, toe, inner)),))
 
 

@@ -16,10 +16,12 @@ from plantar.gait.propose.velocity_command import STOP, VelocityTable, table_of
 from plantar.robots.robot import Robot
 
 # Beats that the phases of a step last where neither scene nor robot states them: 0.9 and 0.3 s on a leg of 0.6 m
-_SINGLE_SUPPORT, _DOUBLE_SUPPORT = 3.64, 1.21
+_SINGLE_SUPPORT = 3.64
+_DOUBLE_SUPPORT = 1.21
 
 # Paces that they last where a velocity is commanded, which quick steps follow soon: 0.5 and 0.1 s on h1
-_QUICK_SINGLE, _QUICK_DOUBLE = 2.02, 0.404
+_QUICK_SINGLE = 2.02
+_QUICK_DOUBLE = 0.404
 
 _LEAST_START = 0.2  # Least time in s of the first shift of the weight
 
@@ -214,7 +216,8 @@ def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
             "foot to foot in its own time; allowed: 0 for both"
         )
     if walk.commanded and not robot.rocks:
-        single, double = stated[0] or _QUICK_SINGLE * body.pace, stated[1] or _QUICK_DOUBLE * body.pace
+        single = stated[0] or _QUICK_SINGLE * body.pace
+        double = stated[1] or _QUICK_DOUBLE * body.pace
     else:
         single = stated[0] or robot.single_support or _SINGLE_SUPPORT * body.beat
         double = stated[1] or robot.double_support or _DOUBLE_SUPPORT * body.beat

@@ -23,7 +23,8 @@ def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.i
     Returns mask; ReadingError, InputError: forces not numeric.
     """
     given = numbers(force, "forces", ReadingError)
-    low, high = number(threshold, "activation threshold"), number(saturation, "saturation")
+    low = number(threshold, "activation threshold")
+    high = number(saturation, "saturation")
     return np.asarray((given > low) & (given < high))
 
 
@@ -100,7 +101,8 @@ class TaxelActivation:
 
 
 def _checked(high: float, low: float, saturation: float) -> tuple[float, float, float]:
-    on, off = number(high, "threshold of a hysteresis", nan=True), number(low, "threshold of a hysteresis", nan=True)
+    on = number(high, "threshold of a hysteresis", nan=True)
+    off = number(low, "threshold of a hysteresis", nan=True)
     if not off <= on:
         raise InputError(f"hysteresis switches off at {low} and on above {high}; allowed: off not above on")
     return on, off, number(saturation, "saturation")

@@ -98,7 +98,8 @@ def skin_wrench(positions: ArrayLike, rotations: ArrayLike, signal: ArrayLike) -
 
 
 def _signals(force: ArrayLike, proximity: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    f, p = numbers(force, "force signals", ReadingError), numbers(proximity, "proximity signals", ReadingError)
+    f = numbers(force, "force signals", ReadingError)
+    p = numbers(proximity, "proximity signals", ReadingError)
     if f.shape != p.shape:
         raise ReadingError(f"force signals have shape {f.shape}, proximity signals {p.shape}; expected the same")
     return f, p

@@ -15,7 +15,9 @@ from plantar.common.arguments import LARGEST, number
 from plantar.common.arrays import is_finite, numbers
 from plantar.errors import InputError
 
-_NEGLIGIBLE, _LOUDEST = 1e-12, 1e6  # N
+# N
+_NEGLIGIBLE = 1e-12
+_LOUDEST = 1e6
 _FORCE = np.linspace(0.0, 6.0, 601)  # in sigma; above it nothing is cut off
 _MEAN = np.array(
     [0.5 * f * math.erfc(-f / math.sqrt(2.0)) + math.exp(-0.5 * f * f) / math.sqrt(2.0 * math.pi) for f in _FORCE]
@@ -33,7 +35,8 @@ def clipped_mean(force: ArrayLike, noise: float) -> NDArray[np.float64]:
 
     Returns means (...) in N; InputError: noise negative.
     """
-    given, sigma = numbers(force, "forces"), _sigma(noise)
+    given = numbers(force, "forces")
+    sigma = _sigma(noise)
     if sigma < _NEGLIGIBLE:
         return np.asarray(np.maximum(given, 0.0), dtype=np.float64)
     within = np.minimum(given, 6.0 * sigma)
@@ -55,7 +58,8 @@ def unclipped_mean(mean: ArrayLike, noise: float) -> NDArray[np.float64]:
         >>> unclipped_mean(clipped_mean([0.0, 1.0, 10.0], 1.5), 1.5).round(3).tolist()
         [0.0, 1.0, 10.0]
     """
-    given, sigma = numbers(mean, "means"), _sigma(noise)
+    given = numbers(mean, "means")
+    sigma = _sigma(noise)
     if sigma < _NEGLIGIBLE:
         return np.array(given)
     force = np.asarray(np.interp(given, sigma * _TABLE[0], sigma * _TABLE[1]), dtype=np.float64)

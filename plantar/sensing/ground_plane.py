@@ -92,5 +92,6 @@ def ground_fit(layout: SoleLayout) -> GroundFit:
     try:
         kernel: GroundFit = layout.__dict__["_ground_fit"]
     except KeyError:
-        kernel = layout.__dict__["_ground_fit"] = GroundFit(layout.positions, layout.rotations[:, :, 2])
+        kernel = GroundFit(layout.positions, layout.rotations[:, :, 2])
+        layout.__dict__["_ground_fit"] = kernel
     return kernel

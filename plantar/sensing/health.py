@@ -98,7 +98,8 @@ def stuck_taxels(
         >>> stuck_taxels([0.0, 0.5, 1.0], [[0, 5, 5], [0, 5, 6], [0, 5, 5]], hold=1.0).tolist()[-1]
         [False, True, False]
     """
-    t, series = numbers(times, "times"), numbers(values, "readings")
+    t = numbers(times, "times")
+    series = numbers(values, "readings")
     if series.ndim != 2 or t.shape != series.shape[:1]:
         raise InputError(f"times {t.shape} and values {series.shape} do not agree; expected (frames,) and (frames, n)")
     if not (np.isfinite(t).all() and (t[1:] > t[:-1]).all()):
@@ -130,7 +131,8 @@ class StuckMonitor:
 
     def reset(self) -> None:
         """Forget the past."""
-        self._last, self._time = None, -math.inf
+        self._last = None
+        self._time = -math.inf
 
     def update(self, time: float, values: ArrayLike) -> NDArray[np.bool_]:
         """Stuck taxels (n,) after the next reading.
@@ -153,7 +155,8 @@ class StuckMonitor:
             raise ReadingError(f"reading has {now.shape} taxels; the ones before had {self._last.shape}")
         else:
             self._since[~_same(now, self._last, self.tolerance)] = time
-        self._last, self._time = now, time
+        self._last = now
+        self._time = time
         return np.asarray((time - self._since >= self.hold) & (now > self.rest) & (now < np.inf))
 
 
@@ -204,7 +207,8 @@ def _neighbour_table(layout: SoleLayout) -> tuple[NDArray[np.intp], NDArray[np.b
         for taxel, row in enumerate(layout.neighbours):
             near[taxel, : len(row)] = row
             known[taxel, : len(row)] = True
-        table = layout.__dict__["_neighbour_table"] = near, known
+        table = near, known
+        layout.__dict__["_neighbour_table"] = table
     return table
 
 

@@ -59,7 +59,9 @@ def identify_faults(layout: SoleLayout, time: ArrayLike, force: ArrayLike, read:
     lost = ~(np.abs(seen) <= LARGEST)
     dead = lost.mean(axis=0) > 0.5
     whole = ~lost[:, ~dead].any(axis=1)  # frames that the others all measured
-    times, truth, seen = times[whole], truth[whole], np.where(lost, np.nan, seen)[whole]
+    times = times[whole]
+    truth = truth[whole]
+    seen = np.where(lost, np.nan, seen)[whole]
     if len(times) < 20:
         raise ReadingError(f"{len(times)} frames were measured by all taxels that are not dead; allowed: 20 or more")
     loaded = np.ptp(truth, axis=0) > 0.0
@@ -77,7 +79,8 @@ def identify_faults(layout: SoleLayout, time: ArrayLike, force: ArrayLike, read:
         for name in shares:
             # First over the whole range, then about what was found, ever finer.
             reach = most[name] / 2.0**turn
-            low, high = max(0.0, shares[name] - reach), min(most[name], shares[name] + reach)
+            low = max(0.0, shares[name] - reach)
+            high = min(most[name], shares[name] + reach)
             shares[name] = fit.lowest(shares, name, low, high)
     common = TaxelFaults(**shares)
     solved, residual = fit.solve(shares)
@@ -113,9 +116,13 @@ class _Fit:
         seen: NDArray[np.float64],
         used: NDArray[np.intp],
     ) -> None:
-        self._layout, self._times, self._truth, self._used = layout, times, truth, used
+        self._layout = layout
+        self._times = times
+        self._truth = truth
+        self._used = used
         self._seen = seen[:, used]
-        self._key, self._rubbed = (-1.0, -1.0), truth
+        self._key = (-1.0, -1.0)
+        self._rubbed = truth
         self._fixed = np.ones((len(times), 1))
         if np.ptp(times) > 0.2 * WARMING:  # within seconds no drift shows
             self._fixed = np.column_stack([self._fixed, -np.expm1(-np.maximum(times, 0.0) / WARMING)])
@@ -127,7 +134,8 @@ class _Fit:
             worn = WornFaults(
                 self._layout, TaxelFaults(crosstalk=key[0], hysteresis=key[1]), np.ones(len(self._layout))
             )
-            self._key, self._rubbed = key, np.array([worn.rubbed(row) for row in self._truth])[:, self._used]
+            self._key = key
+            self._rubbed = np.array([worn.rubbed(row) for row in self._truth])[:, self._used]
         rubbed = self._rubbed
         due = self._times - shares["delay"]
         after = np.clip(np.searchsorted(self._times, due), 1, len(due) - 1)
@@ -152,19 +160,27 @@ class _Fit:
         def error(value: float) -> float:
             return self.error({**shares, name: value})
 
-        best, least = shares[name], error(shares[name])
-        a, b = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-        at_a, at_b = error(a), error(b)
+        best = shares[name]
+        least = error(shares[name])
+        a = high - _GOLDEN * (high - low)
+        b = low + _GOLDEN * (high - low)
+        at_a = error(a)
+        at_b = error(b)
         for _ in range(_TURNS):
             for value, left in ((a, at_a), (b, at_b)):
                 if left < least:
-                    best, least = value, left
+                    best = value
+                    least = left
             if at_a <= at_b:
-                high, b, at_b = b, a, at_a
+                high = b
+                b = a
+                at_b = at_a
                 a = high - _GOLDEN * (high - low)
                 at_a = error(a)
             else:
-                low, a, at_a = a, b, at_b
+                low = a
+                a = b
+                at_a = at_b
                 b = low + _GOLDEN * (high - low)
                 at_b = error(b)
         return best

@@ -76,13 +76,16 @@ def net_wrench(
     near[seen] = np.clip(1.0 - reading.distance[seen] / skin.ranges[seen], 0.0, 1.0)
     active = active_cells(reading.force - skin.thresholds, near, 0.0, rules.near)
     signal = pseudo_force(reading.force, near, 1.0, rules.proximity_force, active)
-    force, moment = np.zeros(3), np.zeros(3)
+    force = np.zeros(3)
+    moment = np.zeros(3)
     for link, wrench, _ in link_wrenches(skin, signal, active):
         if link not in poses:
             raise ReadingError(f"link '{link}' feels something and has no pose; given: {', '.join(poses) or 'none'}")
         origin, rotation = poses[link]
         push = rotation @ wrench[:3]
         force += push
-        (x, y, z), (fx, fy, fz) = (origin - about).tolist(), push.tolist()  # np.cross takes longer than all the rest
+        # np.cross takes longer than all the rest
+        x, y, z = (origin - about).tolist()
+        fx, fy, fz = push.tolist()
         moment += rotation @ wrench[3:] + (y * fz - z * fy, z * fx - x * fz, x * fy - y * fx)
     return NetWrench(np.concatenate([force, moment]), active.nonzero()[0])

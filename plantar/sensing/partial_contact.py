@@ -27,7 +27,8 @@ _MOST_EDGES = 4
 _WEAK = 0.4  # of the strongest neighbour's pressure: a cell with less is cut by an edge
 _RANGE = 0.38  # of a cell's size, prior spread of an edge about where the cells' corners put it
 _TURNS = np.linspace(-0.5, 0.5, 41)  # rad, turns that are tried of a line between cells
-_COS, _SIN = np.cos(_TURNS), np.sin(_TURNS)
+_COS = np.cos(_TURNS)
+_SIN = np.sin(_TURNS)
 _TURN = math.radians(12.0)  # prior spread of its direction
 
 
@@ -114,7 +115,8 @@ class PartialContact:
         on = area > 1e-3 * self.layout.cell_area
         if not on.any() or not load > 0.0:
             return np.zeros(3), np.zeros(len(area), dtype=bool)
-        covered, place = on, np.zeros_like(measure)
+        covered = on
+        place = np.zeros_like(measure)
         place[on] = measure[on] / area[on, None]
         # The resultant cannot leave the cells' centres: a load on the rim goes to the outermost of them.
         inside = closest_point(inner_offset(convex_hull(place[on, 1:]), 2e-3), center_of_pressure)
@@ -165,7 +167,8 @@ class PartialContact:
             if len(set(order.tolist())) == len(first):
                 lines = self.edges.lines[order]
         force = np.where(sound, force, 0.0)
-        deviation, residual = np.empty(0), 0.0
+        deviation = np.empty(0)
+        residual = 0.0
         for _ in range(steps):
             lines, deviation, residual = self._step(lines, first, force, sound, noise)
         self.edges = GroundEdges(lines, self.polygon(lines), deviation, residual)
@@ -187,7 +190,8 @@ class PartialContact:
         fit.
         """
         over = taxel_mask(self.layout, supported, "mask of supported taxels")
-        inner, outer = self._centers[over], self._centers[taxel_mask(self.layout, idle, "mask of idle taxels")]
+        inner = self._centers[over]
+        outer = self._centers[taxel_mask(self.layout, idle, "mask of idle taxels")]
         hull = cells_polygon(self.layout, over)
         if len(hull) < 3 or not len(outer):
             return np.empty((0, 3))
@@ -205,7 +209,8 @@ class PartialContact:
             left &= ~beyond[:, best]
             # Turned to where the gap between both sides is widest.
             ways = np.column_stack([_COS, _SIN]) * normal[best, 0] + np.column_stack([-_SIN, _COS]) * normal[best, 1]
-            low, high = (inner @ ways.T).max(axis=0), (side @ ways.T).min(axis=0)
+            low = (inner @ ways.T).max(axis=0)
+            high = (side @ ways.T).min(axis=0)
             widest = int(np.argmax(high - low - 1e-3 * self._cell * np.abs(_TURNS)))
             chosen.append((*ways[widest].tolist(), 0.5 * float(low[widest] + high[widest])))
         return np.array(chosen).reshape(-1, 3)
@@ -246,7 +251,9 @@ class PartialContact:
         residual = force - basis @ field
         if not m:
             return lines, np.empty(0), float(np.sqrt(np.mean(residual**2)))
-        length, mx, my = chords[:, :, 0], chords[:, :, 1], chords[:, :, 2]
+        length = chords[:, :, 0]
+        mx = chords[:, :, 1]
+        my = chords[:, :, 2]
         pressure = (field[0] + field[1] * mx + field[2] * my) / self.layout.cell_area
         along = -lines[:, 1] * mx + lines[:, 0] * my  # place along each edge, from the foot of the origin's normal
         rate = np.where(on[:, None], length * np.maximum(pressure, 0.0), 0.0)
@@ -276,7 +283,8 @@ class PartialContact:
         step = inverse @ (gradient + prior * target)
         move = np.clip(step[3 : 3 + m], -0.5 * self._cell, 0.5 * self._cell)
         angle = np.clip(step[3 + m :], -0.2, 0.2)
-        c, s = np.cos(angle), np.sin(angle)
+        c = np.cos(angle)
+        s = np.sin(angle)
         new = np.column_stack([c * lines[:, 0] - s * lines[:, 1], s * lines[:, 0] + c * lines[:, 1]])
         height = (new * (place + move[:, None] * lines[:, :2])).sum(axis=1)
         deviation = np.sqrt(np.diag(inverse)[3 : 3 + m])

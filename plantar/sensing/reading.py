@@ -16,7 +16,8 @@ from plantar.errors import ReadingError
 from plantar.kernels.base import vectors
 from plantar.kernels.skin.percept_fields import ReadingFields
 
-_TIME, _FORCE = "reading field 'time'", "reading field 'force'"
+_TIME = "reading field 'time'"
+_FORCE = "reading field 'force'"
 
 
 @constructed_by_kernel

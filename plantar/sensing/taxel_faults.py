@@ -84,7 +84,8 @@ class TaxelFaults:
         rng = np.random.default_rng(seed)
         shape = (*batch, len(layout))
         gains = 1.0 + np.clip(self.gain * rng.standard_normal(shape), -_GAIN_MOST, _GAIN_MOST)
-        offsets, drifts = self.offset * rng.standard_normal(shape), self.drift * rng.standard_normal(shape)
+        offsets = self.offset * rng.standard_normal(shape)
+        drifts = self.drift * rng.standard_normal(shape)
         dead = rng.permuted(np.broadcast_to(np.arange(len(layout)), shape), axis=-1) < round(self.dead * len(layout))
         return WornFaults(layout, self, gains, offsets, drifts, dead, rng)
 
@@ -112,7 +113,11 @@ class WornFaults:
     ) -> None:
         if faults.noise > 0.0 and rng is None:
             raise InputError("taxel noise needs a random generator; pass rng=numpy.random.default_rng(seed)")
-        self.faults, self.gains, self.offsets, self.drifts, self.dead = faults, gains, offsets, drifts, dead
+        self.faults = faults
+        self.gains = gains
+        self.offsets = offsets
+        self.drifts = drifts
+        self.dead = dead
         self.spread = crosstalk_matrix(layout, faults.crosstalk)
         self._rng = rng
         self.reset()
@@ -164,7 +169,8 @@ class WornFaults:
         due = time - self.faults.delay
         while len(late) > 1 and late[1][0] <= due + SAME_TIME:
             late.popleft()
-        (before, first), (after, second) = late[0], late[min(1, len(late) - 1)]
+        before, first = late[0]
+        after, second = late[min(1, len(late) - 1)]
         if due <= before or after <= before:
             return first
         share = (due - before) / (after - before)

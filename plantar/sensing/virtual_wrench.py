@@ -79,7 +79,8 @@ def sole_wrenches(
         >>> sole_wrenches(contact, contact * 0 + 2.0, threshold=5.0)[:, 2].tolist()
         [2.0, 2.5, 9.0, 4.0]
     """
-    carried, foreseen = _finite(contact, ("frames", 6)), _finite(virtual, ("frames", 6))
+    carried = _finite(contact, ("frames", 6))
+    foreseen = _finite(virtual, ("frames", 6))
     if carried.shape != foreseen.shape:
         raise InputError(f"wrenches have shapes {carried.shape} and {foreseen.shape}; expected the same")
     on = number(threshold, "threshold", nan=True)
@@ -106,7 +107,8 @@ class SoleWrenchSwitch:
 
         NaN or inf counts as zero; InputError unless 6 numbers.
         """
-        carried, foreseen = _finite(contact, (6,)), _finite(virtual, (6,))
+        carried = _finite(contact, (6,))
+        foreseen = _finite(virtual, (6,))
         force = math.hypot(*carried[:3].tolist())
         self.landed = force > (self.release if self.landed else self.threshold)
         return carried if self.landed else carried + foreseen

@@ -61,7 +61,8 @@ if not TYPE_CHECKING:  # a type checker reads the imports above, and reports a n
         """Load a public name at first use."""
         if name not in _PLACES:
             raise AttributeError(f"module 'plantar.shoes' has no attribute {name!r}")
-        value = globals()[name] = getattr(import_module(f"plantar.shoes.{_PLACES[name]}"), name)
+        value = getattr(import_module(f"plantar.shoes.{_PLACES[name]}"), name)
+        globals()[name] = value
         return value
 
     def __dir__() -> list[str]:

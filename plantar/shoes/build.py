@@ -161,7 +161,8 @@ def build_shoe(
     p, lowered = relieved(left, load, p)
     changed = (*of_cell, *chosen, *fit.notes, *gentle, *raised, *led, *soft, *lowered, *left.notes)
     notes = (*foot.notes, *changed, *_blind_note(left, fit))
-    share, touching = check_load_share(left, load, p), check_touching(left, load, p)
+    share = check_load_share(left, load, p)
+    touching = check_touching(left, load, p)
     if layout_only:
         report(1.0, "layouts fitted")
         return ShoeBuild(foot, fit, p, _planned_sides(left, sides), share, notes=notes, touching=touching)
@@ -177,7 +178,8 @@ def _fitted(
     """Cells and plan that see the center of pressure both ways, and notes; options as in `build_shoe`."""
     # The plate under the wall meets the ground, too; the load case may ask for a thicker wall.
     wall = strengthened(foot, foot.sole, p)[0].rim_thickness
-    face, reach = foot.passing(p.rim_height), max(overhang, p.clearance + wall - p.border)
+    face = foot.passing(p.rim_height)
+    reach = max(overhang, p.clearance + wall - p.border)
 
     def placed(area: float, reach: float) -> tuple[TaxelFit, ShoePlan]:
         over = reach if taxels is None else overhang
@@ -203,8 +205,10 @@ def _observed(
     placed: Callable[[float, float], tuple[TaxelFit, ShoePlan]], tries: list[tuple[float, float]]
 ) -> tuple[TaxelFit, ShoePlan, tuple[str, ...]]:
     """Cells and plan of the first cell area and reach that observe the CoP both ways, else of the only area."""
-    problem, kept = None, None
-    (first, least), (last, _) = tries[0], tries[-1]
+    problem = None
+    kept = None
+    first, least = tries[0]
+    last, _ = tries[-1]
     for area, reach in tries:
         try:
             found = placed(area, reach)
@@ -258,7 +262,8 @@ def _built_sides(
     load_kernel()
     shoes = []
     for i, shoe in enumerate(_planned_sides(left, sides)):
-        plan, which = shoe.plan, shoe.side
+        plan = shoe.plan
+        which = shoe.side
         report(0.4 + 0.6 * i / len(sides), f"building the {which} side")
         own = steps if which == "left" else tuple(mirrored_step(s) for s in steps)
         letters = mark_outline(plan, p, which, bare_floor(own)).geoms

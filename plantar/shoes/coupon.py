@@ -20,7 +20,10 @@ from plantar.shoes.solid.retention import Retention, choose_retention
 
 _FLANGE = 2.0  # mm of plate around the cell's ribs
 _SHEET = 15.0  # mm of a sheet's recess to each side of a point of its edge, and forward of it
-_BESIDE, _INWARDS, _OUTWARDS = 10.0, 16.0, 30.0  # mm of shoe next to, within and outside of what holds it
+# mm of shoe next to, within and outside of what holds it
+_BESIDE = 10.0
+_INWARDS = 16.0
+_OUTWARDS = 30.0
 _MORE = 2.0  # mm that blocks reach beyond what is kept
 _NAMES = {"clips": "clip", "straps": "lug", "screws": "screw"}
 
@@ -45,12 +48,14 @@ def build_coupons(build: ShoeBuild, *, progress: Progress | None = None) -> tupl
         InputError: Without left shoe.
         FootError: If a piece fails.
     """
-    plan, p = build.shoes[0].plan, build.parameters
+    plan = build.shoes[0].plan
+    p = build.parameters
     if plan.side != "left":
         raise InputError("a coupon is a piece of the left shoe, which the right one mirrors; use side left or both")
     report = progress or (lambda fraction, text: None)
     if build.kind == "insole":
-        retention, steps = Retention("none", (), 0.0, 0.0, ""), insole_steps(plan, p)
+        retention = Retention("none", (), 0.0, 0.0, "")
+        steps = insole_steps(plan, p)
     else:
         retention = choose_retention(build.foot, plan, p)
         steps = shoe_steps(build.foot, plan, retention, p)
@@ -100,7 +105,8 @@ def _place_text(retention: Retention) -> str:
 
 
 def _holder(plan: Any, retention: Retention) -> Any:
-    place, half = retention.places[-1], 0.5 * retention.width + _BESIDE
+    place = retention.places[-1]
+    half = 0.5 * retention.width + _BESIDE
     strip = plan.contact.intersection(shapely.box(place.x - half, -1e3, place.x + half, 1e3)).bounds
     edge = strip[3] if place.side > 0 else strip[1]
     inner, outer = sorted((edge - place.side * _INWARDS, edge + place.side * _OUTWARDS))

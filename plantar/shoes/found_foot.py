@@ -78,7 +78,8 @@ def shoe_for_surface(
     foot = replace(_foot(name, triangles), mass=mass)
     area = taxel_area(foot.sole.area)
     build = _adapted(build_shoe(foot, cell_area=area, layout_only=True), mass)
-    weight, notes = None, build.notes
+    weight = None
+    notes = build.notes
     if solid:
         try:
             build = _adapted(build_shoe(foot, cell_area=area, progress=progress), mass)

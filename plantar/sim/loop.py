@@ -148,10 +148,13 @@ class Run(ABC):
 
     def _loop(self, add_frame: Callable[[], None] | None, progress: Progress | None) -> Result:
         step, tick = self.periods
-        tick_every, frame_every = max(1, round(tick / step)), max(1, round(1.0 / (FRAME_RATE * step)))
+        tick_every = max(1, round(tick / step))
+        frame_every = max(1, round(1.0 / (FRAME_RATE * step)))
         ticks: list[float] = []
-        began = shown = clock.perf_counter()
-        k, last = 0, math.ceil(self.end / step)
+        began = clock.perf_counter()
+        shown = began
+        k = 0
+        last = math.ceil(self.end / step)
         longest = _LONGEST * last
         while k < last and k < longest and not self.ended:
             self.sense(k)

@@ -155,7 +155,8 @@ def _forces(layout: SoleLayout, force: NDArray[np.float32], least: float) -> dic
     """Forces in 0.1 N as 16-bit numbers, the largest if unmeasured; in N where one does not fit; sum and CoP."""
     foot = FootRecording(layout.side, force.astype(float), layout)
     cop = _packed(np.asarray(foot.center_of_pressure(least)), "<f4")
-    known, rounded = np.isfinite(force), np.round(force * 10.0)
+    known = np.isfinite(force)
+    rounded = np.round(force * 10.0)
     small = (~known | ((rounded >= 0.0) & (rounded < _NOT_MEASURED))).all()
     name, values, kind = ("decinewtons", rounded, "<u2") if small else ("force", force, "<f4")
     cells = _packed(np.where(known, values, _NOT_MEASURED if small else np.nan), kind)

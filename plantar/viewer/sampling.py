@@ -31,11 +31,14 @@ class Latest:
     """
 
     def __init__(self, times: NDArray[np.float64], keep: Callable[[slice, Any], None], reach: float = np.inf) -> None:
-        self._times, self._keep, self._reach = times, keep, reach
+        self._times = times
+        self._keep = keep
+        self._reach = reach
         self._row = 0
         self._held: Callable[[], Any] | None = None
         self._since = -np.inf
-        self.count = self.late = 0
+        self.count = 0
+        self.late = 0
 
     def take(self, time: float, value: Callable[[], Any]) -> None:
         """Take a value at a time in s; value is called where kept."""
@@ -43,7 +46,8 @@ class Latest:
             self.late += 1
             return
         self._fill(int(np.searchsorted(self._times, time - 1e-9)))
-        self._held, self._since = value, time
+        self._held = value
+        self._since = time
         self.count += 1
 
     def held(self) -> Any:

@@ -33,7 +33,9 @@ _MOST = 30_000  # pictures of a walk: 10 min; a longer one is shown with fewer a
 _CORNERS = 12  # of a support polygon
 _APART = 0.2  # m between soles whose poses are not recorded
 _HEAVIEST = 1e5  # kg
-_LONGEST_NAME, _LONGEST_LINE = 200, 2000  # characters
+# characters
+_LONGEST_NAME = 200
+_LONGEST_LINE = 2000
 _SEARCHED = 200  # messages of "/tf" in which the frames' names are looked for
 _MOST_FRAMES = 200
 _MOST_EVENTS = 10_000
@@ -142,7 +144,9 @@ class _Drawn:
         self.world: list[Entity] = []
         self.footsteps: list[tuple[float, tuple[Entity, ...]]] = []
         self.events: list[Event] = []
-        self._shapes = self._damaged = self._dropped = 0
+        self._shapes = 0
+        self._damaged = 0
+        self._dropped = 0
 
     def sinks(self) -> dict[str, Sink]:
         return {
@@ -173,7 +177,9 @@ class _Drawn:
     def _take_skin(self, side: Side, time: float, message: bytes, fields: Fields) -> None:
         if (span := _span(fields, "force")) is not None:
             found = self.skin.setdefault(side, _Skin(span[1] - span[0], time, time))
-            found.first, found.last, found.count = min(found.first, time), max(found.last, time), found.count + 1
+            found.first = min(found.first, time)
+            found.last = max(found.last, time)
+            found.count = found.count + 1
 
     def _take_frames(self, time: float, message: bytes) -> None:
         self.frame_times.append(time)
@@ -219,7 +225,8 @@ class _Shown:
         self._layouts = layouts
         self._time = time
         self.force = {side: np.full((n, len(layout)), np.nan, np.float32) for side, layout in layouts.items()}
-        self.zmp, self.polygon = np.full((n, 3), np.nan), np.full((n, _CORNERS, 3), np.nan)
+        self.zmp = np.full((n, 3), np.nan)
+        self.polygon = np.full((n, _CORNERS, 3), np.nan)
         self._poses = _sole_poses(n, layouts)
         self._latest = {}
         for side, skin in ((side, drawn.skin[side]) for side in layouts):
@@ -298,7 +305,8 @@ class _Shown:
 
     def _keep_body(self, rows: slice, values: NDArray[np.float64]) -> None:
         pose = self._poses.setdefault("center_of_mass", np.zeros((len(self._time), 7)))
-        pose[rows, :3], pose[rows, 6] = values, 1.0
+        pose[rows, :3] = values
+        pose[rows, 6] = 1.0
 
 
 def _span(fields: Fields, wanted: str) -> tuple[int, int] | None:
@@ -314,7 +322,8 @@ def _times(drawn: _Drawn, layouts: Mapping[Side, SoleLayout]) -> NDArray[np.floa
     frames = np.unique(np.array(drawn.frame_times))
     if len(frames) > 1:
         return np.asarray(frames[:: -(-len(frames) // _MOST)])
-    first, last = min(drawn.skin[s].first for s in layouts), max(drawn.skin[s].last for s in layouts)
+    first = min(drawn.skin[s].first for s in layouts)
+    last = max(drawn.skin[s].last for s in layouts)
     return np.linspace(first, last, int(np.clip((last - first) * _RATE, 1, _MOST - 1)) + 1)
 
 
@@ -322,8 +331,10 @@ def _sole_poses(count: int, layouts: Mapping[Side, SoleLayout]) -> dict[str, NDA
     poses = {}
     for number, side in enumerate(SIDES):
         if side in layouts:
-            pose = poses[f"sole_{side}"] = np.zeros((count, 7))
-            pose[:, 1], pose[:, 6] = _APART * (0.5 - number), 1.0
+            pose = np.zeros((count, 7))
+            poses[f"sole_{side}"] = pose
+            pose[:, 1] = _APART * (0.5 - number)
+            pose[:, 6] = 1.0
     return poses
 
 

@@ -74,8 +74,10 @@ class TorqueResolver:
         Returns:
             The set-points.
         """
-        s, joints = self.settings, robot.joints
-        measured, position = robot.velocity[joints], robot.joint_positions
+        s = self.settings
+        joints = robot.joints
+        measured = robot.velocity[joints]
+        position = robot.joint_positions
         if self._state is None:
             self._state = SetPoint(position.copy(), np.clip(measured, -self.velocity_limits, self.velocity_limits))
         virtual = self._state.velocity

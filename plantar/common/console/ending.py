@@ -99,7 +99,8 @@ def _interruptible() -> Iterator[None]:
         else:
             before(lost)
 
-    before, sys.unraisablehook = sys.unraisablehook, again
+    before = sys.unraisablehook
+    sys.unraisablehook = again
     if threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGINT) is _leave:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     try:

@@ -25,7 +25,8 @@ SIZES: Mapping[str, float] = {
 """Largest file in bytes of each kind that is read whole in Plantar's own process."""
 
 
-_MESHES, _TRIMESH = "plantar.shoes.foot.library_files", "plantar.common.files.mesh_library"
+_MESHES = "plantar.shoes.foot.library_files"
+_TRIMESH = "plantar.common.files.mesh_library"
 
 
 class Helper(NamedTuple):
@@ -83,7 +84,8 @@ def read_apart(
         Traceback (most recent call last):
         plantar.errors.PlantarError: /dev/zero: cannot be read (it is a device); allowed: a regular file
     """
-    helper, count = HELPERS[kind], check_input(path, error) if size is None else size
+    helper = HELPERS[kind]
+    count = check_input(path, error) if size is None else size
     memory, seconds = (least + each * count for least, each in (helper.memory, helper.seconds))
     return confined(helper.function, path, error, helper.what, memory, seconds)
 

@@ -3,7 +3,8 @@
 import struct
 from dataclasses import dataclass
 
-_PNG, _JPEG = b"\x89PNG\r\n\x1a\n", b"\xff\xd8"
+_PNG = b"\x89PNG\r\n\x1a\n"
+_JPEG = b"\xff\xd8"
 _PNG_CHANNELS = {0: 1, 2: 3, 3: 3, 4: 2, 6: 4}
 _NO_FRAME = (0xC4, 0xC8, 0xCC)  # JPEG markers among those of a frame that are none
 _ALONE = (0x01, *range(0xD0, 0xD8))  # JPEG markers without a length

@@ -13,7 +13,8 @@ from plantar.errors import PlantarError
 TABLE_MOST = 20_000_000
 """Largest table in bytes."""
 
-_MOST_ROWS, _MOST_COLUMNS = 200_000, 2000
+_MOST_ROWS = 200_000
+_MOST_COLUMNS = 2000
 _SEEN = 1024  # bytes in which the zeros of UTF-16 are looked for
 
 
@@ -74,7 +75,8 @@ def encoding_of(head: bytes) -> str:
         if head.startswith(mark):
             return encoding
     for first, encoding in ((0, "utf-16-be"), (1, "utf-16-le")):  # without a mark: every other byte of it is 0
-        zeros, others = head[first:_SEEN:2].count(0), head[1 - first : _SEEN : 2].count(0)
+        zeros = head[first:_SEEN:2].count(0)
+        others = head[1 - first : _SEEN : 2].count(0)
         if len(head) > 64 and zeros > 0.45 * min(len(head), _SEEN) and others == 0:
             return encoding
     try:

@@ -16,7 +16,8 @@ class _Limited(ElementTree.TreeBuilder):
 
     def __init__(self) -> None:
         super().__init__()
-        self._count = self._depth = 0
+        self._count = 0
+        self._depth = 0
 
     def start(self, tag: str, attrs: dict[str, str], /) -> ElementTree.Element:
         """Begin an element."""

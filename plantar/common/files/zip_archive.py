@@ -18,7 +18,8 @@ _RATIO = 100.0  # measurements and meshes pack to a tenth or so, zeros to a thou
 ALLOWED = f"up to {_ANYHOW / 1e6:.0f} MB, or {_RATIO:g} times the file"
 """What `is_bomb` lets pass, for messages."""
 
-_END, _END_64 = b"PK\x05\x06", b"PK\x06\x06"
+_END = b"PK\x05\x06"
+_END_64 = b"PK\x06\x06"
 
 
 def is_bomb(size: float, unpacked: float) -> bool:

@@ -64,7 +64,8 @@ def embedded(figures: Iterable[tuple[Path, str]], names: Sequence[str] | None = 
 
 def figure(content: bytes, caption: str) -> str:
     """Returns HTML of an embedded figure: content is a PNG's bytes, caption plain text."""
-    data, text = base64.b64encode(content).decode(), html.escape(caption)
+    data = base64.b64encode(content).decode()
+    text = html.escape(caption)
     width = int.from_bytes(content[16:20], "big")  # of the PNG's first chunk
     wide = f' class="wide" tabindex="0" aria-label="{text}"' if width > _WIDE else ""
     image = f'<img alt="{text}" src="data:image/png;base64,{data}">'
@@ -90,7 +91,8 @@ def table(label: str, caption: str, head: Iterable[str], rows: Iterable[str], wo
     Returns:
         HTML.
     """
-    heads, left = list(head), set(words)
+    heads = list(head)
+    left = set(words)
     names = "".join(f'<th scope="col">{name}</th>' for name in heads)
     aligned = " ".join(f"words-{i}" for i, name in enumerate(heads, start=1) if name in left)
     kind = f' class="{aligned}"' if aligned else ""

@@ -234,7 +234,8 @@ def _checked(item: Field[Any], value: Any, body: BodyScale) -> Any:
     default: Any = 0.0 if isinstance(item.default, Quantity) else item.default
     told = repr(value)
     if isinstance(value, Quantity):
-        told, value = repr(str(value)), value.si(body)
+        told = repr(str(value))
+        value = value.si(body)
         told += f" = {value:.4g} {item.metadata['unit']}"
     good = False
     if isinstance(value, str) and value in item.metadata.get("words", ()):
@@ -273,7 +274,8 @@ def _range_of(item: Field[Any]) -> str:
 
 
 def _range(kind: str, item: Field[Any]) -> str:
-    low, high = item.metadata["low"], item.metadata["high"]
+    low = item.metadata["low"]
+    high = item.metadata["high"]
     return f"{kind} {low:g} to {high:g}" if math.isfinite(high) else f"a finite {kind[2:]}, {low:g} or more"
 
 

@@ -16,25 +16,35 @@ from plantar.recordings.pressure_recording import PressureRecording, true_runs
 # Stance in % of the stride of both feet above which they cannot both be in the air, with 2 % for what events err.
 _HALF = 52.0
 # Shares of its load that a standing body keeps on the ground, and from which it has stepped on.
-_STEADY, _WHOLE = 0.5, 0.9
+_STEADY = 0.5
+_WHOLE = 0.9
 _STRIDE = 1.0  # Time in s of a stride: less does not show whether a foot is lifted
 # Part of a contact that is its landing, or its lift-off; then shares of the sole's length: the CoP lands in front of
 # 0.6 on the forefoot (the heads of the metatarsals are at 0.7; a heel strike is below 0.33), stays in front of 0.55
 # where the heel never carries, and comes back by 0.15 where it does; from toes to heel it goes by 0.3 or more.
-_ENDS, _FOREFOOT, _NO_HEEL, _DOWN, _BACKWARD = 0.12, 0.6, 0.55, 0.15, 0.3
+_ENDS = 0.12
+_FOREFOOT = 0.6
+_NO_HEEL = 0.55
+_DOWN = 0.15
+_BACKWARD = 0.3
 # Stairs up: the CoP lands in front of 0.45 of the sole (on the middle or front of the foot, as no heel strikes), the
 # last hump of the force is at least 1.1 times the first one, and stance takes 62 % of the stride or more (McFadyen &
 # Winter 1988, J. Biomech. 21:733; Riener et al. 2002, Gait Posture 15:32). One of these alone is also that of a slope
 # or of a forefoot gait.
-_UP_LANDING, _UP_HUMPS, _UP_STANCE = 0.45, 1.1, 62.0
+_UP_LANDING = 0.45
+_UP_HUMPS = 1.1
+_UP_STANCE = 62.0
 _CHI2 = -2.0 * math.log(0.05)  # 95 % quantile of the chi-squared distribution with two degrees of freedom
 # Contact times in s of running (0.2 to 0.35) and of walking (0.5 and more), for single steps (Novacheck 1998).
-_RUN, _WALK = 0.35, 0.5
+_RUN = 0.35
+_WALK = 0.5
 # How often a foot that does not stand is lifted at least: one that is put elsewhere once is lifted once or twice.
 _LIFTS = 3
 # Shares of a foot's peak above which it is on the ground and below which it is off it, and the share of both feet's
 # usual load that its peak is above: of the foot in the air of somebody who stands on one leg it is noise.
-_LOADED, _FREE, _CARRIES = 0.3, 0.1, 0.3
+_LOADED = 0.3
+_FREE = 0.1
+_CARRIES = 0.3
 _SHORTEST = 5.0  # Time in s of standing under which sway means nothing: its slow part has periods of seconds
 
 
@@ -100,10 +110,12 @@ def _out_of_step(feet: Mapping[Side, FootGait]) -> bool:
 
 def _rolls(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
     """CoP at landing, lift-off and hindmost, in shares of the sole (steps, 3)."""
-    layout, cop = gait.foot.layout, gait.cop
+    layout = gait.foot.layout
+    cop = gait.cop
     if layout is None or cop is None or recording.kind not in ("insole", "robot"):
         return np.zeros((0, 3))
-    back, front = float(layout.outline[:, 0].min()), float(layout.outline[:, 0].max())
+    back = float(layout.outline[:, 0].min())
+    front = float(layout.outline[:, 0].max())
     rows = []
     for step in gait.used:
         along = (cop[step.contact.begin : step.contact.end, 0] - back) / (front - back)

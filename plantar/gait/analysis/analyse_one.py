@@ -42,7 +42,8 @@ def analyse_one(
         options: What else is known.
         progress: Called with a share 0..0.5 and the work.
     """
-    report, known = progress or (lambda fraction, text: None), options or ReadOptions()
+    report = progress or (lambda fraction, text: None)
+    known = options or ReadOptions()
     if subject is not None and known.mass_kg is None:
         known = dataclasses.replace(known, mass_kg=subject.mass_kg)
     recording, prints = separated_feet(recording_of(given, format, known))
@@ -97,7 +98,8 @@ def analyse_recording(
     """
     report = progress or (lambda fraction, text: None)
     report(0.0, "reading")
-    known, image = with_layout(options, layout), named_format(path, format).read is None
+    known = with_layout(options, layout)
+    image = named_format(path, format).read is None
     if mm_per_pixel is not None and not image:
         raise InputError(f"--mm-per-pixel is for footprint images; {path} is a recording")
     if also is not None and image:

@@ -119,7 +119,8 @@ def unlike(a: Iterable[tuple[str, float]], b: Iterable[tuple[str, float]], one: 
 def _pairs(a: Analysis, b: Analysis) -> dict[str, tuple[Side, Side]]:
     common: dict[str, tuple[Side, Side]] = {s: (s, s) for s in SIDES if s in a.feet and s in b.feet}
     if not common and len(a.feet) == 1 and len(b.feet) == 1:
-        one, other = next(iter(a.feet)), next(iter(b.feet))
+        one = next(iter(a.feet))
+        other = next(iter(b.feet))
         return {f"{one} and {other}": (one, other)}
     return common
 
@@ -140,10 +141,12 @@ def difference_of(analyses: Mapping[str, Analysis], one: Side, other: Side) -> d
     second = analyses["b"].metrics["feet"][other]["measures"]
     out: dict[str, Any] = {}
     for key in first:
-        x, y = first[key], second.get(key)
+        x = first[key]
+        y = second.get(key)
         if x["mean"] is None or y is None or y["mean"] is None:
             continue
-        change, pooled = y["mean"] - x["mean"], _pooled_sd(x, y)
+        change = y["mean"] - x["mean"]
+        pooled = _pooled_sd(x, y)
         out[key] = {
             "a": x,
             "b": y,
@@ -163,7 +166,8 @@ def _pooled_sd(x: Mapping[str, Any], y: Mapping[str, Any]) -> float | None:
 def _figures(
     analyses: Mapping[str, Analysis], pairs: Mapping[str, tuple[Side, Side]], difference: Mapping[str, Any]
 ) -> list[tuple[str, Any, str]]:
-    a, b = analyses["a"], analyses["b"]
+    a = analyses["a"]
+    b = analyses["b"]
     return [
         (
             "pressure",
@@ -204,9 +208,11 @@ def _bars(difference: Mapping[str, Mapping[str, Any]]) -> Any | None:
     if not keys:
         return None
     figure, axes = new_figure(8.0, 1.0 + 0.4 * len(keys))
-    places, height = np.arange(len(keys))[::-1], 0.8 / max(len(rows), 1)
+    places = np.arange(len(keys))[::-1]
+    height = 0.8 / max(len(rows), 1)
     for i, (name, values) in enumerate(rows.items()):
-        at, heights = places - (i - 0.5 * (len(rows) - 1)) * height, [values.get(k, 0.0) for k in keys]
+        at = places - (i - 0.5 * (len(rows) - 1)) * height
+        heights = [values.get(k, 0.0) for k in keys]
         axes.barh(at, heights, height=0.9 * height, color=COLOURS["right" if name == "right" else "left"], label=name)
     axes.axvline(0.0, color="#111111", linewidth=0.8)
     axes.set_yticks(places, [MEASURES[k].title for k in keys])

@@ -101,7 +101,8 @@ def _ring(name: str, corners: ArrayLike) -> shapely.Polygon:
 
 
 def _views(analysis: Analysis, gait: FootGait) -> Sequence[StepView]:
-    loads, cop = StepLoads(analysis.recording, gait.foot, gait.cell_threshold), gait.cop
+    loads = StepLoads(analysis.recording, gait.foot, gait.cell_threshold)
+    cop = gait.cop
     return [
         StepView(
             step,
@@ -120,5 +121,6 @@ def _places(analysis: Analysis, gait: FootGait, step: Step | None) -> NDArray[np
     print_ = step.footprint if step is not None and analysis.recording.kind == "platform" else gait.sole
     if print_ is None:
         return None
-    low, high = print_.rings.reshape(-1, 2).min(axis=0), print_.rings.reshape(-1, 2).max(axis=0)
+    low = print_.rings.reshape(-1, 2).min(axis=0)
+    high = print_.rings.reshape(-1, 2).max(axis=0)
     return cast(NDArray[np.float64], (print_.in_foot(layout.positions[:, :2]) - low) / (high - low))

@@ -44,7 +44,8 @@ def ground_reactions(analysis: Analysis) -> dict[Side, GroundReaction]:
     out: dict[Side, GroundReaction] = {}
     for side, gait in analysis.feet.items():
         foot = gait.foot
-        vertical, known = foot.vertical_force, foot.center_of_pressure(1e-6)
+        vertical = foot.vertical_force
+        known = foot.center_of_pressure(1e-6)
         force = np.column_stack([np.zeros((len(vertical), 2)), vertical])
         free = np.zeros(len(vertical))
         cop = np.zeros((len(vertical), 2)) if known is None else np.nan_to_num(known)
@@ -61,7 +62,8 @@ def write_mot(analysis: Analysis, path: Path) -> None:
     """Write an analysis' ground forces to an OpenSim motion file (.mot) at a path; InputError of raw counts."""
     if analysis.recording.raw:
         raise InputError("a recording of raw counts has no forces for OpenSim; allowed: npz, csv, c3d")
-    names, columns = ["time"], [analysis.recording.time]
+    names = ["time"]
+    columns = [analysis.recording.time]
     for side, reaction in ground_reactions(analysis).items():
         x, y = reaction.cop.T
         zero = np.zeros(len(x))
@@ -222,7 +224,8 @@ def _write_csv(analysis: Analysis, path: Path) -> None:
 
 def _even_frames(recording: PressureRecording) -> tuple[int, NDArray[np.int64], NDArray[np.bool_]]:
     """Count of evenly spaced frames, the nearest recorded one (n,) of each, and which (n,) lie in a gap."""
-    time, rate = recording.time, recording.rate_hz
+    time = recording.time
+    rate = recording.rate_hz
     even = time[0] + np.arange(round(float(time[-1] - time[0]) * rate) + 1) / rate
     at = np.searchsorted(0.5 * (time[1:] + time[:-1]), even)
     return len(even), at, np.abs(time[at] - even) > 0.75 / rate
@@ -238,10 +241,15 @@ def _write_c3d(analysis: Analysis, path: Path) -> None:
     for i, cop in enumerate(cops.values()):
         points[:2, i] = np.nan_to_num(cop[at]).T
     unknown = np.array([np.isnan(cop[at, 0]) | lost for cop in cops.values()] or [np.ones(frames, dtype=bool)])
-    file, unit, reactions = ezc3d.c3d(), _unit(analysis), ground_reactions(analysis)
-    channels, corners, count = [], [], len(reactions)
+    file = ezc3d.c3d()
+    unit = _unit(analysis)
+    reactions = ground_reactions(analysis)
+    channels = []
+    corners = []
+    count = len(reactions)
     for reaction in reactions.values():
-        low, high = reaction.cop.min(axis=0) - 0.05, reaction.cop.max(axis=0) + 0.05
+        low = reaction.cop.min(axis=0) - 0.05
+        high = reaction.cop.max(axis=0) + 0.05
         x, y = (reaction.cop - 0.5 * (low + high)).T  # moments are about the middle of the plate
         fx, fy, fz = reaction.force.T
         six = np.array([fx, fy, fz, y * fz, -x * fz, x * fy - y * fx + reaction.free])[:, at]

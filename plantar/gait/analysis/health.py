@@ -19,17 +19,22 @@ _BESIDE = 1.7  # Usual distances between cells up to which they are neighbours: 
 _CARRIES = 0.15  # Largest reading of a cell that carries load, as a share of the high ones
 # Share of a cell's neighbours that carry, and largest angle in degrees without one, where an unloaded part of a sole
 # would not lie: at its edge the angle is 180.
-_AROUND, _GAP = 0.6, 170.0
+_AROUND = 0.6
+_GAP = 170.0
 # Share of cells that read 0 where the other foot's carry, from which all of these are silent: feet differ by less.
 _MANY = 0.08
 _MISSING = 0.01  # Share of the force that silent cells lack from which it is reported
 # Cells from which neighbours are near enough to read alike, and the ratio of their difference to that of any two cells
 # from which they do not: insoles of three makers have 0.1 to 0.26, exchanged rows and columns 0.8.
-_MOSAIC, _UNLIKE = 32, 0.6
+_MOSAIC = 32
+_UNLIKE = 0.6
 # Steps, change of a step's mean force from first to last, and standard errors of it, from which gain creeps.
-_FEWEST, _CREEP, _CLEAR = 8, 0.08, 5.0
+_FEWEST = 8
+_CREEP = 0.08
+_CLEAR = 5.0
 # Difference of the feet's strides, relative to their mean, which no walk has; strides that show it.
-_UNEQUAL, _STRIDES = 0.05, 4
+_UNEQUAL = 0.05
+_STRIDES = 4
 
 
 class SilentCells(NamedTuple):
@@ -50,7 +55,8 @@ def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> Sil
     A silent cell lacks its loaded neighbours' mean pressure; the other foot's mirrored cells show load at the edge.
     Of a few cells without places, those of the same number show it.
     """
-    layout, none = foot.layout, SilentCells(np.zeros(0, dtype=np.int64), 0.0)
+    layout = foot.layout
+    none = SilentCells(np.zeros(0, dtype=np.int64), 0.0)
     if layout is None or len(layout) < 8:
         return none if other is None else _silent_beside(foot.force, other.force) or none
     top = column_maxima(foot.force) / layout.areas
@@ -95,7 +101,8 @@ def _silent_beside(own: NDArray[np.float64], theirs: NDArray[np.float64]) -> Sil
     """Cells that read 0 where the other foot's carry load, if it has fewer of them: else their order may differ."""
     if own.shape[1] != theirs.shape[1] or own.shape[1] >= _MOSAIC:
         return None
-    zero, top = column_maxima(own) <= 0.0, column_maxima(theirs)
+    zero = column_maxima(own) <= 0.0
+    top = column_maxima(theirs)
     silent = zero & (top > _CARRIES * float(np.percentile(top, 90.0)))
     if not silent.any() or zero.all() or zero.sum() <= (top <= 0.0).sum():
         return None
@@ -135,7 +142,8 @@ def silent_cell_doubts(recording: PressureRecording) -> list[str]:
     for side, foot in recording.feet.items() if recording.kind == "insole" else ():
         found = silent_cells(foot, recording.feet.get(other_side(side)))
         if found.missing >= _MISSING:
-            cells, count = found.cells, foot.force.shape[1]
+            cells = found.cells
+            count = foot.force.shape[1]
             names = ", ".join(str(i) for i in (cells + 1 if foot.layout is None else foot.layout.ids[cells])[:12])
             beside = "the same cells of the other foot" if count < 8 or foot.layout is None else "cells around them"
             out.append(
@@ -148,7 +156,8 @@ def silent_cell_doubts(recording: PressureRecording) -> list[str]:
 
 def inverted_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
     """Returns a warning where `feet` of a `recording` have no steps, but their forces, upside down, are of a walk."""
-    rate, forces = recording.rate_hz, [foot.vertical_force for foot in recording.feet.values()]
+    rate = recording.rate_hz
+    forces = [foot.vertical_force for foot in recording.feet.values()]
     without_steps = recording.kind in ("insole", "plate") and not any(gait.steps for gait in feet.values())
     if not without_steps or any(resting_level(f, rate) or not resting_level(-f, rate) for f in forces):
         return []
@@ -168,8 +177,10 @@ def scrambled_doubts(recording: PressureRecording) -> list[str]:
         high = np.flatnonzero(load > 0.5 * np.percentile(load, 99.0))
         value = np.nan_to_num(foot.force[high[:: max(1, len(high) // 50)]]) / foot.layout.areas
         near = foot.layout.neighbours
-        one, other = np.repeat(np.arange(len(near)), [*map(len, near)]), np.array([k for own in near for k in own], int)
-        apart, spread = ((value[:, one] - value[:, other]) ** 2).mean(axis=1), 2.0 * value.var(axis=1)
+        one = np.repeat(np.arange(len(near)), [*map(len, near)])
+        other = np.array([k for own in near for k in own], int)
+        apart = ((value[:, one] - value[:, other]) ** 2).mean(axis=1)
+        spread = 2.0 * value.var(axis=1)
         if (spread > 0.0).sum() > 10 and float(np.median(apart[spread > 0.0] / spread[spread > 0.0])) > _UNLIKE:
             out.append(
                 f"neighbouring cells of the {side} foot read as differently as distant ones, which no foot's do: check "
@@ -187,7 +198,8 @@ def creep_doubts(feet: Mapping[Side, FootGait]) -> list[str]:
         known = np.isfinite(force)
         if known.sum() < _FEWEST:
             continue
-        time, force = time[known] - time[known].mean(), force[known]
+        time = time[known] - time[known].mean()
+        force = force[known]
         slope = float((time @ force) / (time @ time))
         rest = force - force.mean() - slope * time
         error = float(np.sqrt((rest @ rest) / (len(time) - 2) / (time @ time)))
@@ -265,15 +277,19 @@ def _overload(recording: PressureRecording, side: Side) -> str:
     foot = recording.feet[side]
     if foot.layout is None or recording.raw or "force" not in foot.layout.ranges or not len(foot.force):
         return ""
-    highest, rated = float(column_maxima(foot.force).max()), float(max(foot.layout.ranges["force"]))
+    highest = float(column_maxima(foot.force).max())
+    rated = float(max(foot.layout.ranges["force"]))
     if not rated > 0.0 or highest <= _FULL * rated:
         return ""
     return f"a taxel of the {side} sole reads {highest:.4g} N, its layout rates it for {rated:.4g} N: check the unit"
 
 
-_MIDFOOT, _TOES = (0.30, 0.55), (0.78, 1.01)  # Parts of the sole's length from the heel on
+# Parts of the sole's length from the heel on
+_MIDFOOT = (0.30, 0.55)
+_TOES = (0.78, 1.01)
 # Mean of both feet, and of one alone, from which they look mirrored; in four vendors' recordings it is 0.08 to 0.98.
-_MIRRORED, _MIRRORED_ONE = -0.1, -0.2
+_MIRRORED = -0.1
+_MIRRORED_ONE = -0.2
 
 
 def mirrored_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
@@ -292,12 +308,15 @@ def mirrored_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait])
 
 def inward_of_toes(gait: FootGait) -> float:
     """Toes' load inside of the midfoot's, in half sole widths; NaN without load or geometry."""
-    layout, picture = gait.foot.layout, gait.picture
+    layout = gait.foot.layout
+    picture = gait.picture
     if layout is None or picture is None:
         return float("nan")
-    x, y = layout.positions[:, 0], layout.positions[:, 1] * (1.0 if gait.foot.side == "right" else -1.0)
+    x = layout.positions[:, 0]
+    y = layout.positions[:, 1] * (1.0 if gait.foot.side == "right" else -1.0)
     back, front = (float(v) for v in (layout.outline[:, 0].min(), layout.outline[:, 0].max()))
-    along, half = (x - back) / (front - back), 0.5 * float(np.ptp(layout.outline[:, 1]))
+    along = (x - back) / (front - back)
+    half = 0.5 * float(np.ptp(layout.outline[:, 1]))
     toes, midfoot = (_inward(y, layout.areas, picture, (along >= a) & (along < b)) for a, b in (_TOES, _MIDFOOT))
     return (toes - midfoot) / half
 

@@ -23,7 +23,8 @@ def errors_of_foot(recording: PressureRecording, gait: FootGait) -> dict[str, fl
 
     A mean over n steps errs by 1 / sqrt(n) of noise and frames, and fully of cells and definitions.
     """
-    levels, layout = gait.levels, gait.foot.layout
+    levels = gait.levels
+    layout = gait.foot.layout
     if levels is None or not gait.used:
         return {}
     middle = {key: float(np.nanmedian(v)) for key, v in gait.columns.items() if np.isfinite(v).any()}
@@ -59,9 +60,12 @@ def _times(recording: PressureRecording, levels: Levels, middle: Mapping[str, fl
 def _forces(
     recording: PressureRecording, gait: FootGait, levels: Levels, middle: Mapping[str, float]
 ) -> dict[str, float]:
-    noise, step = levels.noise, 1.0 / recording.rate_hz
-    peak, contact = middle["peak_force_N"], middle["contact_time_s"]
-    force, rise = float(np.hypot(noise, _FRAME * _fall_beside_peak(gait))), 0.15 * contact
+    noise = levels.noise
+    step = 1.0 / recording.rate_hz
+    peak = middle["peak_force_N"]
+    contact = middle["contact_time_s"]
+    force = float(np.hypot(noise, _FRAME * _fall_beside_peak(gait)))
+    rise = 0.15 * contact
     impulse = float(np.hypot(noise * np.sqrt(contact * step), 0.02 * peak * _EVENTS[recording.kind][1]))
     return {
         **dict.fromkeys(("peak_force_N", "first_peak_N", "valley_N", "second_peak_N"), force),
@@ -117,8 +121,10 @@ def _places(layout: SoleLayout, levels: Levels, middle: Mapping[str, float]) -> 
 def _pressures(
     layout: SoleLayout, levels: Levels, picture: NDArray[np.float64] | None, middle: Mapping[str, float]
 ) -> dict[str, float]:
-    cell, area = levels.noise / np.sqrt(len(layout)), float(layout.areas.mean())
-    peak, over = middle["peak_pressure_Pa"], 0.0
+    cell = levels.noise / np.sqrt(len(layout))
+    area = float(layout.areas.mean())
+    peak = middle["peak_pressure_Pa"]
+    over = 0.0
     if picture is not None and (picture > 0.0).any():
         top = int(np.argmax(picture))
         near = [j for j in layout.neighbours[top] if j >= 0]

@@ -21,14 +21,12 @@ class Measure:
     group: str
 
 
-_TIME, _FORCE, _PRESSURE, _COP, _FOOT, _ROBOT = (
-    "Time",
-    "Vertical force",
-    "Pressure and area",
-    "Centre of pressure",
-    "Footprint and walk",
-    "Robot sole",
-)
+_TIME = "Time"
+_FORCE = "Vertical force"
+_PRESSURE = "Pressure and area"
+_COP = "Centre of pressure"
+_FOOT = "Footprint and walk"
+_ROBOT = "Robot sole"
 
 MEASURES: Mapping[str, Measure] = {
     "contact_time_s": Measure("Contact time", "s", 1.0, _TIME),

@@ -41,7 +41,8 @@ def metrics_of(
 
     Raw counts' keys end in "_raw" in place of a unit of force or pressure.
     """
-    warnings, activity = list(recording.warnings), activity_of(recording, feet)
+    warnings = list(recording.warnings)
+    activity = activity_of(recording, feet)
     standing = activity.name == "standing"
     if standing:
         measured = "loads and sway" if any(gait.cop is not None for gait in feet.values()) else "loads"
@@ -57,7 +58,8 @@ def metrics_of(
         elif not gait.steps:
             warnings.append(f"the {side} foot has no complete step: each contact is cut off{_lowest(gait)}")
         warnings += gait.warnings
-    weight, subject = implied_weight(recording, feet), subject_of(recording, subject)
+    weight = implied_weight(recording, feet)
+    subject = subject_of(recording, subject)
     segments = () if standing else segments_of(feet)
     warnings += _segment_notes(segments, feet)
     warnings += silent_cell_doubts(recording) + scrambled_doubts(recording) + creep_doubts(feet)
@@ -91,7 +93,8 @@ def metrics_of(
 
 
 def _why_no_contact(recording: PressureRecording, gait: FootGait) -> str:
-    force, levels = gait.foot.vertical_force, gait.levels
+    force = gait.foot.vertical_force
+    levels = gait.levels
     if levels is not None and find_contacts(recording.time, force, levels, minimum_stance=0.0):
         return f"has no contact of {MINIMUM_STANCE:g} s or longer"
     few = f", as far as {recording.rate_hz:g} frames a second show (steps take {_FEWEST_FRAMES:g} or more)"
@@ -155,7 +158,8 @@ def not_given(kind: str) -> dict[str, str]:
 
 
 def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
-    foot, named = gait.foot, naming(recording.raw)
+    foot = gait.foot
+    named = naming(recording.raw)
     errors = errors_of_foot(recording, gait)
     known = {step.heel_strike_s: step["landing_impact_N"] for step in gait.steps}
     impacts = (

@@ -38,7 +38,8 @@ class AnalysisOptions:
             raise InputError(f"--baseline is {self.baseline!r}; allowed: auto, keep")
         if self.segment not in (None, *ACTIVITIES):
             raise InputError(f"--segment is {self.segment!r}; allowed: {', '.join(ACTIVITIES)}")
-        begin, end = -math.inf if self.begin is None else self.begin, math.inf if self.end is None else self.end
+        begin = -math.inf if self.begin is None else self.begin
+        end = math.inf if self.end is None else self.end
         if not begin < end:
             raise InputError(f"--from {begin:g} is not before --to {end:g}")
         known = self.steps in ("steady", "all")

@@ -35,10 +35,13 @@ from plantar.recordings.pressure_recording import PressureRecording
 COP_WINDOW = 0.05
 _Events = Mapping[Side, tuple[Levels | None, list[Contact]]]
 _LONGEST = 3.0  # Longest contact in s of a person's single steps: patients who walk at 0.2 m/s have 2.5
-_FEWEST, _AWAY = 3, 0.15  # Heel strikes that show how far stated ones are, and the distance in s that is reported
+# Heel strikes that show how far stated ones are, and the distance in s that is reported
+_FEWEST = 3
+_AWAY = 0.15
 _BORNE = 0.5  # Share of its mean force at other times that a foot carries at least in contacts that a file states
 # Share of both feet's contacts that is common where they step on and off at once, and time in s from which they stand.
-_TOGETHER, _STAND = 0.8, 1.2
+_TOGETHER = 0.8
+_STAND = 1.2
 _LIGHT = 0.3  # Share of a foot's peak that a foot which drags in swing does not reach
 _CARRIED = 0.2  # Share of a foot's peak that shoes and creases do not press in swing
 # How many times its usual height the level of heel strikes is from which events move by more than 20 and 35 ms.
@@ -92,7 +95,8 @@ def _out_of_time(feet: dict[Side, FootGait]) -> dict[Side, FootGait]:
 
 def _check_stated(recording: PressureRecording) -> None:
     """Refuse stated events of one foot, another time base, or in swing."""
-    begin, end = float(recording.time[0]), float(recording.time[-1])
+    begin = float(recording.time[0])
+    end = float(recording.time[-1])
     if without := " and ".join(side for side in recording.feet if side not in recording.events):
         raise InputError(
             f"{recording.path.name} states no events of {without}; --events allows own, or a file of those of each foot"
@@ -105,7 +109,8 @@ def _check_stated(recording: PressureRecording) -> None:
                 f"events of the {side} foot are stated from {stated.min():g} to {stated.max():g} s, the recording goes "
                 f"from {begin:g} to {end:g} s; allowed: times in s by the recording's clock"
             )
-        force, time = recording.feet[side].vertical_force, recording.time
+        force = recording.feet[side].vertical_force
+        time = recording.time
         on = np.zeros(len(time), dtype=bool)
         for contact in stated_contacts(time, events):
             on[contact.begin : contact.end] |= contact.complete
@@ -143,10 +148,12 @@ def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint]
 
 def _brushes(recording: PressureRecording, side: Side, events: _Events) -> list[Contact]:
     # No step begins and ends while the other foot stands.
-    (levels, own), (_, others) = events[side], events.get(other_side(side), (None, []))
+    levels, own = events[side]
+    _, others = events.get(other_side(side), (None, []))
     if levels is None or recording.kind == "robot":
         return []
-    force, most = recording.feet[side].vertical_force, levels.rest + _LIGHT * (levels.peak - levels.rest)
+    force = recording.feet[side].vertical_force
+    most = levels.rest + _LIGHT * (levels.peak - levels.rest)
     light = [c for c in own if np.nanmax(force[c.begin : c.end]) < most]
     return [c for c in light if any(o.begin < c.begin and c.end < o.end for o in others)]
 
@@ -210,11 +217,13 @@ def analyse_foot(
     loads = StepLoads(recording, gait.foot, gait.cell_threshold)
     gait = with_picture(recording, gait, loads)
     others = _other_foot(recording, side, events)
-    strides, longest = iter(stride_times(gait.contacts)), iter(longest_strides(gait.contacts))
+    strides = iter(stride_times(gait.contacts))
+    longest = iter(longest_strides(gait.contacts))
     complete = [c for c in gait.contacts if c.complete]
     before = dict(zip(map(id, gait.contacts), [None, *gait.contacts], strict=False))
     steps: list[Step] = []
-    platform, robot = recording.kind == "platform", recording.kind == "robot" and not recording.raw
+    platform = recording.kind == "platform"
+    robot = recording.kind == "robot" and not recording.raw
     for group in [[c] for c in complete] if platform else loads.blocks(complete):
         load = loads.of(*group)
         print_, region = footprint_of_step(recording, gait, loads, group[0], prints)
@@ -224,7 +233,8 @@ def analyse_foot(
             times = time_measures(contact, before[id(contact)], next(strides), next(longest), others)
             part = loads.of(contact) if robot else None
             measures = {**times, **step_measures(recording, gait, contact, print_, pressure, part)}
-            strike, lift = cast(float, contact.heel_strike), cast(float, contact.toe_off)
+            strike = cast(float, contact.heel_strike)
+            lift = cast(float, contact.toe_off)
             steps.append(Step(side, len(steps) + 1, strike, lift, contact, measures, own, print_, region))
     return replace(gait, steps=tuple(steps), warnings=tuple(_doubts(recording, gait)))
 
@@ -249,7 +259,8 @@ def _other_foot(recording: PressureRecording, side: Side, events: _Events) -> Ot
     other = other_side(side)
     if other not in recording.feet or not recording.metadata.get("sees_every_step", True):
         return None  # plates in a walkway do not see what the other foot does next to them
-    own, theirs = events[side][0], events[other][0]
+    own = events[side][0]
+    theirs = events[other][0]
     if own is not None and (theirs is None or theirs.peak < _UNLOADED * own.peak):
         return None  # a sensor that is not connected does not show what the foot does
     return OtherFoot(recording, other, events[other][1])
@@ -290,7 +301,8 @@ def _place(
 ) -> Place | None:
     if contact.cut:
         return Place(float(recording.time[contact.begin]), np.full(2, np.nan), np.full(2, np.nan), walk=contact.walk)
-    step, placement = next(s for s in gait.steps if s.contact is contact), gait.foot.placement
+    step = next(s for s in gait.steps if s.contact is contact)
+    placement = gait.foot.placement
     if placement is not None:
         x, y, turn = placement[(contact.begin + contact.end) // 2]
         return Place(step.heel_strike_s, np.array([x, y]), np.array([np.cos(turn), np.sin(turn)]))

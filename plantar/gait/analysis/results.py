@@ -43,7 +43,8 @@ class Analysis:
         side, number, heel_strike_s, toe_off_s, every measure of `MEASURES` (NaN if unknown), used (in the means) and
         note (why not, or what is odd).
         """
-        steps, named = _in_order(self.feet), naming(self.recording.raw)
+        steps = _in_order(self.feet)
+        named = naming(self.recording.raw)
         return {
             "side": np.array([s.side for s in steps], dtype=object),
             "number": np.array([s.number for s in steps], dtype=int),
@@ -91,7 +92,9 @@ def write_analysis(
 
     `progress` is called with a share 0..1 and the work.
     """
-    recording, feet, metrics = analysis.recording, analysis.feet, analysis.metrics
+    recording = analysis.recording
+    feet = analysis.feet
+    metrics = analysis.metrics
     (folder / "steps.csv").write_text(_steps_csv(analysis.steps), encoding="utf-8")
     if any(step.regions for gait in feet.values() for step in gait.steps):
         (folder / "regions.csv").write_text(_regions_csv(feet, recording.raw), encoding="utf-8")

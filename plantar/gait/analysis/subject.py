@@ -11,7 +11,8 @@ from plantar.errors import InputError
 from plantar.formats import formats
 from plantar.recordings.pressure_recording import PressureRecording
 
-BODY_MASSES, FOOT_LENGTHS = (2.0, 400.0), (0.05, 0.45)
+BODY_MASSES = (2.0, 400.0)
+FOOT_LENGTHS = (0.05, 0.45)
 """Masses in kg and lengths of a foot in m, smallest and largest, that are believed of people and robots."""
 
 # Share by which the weight that forces imply may differ from the stated one: more than an insole that fits badly
@@ -53,7 +54,8 @@ def subject_of(recording: PressureRecording, given: Subject | None) -> Subject:
     subject = given or Subject()
     if recording.kind != "robot":
         return subject
-    name, mass = recording.metadata.get("robot"), recording.metadata.get("mass_kg")
+    name = recording.metadata.get("robot")
+    mass = recording.metadata.get("mass_kg")
     if not (isinstance(mass, int | float) and BODY_MASSES[0] <= mass <= BODY_MASSES[1]):
         mass = None
     return replace(
@@ -80,7 +82,8 @@ def device_of(recording: PressureRecording) -> dict[str, Any]:
         "name" (of the format), "sensor" (the file's name, or None), and for each foot with geometry "layout", "cells",
         and the sole's or platform's "length_m" and "width_m".
     """
-    known, facts = formats().get(recording.format), recording.metadata
+    known = formats().get(recording.format)
+    facts = recording.metadata
     stated = (facts.get(key) for key in ("sensor", "sensors", "sensor insoles", "robot"))
     sensor = next((s for s in stated if s), None)
     feet: dict[str, Mapping[str, Any]] = {}

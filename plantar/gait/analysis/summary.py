@@ -106,10 +106,12 @@ def symmetry(feet: Mapping[Side, FootGait]) -> dict[str, float | None]:
     """
     if "left" not in feet or "right" not in feet:
         return dict.fromkeys(MEASURES)
-    left, right = summary_of_foot(feet["left"]), summary_of_foot(feet["right"])
+    left = summary_of_foot(feet["left"])
+    right = summary_of_foot(feet["right"])
     out: dict[str, float | None] = {}
     for name in MEASURES:
-        a, b = left[name].mean, right[name].mean
+        a = left[name].mean
+        b = right[name].mean
         out[name] = None
         small = max(abs(a or 0.0), abs(b or 0.0)) < _RESOLVED.get(name.rpartition("_")[2], 0.0)
         angle = name.endswith("_deg")

@@ -114,7 +114,8 @@ def target_dcms(
     ahead = stride * math.exp(-omega * max(next_duration, 0.0)) - push  # b_e
     if double_support <= 0.0:
         return TargetDcms(end + ahead, end + ahead, 1.0)
-    kept, swayed = math.exp(-omega * double_support), sway_share(omega, double_support)
+    kept = math.exp(-omega * double_support)
+    swayed = sway_share(omega, double_support)
     single = end + ahead * kept - push * (1.0 - kept) + (end - start) * swayed
     return TargetDcms(end + ahead, single, 1.0 + swayed)
 
@@ -156,9 +157,12 @@ def single_support_vrp(dcm: ArrayLike, target: ArrayLike, left: float, offset: A
     Raises:
         InputError: Non-finite or misshaped place.
     """
-    now, goal, push = _pair(dcm, "DCM"), _pair(target, "target of the DCM"), _pair(offset, "VRP offset")
+    now = _pair(dcm, "DCM")
+    goal = _pair(target, "target of the DCM")
+    push = _pair(offset, "VRP offset")
     exponent = -omega * max(left, SHORTEST_TIME)
-    kept, gain = math.exp(exponent), -1.0 / math.expm1(exponent)
+    kept = math.exp(exponent)
+    gain = -1.0 / math.expm1(exponent)
     # xi_c + u_w + (xi_c - xi_s) e^(-w T) / (1 - e^(-w T)): K 25 less what cancels.
     vrp = now + push + (now - goal) * kept * gain
     return AnkleVrp(vrp, gain, Saturation.TIME if left < SHORTEST_TIME else Saturation.NONE)
@@ -190,10 +194,12 @@ def double_support_vrp(
     Raises:
         InputError: Non-finite or misshaped place.
     """
-    now, goal = _pair(dcm, "DCM"), _pair(target, "target of the DCM")
+    now = _pair(dcm, "DCM")
+    goal = _pair(target, "target of the DCM")
     rest = _pair(end, "end of the VRP") - _pair(offset, "VRP offset")
     left = max(duration - begun, SHORTEST_TIME)
-    kept, gain = math.exp(-omega * left), 1.0 / double_support_pull(omega, max(duration, left), left)
+    kept = math.exp(-omega * left)
+    gain = 1.0 / double_support_pull(omega, max(duration, left), left)
     vrp = _pair(end, "end of the VRP") - (kept * (goal - rest) - (now - rest)) * gain
     return AnkleVrp(vrp, gain, Saturation.TIME if duration - begun < SHORTEST_TIME else Saturation.NONE)
 
@@ -241,8 +247,10 @@ def shrunk_support(
         InputError: Non-finite or misshaped middle.
     """
     about = _pair(middle, "middle")
-    c, s = math.cos(yaw), math.sin(yaw)
-    f, across = rules.forward, rules.sideways
+    c = math.cos(yaw)
+    s = math.sin(yaw)
+    f = rules.forward
+    across = rules.sideways
     turn = (f - across) * c * s
     scale = np.array([[f * c * c + across * s * s, turn], [turn, f * s * s + across * c * c]])
     return np.asarray(about + (polygon - about) @ scale)

@@ -85,7 +85,8 @@ class DcmBalance:
         """Returns the desired ZMP by `reference` and measured `dcm`, kept in `region` (T 4.28), and the CoM
         that tracks it by `zmp` (T 4.29), or, where `firm`, falls along.
         """
-        plan, self._zmp = reference, zmp
+        plan = reference
+        self._zmp = zmp
         return BalanceState(
             *self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region, firm)
         )
@@ -93,14 +94,16 @@ class DcmBalance:
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
         """Returns each foot's load by `balanced`; `feet` at rest yield to mutual pressure and part of the ZMP error."""
         actions = transferred(balanced, self.mass, feet)
-        wanted, measured = {}, {}
+        wanted = {}
+        measured = {}
         if feet.rests and self._zmp is not None:
             zmp = self._zmp + _ZMP_SHARE * (balanced.zmp_desired - self._zmp)
             still = balanced.changed(zmp_desired=zmp, com_acceleration=np.zeros(2))
             for side, action in transferred(still, self.mass, feet).items():
                 foot = feet.states[side]
                 if foot.wrench is not None:
-                    wanted[side], measured[side] = _wrench_in_sole(action, foot), foot.wrench
+                    wanted[side] = _wrench_in_sole(action, foot)
+                    measured[side] = foot.wrench
         for side, moved in self.feet.update(wanted, measured, feet.rests).items():
             if moved.roll or moved.pitch or moved.shift:
                 actions[side] = actions[side].changed(roll=moved.roll, pitch=moved.pitch, shift=moved.shift)

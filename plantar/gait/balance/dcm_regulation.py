@@ -18,14 +18,20 @@ def phase_goal(plan: PlanView, phase: Phase, offset: NDArray[np.float64], omega:
     Returns it in the present `phase` of a `plan`, by a push's u_w, `offset` (2,) in m, and `omega` in rad/s; None in a
     walk's first and last phases, whose goal is the plan's.
     """
-    step, schedule = phase.step, plan.schedule
+    step = phase.step
+    schedule = plan.schedule
     if phase.kind == PhaseKind.SINGLE_SUPPORT and step + 1 < plan.count:
-        place, stance, following = plan.vrp(step), plan.stance_vrp(step), schedule.following(phase)
-        stride, both = plan.vrp(step + 1) - place, following.end - following.start
+        place = plan.vrp(step)
+        stance = plan.stance_vrp(step)
+        following = schedule.following(phase)
+        stride = plan.vrp(step + 1) - place
+        both = following.end - following.start
         return target_dcms(place, stance, stride, schedule.timing.single_support, both, offset, omega).single_end
     if phase.kind == PhaseKind.DOUBLE_SUPPORT and plan.first < step < plan.count:
-        place, both = plan.stance_vrp(step), phase.end - phase.start
-        stride, single = plan.vrp(step) - place, schedule.timing.single_support
+        place = plan.stance_vrp(step)
+        both = phase.end - phase.start
+        stride = plan.vrp(step) - place
+        single = schedule.timing.single_support
         return target_dcms(place, place, stride, single, both, offset, omega).double_end
     return None
 
@@ -47,6 +53,7 @@ def regulated_vrp(
     if phase.kind == PhaseKind.SINGLE_SUPPORT:
         return single_support_vrp(dcm, goal, phase.end - time, offset, omega)
     if phase.kind == PhaseKind.DOUBLE_SUPPORT and plan.first < phase.step < plan.count:
-        length, end = phase.end - phase.start, plan.stance_vrp(phase.step)
+        length = phase.end - phase.start
+        end = plan.stance_vrp(phase.step)
         return double_support_vrp(dcm, goal, end, length, time - phase.start, offset, omega)
     return None

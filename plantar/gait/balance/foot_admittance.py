@@ -44,7 +44,8 @@ class FootAdmittance:
     """
 
     def __init__(self, gains: AdmittanceGains, period: float) -> None:
-        g = self.gains = gains
+        g = gains
+        self.gains = gains
         rates = (period / (g.foot_filter + period), g.foot_turn_gain, g.foot_return, g.foot_release)
         self.corrections: Mapping[Side, SoleAdmittance] = {
             side: SoleAdmittance(period, *rates, g.largest_turn, g.largest_lift) for side in SIDES

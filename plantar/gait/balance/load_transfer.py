@@ -21,7 +21,9 @@ def transferred(balanced: BalanceState, mass: float, feet: Feet) -> dict[Side, F
 
     Returns it for each of the `feet` of a robot of a `mass` in kg, by the desired ZMP and CoM acceleration, `balanced`.
     """
-    left, right, zmp = feet.states["left"], feet.states["right"], feet.frame.to_command(balanced.zmp_desired)
+    left = feet.states["left"]
+    right = feet.states["right"]
+    zmp = feet.frame.to_command(balanced.zmp_desired)
     stance = 0 if feet.stance is None else 1 if feet.stance == "left" else 2
     force, place, other_force, other_place = shared_load(
         zmp, balanced.com_acceleration, mass, GRAVITY, left, right, stance

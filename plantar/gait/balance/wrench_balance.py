@@ -99,7 +99,8 @@ class WrenchBalance(DcmBalance):
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
         """Returns standing `feet` that share the pendulum's wrench by `balanced`, and yield."""
-        states, wanted = feet.states, self.distributed(balanced, feet)
+        states = feet.states
+        wanted = self.distributed(balanced, feet)
         measured = {side: foot.wrench for side, foot in states.items() if foot.wrench is not None}
         actions = {}
         for side, yields in self.feet.update(wanted, measured, feet.rests).items():
@@ -115,8 +116,10 @@ class WrenchBalance(DcmBalance):
         contacts: dict[str, Contact] = {
             side: foot.contact for side, foot in feet.states.items() if foot.contact is not None
         }
-        (ax, ay), (x, y) = balanced.com_acceleration.tolist(), balanced.zmp_desired.tolist()
-        places, shares = [contact.center_in_world for contact in contacts.values()], None
+        ax, ay = balanced.com_acceleration.tolist()
+        x, y = balanced.zmp_desired.tolist()
+        places = [contact.center_in_world for contact in contacts.values()]
+        shares = None
         ground = sum(place[2] for place in places) / max(1, len(places))
         if len(places) == 2:
             share = _share(x, y, *places)
@@ -130,7 +133,8 @@ class WrenchBalance(DcmBalance):
 
 def _share(x: float, y: float, first: tuple[float, ...], second: tuple[float, ...]) -> float:
     """First point's share in a ZMP (x, y) between two, 0 to 1."""
-    dx, dy = first[0] - second[0], first[1] - second[1]
+    dx = first[0] - second[0]
+    dy = first[1] - second[1]
     length = dx * dx + dy * dy
     if length == 0.0:
         return 0.5

@@ -27,7 +27,10 @@ class AnkleLimits:
     """
 
     def __init__(self, strips: NDArray[np.float64], margin: float) -> None:
-        normal, middle, reach, high = strips[:, :2], strips[:, 2:3], _SHARE * strips[:, 3:4], strips[:, 4:]
+        normal = strips[:, :2]
+        middle = strips[:, 2:3]
+        reach = _SHARE * strips[:, 3:4]
+        high = strips[:, 4:]
         # |n . x - middle| <= reach as two half-planes n . x <= h.
         lines = np.vstack([np.hstack([normal, middle + reach, high]), np.hstack([-normal, reach - middle, high])])
         self._lines: list[list[float]] = lines.tolist()

@@ -68,10 +68,12 @@ class EdgeMemory:
             self._footholds.pop()
         if self._footholds and self._footholds[-1].step != step - 1:
             self._footholds.clear()
-        turn, place = rotation[:2, :2], position[:2]
+        turn = rotation[:2, :2]
+        place = position[:2]
         edges = []
         for line in lines:
-            normal, height = line[:2], float(line[2])
+            normal = line[:2]
+            height = float(line[2])
             point = middle + (height - float(normal @ middle)) * normal
             edges.append(_Edge(place + turn @ point, turn @ normal))
         self._footholds.append(_Foothold(step, edges))
@@ -82,7 +84,8 @@ class EdgeMemory:
         """
         if not self._footholds or self._footholds[-1].step != step - 1:
             return np.empty((0, 3))
-        turn, place = rotation[:2, :2], position[:2]
+        turn = rotation[:2, :2]
+        place = position[:2]
         lines = []
         for edge in self._footholds[-1].edges:
             point, normal = self._fitted(edge)
@@ -100,7 +103,8 @@ class EdgeMemory:
                 break
             rows.append(row)
         s, d, m = np.array(rows).T
-        count, weight = len(rows), (self._spread / _TURN) ** 2
+        count = len(rows)
+        weight = (self._spread / _TURN) ** 2
         middle = float(s.mean())
         lever = s - middle
         slope = (float(lever @ d) + weight * float(m.sum())) / (float(lever @ lever) + weight * count)
@@ -111,7 +115,8 @@ class EdgeMemory:
     def _same(self, last: _Edge, along: NDArray[np.float64], edges: list[_Edge]) -> tuple[float, float, float] | None:
         """Place along and across a line, and slope, of the continuing edge, or None."""
         for edge in edges:
-            away, c = edge.point - last.point, float(edge.normal @ last.normal)
+            away = edge.point - last.point
+            c = float(edge.normal @ last.normal)
             slope = -float(edge.normal @ along) / c if c > math.cos(_PARALLEL) else math.inf
             across = float(away @ last.normal)
             if abs(slope) < _PARALLEL and abs(across) < self._agreement:

@@ -38,7 +38,8 @@ def middle_of_sole(
     `reach` is the distance in m along the sole at which the ankle bears the robot, `limits` by torques.
     """
     outline = on_its_hull(layout).outline
-    middle, best = loaded_middle(outline, reach), _loaded(outline, reach, limits)
+    middle = loaded_middle(outline, reach)
+    best = _loaded(outline, reach, limits)
     near = limits is not None and math.dist(middle, best) <= _ASIDE * signed_margin(limits.within(outline), best)
     return middle if near else best
 
@@ -168,9 +169,12 @@ class FootContacts:
         """Clear the foothold of a `side`'s swinging foot in a `step`."""
         foot = self._feet[side]
         foot.contact.lift()
-        foot.support = foot.alone = None
-        foot.center, foot.borne = self._middle[side], self._borne[side]
-        foot.step, foot.seen_partial = step, False
+        foot.support = None
+        foot.alone = None
+        foot.center = self._middle[side]
+        foot.borne = self._borne[side]
+        foot.step = step
+        foot.seen_partial = False
         if self._foreseen == step:  # a step that is taken once more
             self._foreseen = -1
 
@@ -207,7 +211,8 @@ class FootContacts:
         side = phase.swing
         if side is None or feet.landed:
             return None
-        contact, rules = self._feet[side].contact, self._settings
+        contact = self._feet[side].contact
+        rules = self._settings
         contact.update_view(soles[side].reading)
         if self._foreseen == phase.step or math.hypot(*feet.ahead.tolist()) > rules.foresee_reach:
             return None
@@ -217,7 +222,8 @@ class FootContacts:
         ground = contact.foresee(turn.T @ feet.ahead)
         if ground is None:
             return None
-        self._foreseen = self._part = phase.step
+        self._foreseen = phase.step
+        self._part = phase.step
         center = _loaded(ground, self._reach, self._limits.get(side), -state.rotations_sole[side][2, :2])
         return FootholdSeen(phase.step, side, state.positions_sole[side][:2] + feet.ahead + turn @ center)
 
@@ -248,14 +254,17 @@ class FootContacts:
         """Let a landing foot presume the last foothold's edges."""
         foot = self._feet[side]
         if foot.step is not None and not foot.contact.settled:
-            place, turn = state.positions_sole[side], state.rotations_sole[side]
+            place = state.positions_sole[side]
+            turn = state.rotations_sole[side]
             foot.contact.expect(self._edges.expected(foot.step, place, turn))
 
     def _taken(self, side: Side, state: BaseState) -> FootholdFound:
-        foot, contact = self._feet[side], self._feet[side].contact
+        foot = self._feet[side]
+        contact = self._feet[side].contact
         assert foot.step is not None
         known = foot.support is not None
-        position, rotation = state.positions_sole[side], state.rotations_sole[side]
+        position = state.positions_sole[side]
+        rotation = state.rotations_sole[side]
         self._edges.update(foot.step, contact.lines, contact.center_in_sole, position, rotation)
         polygon = polygon_in_world(contact.polygon_in_sole, rotation, position)
         lean = -rotation[2, :2]
@@ -268,11 +277,14 @@ class FootContacts:
         as_planned = contact.whole and not known and self._foreseen != foot.step and not (foot.seen_partial or leans)
         foot.seen_partial = False
         if not as_planned:
-            foot.center, foot.borne = center, borne_part(contact.polygon_in_sole, self._reach)
+            foot.center = center
+            foot.borne = borne_part(contact.polygon_in_sole, self._reach)
             every = foot.borne is contact.polygon_in_sole
             foot.support = polygon if every else polygon_in_world(foot.borne, rotation, position)
             foot.alone = polygon_in_world(self._within_limits(side, foot.borne, lean), rotation, position)
-        ratio, whole, seen = contact.area_ratio, contact.whole, contact.seen
+        ratio = contact.area_ratio
+        whole = contact.whole
+        seen = contact.seen
         return FootholdFound(foot.step, side, polygon, ratio, vrp, middle, whole, as_planned, seen)
 
     def _within_limits(

@@ -84,7 +84,8 @@ class GroundMap:
         self.layout = layout
         self.settings = settings
         self.bias = 0.0
-        self._x, self._y = layout.positions[:, 0].copy(), layout.positions[:, 1].copy()
+        self._x = layout.positions[:, 0].copy()
+        self._y = layout.positions[:, 1].copy()
         self._corners = layout.outline
         self._centre = layout.positions.mean(axis=0)
         self._spread = ((layout.positions - self._centre) ** 2).mean(axis=0)[:2]
@@ -131,7 +132,8 @@ class GroundMap:
         """
         if self._poses:
             _, before, turned = self._poses[-1]
-            s, moved = self.settings, math.dist(position, before)
+            s = self.settings
+            moved = math.dist(position, before)
             self._most = max(float(s.readings_moving), s.readings * s.still / (s.still + moved))
             self._rise = self._risen(before, turned, position, rotation)
             self._distance = self._distance + self._rise
@@ -223,7 +225,8 @@ class GroundMap:
         if count < s.follow_taxels or math.hypot(sx, sy) > s.largest_slope:
             slope = None  # too little to stand on, or too steep: the sole stays level
         if slope is None or not found:
-            nearest = middle = float(np.sort(distance[self._on_plane != 0])[: max(1, count // 3)].mean())
+            nearest = float(np.sort(distance[self._on_plane != 0])[: max(1, count // 3)].mean())
+            middle = nearest
         else:
             nearest = level - float((self._corners.dot(np.array([sx, sy]))).max())
             middle = level - sx * float(self._centre[0]) - sy * float(self._centre[1])

@@ -214,7 +214,8 @@ class StanceContact:
     def _find(self) -> bool:
         s = self.settings
         mean = self._sum / self._weight
-        first, before = not self.settled, self.polygon_in_sole
+        first = not self.settled
+        before = self.polygon_in_sole
         self.settled = True
         if first:
             self._believed = self._from_sight()
@@ -231,14 +232,19 @@ class StanceContact:
             noise = math.hypot(s.taxel_noise / self._weight**0.5, s.model_error * largest)
             found = self._fit.update(mean, self._carried, noise, start=lines)
             if found.residual < s.model_error * largest:
-                polygon, lines = found.polygon, found.lines
+                polygon = found.polygon
+                lines = found.lines
         if len(polygon) < 3:
             return first
         ratio = area(polygon) / self._whole_area
         # A sliver that is missing is an edge that was not found well, and not worth a change of the plan.
         if ratio > s.full_ratio or not len(lines):
-            polygon, ratio, lines = self.layout.outline, 1.0, np.empty((0, 3))
-        self.area_ratio, self.polygon_in_sole, self.lines = ratio, polygon, lines
+            polygon = self.layout.outline
+            ratio = 1.0
+            lines = np.empty((0, 3))
+        self.area_ratio = ratio
+        self.polygon_in_sole = polygon
+        self.lines = lines
         return first or polygon is not before
 
     def _from_loads(self, mean: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -298,7 +304,9 @@ class StanceContact:
 
     def _risen(self, cop: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Taxels (n,) lifted by a turned sole resting on an edge at a point (2,)."""
-        s, places, cell = self.settings, self.layout.positions[:, :2], math.sqrt(self.layout.cell_area)
+        s = self.settings
+        places = self.layout.positions[:, :2]
+        cell = math.sqrt(self.layout.cell_area)
         steep = float(np.hypot(self._slope[0], self._slope[1]))
         if steep <= s.level:
             return np.zeros(len(places), dtype=bool)

@@ -8,7 +8,9 @@ from numpy.typing import NDArray
 from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.layouts.layout import Side
 
-_SPREAD, _AGREEMENT = 0.024, 0.16  # of a sole's length: 6 and 40 mm of one of 250 mm
+# of a sole's length: 6 and 40 mm of one of 250 mm
+_SPREAD = 0.024
+_AGREEMENT = 0.16
 
 
 @dataclass

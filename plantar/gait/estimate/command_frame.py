@@ -29,8 +29,11 @@ class CommandFrame:
         """Follow the carrying foot for a tick: `commanded` and `real`, estimated in the world, (3,) in m, and its
         heading less the commanded one, `turn` in rad.
         """
-        (ax, ay, az), (ox, oy, oz), share = self._anchor, self._offset, self._share
-        (cx, cy, cz), (rx, ry, rz) = commanded.tolist(), real.tolist()
+        ax, ay, az = self._anchor
+        ox, oy, oz = self._offset
+        share = self._share
+        cx, cy, cz = commanded.tolist()
+        rx, ry, rz = real.tolist()
         # The anchor moves as slowly as the rest: a jump from foot to foot would turn the CoM about another point.
         self._anchor = ax + share * (cx - ax), ay + share * (cy - ay), az + share * (cz - az)
         self._offset = ox + share * (rx - cx - ox), oy + share * (ry - cy - oy), oz + share * (rz - cz - oz)
@@ -54,15 +57,23 @@ class CommandFrame:
             >>> CommandFrame(np.zeros(3), 0.005, 0.3).to_command(np.array([1.0, 2.0])).tolist()
             [1.0, 2.0]
         """
-        (px, py), (x, y, _), (ox, oy, _) = point.tolist(), self._anchor, self._offset
-        dx, dy = px - x - ox, py - y - oy
+        px, py = point.tolist()
+        x, y, _ = self._anchor
+        ox, oy, _ = self._offset
+        dx = px - x - ox
+        dy = py - y - oy
         # Heights are not turned: the frame turns about the vertical axis alone.
-        c, s = math.cos(self.turn), math.sin(self.turn)
+        c = math.cos(self.turn)
+        s = math.sin(self.turn)
         return vector2(x + c * dx + s * dy, y - s * dx + c * dy)
 
     def to_world(self, point: NDArray[np.float64]) -> NDArray[np.float64]:
         """A command-frame point (3,) in the world, in m."""
-        (px, py, pz), (x, y, z), (ox, oy, oz) = point.tolist(), self._anchor, self._offset
-        dx, dy = px - x, py - y
-        c, s = math.cos(self.turn), math.sin(self.turn)
+        px, py, pz = point.tolist()
+        x, y, z = self._anchor
+        ox, oy, oz = self._offset
+        dx = px - x
+        dy = py - y
+        c = math.cos(self.turn)
+        s = math.sin(self.turn)
         return vector(x + ox + (c * dx - s * dy), y + oy + (s * dx + c * dy), z + oz + (pz - z))

@@ -58,7 +58,8 @@ class DcmFilter:
     def __init__(self, rules: DcmFilterRules, omega: float, period: float) -> None:
         w = positive(omega, "pendulum frequency", "rad/s")
         tick = positive(period, "control period", "s")
-        c, s = math.cosh(w * tick), math.sinh(w * tick)
+        c = math.cosh(w * tick)
+        s = math.sinh(w * tick)
         self._input = np.array([1.0 - c, 1.0 - c - s])  # of the VRP, on x and xi
         own = np.array([[c - s, s], [0.0, c + s]])
         count = 3 if rules.unfelt_rate > 0.0 else 2
@@ -111,12 +112,17 @@ def _stationary_gain(
     2004).
     """
     one = np.eye(len(step))
-    a, g, p = step.T, measured.T @ np.linalg.solve(error, measured), noise
+    a = step.T
+    g = measured.T @ np.linalg.solve(error, measured)
+    p = noise
     for _ in range(60):
         w = np.linalg.solve(one + g @ p, np.hstack([a, g]))
-        wa, wg = w[:, : len(one)], w[:, len(one) :]
+        wa = w[:, : len(one)]
+        wg = w[:, len(one) :]
         more = a.T @ p @ wa
-        a, g, p = a @ wa, g + a @ wg @ a.T, p + more
+        g = g + a @ wg @ a.T
+        a = a @ wa
+        p = p + more
         if np.abs(more).max() <= 1e-15 * np.abs(p).max():
             break
     p = 0.5 * (p + p.T)

@@ -146,7 +146,10 @@ class FloatingBaseEstimator:
                 f"estimator.observer is {gains.observer:g} rad/s; allowed: more than {self.omega:.3g} rad/s, as fast "
                 "as a pendulum of this height falls: what is slower runs away with it"
             )
-        self._rotation, self._position, self._com, self._velocity = np.eye(3), np.zeros(3), np.zeros(3), np.zeros(3)
+        self._rotation = np.eye(3)
+        self._position = np.zeros(3)
+        self._com = np.zeros(3)
+        self._velocity = np.zeros(3)
         self._places = np.zeros((2, 3))
         # The kernel writes the state into these arrays.
         state = (
@@ -236,24 +239,30 @@ class FloatingBaseEstimator:
 
     def _anchor(self, loads: Mapping[str, float]) -> None:
         """Return the base to its feet's landing height; else step errors (tilt times length) add up."""
-        heights, error, total = self._heights, 0.0, 0.0
+        heights = self._heights
+        error = 0.0
+        total = 0.0
         left, right = self._places[:, 2].tolist()
         for i, side in enumerate(SIDES):
-            weight, z = loads[side] - self.gains.minimum_load, (left, right)[i]
+            weight = loads[side] - self.gains.minimum_load
+            z = (left, right)[i]
             if not weight > 0.0:
                 heights[i] = math.nan
                 continue
             if math.isnan(heights[i]):
-                other, rise = heights[1 - i], z - (right, left)[i]
+                other = heights[1 - i]
+                rise = z - (right, left)[i]
                 heights[i] = z if math.isnan(other) else other if abs(rise) < self._same_height else other + rise
-            error, total = error + weight * (z - heights[i]), total + weight
+            error = error + weight * (z - heights[i])
+            total = total + weight
         if total > 0.0:
             self._position[2] -= self._share * error / total
 
     def _carry(self, index: int, side: Side, soles: Mapping[Side, SoleLoad]) -> float:
         """Pass a foot's load in N to the kernel; return it."""
         sole = soles[side]
-        load, point = max(0.0, sole.vertical_force - self._tare[side]), sole.position_cop_in_sole
+        load = max(0.0, sole.vertical_force - self._tare[side])
+        point = sole.position_cop_in_sole
         x, y = (0.0, 0.0) if point is None else point.tolist()
         # Ground never pulls; what the tare leaves below zero is noise.
         self._base.carry(index, load, point is not None, x, y)
@@ -271,7 +280,9 @@ class FloatingBaseEstimator:
 
     def _watch(self, posture: Posture) -> None:
         if posture is not self._watched:
-            self._watched, places, turns = posture, posture.positions, posture.rotations
+            self._watched = posture
+            places = posture.positions
+            turns = posture.rotations
             self._base.watch(posture.com, places["left"], places["right"], turns["left"], turns["right"])
 
     def _stand(self, posture: Posture, up: NDArray[np.float64]) -> None:
@@ -298,4 +309,5 @@ class FloatingBaseEstimator:
     ) -> None:
         com = self._position + self._rotation.dot(posture.com)
         filtered = dcm_filter.update(com[:2], zmp, (self.push_acceleration + swinging) / self.omega**2)
-        self._com[:2], self._velocity[:2] = filtered.com, self.omega * (filtered.dcm - filtered.com)
+        self._com[:2] = filtered.com
+        self._velocity[:2] = self.omega * (filtered.dcm - filtered.com)

@@ -54,13 +54,16 @@ class IdentifiedBody:
         self._weight = weight
         self._kinematics = kinematics
         self._live_posture = live_kinematics(kinematics)
-        self._reads_off = self._lies_off = False  # whether encoders, and the CoM, are known to differ from the model
+        # whether encoders, and the CoM, are known to differ from the model
+        self._reads_off = False
+        self._lies_off = False
         self._com = np.zeros(3)
         self._corrected: tuple[Posture, Posture] | None = None  # the model's live posture, and the body's
         self._feet = feet
         self._rules = rules
         self._stand = OpeningStand()
-        self._share = self._tenths = 0.0
+        self._share = 0.0
+        self._tenths = 0.0
         self._step = period / rules.fade
 
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
@@ -79,7 +82,8 @@ class IdentifiedBody:
             return posture
         corrected = self._corrected
         if corrected is None or corrected[0] is not posture:
-            corrected = self._corrected = posture, Posture(self._com, posture.positions, posture.rotations)
+            corrected = posture, Posture(self._com, posture.positions, posture.rotations)
+            self._corrected = corrected
         np.add(posture.com, self.com_offset, out=self._com)
         return corrected[1]
 
@@ -93,7 +97,8 @@ class IdentifiedBody:
 
     def conclude(self) -> None:
         """Identify from the finished stand."""
-        stood, rules = self._stand.mean(), self._rules
+        stood = self._stand.mean()
+        rules = self._rules
         self.known = True
         if stood is None:
             return
@@ -113,7 +118,8 @@ class IdentifiedBody:
             size = float(np.linalg.norm(beside))
             if size > rules.com_least:
                 self.com_offset = _limited(beside, size, rules.com_largest)
-        self._reads_off, self._lies_off = bool(self.encoder_offsets.any()), bool(self.com_offset.any())
+        self._reads_off = bool(self.encoder_offsets.any())
+        self._lies_off = bool(self.com_offset.any())
         lever = 0.5 * math.dist(self._feet["left"][:2], self._feet["right"][:2])
         more = self.mass_ratio * (1.0 + abs(float(self.com_offset[1])) / lever) - 1.0
         self._tenths = min(_TENTHS_MOST, 10.0 * more if more > _EVEN else 0.0)

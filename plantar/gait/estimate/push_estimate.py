@@ -48,7 +48,8 @@ class PushEstimate:
         None without load.
         """
         if pendulum is None:
-            self.disagreement, self.acts = np.zeros(2), False
+            self.disagreement = np.zeros(2)
+            self.acts = False
             return np.zeros(2)
         self.disagreement = self.disagreement + self._share * (measured - pendulum - self.disagreement)
         size = math.hypot(*self.disagreement.tolist())

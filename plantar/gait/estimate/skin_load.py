@@ -44,7 +44,8 @@ class SkinLoad:
 
     def update(self, reading: Reading) -> SoleWrench:
         """Filtered wrench (T 4.23) with the latest reading; dead taxels count as unloaded."""
-        force, sound = reading.force, np.isfinite(reading.force)
+        force = reading.force
+        sound = np.isfinite(reading.force)
         whole = bool(sound.all())
         if not whole:
             force = np.where(sound, force, 0.0)

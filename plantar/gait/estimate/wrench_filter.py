@@ -50,7 +50,8 @@ class WrenchFilter:
         self._share = 1.0 if rules.time_constant == 0.0 else -math.expm1(-tick / rules.time_constant)
         self._decay = 1.0 / rules.lasts
         self._ended = max(self._share, -math.expm1(-tick / rules.lasts))
-        self._x = self._y = 0.0
+        self._x = 0.0
+        self._y = 0.0
 
     @property
     def expected(self) -> NDArray[np.float64]:
@@ -69,15 +70,18 @@ class WrenchFilter:
         x, y = array(offset, "VRP offset", (2,)).tolist()
         size = math.hypot(x, y)
         if not math.isfinite(size):
-            x = y = 0.0
+            x = 0.0
+            y = 0.0
         elif size > MOST_OFFSET:
-            x, y = x * (MOST_OFFSET / size), y * (MOST_OFFSET / size)
+            x = x * (MOST_OFFSET / size)
+            y = y * (MOST_OFFSET / size)
         share = self._share if x or y else self._ended
         self._x += share * (x - self._x)
         self._y += share * (y - self._y)
         # A low pass never ends by itself. Below a nanometre nothing follows from it any more.
         if x == 0.0 and y == 0.0 and math.hypot(self._x, self._y) < 1e-9:
-            self._x = self._y = 0.0
+            self._x = 0.0
+            self._y = 0.0
         return self.expected
 
     def mean(self, horizon: float) -> NDArray[np.float64]:
@@ -89,7 +93,8 @@ class WrenchFilter:
         time = number(horizon, "horizon", finite=True)
         if time < 0.0:
             raise InputError(f"horizon is {horizon} s; allowed: 0 or more")
-        w, faster = self._omega, self._omega + self._decay
+        w = self._omega
+        faster = self._omega + self._decay
         if time == 0.0:
             return self.expected
         kept = (w / faster) * math.expm1(-faster * time) / math.expm1(-w * time)

@@ -85,16 +85,20 @@ class FootMotion:
         self._tilts: dict[Side, NDArray[np.float64]] = {s: np.eye(3) for s in SIDES}
         self._rotations: dict[Side, tuple[float, NDArray[np.float64], NDArray[np.float64]]] = {}
         self._lifted_tilt = np.zeros(3)
-        self._expected = self._planned = float(np.mean([feet[s].z for s in SIDES]))
+        self._expected = float(np.mean([feet[s].z for s in SIDES]))
+        self._planned = self._expected
         self._swing: Swing | None = None
         self._side: Side = "left"
         self._target: Footstep | None = None
-        self._start = self._unhurried = 0.0
+        self._start = 0.0
+        self._unhurried = 0.0
         self._step = -1
         self.surprise = 0.0
-        self._lift_off = self._touchdown = False
+        self._lift_off = False
+        self._touchdown = False
         self._distance: NDArray[np.float64] | None = None
-        self._lowered = self._lowering = 0.0
+        self._lowered = 0.0
+        self._lowering = 0.0
         self._touch = (0.0, 0.0)
         self._rises_first: set[Side] = set()
         self._wary = 0
@@ -120,7 +124,8 @@ class FootMotion:
         """Horizontal distance (2,) in m to the swing target, command frame; zero before the first step."""
         if self._swing is None:
             return np.zeros(2)
-        (x, y, _), (here_x, here_y, _) = self._swing.end.tolist(), self.footholds[self._side][0].tolist()
+        x, y, _ = self._swing.end.tolist()
+        here_x, here_y, _ = self.footholds[self._side][0].tolist()
         return vector2(x - here_x, y - here_y)
 
     @property
@@ -149,13 +154,15 @@ class FootMotion:
 
     def rotation(self, side: Side) -> NDArray[np.float64]:
         """Sole to command frame (3, 3): its heading, and the ground's slope."""
-        yaw, tilt = self.footholds[side][1], self._tilts[side]
+        yaw = self.footholds[side][1]
+        tilt = self._tilts[side]
         known = self._rotations.get(side)
         if known is None or known[0] != yaw or known[1] is not tilt:
             level = level_rotation(yaw)
             rotation = level if self._compliance is None else np.asarray(level.dot(tilt))
             rotation.flags.writeable = False  # shared until the foot moves
-            known = self._rotations[side] = (yaw, tilt, rotation)
+            known = (yaw, tilt, rotation)
+            self._rotations[side] = known
         return known[2]
 
     def turn_standing(self, side: Side, turn: NDArray[np.float64], pivot: NDArray[np.float64]) -> None:
@@ -216,7 +223,8 @@ class FootMotion:
 
     def _relax(self, heights: Mapping[Side, float]) -> None:
         """Command the landed foot as high above the other as estimated."""
-        side, other = self._side, other_side(self._side)
+        side = self._side
+        other = other_side(self._side)
         position, yaw = self.footholds[side]
         stands = self.footholds[other][0].item(2) + heights[side] - heights[other]
         share = min(1.0, self._period / self._landing.relax_time)
@@ -284,7 +292,8 @@ class FootMotion:
         x, y = frame.to_command(target.position[:2]).tolist()
         # By the plan it is as much higher or lower as that has its steps; by itself, if it slopes on.
         rise = target.z - self._planned or self._rise(other_side(side), position, x - position[0], y - position[1])
-        self._expected, self._planned = self._expected + rise, target.z
+        self._expected = self._expected + rise
+        self._planned = target.z
         sees = self._compliance is not None
         start = SwingStart(
             position=position.copy(),
@@ -300,15 +309,19 @@ class FootMotion:
             approach_speed=self._landing.approach_speed,
             rises_first=side in self._rises_first,
         )
-        self._swing, self._unhurried = self._kind.begin(start), start.duration
+        self._swing = self._kind.begin(start)
+        self._unhurried = start.duration
         self._rises_first.discard(side)
         self._wary -= 1
-        self._step, self._side, self._target = index, side, target
+        self._step = index
+        self._side = side
+        self._target = target
         self._start = times[0]
         self.surprise = 0.0
         self.landed = False
         self._distance = None
-        self._lowered = self._lowering = 0.0
+        self._lowered = 0.0
+        self._lowering = 0.0
         if self._compliance is not None:
             self._compliance[side].begin(start.haste)
             self._lifted_tilt = vector_from_rotation(self._tilts[side])
@@ -328,12 +341,14 @@ class FootMotion:
 
     def _retake(self, time: float, touchdown: float, target: Footstep, frame: CommandFrame) -> None:
         """Lift a landed foot and repeat its step elsewhere."""
-        expected, height = self._expected, self._height
+        expected = self._expected
+        height = self._height
         self._wary = _WARY
         # It has to clear only what it has just met, in what is left of the step.
         self._height = min(height, _RETAKE_HEIGHT * self._leg)
         self._begin(self._step, (time, touchdown), target, frame, again=True)
-        self._expected, self._height = expected, height
+        self._expected = expected
+        self._height = height
         self._rises_first.add(self._side)  # what it has met is next to it then
 
     def _comply(
@@ -342,7 +357,9 @@ class FootMotion:
         """Advance a seeing foot: soften its swing, turn it, hand over to real load."""
         assert self._swing is not None
         assert self._compliance is not None
-        swing, period, side = self._swing, self._period, self._side
+        swing = self._swing
+        period = self._period
+        side = self._side
         compliance = self._compliance[side]
         position, yaw = self.footholds[side]
         elapsed = time - self._start
@@ -404,7 +421,8 @@ class FootMotion:
         blind = self._landing.contact_force
         if load > blind:
             return True
-        touching, there = _TOUCHING * self._leg, _AT_THE_GROUND * self._leg
+        touching = _TOUCHING * self._leg
+        there = _AT_THE_GROUND * self._leg
         if view is None or view.distance >= touching:
             return False
         far = (view.distance - there) / (touching - there)

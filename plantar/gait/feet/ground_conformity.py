@@ -115,7 +115,8 @@ class FootTurn:
 
     def _rolls(self, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> bool:
         """Whether the last turns left the center of pressure unmoved."""
-        g, past = self.gains, self._past
+        g = self.gains
+        past = self._past
         away = math.dist(center_of_pressure, target)
         if len(past) != past.maxlen or away <= g.nearly:
             return False
@@ -191,15 +192,18 @@ class GroundConformity:
         """
         turned: dict[Side, SoleTurn] = {}
         for side in SIDES:
-            turns, contacts = self._turns[side], self._contacts[side]
+            turns = self._turns[side]
+            contacts = self._contacts[side]
             if phase.swing == side and not landed:
                 turns.lift()
                 contacts.lift()
                 continue
-            load, cop = state.loads[side], percepts[side].position_cop_in_sole
+            load = state.loads[side]
+            cop = percepts[side].position_cop_in_sole
             if cop is None or load < self.gains.least_load:
                 continue
-            position, rotation = state.positions_sole[side], state.rotations_sole[side]
+            position = state.positions_sole[side]
+            rotation = state.rotations_sole[side]
             contacts.update(percepts[side].reading, rotation, cop)
             if phase.stance == side:
                 target = rotation[:2, :2].T @ (zmp_desired - position[:2])

@@ -53,7 +53,10 @@ class PostureCompensation:
 
     def start(self) -> None:
         """Lift-off without correction."""
-        self.shift, self.turn, self._weight, self._kept = np.zeros(3), np.zeros(3), 0.0, np.zeros(3)
+        self.shift = np.zeros(3)
+        self.turn = np.zeros(3)
+        self._weight = 0.0
+        self._kept = np.zeros(3)
 
     def keep(self, shift: NDArray[np.float64]) -> None:
         """Add a landed foot's farther command, so that its target does not jump; it fades.

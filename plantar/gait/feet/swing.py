@@ -71,13 +71,15 @@ class SwingTrajectory:
         first = self.duration * (_FIRST_SHARE if self.rises_first else 0.0 if slow else self.lateral_hold)
         share = (time - first) / (self.arrived - first)
         blend, _ = minimum_jerk(max(0.0, share) ** _SKEW if slow else share)
-        (x, y, _), (to_x, to_y, _) = self.start.tolist(), self.end.tolist()
+        x, y, _ = self.start.tolist()
+        to_x, to_y, _ = self.end.tolist()
         position = vector(x + blend * (to_x - x), y + blend * (to_y - y), self._height(time))
         turn = math.remainder(self.yaw_end - self.yaw_start, 2.0 * math.pi)
         return position, self.yaw_start + blend * turn
 
     def _height(self, time: float) -> float:
-        start, end = self.start.item(2), self.end.item(2)
+        start = self.start.item(2)
+        end = self.end.item(2)
         top = max(start, end) + self.height
         lifted = self.lifted
         if time < lifted:

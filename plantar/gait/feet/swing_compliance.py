@@ -48,7 +48,8 @@ class SwingCompliance:
         self.touchdown = touchdown
         self.ground = GroundMap(layout, ground)
         self.switch = SoleWrenchSwitch(touchdown.contact_force)
-        self._leg, self._speed_unit = gains.body.in_si("leg"), gains.body.in_si("leg/beat")
+        self._leg = gains.body.in_si("leg")
+        self._speed_unit = gains.body.in_si("leg/beat")
         self._change = _LARGEST_CHANGE * gains.body.in_si("leg/beat^2")
         self._turn_change = _LARGEST_TURN_CHANGE * gains.body.in_si("rad/beat^2")
         self._arm = 0.5 * float(np.linalg.norm(np.ptp(layout.outline, axis=0)))  # m from the middle to an edge
@@ -61,10 +62,14 @@ class SwingCompliance:
         self._haste = haste
         self.ground.begin()
         self.switch.reset()
-        self.force = self._speed = self._drift = self._rate = 0.0
+        self.force = 0.0
+        self._speed = 0.0
+        self._drift = 0.0
+        self._rate = 0.0
         self._turn = (0.0, 0.0)
         self._aim: float | None = None
-        self._wrench, self.stopped = np.zeros(6), False
+        self._wrench = np.zeros(6)
+        self.stopped = False
 
     def update_load(self, load: float) -> bool:
         """Whether the foot has landed (T 4.30 corrected), by `load` in N, less its tare."""
@@ -88,7 +93,8 @@ class SwingCompliance:
             time_left: Until the plan puts weight on it, in s.
             period: Of control in s.
         """
-        g, force = self.gains, float(self._wrench[2])
+        g = self.gains
+        force = float(self._wrench[2])
         self.stopped = self.stopped or bool(early_stop(self._wrench, g.stop * self._whole))
         gap = max(0.0, 1.0 - force / self._whole) * self.ground.settings.sensing_range
         late = time_left < g.crawl_time
@@ -156,18 +162,23 @@ class SwingCompliance:
         Returns:
             The turn (3,) in rad, sole frame.
         """
-        x = y = 0.0
+        x = 0.0
+        y = 0.0
         if view is not None and view.slope is None:
             x, y, _ = (vector_from_rotation(rotation) / -self.gains.turning).tolist()
         elif view is not None and view.slope is not None and view.distance < 0.8 * self.ground.settings.sensing_range:
-            x, y = view.slope[1] / self.gains.turning, -view.slope[0] / self.gains.turning
-            size, largest = math.hypot(x, y), self.turn_rate(view.distance, view.slope)
+            x = view.slope[1] / self.gains.turning
+            y = -view.slope[0] / self.gains.turning
+            size = math.hypot(x, y)
+            largest = self.turn_rate(view.distance, view.slope)
             if size > largest:
-                x, y = x * largest / size, y * largest / size
+                x = x * largest / size
+                y = y * largest / size
         was_x, was_y = self._turn
         change = math.hypot(x - was_x, y - was_y)
         share = min(1.0, self._turn_change * period / change) if change > 0.0 else 1.0
-        x, y = self._turn = was_x + share * (x - was_x), was_y + share * (y - was_y)
+        self._turn = was_x + share * (x - was_x), was_y + share * (y - was_y)
+        x, y = self._turn
         return np.array([x * period, y * period, 0.0])
 
     def turn_rate(self, distance: float, slope: tuple[float, float]) -> float:
@@ -198,7 +209,8 @@ class SwingCompliance:
             above: Height in m above touchdown, from which a lost foot returns.
             period: Of control in s.
         """
-        g, t = self.gains, self.touchdown
+        g = self.gains
+        t = self.touchdown
         missing = t.admittance * (target - load)
         drift = _LARGEST_DRIFT * self._speed_unit
         self._drift = min(drift, max(-drift, self._drift + missing * period / t.settling))

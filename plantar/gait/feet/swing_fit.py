@@ -79,14 +79,16 @@ class SwingFit:
 
     def __init__(self, rules: SwingFitRules, start: ArrayLike, period: float, height: float) -> None:
         self._period = positive(period, "control period", "s")
-        self._rules, self._height = rules, height
+        self._rules = rules
+        self._height = height
         self._start: NDArray[np.float64] = array(start, "start of the swing", (3,), finite=True).copy()
         self._state = np.array([self._start, np.zeros(3), np.zeros(3)])  # of the tick before
         self._falls = False
         n = rules.order
         # Conditions that every swing has, in shares of it: rest at both ends, and for z the two heights. With both ends
         # kept, a_n is the way less all others, which leaves a_1 to a_(n-1).
-        g, weight = rules.height_share, rules.position
+        g = rules.height_share
+        weight = rules.position
         rests = [np.array([_rows(s, n)[d] for s in (0.0, 1.0)]) for d in (1, 2)]
         heights = np.array([_rows(s, n)[0] for s in (g, 1.0 - g)])
         # How they enter the normal equations: a matrix, and how height and way pull.
@@ -96,7 +98,8 @@ class SwingFit:
         same = [rules.damping * (np.eye(n - 1) + 1.0), *(weight * _reduced(r).T @ _reduced(r) for r in rests)]
         pulls = [np.full(n - 1, rules.damping), *(-weight * _reduced(r).T @ r[:, n] for r in rests)]
         self._same = np.array([np.column_stack(parts).ravel() for parts in zip(same, pulls, strict=True)])
-        self._conditions, self._work = np.zeros((3, 4)), np.zeros((6 + 2 * (n - 1), n + 1))
+        self._conditions = np.zeros((3, 4))
+        self._work = np.zeros((6 + 2 * (n - 1), n + 1))
 
     def aim(self, goal: ArrayLike, elapsed: float, duration: float) -> SwingPoint:
         """Reference now towards a goal (K 13-16); at the goal after the duration.
@@ -130,14 +133,19 @@ class SwingFit:
 
     def _fitted(self, end: NDArray[np.float64], now: float, lasts: float) -> NDArray[np.float64]:
         """Reference now (3, 3), a row a derivative."""
-        rules, n, start, conditions = self._rules, self._rules.order, self._start, self._conditions
-        tick, way = self._period / lasts, end - start
+        rules = self._rules
+        n = self._rules.order
+        start = self._start
+        conditions = self._conditions
+        tick = self._period / lasts
+        way = end - start
         units = np.array(((1.0,), (lasts,), (lasts * lasts,)))
         np.multiply(self._state, units, out=conditions[:, 1:])
         conditions[0, 1:] -= start
         conditions[:, 0] = rules.position, rules.position * tick, rules.position * tick * tick
         same = (np.array((1.0, tick, tick * tick)) @ self._same).reshape(n - 1, n)
-        top, found = max(0.0, float(way[2])) + self._height, np.empty((3, 3))
+        top = max(0.0, float(way[2])) + self._height
+        found = np.empty((3, 3))
         before = max(now - self._period, 0.0) / lasts
         fit(n, now / lasts, before, conditions, same, self._high, top, way, self._work, found)
         found /= units
@@ -185,7 +193,8 @@ def _rows(s: float, order: int) -> tuple[list[float], list[float], list[float]]:
 
 
 def _powers(s: float, order: int) -> list[float]:
-    powers, power = [1.0], 1.0
+    powers = [1.0]
+    power = 1.0
     for _ in range(order):
         power *= s
         powers.append(power)

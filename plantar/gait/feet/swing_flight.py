@@ -17,9 +17,13 @@ from plantar.gait.feet.swing_kind import SwingKind, SwingStart, hurried
 from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.same_time import SAME_TIME
 
-_END, _EARLY_END = 0.06, 0.25  # shares of a swing that only descends, blind or seeing the ground early
+# shares of a swing that only descends, blind or seeing the ground early
+_END = 0.06
+_EARLY_END = 0.25
 _SPARE = 0.12  # share left of a seeing one
-_LIFT, _EARLY_LIFT = 0.45, 0.28  # and spent rising
+# and spent rising
+_LIFT = 0.45
+_EARLY_LIFT = 0.28
 _LONG_LIFT = 0.42  # from which on a seeing swing arrives as late as a blind one, wholly from _LIFT on
 _QUICKEST = 0.26  # leg/beat at most of a rise, which the knee's speed bounds, unless it would last as long as others'
 _PEAK = 1.875  # largest speed of a minimum-jerk motion over its mean
@@ -72,8 +76,11 @@ class _Course:
         start: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
         end: NDArray[np.float64],
     ) -> _Course:
-        t, (p, v, a) = until - since, start
-        v, a, way = t * v, t * t * a, end - p
+        t = until - since
+        p, v, a = start
+        v = t * v
+        a = t * t * a
+        way = end - p
         # The fifth-order polynomial in s = 0..1 with speed and acceleration given at its start and zero at its end.
         third = 10.0 * way - 6.0 * v - 1.5 * a
         fourth = -15.0 * way + 8.0 * v + 1.5 * a
@@ -123,7 +130,8 @@ class SwingFlight:
 
     def risen(self, time: float) -> float:
         """Share 0..1 of the rise done."""
-        progress, lifted = self.progress(time), self.path.lifted
+        progress = self.progress(time)
+        lifted = self.path.lifted
         return minimum_jerk(progress / lifted)[0] if progress < lifted else 1.0
 
     def falling(self, time: float, height: float) -> float:
@@ -155,7 +163,8 @@ class SwingFlight:
             yaw: At touchdown in rad.
             duration: From lift-off to touchdown in s.
         """
-        old, new = self.duration - time, duration - time
+        old = self.duration - time
+        new = duration - time
         if min(old, new) < self.least_time:
             return self
         shown = self.progress(time)

@@ -35,7 +35,8 @@ def bridged(
     Returns:
         The plan, and its DCM jump (2,) in m by the region.
     """
-    (time, state), (first, shift, delay) = now, kept
+    time, state = now
+    first, shift, delay = kept
     times, points, bridge = _with_bridge(knots, (time, state.vrp), window, plan.vrps[-1])
     new = plan.replanned(times, points, first, shift=shift, delay=delay)
     gap = state.dcm - new.dcm_waypoints[0]
@@ -54,8 +55,10 @@ def _with_bridge(
     knots: Knots, now: tuple[float, NDArray[np.float64]], window: tuple[float, float] | None, end: NDArray[np.float64]
 ) -> tuple[list[float], list[NDArray[np.float64]], list[int]]:
     """Knots from now with the bridge's, and the movable two's indices."""
-    times, points = list(knots[0]), list(knots[1])
-    head_times, head = [now[0]], [now[1]]
+    times = list(knots[0])
+    points = list(knots[1])
+    head_times = [now[0]]
+    head = [now[1]]
     bridge: list[int] = []
     if window is not None:
         length = window[1] - window[0]
@@ -79,7 +82,8 @@ def _with_bridge(
 
 def _response(times: list[float], omega: float) -> float:
     """DCM at the first knot by 1 m of VRP at the two before the last."""
-    dcm, vrp = 0.0, [0.0] * (len(times) - 3) + [1.0, 1.0, 0.0]
+    dcm = 0.0
+    vrp = [0.0] * (len(times) - 3) + [1.0, 1.0, 0.0]
     for i in range(len(times) - 2, -1, -1):
         length = times[i + 1] - times[i]
         rate = (vrp[i + 1] - vrp[i]) / length

@@ -81,13 +81,15 @@ def straight_plan(
     if not all(math.isfinite(v) for v in (length, sideways, width, height, climb, *start)) or width <= 0.0:
         raise InputError("a footstep plan needs finite numbers and a width above 0")
     x0, y0, yaw = start
-    c, s = math.cos(yaw), math.sin(yaw)
+    c = math.cos(yaw)
+    s = math.sin(yaw)
 
     last = max(0, steps - 1)  # places ahead, of which two feet share the last
     places = (last + 1) // 2 if closing else last
 
     def place(side: Side, ahead: int, left: float) -> Footstep:
-        forward, lateral = ahead * length, left + (0.5 if side == "left" else -0.5) * width
+        forward = ahead * length
+        lateral = left + (0.5 if side == "left" else -0.5) * width
         z = height + climb * min(ahead, places + places % 2 - ahead)
         return Footstep(side, x0 + c * forward - s * lateral, y0 + s * forward + c * lateral, yaw, z)
 

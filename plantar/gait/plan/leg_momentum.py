@@ -26,7 +26,9 @@ from plantar.mechanics.same_time import SAME_TIME
 _AHEAD = 4  # steps that count: later ones move the CoM by micrometres
 _HELD = 0.06  # of a swing, at its start, in which the foot only rises
 _KNOTS = tuple((k / 6, 60 * (k / 6) - 180 * (k / 6) ** 2 + 120 * (k / 6) ** 3) for k in range(7))  # minimum-jerk s''
-_EARLY, _LATEST = 0.75, 0.94  # shares of a swing after which its foot only descends: with time to spare, and at most
+# shares of a swing after which its foot only descends: with time to spare, and at most
+_EARLY = 0.75
+_LATEST = 0.94
 _BRISK = 0.07 * math.sqrt(3.0) * GRAVITY  # m of way over s^2 of time, of a minimum jerk whose peak a hip takes: 0.7 g
 _FADES = 1.0  # s after the last swing in which nothing is left
 
@@ -48,7 +50,10 @@ class LegMomentum:
     """
 
     def __init__(self, plan: WalkPlan, omega: float, inertia: float, arrived: float) -> None:
-        self._plan, self._omega, self._inertia, self._arrived = plan, omega, inertia, arrived
+        self._plan = plan
+        self._omega = omega
+        self._inertia = inertia
+        self._arrived = arrived
         self._shift = VrpPlan((0.0, _FADES), np.zeros((2, 2)), omega)
         self._view: PlanView | None = None  # of which the shift was solved
         self._until = math.inf
@@ -65,9 +70,13 @@ class LegMomentum:
 
     def _look_ahead(self, time: float) -> None:
         """Solve the next swings' shift from the CoM's now."""
-        view = self._view = self._plan.view
-        now, schedule = self._shift.at(time), view.schedule
-        times, points, first = [time], [now.vrp], schedule.at(time).step
+        view = self._plan.view
+        self._view = view
+        now = self._shift.at(time)
+        schedule = view.schedule
+        times = [time]
+        points = [now.vrp]
+        first = schedule.at(time).step
         self._until = math.inf
         for phase in schedule.phases[schedule.index(time) :]:
             if phase.swing is None:
@@ -76,7 +85,8 @@ class LegMomentum:
                 break
             if phase.step == first + 1:
                 self._until = phase.end
-            lasts, way = phase.touchdown - phase.start, view.vrp(phase.step) - view.vrp_before(phase.step, phase.swing)
+            lasts = phase.touchdown - phase.start
+            way = view.vrp(phase.step) - view.vrp_before(phase.step, phase.swing)
             begin = phase.start + _HELD * lasts
             late = haste(math.hypot(*way.tolist()), lasts)
             lasts *= self._arrived + late * (_LATEST - self._arrived) - _HELD

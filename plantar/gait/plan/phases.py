@@ -167,7 +167,9 @@ class WalkSchedule:
             The schedule.
         """
         i = next(j for j, p in enumerate(self.phases) if p.step == step + 1 and p.swing is None)
-        phase, timing, first = self.phases[i], self.timing, step + 1
+        phase = self.phases[i]
+        timing = self.timing
+        first = step + 1
         if not sides:
             start = phase.start if phase.kind == PhaseKind.DOUBLE_SUPPORT else math.inf
             if first == self.steps:

@@ -99,16 +99,21 @@ class VrpPlan:
 
     def _solve(self, segments: int) -> None:
         """Backward pass: first segments' rates, offsets and DCM waypoints from their end's."""
-        omega, times = self.omega, self.times
+        omega = self.omega
+        times = self.times
         x, y = self.dcm_waypoints[segments].tolist()
         points = self.vrps[: segments + 1].tolist()
         for i in range(segments - 1, -1, -1):
-            (ax, ay), (bx, by) = points[i], points[i + 1]
+            ax, ay = points[i]
+            bx, by = points[i + 1]
             length = times[i + 1] - times[i]
-            rx, ry = (bx - ax) / length, (by - ay) / length
-            ox, oy = x - bx - rx / omega, y - by - ry / omega
+            rx = (bx - ax) / length
+            ry = (by - ay) / length
+            ox = x - bx - rx / omega
+            oy = y - by - ry / omega
             decay = math.exp(-omega * length)
-            x, y = ax + rx / omega + decay * ox, ay + ry / omega + decay * oy
+            x = ax + rx / omega + decay * ox
+            y = ay + ry / omega + decay * oy
             self._rate[i] = rx, ry
             self._end_offset[i] = ox, oy
             self.dcm_waypoints[i] = x, y
@@ -154,7 +159,9 @@ class VrpPlan:
         Raises:
             InputError: Disallowed knots.
         """
-        head, points, move = np.asarray(times, float), np.asarray(vrps, float).reshape(-1, 2), np.asarray(shift, float)
+        head = np.asarray(times, float)
+        points = np.asarray(vrps, float).reshape(-1, 2)
+        move = np.asarray(shift, float)
         m = len(head)
         knots = np.concatenate([head, self._times[first:] + delay])
         every = np.concatenate([points, self.vrps[first:] + move])
@@ -200,6 +207,9 @@ class VrpPlan:
             return LipReference(vrp, vrp, zero, vrp + offset, -omega * offset, omega * omega * offset)
         time = max(time, self.times[0])
         i = bisect_right(self.times, time) - 1
-        since, until = time - self.times[i], self.times[i + 1] - time
-        ends, rates, offset = self._end_offset, self._rate, self._offset_of_com(i)
+        since = time - self.times[i]
+        until = self.times[i + 1] - time
+        ends = self._end_offset
+        rates = self._rate
+        offset = self._offset_of_com(i)
         return LipReference(*on_segment(omega, since, until, i, self.vrps, rates, ends, offset))

@@ -254,7 +254,9 @@ class WalkPlan:
 
     def _changed(self, change: PlanChange, time: float) -> PlanView:
         view = self._view
-        steps, schedule, k = list(view.steps), view.schedule, change.step - view.first
+        steps = list(view.steps)
+        schedule = view.schedule
+        k = change.step - view.first
         if change.following is not None:
             steps = steps[: k + 1] + [self._planned(step) for step in change.following]
             schedule = schedule.followed_by(change.step, [step.side for step in change.following], time)
@@ -264,7 +266,8 @@ class WalkPlan:
             steps[k] = PlannedStep(steps[k].foothold, np.array(change.vrp))
         vrp_shift = change.shift if change.vrp_shift is None else change.vrp_shift
         if any(change.shift) or any(vrp_shift):
-            (dx, dy), later = change.shift, np.asarray(vrp_shift)
+            dx, dy = change.shift
+            later = np.asarray(vrp_shift)
             for i in range(k + 1, len(steps)):
                 foothold = steps[i].foothold
                 moved = replace(foothold, x=foothold.x + dx, y=foothold.y + dy)
@@ -282,7 +285,9 @@ class WalkPlan:
         shift: NDArray[np.float64],
     ) -> tuple[NDArray[np.float64], float]:
         """Solve bridged VRPs; unbridged DCM (2,) in m, and a double support's extension in s."""
-        step, phase, beat = change.step, self.schedule.at(time), self._body.beat
+        step = change.step
+        phase = self.schedule.at(time)
+        beat = self._body.beat
         anew = change.following is not None
         if change.longer is not None or anew:
             window = (time, time if change.resets else min(phase.end, time + _STANCE_BRIDGE * beat))
@@ -304,7 +309,9 @@ class WalkPlan:
         region: NDArray[np.float64],
         shift: NDArray[np.float64],
     ) -> tuple[NDArray[np.float64], float]:
-        window, delay, old = (max(time, phase.start), phase.end), 0.0, self._vrps
+        window = (max(time, phase.start), phase.end)
+        delay = 0.0
+        old = self._vrps
         while True:
             self._vrps = old
             gap = self._solved(time, now, window, region, shift, delay)

@@ -64,7 +64,10 @@ class DoubleSupportTiming:
 
     def propose(self, tick: Tick) -> PlanChange | None:
         """Another double support end, where that helps."""
-        phase, pendulum, rules, plan = tick.phase, tick.pendulum, self._rules, tick.plan
+        phase = tick.phase
+        pendulum = tick.pendulum
+        rules = self._rules
+        plan = tick.plan
         if pendulum is None or phase.kind != PhaseKind.DOUBLE_SUPPORT or not plan.first < phase.step < plan.count:
             return None
         left = phase.end - tick.time
@@ -85,8 +88,11 @@ class DoubleSupportTiming:
 
     def _best(self, tick: Tick, pendulum: Pendulum) -> float | None:
         """Best double support in s; None if the VRP suffices."""
-        phase, plan = tick.phase, tick.plan
-        end, begun, length = plan.stance_vrp(phase.step), tick.time - phase.start, phase.end - phase.start
+        phase = tick.phase
+        plan = tick.plan
+        end = plan.stance_vrp(phase.step)
+        begun = tick.time - phase.start
+        length = phase.end - phase.start
         wanted = double_support_vrp(pendulum.dcm, pendulum.goal, end, length, begun, pendulum.offset, pendulum.omega)
         region = pendulum.zmp_region
         if self._ankle is not None:

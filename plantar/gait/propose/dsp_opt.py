@@ -123,12 +123,15 @@ def solve_dsp(problem: DspProblem, weights: DspWeights) -> DspSolution:
     high = min(weights.most * problem.nominal, problem.elapsed + MOST_GROWTH / problem.omega)
     if high <= low:
         return DspSolution(low, np.array(cost.slope(low)[2]), 1, 0.0)  # no direction is allowed
-    left, right = low, high
+    left = low
+    right = high
     for _ in range(_LEVELS):
         times = left + (right - left) * _SAMPLES
         k = int(cost.values(times).argmin())
-        left, right = float(times[max(k - 1, 0)]), float(times[min(k + 1, len(times) - 1)])
-        at_left, at_right = cost.slope(left)[0], cost.slope(right)[0]
+        left = float(times[max(k - 1, 0)])
+        right = float(times[min(k + 1, len(times) - 1)])
+        at_left = cost.slope(left)[0]
+        at_right = cost.slope(right)[0]
         if at_left < 0.0 < at_right:
             return _solution(cost, _zero(cost, left, right, at_left, at_right), 0)
         if at_left >= 0.0 and left == low:
@@ -147,7 +150,10 @@ def _solution(cost: "_Cost", time: float, bound: int) -> DspSolution:
 
 def _zero(cost: "_Cost", low: float, high: float, at_low: float, at_high: float) -> float:
     """Zero of the slope between ends of opposite sign (Chandrupatla, Advances in Engineering Software 28, 1997)."""
-    a, b, fa, fb = low, high, at_low, at_high
+    a = low
+    b = high
+    fa = at_low
+    fb = at_high
     share = fa / (fa - fb)
     best = b
     for _ in range(_TURNS):
@@ -156,13 +162,19 @@ def _zero(cost: "_Cost", low: float, high: float, at_low: float, at_high: float)
         best = time
         if abs(slope) <= 1e-12 * size:
             break
-        c, fc = a, fa
+        c = a
+        fc = fa
         if (slope > 0.0) != (fa > 0.0):
-            c, fc, b, fb = b, fb, a, fa
-        a, fa = time, slope
+            c = b
+            fc = fb
+            b = a
+            fb = fa
+        a = time
+        fa = slope
         if abs(b - a) <= 4e-16 * abs(b):
             break
-        xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
+        xi = (a - b) / (c - b)
+        phi = (fa - fb) / (fc - fb)
         share = 0.5
         if phi * phi < xi and (1.0 - phi) * (1.0 - phi) < 1.0 - xi:
             share = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
@@ -178,7 +190,9 @@ class _Cost:
         px, py = array(problem.vrp, "VRP", (2,), finite=True).tolist()
         ex, ey = array(problem.end, "end of the VRP", (2,), finite=True).tolist()
         ox, oy = array(problem.offset, "VRP offset", (2,), finite=True).tolist()
-        self._omega, self._elapsed, self._dynamics = problem.omega, problem.elapsed, weights.dynamics
+        self._omega = problem.omega
+        self._elapsed = problem.elapsed
+        self._dynamics = weights.dynamics
         self._begun = (x - ex + ox, y - ey + oy)
         self._ahead = (ex - px, ey - py)
         self._goal = (gx - ex + ox, gy - ey + oy)
@@ -188,17 +202,22 @@ class _Cost:
             (c * weights.nominal, problem.nominal),
             ((1.0 - c) * weights.smooth, problem.target),
         )
-        self._longer, self._shorter = weights.longer, weights.shorter
+        self._longer = weights.longer
+        self._shorter = weights.shorter
 
     def slope(self, time: float) -> tuple[float, float, tuple[float, float]]:
         """Cost's derivative, its largest term's size, and the missed DCM."""
-        w, (ax, ay), (bx, by) = self._omega, self._begun, self._ahead
+        w = self._omega
+        ax, ay = self._begun
+        bx, by = self._ahead
         left = time - self._elapsed
         grown = math.exp(min(w * left, MOST_GROWTH))
         pull, rate = _pull_and_rate(w, time, left)
-        mx, my = ax + bx * pull, ay + by * pull
+        mx = ax + bx * pull
+        my = ay + by * pull
         missed = (grown * mx - self._goal[0], grown * my - self._goal[1])
-        dx, dy = grown * (w * mx + bx * rate), grown * (w * my + by * rate)
+        dx = grown * (w * mx + bx * rate)
+        dy = grown * (w * my + by * rate)
         total = self._dynamics * (missed[0] * dx + missed[1] * dy)
         size = self._dynamics * (abs(missed[0] * dx) + abs(missed[1] * dy))
         for weight, kept in self._kept:
@@ -208,10 +227,12 @@ class _Cost:
         return total, size, missed
 
     def values(self, times: NDArray[np.float64]) -> NDArray[np.float64]:
-        w, left = self._omega, times - self._elapsed
+        w = self._omega
+        left = times - self._elapsed
         rate = (0.5 * math.pi) / times
         angle = rate * left
-        cosine, decayed = np.cos(angle), np.exp(-w * left)
+        cosine = np.cos(angle)
+        decayed = np.exp(-w * left)
         c = w / (w * w + rate * rate)
         turned = c * (w * (cosine - decayed) + rate * np.sin(angle))
         # The first sample may lie where all of this cancels.
@@ -236,7 +257,9 @@ def _pull_and_rate(omega: float, time: float, left: float) -> tuple[float, float
     half = math.sin(0.5 * angle) ** 2
     if 2.0 * half < _SMALL:
         return _pull_and_rate_near_the_end(omega, left, angle, turning)
-    cosine, sine, decayed = math.cos(angle), math.sin(angle), math.exp(-omega * left)
+    cosine = math.cos(angle)
+    sine = math.sin(angle)
+    decayed = math.exp(-omega * left)
     square = omega * omega + rate * rate
     c = omega / square
     slower = -rate / time  # of w_d
@@ -251,14 +274,18 @@ def _pull_and_rate(omega: float, time: float, left: float) -> tuple[float, float
 
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)
-_SHARES, _PARTS = (0.5 * (_NODES + 1.0)).tolist(), (0.5 * _WEIGHTS).tolist()
+_SHARES = (0.5 * (_NODES + 1.0)).tolist()
+_PARTS = (0.5 * _WEIGHTS).tolist()
 
 
 def _pull_and_rate_near_the_end(omega: float, left: float, angle: float, turning: float) -> tuple[float, float]:
     """The same by ten nodes, where the closed form cancels."""
-    bottom, back = math.sin(0.5 * angle), 1.0 / math.tan(0.5 * angle)
+    bottom = math.sin(0.5 * angle)
+    back = 1.0 / math.tan(0.5 * angle)
     exponent = omega * left
-    pull = slower = turned = 0.0
+    pull = 0.0
+    slower = 0.0
+    turned = 0.0
     for v, part in zip(_SHARES, _PARTS, strict=True):
         term = part * math.exp(-exponent * (1.0 - v)) * (math.sin(0.5 * angle * v) / bottom) ** 2
         pull += term

@@ -60,7 +60,9 @@ class EdgeBeside:
         return tick.phase.step > step and tick.phase.kind == PhaseKind.SINGLE_SUPPORT
 
     def _off_the_edge(self, tick: Tick) -> PlanChange | None:
-        side, distance, phase = tick.feet.side, tick.feet.distance, tick.phase
+        side = tick.feet.side
+        distance = tick.feet.distance
+        phase = tick.phase
         if side is None or distance is None:
             return None
         step = phase.step if phase.swing is not None else phase.step - 1
@@ -80,7 +82,8 @@ class EdgeBeside:
         """Least move of a foot's last landings where they mean a drift."""
         seen.append(across)
         del seen[: -(2 * _DRIFT - 1)]
-        own, other = seen[::-2], seen[-2::-2]
+        own = seen[::-2]
+        other = seen[-2::-2]
         alike = len(own) == _DRIFT and min(own) * max(own) > 0.0 and max(own) - min(own) <= self._alike
         if not alike or any(other):
             return 0.0

@@ -98,7 +98,8 @@ class FootholdProbe:
         self._force = np.zeros(len(layout))
         self._near = np.zeros(len(layout), dtype=bool)
         self._moment = np.zeros(2)
-        self._count = self._moments = 0
+        self._count = 0
+        self._moments = 0
 
     def update_view(self, distance: NDArray[np.float64]) -> None:
         """Store taxels' distances (n,) in m at touchdown; inf or NaN: unseen."""
@@ -151,10 +152,13 @@ def way_around(
     """
     if not len(obstacle):
         return None
-    low, high = obstacle.min(axis=0), obstacle.max(axis=0)
-    first, last = outline.min(axis=0), outline.max(axis=0)
+    low = obstacle.min(axis=0)
+    high = obstacle.max(axis=0)
+    first = outline.min(axis=0)
+    last = outline.max(axis=0)
     gap = rules.clearance
-    left, right = float(high[1] - first[1] + gap), float(low[1] - last[1] - gap)
+    left = float(high[1] - first[1] + gap)
+    right = float(low[1] - last[1] - gap)
     out, into = (rules.outward, rules.inward) if side == "left" else (rules.inward, rules.outward)
     moves = [
         (0.0, left, out),
@@ -188,8 +192,10 @@ def room_ahead(
         0.03
     """
     moved = outline + np.asarray(ahead, dtype=float)
-    low, high = obstacle.min(axis=0), obstacle.max(axis=0)
-    first, last = moved.min(axis=0), moved.max(axis=0)
+    low = obstacle.min(axis=0)
+    high = obstacle.max(axis=0)
+    first = moved.min(axis=0)
+    last = moved.max(axis=0)
     gap = rules.clearance
     if first[1] >= high[1] + gap or last[1] <= low[1] - gap or last[0] <= low[0] - gap:
         return 0.0

@@ -52,7 +52,8 @@ class FootholdCarries:
         self._reach = reach
         self._middles = middles
         self._outlines = outlines
-        self._moved, self._moved_step = -math.inf, -1
+        self._moved = -math.inf
+        self._moved_step = -1
         self._waiting: FootholdFound | None = None
         self._proposed: PlanChange | None = None
 
@@ -67,7 +68,8 @@ class FootholdCarries:
         if self._proposed is None:
             self._waiting = None
         else:
-            self._moved, self._moved_step = tick.time, self._proposed.step
+            self._moved = tick.time
+            self._moved_step = self._proposed.step
         return self._proposed
 
     def _is_news(self, found: FootholdFound, tick: Tick) -> bool:
@@ -105,7 +107,8 @@ class FootholdCarries:
 
     def _moved_steps(self, found: FootholdFound, tick: Tick) -> tuple[Point, Point]:
         """Moves in m of later footsteps, limited for one foothold, and of their VRPs."""
-        upcoming, phase = found.step + 1, tick.phase
+        upcoming = found.step + 1
+        phase = tick.phase
         begun = phase.step == upcoming and phase.kind == PhaseKind.SINGLE_SUPPORT
         if begun or upcoming >= tick.plan.count:
             return (0.0, 0.0), (0.0, 0.0)

@@ -77,7 +77,8 @@ class StepGuard:
         self._tries = 0
         self._refuge: Footstep | None = None
         self._probe: FootholdProbe | None = None
-        self._began = self._since = 0.0
+        self._began = 0.0
+        self._since = 0.0
         self._surprised = 0
         self._reading_time = -1.0
 
@@ -105,7 +106,8 @@ class StepGuard:
 
         Its changes, of `Priority.SAFETY`, are always applied.
         """
-        phase, side = tick.phase, tick.phase.swing
+        phase = tick.phase
+        side = tick.phase.swing
         if side is None or self.stopped:
             self.press = None
             return None
@@ -128,8 +130,11 @@ class StepGuard:
 
     def _begin(self, phase: Phase, side: Side, tick: Tick) -> None:
         """A step begins; its start is where the foot can return."""
-        self._step, self._tries, self._state = phase.step, 0, _State.WALKING
-        origin, stance = tick.place(side), tick.place(other_side(side))
+        self._step = phase.step
+        self._tries = 0
+        self._state = _State.WALKING
+        origin = tick.place(side)
+        stance = tick.place(other_side(side))
         ahead = origin.rotation_sole_to_world[:2, 0]
         way = np.array([stance.x, stance.y]) - [origin.x, origin.y]
         dx, dy = (ahead * float(way @ ahead)).tolist()
@@ -139,7 +144,9 @@ class StepGuard:
         """Touchdown: the foot presses, and the stance foot carries long enough."""
         rules = self.rules
         self._state = _State.PROBING
-        self._began, self._since, self._reading_time = tick.time, math.inf, -1.0
+        self._began = tick.time
+        self._since = math.inf
+        self._reading_time = -1.0
         self.press = self._force
         self._probe = FootholdProbe(self._layouts[side], rules)
         if tick.feet.distance is not None:
@@ -150,7 +157,10 @@ class StepGuard:
 
     def _read(self, side: Side, tick: Tick) -> None:
         assert self._probe is not None
-        rules, reading, load, time = self.rules, tick.readings[side], tick.loads[side], tick.time
+        rules = self.rules
+        reading = tick.readings[side]
+        load = tick.loads[side]
+        time = tick.time
         # The rule reads a foot that has its load; where that does not come, what there is after the time for it.
         if self._since == math.inf and (load > 0.7 * self._force or time > self._began + rules.probe_limit):
             self._since = time
@@ -161,7 +171,8 @@ class StepGuard:
 
     def _judge(self, phase: Phase, side: Side, tick: Tick) -> PlanChange | None:
         assert self._probe is not None
-        found, step = self._probe.verdict(), tick.plan.foothold(phase.step)
+        found = self._probe.verdict()
+        step = tick.plan.foothold(phase.step)
         if found.feasible:
             self._state = _State.TRUSTING
             self.checked.append(CheckedStep(phase.step, found, None))
@@ -175,10 +186,8 @@ class StepGuard:
             return self._back(phase, tick)
         x, y = (step.rotation_sole_to_world[:2, :2] @ shift).tolist()
         self._state = _State.WALKING
-        later, wait = (
-            self._shift_of_later(step, shift, found, tick),
-            self._wait(self.rules.swing_time, phase, tick),
-        )
+        later = self._shift_of_later(step, shift, found, tick)
+        wait = self._wait(self.rules.swing_time, phase, tick)
         return PlanChange(
             "foothold refused",
             phase.step,
@@ -190,7 +199,8 @@ class StepGuard:
         )
 
     def _back(self, phase: Phase, tick: Tick) -> PlanChange:
-        self.stopped, self._state = True, _State.STOPPED
+        self.stopped = True
+        self._state = _State.STOPPED
         longer, wait = self._wait(self.rules.return_time, phase, tick)
         return PlanChange(
             "no way around, back", phase.step, foothold=self._refuge, following=(), longer=longer, wait=wait
@@ -201,7 +211,9 @@ class StepGuard:
 
         Both next feet then clear the obstacle, which the one that did not meet it may be shifted to.
         """
-        into_sole, plan, room = step.rotation_sole_to_world[:, :2].T, tick.plan, 0.0
+        into_sole = step.rotation_sole_to_world[:, :2].T
+        plan = tick.plan
+        room = 0.0
         for later in range(tick.phase.step + 1, min(tick.phase.step + 3, plan.count)):
             foothold = plan.foothold(later)
             place = into_sole @ (foothold.position - step.position) + shift

@@ -48,21 +48,27 @@ class LearnedStride:
         self._strides: dict[int, NDArray[np.float64]] | None = None
         self._factor = np.ones(2)
         self._planned_with = np.ones(2)
-        self._step, self._aimed, self._learned = -1, np.zeros(2), False
+        self._step = -1
+        self._aimed = np.zeros(2)
+        self._learned = False
         self._asked: tuple[PlanChange, NDArray[np.float64]] | None = None
 
     def propose(self, tick: Tick) -> PlanChange | None:
         """Footsteps from the next on, if factors changed."""
-        plan, swings = tick.plan, tick.phase.swing is not None
+        plan = tick.plan
+        swings = tick.phase.swing is not None
         if self._strides is None:
             self._strides = _strides(plan)
         if self._asked is not None and was_applied(self._asked[0], tick):
-            self._planned_with, self._asked = self._asked[1], None
+            self._planned_with = self._asked[1]
+            self._asked = None
         step = tick.phase.step if swings else self._step  # the one that was taken last
         if step not in self._strides:
             return None
         if step != self._step:
-            self._step, self._aimed, self._learned = step, plan.foothold(step).position[:2], False
+            self._step = step
+            self._aimed = plan.foothold(step).position[:2]
+            self._learned = False
         if swings and not tick.feet.landed:
             return None
         if not self._learned:

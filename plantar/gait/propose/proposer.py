@@ -72,7 +72,9 @@ class Pendulum(Record, frozen=True):
             first times the distance of these two.
         """
         growth = math.expm1(self.omega * left)
-        (x, y), (gx, gy), (wx, wy) = self.dcm.tolist(), self.goal.tolist(), self.offset.tolist()
+        x, y = self.dcm.tolist()
+        gx, gy = self.goal.tolist()
+        wx, wy = self.offset.tolist()
         wanted = x + (x - gx) / growth + wx, y + (y - gy) / growth + wy
         return growth, wanted, convex.nearest(self.zmp_region, *wanted)
 

@@ -90,7 +90,8 @@ def footstep_region(
     x, y, yaw = stance
     inside = touching + rules.clearance
     near, far = (inside, rules.outside) if swing == "left" else (-rules.outside, -inside)
-    c, s = math.cos(yaw), math.sin(yaw)
+    c = math.cos(yaw)
+    s = math.sin(yaw)
     corners = ((-rules.backward, near), (rules.forward, near), (rules.forward, far), (-rules.backward, far))
     region = np.array([(x + c * ahead - s * aside, y + s * ahead + c * aside) for ahead, aside in corners])
     for nx, ny, h in half_planes:
@@ -182,7 +183,8 @@ class _Program(NamedTuple):
 
     def reduced(self, ux: float, uy: float) -> float:
         """A footstep's best s, unbounded."""
-        (fx, fy), (gx, gy) = self.fixed, self.grown
+        fx, fy = self.fixed
+        gx, gy = self.grown
         lead = gx * (self.slope * ux + fx) + gy * (self.slope * uy + fy)
         return (self.dynamics * lead + self.time_weight * self.time) / (
             self.dynamics * (gx * gx + gy * gy) + self.time_weight
@@ -190,8 +192,12 @@ class _Program(NamedTuple):
 
     def gradient(self, ux: float, uy: float, s: float) -> tuple[float, float, float, float, float]:
         """Cost's gradient, and its largest term for place and s."""
-        (fx, fy), (gx, gy), (wx, wy), (px, py) = self.fixed, self.grown, self.place_weights, self.places
-        rx, ry = self.slope * ux + fx - gx * s, self.slope * uy + fy - gy * s
+        fx, fy = self.fixed
+        gx, gy = self.grown
+        wx, wy = self.place_weights
+        px, py = self.places
+        rx = self.slope * ux + fx - gx * s
+        ry = self.slope * uy + fy - gy * s
         pull = self.dynamics * self.slope
         drawn = self.time_weight * (s - self.time)
         size = abs(fx) + abs(fy) + abs(self.slope) * (abs(ux) + abs(uy)) + (abs(gx) + abs(gy)) * s
@@ -239,7 +245,8 @@ def solve_ssp(problem: SspProblem, weights: StepWeights) -> SspSolution | None:
     high = min(max(problem.longest, problem.elapsed), MOST_GROWTH / problem.omega)
     program = _program(problem, weights, region, high)
     (ux, uy), edges = _place_of_best_time(program, region)
-    s, bound = program.reduced(ux, uy), 0
+    s = program.reduced(ux, uy)
+    bound = 0
     if not program.low <= s <= 1.0:
         bound, s = (-1, program.low) if s < program.low else (1, 1.0)
         (ux, uy), edges = _place_of_time(program, region, s)
@@ -259,7 +266,8 @@ def solve_ssp(problem: SspProblem, weights: StepWeights) -> SspSolution | None:
 
 def _program(problem: SspProblem, weights: StepWeights, region: list[list[float]], high: float) -> _Program:
     """A problem's cost, with tau as a share of that at `high`."""
-    w, c = problem.omega, min(max(problem.confidence, 0.0), 1.0)
+    w = problem.omega
+    c = min(max(problem.confidence, 0.0), 1.0)
     x, y = array(problem.dcm, "DCM", (2,), finite=True).tolist()
     px, py = array(problem.vrp, "VRP", (2,), finite=True).tolist()
     ox, oy = array(problem.offset, "VRP offset", (2,), finite=True).tolist()
@@ -269,9 +277,11 @@ def _program(problem: SspProblem, weights: StepWeights, region: list[list[float]
     later = math.exp(-w * max(problem.next_duration + problem.double_support, 0.0))
     grown = math.exp(min(w * (high - problem.elapsed), MOST_GROWTH))
     low = math.exp(-w * max(high - max(problem.shortest, problem.elapsed), 0.0))
-    by_nominal, by_target = c * weights.nominal, (1.0 - c) * weights.smooth
+    by_nominal = c * weights.nominal
+    by_target = (1.0 - c) * weights.smooth
     both = by_nominal + by_target
-    (nx, ny, nt), (tx, ty, tt) = problem.nominal, problem.target
+    nx, ny, nt = problem.nominal
+    tx, ty, tt = problem.target
     # K Table 1: w_u = 1 / (s_max - s_min) along each axis, w_tau = 1 / (tau_max - tau_min). A region or a range of no
     # width leaves nothing to weigh.
     wide = max(p[0] for p in region) - min(p[0] for p in region)
@@ -296,21 +306,28 @@ def _program(problem: SspProblem, weights: StepWeights, region: list[list[float]
 
 def _place_of_best_time(program: _Program, region: list[list[float]]) -> tuple[tuple[float, float], list[int]]:
     """Best footstep with each one's best time, and its region edges."""
-    d, k, (gx, gy), (fx, fy) = program.dynamics, program.slope, program.grown, program.fixed
-    (wx, wy), (px, py) = program.place_weights, program.places
+    d = program.dynamics
+    k = program.slope
+    gx, gy = program.grown
+    fx, fy = program.fixed
+    wx, wy = program.place_weights
+    px, py = program.places
     # What is missed along `grown` can be made up for by time, and costs only what the time's weight leaves of it.
     square = gx * gx + gy * gy
     size = math.sqrt(square)
     left = program.time_weight / (d * square + program.time_weight)
     ex, ey = (gx / size, gy / size) if size > 0.0 else (1.0, 0.0)
-    across, along = d * k * k, d * k * k * left
+    across = d * k * k
+    along = d * k * k * left
     # Hessian across + (along - across) e e', with the weights of the place on its diagonal.
     sxx = across * ey * ey + along * ex * ex + wx
     syy = across * ex * ex + along * ey * ey + wy
     sxy = (along - across) * ex * ey
     # Drawn to what misses nothing at the time's own target across `grown`, and along it as far as the time resists.
-    mx, my = fx - gx * program.time, fy - gy * program.time
-    off_across, off_along = (ex * my - ey * mx), (ex * mx + ey * my)
+    mx = fx - gx * program.time
+    my = fy - gy * program.time
+    off_across = ex * my - ey * mx
+    off_along = ex * mx + ey * my
     qx = d * k * (-ey * off_across + left * ex * off_along) - wx * px
     qy = d * k * (ex * off_across + left * ey * off_along) - wy * py
     det = sxx * syy - sxy * sxy
@@ -319,9 +336,14 @@ def _place_of_best_time(program: _Program, region: list[list[float]]) -> tuple[t
 
 def _place_of_time(program: _Program, region: list[list[float]], s: float) -> tuple[tuple[float, float], list[int]]:
     """Best footstep of one time, and its region edges."""
-    d, k, (wx, wy), (px, py) = program.dynamics, program.slope, program.place_weights, program.places
-    (fx, fy), (gx, gy) = program.fixed, program.grown
-    sxx, syy = d * k * k + wx, d * k * k + wy
+    d = program.dynamics
+    k = program.slope
+    wx, wy = program.place_weights
+    px, py = program.places
+    fx, fy = program.fixed
+    gx, gy = program.grown
+    sxx = d * k * k + wx
+    syy = d * k * k + wy
     free = ((wx * px - d * k * (fx - gx * s)) / sxx, (wy * py - d * k * (fy - gy * s)) / syy)
     return _nearest(region, free, (sxx, 0.0, syy))
 
@@ -332,26 +354,36 @@ def _nearest(
     """Closest point of a convex polygon in a metric, and its edges; none inside."""
     x, y = free
     sxx, sxy, syy = metric
-    count, inside = len(region), len(region) > 2
-    best, least, edges = (region[0][0], region[0][1]), math.inf, [0]
+    count = len(region)
+    inside = len(region) > 2
+    best = (region[0][0], region[0][1])
+    least = math.inf
+    edges = [0]
     ax, ay = region[-1]
     for i in range(count):
         bx, by = region[i]
-        dx, dy, ox, oy = bx - ax, by - ay, x - ax, y - ay
+        dx = bx - ax
+        dy = by - ay
+        ox = x - ax
+        oy = y - ay
         if dx * oy - dy * ox < 0.0 or not inside:
             inside = False
             # In a metric, too, what is closest lies on an edge that the free point is outside of.
-            mx, my = sxx * dx + sxy * dy, sxy * dx + syy * dy
+            mx = sxx * dx + sxy * dy
+            my = sxy * dx + syy * dy
             length = mx * dx + my * dy
             t = min(max((mx * ox + my * oy) / length, 0.0), 1.0) if length > 0.0 else 0.0
-            rx, ry = ox - t * dx, oy - t * dy
+            rx = ox - t * dx
+            ry = oy - t * dy
             off = sxx * rx * rx + 2.0 * sxy * rx * ry + syy * ry * ry
             if off < least:
                 at = (ax + t * dx, ay + t * dy) if t < 1.0 else (bx, by)
-                best, least = at, off
+                best = at
+                least = off
                 # At a corner, the edge that ends there comes first.
                 edges = [i] if 0.0 < t < 1.0 else [i, (i + 1) % count] if t > 0.0 else [(i - 1) % count, i]
-        ax, ay = bx, by
+        ax = bx
+        ay = by
     return (free, []) if inside else (best, edges)
 
 
@@ -366,11 +398,13 @@ def _residual(
     else:
         rays = []
         for i in edges:
-            (ax, ay), (bx, by) = region[i - 1], region[i]
+            ax, ay = region[i - 1]
+            bx, by = region[i]
             length = math.hypot(bx - ax, by - ay) or 1.0
             rays.append(((bx - ax) / length, (by - ay) / length))
         if len(edges) == 1:
-            (dx, dy), inward = rays[0], len(region) > 2
+            dx, dy = rays[0]
+            inward = len(region) > 2
             by_place = max(abs(gx * dx + gy * dy), (gx * dy - gy * dx) if inward else 0.0)
         else:
             # The edge that ends at the corner is left backwards, the one that begins there forwards.

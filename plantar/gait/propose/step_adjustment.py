@@ -34,7 +34,9 @@ from plantar.geometry.polygon import convex_hull, signed_margin
 from plantar.kernels.geometry import convex
 
 _PEAK = 5.774  # largest acceleration of a minimum-jerk motion over its way and time: 10 / sqrt(3) way / time^2
-_COARSE, _FINE = 10, 4  # times that are tried first, and how often the best one's neighbourhood is halved
+# times that are tried first, and how often the best one's neighbourhood is halved
+_COARSE = 10
+_FINE = 4
 
 
 class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_adjustment": (True,)}):
@@ -130,17 +132,24 @@ class StepAdjustment:
         self._box = region
         self._touching = touching
         self._weights = weights
-        c, (forward, sideways) = rules.confidence if ankle.confident else 0.0, (ankle.forward, ankle.sideways)
+        c = rules.confidence if ankle.confident else 0.0
+        forward = ankle.forward
+        sideways = ankle.sideways
         self._ankle = replace(ankle, forward=forward + c * (1.0 - forward), sideways=sideways + c * (1.0 - sideways))
         self._period = period
-        self._changed = self._kept = -math.inf
-        self._adjusted = self._stands = -1
+        self._changed = -math.inf
+        self._kept = -math.inf
+        self._adjusted = -1
+        self._stands = -1
         self._foot: _Foot | None = None
         self._along: _Along | None = None
 
     def propose(self, tick: Tick) -> PlanChange | None:
         """Another footstep where that helps, or its place now."""
-        pendulum, swing, side, timing = tick.pendulum, tick.phase.swing, tick.feet.side, self._timing
+        pendulum = tick.pendulum
+        swing = tick.phase.swing
+        side = tick.feet.side
+        timing = self._timing
         if pendulum is None:
             return None
         if tick.firm and tick.feet.landed and side is not None:
@@ -163,7 +172,8 @@ class StepAdjustment:
         )
         if left < 2.0 * self._period or off * math.exp(pendulum.omega * left) < self._rules.least_error:
             return None
-        missed, most = math.hypot(*_missed(pendulum, left)), self._allowed(tick, pendulum)
+        missed = math.hypot(*_missed(pendulum, left))
+        most = self._allowed(tick, pendulum)
         if missed < most:
             self._kept = tick.time
             return self._go_along(tick, pendulum, foot, left, swing)
@@ -175,7 +185,8 @@ class StepAdjustment:
 
     def _allowed(self, tick: Tick, pendulum: Pendulum) -> float:
         """Final DCM error in m that moves no step: at first what a ZMP b off takes up in a double support."""
-        phase, most = tick.phase, self._rules.least_error
+        phase = tick.phase
+        most = self._rules.least_error
         if self._adjusted == phase.step:
             return most
         following = tick.plan.schedule.following(phase)
@@ -204,11 +215,14 @@ class StepAdjustment:
 
     def _go_along(self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, swing: Side) -> PlanChange | None:
         """The step farther along a push, beyond its moves so far; it never returns by itself."""
-        step, planned = tick.phase.step, tick.plan.foothold(tick.phase.step)
+        step = tick.phase.step
+        planned = tick.plan.foothold(tick.phase.step)
         if self._along is None or self._along.step != step:
             self._along = _Along(step, (0.0, 0.0))
-        yields, (px, py) = self._rules.yielding * (1.0 - self._rules.confidence), pendulum.pushed.tolist()
-        size, (mx, my) = math.hypot(px, py), self._along.moved
+        yields = self._rules.yielding * (1.0 - self._rules.confidence)
+        px, py = pendulum.pushed.tolist()
+        size = math.hypot(px, py)
+        mx, my = self._along.moved
         more = yields * px - mx, yields * py - my
         if (
             left < self._rules.least_left
@@ -217,7 +231,8 @@ class StepAdjustment:
         ):
             return None
         (x, y), _ = self._landing(foot, (planned.x + more[0], planned.y + more[1]), left, self._region(tick, swing))
-        dx, dy = x - planned.x, y - planned.y
+        dx = x - planned.x
+        dy = y - planned.y
         if dx * px + dy * py <= 0.5 * self._rules.least_error * size:
             return None
         self._along = _Along(step, (mx + dx, my + dy))
@@ -231,7 +246,9 @@ class StepAdjustment:
         return shrunk_support(support, self._ankle, middle, yaw)
 
     def _follow(self, tick: Tick, swing: Side) -> _Foot:
-        now, before, velocity = tick.place(swing), self._foot, (0.0, 0.0)
+        now = tick.place(swing)
+        before = self._foot
+        velocity = (0.0, 0.0)
         if before is not None and before.step == tick.phase.step:
             x, y = before.place
             velocity = (now.x - x) / self._period, (now.y - y) / self._period
@@ -243,10 +260,12 @@ class StepAdjustment:
             return None
         # A whole number of ticks, so that phases begin at ticks.
         longer = round((found.left - left) / self._period) * self._period
-        step, move = tick.phase.step, found.move
+        step = tick.phase.step
+        move = found.move
         if abs(longer) < 1.5 * self._period and math.hypot(*move) < 0.5 * self._rules.least_error:
             return None
-        self._changed, self._adjusted = tick.time, step
+        self._changed = tick.time
+        self._adjusted = step
         return _moved(tick.plan.foothold(step), step, move, "step adjusted", longer)
 
     def _landed(self, tick: Tick, side: Side) -> PlanChange | None:
@@ -256,10 +275,12 @@ class StepAdjustment:
         if step < tick.plan.first or step == self._stands or tick.plan.foothold(step).side != side:
             return None
         self._stands = step
-        place, planned = tick.place(side), tick.plan.foothold(step)
+        place = tick.place(side)
+        planned = tick.plan.foothold(step)
         move = place.x - planned.x, place.y - planned.y
         if math.hypot(*move) < self._rules.misplaced:
-            move, place = (0.0, 0.0), planned
+            move = (0.0, 0.0)
+            place = planned
         # Down to its last tick: a phase has to have a length.
         longer = min(0.0, tick.time + self._period - phase.end) if phase.swing and self._adjusted == step else 0.0
         if longer > -1.5 * self._period and not any(move):
@@ -269,7 +290,8 @@ class StepAdjustment:
 
     def _region(self, tick: Tick, swing: Side) -> NDArray[np.float64]:
         """Where the swing foot can land (k, 2), world frame, in m, its planned place included."""
-        stance, planned = tick.place(other_side(swing)), tick.plan.foothold(tick.phase.step).position[:2]
+        stance = tick.place(other_side(swing))
+        planned = tick.plan.foothold(tick.phase.step).position[:2]
         region = footstep_region(self._box, swing, (stance.x, stance.y, stance.yaw), self._touching)
         # A walk may have longer steps than are allowed for balance; those it keeps.
         inside = len(region) and signed_margin(region, planned) >= 0.0
@@ -278,7 +300,8 @@ class StepAdjustment:
     def _bounds(self, tick: Tick, left: float) -> tuple[float, float]:
         """Soonest and latest single support end in s from now."""
         rules = self._rules
-        usual, begun = tick.plan.schedule.timing.single_support, tick.time - tick.phase.start
+        usual = tick.plan.schedule.timing.single_support
+        begun = tick.time - tick.phase.start
         rest = (1.0 - rules.shortest) * min(1.0, rules.quick / usual) * (usual - begun)
         return min(left, max(rules.least_left, rest)), max(left, (1.0 + rules.longest) * usual - begun)
 
@@ -287,14 +310,16 @@ class StepAdjustment:
     ) -> _Choice | None:
         rules = self._rules
         soonest, latest = self._bounds(tick, left)
-        planned, slope = tick.plan.foothold(tick.phase.step), _slope(tick, pendulum)
+        planned = tick.plan.foothold(tick.phase.step)
+        slope = _slope(tick, pendulum)
         price = rules.price_place * (0.1 + 0.9 * rules.confidence)
 
         def tried(time: float) -> _Choice:
             missed = _missed(pendulum, time)
             wanted = planned.x + missed[0] / slope, planned.y + missed[1] / slope
             (x, y), beyond = self._landing(foot, wanted, time, region)
-            dx, dy = x - planned.x, y - planned.y
+            dx = x - planned.x
+            dy = y - planned.y
             when = max(rules.price_time * (left - time), rules.price_later * (time - left))
             cost = math.dist(missed, (slope * dx, slope * dy)) + beyond + when
             return _Choice(time, (dx, dy), cost + price * math.hypot(dx, dy))
@@ -313,11 +338,15 @@ class StepAdjustment:
         self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, region: NDArray[np.float64]
     ) -> _Choice | None:
         """Best footstep by K 31, in VRPs."""
-        plan, step, rules = tick.plan, tick.phase.step, self._rules
-        vrp, target = plan.vrp(step), plan.foothold(step).position[:2]
+        plan = tick.plan
+        step = tick.phase.step
+        rules = self._rules
+        vrp = plan.vrp(step)
+        target = plan.foothold(step).position[:2]
         following = plan.schedule.following(tick.phase)
         last = step + 1 >= plan.count
-        begun, (soonest, latest) = tick.time - tick.phase.start, self._bounds(tick, left)
+        begun = tick.time - tick.phase.start
+        soonest, latest = self._bounds(tick, left)
         usual = plan.schedule.timing.single_support
         found = solve_ssp(
             SspProblem(
@@ -341,7 +370,8 @@ class StepAdjustment:
         )
         if found is None:
             return None
-        time, (tx, ty) = found.time - begun, target.tolist()
+        time = found.time - begun
+        tx, ty = target.tolist()
         px, py = (found.place - vrp + target).tolist()
         (x, y), _ = self._landing(foot, (px, py), time, region)
         return _Choice(time, (x - tx, y - ty), 0.0)
@@ -356,17 +386,25 @@ class StepAdjustment:
 
     def _reached(self, foot: _Foot, wanted: tuple[float, float], time: float) -> tuple[float, float]:
         """Place (x, y) in m nearest to a wanted one, reachable at rest in a time in s."""
-        most, (vx, vy), (x, y) = self._rules.acceleration, foot.velocity, foot.place
-        c, s, narrow = math.cos(foot.yaw), math.sin(foot.yaw), self._rules.sideways
+        most = self._rules.acceleration
+        vx, vy = foot.velocity
+        x, y = foot.place
+        c = math.cos(foot.yaw)
+        s = math.sin(foot.yaw)
+        narrow = self._rules.sideways
         # In the foot's axes, those to the side stretched: what it reaches is a circle then.
-        ahead, aside = c * vx + s * vy, (c * vy - s * vx) / narrow
+        ahead = c * vx + s * vy
+        aside = (c * vy - s * vx) / narrow
         reach = max(0.0, most * time * time - (ahead * ahead + aside * aside) / most) / _PEAK
-        wx, wy = wanted[0] - x, wanted[1] - y
-        dx, dy = c * wx + s * wy - 0.5 * time * ahead, (c * wy - s * wx) / narrow - 0.5 * time * aside
+        wx = wanted[0] - x
+        wy = wanted[1] - y
+        dx = c * wx + s * wy - 0.5 * time * ahead
+        dy = (c * wy - s * wx) / narrow - 0.5 * time * aside
         far = math.hypot(dx, dy)
         if far <= reach:
             return wanted
-        dx, dy = 0.5 * time * ahead + dx * (reach / far), narrow * (0.5 * time * aside + dy * (reach / far))
+        dx = 0.5 * time * ahead + dx * (reach / far)
+        dy = narrow * (0.5 * time * aside + dy * (reach / far))
         return x + c * dx - s * dy, y + s * dx + c * dy
 
 
@@ -381,9 +419,13 @@ def _moved(planned: Footstep, step: int, move: tuple[float, float], reason: str,
 
 def _missed(pendulum: Pendulum, left: float) -> tuple[float, float]:
     """DCM error (x, y) in m after a time in s with the best ZMP."""
-    (px, py), (wx, wy) = pendulum.beyond_zmp(left)[2], pendulum.offset.tolist()
-    (x, y), (gx, gy), grown = pendulum.dcm.tolist(), pendulum.goal.tolist(), math.exp(pendulum.omega * left)
-    ux, uy = px - wx, py - wy
+    px, py = pendulum.beyond_zmp(left)[2]
+    wx, wy = pendulum.offset.tolist()
+    x, y = pendulum.dcm.tolist()
+    gx, gy = pendulum.goal.tolist()
+    grown = math.exp(pendulum.omega * left)
+    ux = px - wx
+    uy = py - wy
     return ux + grown * (x - ux) - gx, uy + grown * (y - uy) - gy
 
 

@@ -53,7 +53,9 @@ class StepTiming:
 
     def propose(self, tick: Tick) -> PlanChange | None:
         """Another end of the support, where that helps."""
-        phase, rules, pendulum = tick.phase, self._rules, tick.pendulum
+        phase = tick.phase
+        rules = self._rules
+        pendulum = tick.pendulum
         stands = phase.kind == PhaseKind.STANDING or phase.step == tick.plan.count
         if pendulum is None or stands or phase.wait or tick.time < self._changed + rules.pause:
             return None
@@ -77,12 +79,15 @@ class StepTiming:
     def _best_change(self, tick: Tick, missed: Callable[[float], float], left: float) -> float:
         """Delay in s of the phase's end with least miss and price."""
         rules = self._rules
-        usual, begun = tick.plan.schedule.timing.single_support, tick.time - tick.phase.start
-        later, sooner = rules.longest_double * usual - begun - left, 0.0
+        usual = tick.plan.schedule.timing.single_support
+        begun = tick.time - tick.phase.start
+        later = rules.longest_double * usual - begun - left
+        sooner = 0.0
         if tick.phase.swing is not None:
             later = (1.0 + rules.longest) * usual - begun - left
             sooner = left - max(rules.least_left, (1.0 - rules.shortest) * usual - begun)
-        best, least = 0.0, missed(left)
+        best = 0.0
+        least = missed(left)
         for sign, most in ((1.0, later), (-1.0, sooner)):
             for k in range(1, int(most / self._period + 1e-6) + 1):
                 price = rules.price * k * self._period
@@ -90,7 +95,8 @@ class StepTiming:
                     break
                 cost = price + missed(left + sign * k * self._period)
                 if cost < least:
-                    best, least = sign * k * self._period, cost
+                    best = sign * k * self._period
+                    least = cost
         return best
 
 
@@ -99,13 +105,15 @@ def _misses(tick: Tick, pendulum: Pendulum) -> Callable[[float], float]:
 
     In double support only towards the foot that lifts: elsewhere its stance foot does alone what both can do.
     """
-    plan, step = tick.plan, tick.phase.step
+    plan = tick.plan
+    step = tick.phase.step
     way = plan.vrp_before(step, plan.foothold(step).side) - plan.stance_vrp(step)
     ux, uy = (way / math.hypot(*way)).tolist()
 
     def missed(left: float) -> float:
         growth, (wx, wy), (x, y) = pendulum.beyond_zmp(left)
-        wx, wy = growth * (wx - x), growth * (wy - y)
+        wx = growth * (wx - x)
+        wy = growth * (wy - y)
         return math.hypot(wx, wy) if tick.phase.swing is not None else max(0.0, ux * wx + uy * wy)
 
     return missed

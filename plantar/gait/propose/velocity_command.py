@@ -147,7 +147,8 @@ def next_step(
         >>> next_step(right, left, Velocity(left=-0.1), Legs(0.17, 0.8), Stride(), 1.0).y  # the other one opens
         0.085
     """
-    outward, half = (1.0 if other.side == "left" else -1.0), 0.5 * legs.width
+    outward = 1.0 if other.side == "left" else -1.0
+    half = 0.5 * legs.width
 
     def within(value: float, most: float) -> float:
         return min(most, max(-most, value))
@@ -170,7 +171,8 @@ def next_step(
 
 
 def _moved(x: float, y: float, yaw: float, ahead: float, across: float) -> tuple[float, float]:
-    c, s = math.cos(yaw), math.sin(yaw)
+    c = math.cos(yaw)
+    s = math.sin(yaw)
     return x + c * ahead - s * across, y + s * ahead + c * across
 
 
@@ -195,11 +197,14 @@ class VelocityCommand:
     def propose(self, tick: Tick) -> PlanChange | None:
         """The next steps, at touchdown or from standing."""
         if self._proposed is not None and was_applied(self._proposed, tick):
-            self._planned, self._proposed = self._proposed.step + 1, None
-        phase, plan = tick.phase, tick.plan
+            self._planned = self._proposed.step + 1
+            self._proposed = None
+        phase = tick.phase
+        plan = tick.plan
         if phase.kind == PhaseKind.SINGLE_SUPPORT:
             return None
-        velocity, timing = self.table.at(tick.time), plan.schedule.timing
+        velocity = self.table.at(tick.time)
+        timing = plan.schedule.timing
         if velocity is STOP and phase.step >= plan.count:
             return None  # at rest, or on the way to it
         # A stop counts until the foot lifts off: received a moment after the touchdown, it would take a step more.

@@ -8,7 +8,8 @@ from plantar.gait.command import Command
 from plantar.kernels.base.vectors import vector
 
 # leg/beat at which a foot in the air is put down, and the CoM moves; thrice as fast H1 falls
-_LOWER, _SINK = 0.15, 0.03
+_LOWER = 0.15
+_SINK = 0.03
 _DEPTH = 0.08  # leg by which a robot sits lower than it walks; legs that walk crouched by 0.05 reach it
 _SHIFT = 0.3  # weight/beat by which forces of the feet change
 _LIMP = 0.5  # s in which forces and stiffness of a fallen robot go to zero
@@ -29,8 +30,11 @@ class SafeStop:
 
     def __init__(self, period: float, leg: float, beat: float, weight: float) -> None:
         share = period / beat
-        self._lower, self._sink, self._shift = _LOWER * leg * share, _SINK * leg * share, _SHIFT * weight * share
-        self._depth, self._limp = _DEPTH * leg, period / _LIMP
+        self._lower = _LOWER * leg * share
+        self._sink = _SINK * leg * share
+        self._shift = _SHIFT * weight * share
+        self._depth = _DEPTH * leg
+        self._limp = period / _LIMP
         self._height: float | None = None
 
     def after(self, last: Command, state: str | None) -> Command:
@@ -47,9 +51,11 @@ class SafeStop:
         return last.changed(feet={s: last.feet[s].changed(force=forces[s]) for s in SIDES}, stiffness=stiffness)
 
     def _seated(self, last: Command) -> Command:
-        feet, swing = dict(last.feet), last.phase.swing
+        feet = dict(last.feet)
+        swing = last.phase.swing
         if swing is not None:
-            foot, other = feet[swing], feet["left" if swing == "right" else "right"]
+            foot = feet[swing]
+            other = feet["left" if swing == "right" else "right"]
             above = foot.position.item(2) - other.position.item(2)
             if above > 0.0:
                 drop = vector(0.0, 0.0, min(above, self._lower))
@@ -58,7 +64,8 @@ class SafeStop:
                     return last.changed(feet=feet)
         if self._height is None:
             self._height = last.com.item(2) - self._depth
-        left, right = feet["left"].position, feet["right"].position
+        left = feet["left"].position
+        right = feet["right"].position
         goal = 0.5 * (left + right)
         goal[2] = self._height
         com = _nearer(last.com, goal, self._sink)

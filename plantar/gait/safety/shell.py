@@ -21,10 +21,14 @@ from plantar.mechanics.lip import GRAVITY
 from plantar.sensing.reading import Reading
 
 _STUCK = 0.12  # s for which sensors may report the very same: a train of 0.1 s is walked through
-_SLIP, _JERK = 0.02, 800.0  # rad, rad/s^2: a joint's speed changes faster only where its encoder jumps; walks reach 80
+# rad, rad/s^2: a joint's speed changes faster only where its encoder jumps; walks reach 80
+_SLIP = 0.02
+_JERK = 800.0
 _SILENT = 0.06  # s for which a reading that cannot be taken is bridged by the last one that could
 _LATE = 0.15  # s of times that cannot be taken, until the state is "late"
-_UNLOADED, _WEIGHTLESS = 0.3, 0.04  # weight on both soles below which one must be silent, and for how long in s
+# weight on both soles below which one must be silent, and for how long in s
+_UNLOADED = 0.3
+_WEIGHTLESS = 0.04
 _ROLLED = 0.06  # rad: a sole that stands turns by 0.01 in a walk, by 0.05 in the worst of drawn plants
 _FLAT = 0.5  # spread of the load of a flat sole, of that of an even one; a row of taxels has less than 0.3
 _FALLEN = 0.5  # cosine of the trunk's tilt, and share of its height, below which a robot has fallen
@@ -82,7 +86,8 @@ class SafetyShell:
         self._soles = SoleCheck(self._weight)
         self._stuck = round(_STUCK / period)
         self._bridged = round(_SILENT / period)
-        self._silent = self._unloaded = 0
+        self._silent = 0
+        self._unloaded = 0
         self._sound: Sensors | None = None
         self._lost: Side | None = None
         self._stance: Side | None = None
@@ -133,7 +138,8 @@ class SafetyShell:
 
     def _commanded(self, sensors: Sensors) -> Command:
         command = self._tick(sensors)
-        self._sound, self._silent = sensors, 0
+        self._sound = sensors
+        self._silent = 0
         if not self._begun:
             self._begun = True
             return command
@@ -151,10 +157,13 @@ class SafetyShell:
             self._stance = None
             return False
         rotation = command.state.rotations_sole[stance]
-        x, y = rotation.item(2), rotation.item(5)
+        x = rotation.item(2)
+        y = rotation.item(5)
         if stance != self._stance:
-            self._stance, self._landed = stance, (x, y)
-        x, y = x - self._landed[0], y - self._landed[1]
+            self._stance = stance
+            self._landed = (x, y)
+        x = x - self._landed[0]
+        y = y - self._landed[1]
         if math.hypot(x, y) <= _ROLLED:
             return False
         along = self._positions[stance] @ (rotation.T @ np.array([x, y, 0.0]))
@@ -176,7 +185,9 @@ class SafetyShell:
 
     def _problem(self, sensors: Sensors) -> int:
         """Fault of encoders and IMU, 0 for none; the controller bridges NaN."""
-        joints, gyro, accelerometer = sensors.joint_positions, sensors.gyro, sensors.accelerometer
+        joints = sensors.joint_positions
+        gyro = sensors.gyro
+        accelerometer = sensors.accelerometer
         if self._body is None:
             self._joints = len(joints) if self._joints is None else self._joints
             self._body = BodyCheck(self._joints, self._stuck, max(_SLIP, _JERK * self._period**2))
@@ -188,8 +199,11 @@ class SafetyShell:
 
     def _readings(self, sensors: Sensors) -> Readings | None:
         """Each sole's reading under its side; a silent one follows from the other."""
-        readings, soles, counts = sensors.readings, self._soles, self._counts
-        left, right = _sound(readings, "left", counts["left"]), _sound(readings, "right", counts["right"])
+        readings = sensors.readings
+        soles = self._soles
+        counts = self._counts
+        left = _sound(readings, "left", counts["left"])
+        right = _sound(readings, "right", counts["right"])
         if left is None or right is None:
             lost: Side | None = "left" if left is None else "right"
             return None if left is right else self._replaced(sensors, readings, lost)
@@ -214,7 +228,8 @@ class SafetyShell:
 
     def _silent_sole(self, soles: SoleCheck, accelerometer: NDArray[np.float64]) -> Side | None:
         """Sole that is stuck, or unloaded while carrying."""
-        weight, phase = self._weight, self._last.phase
+        weight = self._weight
+        phase = self._last.phase
         if phase.kind != PhaseKind.STANDING:
             if soles.left_same >= self._stuck and soles.left > 0.05 * weight:
                 return "left"
@@ -253,7 +268,8 @@ class SafetyShell:
         state = self._last.state
         if not self._begun:
             return False
-        left, right = state.positions_sole["left"].item(2), state.positions_sole["right"].item(2)
+        left = state.positions_sole["left"].item(2)
+        right = state.positions_sole["right"].item(2)
         height = state.com.item(2) - min(left, right)
         return state.rotation_base_to_world.item(8) < _FALLEN or height < _FALLEN * self._height
 

@@ -36,7 +36,8 @@ def standing_command(
     Returns:
         With targets as state and unloaded percepts.
     """
-    reference, phase = plan.at(time), plan.schedule.at(time)
+    reference = plan.at(time)
+    phase = plan.schedule.at(time)
     ground = float(np.mean([feet[side].z for side in SIDES]))
     com = np.array([*reference.com[:2], ground + com_height])
     places: dict[str, NDArray[np.float64]] = {side: np.array(feet[side].position, dtype=float) for side in SIDES}

@@ -9,7 +9,9 @@ from plantar.common.sides import SIDES, Side
 from plantar.gait.command import Command, FootTarget
 from plantar.kernels.safety.plausible import farthest
 
-_FOOT, _COM = 1.1, 0.44  # leg/beat: fastest targets of a foot and of the CoM
+# leg/beat: fastest targets of a foot and of the CoM
+_FOOT = 1.1
+_COM = 0.44
 _TURN = 2.4  # rad/beat of a sole or the torso
 _FORCE = 4.5  # weight/beat of the force on a foot
 
@@ -26,8 +28,10 @@ class TargetLimits:
 
     def __init__(self, period: float, leg: float, beat: float, weight: float) -> None:
         share = period / beat
-        self._foot, self._com = _FOOT * leg * share, _COM * leg * share
-        self._turn, self._force = _TURN * share, _FORCE * weight * share
+        self._foot = _FOOT * leg * share
+        self._com = _COM * leg * share
+        self._turn = _TURN * share
+        self._force = _FORCE * weight * share
 
     def limited(self, before: Command, now: Command) -> Command:
         """A command with targets within the limits from the last tick's.
@@ -39,8 +43,10 @@ class TargetLimits:
         Returns:
             `now` itself within limits; else with targets on the way.
         """
-        left, right = now.feet["left"], now.feet["right"]
-        was_left, was_right = before.feet["left"], before.feet["right"]
+        left = now.feet["left"]
+        right = now.feet["right"]
+        was_left = before.feet["left"]
+        was_right = before.feet["right"]
         if (
             farthest(before.com, now.com, 3) <= self._com
             and farthest(was_left.position, left.position, 3) <= self._foot

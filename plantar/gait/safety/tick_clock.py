@@ -28,7 +28,8 @@ class TickClock:
     """
 
     def __init__(self, period: float, latest: float = math.inf) -> None:
-        self._period, self._latest = period, latest
+        self._period = period
+        self._latest = latest
         self._last: float | None = None
         self._offset = 0.0
         self.odd = 0

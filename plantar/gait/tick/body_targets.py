@@ -20,7 +20,8 @@ class BodyTargets:
     """CoM and torso targets over the commanded feet, their frame."""
 
     def __init__(self, settings: ControllerSettings, footing: Footing) -> None:
-        self._settings, self._footing = settings, footing
+        self._settings = settings
+        self._footing = footing
         ground = float(np.mean([footing.motion.footholds[side][0].item(2) for side in SIDES]))
         self._ground = CoMHeight(ground, settings.period, _FOLLOWS_GROUND / settings.body.beat)
 
@@ -34,7 +35,8 @@ class BodyTargets:
             com: (2,), world frame, in m.
             lean: Least needed in rad/m.
         """
-        left, right = self._footing.motion.footholds["left"][1], self._footing.motion.footholds["right"][1]
+        left = self._footing.motion.footholds["left"][1]
+        right = self._footing.motion.footholds["right"][1]
         x, y = self._footing.frame.to_command(com).tolist()
         target = vector(x, y, self._com_height(phase))
         torso = left + 0.5 * math.remainder(right - left, 2.0 * math.pi)
@@ -45,23 +47,30 @@ class BodyTargets:
 
         The lean brings carrying hip and CoM together, relieving the hip roll.
         """
-        settings, footholds = self._settings, self._footing.motion.footholds
-        (lx, ly, _), (rx, ry, _) = footholds["left"][0].tolist(), footholds["right"][0].tolist()
+        settings = self._settings
+        footholds = self._footing.motion.footholds
+        lx, ly, _ = footholds["left"][0].tolist()
+        rx, ry, _ = footholds["right"][0].tolist()
         x, y, _ = com.tolist()
-        c, d = math.cos(torso), math.sin(torso)
-        dx, dy = x - 0.5 * (lx + rx), y - 0.5 * (ly + ry)
+        c = math.cos(torso)
+        d = math.sin(torso)
+        dx = x - 0.5 * (lx + rx)
+        dy = y - 0.5 * (ly + ry)
         left = -d * dx + c * dy
         # Rounded where it ends: a kink would jerk the trunk.
-        reach, aside = settings.lean_reach, abs(left)
+        reach = settings.lean_reach
+        aside = abs(left)
         over = min(max(aside - 0.95 * reach, 0.0), _ROUND * reach)
         aside = min(aside, (0.95 + _ROUND) * reach) - over * over / (2.0 * _ROUND * reach)
         roll = -max(settings.trunk_lean, lean) * math.copysign(aside, left)
-        e, f = math.cos(roll), math.sin(roll)
+        e = math.cos(roll)
+        f = math.sin(roll)
         return matrix(c, -d * e, d * f, d, c * e, -c * f, 0.0, f, e)
 
     def _com_height(self, phase: Phase) -> float:
         """Height in m over the stance foot, blended in double support, higher over partial footholds."""
-        footing, rise = self._footing, self._settings.partial_rise
+        footing = self._footing
+        rise = self._settings.partial_rise
         heights = {side: footing.motion.footholds[side][0].item(2) for side in SIDES}
         target = 0.5 * (heights["left"] + heights["right"])
         if phase.stance is not None:

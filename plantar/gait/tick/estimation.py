@@ -55,7 +55,9 @@ class Estimation:
         layouts: Mapping[Side, SoleLayout],
         kinematics: LegKinematics,
     ) -> None:
-        self._settings, self._layouts, period = settings, layouts, settings.period
+        self._settings = settings
+        self._layouts = layouts
+        period = settings.period
         self.omega = pendulum_frequency(settings.com_height, 2.0 * settings.leg_inertia.turning)
         self.stands = True
         self._ticks = 0
@@ -65,7 +67,8 @@ class Estimation:
             s: (feet[s].x, feet[s].y, feet[s].z, feet[s].yaw) for s in SIDES
         }
         self.body: IdentifiedBody | None = None
-        bias = steady = None
+        bias = None
+        steady = None
         rules = settings.identification
         if rules is not None:
             self.body = IdentifiedBody(kinematics, settings.mass * GRAVITY, places, rules, period)
@@ -93,7 +96,8 @@ class Estimation:
 
     def sense(self, sensors: Sensors, phase: Phase) -> Sensed:
         """Returns what `sensors` of soles and ankles measure in a phase, taxel forces clipped at their limit."""
-        readings, layouts = sensors.readings, self._layouts
+        readings = sensors.readings
+        layouts = self._layouts
         percepts: dict[Side, Percept] = {
             "left": percept_to_its_limit(readings["left"], layouts["left"]),
             "right": percept_to_its_limit(readings["right"], layouts["right"]),
@@ -110,7 +114,8 @@ class Estimation:
         self, sensors: Sensors, sensed: Sensed, acceleration: NDArray[np.float64], swing: NDArray[np.float64]
     ) -> BaseState:
         """Returns the state by `sensors`, `sensed` and planned `acceleration` (2,) in m/s^2 of CoM and `swing` foot."""
-        s, phase = self._settings, sensed.phase
+        s = self._settings
+        phase = sensed.phase
         self._ticks += 1
         self.stands = self._ticks * s.period <= s.estimator.averaging
         if self.body is not None:
@@ -133,7 +138,8 @@ class Estimation:
 
     def dcm(self, state: BaseState) -> NDArray[np.float64]:
         """A state's DCM (2,) in m (T 4.27)."""
-        (x, y, _), (vx, vy, _) = state.com.tolist(), state.com_velocity.tolist()
+        x, y, _ = state.com.tolist()
+        vx, vy, _ = state.com_velocity.tolist()
         return vector2(x + vx / self.omega, y + vy / self.omega)
 
     def _identify(self, body: IdentifiedBody, sensors: Sensors, sensed: Sensed) -> None:
@@ -147,11 +153,13 @@ class Estimation:
 
     def push_on_skin(self, sensors: Sensors) -> NDArray[np.float64] | None:
         """CoM acceleration (2,) in m/s^2 by the upper body's skin, or None."""
-        s, state = self._settings, self._state
+        s = self._settings
+        state = self._state
         if s.push_felt is None or s.skin is None or sensors.skin is None or state is None:
             return None
         # Where the body was a tick ago: it has moved by a millimetre since.
-        place, turn = state.position_base, state.rotation_base_to_world
+        place = state.position_base
+        turn = state.rotation_base_to_world
         poses = dict.fromkeys(s.skin.links, (place, turn))
         poses |= {link: (place + turn @ at, turn @ rotation) for link, (at, rotation) in sensors.links.items()}
         push = net_wrench(s.skin, sensors.skin, poses, state.com, s.push_felt)

@@ -45,13 +45,16 @@ class FootTargets:
             rests: Whether the robot stands after a walk; wrenches included.
         """
         states: dict[Side, FootState] = {}
-        motion, crept = self._footing.motion, self._crept() if contacts else ()
+        motion = self._footing.motion
+        crept = self._crept() if contacts else ()
         for side in SIDES:
-            level = rotation = motion.rotation(side)
+            level = motion.rotation(side)
+            rotation = level
             x, y = self._footing.damping[side].turn.tolist()
             if x or y:
                 rotation = turned(level, x, y)
-            contact = wrench = None
+            contact = None
+            wrench = None
             if (contacts or rests) and (phase.swing != side or motion.landed):
                 contact = self._contact(side, crept) if contacts else None
                 wrench = soles[side].wrench_in_sole
@@ -63,8 +66,12 @@ class FootTargets:
         """Returns pose and load of each sole of `feet`, turned and shifted about its center by the law's actions."""
         targets: dict[Side, FootTarget] = {}
         for side, action in actions.items():
-            foot, roll, pitch, shift = feet.states[side], action.roll, action.pitch, action.shift
-            position, rotation = foot.position, foot.rotation
+            foot = feet.states[side]
+            roll = action.roll
+            pitch = action.pitch
+            shift = action.shift
+            position = foot.position
+            rotation = foot.rotation
             if roll or pitch or shift:
                 x, y = self._footing.damping[side].turn.tolist()
                 rotation = turned(foot.level, x + roll, y + pitch)
@@ -91,14 +98,18 @@ class FootTargets:
             posture: Commanded torso rotation (3, 3).
             state: The body's.
         """
-        side, frame, compensation = self._footing.motion.last_side, self._footing.frame, self._footing.compensation
+        side = self._footing.motion.last_side
+        frame = self._footing.frame
+        compensation = self._footing.compensation
         if side is None:
             return
         foot = feet[side]
         if phase.swing != side or not self._footing.motion.landed:
-            (x, y, z), (cx, cy, _) = frame.to_world(foot.position).tolist(), state.com.tolist()
+            x, y, z = frame.to_world(foot.position).tolist()
+            cx, cy, _ = state.com.tolist()
             # The world's heading differs from the command frame's by the alignment; only the lean is corrected here.
-            c, s = math.cos(frame.turn), math.sin(frame.turn)
+            c = math.cos(frame.turn)
+            s = math.sin(frame.turn)
             aligned = vector(cx + c * (x - cx) + s * (y - cy), cy - s * (x - cx) + c * (y - cy), z)
             measured = lean_correction.headed(state.rotation_base_to_world, torso)
             compensation.update(phase.swing == side, foot.position, aligned, com, state.com, posture, measured)
@@ -109,18 +120,21 @@ class FootTargets:
 
     def _crept(self) -> tuple[int, ...]:
         """Command frame's creep, in 1/6000 of the leg (0.1 mm for H1) and 0.1 mrad."""
-        frame, fine = self._footing.frame, self._fine
+        frame = self._footing.frame
+        fine = self._fine
         x, y, z = frame.offset
         return round(x * fine), round(y * fine), round(z * fine), round(frame.turn * 1e4)
 
     def _contact(self, side: Side, crept: tuple[int, ...]) -> Contact:
         """Standing foot's contact; the same object until `_crept` steps."""
-        contacts, frame = self._footing.contacts, self._footing.frame
+        contacts = self._footing.contacts
+        frame = self._footing.frame
         polygon = contacts.polygon(side)
         rectangle = self._rectangles.get(side)
         if rectangle is None or rectangle[0] is not polygon:
             (x0, y0), _, (x1, y1), _ = safe_rectangle(polygon, self._offset).tolist()
-            rectangle = self._rectangles[side] = (polygon, Rectangle(x0, x1, y0, y1))
+            rectangle = (polygon, Rectangle(x0, x1, y0, y1))
+            self._rectangles[side] = rectangle
         position, yaw = self._footing.motion.footholds[side]
         place = (rectangle[1], yaw, crept)
         known = self._contacts.get(side)
@@ -128,5 +142,6 @@ class FootTargets:
             x, y = contacts.center(side).tolist()
             turn = level_rotation(yaw + frame.turn)
             contact = Contact(frame.to_world(position), turn, rectangle[1], preferred=(x, y))
-            known = self._contacts[side] = (position, place, contact)
+            known = (position, place, contact)
+            self._contacts[side] = known
         return known[2]

@@ -68,8 +68,10 @@ class Footing:
         limits: Mapping[Side, AnkleLimits],
         turns_stance: bool,
     ) -> None:
-        s = self._settings = settings
-        self._plan, self._estimation = plan, estimation
+        s = settings
+        self._settings = settings
+        self._plan = plan
+        self._estimation = estimation
         for part in ("feasibility", "conformity"):
             if getattr(s, part) is not None and s.compliance is None:
                 raise InputError(f"{part} needs preemptive foot compliance; give its gains too")
@@ -96,7 +98,8 @@ class Footing:
     def proximity_sides(self) -> tuple[Side, ...]:
         """Sides whose proximity the next tick needs."""
         motion = self.motion
-        sides, last = motion.proximity_sides, motion.last_side
+        sides = motion.proximity_sides
+        last = motion.last_side
         looks = self._settings.footholds == "skin" and not motion.landed and motion.comes_down
         return (*sides, last) if looks and last is not None and last not in sides else sides
 
@@ -120,8 +123,12 @@ class Footing:
         Returns:
             The feet.
         """
-        phase, percepts, s, motion = sensed.phase, sensed.percepts, self._settings, self.motion
-        senses = heights = None
+        phase = sensed.phase
+        percepts = sensed.percepts
+        s = self._settings
+        motion = self.motion
+        senses = None
+        heights = None
         if s.compliance is not None:
             senses = {i: SoleSense(percepts[i], state.positions_sole[i], state.rotations_sole[i]) for i in SIDES}
         target = None if phase.swing is None else self._plan.view.foothold(phase.step)
@@ -145,11 +152,14 @@ class Footing:
         """Command a landed foot where it is, if steps move for balance."""
         if feet.side is None or state.loads[feet.side] <= self._settings.landing.contact_force:
             return  # only the plan has it down
-        side, other, soles = feet.side, other_side(feet.side), state.positions_sole
+        side = feet.side
+        other = other_side(feet.side)
+        soles = state.positions_sole
         x, y = self.frame.to_command(soles[side][:2]).tolist()
         # A pelvis that sinks puts the foot down before its path does: it stands lower than it is commanded.
         z = feet.footholds[other][0].item(2) + (soles[side] - soles[other]).item(2)
-        place, commanded = vector(x, y, z), feet.footholds[side][0]
+        place = vector(x, y, z)
+        commanded = feet.footholds[side][0]
         away = math.dist(place, commanded)
         if away > misplaced:
             # Of a body that falls, or by encoders that err by degrees, a foot may seem to be anywhere.
@@ -176,12 +186,16 @@ class Footing:
         Returns:
             Both.
         """
-        time, phase, percepts, s = sensed.time, sensed.phase, sensed.percepts, self._settings
+        time = sensed.time
+        phase = sensed.phase
+        percepts = sensed.percepts
+        s = self._settings
         looks = dcm is not None and s.footholds != "off"
         self._damp(phase, sensed, state, feet, looks)
         found = self.contacts.find(phase, time, feet, state, percepts, self._slope) if looks else ()
         seen = self.contacts.find_ahead(phase, time, feet, state, percepts) if looks else None
-        region, pendulum = self.zmp_region(phase, feet), None
+        region = self.zmp_region(phase, feet)
+        pendulum = None
         if dcm is not None and (s.step_timing is not None or s.step_adjustment is not None):
             pendulum = self._pendulum(phase, time, dcm, region)
         tick = Tick(
@@ -206,7 +220,10 @@ class Footing:
         return self.contacts.zmp_region(phase, feet, self.frame.offset, margin)
 
     def _pendulum(self, phase: Phase, time: float, dcm: NDArray[np.float64], region: NDArray[np.float64]) -> Pendulum:
-        offset, pushed, omega, plan = _NO_PUSH, _NO_PUSH, self._estimation.omega, self._plan
+        offset = _NO_PUSH
+        pushed = _NO_PUSH
+        omega = self._estimation.omega
+        plan = self._plan
         if self._settings.push_estimate is not None and self._settings.step_adjustment is not None:
             expected = self._push.update(self._estimation.estimator.push_acceleration / omega**2)
             if self._push.acts and phase.swing:
@@ -229,7 +246,8 @@ class Footing:
             pendulum: Before the plan changed; None hands over the plan.
             region: Desired ZMP's (k, 2) in m.
         """
-        reference, plan = self._plan.at(time), self._plan.view
+        reference = self._plan.at(time)
+        plan = self._plan.view
         if pendulum is None or not self._regulates or not len(region):
             return reference, region
         yaw = self.motion.footholds[phase.stance or "left"][1] + self.frame.turn
@@ -249,7 +267,8 @@ class Footing:
         side = self.motion.last_side
         if side is None or not self.motion.comes_down:
             return
-        landing, load = self._settings.landing, state.loads[side]
+        landing = self._settings.landing
+        load = state.loads[side]
         if not landing.probing or load <= self._settings.estimator.minimum_load:
             self.damping[side].level(load, slope.slope(side), landing.levelling)
 
@@ -281,7 +300,8 @@ class Footing:
         """Turn a phase's standing soles to the ground, by `sensed`, `state` and desired `zmp`."""
         if self.conformity is None or (self.motion.hurried and phase.kind != PhaseKind.STANDING):
             return
-        plan, incoming = self._plan.view, None
+        plan = self._plan.view
+        incoming = None
         if 0 < phase.step < plan.count:  # not at the two ends of the walk
             incoming = phase.swing or other_side(plan.foothold(phase.step).side)
         parts = {side: self.contacts.center(side) for side in SIDES if self.contacts.partial(side)}

@@ -47,7 +47,8 @@ def proposers(
         middles: Point (2,) of each sole in m under its ankle.
         guard: Checks footholds; None allows all.
     """
-    s, outlines = settings, {side: layouts[side].outline for side in SIDES}
+    s = settings
+    outlines = {side: layouts[side].outline for side in SIDES}
     start = plan.at(begin).com
     way = plan.end - start
     length = float(np.hypot(*way))

@@ -9,7 +9,8 @@ class Member:
     """Calls a function at first use, and keeps the value in the instance's `__dict__`."""
 
     def __init__(self, function):
-        self.function, self.name = function, ""
+        self.function = function
+        self.name = ""
 
     def __set_name__(self, owner, name):
         self.name = name

@@ -20,7 +20,8 @@ def kept(array):
     size = memory.size(array)
     if size < 0:
         return None
-    given, made = memory.values(array), memory.new_vector(size)
+    given = memory.values(array)
+    made = memory.new_vector(size)
     out = memory.room(made)
     for i in range(size):
         out[i] = given[i]
@@ -33,7 +34,8 @@ def points_of(room, size):
     made = memory.new_matrix(size, 2)
     out = memory.room(made)
     for i in range(size):
-        out[2 * i], out[2 * i + 1] = room[i, 0], room[i, 1]
+        out[2 * i] = room[i, 0]
+        out[2 * i + 1] = room[i, 1]
     return made
 
 
@@ -41,7 +43,8 @@ def vector2(x: float, y: float) -> NDArray[np.float64]:
     """New array (2,) of two numbers."""
     made = memory.new_vector(2)
     out = memory.room(made)
-    out[0], out[1] = x, y
+    out[0] = x
+    out[1] = y
     return made
 
 
@@ -49,7 +52,9 @@ def vector(x: float, y: float, z: float) -> NDArray[np.float64]:
     """New array (3,) of three numbers."""
     made = memory.new_vector(3)
     out = memory.room(made)
-    out[0], out[1], out[2] = x, y, z
+    out[0] = x
+    out[1] = y
+    out[2] = z
     return made
 
 
@@ -59,7 +64,13 @@ def matrix(
     """New array (3, 3) of nine numbers, row by row."""
     made = memory.new_matrix(3, 3)
     out = memory.room(made)
-    out[0], out[1], out[2] = xx, xy, xz
-    out[3], out[4], out[5] = yx, yy, yz
-    out[6], out[7], out[8] = zx, zy, zz
+    out[0] = xx
+    out[1] = xy
+    out[2] = xz
+    out[3] = yx
+    out[4] = yy
+    out[5] = yz
+    out[6] = zx
+    out[7] = zy
+    out[8] = zz
     return made

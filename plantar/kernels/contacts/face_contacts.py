@@ -55,24 +55,31 @@ class FaceContacts:
         rows = addresses.at(turns)
         half = addresses.at(sizes)
         self._look(base, rows, ground, sole)
-        turn, shift = self.turn, self.shift
-        g, s = 3 * ground, 3 * sole
-        best, axis, own = math.inf, 0, -1
+        turn = self.turn
+        shift = self.shift
+        g = 3 * ground
+        s = 3 * sole
+        best = math.inf
+        axis = 0
+        own = -1
         for i in range(3):
             reach = half[g + i]
             for j in range(3):
                 reach += abs(turn[3 * i + j]) * half[s + j]
             overlap = reach - abs(shift[i])
             if overlap < best:
-                best, axis = overlap, i
+                best = overlap
+                axis = i
         for j in range(3):
-            along, reach = 0.0, half[s + j]
+            along = 0.0
+            reach = half[s + j]
             for i in range(3):
                 along += turn[3 * i + j] * shift[i]
                 reach += abs(turn[3 * i + j]) * half[g + i]
             overlap = reach - abs(along)
             if overlap < best:
-                best, own = overlap, j
+                best = overlap
+                own = j
         if best < -margin:
             return 0
         if own >= 0:
@@ -97,9 +104,11 @@ class FaceContacts:
         rows = addresses.at(turns)
         half = addresses.at(sizes)
         self._look(base, rows, ground, sole)
-        turn, shift = self.turn, self.shift
+        turn = self.turn
+        shift = self.shift
         s = 3 * sole
-        radius, height = half[3 * ground], half[3 * ground + 1]
+        radius = half[3 * ground]
+        height = half[3 * ground + 1]
         own = 0
         for j in range(1, 3):
             if abs(turn[6 + j]) > abs(turn[6 + own]):
@@ -115,7 +124,8 @@ class FaceContacts:
         return self._write_disc(base, rows, ground, radius, height, reach - abs(along), side, margin, out, sign)
 
     def _look(self, base, rows, ground, sole):
-        g, s = 3 * ground, 3 * sole
+        g = 3 * ground
+        s = 3 * sole
         for i in range(3):
             self.shift[i] = 0.0
             for k in range(3):
@@ -132,7 +142,8 @@ class FaceContacts:
             if abs(self.turn[3 * axis + j]) > abs(self.turn[3 * axis + own]):
                 own = j
         facing = -side if self.turn[3 * axis + own] >= 0.0 else side
-        a, b = (own + 1) % 3, (own + 2) % 3
+        a = (own + 1) % 3
+        b = (own + 2) % 3
         for k in range(4):
             u = half[s + a] if k == 1 or k == 2 else -half[s + a]
             v = half[s + b] if k >= 2 else -half[s + b]
@@ -212,9 +223,12 @@ class FaceContacts:
         mz = 0.5 * (self.corners[2] + self.corners[8])
         size = ax * by - ay * bx
         # The disc's middle in the face's own coordinates, -1 to 1, and how far the face's nearest place is from it.
-        p, q = (-mx * by + my * bx) / size, (mx * ay - my * ax) / size
-        u, v = min(max(p, -1.0), 1.0), min(max(q, -1.0), 1.0)
-        nx, ny = mx + u * ax + v * bx, my + u * ay + v * by
+        p = (-mx * by + my * bx) / size
+        q = (mx * ay - my * ax) / size
+        u = min(max(p, -1.0), 1.0)
+        v = min(max(q, -1.0), 1.0)
+        nx = mx + u * ax + v * bx
+        ny = my + u * ay + v * by
         nearest = math.sqrt(nx * nx + ny * ny)
         if nearest - radius > -max(depth, 0.0):
             return 0 if nearest - radius > margin else -1
@@ -223,7 +237,8 @@ class FaceContacts:
             da = 1.0 if k == 1 or k == 2 else -1.0
             db = 1.0 if k >= 2 else -1.0
             if self._furthest(ax, ay, bx, by, mx, my, radius, p, q, da, db):
-                u, v = self.cut[0], self.cut[1]
+                u = self.cut[0]
+                v = self.cut[1]
                 gap = mz + u * az + v * bz
                 if gap < margin:
                     self.corners[12] = mx + u * ax + v * bx
@@ -235,26 +250,34 @@ class FaceContacts:
 
     def _furthest(self, ax, ay, bx, by, mx, my, radius, p, q, da, db):
         """Put a diagonal's furthest point, inside disc and face, into `cut`."""
-        la, lb = math.sqrt(ax * ax + ay * ay), math.sqrt(bx * bx + by * by)
-        wx, wy = da * ax / la + db * bx / lb, da * ay / la + db * by / lb
+        la = math.sqrt(ax * ax + ay * ay)
+        lb = math.sqrt(bx * bx + by * by)
+        wx = da * ax / la + db * bx / lb
+        wy = da * ay / la + db * by / lb
         size = math.sqrt(wx * wx + wy * wy)
-        wx, wy = wx / size, wy / size
+        wx = wx / size
+        wy = wy / size
         area = ax * by - ay * bx
         best = -math.inf
         u = p + radius * (wx * by - wy * bx) / area
         v = q + radius * (wy * ax - wx * ay) / area
         if abs(u) <= 1.0 and abs(v) <= 1.0:
-            self.cut[0], self.cut[1] = u, v
+            self.cut[0] = u
+            self.cut[1] = v
             return True
-        x, y = mx + da * ax + db * bx, my + da * ay + db * by
+        x = mx + da * ax + db * bx
+        y = my + da * ay + db * by
         if x * x + y * y <= radius * radius:
-            self.cut[0], self.cut[1] = da, db
+            self.cut[0] = da
+            self.cut[1] = db
             return True
         for k in range(4):
             fixed = 1.0 if k % 2 == 0 else -1.0
             ox, oy = (mx + fixed * ax, my + fixed * ay) if k < 2 else (mx + fixed * bx, my + fixed * by)
             ex, ey = (bx, by) if k < 2 else (ax, ay)
-            a, b, c = ex * ex + ey * ey, ox * ex + oy * ey, ox * ox + oy * oy - radius * radius
+            a = ex * ex + ey * ey
+            b = ox * ex + oy * ey
+            c = ox * ox + oy * oy - radius * radius
             root = b * b - a * c
             if root < 0.0:
                 continue

@@ -80,8 +80,10 @@ class FootContacts:
         if count > self.room:
             self._make_room(count)
         for k in range(count):
-            self.ids[k, 0], self.ids[k, 1] = ids[k, 0], ids[k, 1]
-            self.gaps[k], self.carries[k] = gaps[k], carries[k]
+            self.ids[k, 0] = ids[k, 0]
+            self.ids[k, 1] = ids[k, 1]
+            self.gaps[k] = gaps[k]
+            self.carries[k] = carries[k]
         for k in range(3 * count):
             for j in range(3):
                 self.vectors[k, j] = vectors[k, j]
@@ -99,7 +101,8 @@ class FootContacts:
             self._make_room(2 * count)
         k = 0
         for i in range(count):
-            first, second = listed.geoms[i, 0], listed.geoms[i, 1]
+            first = listed.geoms[i, 0]
+            second = listed.geoms[i, 1]
             a = self.own[first] if first >= 0 else 0
             b = self.own[second] if second >= 0 else 0
             if a == b:
@@ -110,12 +113,14 @@ class FootContacts:
             row = 3 * k
             for j in range(3):
                 self.vectors[row, j] = listed.positions[i, j]
-                self.vectors[row + 1, j] = self.vectors[row + 2, j] = 0.0
+                self.vectors[row + 1, j] = 0.0
+                self.vectors[row + 2, j] = 0.0
             start = listed.addresses[i]
             if start >= 0:
                 for m in range(listed.sizes[i]):
                     value = sign * _along(listed, forces, i, m)
-                    half, axis = row + 1 if m < 3 else row + 2, 3 * (m % 3)
+                    half = row + 1 if m < 3 else row + 2
+                    axis = 3 * (m % 3)
                     for j in range(3):
                         self.vectors[half, j] += value * listed.frames[i, axis + j]
             self.gaps[k] = listed.gaps[i]
@@ -141,21 +146,39 @@ class FootContacts:
             sums: Force, torque, and sum of height times vertical force (7,), added to.
             points: `FewPoints` that receive points of support.
         """
-        fx, fy, fz, tx, ty, tz, height = sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6]
+        fx = sums[0]
+        fy = sums[1]
+        fz = sums[2]
+        tx = sums[3]
+        ty = sums[4]
+        tz = sums[5]
+        height = sums[6]
         for k in range(self.size):
             if ground is not None and self.ids[k, 1] >= 0 and not ground[self.ids[k, 1]]:
                 continue
             row = 3 * k
-            x, y, z = self.vectors[row, 0], self.vectors[row, 1], self.vectors[row, 2]
-            a, b, f = self.vectors[row + 1, 0], self.vectors[row + 1, 1], self.vectors[row + 1, 2]
-            fx, fy, fz = fx + a, fy + b, fz + f
+            x = self.vectors[row, 0]
+            y = self.vectors[row, 1]
+            z = self.vectors[row, 2]
+            a = self.vectors[row + 1, 0]
+            b = self.vectors[row + 1, 1]
+            f = self.vectors[row + 1, 2]
+            fx = fx + a
+            fy = fy + b
+            fz = fz + f
             tx = tx + self.vectors[row + 2, 0] + y * f - z * b
             ty = ty + self.vectors[row + 2, 1] + z * a - x * f
             tz = tz + self.vectors[row + 2, 2] + x * b - y * a
             height += z * f
             if self.carries[k] or self.gaps[k] <= reach:
                 points.add(x, y)
-        sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6] = fx, fy, fz, tx, ty, tz, height
+        sums[0] = fx
+        sums[1] = fy
+        sums[2] = fz
+        sums[3] = tx
+        sums[4] = ty
+        sums[5] = tz
+        sums[6] = height
 
     def pair_loads(self, vectors, reach):
         """For each pair of geoms, in order of contact: normal force in N on the plane z = 0, torques about x and y at
@@ -179,11 +202,17 @@ class FootContacts:
         Writes place and overlap of each to `points` (at least k, 3).
         """
         size = 0
-        force = about_x = about_y = 0.0
+        force = 0.0
+        about_x = 0.0
+        about_y = 0.0
         for j in range(self.size):
             row = 3 * j
-            x, y, z = vectors[row, 0], vectors[row, 1], vectors[row, 2]
-            fx, fy, fz = vectors[row + 1, 0], vectors[row + 1, 1], vectors[row + 1, 2]
+            x = vectors[row, 0]
+            y = vectors[row, 1]
+            z = vectors[row, 2]
+            fx = vectors[row + 1, 0]
+            fy = vectors[row + 1, 1]
+            fz = vectors[row + 1, 2]
             if self.gaps[j] > reach and fz == 0.0:
                 if j == k:
                     break
@@ -195,14 +224,17 @@ class FootContacts:
             force += fz
             about_x += vectors[row + 2, 0] + y * fz - z * fy
             about_y += vectors[row + 2, 1] + z * fx - x * fz
-            points[size, 0], points[size, 1], points[size, 2] = x, y, -self.gaps[j]
+            points[size, 0] = x
+            points[size, 1] = y
+            points[size, 2] = -self.gaps[j]
             size += 1
         return size, force, about_x, about_y
 
 
 def _along(listed, forces, i, m):
     """Loaded contact's force or torque along one axis."""
-    start, size = listed.addresses[i], listed.sizes[i]
+    start = listed.addresses[i]
+    size = listed.sizes[i]
     if not listed.pyramid or size == 1:
         return forces[start + m]
     if m:
@@ -241,7 +273,8 @@ class ContactsInSole:
 
     def _make_room(self, room):
         self.room = room
-        shifted, turned = np.zeros((3 * room, 3)), np.zeros((3 * room, 3))
+        shifted = np.zeros((3 * room, 3))
+        turned = np.zeros((3 * room, 3))
         self.shifted = shifted
         self.vectors = turned
         self.rows = [(shifted[k : k + 1], turned[k : k + 1]) for k in range(3)]

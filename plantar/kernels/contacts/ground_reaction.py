@@ -35,7 +35,9 @@ class GroundReaction:
         self.sole = few_points.FewPoints()
         self.ends = [0]
         self.found = False
-        self.x = self.y = self.margin = _NONE
+        self.x = _NONE
+        self.y = _NONE
+        self.margin = _NONE
 
     def update(self, feet):
         """Sum the current contacts of each foot's `FootContacts`."""
@@ -57,7 +59,9 @@ class GroundReaction:
         force = self.sums[2]
         self.found = force >= self.least
         if not self.found:
-            self.x = self.y = self.margin = _NONE
+            self.x = _NONE
+            self.y = _NONE
+            self.margin = _NONE
             return
         height = self.height
         if height != height:
@@ -68,7 +72,8 @@ class GroundReaction:
 
     def area(self, foot):
         """Area in m^2 of the hull of a foot's points of support; 0 below three."""
-        first, end = self.ends[foot], self.ends[foot + 1]
+        first = self.ends[foot]
+        end = self.ends[foot + 1]
         if end - first < 3:
             return 0.0
         if end - first == self.support.count:

@@ -46,10 +46,17 @@ def spread_part(u, area, x, y, force, active, cells, out):
     """
     count = u.shape[0]
     for _ in range(8):
-        m00 = m01 = m02 = m11 = m12 = m22 = 0.0
+        m00 = 0.0
+        m01 = 0.0
+        m02 = 0.0
+        m11 = 0.0
+        m12 = 0.0
+        m22 = 0.0
         for i in range(count):
             if active[i]:
-                w, p, q = area[i], u[i, 1], u[i, 2]
+                w = area[i]
+                p = u[i, 1]
+                q = u[i, 2]
                 m00 += w
                 m01 += w * p
                 m02 += w * q
@@ -84,8 +91,12 @@ def spread_part(u, area, x, y, force, active, cells, out):
 
 def _solved(m00, m01, m02, m11, m12, m22, x, y, z):
     """Determinant of a symmetric matrix (3, 3) and its solution of a right side (x, y, z); zeros where it is 0."""
-    i00, i01, i02 = m11 * m22 - m12 * m12, m02 * m12 - m01 * m22, m01 * m12 - m02 * m11
-    i11, i12, i22 = m00 * m22 - m02 * m02, m01 * m02 - m00 * m12, m00 * m11 - m01 * m01
+    i00 = m11 * m22 - m12 * m12
+    i01 = m02 * m12 - m01 * m22
+    i02 = m01 * m12 - m02 * m11
+    i11 = m00 * m22 - m02 * m02
+    i12 = m01 * m02 - m00 * m12
+    i22 = m00 * m11 - m01 * m01
     determinant = m00 * i00 + m01 * i01 + m02 * i02
     if determinant == 0.0:
         return 0.0, 0.0, 0.0, 0.0
@@ -101,13 +112,25 @@ def _tilted(rows, cells, x, y):
     Damped Newton steps on 1/2 sum w max(0, p)^2 - load . field. Rows (at least cells, 3) are weight, in sum 1, and
     scaled place of cells.
     """
-    a, b, c = 1.0, 0.0, 0.0
-    step_a = step_b = step_c = slope = value = 0.0
+    a = 1.0
+    b = 0.0
+    c = 0.0
+    step_a = 0.0
+    step_b = 0.0
+    step_c = 0.0
+    slope = 0.0
+    value = 0.0
     rate = 1.0
     for turn in range(500):
-        m00 = m01 = m02 = m11 = m12 = m22 = 0.0
+        m00 = 0.0
+        m01 = 0.0
+        m02 = 0.0
+        m11 = 0.0
+        m12 = 0.0
+        m22 = 0.0
         for i in range(cells):
-            p, q = rows[i, 1], rows[i, 2]
+            p = rows[i, 1]
+            q = rows[i, 2]
             if a + b * p + c * q > 0.0:
                 w = rows[i, 0]
                 m00 += w

@@ -86,7 +86,8 @@ class PressedSole:
             self._make_room(2 * len(points))
         count = 0
         for px, py in points:
-            self.points[count, 0], self.points[count, 1] = px, py
+            self.points[count, 0] = px
+            self.points[count, 1] = py
             count += 1
         self._spread(count, force, x, y)
         return self.carried.copy()
@@ -112,8 +113,10 @@ class PressedSole:
         if patch is None:
             if len(self.made) >= self.most:
                 self.made.pop(next(iter(self.made)))
-            patch = self.made[key] = self.make(np.array(key) * self.grid)
-        slot = self.slot = (self.slot + 1) % _RECENT
+            patch = self.make(np.array(key) * self.grid)
+            self.made[key] = patch
+        slot = (self.slot + 1) % _RECENT
+        self.slot = slot
         self.recent[slot] = patch
         self.recent_counts[slot] = count
         for i in range(count):

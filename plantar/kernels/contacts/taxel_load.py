@@ -49,10 +49,14 @@ class TaxelLoad:
         self.hull = hull
         self.middle = hull.mean(axis=0)
         self.level = bool((positions[:, 2] == 0.0).all())
-        self.vectors = self._vectors = np.zeros((count, 3))
-        self.forces = self._forces = np.zeros(count)
-        self.depths = self._depths = np.zeros(count)
-        self.wrench = self._wrench = np.zeros(6)
+        self.vectors = np.zeros((count, 3))
+        self._vectors = self.vectors
+        self.forces = np.zeros(count)
+        self._forces = self.forces
+        self.depths = np.zeros(count)
+        self._depths = self.depths
+        self.wrench = np.zeros(6)
+        self._wrench = self.wrench
         self.sums = np.zeros((2, 6))  # wrench of contacts that the sole has, and of those from above
         self.weights = np.zeros(count)
         self.prior = np.zeros(count)
@@ -76,8 +80,12 @@ class TaxelLoad:
         for i in range(6):
             self._wrench[i] = 0.0
         for i in range(count):
-            self.prior[i] = self._depths[i] = self._forces[i] = 0.0
-            self._vectors[i, 0] = self._vectors[i, 1] = self._vectors[i, 2] = 0.0
+            self.prior[i] = 0.0
+            self._depths[i] = 0.0
+            self._forces[i] = 0.0
+            self._vectors[i, 0] = 0.0
+            self._vectors[i, 1] = 0.0
+            self._vectors[i, 2] = 0.0
         self.carried = True
         seen.turn(contacts)
         if contacts.size == 0:
@@ -99,12 +107,17 @@ class TaxelLoad:
         """Sum contacts, drop those from above; whether there are none."""
         sums = self.sums
         for i in range(6):
-            sums[0, i] = sums[1, i] = 0.0
+            sums[0, i] = 0.0
+            sums[1, i] = 0.0
         above = 0
         for k in range(contacts.size):
             row = 3 * k
-            x, y, z = vectors[row, 0], vectors[row, 1], vectors[row, 2]
-            fx, fy, fz = vectors[row + 1, 0], vectors[row + 1, 1], vectors[row + 1, 2]
+            x = vectors[row, 0]
+            y = vectors[row, 1]
+            z = vectors[row, 2]
+            fx = vectors[row + 1, 0]
+            fy = vectors[row + 1, 1]
+            fz = vectors[row + 1, 2]
             a = 1 if fz < 0.0 and fz * fz > fx * fx + fy * fy else 0
             sums[a, 0] += fx
             sums[a, 1] += fy
@@ -114,7 +127,8 @@ class TaxelLoad:
             sums[a, 5] += vectors[row + 2, 2] + x * fy - y * fx
             above += a
             for j in range(3 * a):
-                vectors[row + 1, j] = vectors[row + 2, j] = 0.0
+                vectors[row + 1, j] = 0.0
+                vectors[row + 2, j] = 0.0
         for i in range(6):
             self._wrench[i] = sums[0, i] + sums[1, i]
         return above == 0
@@ -145,7 +159,8 @@ class TaxelLoad:
         count = self.areas.shape[0]
         for k in range(corners):
             j = k + 1 if k + 1 < corners else 0
-            x, y = self.ring[j, 0] - self.ring[k, 0], self.ring[j, 1] - self.ring[k, 1]
+            x = self.ring[j, 0] - self.ring[k, 0]
+            y = self.ring[j, 1] - self.ring[k, 1]
             length = math.sqrt(x * x + y * y)
             self.edges[k, 2] = length
             self.edges[k, 0], self.edges[k, 1] = (x / length, y / length) if corners > 1 else (1.0, 0.0)
@@ -168,7 +183,8 @@ class TaxelLoad:
         """Raise `depths` of covered cells to the first points' overlap."""
         for i in range(self.areas.shape[0]):
             if self.weights[i] > 0.0:
-                total = depth = 0.0
+                total = 0.0
+                depth = 0.0
                 for k in range(size):
                     x = self.points[k, 0] - self.positions[i, 0]
                     y = self.points[k, 1] - self.positions[i, 1]
@@ -180,14 +196,21 @@ class TaxelLoad:
 
     def _hull_of(self, size):
         """Put the first points' convex hull into `ring`, counter-clockwise; its size."""
-        points, ring = self.points, self.ring
+        points = self.points
+        ring = self.ring
         for k in range(1, size):  # in order of x, then y
-            x, y, z = points[k, 0], points[k, 1], points[k, 2]
+            x = points[k, 0]
+            y = points[k, 1]
+            z = points[k, 2]
             j = k
             while j > 0 and (points[j - 1, 0] > x or (points[j - 1, 0] == x and points[j - 1, 1] > y)):
-                points[j, 0], points[j, 1], points[j, 2] = points[j - 1, 0], points[j - 1, 1], points[j - 1, 2]
+                points[j, 0] = points[j - 1, 0]
+                points[j, 1] = points[j - 1, 1]
+                points[j, 2] = points[j - 1, 2]
                 j -= 1
-            points[j, 0], points[j, 1], points[j, 2] = x, y, z
+            points[j, 0] = x
+            points[j, 1] = y
+            points[j, 2] = z
         corners = 0
         for k in range(size):
             corners = _join(ring, corners, 0, points[k, 0], points[k, 1])
@@ -200,14 +223,21 @@ class TaxelLoad:
         """Set `normal` to weights (n,) times max(0, a + b x + c y), with a load in N at (x, y) in m; False, with
         `normal` unchanged, without solution.
         """
-        cells, rows = 0, self.rows
-        total = cx = cy = 0.0
+        cells = 0
+        rows = self.rows
+        total = 0.0
+        cx = 0.0
+        cy = 0.0
         if self._is_beyond(x, y):
             return False
         for i in range(self.areas.shape[0]):
             if weights[i] > 0.0:
-                w, p, q = weights[i], self.positions[i, 0], self.positions[i, 1]
-                rows[cells, 0], rows[cells, 1], rows[cells, 2] = w, p, q
+                w = weights[i]
+                p = self.positions[i, 0]
+                q = self.positions[i, 1]
+                rows[cells, 0] = w
+                rows[cells, 1] = p
+                rows[cells, 2] = q
                 total += w
                 cx += w * p
                 cy += w * q
@@ -218,7 +248,8 @@ class TaxelLoad:
         cy /= total
         spread = 0.0
         for i in range(cells):
-            p, q = rows[i, 1] - cx, rows[i, 2] - cy
+            p = rows[i, 1] - cx
+            q = rows[i, 2] - cy
             spread += rows[i, 0] * (p * p + q * q)
         scale = math.sqrt(spread / total)
         if scale < 1e-4:
@@ -227,7 +258,8 @@ class TaxelLoad:
             rows[i, 0] /= total
             rows[i, 1] = (rows[i, 1] - cx) / scale
             rows[i, 2] = (rows[i, 2] - cy) / scale
-        at_x, at_y = (x - cx) / scale, (y - cy) / scale
+        at_x = (x - cx) / scale
+        at_y = (y - cy) / scale
         found, a, b, c = pressed_patch._tilted(rows, cells, at_x, at_y)
         if found:
             cells = 0
@@ -246,7 +278,8 @@ class TaxelLoad:
 
     def _balance(self, force):
         count = self.areas.shape[0]
-        about_x, about_y = self.sums[0, 3], self.sums[0, 4]
+        about_x = self.sums[0, 3]
+        about_y = self.sums[0, 4]
         for _ in range(1 if self.level else 60):
             if not self._carry(force, -about_y / force, about_x / force):
                 self.carried = False
@@ -254,9 +287,12 @@ class TaxelLoad:
             if self.level:
                 break
             # Tangential forces on taxels above or below z = 0 have moments about x and y.
-            off_x, off_y = self.sums[0, 3], self.sums[0, 4]
+            off_x = self.sums[0, 3]
+            off_y = self.sums[0, 4]
             for i in range(count):
-                x, y, z = self.positions[i, 0], self.positions[i, 1], self.positions[i, 2]
+                x = self.positions[i, 0]
+                y = self.positions[i, 1]
+                z = self.positions[i, 2]
                 off_x -= y * self._vectors[i, 2] - z * self._vectors[i, 1]
                 off_y -= z * self._vectors[i, 0] - x * self._vectors[i, 2]
             if not self.carried or max(abs(off_x), abs(off_y)) <= _EXACT * force:
@@ -305,7 +341,8 @@ class TaxelLoad:
     def _shear(self, force):
         """Set `vectors` to normal plus tangential forces with the wrench's rest."""
         count = self.areas.shape[0]
-        cx = cy = 0.0
+        cx = 0.0
+        cy = 0.0
         for i in range(count):
             cx += self.normal[i] * self.positions[i, 0]
             cy += self.normal[i] * self.positions[i, 1]
@@ -313,7 +350,8 @@ class TaxelLoad:
         cy /= force
         spread = 0.0
         for i in range(count):
-            p, q = self.positions[i, 0] - cx, self.positions[i, 1] - cy
+            p = self.positions[i, 0] - cx
+            q = self.positions[i, 1] - cy
             spread += self.normal[i] * (p * p + q * q)
         twist = self.sums[0, 5] - (cx * self.sums[0, 1] - cy * self.sums[0, 0])
         turn = 0.0
@@ -323,7 +361,8 @@ class TaxelLoad:
             self.carried = False
         for i in range(count):
             share = self.normal[i] / force
-            p, q = self.positions[i, 0] - cx, self.positions[i, 1] - cy
+            p = self.positions[i, 0] - cx
+            q = self.positions[i, 1] - cy
             self._vectors[i, 0] = share * self.sums[0, 0] - turn * self.normal[i] * q
             self._vectors[i, 1] = share * self.sums[0, 1] + turn * self.normal[i] * p
             self._vectors[i, 2] = self.normal[i]
@@ -332,13 +371,15 @@ class TaxelLoad:
 def _join(ring, corners, floor, x, y):
     """Add a point to a hull that turns left, dropping superfluous corners; its size."""
     while corners - floor >= 2:
-        ax, ay = ring[corners - 1, 0] - ring[corners - 2, 0], ring[corners - 1, 1] - ring[corners - 2, 1]
+        ax = ring[corners - 1, 0] - ring[corners - 2, 0]
+        ay = ring[corners - 1, 1] - ring[corners - 2, 1]
         if ax * (y - ring[corners - 2, 1]) - ay * (x - ring[corners - 2, 0]) > 0.0:
             break
         corners -= 1
     if corners > 0 and ring[corners - 1, 0] == x and ring[corners - 1, 1] == y:
         return corners
-    ring[corners, 0], ring[corners, 1] = x, y
+    ring[corners, 0] = x
+    ring[corners, 1] = y
     return corners + 1
 
 
@@ -353,7 +394,8 @@ def _distance(ring, edges, corners, x, y):
         return deepest
     nearest = 1e300
     for k in range(corners):
-        px, py = x - ring[k, 0], y - ring[k, 1]
+        px = x - ring[k, 0]
+        py = y - ring[k, 1]
         along = edges[k, 0] * px + edges[k, 1] * py
         along = 0.0 if along < 0.0 else (edges[k, 2] if along > edges[k, 2] else along)
         px -= along * edges[k, 0]

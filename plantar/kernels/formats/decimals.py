@@ -12,8 +12,17 @@ from ..base import work_arrays
 __all__ = ["read_rows"]
 
 _DIGITS = 15
-_TAB, _LINE_END, _BLANK, _PLUS, _COMMA, _MINUS, _POINT, _ZERO, _NINE = 9, 10, 32, 43, 44, 45, 46, 48, 57
-_LARGE_E, _SMALL_E = 69, 101
+_TAB = 9
+_LINE_END = 10
+_BLANK = 32
+_PLUS = 43
+_COMMA = 44
+_MINUS = 45
+_POINT = 46
+_ZERO = 48
+_NINE = 57
+_LARGE_E = 69
+_SMALL_E = 101
 _LARGEST = 1.7976931348623157e308
 
 
@@ -51,7 +60,8 @@ class _Cursor:
     """A place in a text, and the last number read before it."""
 
     def __init__(self, text, delimiter, comma):
-        self.text = self.data = text
+        self.text = text
+        self.data = text
         self.size = len(text)
         self.delimiter = delimiter
         self.comma = comma

@@ -23,8 +23,13 @@ class ComAdmittance:
     """
 
     def __init__(self, zmp_gain, com_gain, zmp_filter, period, largest=math.inf):
-        self.x = self.y = self.rate_x = self.rate_y = 0.0
-        self.error_x = self.error_y = 0.0  # filtered
+        self.x = 0.0
+        self.y = 0.0
+        self.rate_x = 0.0
+        self.rate_y = 0.0
+        # filtered
+        self.error_x = 0.0
+        self.error_y = 0.0
         self.zmp_gain = zmp_gain
         self.com_gain = com_gain
         self.share = period / (zmp_filter + period)
@@ -52,7 +57,8 @@ class ComAdmittance:
         self.y += self.period * self.rate_y
         size = math.sqrt(self.x * self.x + self.y * self.y)
         if size > self.largest:
-            self.x, self.y = self.x * (self.largest / size), self.y * (self.largest / size)
+            self.x = self.x * (self.largest / size)
+            self.y = self.y * (self.largest / size)
 
 
 class DcmFeedback:
@@ -70,13 +76,18 @@ class DcmFeedback:
     """
 
     def __init__(self, omega, gain, integral, period, admittance, after, held=math.inf, press=0.0):
-        self.omega, self.held, self.press = omega, held, press
+        self.omega = omega
+        self.held = held
+        self.press = press
         self.factor = 1.0 + gain / omega
         self.integral_gain, self.forgetting, self.largest = integral
         self.period = period
         self.admittance = admittance
         self.after = after
-        self.integral_x = self.integral_y = self.away_x = self.away_y = 0.0
+        self.integral_x = 0.0
+        self.integral_y = 0.0
+        self.away_x = 0.0
+        self.away_y = 0.0
 
     def decide(self, vrp, planned, com, com_velocity, dcm, zmp, region, firm):
         """Advance by a tick: desired ZMP p_r + (1 + k_xi / w) (xi - xi_r) with the integral, kept in a region (T 4.28,
@@ -93,18 +104,23 @@ class DcmFeedback:
         Returns:
             Desired ZMP (2,) in m; CoM reference (2,) in m, its velocity in m/s and acceleration in m/s^2.
         """
-        offset, at, velocity = self.admittance, memory.values(com), memory.values(com_velocity)
+        offset = self.admittance
+        at = memory.values(com)
+        velocity = memory.values(com_velocity)
         x, y = self._desired(memory.values(vrp), memory.values(planned), memory.values(dcm), region)
-        cx, cy = at[0] + offset.x + self.away_x, at[1] + offset.y + self.away_y
+        cx = at[0] + offset.x + self.away_x
+        cy = at[1] + offset.y + self.away_y
         if zmp is None:
             offset.follow(0.0, 0.0)
         else:
             now = memory.values(zmp)
             offset.follow(now[0] - x, now[1] - y)
         rx, ry = self._go_along(memory.values(planned), memory.values(dcm), firm and len(region) > 0)
-        px, py = at[0] + offset.x + self.away_x, at[1] + offset.y + self.away_y
+        px = at[0] + offset.x + self.away_x
+        py = at[1] + offset.y + self.away_y
         if self.after:
-            cx, cy = px, py
+            cx = px
+            cy = py
         # The linear inverted pendulum, w^2 (c - p): what the feet should give, not the derivative of the offset.
         stiffness = self.omega * self.omega
         return (
@@ -119,11 +135,14 @@ class DcmFeedback:
         # A pendulum whose DCM is off by e leaves its plan with c' = w (e - c). Stiff joints would hold the posture, and
         # the whole body would tip over the stance foot's edge: no foot would land flat. What the ankle brings back is
         # left to it. Along the fall any ZMP fits, so the second term asks for the desired one.
-        ex, ey = dcm[0] - planned[0], dcm[1] - planned[1]
+        ex = dcm[0] - planned[0]
+        ey = dcm[1] - planned[1]
         size = self.factor * math.sqrt(ex * ex + ey * ey)
-        rx, ry = -self.omega * self.away_x, -self.omega * self.away_y
+        rx = -self.omega * self.away_x
+        ry = -self.omega * self.away_y
         if may and size > self.held:
-            share, offset = 1.0 - self.held / size, self.admittance
+            share = 1.0 - self.held / size
+            offset = self.admittance
             rx += share * (self.omega * ex + self.press * offset.error_x)
             ry += share * (self.omega * ey + self.press * offset.error_y)
         self.away_x += self.period * rx
@@ -132,7 +151,8 @@ class DcmFeedback:
 
     def _desired(self, vrp, planned, dcm, region):
         """Desired ZMP's two numbers, and the integral after this tick."""
-        ex, ey = dcm[0] - planned[0], dcm[1] - planned[1]
+        ex = dcm[0] - planned[0]
+        ey = dcm[1] - planned[1]
         x = vrp[0] + self.factor * ex + self.integral_x
         y = vrp[1] + self.factor * ey + self.integral_y
         if not len(region):
@@ -150,7 +170,8 @@ class DcmFeedback:
         return min(max(moved, -self.largest), self.largest)
 
 
-_LEFT, _RIGHT = 1, 2
+_LEFT = 1
+_RIGHT = 2
 
 
 def shared_load(zmp, acceleration, mass, gravity, left, right, stance):
@@ -168,21 +189,27 @@ def shared_load(zmp, acceleration, mass, gravity, left, right, stance):
     Returns:
         Force (3,) on left foot in N, where it acts (2,) in m; right likewise.
     """
-    goal, rate = memory.values(zmp), memory.values(acceleration)
+    goal = memory.values(zmp)
+    rate = memory.values(acceleration)
     lx, ly = _loaded(left)
     rx, ry = _loaded(right)
-    x, y = goal[0], goal[1]
+    x = goal[0]
+    y = goal[1]
     if stance == _LEFT:
         share = 1.0
     elif stance == _RIGHT:
         share = 0.0
     else:
-        dx, dy = lx - rx, ly - ry
+        dx = lx - rx
+        dy = ly - ry
         apart = dx * dx + dy * dy
         share = min(1.0, max(0.0, ((x - rx) * dx + (y - ry) * dy) / apart)) if apart > 0.0 else 0.5
     other = 1.0 - share
-    fx, fy, fz = mass * rate[0], mass * rate[1], mass * gravity
-    x, y = x - (share * lx + other * rx), y - (share * ly + other * ry)
+    fx = mass * rate[0]
+    fy = mass * rate[1]
+    fz = mass * gravity
+    x = x - (share * lx + other * rx)
+    y = y - (share * ly + other * ry)
     return (
         vectors.vector(share * fx, share * fy, share * fz),
         vectors.vector2(lx + x, ly + y),
@@ -192,6 +219,9 @@ def shared_load(zmp, acceleration, mass, gravity, left, right, stance):
 
 
 def _loaded(foot):
-    place, turn, middle = memory.values(foot.position), memory.values(foot.rotation), memory.values(foot.center)
-    x, y = middle[0], middle[1]
+    place = memory.values(foot.position)
+    turn = memory.values(foot.rotation)
+    middle = memory.values(foot.center)
+    x = middle[0]
+    y = middle[1]
     return place[0] + (turn[0] * x + turn[1] * y), place[1] + (turn[3] * x + turn[4] * y)

@@ -34,20 +34,32 @@ class FloatingBase:
     """
 
     def __init__(self, omega, period, gravity, gains, state, bias=None, steady=None):
-        self.omega, self.period, self.gravity = omega, period, gravity
+        self.omega = omega
+        self.period = period
+        self.gravity = gravity
         self.averaging, self.tilt_rate, self.yaw_rate, self.bandwidth, self.minimum_load = gains
         self.rotation, self.position, self.com, self.velocity = state[:4]
         self.places, self.turns, self.zmp, self.stood = state[4:]
-        self.bias, self.steady = bias, steady
+        self.bias = bias
+        self.steady = steady
         self.samples = 0
         self.astray = 0.0
         self.headings = np.full(2, _NONE)
         self.com_in_base = np.zeros(3)
-        self.places_in_base, self.turns_in_base = np.zeros((2, 2, 3)), np.zeros((2, 2, 3, 3))  # now, a tick ago
-        self.loads, self.pressed, self.cops = np.zeros(2), np.zeros(2, dtype=np.uint8), np.zeros((2, 2))
-        self.before, self.matrix, self.work = np.eye(3), np.zeros((3, 3)), np.zeros((3, 3))
-        self.vector, self.other = np.zeros(3), np.zeros(3)
-        self.rate, self.specific, self.planned = np.zeros(3), np.zeros(3), np.zeros(2)
+        # now, a tick ago
+        self.places_in_base = np.zeros((2, 2, 3))
+        self.turns_in_base = np.zeros((2, 2, 3, 3))
+        self.loads = np.zeros(2)
+        self.pressed = np.zeros(2, dtype=np.uint8)
+        self.cops = np.zeros((2, 2))
+        self.before = np.eye(3)
+        self.matrix = np.zeros((3, 3))
+        self.work = np.zeros((3, 3))
+        self.vector = np.zeros(3)
+        self.other = np.zeros(3)
+        self.rate = np.zeros(3)
+        self.specific = np.zeros(3)
+        self.planned = np.zeros(2)
         self.watch(*np.zeros((3, 3)), *np.zeros((2, 3, 3)))
 
     def watch(self, com, left, right, turn_left, turn_right):
@@ -58,38 +70,51 @@ class FloatingBase:
             left: Origin (3,) of left sole frame in m; `right` likewise.
             turn_left: Rotation (3, 3) from the left sole frame; `turn_right` likewise.
         """
-        self.com_now, self.left_now, self.right_now = com, left, right
-        self.turn_left_now, self.turn_right_now = turn_left, turn_right
+        self.com_now = com
+        self.left_now = left
+        self.right_now = right
+        self.turn_left_now = turn_left
+        self.turn_right_now = turn_right
 
     def take(self):
         """Read this tick's posture; keep the last one."""
-        com, left, right = self.com_now, self.left_now, self.right_now
-        turn_left, turn_right = self.turn_left_now, self.turn_right_now
-        places, turns = self.places_in_base, self.turns_in_base
+        com = self.com_now
+        left = self.left_now
+        right = self.right_now
+        turn_left = self.turn_left_now
+        turn_right = self.turn_right_now
+        places = self.places_in_base
+        turns = self.turns_in_base
         for i in range(3):
             self.com_in_base[i] = com[i]
             for side in range(2):
                 places[1, side, i] = places[0, side, i]
-            places[0, 0, i], places[0, 1, i] = left[i], right[i]
+            places[0, 0, i] = left[i]
+            places[0, 1, i] = right[i]
             for j in range(3):
                 for side in range(2):
                     turns[1, side, i, j] = turns[0, side, i, j]
-                turns[0, 0, i, j], turns[0, 1, i, j] = turn_left[i, j], turn_right[i, j]
+                turns[0, 0, i, j] = turn_left[i, j]
+                turns[0, 1, i, j] = turn_right[i, j]
 
     def stand(self, rotation, position, heading_left, heading_right):
         """Place the base: rotation (3, 3) to world, position (3,) in m, feet's headings in rad."""
         for i in range(3):
             self.position[i] = position[i]
             for j in range(3):
-                self.rotation[i, j] = self.before[i, j] = rotation[i, j]
+                self.rotation[i, j] = rotation[i, j]
+                self.before[i, j] = rotation[i, j]
         rotations.turn(self.rotation, self.com_in_base, self.vector)
         for i in range(3):
             self.com[i] = self.position[i] + self.vector[i]
-        self.headings[0], self.headings[1] = heading_left, heading_right
+        self.headings[0] = heading_left
+        self.headings[1] = heading_right
 
     def rest(self):
         """Zero velocity, correct heading."""
-        self.velocity[0] = self.velocity[1] = self.velocity[2] = 0.0
+        self.velocity[0] = 0.0
+        self.velocity[1] = 0.0
+        self.velocity[2] = 0.0
         self.astray = 0.0
 
     def carry(self, side, load, pressed, x, y):
@@ -102,8 +127,10 @@ class FloatingBase:
             x: That in sole frame in m.
             y: Same.
         """
-        self.loads[side], self.pressed[side] = load, pressed
-        self.cops[side, 0], self.cops[side, 1] = x, y
+        self.loads[side] = load
+        self.pressed[side] = pressed
+        self.cops[side, 0] = x
+        self.cops[side, 1] = y
 
     def follow(self, gyro_x, gyro_y, gyro_z, specific_x, specific_y, specific_z, planned_x, planned_y):
         """Read this tick's posture, and turn and move the base; returns the ZMP as `place`.
@@ -114,10 +141,16 @@ class FloatingBase:
             planned_x: Planned CoM acceleration along world's x in m/s^2; `planned_y` likewise.
         """
         self.take()
-        rate, bias = self.rate, self.bias
-        rate[0], rate[1], rate[2] = gyro_x, gyro_y, gyro_z
-        self.specific[0], self.specific[1], self.specific[2] = specific_x, specific_y, specific_z
-        self.planned[0], self.planned[1] = planned_x, planned_y
+        rate = self.rate
+        bias = self.bias
+        rate[0] = gyro_x
+        rate[1] = gyro_y
+        rate[2] = gyro_z
+        self.specific[0] = specific_x
+        self.specific[1] = specific_y
+        self.specific[2] = specific_z
+        self.planned[0] = planned_x
+        self.planned[1] = planned_y
         if bias is None:
             self.turn(rate, self.specific, self.planned, False, None)
         else:
@@ -131,23 +164,31 @@ class FloatingBase:
     def _identify(self, gyro_x, gyro_y, gyro_z):
         left = max(0.0, self.loads[0] - self.minimum_load)
         right = max(0.0, self.loads[1] - self.minimum_load)
-        steady, stood = self.steady, self.stood
+        steady = self.steady
+        stood = self.stood
         if steady is not None:
             steady.update(left, right)
-            left, right = steady.left, steady.right
+            left = steady.left
+            right = steady.right
         stands = self.stand_still(left, right)
         both = left > 0.0 and right > 0.0
         self.bias.update(gyro_x, gyro_y, gyro_z, stands, stood[0], stood[1], stood[2], both)
 
     def stand_still(self, weight_left, weight_right):
         """Weighted turn by still soles in this tick, sin a of R_s(k-1) R_s(k)^T; whether one is still."""
-        turns, stood = self.turns_in_base, self.stood
-        total = sx = sy = sz = 0.0
+        turns = self.turns_in_base
+        stood = self.stood
+        total = 0.0
+        sx = 0.0
+        sy = 0.0
+        sz = 0.0
         for side in range(2):
             weight = weight_left if side == 0 else weight_right
             if not weight > 0.0:
                 continue
-            x = y = z = 0.0
+            x = 0.0
+            y = 0.0
+            z = 0.0
             for k in range(3):
                 x += turns[1, side, 2, k] * turns[0, side, 1, k] - turns[1, side, 1, k] * turns[0, side, 2, k]
                 y += turns[1, side, 0, k] * turns[0, side, 2, k] - turns[1, side, 2, k] * turns[0, side, 0, k]
@@ -157,9 +198,13 @@ class FloatingBase:
             sz += weight * z
             total += weight
         if not total > 0.0:
-            stood[0] = stood[1] = stood[2] = 0.0
+            stood[0] = 0.0
+            stood[1] = 0.0
+            stood[2] = 0.0
             return False
-        stood[0], stood[1], stood[2] = 0.5 * sx / total, 0.5 * sy / total, 0.5 * sz / total
+        stood[0] = 0.5 * sx / total
+        stood[1] = 0.5 * sy / total
+        stood[2] = 0.5 * sz / total
         return True
 
     def turn(self, rate, accelerometer, planned, by_legs, missed):
@@ -172,13 +217,20 @@ class FloatingBase:
             by_legs: Whether `missed` or feet correct heading.
             missed: Turn (3,) of legs beyond gyro in base frame in rad, or None.
         """
-        rotation, specific, vector, before = self.rotation, self.other, self.vector, self.before
-        rx, ry, rz = rate[0], rate[1], rate[2]
+        rotation = self.rotation
+        specific = self.other
+        vector = self.vector
+        before = self.before
+        rx = rate[0]
+        ry = rate[1]
+        rz = rate[2]
         for i in range(3):
             vector[i] = accelerometer[i]
         rotations.turn(rotation, vector, specific)
         # Gravity: the specific force minus the body's acceleration points up.
-        x, y, z = specific[0], specific[1], specific[2]
+        x = specific[0]
+        y = specific[1]
+        z = specific[2]
         if planned is not None:
             x -= planned[0]
             y -= planned[1]
@@ -215,14 +267,18 @@ class FloatingBase:
 
     def _heading_error(self):
         """Heading in rad ahead of each foot's at touchdown."""
-        rotation, headings, turns = self.rotation, self.headings, self.turns_in_base
-        total = error = 0.0
+        rotation = self.rotation
+        headings = self.headings
+        turns = self.turns_in_base
+        total = 0.0
+        error = 0.0
         for side in range(2):
             weight = self.loads[side] - self.minimum_load
             if not weight > 0.0:
                 headings[side] = _NONE
                 continue
-            x = y = 0.0
+            x = 0.0
+            y = 0.0
             for k in range(3):
                 x += rotation[0, k] * turns[0, side, k, 0]
                 y += rotation[1, k] * turns[0, side, k, 0]
@@ -238,8 +294,15 @@ class FloatingBase:
 
     def move(self):
         """Move the base by one tick with the carrying feet."""
-        sx = sy = sz = total = 0.0
-        before, now, vector, other, cops = self.before, self.rotation, self.vector, self.other, self.cops
+        sx = 0.0
+        sy = 0.0
+        sz = 0.0
+        total = 0.0
+        before = self.before
+        now = self.rotation
+        vector = self.vector
+        other = self.other
+        cops = self.cops
         for side in range(2):
             weight = self.loads[side] - self.minimum_load
             if not (self.pressed[side] and weight > 0.0):
@@ -268,15 +331,22 @@ class FloatingBase:
 
     def _point(self, past, side, x, y, out):
         """Sole's point in the base frame, now (0) or a tick ago (1)."""
-        places, turns = self.places_in_base, self.turns_in_base
+        places = self.places_in_base
+        turns = self.turns_in_base
         for i in range(3):
             out[i] = places[past, side, i] + turns[past, side, i, 0] * x + turns[past, side, i, 1] * y
 
     def place(self):
         """Compute soles' poses and their loads' ZMP (2,) in m; None without; InputError if not finite."""
-        loads, cops = self.loads, self.cops
-        rotation, position, places, turns = self.rotation, self.position, self.places, self.turns
-        total = x = y = 0.0
+        loads = self.loads
+        cops = self.cops
+        rotation = self.rotation
+        position = self.position
+        places = self.places
+        turns = self.turns
+        total = 0.0
+        x = 0.0
+        y = 0.0
         for side in range(2):
             for i in range(3):
                 places[side, i] = position[i]
@@ -289,12 +359,15 @@ class FloatingBase:
                 x += load * (places[side, 0] + turns[side, 0, 0] * cops[side, 0] + turns[side, 0, 1] * cops[side, 1])
                 y += load * (places[side, 1] + turns[side, 1, 0] * cops[side, 0] + turns[side, 1, 1] * cops[side, 1])
         if not total > 0.0:
-            self.zmp[0] = self.zmp[1] = _NONE
+            self.zmp[0] = _NONE
+            self.zmp[1] = _NONE
             return None
-        x, y = x / total, y / total
+        x = x / total
+        y = y / total
         if not math.isfinite(x + y):
             raise InputError("the ZMP or the vertical force of a foot is not finite")
-        self.zmp[0], self.zmp[1] = x, y
+        self.zmp[0] = x
+        self.zmp[1] = y
         return vectors.vector2(x, y)
 
     def snapshot(self):
@@ -304,7 +377,8 @@ class FloatingBase:
             Rotation (3, 3) from base to world; base position, CoM in m and its velocity in m/s (3,); left and right
             sole origins (3,) in m; their rotations (3, 3) to world.
         """
-        places, turns = self.places, self.turns
+        places = self.places
+        turns = self.turns
         return (
             _matrix(self.rotation),
             _vector(self.position),
@@ -318,7 +392,10 @@ class FloatingBase:
 
     def observe(self, push_x, push_y):
         """Observe CoM and velocity for a tick, with a push's acceleration in m/s^2."""
-        com, velocity, zmp, period = self.com, self.velocity, self.zmp, self.period
+        com = self.com
+        velocity = self.velocity
+        zmp = self.zmp
+        period = self.period
         # Gains 2 b and b^2: with the pendulum's own fall the observer's poles lie at -b +- omega.
         near = min(1.0, 2.0 * self.bandwidth * period)
         fast = min(1.0, self.bandwidth * self.bandwidth * period)

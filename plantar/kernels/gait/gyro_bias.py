@@ -21,17 +21,24 @@ class SteadyLoad:
     """
 
     def __init__(self, share, follow, band):
-        self.share, self.follow, self.band = share, follow, band
+        self.share = share
+        self.follow = follow
+        self.band = band
         self.begun = False
-        self.mean_left = self.mean_right = self.left = self.right = 0.0
+        self.mean_left = 0.0
+        self.mean_right = 0.0
+        self.left = 0.0
+        self.right = 0.0
 
     def update(self, left, right):
         """Advance by a tick with both feet's loads in N, 0 if unloaded."""
         if not self.begun:
             self.begun = True
-            self.mean_left, self.mean_right = left, right
+            self.mean_left = left
+            self.mean_right = right
         total = left + right
-        nearly_all, hardly = self.share * total, (1.0 - self.share) * total
+        nearly_all = self.share * total
+        hardly = (1.0 - self.share) * total
         self.mean_left += self.follow * (left - self.mean_left)
         self.mean_right += self.follow * (right - self.mean_right)
         self.left = left if self._is_still(left, self.mean_left, nearly_all, hardly) else 0.0
@@ -60,15 +67,25 @@ class GyroBias:
     """
 
     def __init__(self, period, least, largest, most_ticks, slip, one_foot, known, value, missed):
-        self.period, self.least, self.largest = period, least, largest
-        self.most_ticks, self.slip, self.one_foot, self.known = most_ticks, slip, one_foot, known
-        self.value, self.missed = value, missed
+        self.period = period
+        self.least = least
+        self.largest = largest
+        self.most_ticks = most_ticks
+        self.slip = slip
+        self.one_foot = one_foot
+        self.known = known
+        self.value = value
+        self.missed = missed
         self.concluded = False
         self.gathered = 0.0
         self._begin()
 
     def _begin(self):
-        self.x = self.y = self.z = self.worth = 0.0  # how far the gyro turned beyond the legs in rad
+        # how far the gyro turned beyond the legs in rad
+        self.x = 0.0
+        self.y = 0.0
+        self.z = 0.0
+        self.worth = 0.0
         self.ticks = 0
 
     def update(self, gyro_x, gyro_y, gyro_z, stands, turn_x, turn_y, turn_z, both):

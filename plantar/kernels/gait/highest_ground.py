@@ -38,7 +38,8 @@ def highest_plane(x, y, distance, readings, noise, least, used, plane):
     for _ in range(_CUTS):
         if not _fit(x, y, distance, readings, used, plane):
             return False
-        higher = lower = False
+        higher = False
+        lower = False
         for i in range(n):
             if used[i]:
                 above = _above(x, y, distance, plane, i)
@@ -54,7 +55,9 @@ def highest_plane(x, y, distance, readings, noise, least, used, plane):
     for i in range(n):
         on += used[i]
     for _ in range(_POLISHES if on >= least else 0):
-        level, sx, sy = plane[0], plane[1], plane[2]
+        level = plane[0]
+        sx = plane[1]
+        sy = plane[2]
         changed = False
         for i in range(n):
             near = abs(_above(x, y, distance, plane, i)) < _explained(noise, readings[i])
@@ -68,7 +71,9 @@ def highest_plane(x, y, distance, readings, noise, least, used, plane):
         for i in range(n):
             used[i] = used[i] & 1 if fits else used[i] >> 1
         if not fits:
-            plane[0], plane[1], plane[2] = level, sx, sy
+            plane[0] = level
+            plane[1] = sx
+            plane[2] = sy
             break
     return True
 
@@ -85,7 +90,14 @@ def _explained(noise, readings):
 def _fit(x, y, distance, readings, used, plane):
     """Weighted least squares; False, with the plane unchanged, without one."""
     count = 0
-    whole = mx = my = md = ax = ay = axx = ayy = 0.0
+    whole = 0.0
+    mx = 0.0
+    my = 0.0
+    md = 0.0
+    ax = 0.0
+    ay = 0.0
+    axx = 0.0
+    ayy = 0.0
     n = x.shape[0]
     for i in range(n):
         ax += x[i]
@@ -101,11 +113,20 @@ def _fit(x, y, distance, readings, used, plane):
             md += w * distance[i]
     if count < _LEAST_POINTS:
         return False
-    mx, my, md = mx / whole, my / whole, md / whole
-    xx = xy = yy = xd = yd = 0.0
+    mx = mx / whole
+    my = my / whole
+    md = md / whole
+    xx = 0.0
+    xy = 0.0
+    yy = 0.0
+    xd = 0.0
+    yd = 0.0
     for i in range(x.shape[0]):
         if used[i] & 1:
-            w, u, v, d = readings[i], x[i] - mx, y[i] - my, distance[i] - md
+            w = readings[i]
+            u = x[i] - mx
+            v = y[i] - my
+            d = distance[i] - md
             xx += w * u * u
             xy += w * u * v
             yy += w * v * v
@@ -115,6 +136,9 @@ def _fit(x, y, distance, readings, used, plane):
     least = _LEAST_SPREAD * min(axx / n - ax * ax / n / n, ayy / n - ay * ay / n / n)
     if determinant < _IN_A_ROW * xx * yy or min(xx, yy) < whole * least:
         return False
-    sx, sy = (xy * yd - yy * xd) / determinant, (xy * xd - xx * yd) / determinant
-    plane[0], plane[1], plane[2] = md + sx * mx + sy * my, sx, sy
+    sx = (xy * yd - yy * xd) / determinant
+    sy = (xy * xd - xx * yd) / determinant
+    plane[0] = md + sx * mx + sy * my
+    plane[1] = sx
+    plane[2] = sy
     return True

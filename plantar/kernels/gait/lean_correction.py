@@ -10,12 +10,16 @@ __all__ = ["correct", "headed", "turned"]
 
 def headed(rotation, yaw):
     """A rotation (3, 3) to world, turned to a heading in rad (summed as `fused`)."""
-    r, made = memory.values(rotation), memory.new_matrix(3, 3)
+    r = memory.values(rotation)
+    made = memory.new_matrix(3, 3)
     out = memory.room(made)
     angle = yaw - math.atan2(r[3], r[0])
-    c, s = math.cos(angle), math.sin(angle)
+    c = math.cos(angle)
+    s = math.sin(angle)
     for j in range(3):
-        x, y, z = r[j], r[3 + j], r[6 + j]
+        x = r[j]
+        y = r[3 + j]
+        z = r[6 + j]
         out[j] = fused.multiply_add(0.0, z, fused.multiply_add(-s, y, c * x))
         out[3 + j] = fused.multiply_add(0.0, z, fused.multiply_add(c, y, s * x))
         out[6 + j] = fused.multiply_add(1.0, z, fused.multiply_add(0.0, y, 0.0 * x))
@@ -24,11 +28,15 @@ def headed(rotation, yaw):
 
 def turned(turn, rotation):
     """A rotation (3, 3) after a turn (3,) in rad, summed likewise."""
-    t, r, made = memory.values(turn), memory.values(rotation), memory.new_matrix(3, 3)
+    t = memory.values(turn)
+    r = memory.values(rotation)
+    made = memory.new_matrix(3, 3)
     out = memory.room(made)
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotations._exponential(t[0], t[1], t[2])
     for j in range(3):
-        x, y, z = r[j], r[3 + j], r[6 + j]
+        x = r[j]
+        y = r[3 + j]
+        z = r[6 + j]
         out[j] = fused.multiply_add(xz, z, fused.multiply_add(xy, y, xx * x))
         out[3 + j] = fused.multiply_add(yz, z, fused.multiply_add(yy, y, yx * x))
         out[6 + j] = fused.multiply_add(zz, z, fused.multiply_add(zy, y, zx * x))
@@ -51,16 +59,25 @@ def correct(
         share: Share of new correction in low pass.
         shift: Correction of position (3,) in m, updated in place; `turn` of orientation in rad.
     """
-    p, q, c, e = memory.values(position), memory.values(place), memory.values(com_command), memory.values(com_estimated)
-    k, by, turned = memory.values(kept), memory.room(shift), memory.room(turn)
-    dx, dy, dz = q[0] - e[0], q[1] - e[1], q[2] - e[2]
+    p = memory.values(position)
+    q = memory.values(place)
+    c = memory.values(com_command)
+    e = memory.values(com_estimated)
+    k = memory.values(kept)
+    by = memory.room(shift)
+    turned = memory.room(turn)
+    dx = q[0] - e[0]
+    dy = q[1] - e[1]
+    dz = q[2] - e[2]
     # R_command R_estimated^T; only its antisymmetric part is a turn.
     xx, xy, xz, yx, yy, yz, zx, zy, zz = _between(memory.values(command), memory.values(estimated))
     sx = c[0] + (xx * dx + xy * dy + xz * dz) - p[0]
     sy = c[1] + (yx * dx + yy * dy + yz * dz) - p[1]
     sz = c[2] + (zx * dx + zy * dy + zz * dz) - p[2]
     # The sine instead of the angle: the leans are small, and it has no singularity to guard.
-    tx, ty, tz = 0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)
+    tx = 0.5 * (zy - yz)
+    ty = 0.5 * (xz - zx)
+    tz = 0.5 * (yx - xy)
     size = math.sqrt(sx * sx + sy * sy + sz * sz)
     scale = 1.0 if size <= largest_shift else largest_shift / size
     by[0] += share * (weight * (scale * sx + k[0]) - by[0])

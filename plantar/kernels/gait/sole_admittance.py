@@ -29,18 +29,26 @@ class SoleAdmittance:
         self.keep = max(0.0, 1.0 - release * period)
         self.largest_turn = largest_turn
         self.largest_lift = largest_lift
-        self.roll = self.pitch = self.shift = 0.0
+        self.roll = 0.0
+        self.pitch = 0.0
+        self.shift = 0.0
         self.stands = False
-        self.fz = self.tx = self.ty = 0.0
+        self.fz = 0.0
+        self.tx = 0.0
+        self.ty = 0.0
 
     def fade(self):
         """One tick in the air."""
         # There is no load to compare with, and the filter must restart at touchdown.
         self.stands = False
-        self.roll, self.pitch, self.shift = self.keep * self.roll, self.keep * self.pitch, self.keep * self.shift
+        self.roll = self.keep * self.roll
+        self.pitch = self.keep * self.pitch
+        self.shift = self.keep * self.shift
         # An exponential never ends.
         if abs(self.roll) + abs(self.pitch) + abs(self.shift) < _NONE:
-            self.roll = self.pitch = self.shift = 0.0
+            self.roll = 0.0
+            self.pitch = 0.0
+            self.shift = 0.0
 
     def turn(self, measured, wanted):
         """Turn by a tick under load from the measured to the desired wrench (6,) in sole frame in N and N m.
@@ -48,16 +56,22 @@ class SoleAdmittance:
         Returns:
             Error in N of normal force.
         """
-        now, goal = memory.values(measured), memory.values(wanted)
+        now = memory.values(measured)
+        goal = memory.values(wanted)
         # Only fz, tx and ty: a sole turns and lifts for these; friction carries the other three.
-        fz, tx, ty = now[2], now[3], now[4]
+        fz = now[2]
+        tx = now[3]
+        ty = now[4]
         if not (fz - fz == 0.0 and tx - tx == 0.0 and ty - ty == 0.0):
             return 0.0  # a wrench that is no number turns nothing
         if self.stands:
             fz = self.fz + self.share * (fz - self.fz)
             tx = self.tx + self.share * (tx - self.tx)
             ty = self.ty + self.share * (ty - self.ty)
-        self.stands, self.fz, self.tx, self.ty = True, fz, tx, ty
+        self.stands = True
+        self.fz = fz
+        self.tx = tx
+        self.ty = ty
         self.roll = self._moved(self.roll, self.turn_gain * (tx - goal[3]), self.largest_turn)
         self.pitch = self._moved(self.pitch, self.turn_gain * (ty - goal[4]), self.largest_turn)
         return fz - goal[2]
@@ -80,7 +94,9 @@ def turned(level, x, y):
     made = memory.new_matrix(3, 3)
     out = memory.room(made)
     for i in range(3):
-        a, b, c = before[3 * i], before[3 * i + 1], before[3 * i + 2]
+        a = before[3 * i]
+        b = before[3 * i + 1]
+        c = before[3 * i + 2]
         out[3 * i] = fused.multiply_add(c, zx, fused.multiply_add(b, yx, a * xx))
         out[3 * i + 1] = fused.multiply_add(c, zy, fused.multiply_add(b, yy, a * xy))
         out[3 * i + 2] = fused.multiply_add(c, zz, fused.multiply_add(b, yz, a * xz))
@@ -91,7 +107,8 @@ def risen(position, center, roll, pitch, shift):
     """Returns `position` (3,) in m of a sole that turns by `roll` and `pitch` in rad about its frame's origin; its
     `center` (2,) rises by `shift` in m.
     """
-    place, middle = memory.values(position), memory.values(center)
+    place = memory.values(position)
+    middle = memory.values(center)
     rise = shift + pitch * middle[0] - roll * middle[1]
     return vectors.vector(place[0], place[1], place[2] + rise)
 
@@ -100,7 +117,10 @@ def pressed(wrench, level, position, center):
     """Returns force (3,) in N of a `wrench` (6,) about a sole's origin, and point (2,) in m, seen from above, at which
     it acts: `center` (2,) without pressure. The sole's frame turns by `level` (3, 3), from a `position` (3,).
     """
-    w, r, place, middle = memory.values(wrench), memory.values(level), memory.values(position), memory.values(center)
+    w = memory.values(wrench)
+    r = memory.values(level)
+    place = memory.values(position)
+    middle = memory.values(center)
     x, y = (-w[4] / w[2], w[3] / w[2]) if w[2] > 0.0 else (middle[0], middle[1])
     force = vectors.vector(
         fused.multiply_add(r[2], w[2], fused.multiply_add(r[0], w[0], r[1] * w[1])),

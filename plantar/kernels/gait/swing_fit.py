@@ -22,14 +22,17 @@ def fit(order, now, before, conditions, same, high, pull, way, work, out):
         work: Scratch (6 + 2 m, n + 1).
         out: Receives path less its start, and its derivatives by share (3, 3).
     """
-    n, m = order, order - 1
+    n = order
+    m = order - 1
     for i in range(2):
         s = now if i == 0 else before
         power = 1.0
         for k in range(n + 1):
             work[3 * i, k] = power
             power *= s
-        work[3 * i + 1, 0] = work[3 * i + 2, 0] = work[3 * i + 2, 1] = 0.0
+        work[3 * i + 1, 0] = 0.0
+        work[3 * i + 2, 0] = 0.0
+        work[3 * i + 2, 1] = 0.0
         for k in range(1, n + 1):
             work[3 * i + 1, k] = k * work[3 * i, k - 1]
         for k in range(2, n + 1):

@@ -27,17 +27,24 @@ def turning(polygon, x0, y0, near):
     k = polygon.shape[0]
     if k < 3:
         return 0
-    ax, ay = polygon[k - 2, 0] - x0, polygon[k - 2, 1] - y0
-    bx, by = polygon[k - 1, 0] - x0, polygon[k - 1, 1] - y0
-    ux, uy = bx - ax, by - ay
+    ax = polygon[k - 2, 0] - x0
+    ay = polygon[k - 2, 1] - y0
+    bx = polygon[k - 1, 0] - x0
+    by = polygon[k - 1, 1] - y0
+    ux = bx - ax
+    uy = by - ay
     was_up = uy > 0.0 or (uy == 0.0 and ux > 0.0)
-    left = rounds = 0
+    left = 0
+    rounds = 0
     size = 0.0
     least = abs(ux) + abs(uy)
     for i in range(k):
-        cx, cy = polygon[i, 0] - x0, polygon[i, 1] - y0
-        wx, wy = cx - bx, cy - by
-        one, two = ux * wy, uy * wx
+        cx = polygon[i, 0] - x0
+        cy = polygon[i, 1] - y0
+        wx = cx - bx
+        wy = cy - by
+        one = ux * wy
+        two = uy * wx
         turn = one - two
         if not abs(turn) > _BOUND * (abs(one) + abs(two)) + _UNDERFLOW:  # nor for NaN
             return 0
@@ -50,7 +57,10 @@ def turning(polygon, x0, y0, near):
         length = abs(wx) + abs(wy)
         size += length
         least = min(least, length)
-        bx, by, ux, uy = cx, cy, wx, wy
+        bx = cx
+        by = cy
+        ux = wx
+        uy = wy
     if not (size > _SMALLEST and least > _NEAR * size and least > near) or rounds != 1:
         return 0
     return 1 if left == k else -1 if left == 0 else 0
@@ -69,12 +79,17 @@ def extent(polygon):
     k = polygon.shape[0]
     if k == 0:
         return 0.0
-    low_x = high_x = polygon[0, 0]
-    low_y = high_y = polygon[0, 1]
+    low_x = polygon[0, 0]
+    high_x = low_x
+    low_y = polygon[0, 1]
+    high_y = low_y
     for i in range(1, k):
-        x, y = polygon[i, 0], polygon[i, 1]
-        low_x, high_x = min(low_x, x), max(high_x, x)
-        low_y, high_y = min(low_y, y), max(high_y, y)
+        x = polygon[i, 0]
+        y = polygon[i, 1]
+        low_x = min(low_x, x)
+        high_x = max(high_x, x)
+        low_y = min(low_y, y)
+        high_y = max(high_y, y)
     return max(high_x - low_x, high_y - low_y)
 
 
@@ -94,7 +109,8 @@ def clean_ring(polygon, x0, y0, near):
 
 def _clean(polygon, x0, y0, near, local, order, ring):
     for i in range(polygon.shape[0]):
-        local[i, 0], local[i, 1] = polygon[i, 0] - x0, polygon[i, 1] - y0
+        local[i, 0] = polygon[i, 0] - x0
+        local[i, 1] = polygon[i, 1] - y0
     size = hull.hull_of_cloud(local, order, ring)
     if size < 2:
         return size
@@ -113,11 +129,13 @@ def _clean(polygon, x0, y0, near, local, order, ring):
     for i in range(size):
         order[i] = ring[first + i if first + i < size else first + i - size]
     kept = 1
-    ring[0] = a = order[0]
+    a = order[0]
+    ring[0] = a
     for i in range(1, size):
         b = order[i]
         if abs(local[b, 0] - local[a, 0]) + abs(local[b, 1] - local[a, 1]) > near:
-            ring[kept] = a = b
+            ring[kept] = b
+            a = b
             kept += 1
     a = ring[0]
     while kept > 1:

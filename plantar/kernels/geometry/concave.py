@@ -353,10 +353,14 @@ class OutlineRectangles:
         ring = self.ring
         x1 = self.line[i]
         x2 = self.line[k + 1]
-        ring[0] = ring[6] = x1
-        ring[2] = ring[4] = x2
-        ring[1] = ring[3] = low
-        ring[5] = ring[7] = high
+        ring[0] = x1
+        ring[6] = x1
+        ring[2] = x2
+        ring[4] = x2
+        ring[1] = low
+        ring[3] = low
+        ring[5] = high
+        ring[7] = high
         n = self._clip(4, x1, self.line[i + 1], 4 * start, low, high)
         return n if start == end else self._clip(n, self.line[k], x2, 4 * end, low, high)
 

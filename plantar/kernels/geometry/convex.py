@@ -39,12 +39,16 @@ def area(polygon):
     k = polygon.shape[0]
     if k < 3:
         return 0.0
-    x0, y0 = polygon[0, 0], polygon[0, 1]
-    ax, ay = polygon[1, 0] - x0, polygon[1, 1] - y0
+    x0 = polygon[0, 0]
+    y0 = polygon[0, 1]
+    ax = polygon[1, 0] - x0
+    ay = polygon[1, 1] - y0
     for i in range(2, k):
-        bx, by = polygon[i, 0] - x0, polygon[i, 1] - y0
+        bx = polygon[i, 0] - x0
+        by = polygon[i, 1] - y0
         total += ax * by - bx * ay
-        ax, ay = bx, by
+        ax = bx
+        ay = by
     return 0.5 * total
 
 
@@ -63,10 +67,19 @@ def area_and_centroid(polygon):
     length.
     """
     k = polygon.shape[0]
-    x0, y0 = polygon[0, 0], polygon[0, 1]
-    total = cx = cy = mx = my = size = ax = ay = 0.0
+    x0 = polygon[0, 0]
+    y0 = polygon[0, 1]
+    total = 0.0
+    cx = 0.0
+    cy = 0.0
+    mx = 0.0
+    my = 0.0
+    size = 0.0
+    ax = 0.0
+    ay = 0.0
     for i in range(1, k):
-        bx, by = polygon[i, 0] - x0, polygon[i, 1] - y0
+        bx = polygon[i, 0] - x0
+        by = polygon[i, 1] - y0
         cross = ax * by - bx * ay
         total += cross
         cx += (ax + bx) * cross
@@ -74,7 +87,8 @@ def area_and_centroid(polygon):
         mx += bx
         my += by
         size = max(size, max(abs(bx), abs(by)))
-        ax, ay = bx, by
+        ax = bx
+        ay = by
     if abs(total) <= 1e-14 * size * size:
         return 0.5 * total, x0 + mx / k, y0 + my / k
     return 0.5 * total, x0 + cx / (3.0 * total), y0 + cy / (3.0 * total)
@@ -92,12 +106,16 @@ def _nearest(polygon, turn, x, y):
     if not (abs(x) <= _LARGEST and abs(y) <= _LARGEST):
         return _NONE, _NONE, _NONE
     inside = k > 2
-    deepest = best = _INFINITE
+    deepest = _INFINITE
+    best = _INFINITE
     span = 0.0
-    ax, ay = polygon[k - 1, 0], polygon[k - 1, 1]
+    ax = polygon[k - 1, 0]
+    ay = polygon[k - 1, 1]
     for i in range(k):
-        bx, by = polygon[i, 0], polygon[i, 1]
-        lx, ly = bx - ax, by - ay
+        bx = polygon[i, 0]
+        by = polygon[i, 1]
+        lx = bx - ax
+        ly = by - ay
         length2 = lx * lx + ly * ly
         across = turn * ((x - ax) * ly - (y - ay) * lx)  # (d x l)_z, above 0 outside
         if across > 0.0:
@@ -106,29 +124,39 @@ def _nearest(polygon, turn, x, y):
         span += length2
         if length2 > 0.0:
             deepest = min(deepest, -across / math.sqrt(length2))
-        ax, ay = bx, by
+        ax = bx
+        ay = by
     if inside and (deepest * deepest > 1e-27 * k * span or abs(area(polygon)) > 1e-14 * span):
         return deepest, x, y  # else it has no area, and nothing is inside
     # Every edge counts: where several are on one line, rounding decides which of them a point lies outside of.
-    qx, qy = polygon[0, 0], polygon[0, 1]
-    ax, ay = polygon[k - 1, 0], polygon[k - 1, 1]
+    qx = polygon[0, 0]
+    qy = polygon[0, 1]
+    ax = polygon[k - 1, 0]
+    ay = polygon[k - 1, 1]
     for i in range(k):
-        bx, by = polygon[i, 0], polygon[i, 1]
-        lx, ly = bx - ax, by - ay
+        bx = polygon[i, 0]
+        by = polygon[i, 1]
+        lx = bx - ax
+        ly = by - ay
         along = (x - ax) * lx + (y - ay) * ly
         length2 = lx * lx + ly * ly
         if along <= 0.0:
-            px, py = ax, ay
+            px = ax
+            py = ay
         elif along >= length2:
-            px, py = bx, by
+            px = bx
+            py = by
         else:
             t = along / length2
-            px, py = ax + t * lx, ay + t * ly
+            px = ax + t * lx
+            py = ay + t * ly
         distance2 = (x - px) * (x - px) + (y - py) * (y - py)
         if distance2 < best:
             best = distance2
-            qx, qy = px, py
-        ax, ay = bx, by
+            qx = px
+            qy = py
+        ax = bx
+        ay = by
     return -math.sqrt((x - qx) * (x - qx) + (y - qy) * (y - qy)), qx, qy
 
 
@@ -189,7 +217,8 @@ def seen_from_above(polygon, rotation, position):
 
 def _place(polygon, rotation, position, out):
     for i in range(polygon.shape[0]):
-        x, y = polygon[i, 0], polygon[i, 1]
+        x = polygon[i, 0]
+        y = polygon[i, 1]
         out[i, 0] = rotation[0, 0] * x + rotation[0, 1] * y + position[0]
         out[i, 1] = rotation[1, 0] * x + rotation[1, 1] * y + position[1]
 
@@ -230,7 +259,8 @@ def _entered(polygon, room):
     given = room.given
     values = memory.values(polygon)
     for i in range(k):
-        given[i, 0], given[i, 1] = values[2 * i], values[2 * i + 1]
+        given[i, 0] = values[2 * i]
+        given[i, 1] = values[2 * i + 1]
     return given[:k]
 
 
@@ -250,7 +280,8 @@ def inner_offset(polygon, distance):
 def offset(polygon, distance, room):
     """`inner_offset` of a polygon by a distance into a room's `result`; returns its size."""
     i = clean.anchor(polygon)
-    x0, y0 = polygon[i, 0], polygon[i, 1]
+    x0 = polygon[i, 0]
+    y0 = polygon[i, 1]
     turn = clean.turning(polygon, x0, y0, 0.0)
     if turn != 0:
         near = _NOISE * clean.extent(polygon)
@@ -271,7 +302,8 @@ def offset(polygon, distance, room):
 
 def _shifted(room, size, x0, y0, near):
     """Ring 0, moved back to its place and cleaned of near-duplicates and slivers."""
-    rings, result = room.rings, room.result
+    rings = room.rings
+    result = room.result
     for i in range(size):
         result[i, 0] = rings[0, i, 0] + x0
         result[i, 1] = rings[0, i, 1] + y0
@@ -280,7 +312,8 @@ def _shifted(room, size, x0, y0, near):
     ring = clean.clean_ring(result[:size], 0.0, 0.0, near)
     corners = ring
     for i in range(corners.shape[0]):
-        result[i, 0], result[i, 1] = corners[i, 0], corners[i, 1]
+        result[i, 0] = corners[i, 0]
+        result[i, 1] = corners[i, 1]
     return corners.shape[0]
 
 
@@ -290,17 +323,23 @@ def _inner_offset(polygon, x0, y0, backwards, distance, lines, rings):
     reach = 0.0
     for i in range(k):
         j = k - 1 - i if backwards else i
-        x, y = polygon[j, 0] - x0, polygon[j, 1] - y0
-        rings[0, i, 0], rings[0, i, 1], rings[0, i, 2] = x, y, i
+        x = polygon[j, 0] - x0
+        y = polygon[j, 1] - y0
+        rings[0, i, 0] = x
+        rings[0, i, 1] = y
+        rings[0, i, 2] = i
         reach = max(reach, max(abs(x), abs(y)))
     used = 0
     for i in range(k):
         j = i + 1 if i + 1 < k else 0
-        ax, ay = rings[0, i, 0], rings[0, i, 1]
-        lx, ly = rings[0, j, 0] - ax, rings[0, j, 1] - ay
+        ax = rings[0, i, 0]
+        ay = rings[0, i, 1]
+        lx = rings[0, j, 0] - ax
+        ly = rings[0, j, 1] - ay
         length = math.sqrt(lx * lx + ly * ly)
         if length > 0.0:
-            lines[used, 0], lines[used, 1] = -ly / length, lx / length
+            lines[used, 0] = -ly / length
+            lines[used, 1] = lx / length
             lines[used, 2] = (lx * ay - ly * ax) / length
             rings[0, i, 2] = used
             used += 1
@@ -309,7 +348,8 @@ def _inner_offset(polygon, x0, y0, backwards, distance, lines, rings):
     size = k
     left = _cut(lines, used, distance, rings, size)
     if left == 0:  # nothing is left: bisect for the depth of the deepest point
-        low, high = 0.0, distance if distance < reach else reach
+        low = 0.0
+        high = distance if distance < reach else reach
         while high - low > 2e-16 * reach:
             middle = 0.5 * (low + high)
             if not low < middle < high:
@@ -321,11 +361,13 @@ def _inner_offset(polygon, x0, y0, backwards, distance, lines, rings):
                 low = middle
                 size = left
                 used = _keep_lines(lines, used, rings, size)
-        x = y = 0.0
+        x = 0.0
+        y = 0.0
         for i in range(size):
             x += rings[0, i, 0] / size
             y += rings[0, i, 1] / size
-        rings[0, 0, 0], rings[0, 0, 1] = x, y
+        rings[0, 0, 0] = x
+        rings[0, 0, 1] = y
         return 1
     return left
 
@@ -340,7 +382,9 @@ def _keep_lines(lines, used, rings, size):
                 rings[0, i, 2] = kept
                 found = True
         if found:
-            lines[kept, 0], lines[kept, 1], lines[kept, 2] = lines[line, 0], lines[line, 1], lines[line, 2]
+            lines[kept, 0] = lines[line, 0]
+            lines[kept, 1] = lines[line, 1]
+            lines[kept, 2] = lines[line, 2]
             kept += 1
     return kept
 
@@ -351,23 +395,33 @@ def _cut(lines, used, depth, rings, size):
     source = 0
     for line in range(used):
         target = 2 if source == 1 else 1
-        nx, ny, level = lines[line, 0], lines[line, 1], lines[line, 2] + depth
-        ex, ey, tag = rings[source, size - 1, 0], rings[source, size - 1, 1], rings[source, size - 1, 2]
+        nx = lines[line, 0]
+        ny = lines[line, 1]
+        level = lines[line, 2] + depth
+        ex = rings[source, size - 1, 0]
+        ey = rings[source, size - 1, 1]
+        tag = rings[source, size - 1, 2]
         before = nx * ex + ny * ey - level
         count = 0
         for i in range(size):
-            cx, cy = rings[source, i, 0], rings[source, i, 1]
+            cx = rings[source, i, 0]
+            cy = rings[source, i, 1]
             here = nx * cx + ny * cy - level
             if (here >= 0.0) != (before >= 0.0) and count < room:
                 t = before / (before - here)
-                rings[target, count, 0], rings[target, count, 1] = ex + t * (cx - ex), ey + t * (cy - ey)
+                rings[target, count, 0] = ex + t * (cx - ex)
+                rings[target, count, 1] = ey + t * (cy - ey)
                 rings[target, count, 2] = line if before >= 0.0 else tag
                 count += 1
             tag = rings[source, i, 2]
             if here >= 0.0 and count < room:
-                rings[target, count, 0], rings[target, count, 1], rings[target, count, 2] = cx, cy, tag
+                rings[target, count, 0] = cx
+                rings[target, count, 1] = cy
+                rings[target, count, 2] = tag
                 count += 1
-            ex, ey, before = cx, cy, here
+            ex = cx
+            ey = cy
+            before = here
         source = target
         size = count
         if size == 0:

@@ -31,39 +31,54 @@ def cut_cells(points, start, lines, scratch, tags, measure, chords):
             tags[0, k] = -1
         now = 0
         for j in range(count):
-            chords[i, j, 0] = chords[i, j, 1] = chords[i, j, 2] = 0.0
-            nx, ny, h = lines[j, 0], lines[j, 1], lines[j, 2]
+            chords[i, j, 0] = 0.0
+            chords[i, j, 1] = 0.0
+            chords[i, j, 2] = 0.0
+            nx = lines[j, 0]
+            ny = lines[j, 1]
+            h = lines[j, 2]
             new = 1 - now
             left = 0
             for k in range(size):
                 if left + 2 > room:
                     return False
                 following = k + 1 if k + 1 < size else 0
-                ax, ay = scratch[now, k, 0], scratch[now, k, 1]
-                bx, by = scratch[now, following, 0], scratch[now, following, 1]
+                ax = scratch[now, k, 0]
+                ay = scratch[now, k, 1]
+                bx = scratch[now, following, 0]
+                by = scratch[now, following, 1]
                 a = nx * ax + ny * ay - h
                 b = nx * bx + ny * by - h
                 if a <= 0.0:
-                    scratch[new, left, 0], scratch[new, left, 1] = ax, ay
+                    scratch[new, left, 0] = ax
+                    scratch[new, left, 1] = ay
                     tags[new, left] = tags[now, k]
                     left += 1
                     if b > 0.0:
                         share = a / (a - b)
-                        scratch[new, left, 0], scratch[new, left, 1] = ax + share * (bx - ax), ay + share * (by - ay)
+                        scratch[new, left, 0] = ax + share * (bx - ax)
+                        scratch[new, left, 1] = ay + share * (by - ay)
                         tags[new, left] = j
                         left += 1
                 elif b <= 0.0:
                     share = a / (a - b)
-                    scratch[new, left, 0], scratch[new, left, 1] = ax + share * (bx - ax), ay + share * (by - ay)
+                    scratch[new, left, 0] = ax + share * (bx - ax)
+                    scratch[new, left, 1] = ay + share * (by - ay)
                     tags[new, left] = tags[now, k]
                     left += 1
-            now, size = new, left
-        area = mx = my = 0.0
+            now = new
+            size = left
+        area = 0.0
+        mx = 0.0
+        my = 0.0
         if size >= 3:
-            ox, oy = scratch[now, 0, 0], scratch[now, 0, 1]
+            ox = scratch[now, 0, 0]
+            oy = scratch[now, 0, 1]
             for k in range(1, size - 1):
-                ax, ay = scratch[now, k, 0] - ox, scratch[now, k, 1] - oy
-                bx, by = scratch[now, k + 1, 0] - ox, scratch[now, k + 1, 1] - oy
+                ax = scratch[now, k, 0] - ox
+                ay = scratch[now, k, 1] - oy
+                bx = scratch[now, k + 1, 0] - ox
+                by = scratch[now, k + 1, 1] - oy
                 part = 0.5 * (ax * by - ay * bx)
                 area += part
                 mx += part * (ax + bx)
@@ -74,11 +89,16 @@ def cut_cells(points, start, lines, scratch, tags, measure, chords):
                 j = tags[now, k]
                 if j >= 0:
                     following = k + 1 if k + 1 < size else 0
-                    ax, ay = scratch[now, k, 0], scratch[now, k, 1]
-                    bx, by = scratch[now, following, 0], scratch[now, following, 1]
+                    ax = scratch[now, k, 0]
+                    ay = scratch[now, k, 1]
+                    bx = scratch[now, following, 0]
+                    by = scratch[now, following, 1]
                     chords[i, j, 0] = ((bx - ax) * (bx - ax) + (by - ay) * (by - ay)) ** 0.5
-                    chords[i, j, 1], chords[i, j, 2] = 0.5 * (ax + bx), 0.5 * (ay + by)
-        measure[i, 0], measure[i, 1], measure[i, 2] = area, mx, my
+                    chords[i, j, 1] = 0.5 * (ax + bx)
+                    chords[i, j, 2] = 0.5 * (ay + by)
+        measure[i, 0] = area
+        measure[i, 1] = mx
+        measure[i, 2] = my
     return True
 
 
@@ -91,19 +111,26 @@ def part_below(polygon, nx, ny, h):
         h: Distance in m of line from origin, along normal.
     """
     size = memory.rows(polygon, 2)
-    given, room = memory.values(polygon), memory.new_matrix(2 * max(size, 1), 2)
+    given = memory.values(polygon)
+    room = memory.new_matrix(2 * max(size, 1), 2)
     kept = memory.room(room)
     count = 0
     for k in range(size):
         n = k + 1 if k + 1 < size else 0
-        ax, ay, bx, by = given[2 * k], given[2 * k + 1], given[2 * n], given[2 * n + 1]
-        a, b = nx * ax + ny * ay - h, nx * bx + ny * by - h
+        ax = given[2 * k]
+        ay = given[2 * k + 1]
+        bx = given[2 * n]
+        by = given[2 * n + 1]
+        a = nx * ax + ny * ay - h
+        b = nx * bx + ny * by - h
         if a <= 0.0:
-            kept[2 * count], kept[2 * count + 1] = ax, ay
+            kept[2 * count] = ax
+            kept[2 * count + 1] = ay
             count += 1
         if (a < 0.0 < b) or (b < 0.0 < a):
             share = a / (a - b)
-            kept[2 * count], kept[2 * count + 1] = ax + share * (bx - ax), ay + share * (by - ay)
+            kept[2 * count] = ax + share * (bx - ax)
+            kept[2 * count + 1] = ay + share * (by - ay)
             count += 1
     left = memory.new_matrix(count, 2)
     out = memory.room(left)

@@ -26,7 +26,8 @@ class FewPoints:
     def _make_room(self, room):
         points = np.zeros((room, 2))
         for i in range(self.count):
-            points[i, 0], points[i, 1] = self.points[i, 0], self.points[i, 1]
+            points[i, 0] = self.points[i, 0]
+            points[i, 1] = self.points[i, 1]
         self.room = room
         self.points = points
         self.order = np.zeros(2 * room, dtype=np.intp)
@@ -43,7 +44,8 @@ class FewPoints:
         """Add the point x, y in m."""
         if self.count == self.room:
             self._make_room(2 * self.room)
-        self.points[self.count, 0], self.points[self.count, 1] = x, y
+        self.points[self.count, 0] = x
+        self.points[self.count, 1] = y
         self.count += 1
 
     def add_some(self, other, first, end):

@@ -73,9 +73,12 @@ def turn_is_left(ax, ay, bx, by, cx, cy):
 
 def _is_corner(ax, ay, bx, by, cx, cy, tolerance):
     """Whether b is a corner left of a and c: by more than rounding unless a tip."""
-    dx, dy = bx - ax, by - ay
-    lx, ly = cx - ax, cy - ay
-    one, two = dx * ly, dy * lx
+    dx = bx - ax
+    dy = by - ay
+    lx = cx - ax
+    ly = cy - ay
+    one = dx * ly
+    two = dy * lx
     turn = one - two
     bound = 3.330669073875472e-16 * (abs(one) + abs(two))  # Shewchuk's bound A of this difference
     if turn > bound + tolerance * (abs(lx) + abs(ly)):
@@ -87,9 +90,12 @@ def _is_corner(ax, ay, bx, by, cx, cy, tolerance):
 
 def _is_straight(ax, ay, bx, by, cx, cy, tolerance):
     """Whether b lies between a and c, on their line to rounding."""
-    dx, dy = bx - ax, by - ay
-    lx, ly = cx - ax, cy - ay
-    one, two = dx * ly, dy * lx
+    dx = bx - ax
+    dy = by - ay
+    lx = cx - ax
+    ly = cy - ay
+    one = dx * ly
+    two = dy * lx
     limit = 3.330669073875472e-16 * (abs(one) + abs(two)) + tolerance * (abs(lx) + abs(ly))
     return abs(one - two) <= limit and dx * (cx - bx) + dy * (cy - by) >= 0.0
 
@@ -106,24 +112,29 @@ def hull_ring(points, way, forth, count, tolerance, ring):
     """
     if count == 0:
         return 0
-    size = base = 1
+    size = 1
+    base = 1
     ring[0] = way[0]
     for step in range(1, count):
         if step == forth:
             base = size
         p = way[step]
         q = ring[size - 1]
-        cx, cy = points[p, 0], points[p, 1]
-        bx, by = points[q, 0], points[q, 1]
+        cx = points[p, 0]
+        cy = points[p, 1]
+        bx = points[q, 0]
+        by = points[q, 1]
         if cx == bx and cy == by:
             continue
         while size > base:
             q = ring[size - 2]
-            ax, ay = points[q, 0], points[q, 1]
+            ax = points[q, 0]
+            ay = points[q, 1]
             if _is_corner(ax, ay, bx, by, cx, cy, tolerance):
                 break
             size -= 1
-            bx, by = ax, ay
+            bx = ax
+            by = ay
         ring[size] = p
         size += 1
     if size == 1:
@@ -170,17 +181,22 @@ def hull_of_cloud(points, order, ring):
     """Find the hull of points (n, 2), some perhaps not finite, as indices in `ring`; returns its size."""
     count = 0
     tiny = False
-    left = bottom = _INFINITE
-    right = top = -_INFINITE
+    left = _INFINITE
+    bottom = _INFINITE
+    right = -_INFINITE
+    top = -_INFINITE
     for i in range(points.shape[0]):
-        x, y = points[i, 0], points[i, 1]
+        x = points[i, 0]
+        y = points[i, 1]
         if (0.0 < abs(x) < _TINY) or (0.0 < abs(y) < _TINY):
             tiny = True
         if abs(x) <= _LARGEST and abs(y) <= _LARGEST:  # false for NaN
             order[count] = i
             count += 1
-            left, right = min(left, x), max(right, x)
-            bottom, top = min(bottom, y), max(top, y)
+            left = min(left, x)
+            right = max(right, x)
+            bottom = min(bottom, y)
+            top = max(top, y)
     if tiny:
         return hull_of_cloud(_without_tiny(points), order, ring)
     if count == 0:
@@ -192,7 +208,8 @@ def hull_of_cloud(points, order, ring):
     if count <= _SHORT:
         for i in range(1, count):
             p = order[i]
-            x, y = points[p, 0], points[p, 1]
+            x = points[p, 0]
+            y = points[p, 1]
             j = i
             while j > 0 and (
                 points[order[j - 1], 0] > x or (points[order[j - 1], 0] == x and points[order[j - 1], 1] > y)

@@ -79,13 +79,20 @@ class _Gap:
 
     def find_highest(self, w):
         """Move to a width's highest gap, from the current x, and cut there."""
-        rise = fall = 0.0  # slopes in x of the two cuts
-        rise_w = fall_w = 0.0  # and in w
+        # slopes in x of the two cuts
+        rise = 0.0
+        fall = 0.0
+        # and in w
+        rise_w = 0.0
+        fall_w = 0.0
         rise_x = self.first
         fall_x = max(self.last - w, self.first)
-        rise_height = fall_height = 0.0
-        rise_top = fall_top = 0.0
-        rise_bottom = fall_bottom = 0.0
+        rise_height = 0.0
+        fall_height = 0.0
+        rise_top = 0.0
+        fall_top = 0.0
+        rise_bottom = 0.0
+        fall_bottom = 0.0
         has_rise = False
         has_fall = False
         mixed = 0.0

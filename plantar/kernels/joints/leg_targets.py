@@ -16,25 +16,36 @@ class LegTargets:
     """
 
     def __init__(self, com, torso, left, right):
-        self.com, self.torso = com, torso
+        self.com = com
+        self.torso = torso
         self.left, self.left_turn = left
         self.right, self.right_turn = right
 
     def take(self, com, torso, left, left_turn, right, right_turn):
         """Copy the targets, in the arguments' order; ValueError unless contiguous float64 arrays."""
-        a, b, c = memory.values(com), memory.values(left), memory.values(right)
-        d, e, f = memory.values(torso), memory.values(left_turn), memory.values(right_turn)
+        a = memory.values(com)
+        b = memory.values(left)
+        c = memory.values(right)
+        d = memory.values(torso)
+        e = memory.values(left_turn)
+        f = memory.values(right_turn)
         for i in range(3):
-            self.com[i], self.left[i], self.right[i] = a[i], b[i], c[i]
+            self.com[i] = a[i]
+            self.left[i] = b[i]
+            self.right[i] = c[i]
             for j in range(3):
-                self.torso[i, j], self.left_turn[i, j], self.right_turn[i, j] = d[3 * i + j], e[3 * i + j], f[3 * i + j]
+                self.torso[i, j] = d[3 * i + j]
+                self.left_turn[i, j] = e[3 * i + j]
+                self.right_turn[i, j] = f[3 * i + j]
 
 
 class JointEntries:
     """Copies the entries at `places` (k,) of a vector (n,) to `entries` (k,)."""
 
     def __init__(self, vector, places, entries):
-        self.vector, self.places, self.entries = vector, places, entries
+        self.vector = vector
+        self.places = places
+        self.entries = entries
 
     def take(self):
         for k in range(self.places.shape[0]):

@@ -42,7 +42,8 @@ class Setpoints:
         self.step = step
         self.share = share
         self.left = left
-        self.joints, self.torques = joints, torques
+        self.joints = joints
+        self.torques = torques
         count = len(servos)
         self.reference = np.full(count, _NONE)
         self.velocity = np.zeros(count)
@@ -56,8 +57,12 @@ class Setpoints:
         """Hold joint angles (k,) in rad that take torques (k,) in N m."""
         for i in range(self.servos.shape[0]):
             self.reference[i] = joints[i]
-            self.velocity[i] = self.rate[i] = self.behind[i] = 0.0
-            self.goal[i] = self.between[i] = self.setpoint[i] = joints[i] + torques[i] / self.stiffness[i]
+            self.velocity[i] = 0.0
+            self.rate[i] = 0.0
+            self.behind[i] = 0.0
+            self.goal[i] = joints[i] + torques[i] / self.stiffness[i]
+            self.between[i] = self.goal[i]
+            self.setpoint[i] = self.goal[i]
 
     def go_to(self):
         """Set the next tick's reference, each leg's as far as its fastest joint may move."""
@@ -67,7 +72,8 @@ class Setpoints:
 
     def _go_on(self, begin, end):
         joints = self.joints
-        fastest = total = 0.0
+        fastest = 0.0
+        total = 0.0
         for i in range(begin, end if self.per_way.shape[0] else begin):
             if self.behind[i] != self.behind[i]:
                 self.behind[i] = 0.0

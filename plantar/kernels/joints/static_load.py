@@ -21,20 +21,36 @@ class StaticLoad:
     """
 
     def __init__(self, parents, bodies, inertias, motions, gravity, places, torques):
-        self.parents, self.bodies, self.inertias, self.motions = parents, bodies, inertias, motions
-        self.gravity, self.places, self.torques = gravity, places, torques
+        self.parents = parents
+        self.bodies = bodies
+        self.inertias = inertias
+        self.motions = motions
+        self.gravity = gravity
+        self.places = places
+        self.torques = torques
         self.wrenches = np.zeros((len(parents), 6))
         self.load = np.zeros(len(bodies))
 
     def weigh(self):
         """Begin with the load of gravity."""
-        wrenches, inertias, motions = self.wrenches, self.inertias, self.motions
-        x, y, z = -self.gravity[0], -self.gravity[1], -self.gravity[2]
+        wrenches = self.wrenches
+        inertias = self.inertias
+        motions = self.motions
+        x = -self.gravity[0]
+        y = -self.gravity[1]
+        z = -self.gravity[2]
         count = self.parents.shape[0]
         for b in range(1, count):
-            i, j, k, mass = inertias[b, 6], inertias[b, 7], inertias[b, 8], inertias[b, 9]
-            wrenches[b, 0], wrenches[b, 1], wrenches[b, 2] = j * z - k * y, k * x - i * z, i * y - j * x
-            wrenches[b, 3], wrenches[b, 4], wrenches[b, 5] = mass * x, mass * y, mass * z
+            i = inertias[b, 6]
+            j = inertias[b, 7]
+            k = inertias[b, 8]
+            mass = inertias[b, 9]
+            wrenches[b, 0] = j * z - k * y
+            wrenches[b, 1] = k * x - i * z
+            wrenches[b, 2] = i * y - j * x
+            wrenches[b, 3] = mass * x
+            wrenches[b, 4] = mass * y
+            wrenches[b, 5] = mass * z
         for b in range(count - 1, 0, -1):
             p = self.parents[b]
             if p > 0:

@@ -52,7 +52,8 @@ class TaskSpace:
 
     def begin(self, mass):
         """Clear what is owned, and factor a mass matrix (n, n)."""
-        n, factor = self.size, self.factor
+        n = self.size
+        factor = self.factor
         self.used = 0
         for i in range(n):
             self.y[i] = 0.0
@@ -87,11 +88,20 @@ class TaskSpace:
             Number of directions, and lower bound on these rows' singular values over full size. If small, or rows have
             no direction, caller uses `rows`, `missing`.
         """
-        n, count, first = self.size, jacobian.shape[0], self.used
+        n = self.size
+        count = jacobian.shape[0]
+        first = self.used
         if count > self.room:
             self._make_room(count)
-        columns, sizes, left, missing, order, y = self.columns, self.sizes, self.left, self.missing, self.order, self.y
-        full, largest, longest = self.full, 0.0, 0.0
+        columns = self.columns
+        sizes = self.sizes
+        left = self.left
+        missing = self.missing
+        order = self.order
+        y = self.y
+        full = self.full
+        largest = 0.0
+        longest = 0.0
         for j in range(count):
             order[j] = j
             total = 0.0
@@ -133,7 +143,9 @@ class TaskSpace:
     def meet(self, rank):
         """Meet the missing accelerations of the last level's first `rank` rows."""
         first = self.used - rank
-        columns, missing, y = self.columns, self.missing, self.y
+        columns = self.columns
+        missing = self.missing
+        y = self.y
         for i in range(rank):
             missing[i] /= columns[first + i, i]
             for j in range(i + 1, rank):
@@ -152,7 +164,10 @@ class TaskSpace:
             count: Number of rows.
             least: Share of largest row's size below which a row does not count.
         """
-        first, columns, missing, normal = self.used - rank, self.columns, self.missing, self.normal
+        first = self.used - rank
+        columns = self.columns
+        missing = self.missing
+        normal = self.normal
         largest = 0.0
         for j in range(count):
             largest = max(largest, self.sizes[j])
@@ -193,7 +208,9 @@ class TaskSpace:
 
     def acceleration(self, out):
         """Write the generalized acceleration of y to `out` (n,)."""
-        n, factor, vectors = self.size, self.factor, self.vectors
+        n = self.size
+        factor = self.factor
+        vectors = self.vectors
         for i in range(n):
             out[i] = self.y[i]
         for k in range(self.used - 1, -1, -1):
@@ -210,12 +227,17 @@ class TaskSpace:
 
     def _turn(self, row):
         """Turn a Jacobian row (n,) into the mass-weighted basis, in place."""
-        n, factor, vectors = self.size, self.factor, self.vectors
+        n = self.size
+        factor = self.factor
+        vectors = self.vectors
         begin = 0
         while begin < n and row[begin] == 0.0:
             begin += 1
         for i in range(begin, n):
-            a = b = c = d = 0.0
+            a = 0.0
+            b = 0.0
+            c = 0.0
+            d = 0.0
             end = i - (i - begin) % 4
             for k in range(begin, end, 4):
                 a += factor[i, k] * row[k]
@@ -226,7 +248,10 @@ class TaskSpace:
                 a += factor[i, k] * row[k]
             row[i] = (row[i] - ((a + b) + (c + d))) / factor[i, i]
         for k in range(self.used):
-            a = b = c = d = 0.0
+            a = 0.0
+            b = 0.0
+            c = 0.0
+            d = 0.0
             end = n - (n - k) % 4
             for i in range(k, end, 4):
                 a += vectors[k, i] * row[i]
@@ -241,7 +266,11 @@ class TaskSpace:
 
     def _turn_all(self, count):
         """`_turn` for all columns of the level."""
-        n, factor, vectors, columns, sums = self.size, self.factor, self.vectors, self.columns, self.sums
+        n = self.size
+        factor = self.factor
+        vectors = self.vectors
+        columns = self.columns
+        sums = self.sums
         for i in range(n):
             for k in range(i):
                 share = factor[i, k]
@@ -276,7 +305,10 @@ class TaskSpace:
 
     def _bound(self, rank):
         """Lower bound of the scaled triangle's singular values, by its inverse's Frobenius norm."""
-        columns, full, column, first = self.columns, self.full, self.left, self.used - rank
+        columns = self.columns
+        full = self.full
+        column = self.left
+        first = self.used - rank
         squares = 0.0
         for k in range(rank):
             for j in range(k, rank):
@@ -291,7 +323,11 @@ class TaskSpace:
         return 1.0 / math.sqrt(squares) if rank else 0.0
 
     def _swap(self, a, b):
-        columns, sizes, left, order, full = self.columns, self.sizes, self.left, self.order, self.full
+        columns = self.columns
+        sizes = self.sizes
+        left = self.left
+        order = self.order
+        full = self.full
         for i in range(self.size):
             columns[i, a], columns[i, b] = columns[i, b], columns[i, a]
         sizes[a], sizes[b] = sizes[b], sizes[a]
@@ -301,8 +337,14 @@ class TaskSpace:
 
     def _reflect(self, place, count, smallest):
         """Turn the first free direction into the column at `place`."""
-        n, columns, sizes, left, y, first = self.size, self.columns, self.sizes, self.left, self.y, self.used + place
-        vector, sums = self.vectors[first], self.sums
+        n = self.size
+        columns = self.columns
+        sizes = self.sizes
+        left = self.left
+        y = self.y
+        first = self.used + place
+        vector = self.vectors[first]
+        sums = self.sums
         total = 0.0
         for i in range(first, n):
             vector[i] = columns[i, place]
@@ -313,7 +355,8 @@ class TaskSpace:
         scale = 2.0 / (total - head * head + vector[first] * vector[first])
         self.scale[first] = scale
         for j in range(place, count):
-            sums[j] = left[j] = 0.0
+            sums[j] = 0.0
+            left[j] = 0.0
         for i in range(first, n):
             share = vector[i]
             for j in range(place, count):

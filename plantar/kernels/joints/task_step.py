@@ -28,11 +28,19 @@ class NewtonStep:
         self, columns, row_units, column_units, movable, places, middle, half, diagonal, least_pivot, given, jacobian,
         step, velocity,
     ):  # fmt: skip
-        self.columns, self.row_units, self.column_units = columns, row_units, column_units
-        self.movable, self.places, self.middle, self.half = movable, places, middle, half
-        self.diagonal, self.least_pivot = diagonal, least_pivot
+        self.columns = columns
+        self.row_units = row_units
+        self.column_units = column_units
+        self.movable = movable
+        self.places = places
+        self.middle = middle
+        self.half = half
+        self.diagonal = diagonal
+        self.least_pivot = least_pivot
         self.given, self.error, self.configuration = given
-        self.jacobian, self.step, self.velocity = jacobian, step, velocity
+        self.jacobian = jacobian
+        self.step = step
+        self.velocity = velocity
         self.normal = np.zeros((len(columns), len(columns)))
         self.column = np.zeros(len(columns))
 
@@ -40,9 +48,14 @@ class NewtonStep:
         """Whether a step up to `largest` in units is valid: finite, no small pivot, within joint limits. Then the error
         is in units.
         """
-        normal, step, used, columns = self.normal, self.step, self.jacobian, self.columns
-        jacobian, error = self.given, self.error
-        m, n = self.row_units.shape[0], self.columns.shape[0]
+        normal = self.normal
+        step = self.step
+        used = self.jacobian
+        columns = self.columns
+        jacobian = self.given
+        error = self.error
+        m = self.row_units.shape[0]
+        n = self.columns.shape[0]
         for i in range(n):
             step[i] = 0.0
             for j in range(i + 1):
@@ -61,7 +74,9 @@ class NewtonStep:
 
     def _factor(self, n):
         """Cholesky factor and solution; whether all pivots suffice."""
-        normal, step, column = self.normal, self.step, self.column
+        normal = self.normal
+        step = self.step
+        column = self.column
         for k in range(n):
             if not normal[k, k] > self.least_pivot * self.least_pivot:
                 return False
@@ -97,7 +112,8 @@ class NewtonStep:
 
     def worst(self):
         """Largest absolute error; NaN if one is."""
-        error, largest = self.error, 0.0
+        error = self.error
+        largest = 0.0
         for r in range(self.row_units.shape[0]):
             value = math.fabs(error[r])
             if not value <= largest:
@@ -128,12 +144,20 @@ class PointRows:
     """How a body's point moves: receives the velocity (3, nv) in `jacobian`."""
 
     def __init__(self, chain, motions, center, jacobian):
-        self.chain, self.motions, self.center, self.jacobian = chain, motions, center, jacobian
+        self.chain = chain
+        self.motions = motions
+        self.center = center
+        self.jacobian = jacobian
 
     def write(self, x, y, z):
         """Write the rows of the point (x, y, z)."""
-        chain, motions, center, out = self.chain, self.motions, self.center, self.jacobian
-        x, y, z = x - center[0], y - center[1], z - center[2]
+        chain = self.chain
+        motions = self.motions
+        center = self.center
+        out = self.jacobian
+        x = x - center[0]
+        y = y - center[1]
+        z = z - center[2]
         for k in range(chain.shape[0]):
             i = chain[k]
             out[0, i] = motions[i, 3] + (motions[i, 1] * z - motions[i, 2] * y)
@@ -145,12 +169,18 @@ class TurnRows(Rows):
     """Body's missing turn (3,) from `actual` to `wanted` (3, 3), and its angular velocity (3, nv), in world."""
 
     def __init__(self, chain, motions, wanted, actual, error, jacobian):
-        self.chain, self.motions, self.wanted, self.actual = chain, motions, wanted, actual
-        self.error, self.jacobian = error, jacobian
+        self.chain = chain
+        self.motions = motions
+        self.wanted = wanted
+        self.actual = actual
+        self.error = error
+        self.jacobian = jacobian
 
     def write(self):
         """See `Rows`."""
-        chain, motions, out = self.chain, self.motions, self.jacobian
+        chain = self.chain
+        motions = self.motions
+        out = self.jacobian
         for k in range(chain.shape[0]):
             i = chain[k]
             for j in range(3):
@@ -167,7 +197,9 @@ class PoseRows(Rows):
     """
 
     def __init__(self, chain, motions, center, position, rotation, at, turned, error, jacobian):
-        self.position, self.at, self.error = position, at, error
+        self.position = position
+        self.at = at
+        self.error = error
         self.point = PointRows(chain, motions, center, jacobian[:3])
         self.turn = TurnRows(chain, motions, rotation, turned, error[3:], jacobian[3:])
 
@@ -191,21 +223,37 @@ class ComRows(Rows):
     """
 
     def __init__(self, chains, ends, masses, share, motions, centers, trees, places, target, com, error, jacobian):
-        self.chains, self.ends, self.masses, self.share = chains, ends, masses, share
-        self.motions, self.centers, self.trees, self.places = motions, centers, trees, places
-        self.target, self.com, self.error, self.jacobian = target, com, error, jacobian
+        self.chains = chains
+        self.ends = ends
+        self.masses = masses
+        self.share = share
+        self.motions = motions
+        self.centers = centers
+        self.trees = trees
+        self.places = places
+        self.target = target
+        self.com = com
+        self.error = error
+        self.jacobian = jacobian
 
     def write(self):
         """See `Rows`."""
-        chains, motions, centers, places, out = self.chains, self.motions, self.centers, self.places, self.jacobian
+        chains = self.chains
+        motions = self.motions
+        centers = self.centers
+        places = self.places
+        out = self.jacobian
         for j in range(3):
             self.error[j] = self.target[j] - self.com[j]
             for i in range(out.shape[1]):
                 out[j, i] = 0.0
         begin = 0
         for b in range(self.ends.shape[0]):
-            mass, t = self.masses[b], self.trees[b]
-            x, y, z = places[b, 0] - centers[t, 0], places[b, 1] - centers[t, 1], places[b, 2] - centers[t, 2]
+            mass = self.masses[b]
+            t = self.trees[b]
+            x = places[b, 0] - centers[t, 0]
+            y = places[b, 1] - centers[t, 1]
+            z = places[b, 2] - centers[t, 2]
             for k in range(begin, self.ends[b]):
                 i = chains[k]
                 out[0, i] += (motions[i, 3] + (motions[i, 1] * z - motions[i, 2] * y)) * mass
@@ -230,8 +278,12 @@ class Configuration:
     """
 
     def __init__(self, ways, speeds, turns, rates, configuration, velocity):
-        self.ways, self.speeds, self.turns, self.rates = ways, speeds, turns, rates
-        self.configuration, self.velocity = configuration, velocity
+        self.ways = ways
+        self.speeds = speeds
+        self.turns = turns
+        self.rates = rates
+        self.configuration = configuration
+        self.velocity = velocity
 
     def move(self):
         """Integrate the velocity over one unit of time."""
@@ -241,23 +293,42 @@ class Configuration:
             self._turn(self.turns[k], self.rates[k])
 
     def _turn(self, place, rate):
-        q, velocity = self.configuration, self.velocity
-        w, x, y, z = q[place], q[place + 1], q[place + 2], q[place + 3]
+        q = self.configuration
+        velocity = self.velocity
+        w = q[place]
+        x = q[place + 1]
+        y = q[place + 2]
+        z = q[place + 3]
         length = math.sqrt((w * w + x * x) + (y * y + z * z))
         if length < _LEAST:
-            w, x, y, z = 1.0, 0.0, 0.0, 0.0
+            w = 1.0
+            x = 0.0
+            y = 0.0
+            z = 0.0
         elif math.fabs(length - 1.0) > _LEAST:
             share = 1.0 / length
-            w, x, y, z = share * w, share * x, share * y, share * z
-        i, j, k = velocity[rate], velocity[rate + 1], velocity[rate + 2]
+            w = share * w
+            x = share * x
+            y = share * y
+            z = share * z
+        i = velocity[rate]
+        j = velocity[rate + 1]
+        k = velocity[rate + 2]
         angle = math.sqrt(i * i + j * j + k * k)
         if angle < _LEAST:
-            i, j, k = 1.0, 0.0, 0.0
+            i = 1.0
+            j = 0.0
+            k = 0.0
         else:
             share = 1.0 / angle
-            i, j, k = share * i, share * j, share * k
-        cosine, sine = math.cos(0.5 * angle), math.sin(0.5 * angle)
-        i, j, k = sine * i, sine * j, sine * k
+            i = share * i
+            j = share * j
+            k = share * k
+        cosine = math.cos(0.5 * angle)
+        sine = math.sin(0.5 * angle)
+        i = sine * i
+        j = sine * j
+        k = sine * k
         q[place] = (w * cosine - x * i) - (y * j + z * k)
         q[place + 1] = (w * i + x * cosine) + (y * k - z * j)
         q[place + 2] = (w * j - x * k) + (y * cosine + z * i)
@@ -277,7 +348,9 @@ class TaskStep:
     """
 
     def __init__(self, rows, newton, configuration):
-        self.rows, self.newton, self.configuration = rows, newton, configuration
+        self.rows = rows
+        self.newton = newton
+        self.configuration = configuration
         self.near = True
 
     def step(self, largest):

@@ -33,6 +33,7 @@ class EstimateError:
                 self.com[axis] = off
         if zmp is not None and self.reaction.found:
             x, y = zmp
-            dx, dy = x - self.reaction.x, y - self.reaction.y
+            dx = x - self.reaction.x
+            dy = y - self.reaction.y
             self.squares += dx * dx + dy * dy
             self.compared += 1

@@ -51,7 +51,8 @@ class StanceForce:
 
     def step(self, since):
         """Add a physics step, `since` steps after the last landing."""
-        left, right = self.reaction.loads[0], self.reaction.loads[1]
+        left = self.reaction.loads[0]
+        right = self.reaction.loads[1]
         place = self.now % self.size
         self.heights[place] = self.center[2]
         self.forces[place] = left + right
@@ -68,7 +69,8 @@ class StanceForce:
         self.lasting += 1
         if self.lasting < self.size:
             return
-        first, middle = self.now % self.size, (self.now + self.span) % self.size
+        first = self.now % self.size
+        middle = (self.now + self.span) % self.size
         bend = self.heights[place] - 2.0 * self.heights[middle] + self.heights[first]
         off = self.forces[middle] - self.mass * (self.gravity + bend * self.scale)
         self.compared += 1
@@ -126,7 +128,11 @@ class StandWatch:
             return
         if not self.stood[foot]:
             self.stood[foot] = 1
-            self.first[foot, 0], self.first[foot, 1] = x, y
-        dx, dy = x - self.first[foot, 0], y - self.first[foot, 1]
+            self.first[foot, 0] = x
+            self.first[foot, 1] = y
+        dx = x - self.first[foot, 0]
+        dy = y - self.first[foot, 1]
         self.slip = max(self.slip, math.sqrt(dx * dx + dy * dy))
-        self.place[foot, 0], self.place[foot, 1], self.place[foot, 2] = x, y, yaw
+        self.place[foot, 0] = x
+        self.place[foot, 1] = y
+        self.place[foot, 2] = yaw

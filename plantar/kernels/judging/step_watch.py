@@ -106,7 +106,8 @@ class StepWatch:
         self.rows.append([self.now, foot, 0.0, 0.0, _INFINITE])
         self.landed[foot] = self.now
         self.margin_since = _INFINITE
-        self.impact[foot] = self.area[foot] = 0.0
+        self.impact[foot] = 0.0
+        self.area[foot] = 0.0
         self.stands.begin(foot, self.now)
 
     def _keep(self):
@@ -114,7 +115,8 @@ class StepWatch:
             number = self.last[foot]
             if number >= 0:
                 row = self.rows[number]
-                row[2], row[3] = self.impact[foot], self.area[foot]
+                row[2] = self.impact[foot]
+                row[3] = self.area[foot]
         if self.rows:
             row = self.rows[len(self.rows) - 1]
             row[4] = self.margin_since
@@ -132,7 +134,8 @@ class StepWatch:
             self.margin = min(self.margin, reaction.margin)
             self.margin_since = min(self.margin_since, reaction.margin)
         for foot in range(2):
-            force, age = reaction.loads[foot], self.now - self.landed[foot]
+            force = reaction.loads[foot]
+            age = self.now - self.landed[foot]
             if age <= self.impact_window and force > self.impact[foot]:
                 self.impact[foot] = force
             if age <= self.area_window:

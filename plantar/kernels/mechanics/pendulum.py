@@ -17,11 +17,20 @@ def on_segment(omega, since, until, segment, vrps, rates, growths, shrinkage):
         vrps: VRP (k, 2) at beginning of each segment in m, with `rates` in m/s.
         growths: A e^(w T) (k, 2) of each in m; `shrinkage` B (2,) of this one.
     """
-    start, rate, growth = memory.values(vrps), memory.values(rates), memory.values(growths)
-    offset, i, j = memory.values(shrinkage), 2 * segment, 2 * segment + 1
-    grown, shrunk = math.exp(-omega * until), math.exp(-omega * since)
-    x, gx, sx = start[i] + since * rate[i], grown * growth[i], shrunk * offset[0]
-    y, gy, sy = start[j] + since * rate[j], grown * growth[j], shrunk * offset[1]
+    start = memory.values(vrps)
+    rate = memory.values(rates)
+    growth = memory.values(growths)
+    offset = memory.values(shrinkage)
+    i = 2 * segment
+    j = 2 * segment + 1
+    grown = math.exp(-omega * until)
+    shrunk = math.exp(-omega * since)
+    x = start[i] + since * rate[i]
+    gx = grown * growth[i]
+    sx = shrunk * offset[0]
+    y = start[j] + since * rate[j]
+    gy = grown * growth[j]
+    sy = shrunk * offset[1]
     return (
         vectors.vector2(x, y),
         vectors.vector2(x + rate[i] / omega + gx, y + rate[j] / omega + gy),

@@ -42,7 +42,15 @@ def multiply(a, b, out):
 
 def between(a, b):
     """A B^T, nine numbers row by row: for rotations to one frame, from B's frame to A's."""
-    xx = xy = xz = yx = yy = yz = zx = zy = zz = 0.0
+    xx = 0.0
+    xy = 0.0
+    xz = 0.0
+    yx = 0.0
+    yy = 0.0
+    yz = 0.0
+    zx = 0.0
+    zy = 0.0
+    zz = 0.0
     for k in range(3):
         xx += a[0, k] * b[0, k]
         xy += a[0, k] * b[1, k]
@@ -59,9 +67,15 @@ def between(a, b):
 def exponential(x, y, z, out):
     """Rotation (3, 3) of a rotation vector x, y, z in rad into `out` (Rodrigues), exact to rounding."""
     xx, xy, xz, yx, yy, yz, zx, zy, zz = _exponential(x, y, z)
-    out[0, 0], out[0, 1], out[0, 2] = xx, xy, xz
-    out[1, 0], out[1, 1], out[1, 2] = yx, yy, yz
-    out[2, 0], out[2, 1], out[2, 2] = zx, zy, zz
+    out[0, 0] = xx
+    out[0, 1] = xy
+    out[0, 2] = xz
+    out[1, 0] = yx
+    out[1, 1] = yy
+    out[1, 2] = yz
+    out[2, 0] = zx
+    out[2, 1] = zy
+    out[2, 2] = zz
 
 
 def rotation_of(x, y, z):
@@ -73,11 +87,20 @@ def rotation_of(x, y, z):
 def _exponential(x, y, z):
     angle = math.sqrt(x * x + y * y + z * z)
     if angle < _SMALL:
-        s, c = 1.0, 0.5
+        s = 1.0
+        c = 0.5
     else:
-        s, c = math.sin(angle) / angle, (1.0 - math.cos(angle)) / (angle * angle)
-    xx, yy, zz, xy, xz, yz = c * x * x, c * y * y, c * z * z, c * x * y, c * x * z, c * y * z
-    x, y, z = s * x, s * y, s * z
+        s = math.sin(angle) / angle
+        c = (1.0 - math.cos(angle)) / (angle * angle)
+    xx = c * x * x
+    yy = c * y * y
+    zz = c * z * z
+    xy = c * x * y
+    xz = c * x * z
+    yz = c * y * z
+    x = s * x
+    y = s * y
+    z = s * z
     return 1.0 - yy - zz, xy - z, xz + y, xy + z, 1.0 - xx - zz, yz - x, xz - y, yz + x, 1.0 - xx - yy
 
 
@@ -97,7 +120,9 @@ def missing_turn(wanted, actual, out):
         Whether it is at most a quarter turn; beyond, the error is wrong.
     """
     xx, xy, xz, yx, yy, yz, zx, zy, zz = between(wanted, actual)
-    out[0], out[1], out[2] = 0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)
+    out[0] = 0.5 * (zy - yz)
+    out[1] = 0.5 * (xz - zx)
+    out[2] = 0.5 * (yx - xy)
     return xx + yy + zz >= 1.0
 
 

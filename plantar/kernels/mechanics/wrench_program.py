@@ -25,12 +25,19 @@ class WrenchProgram:
 
     def __init__(self, scales, unit, jacobian, fixed, hessian, wanted, gradient):
         self.weight, self.length, self.net, self.pressure = scales
-        self.unit, self.jacobian, self.fixed, self.hessian = unit, jacobian, fixed, hessian
-        self.wanted, self.gradient = wanted, gradient
+        self.unit = unit
+        self.jacobian = jacobian
+        self.fixed = fixed
+        self.hessian = hessian
+        self.wanted = wanted
+        self.gradient = gradient
         count = len(unit) // 6
-        self.positions, self.rotations = np.zeros((count, 3)), np.zeros((count, 3, 3))
-        self.wished, self.shares = np.zeros(count), np.zeros(count)
-        self.request, self.middle = np.zeros(9), np.zeros(3)
+        self.positions = np.zeros((count, 3))
+        self.rotations = np.zeros((count, 3, 3))
+        self.wished = np.zeros(count)
+        self.shares = np.zeros(count)
+        self.request = np.zeros(9)
+        self.middle = np.zeros(3)
 
     def ask(self, wrench, point, shares):
         """Set a request; returns whether it is finite, with some share above 0.
@@ -42,8 +49,15 @@ class WrenchProgram:
         request = self.request
         fx, fy, fz, tx, ty, tz = wrench
         px, py, pz = point
-        request[0], request[1], request[2], request[3], request[4], request[5] = fx, fy, fz, tx, ty, tz
-        request[6], request[7], request[8] = px, py, pz
+        request[0] = fx
+        request[1] = fy
+        request[2] = fz
+        request[3] = tx
+        request[4] = ty
+        request[5] = tz
+        request[6] = px
+        request[7] = py
+        request[8] = pz
         total = fx + fy + fz + tx + ty + tz + px + py + pz
         some = 0.0
         for i in range(self.wished.shape[0]):
@@ -65,8 +79,12 @@ class WrenchProgram:
 
     def turn(self):
         """Fill the Jacobian for the contacts' places; returns whether it is finite."""
-        positions, rotations, jacobian, middle = self.positions, self.rotations, self.jacobian, self.middle
-        count, total = positions.shape[0], 0.0
+        positions = self.positions
+        rotations = self.rotations
+        jacobian = self.jacobian
+        middle = self.middle
+        count = positions.shape[0]
+        total = 0.0
         for i in range(count):
             for j in range(3):
                 if not math.isfinite(positions[i, j]):
@@ -84,10 +102,16 @@ class WrenchProgram:
             dy = (positions[i, 1] - middle[1]) / self.length
             dz = (positions[i, 2] - middle[2]) / self.length
             for k in range(3):
-                x, y, z, c = rotations[i, 0, k], rotations[i, 1, k], rotations[i, 2, k], 6 * i + k
-                jacobian[0, c] = jacobian[3, c + 3] = x
-                jacobian[1, c] = jacobian[4, c + 3] = y
-                jacobian[2, c] = jacobian[5, c + 3] = z
+                x = rotations[i, 0, k]
+                y = rotations[i, 1, k]
+                z = rotations[i, 2, k]
+                c = 6 * i + k
+                jacobian[0, c] = x
+                jacobian[3, c + 3] = x
+                jacobian[1, c] = y
+                jacobian[4, c + 3] = y
+                jacobian[2, c] = z
+                jacobian[5, c + 3] = z
                 jacobian[3, c] = dy * z - dz * y
                 jacobian[4, c] = dz * x - dx * z
                 jacobian[5, c] = dx * y - dy * x
@@ -100,7 +124,9 @@ class WrenchProgram:
         Args:
             renewed: Whether its fixed part has changed.
         """
-        hessian, shares, count = self.hessian, self.shares, self.shares.shape[0]
+        hessian = self.hessian
+        shares = self.shares
+        count = self.shares.shape[0]
         for i in range(count):
             renewed = renewed or shares[i] != self.wished[i]
             shares[i] = self.wished[i]
@@ -111,7 +137,10 @@ class WrenchProgram:
                 hessian[a, b] = self.fixed[a, b]
         for i in range(count):
             for j in range(i + 1, count):
-                a, b, one, other = 6 * i + 2, 6 * j + 2, shares[i], shares[j]
+                a = 6 * i + 2
+                b = 6 * j + 2
+                one = shares[i]
+                other = shares[j]
                 hessian[a, a] += self.pressure * other * other
                 hessian[b, b] += self.pressure * one * one
                 hessian[a, b] -= self.pressure * one * other
@@ -120,11 +149,23 @@ class WrenchProgram:
 
     def aim(self):
         """Fill the wanted net wrench about the middle of the contacts."""
-        request, middle, wanted = self.request, self.middle, self.wanted
-        fx, fy, fz, tx, ty, tz = request[0], request[1], request[2], request[3], request[4], request[5]
-        dx, dy, dz = request[6] - middle[0], request[7] - middle[1], request[8] - middle[2]
-        force, moment = self.weight, self.weight * self.length
-        wanted[0], wanted[1], wanted[2] = fx / force, fy / force, fz / force
+        request = self.request
+        middle = self.middle
+        wanted = self.wanted
+        fx = request[0]
+        fy = request[1]
+        fz = request[2]
+        tx = request[3]
+        ty = request[4]
+        tz = request[5]
+        dx = request[6] - middle[0]
+        dy = request[7] - middle[1]
+        dz = request[8] - middle[2]
+        force = self.weight
+        moment = self.weight * self.length
+        wanted[0] = fx / force
+        wanted[1] = fy / force
+        wanted[2] = fz / force
         wanted[3] = (tx + dy * fz - dz * fy) / moment
         wanted[4] = (ty + dz * fx - dx * fz) / moment
         wanted[5] = (tz + dx * fy - dy * fx) / moment
@@ -138,8 +179,13 @@ class WrenchProgram:
         """Largest error of a solution (6 n,) in the program's units, NaN if any; net wrench (6,) less the wanted in N
         and N m; and each contact's wrench (6,) by name.
         """
-        jacobian, wanted, unit, largest = self.jacobian, self.wanted, self.unit, 0.0
-        solution, error, wrenches = memory.values(unknowns), memory.new_vector(6), {}
+        jacobian = self.jacobian
+        wanted = self.wanted
+        unit = self.unit
+        largest = 0.0
+        solution = memory.values(unknowns)
+        error = memory.new_vector(6)
+        wrenches = {}
         out = memory.room(error)
         for j in range(6):
             off = 0.0

@@ -32,10 +32,13 @@ class BodyCheck:
         self.joints = joints
         self.frozen = frozen
         self.begun = False
-        self.imu_same = self.joints_same = 0
+        self.imu_same = 0
+        self.joints_same = 0
         self.kept = np.zeros(joints + 6)
-        self.slip, self.slipped = slip, False
-        self.slips, self.steps = np.zeros(joints), np.zeros(joints)
+        self.slip = slip
+        self.slipped = False
+        self.slips = np.zeros(joints)
+        self.steps = np.zeros(joints)
 
     def check(self, joints, gyro, accelerometer):
         """Check a reading of the right sizes: joint angles (k,) in rad, gyro (3,) in rad/s and accelerometer (3,) in
@@ -44,9 +47,13 @@ class BodyCheck:
         Returns:
             0 for no fault, 1 impossible joint angle, 2 impossible IMU, 3 stuck IMU, 4 stuck joints. NaN is not checked.
         """
-        q, w, a = memory.values(joints), memory.values(gyro), memory.values(accelerometer)
-        kept, n = memory.room(self.kept), self.joints
-        slips, steps = memory.room(self.slips), memory.room(self.steps)
+        q = memory.values(joints)
+        w = memory.values(gyro)
+        a = memory.values(accelerometer)
+        kept = memory.room(self.kept)
+        n = self.joints
+        slips = memory.room(self.slips)
+        steps = memory.room(self.steps)
         found = 0
         same = self.begun
         for i in range(n):
@@ -56,17 +63,21 @@ class BodyCheck:
             if value != kept[i]:
                 same = False
         self.joints_same = self.joints_same + 1 if same else 0
-        spin, shock, same = 0.0, 0.0, self.begun
+        spin = 0.0
+        shock = 0.0
+        same = self.begun
         for i in range(3):
             spin += w[i] * w[i]
             shock += a[i] * a[i]
             if w[i] != kept[n + i] or a[i] != kept[n + 3 + i]:
                 same = False
-            kept[n + i], kept[n + 3 + i] = w[i], a[i]
+            kept[n + i] = w[i]
+            kept[n + 3 + i] = a[i]
         if spin >= _SPIN * _SPIN or shock >= _SHOCK * _SHOCK or (spin == 0.0 and shock == 0.0):
             return 2
         self.imu_same = self.imu_same + 1 if same else 0
-        jumped, jump = -1, 0.0
+        jumped = -1
+        jump = 0.0
         for i in range(n):
             value = q[i] - kept[i] if self.begun else 0.0
             # A joint that was stuck catches up; several that jump together moved, as at an impact.
@@ -97,17 +108,22 @@ class SoleCheck:
 
     def __init__(self, weight):
         self.weight = weight
-        self.left = self.right = -1.0
-        self.left_same = self.right_same = 0
+        self.left = -1.0
+        self.right = -1.0
+        self.left_same = 0
+        self.right_same = 0
         self.steady = False
         self.swapped = False
 
     def update(self, left, left_count, right, right_count):
         """Take a tick's forces: `left_count` on the `left` sole, `right_count` on the `right`, as wired; Returns 0."""
-        new_left, new_right = _total(memory.values(left), left_count), _total(memory.values(right), right_count)
+        new_left = _total(memory.values(left), left_count)
+        new_right = _total(memory.values(right), right_count)
         if self.swapped:
             new_left, new_right = new_right, new_left
-        old_left, old_right, near = self.left, self.right, 0.06 * self.weight
+        old_left = self.left
+        old_right = self.right
+        near = 0.06 * self.weight
         # Soles that are connected the wrong way jump from steady loads; loads that change in every tick are a shock.
         if (
             self.steady
@@ -122,13 +138,15 @@ class SoleCheck:
         self.steady = (
             old_left >= 0.0 and math.fabs(new_left - old_left) < near and math.fabs(new_right - old_right) < near
         )
-        self.left, self.right = new_left, new_right
+        self.left = new_left
+        self.right = new_right
         return 0
 
 
 def farthest(before, now, count):
     """Largest change of the first `count` numbers from `before` to `now`; returns NaN if any is."""
-    a, b = memory.values(before), memory.values(now)
+    a = memory.values(before)
+    b = memory.values(now)
     largest = 0.0
     for i in range(count):
         change = math.fabs(a[i] - b[i])

@@ -21,22 +21,30 @@ def cast_rays(starts, ways, reach, ids, kinds, sizes, bounds, positions, frames,
         lengths: Receives lengths (n,) in m; -1 without a hit.
     """
     n = starts.shape[0]
-    x = y = z = 0.0
+    x = 0.0
+    y = 0.0
+    z = 0.0
     for i in range(n):
         x += starts[i, 0]
         y += starts[i, 1]
         z += starts[i, 2]
         lengths[i] = -1.0
-    x, y, z = x / n, y / n, z / n
+    x = x / n
+    y = y / n
+    z = z / n
     spread = 0.0
     for i in range(n):
-        dx, dy, dz = starts[i, 0] - x, starts[i, 1] - y, starts[i, 2] - z
+        dx = starts[i, 0] - x
+        dy = starts[i, 1] - y
+        dz = starts[i, 2] - z
         spread = max(spread, dx * dx + dy * dy + dz * dz)
     spread = 1.000001 * (math.sqrt(spread) + reach)
     for k in range(ids.shape[0]):
         g = ids[k]
         if kinds[k] != 0:
-            dx, dy, dz = positions[g, 0] - x, positions[g, 1] - y, positions[g, 2] - z
+            dx = positions[g, 0] - x
+            dy = positions[g, 1] - y
+            dz = positions[g, 2] - z
             far = spread + bounds[k]
             if dx * dx + dy * dy + dz * dz > far * far:
                 continue
@@ -49,9 +57,15 @@ def cast_rays(starts, ways, reach, ids, kinds, sizes, bounds, positions, frames,
 def _ray(k, g, i, starts, ways, kinds, sizes, positions, frames):
     """Length in m of one ray to one solid; -1 without a hit."""
     kind = kinds[k]
-    x, y, z = starts[i, 0] - positions[g, 0], starts[i, 1] - positions[g, 1], starts[i, 2] - positions[g, 2]
-    u, v, w = ways[i, 0], ways[i, 1], ways[i, 2]
-    a, b, c = sizes[k, 0], sizes[k, 1], sizes[k, 2]
+    x = starts[i, 0] - positions[g, 0]
+    y = starts[i, 1] - positions[g, 1]
+    z = starts[i, 2] - positions[g, 2]
+    u = ways[i, 0]
+    v = ways[i, 1]
+    w = ways[i, 2]
+    a = sizes[k, 0]
+    b = sizes[k, 1]
+    c = sizes[k, 2]
     if kind == 2:
         return _nearer(u * u + v * v + w * w, u * x + v * y + w * z, x * x + y * y + z * z - a * a)
     # Whole solids first, by the sphere about them.
@@ -68,7 +82,9 @@ def _ray(k, g, i, starts, ways, kinds, sizes, positions, frames):
     if kind == 0:
         return _plane(a, b, px, py, pz, wx, wy, wz)
     if kind == 4:
-        a, b, c = 1.0 / (a * a), 1.0 / (b * b), 1.0 / (c * c)
+        a = 1.0 / (a * a)
+        b = 1.0 / (b * b)
+        c = 1.0 / (c * c)
         return _nearer(
             a * wx * wx + b * wy * wy + c * wz * wz,
             a * wx * px + b * wy * py + c * wz * pz,
@@ -111,7 +127,8 @@ def _cylinder(radius, half, px, py, pz, wx, wy, wz):
         for side in range(-1, 2, 2):
             t = (side * half - pz) / wz
             if t >= 0.0:
-                x, y = px + t * wx, py + t * wy
+                x = px + t * wx
+                y = py + t * wy
                 if x * x + y * y <= radius * radius and (best < 0.0 or t < best):
                     best = t
     t = _nearer(wx * wx + wy * wy, wx * px + wy * py, px * px + py * py - radius * radius)

@@ -22,7 +22,8 @@ class NoiseRows:
         """Move to the next sample, `rows[row]`; returns the row."""
         self.row += 1
         if self.row >= self.rows.shape[0]:
-            self.drawn = self.rows = self.draw()
+            self.drawn = self.draw()
+            self.rows = self.drawn
             self.row = 0
         return self.row
 

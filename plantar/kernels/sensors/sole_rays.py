@@ -42,9 +42,14 @@ class SoleRays:
         self.positions = positions
         self.frames = frames
         count = len(starts)
-        self.starts, self.ways = np.zeros((count, 3)), np.zeros((count, 3))
-        self.lengths, self.distances = np.zeros(count), np.zeros(count)
-        self.start, self.way, self.length, self.distance = self.starts, self.ways, self.lengths, self.distances
+        self.starts = np.zeros((count, 3))
+        self.ways = np.zeros((count, 3))
+        self.lengths = np.zeros(count)
+        self.distances = np.zeros(count)
+        self.start = self.starts
+        self.way = self.ways
+        self.length = self.lengths
+        self.distance = self.distances
         self.sample = np.zeros(count)
         self.told = self.sample
 

@@ -21,7 +21,8 @@ def ordered_rows(vertices, rings, starts, tolerance):
         Indices of each row's cells, and by cell where its last corners begin and where its first ones end.
     """
     rows = _rows_of_copies([vertices[ring] for ring in rings], tolerance)
-    first_end, last_begin = starts[1:], starts[: len(starts) - 1]
+    first_end = starts[1:]
+    last_begin = starts[: len(starts) - 1]
     for row in rows:
         if len(row) > 1:
             along = vertices[rings[row[len(row) - 1]][0]] - vertices[rings[row[0]][0]]
@@ -61,7 +62,8 @@ def _rows_of_copies(cells, tolerance):
             if length <= tolerance:
                 continue
             ux, uy = (steps[j] / length).tolist()
-            across, along = where[:, 1] * ux - where[:, 0] * uy, where[:, 0] * ux + where[:, 1] * uy
+            across = where[:, 1] * ux - where[:, 0] * uy
+            along = where[:, 0] * ux + where[:, 1] * uy
             order = np.argsort(across, kind="stable")
             ends = np.flatnonzero(np.diff(across[order]) > 4.0 * tolerance) + 1
             found = [part[np.argsort(along[part], kind="stable")] for part in np.split(order, ends)]

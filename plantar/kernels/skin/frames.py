@@ -26,16 +26,29 @@ def wrenches(sole, force, threshold, saturation, out):
 
 
 def _wrenches(sole, force, threshold, saturation, kept, out):
-    frames, n = force.shape[0], sole.taxels
+    frames = force.shape[0]
+    n = sole.taxels
     columns = sole.columns
-    lever_x, lever_y = sole.lever_x, sole.lever_y
+    lever_x = sole.lever_x
+    lever_y = sole.lever_y
     for k in range(frames):
         for i in range(n):
             f = force[k, i]
             f = f if f > threshold else 0.0
             kept[i] = f if f < saturation else 0.0
         if sole.flat:
-            az = bz = cz = dz = ax = bx = cx = dx = ay = by = cy = dy = 0.0
+            az = 0.0
+            bz = 0.0
+            cz = 0.0
+            dz = 0.0
+            ax = 0.0
+            bx = 0.0
+            cx = 0.0
+            dx = 0.0
+            ay = 0.0
+            by = 0.0
+            cy = 0.0
+            dy = 0.0
             for i in range(0, n - 3, 4):
                 az += kept[i]
                 bz += kept[i + 1]
@@ -55,12 +68,19 @@ def _wrenches(sole, force, threshold, saturation, kept, out):
                 az += kept[i]
                 ax += kept[i] * lever_x[i]
                 ay += kept[i] * lever_y[i]
-            out[k, 0] = out[k, 1] = out[k, 5] = 0.0
+            out[k, 0] = 0.0
+            out[k, 1] = 0.0
+            out[k, 5] = 0.0
             out[k, 2] = (az + bz) + (cz + dz)
             out[k, 3] = (ax + bx) + (cx + dx)
             out[k, 4] = (ay + by) + (cy + dy)
         else:
-            fx = fy = fz = tx = ty = tz = 0.0
+            fx = 0.0
+            fy = 0.0
+            fz = 0.0
+            tx = 0.0
+            ty = 0.0
+            tz = 0.0
             for i in range(n):
                 f = kept[i]
                 fx += f * columns[i, 0]
@@ -69,7 +89,12 @@ def _wrenches(sole, force, threshold, saturation, kept, out):
                 tx += f * columns[i, 3]
                 ty += f * columns[i, 4]
                 tz += f * columns[i, 5]
-            out[k, 0], out[k, 1], out[k, 2], out[k, 3], out[k, 4], out[k, 5] = fx, fy, fz, tx, ty, tz
+            out[k, 0] = fx
+            out[k, 1] = fy
+            out[k, 2] = fz
+            out[k, 3] = tx
+            out[k, 4] = ty
+            out[k, 5] = tz
 
 
 def loads(sole, force, threshold, saturation, out):
@@ -85,16 +110,27 @@ def loads(sole, force, threshold, saturation, out):
 
 def _loads(sole, force, threshold, saturation, kept, covered, out):
     n = sole.taxels
-    columns, areas = sole.columns, sole.areas
-    lever_x, lever_y = sole.lever_x, sole.lever_y
+    columns = sole.columns
+    areas = sole.areas
+    lever_x = sole.lever_x
+    lever_y = sole.lever_y
     for k in range(force.shape[0]):
         for i in range(n):
-            f, part = force[k, i], areas[i]
+            f = force[k, i]
+            part = areas[i]
             part = part if f > threshold else 0.0
             covered[i] = part if f < saturation else 0.0
             f = f if f > threshold else 0.0
             kept[i] = f if f < saturation else 0.0
-        fx = fy = fz = tx = ty = tz = area = sx = sy = 0.0
+        fx = 0.0
+        fy = 0.0
+        fz = 0.0
+        tx = 0.0
+        ty = 0.0
+        tz = 0.0
+        area = 0.0
+        sx = 0.0
+        sy = 0.0
         if sole.flat:
             for i in range(n):
                 fz += kept[i]
@@ -115,11 +151,19 @@ def _loads(sole, force, threshold, saturation, kept, covered, out):
                 sx += f * columns[i, 6]
                 sy += f * columns[i, 7]
                 area += covered[i]
-        out[k, 0], out[k, 1], out[k, 2], out[k, 3], out[k, 4], out[k, 5], out[k, 6] = fx, fy, fz, tx, ty, tz, area
+        out[k, 0] = fx
+        out[k, 1] = fy
+        out[k, 2] = fz
+        out[k, 3] = tx
+        out[k, 4] = ty
+        out[k, 5] = tz
+        out[k, 6] = area
         if 0.0 < fz < _INFINITE:
-            out[k, 7], out[k, 8] = sx / fz, sy / fz
+            out[k, 7] = sx / fz
+            out[k, 8] = sy / fz
         else:
-            out[k, 7] = out[k, 8] = _NONE
+            out[k, 7] = _NONE
+            out[k, 8] = _NONE
 
 
 def hulls(sole, force, threshold, saturation, size, measure, points):
@@ -150,5 +194,7 @@ def _hulls(sole, force, threshold, saturation, scratch, size, measure, points):
             filled += found
         size[k] = found
         area, x, y = scratch.measure_hull(found)
-        measure[k, 0], measure[k, 1], measure[k, 2] = area, x, y
+        measure[k, 0] = area
+        measure[k, 1] = x
+        measure[k, 2] = y
     return force.shape[0]

@@ -92,7 +92,10 @@ class GroundFit:
                 scratch.kept[seen] = 1
                 seen += 1
         if seen == 0:
-            out[0] = out[1] = out[2] = out[3] = _NONE
+            out[0] = _NONE
+            out[1] = _NONE
+            out[2] = _NONE
+            out[3] = _NONE
             return -1
         directions = _least_squares(seen, scratch)
         worst = _misses(seen, scratch)
@@ -119,20 +122,32 @@ class GroundFit:
             with cython.gil:
                 self._find_triples(seen, scratch)
         table = scratch.triples
-        points, miss = scratch.points, scratch.miss
+        points = scratch.points
+        miss = scratch.miss
         half = (seen + 3) // 2 - 1  # the median of Rousseeuw: with three parameters, breakdown of one half
         best = _INFINITE
-        best_z = best_x = best_y = 0.0
+        best_z = 0.0
+        best_x = 0.0
+        best_y = 0.0
         for k in range(table.shape[1]):
-            a, b, c = table[0, k], table[1, k], table[2, k]
-            ux, uy, uz = points[b, 0] - points[a, 0], points[b, 1] - points[a, 1], points[b, 2] - points[a, 2]
-            vx, vy, vz = points[c, 0] - points[a, 0], points[c, 1] - points[a, 1], points[c, 2] - points[a, 2]
-            nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+            a = table[0, k]
+            b = table[1, k]
+            c = table[2, k]
+            ux = points[b, 0] - points[a, 0]
+            uy = points[b, 1] - points[a, 1]
+            uz = points[b, 2] - points[a, 2]
+            vx = points[c, 0] - points[a, 0]
+            vy = points[c, 1] - points[a, 1]
+            vz = points[c, 2] - points[a, 2]
+            nx = uy * vz - uz * vy
+            ny = uz * vx - ux * vz
+            nz = ux * vy - uy * vx
             # Neither flat triangles nor planes steeper than 60 degrees or so, which no foot steps on.
             size = ux * ux + uy * uy + vx * vx + vy * vy
             if not (nz * nz > 0.25 * (nx * nx + ny * ny) and abs(nz) > 1e-6 * size):
                 continue
-            rise_x, rise_y = -nx / nz, -ny / nz
+            rise_x = -nx / nz
+            rise_y = -ny / nz
             level = points[a, 2] - rise_x * points[a, 0] - rise_y * points[a, 1]
             below = 0
             for i in range(seen):
@@ -141,10 +156,14 @@ class GroundFit:
                     below += 1
             if below > half:
                 best = _ranked(seen, half, scratch)
-                best_z, best_x, best_y = level, rise_x, rise_y
+                best_z = level
+                best_x = rise_x
+                best_y = rise_y
         if best == _INFINITE:
             return False
-        scratch.plane[0], scratch.plane[1], scratch.plane[2] = best_z, best_x, best_y
+        scratch.plane[0] = best_z
+        scratch.plane[1] = best_x
+        scratch.plane[2] = best_y
         _misses(seen, scratch)
         limit = max(tolerance, 2.5 * 1.4826 * (1.0 + 5.0 / max(seen - 3, 1)) * best)
         for i in range(seen):
@@ -154,7 +173,8 @@ class GroundFit:
     def _find_triples(self, seen, scratch):
         triples = self.triples.get(seen)
         if triples is None:
-            triples = self.triples[seen] = _triples(seen)
+            triples = _triples(seen)
+            self.triples[seen] = triples
         scratch.triples = triples
         scratch.triples_of = seen
         return 0
@@ -177,7 +197,9 @@ def _misses(seen, scratch):
 
 def _least_squares(seen, scratch):
     """Plane through the kept points, the flattest if not determined; its directions."""
-    x = y = z = 0.0
+    x = 0.0
+    y = 0.0
+    z = 0.0
     count = 0
     for i in range(seen):
         if scratch.kept[i]:
@@ -185,44 +207,62 @@ def _least_squares(seen, scratch):
             y += scratch.points[i, 1]
             z += scratch.points[i, 2]
             count += 1
-    x, y, z = x / count, y / count, z / count
-    xx = xy = yy = xz = yz = 0.0
+    x = x / count
+    y = y / count
+    z = z / count
+    xx = 0.0
+    xy = 0.0
+    yy = 0.0
+    xz = 0.0
+    yz = 0.0
     for i in range(seen):
         if scratch.kept[i]:
-            dx, dy, dz = scratch.points[i, 0] - x, scratch.points[i, 1] - y, scratch.points[i, 2] - z
+            dx = scratch.points[i, 0] - x
+            dy = scratch.points[i, 1] - y
+            dz = scratch.points[i, 2] - z
             xx += dx * dx
             xy += dx * dy
             yy += dy * dy
             xz += dx * dz
             yz += dy * dz
     # Eigenvalues of the 2 x 2 scatter; a direction with less than 1e-9 of the extent's square is rounding.
-    middle, half = 0.5 * (xx + yy), 0.5 * (xx - yy)
+    middle = 0.5 * (xx + yy)
+    half = 0.5 * (xx - yy)
     spread = math.sqrt(half * half + xy * xy)
-    large, small = middle + spread, middle - spread
-    rise_x = rise_y = 0.0
+    large = middle + spread
+    small = middle - spread
+    rise_x = 0.0
+    rise_y = 0.0
     directions = 0
     if large > 1e-18 * count:  # else one place: 1 nm
         if small <= 1e-9 * large:
             angle = 0.5 * math.atan2(2.0 * xy, xx - yy)
-            c, s = math.cos(angle), math.sin(angle)
+            c = math.cos(angle)
+            s = math.sin(angle)
             rise = (c * xz + s * yz) / large
-            rise_x, rise_y = c * rise, s * rise
+            rise_x = c * rise
+            rise_y = s * rise
             directions = 1
         else:
             determinant = xx * yy - xy * xy
-            rise_x, rise_y = (yy * xz - xy * yz) / determinant, (xx * yz - xy * xz) / determinant
+            rise_x = (yy * xz - xy * yz) / determinant
+            rise_y = (xx * yz - xy * xz) / determinant
             directions = 2
-    scratch.plane[0], scratch.plane[1], scratch.plane[2] = z - rise_x * x - rise_y * y, rise_x, rise_y
+    scratch.plane[0] = z - rise_x * x - rise_y * y
+    scratch.plane[1] = rise_x
+    scratch.plane[2] = rise_y
     return directions
 
 
 def _ranked(seen, rank, scratch):
     """Value of `miss` with so many below it; reorders (Hoare's selection)."""
     miss = scratch.miss
-    low, high = 0, seen - 1
+    low = 0
+    high = seen - 1
     while low < high:
         pivot = miss[(low + high) // 2]
-        i, j = low, high
+        i = low
+        j = high
         while i <= j:
             while miss[i] < pivot:
                 i += 1

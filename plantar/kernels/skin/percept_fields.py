@@ -33,10 +33,16 @@ class PerceptFields:
 
     def _fill(self, kernel, layout, reading, force_threshold, active, stuck, options, compared):
         """`_keep`, where it is known whether a kernel's comparison decides what is active."""
-        self._kernel, self._compared = kernel, compared
-        self.layout, self.reading, self.force_threshold, self.options = layout, reading, force_threshold, options
-        self._given_active, self._stuck = active, stuck
-        self._summed = self._found = None
+        self._kernel = kernel
+        self._compared = compared
+        self.layout = layout
+        self.reading = reading
+        self.force_threshold = force_threshold
+        self.options = options
+        self._given_active = active
+        self._stuck = stuck
+        self._summed = None
+        self._found = None
 
     def _take_loads(self, loads):
         self._summed = loads
@@ -50,7 +56,8 @@ class PerceptFields:
     def _loads(self):
         """Wrench, contact area and CoP (9,), in one pass."""
         if self._summed is None:
-            kernel, force = self._kernel, self.reading.force
+            kernel = self._kernel
+            force = self.reading.force
             if self._compared:
                 loads = kernel.loads_above(force, self.force_threshold, kernel.limit)
             else:
@@ -110,8 +117,11 @@ class ReadingFields:
 
     def _fill(self, time, force, proximity, temperature, acceleration):
         if cython.compiled:
-            self.time, self.force, self.proximity = time, force, proximity
-            self.temperature, self.acceleration = temperature, acceleration
+            self.time = time
+            self.force = force
+            self.proximity = proximity
+            self.temperature = temperature
+            self.acceleration = acceleration
         else:  # past what keeps others from assigning
             self.__dict__.update(time=time, force=force, proximity=proximity)
             self.__dict__.update(temperature=temperature, acceleration=acceleration)

@@ -85,7 +85,8 @@ class SoleKernel:
     def __init__(
         self, positions, normals, areas, vertices, corner_start, corner_vertex, threshold=0.0, limit=_INFINITE
     ):
-        self.threshold, self.limit = float(threshold), float(limit)
+        self.threshold = float(threshold)
+        self.limit = float(limit)
         positions = np.asarray(positions, dtype=np.float64).reshape(-1, 3)
         normals = np.asarray(normals, dtype=np.float64).reshape(-1, 3)
         vertices = np.asarray(vertices, dtype=np.float64).reshape(-1, 2)
@@ -243,7 +244,10 @@ class SoleKernel:
         # What is active is finite here, so that of the sums those with a column of 0 are 0, and two others are the
         # negative of each other, or the same.
         values = memory.values(force)
-        fz = tx = ty = area = 0.0
+        fz = 0.0
+        tx = 0.0
+        ty = 0.0
+        area = 0.0
         for i in range(self.taxels):
             f = values[i]
             if f >= saturation:
@@ -255,8 +259,13 @@ class SoleKernel:
                 area += self.areas[i]
         sums = memory.new_vector(9)
         out = memory.room(sums)
-        out[0] = out[1] = out[5] = 0.0
-        out[2], out[3], out[4], out[6] = fz, tx, ty, area
+        out[0] = 0.0
+        out[1] = 0.0
+        out[5] = 0.0
+        out[2] = fz
+        out[3] = tx
+        out[4] = ty
+        out[6] = area
         # Not -ty: without load on either side of x = 0 that is -0.
         out[7], out[8] = ((0.0 - ty) / fz, tx / fz) if 0.0 < fz < _INFINITE else (_NONE, _NONE)
         return sums
@@ -272,7 +281,15 @@ class SoleKernel:
         return bool(self.taxels and largest >= level)
 
     def _loads(self, force, active, out):
-        fx = fy = fz = tx = ty = tz = area = sx = sy = 0.0
+        fx = 0.0
+        fy = 0.0
+        fz = 0.0
+        tx = 0.0
+        ty = 0.0
+        tz = 0.0
+        area = 0.0
+        sx = 0.0
+        sy = 0.0
         for i in range(self.taxels):
             if active[i]:
                 f = force[i]
@@ -285,11 +302,19 @@ class SoleKernel:
                 sx += f * self.columns[i, 6]
                 sy += f * self.columns[i, 7]
                 area += self.areas[i]
-        out[0], out[1], out[2], out[3], out[4], out[5], out[6] = fx, fy, fz, tx, ty, tz, area
+        out[0] = fx
+        out[1] = fy
+        out[2] = fz
+        out[3] = tx
+        out[4] = ty
+        out[5] = tz
+        out[6] = area
         if 0.0 < fz < _INFINITE:
-            out[7], out[8] = sx / fz, sy / fz
+            out[7] = sx / fz
+            out[8] = sy / fz
         else:
-            out[7] = out[8] = _NONE
+            out[7] = _NONE
+            out[8] = _NONE
 
     def hull(self, active):
         """Convex hull (k, 2) in m of the active cells (T 4.24), with area and centroid x, y, NaN without contact.
@@ -325,7 +350,9 @@ class SoleKernel:
         """
         scratch = self._borrow_with_active(force, threshold, saturation)
         self._loads(scratch.force, scratch.mask, scratch.sums)
-        mask, wrench, contact = self._copied(scratch.mask), scratch.summed(0, 6), scratch.sums[6]
+        mask = self._copied(scratch.mask)
+        wrench = scratch.summed(0, 6)
+        contact = scratch.sums[6]
         cop = scratch.summed(7, 2) if 0.0 < scratch.sums[2] < _INFINITE else None
         size = self.find_hull(scratch.mask, scratch)
         polygon = scratch.hull(size)
@@ -341,14 +368,17 @@ class SoleKernel:
             safe = scratch.offset.copied(left)
             _margin, near_x, near_y = convex._nearest_of_any(scratch.offset.result[:left], x, y)
         self.give_back(scratch)
-        centroid, nearest = vectors.vector2(middle_x, middle_y), vectors.vector2(near_x, near_y)
+        centroid = vectors.vector2(middle_x, middle_y)
+        nearest = vectors.vector2(near_x, near_y)
         return mask, wrench, contact, cop, polygon, area, centroid, safe, nearest
 
     def find_hull(self, active, scratch):
         """Find the `active` cells' hull in the scratch's `polygon`; returns its size."""
-        left, right = self.levels, -1
+        left = self.levels
+        right = -1
         for row in range(self.row_start.shape[0] - 1):
-            first, last = self.row_start[row], self.row_start[row + 1] - 1
+            first = self.row_start[row]
+            last = self.row_start[row + 1] - 1
             while first <= last and not active[self.row_taxel[first]]:
                 first += 1
             if first > last:
@@ -360,7 +390,9 @@ class SoleKernel:
                 from_corner = self.last_begin[i] if end else self.corner_start[i]
                 to_corner = self.corner_start[i + 1] if end or last == first else self.first_end[i]
                 for c in range(from_corner, to_corner):
-                    v, kind, at = self.corner_rank[c], self.corner_sign[c], self.corner_level[c]
+                    v = self.corner_rank[c]
+                    kind = self.corner_sign[c]
+                    at = self.corner_level[c]
                     if not kind & _NOT_LOWER:
                         scratch.lowest[at] = min(scratch.lowest[at], v)
                     if not kind & _NOT_UPPER:
@@ -408,8 +440,10 @@ def _count(values):
 
 def _signs(cell, rank):
     """Bits (k,) of where each corner can be on a hull that holds the cell, by its ranks (k,) by x, then y."""
-    low, high = cell[np.argmin(rank)], cell[np.argmax(rank)]
-    along, away = high - low, cell - low
+    low = cell[np.argmin(rank)]
+    high = cell[np.argmax(rank)]
+    along = high - low
+    away = cell - low
     above = along[0] * away[:, 1] - along[1] * away[:, 0]
     sure = 1e-9 * float((along * along).sum())
     return np.where(above > sure, _NOT_LOWER, np.where(above < -sure, _NOT_UPPER, 0))

@@ -32,13 +32,15 @@ def ankle_limits(
     found: dict[Side, NDArray[np.float64]] = {}
     for side in SIDES:
         site = model.site(robot.legs[side].sole_site).id
-        origin, rotation = data.site_xpos[site], data.site_xmat[site].reshape(3, 3)
+        origin = data.site_xpos[site]
+        rotation = data.site_xmat[site].reshape(3, 3)
         strips = []
         pitching = pitching_joints(robot, side, model, data)
         for turning in (pitching, rolling_joints(robot, side, model, data)):
             if len(turning) < 2 or turning[-1] not in limits:  # one joint alone is the hip's
                 continue
-            axis, anchor = rotation.T @ data.xaxis[turning[-1]], rotation.T @ (data.xanchor[turning[-1]] - origin)
+            axis = rotation.T @ data.xaxis[turning[-1]]
+            anchor = rotation.T @ (data.xanchor[turning[-1]] - origin)
             lever = np.array([-axis[1], axis[0]])  # a . (r x e_z) = a_x r_y - a_y r_x
             size = float(np.hypot(*lever))
             lever /= size
@@ -56,11 +58,14 @@ def _knee_strip(places: NDArray[np.float64], reach: float, crouch: float) -> lis
     With the hip above p and the ankle at a the knee is a share s of the way from a to p, and k ahead of that line: |p -
     (a + s (p - a) + k)| <= r. `places` (3, 2) are hip, knee and ankle in m.
     """
-    (hip, knee, ankle), up = places, places[0] - places[2]
-    thigh, shank = float(np.linalg.norm(hip - knee)), float(np.linalg.norm(knee - ankle))
+    hip, knee, ankle = places
+    up = places[0] - places[2]
+    thigh = float(np.linalg.norm(hip - knee))
+    shank = float(np.linalg.norm(knee - ankle))
     apart = max(float(np.linalg.norm(up)) - crouch, 1e-6)
     foot = (apart**2 + shank**2 - thigh**2) / (2.0 * apart)  # of the triangle's height, from the ankle
-    share, ahead = foot / apart, np.sqrt(max(shank**2 - foot**2, 0.0))
+    share = foot / apart
+    ahead = np.sqrt(max(shank**2 - foot**2, 0.0))
     side = np.sign(up[1] * (knee - ankle)[0] - up[0] * (knee - ankle)[1])
     return [1.0, 0.0, float(ankle[0] + side * ahead / (1.0 - share)), reach / (1.0 - share), float(ankle[1])]
 

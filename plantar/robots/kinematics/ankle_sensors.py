@@ -19,9 +19,11 @@ def ankle_sensors(model: Any, robot: Robot) -> dict[Side, AnkleSensor]:
     mujoco.mj_comPos(model, data)
     sensors: dict[Side, AnkleSensor] = {}
     for side in SIDES:
-        sole, site = model.site(robot.legs[side].sole_site).id, model.site(f"{side}_ankle_force_torque").id
+        sole = model.site(robot.legs[side].sole_site).id
+        site = model.site(f"{side}_ankle_force_torque").id
         body = model.site_bodyid[site]
-        origin, rotation = data.site_xpos[sole], data.site_xmat[sole].reshape(3, 3)
+        origin = data.site_xpos[sole]
+        rotation = data.site_xmat[sole].reshape(3, 3)
         sensors[side] = AnkleSensor(
             position=rotation.T @ (data.site_xpos[site] - origin),
             rotation=rotation.T @ data.site_xmat[site].reshape(3, 3),

@@ -29,7 +29,8 @@ def follow_command(legs: LegModel, command: Command) -> float:
     Returns:
         Largest task error before the last step, in units of length or rad; NaN if a target is.
     """
-    left, right = command.feet["left"], command.feet["right"]
+    left = command.feet["left"]
+    right = command.feet["right"]
     return legs.follow(
         command.com,
         command.rotation_torso,
@@ -42,7 +43,8 @@ def follow_command(legs: LegModel, command: Command) -> float:
 
 def carry_command(legs: LegModel, command: Command) -> None:
     """Torques that hold the last solution under a command's forces: `legs.torques`."""
-    left, right = command.feet["left"], command.feet["right"]
+    left = command.feet["left"]
+    right = command.feet["right"]
     legs.carry(
         {"left": left.force, "right": right.force},
         {

@@ -66,10 +66,12 @@ class InverseKinematics:
         columns: NDArray[np.int_],
         unit: float = 1.0,
     ) -> None:
-        self._model, self._data = model, data
+        self._model = model
+        self._data = data
         self._columns = np.asarray(columns, dtype=np.intp)
         self._configuration = data.qpos  # the data's own array
-        self.tasks, self.posture = tuple(tasks), posture
+        self.tasks = tuple(tasks)
+        self.posture = posture
         rows = sum(task.rows for task in tasks)
         self._jacobian = np.zeros((rows, model.nv))
         self._error = np.zeros(rows)
@@ -92,7 +94,8 @@ class InverseKinematics:
         free = model.jnt_limited[joints] == 0  # a joint without limits has the range 0 to 0 in the model
         self._lower = np.where(free, -np.inf, model.jnt_range[joints, 0])
         self._upper = np.where(free, np.inf, model.jnt_range[joints, 1])
-        self._newton_jacobian, self._newton_step = np.zeros((rows, len(columns))), np.zeros(len(columns))
+        self._newton_jacobian = np.zeros((rows, len(columns)))
+        self._newton_step = np.zeros(len(columns))
         self._newton = NewtonStep(
             *(self._columns, np.concatenate(in_units), units, self._movable, self._places),
             np.where(free, 0.0, model.jnt_range[joints].mean(axis=1)),
@@ -105,7 +108,8 @@ class InverseKinematics:
             self._newton,
             _moving(model, self._configuration, self._velocity),
         )
-        self.plain = self.careful = 0
+        self.plain = 0
+        self.careful = 0
         self._placed = False
         self._drawn = np.zeros((posture.rows, model.nv))
         posture.jacobian(self._drawn)
@@ -147,7 +151,8 @@ class InverseKinematics:
         self._placed = False
 
     def _step_with_care(self, largest: float) -> None:
-        kernel, plain = self._step_kernel, False
+        kernel = self._step_kernel
+        plain = False
         if not kernel.near:
             for task, error in self._with_rows:
                 task.error(error)
@@ -164,14 +169,17 @@ class InverseKinematics:
         count = jacobian.shape[1]
         if not np.isfinite(self._error).all():
             return np.zeros(count)
-        low, high = np.full(count, -np.inf), np.full(count, np.inf)
+        low = np.full(count, -np.inf)
+        high = np.full(count, np.inf)
         here = self._configuration[self._places]
-        low[self._movable], high[self._movable] = self._lower + _INSIDE - here, self._upper - _INSIDE - here
+        low[self._movable] = self._lower + _INSIDE - here
+        high[self._movable] = self._upper - _INSIDE - here
         pull = np.zeros(self.posture.rows)
         self.posture.error(pull)
         drawn = _POSTURE_SHARE * (pull @ self._drawn)[self._columns]
         stopped = np.zeros(count, dtype=bool)
-        step = stop = np.zeros(count)
+        step = np.zeros(count)
+        stop = step
         for _ in range(len(here) + 1):
             step = self._by_levels(jacobian, drawn, stop, ~stopped, largest)
             beyond = np.where(stopped, 0.0, np.maximum(low - step, step - high))
@@ -216,9 +224,12 @@ class InverseKinematics:
 
 
 def _moving(model: mujoco.MjModel, configuration: NDArray[np.float64], velocity: NDArray[np.float64]) -> Configuration:
-    kinds, places, rates = model.jnt_type, model.jnt_qposadr.astype(np.intp), model.jnt_dofadr.astype(np.intp)
+    kinds = model.jnt_type
+    places = model.jnt_qposadr.astype(np.intp)
+    rates = model.jnt_dofadr.astype(np.intp)
     free, ball = (kinds == int(kind) for kind in (mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL))
-    single, offsets = ~(free | ball), np.arange(3)
+    single = ~(free | ball)
+    offsets = np.arange(3)
     return Configuration(
         np.concatenate([places[single], np.add.outer(places[free], offsets).ravel()]),
         np.concatenate([rates[single], np.add.outer(rates[free], offsets).ravel()]),

@@ -25,14 +25,16 @@ def leg_inertia(robot: Robot, legs: LegModel, com_height: float) -> LegInertia:
     joints = np.array([*robot.posture["left"], *robot.posture["right"]])
     stands = legs.posture(joints)
     legs.set_configuration(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]), joints)
-    model, data = legs.model, mujoco.MjData(legs.model)
+    model = legs.model
+    data = mujoco.MjData(legs.model)
     ends = []
     for moved in (0.0, _MOVED):  # forward and aside at once: one turns the legs about y, the other about x
         com = np.array([*(stands.com[:2] + moved), stands.positions["left"][2] + com_height])
         legs.follow(com, np.eye(3), stands.positions, stands.rotations, _ITERATIONS, largest_step=_LARGEST_STEP)
         ends.append(legs.configuration)
     x, y, _ = angular_momentum(model, data, _MOVED, *ends)[model.body_rootid[model.body(robot.torso_body).id]].tolist()
-    turning, (forward, aside) = 0.25 * float(y - x) / (legs.mass * GRAVITY), (ends[1] - ends[0])[:2].tolist()
+    turning = 0.25 * float(y - x) / (legs.mass * GRAVITY)
+    forward, aside = (ends[1] - ends[0])[:2].tolist()
     return LegInertia(max(0.0, turning), max(0.0, 0.5 - _MOVED / (forward + aside)))
 
 

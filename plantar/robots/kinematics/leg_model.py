@@ -74,7 +74,8 @@ class LegModel:
         )
         self._yielding: Collection[Side] = ()
         self._reference = PostureTask(model, self._data, ids)
-        self.joints, self.torques = np.zeros(len(ids)), np.zeros(len(ids))
+        self.joints = np.zeros(len(ids))
+        self.torques = np.zeros(len(ids))
         self._angle_entries = JointEntries(self._data.qpos, self._qpos.astype(np.intp), self.joints)
         no_gravity = int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
         self._gravity = np.zeros(3) if model.opt.disableflags & no_gravity else model.opt.gravity
@@ -85,7 +86,8 @@ class LegModel:
         )
         self._levers = [(s, *_lever(model, self._data, int(model.site_bodyid[i]))) for s, i in self._sites.items()]
         self.rows = np.concatenate([np.arange(6), self._dof])
-        self._axes, self._inertial = np.array(ids), np.zeros(model.nv)
+        self._axes = np.array(ids)
+        self._inertial = np.zeros(model.nv)
         self.inverse = InverseKinematics(
             model,
             self._data,
@@ -98,7 +100,8 @@ class LegModel:
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
         """Forward kinematics, base frame (see `plantar.gait.estimate.estimator.LegKinematics`)."""
         posture = self.live_posture(joint_positions)
-        places, turns = posture.positions, posture.rotations
+        places = posture.positions
+        turns = posture.rotations
         return Posture(
             posture.com.copy(),
             {"left": places["left"].copy(), "right": places["right"].copy()},
@@ -221,12 +224,16 @@ class LegModel:
             momentum: (-L_y', L_x') / (m g) (2,) in m that the forces of `carry` give already.
             whole: Whether an unloaded leg gets what moves it, too; a stiff servo lands softer without.
         """
-        model, data, inertial = self.model, self._data, self._inertial
-        data.qvel[self.rows], data.qacc[self.rows] = velocity, acceleration
+        model = self.model
+        data = self._data
+        inertial = self._inertial
+        data.qvel[self.rows] = velocity
+        data.qacc[self.rows] = acceleration
         data.qacc[:3] += self._gravity  # as if it fell: the weight is carried already
         mujoco.mj_comVel(model, data)
         mujoco.mj_rne(model, data, 1, inertial)
-        (x, y, z), (fx, fy, fz) = (data.subtree_com[self._root] - data.qpos[:3]).tolist(), inertial[:3].tolist()
+        x, y, z = (data.subtree_com[self._root] - data.qpos[:3]).tolist()
+        fx, fy, fz = inertial[:3].tolist()
         couple = data.xmat[self._root].reshape(3, 3) @ inertial[3:6]
         dx, dy = (self.mass * GRAVITY * momentum).tolist()
         couple -= (y * fz - z * fy + dy, z * fx - x * fz - dx, x * fy - y * fx)

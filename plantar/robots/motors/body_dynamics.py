@@ -28,21 +28,27 @@ class BodyDynamics:
     """
 
     def __init__(self, model: mujoco.MjModel, dofs: NDArray[np.int_], sites: Mapping[Side, int]) -> None:
-        self._model, self.data = model, mujoco.MjData(model)
+        self._model = model
+        self.data = mujoco.MjData(model)
         self._sites = sites
         self.rows = np.concatenate([np.arange(_BASE), dofs]).astype(np.intp)
-        count, size = len(self.rows), model.nv
+        count = len(self.rows)
+        size = model.nv
         self._grid = np.ix_(self.rows, self.rows)
-        self._full, self._acceleration, self._force = np.zeros((size, size)), np.zeros(size), np.zeros(size)
+        self._full = np.zeros((size, size))
+        self._acceleration = np.zeros(size)
+        self._force = np.zeros(size)
         self._wide = np.zeros((6, size))
         self._damping = model.dof_damping[self.rows]
-        self.mass, self.bias = np.zeros((count, count)), np.zeros(count)
+        self.mass = np.zeros((count, count))
+        self.bias = np.zeros(count)
         self.soles: dict[Side, NDArray[np.float64]] = {s: np.zeros((6, count)) for s in SIDES}
         self.drifts: dict[Side, NDArray[np.float64]] = {s: np.zeros(6) for s in SIDES}
 
     def place(self, configuration: NDArray[np.float64]) -> None:
         """Compute mass matrix and Jacobians at a configuration (nq,); then `move`."""
-        model, data = self._model, self.data
+        model = self._model
+        data = self.data
         data.qpos[:] = configuration
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
@@ -55,12 +61,14 @@ class BodyDynamics:
 
     def move(self, velocity: NDArray[np.float64]) -> None:
         """Compute bias and drifts at a velocity (6 + k,)."""
-        model, data = self._model, self.data
+        model = self._model
+        data = self.data
         data.qvel[self.rows] = velocity
         mujoco.mj_comVel(model, data)
         mujoco.mj_rne(model, data, 0, self._force)
         self.bias[:] = self._force[self.rows] + self._damping * velocity
         for side, site in self._sites.items():
-            body, point = int(model.site_bodyid[site]), data.site_xpos[site]
+            body = int(model.site_bodyid[site])
+            point = data.site_xpos[site]
             mujoco.mj_jacDot(model, data, self._wide[:3], self._wide[3:], point, body)
             self.drifts[side][:] = self._wide @ data.qvel

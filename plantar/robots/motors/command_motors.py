@@ -37,7 +37,8 @@ def motor_gains(robot: Robot, stiffness: float) -> MotorGains:
         robot: The robot.
         stiffness: In N m/rad of every joint instead, damped in proportion to critical; 0 for its own.
     """
-    own, damping = np.array([*robot.own_stiffness] * 2), np.array([*robot.own_damping] * 2)
+    own = np.array([*robot.own_stiffness] * 2)
+    damping = np.array([*robot.own_damping] * 2)
     if not stiffness:
         return MotorGains(own, damping)
     return MotorGains(np.full(len(own), stiffness), damping * np.sqrt(stiffness / np.maximum(own, 1.0)))
@@ -49,8 +50,11 @@ def planned_wrenches(command: Command) -> dict[Side, NDArray[np.float64]]:
     for side in SIDES:
         foot = command.feet[side]
         if foot.force.item(2) > 0.0:
-            (fx, fy, fz), (x, y, _), (px, py) = foot.force.tolist(), foot.position.tolist(), foot.center_of_pressure
-            dx, dy = px - x, py - y
+            fx, fy, fz = foot.force.tolist()
+            x, y, _ = foot.position.tolist()
+            px, py = foot.center_of_pressure
+            dx = px - x
+            dy = py - y
             wrenches[side] = np.array([fx, fy, fz, dy * fz, -dx * fz, dx * fy - dy * fx])
     return wrenches
 

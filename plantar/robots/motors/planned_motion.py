@@ -29,11 +29,14 @@ class PlannedMotion:
     """
 
     def __init__(self, legs: LegModel, period: float, beat: float, whole: bool = False) -> None:
-        self._legs, self._period, self._whole = legs, period, whole
+        self._legs = legs
+        self._period = period
+        self._whole = whole
         self._share = -math.expm1(-period / (_SMOOTH * beat))
         self._last: NDArray[np.float64] | None = None
         self._moved = np.zeros(legs.model.nv)
-        self.velocity, self.acceleration = np.zeros(len(legs.rows)), np.zeros(len(legs.rows))
+        self.velocity = np.zeros(len(legs.rows))
+        self.acceleration = np.zeros(len(legs.rows))
 
     def update(self) -> None:
         """Take in the legs' last solution."""

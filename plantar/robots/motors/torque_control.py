@@ -25,12 +25,25 @@ from plantar.robots.walk import Control
 
 _FRICTION = 0.6
 _SMOOTH = 0.03  # beat, time constant of the low pass on the encoders' rates: 7 ms on a leg of 0.6 m
-_HEIGHT, _TILT, _SWING, _STANCE = 2.5, 3.5, 5.0, 5.0  # 1/beat: how fast height, base, swing leg and soles are corrected
-_COM_WEIGHT, _TILT_WEIGHT, _SWING_WEIGHT, _STANCE_WEIGHT = 10.0, 0.1, 0.01, 1e-5
-_LOADED, _CARRIES = 0.03, 0.2  # weight: a sole that carries stays while the one to carry next has less than the former
-_SEEKS, _GROWS = 0.08, 3.0  # weight that a sole may carry at most: so much to find the ground, and times its load
+# 1/beat: how fast height, base, swing leg and soles are corrected
+_HEIGHT = 2.5
+_TILT = 3.5
+_SWING = 5.0
+_STANCE = 5.0
+_COM_WEIGHT = 10.0
+_TILT_WEIGHT = 0.1
+_SWING_WEIGHT = 0.01
+_STANCE_WEIGHT = 1e-5
+# weight: a sole that carries stays while the one to carry next has less than the former
+_LOADED = 0.03
+_CARRIES = 0.2
+# weight that a sole may carry at most: so much to find the ground, and times its load
+_SEEKS = 0.08
+_GROWS = 3.0
 _EDGE = 0.015  # sole: that centres of pressure keep from its edge
-_SLOW_DOWN, _REACH = 0.1, 0.02  # s in which the way to a limit may be crossed, and a speed beyond it brought back
+# s in which the way to a limit may be crossed, and a speed beyond it brought back
+_SLOW_DOWN = 0.1
+_REACH = 0.02
 _SPEED_SHARE = 0.95  # of a joint's speed limit, which it overshoots
 _FASTEST = 300.0  # rad/s^2 of a joint
 _LEAK = 5.0  # 1/beat: how fast the motion that the motors' gains follow returns to the measured one
@@ -47,16 +60,20 @@ class TorqueControl(CommandMotors):
 
     def __init__(self, robot: Robot, legs: LegModel, body: BodyScale, gains: MotorGains, period: float) -> None:
         super().__init__(robot, legs, body, gains, period)
-        model, beat, names = legs.model, body.beat, [*robot.legs["left"].joints, *robot.legs["right"].joints]
+        model = legs.model
+        beat = body.beat
+        names = [*robot.legs["left"].joints, *robot.legs["right"].joints]
         self.unsolved = 0
         self.dynamics = BodyDynamics(model, legs.rows[6:], {s: model.site(robot.legs[s].sole_site).id for s in SIDES})
-        self._beat, self._weight = beat, body.mass * GRAVITY
+        self._beat = beat
+        self._weight = body.mass * GRAVITY
         self._share = -math.expm1(-period / (_SMOOTH * beat))
         joints = [model.joint(n).id for n in names]
         self._places = model.jnt_qposadr[joints]
         low, high = model.jnt_range[joints].T
         free = model.jnt_limited[joints] == 0
-        self._low, self._high = np.where(free, -np.inf, low), np.where(free, np.inf, high)
+        self._low = np.where(free, -np.inf, low)
+        self._high = np.where(free, np.inf, high)
         self._fastest = _SPEED_SHARE * self._limits
         motors = [list(model.actuator_trnid[:, 0]).index(j) for j in joints]
         self._torque = np.where(model.actuator_forcelimited[motors] > 0, model.actuator_forcerange[motors, 1], np.inf)
@@ -94,7 +111,9 @@ class TorqueControl(CommandMotors):
         return self._followed[0].copy(), self._followed[1].copy()
 
     def _solved(self, command: Command, gyro: NDArray[np.float64], angles: NDArray[np.float64]) -> Torques | None:
-        state, dynamics, beat = command.state, self.dynamics, self._beat
+        state = command.state
+        dynamics = self.dynamics
+        beat = self._beat
         configuration = self._legs.configuration
         planned_base = configuration[3:7].copy()
         configuration[:3] = state.position_base
@@ -110,11 +129,14 @@ class TorqueControl(CommandMotors):
         between = state.rotations_sole[carrying] @ foot.rotation.T
         turn = math.atan2(between[1, 0] - between[0, 1], between[0, 0] + between[1, 1])
         lowest = state.positions_sole[carrying].item(2)
-        wished, weights = np.zeros(len(velocity)), np.full(len(velocity), _STANCE_WEIGHT)
+        wished = np.zeros(len(velocity))
+        weights = np.full(len(velocity), _STANCE_WEIGHT)
         # The base: its orientation alone; where it is follows from the CoM.
         wished[3:6] = self._upright(planned_base, turn, state.rotation_base_to_world, velocity[3:6])
-        weights[:3], weights[3:6] = 0.0, _TILT_WEIGHT
-        standing, wrenches = {}, planned_wrenches(command)
+        weights[:3] = 0.0
+        weights[3:6] = _TILT_WEIGHT
+        standing = {}
+        wrenches = planned_wrenches(command)
         for side in SIDES:
             wrench = wrenches.get(side)
             at = self._sides[side]
@@ -123,13 +145,15 @@ class TorqueControl(CommandMotors):
             lag = self.motion.velocity[at] - velocity[at]
             rate = _SWING / beat
             wished[at] = self.motion.acceleration[at] + rate * rate * error + 2.0 * rate * lag
-            load, other = loads[side] / self._weight, loads[other_side(side)] / self._weight
+            load = loads[side] / self._weight
+            other = loads[other_side(side)] / self._weight
             if wrench is not None or (load > _CARRIES and other < _LOADED):
                 rest = -_STANCE / beat * (dynamics.soles[side] @ velocity)
                 own = np.zeros(6)
                 if wrench is not None:
                     turned = command.feet[side].rotation.T
-                    own[:3], own[3:] = turned @ wrench[:3], turned @ wrench[3:]
+                    own[:3] = turned @ wrench[:3]
+                    own[3:] = turned @ wrench[3:]
                 most = (_SEEKS + _GROWS * load) * self._weight
                 standing[side] = Standing(
                     state.rotations_sole[side],
@@ -164,7 +188,10 @@ class TorqueControl(CommandMotors):
         self, planned: NDArray[np.float64], turn: float, rotation: NDArray[np.float64], speed: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """Angular acceleration (3,) towards the planned orientation, base frame."""
-        wanted, inverse, error, way = np.zeros(4), np.zeros(4), np.zeros(4), np.zeros(3)
+        wanted = np.zeros(4)
+        inverse = np.zeros(4)
+        error = np.zeros(4)
+        way = np.zeros(3)
         mujoco.mju_mulQuat(wanted, np.array([math.cos(0.5 * turn), 0.0, 0.0, math.sin(0.5 * turn)]), planned)
         mujoco.mju_mat2Quat(inverse, rotation.T.ravel())
         mujoco.mju_mulQuat(error, inverse, wanted)

@@ -27,7 +27,9 @@ from plantar.robots.motors.body_dynamics import BodyDynamics
 Array = NDArray[np.float64]
 
 _BASE = 6
-_EQUAL, _SOFT = 5, 8  # daqp's words for an equality and for a limit that may give way
+# daqp's words for an equality and for a limit that may give way
+_EQUAL = 5
+_SOFT = 8
 _ROWS = 17  # of a sole: the facets of its wrench cone, and its largest normal force
 
 
@@ -108,30 +110,41 @@ def torques_of(dynamics: BodyDynamics, wish: Wish, gravity: float) -> Torques | 
     Returns:
         The torques; None without a feasible, finite solution.
     """
-    mass, bias, size = dynamics.mass, dynamics.bias, len(dynamics.bias)
-    count, total = 6 * len(wish.standing), float(mass[0, 0])
+    mass = dynamics.mass
+    bias = dynamics.bias
+    size = len(dynamics.bias)
+    count = 6 * len(wish.standing)
+    total = float(mass[0, 0])
     weight = total * gravity
     unit = np.tile(weight * np.array([1.0, 1.0, 1.0, 0.1, 0.1, 0.1]), len(wish.standing))
-    jacobian, wanted, preferred = np.zeros((count, size)), np.zeros(count), np.zeros(count)
-    cones, most = np.zeros((_ROWS * len(wish.standing), size + count)), np.zeros(_ROWS * len(wish.standing))
+    jacobian = np.zeros((count, size))
+    wanted = np.zeros(count)
+    preferred = np.zeros(count)
+    cones = np.zeros((_ROWS * len(wish.standing), size + count))
+    most = np.zeros(_ROWS * len(wish.standing))
     for i, (side, sole) in enumerate(wish.standing.items()):
-        at, turn = slice(6 * i, 6 * i + 6), sole.rotation.T
+        at = slice(6 * i, 6 * i + 6)
+        turn = sole.rotation.T
         rows = dynamics.soles[side]
-        jacobian[6 * i : 6 * i + 3], jacobian[6 * i + 3 : 6 * i + 6] = turn @ rows[:3], turn @ rows[3:]
+        jacobian[6 * i : 6 * i + 3] = turn @ rows[:3]
+        jacobian[6 * i + 3 : 6 * i + 6] = turn @ rows[3:]
         lacking = sole.acceleration - dynamics.drifts[side]
-        wanted[6 * i : 6 * i + 3], wanted[6 * i + 3 : 6 * i + 6] = turn @ lacking[:3], turn @ lacking[3:]
+        wanted[6 * i : 6 * i + 3] = turn @ lacking[:3]
+        wanted[6 * i + 3 : 6 * i + 6] = turn @ lacking[3:]
         preferred[at] = sole.wrench
         cones[_ROWS * i : _ROWS * i + 16, size + 6 * i : size + 6 * i + 6] = cone_rows(
             sole.rectangle, sole.friction
         ) * (unit[at] / weight)
-        cones[_ROWS * i + 16, size + 6 * i + 2], most[_ROWS * i + 16] = 1.0, sole.most / weight
+        cones[_ROWS * i + 16, size + 6 * i + 2] = 1.0
+        most[_ROWS * i + 16] = sole.most / weight
     preferred /= unit
     pushed = jacobian.T * unit
     moves = np.hstack([mass, -pushed])
     com = mass[:3] / total
     diagonal = np.concatenate([wish.weights, np.tile(_WRENCH, len(wish.standing))]) + _RIDGE
     aim = np.concatenate([wish.acceleration, preferred])
-    hessian, gradient = np.diag(diagonal), -diagonal * aim
+    hessian = np.diag(diagonal)
+    gradient = -diagonal * aim
     hessian[:size, :size] += wish.com_weight * com.T @ com
     drift = bias[:3] / total - np.array([0.0, 0.0, gravity])
     gradient[:size] -= wish.com_weight * (wish.com - drift) @ com
@@ -139,12 +152,14 @@ def torques_of(dynamics: BodyDynamics, wish: Wish, gravity: float) -> Torques | 
     bounded = np.zeros((size - _BASE, size + count))
     bounded[:, _BASE:size] = np.eye(size - _BASE)
     rows = np.vstack([moves[:_BASE], fixed, cones, moves[_BASE:], bounded])
-    none, torque = np.full(len(cones), -1e30), np.minimum(wish.torque, 1e6)
+    none = np.full(len(cones), -1e30)
+    torque = np.minimum(wish.torque, 1e6)
     held = np.concatenate([-bias[:_BASE], wanted])
     upper = np.concatenate([held, most, torque - bias[_BASE:], wish.fastest])
     lower = np.concatenate([held, none, -torque - bias[_BASE:], wish.slowest])
     sense = np.zeros(len(rows), dtype=np.int32)
-    sense[: _BASE + count], sense[-len(bounded) :] = _EQUAL, _SOFT
+    sense[: _BASE + count] = _EQUAL
+    sense[-len(bounded) :] = _SOFT
     if not (np.isfinite(gradient).all() and np.isfinite(rows).all() and np.isfinite(held).all()):
         return None
     found, _, flag, _ = daqp.solve(hessian, gradient, rows, upper, lower, sense, primal_tol=_TOLERANCE)

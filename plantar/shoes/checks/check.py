@@ -30,7 +30,9 @@ from plantar.shoes.units import to_mm
 
 _OVERHANG_SHARE = 0.02  # of the contact face: what may hang over without support on a printer that lays lines
 _LONG = 0.7  # of a foot's length: a sole that is shorter, as of a high heel, is no foot's that stands on a flat shoe
-_FLAT_SHARE, _HALF_SHARE = 0.95, 0.80  # of the load: what goes past the taxels is an error of every force read
+# of the load: what goes past the taxels is an error of every force read
+_FLAT_SHARE = 0.95
+_HALF_SHARE = 0.80
 
 Array = NDArray[np.float64]
 
@@ -150,7 +152,8 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: StepSolid)
 
 def check_plan(plan: ShoePlan, build: ShoeBuild) -> tuple[Check, ...]:
     """Gives checks decided by a build's plan: blind rim, CoP, touching taxels, load share."""
-    rim, share = build.fit.blind_most, build.load_share
+    rim = build.fit.blind_most
+    share = build.load_share
     low = build.foot.passing(min(build.foot.height, build.parameters.clip_height_max)).bounds
     long = (build.foot.sole.bounds[2] - build.foot.sole.bounds[0]) / (low[2] - low[0])
     return (
@@ -193,7 +196,8 @@ def _layout_checks(shoe: Shoe, p: ShoeParameters, step: StepSolid) -> Iterator[C
 def _contact_checks(plan: ShoePlan, build: ShoeBuild) -> Iterator[Check]:
     if build.kind == "insole":  # which bends to the ground, and to the foot
         return
-    seen, touching = observability(plan), build.touching
+    seen = observability(plan)
+    touching = build.touching
     yield _least("taxels' centres over the face's length, %", 100.0 * seen.along, 100.0 * ALONG)
     yield _least("taxels' centres over the face's width, %", 100.0 * seen.across, 100.0 * ACROSS)
     most = ERROR * seen.width
@@ -208,7 +212,8 @@ def _contact_checks(plan: ShoePlan, build: ShoeBuild) -> Iterator[Check]:
 
 
 def _insole_checks(shoe: Shoe, surface: Array, p: ShoeParameters) -> Iterator[Check]:
-    high, outline = float(surface[..., 2].max()), shoe.plan.foot
+    high = float(surface[..., 2].max())
+    outline = shoe.plan.foot
     yield Check("thickness, mm", abs(high - p.thickness) <= 0.05, round(high, 3), f"{p.thickness:g} within 0.05")
     beyond = float(outline.distance(shapely.points(np.unique(surface.reshape(-1, 3)[:, :2].round(4), axis=0))).max())
     yield Check("beyond the foot's outline, mm", beyond <= 1e-2, round(beyond, 3), "0")
@@ -234,9 +239,11 @@ def _mounting_checks(m: Mounting, reach: float, shoe: Shoe, build: ShoeBuild) ->
 
 
 def _holding_checks(held: PullOff) -> Iterator[Check]:
-    enough, allowed = held.force >= held.swing, f"{held.swing:.1f} or more (5 g)"
+    enough = held.force >= held.swing
+    allowed = f"{held.swing:.1f} or more (5 g)"
     yield Check("force that pulls the shoe off, N", enough, round(held.force, 1), allowed)
-    enough, allowed = held.moment >= held.scuff, f"{held.scuff:.2f} or more"
+    enough = held.moment >= held.scuff
+    allowed = f"{held.scuff:.2f} or more"
     yield Check("moment that holds the shoe in a scuff at the toe, N m", enough, round(held.moment, 2), allowed)
     if held.snap > 0.0:
         yield _most("force that snaps a clip on, N", held.snap, SNAP_MOST)

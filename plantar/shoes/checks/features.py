@@ -18,7 +18,9 @@ from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.plan.wiring import cable_outlines, channel_lines, hole_outline
 from plantar.shoes.solid.retention import Retention
 
-_FULL, _FREE = 0.90, 0.02  # share of a place that print must fill, and may
+# share of a place that print must fill, and may
+_FULL = 0.90
+_FREE = 0.02
 _CABLE = 1.0  # mm: a cable that has to pass
 _EPS = 1.7e-3  # mm next to a level at which corners lie
 
@@ -58,7 +60,9 @@ def printed_features(shoe: Shoe, build: ShoeBuild, surface: Array) -> tuple[Feat
     """Returns every feature in the papers of a `shoe` of its `build`, looked for in its `surface`, STL triangles
     (n, 3, 3) in mm.
     """
-    solid, p, plan = _Print(surface), build.parameters, shoe.plan
+    solid = _Print(surface)
+    p = build.parameters
+    plan = shoe.plan
     found = [*_seats(solid, plan, p), *_cable(solid, plan, p)]
     if plan.heel.board:
         found += _rails(solid, plan, p)
@@ -69,8 +73,11 @@ def printed_features(shoe: Shoe, build: ShoeBuild, surface: Array) -> tuple[Feat
 
 def _seats(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature]:
     part = "taxel" if plan.cell is None else "cell"
-    hole, ways = hole_outline(plan, p), shapely.union_all(cable_outlines(plan, p))
-    free, roofs, ribs = [], [], []
+    hole = hole_outline(plan, p)
+    ways = shapely.union_all(cable_outlines(plan, p))
+    free = []
+    roofs = []
+    ribs = []
     walls = shapely.union_all([q.buffer(0.45 * p.rib, join_style="mitre") for q in plan.pockets])
     walls = walls.difference(shapely.union_all([*(q.buffer(0.05) for q in plan.pockets), ways.buffer(p.wall_min)]))
     walls = walls.difference(hole)
@@ -106,7 +113,8 @@ def _cable(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature
 
 
 def _rails(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature]:
-    half, gap = 0.5 * p.board_length, p.made_by.slide
+    half = 0.5 * p.board_length
+    gap = p.made_by.slide
     back = -holder_depth(p)
     levels = np.linspace(p.thickness + 0.3, p.rim_top - 0.3, 4).tolist()
 
@@ -128,7 +136,8 @@ def _rails(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature
 
 
 def _holders(solid: _Print, shoe: Shoe, build: ShoeBuild, retention: Retention) -> Iterator[Feature]:
-    p, width = build.parameters, retention.width
+    p = build.parameters
+    width = retention.width
     middle = shoe.plan.foot.centroid.y
     flip = 1.0 if shoe.side == "left" else -1.0
 
@@ -140,10 +149,13 @@ def _holders(solid: _Print, shoe: Shoe, build: ShoeBuild, retention: Retention) 
     def least(shares: list[float]) -> float:
         return min(1.0, min(shares))
 
-    places, half = retention.places, 0.5 * width
+    places = retention.places
+    half = 0.5 * width
     if retention.kind == "straps":
-        low, top = p.rim_top + 1.0, p.thickness + retention.top(p)
-        high, post = low + p.strap_thickness + 2.0, 4.0 * p.rim_thickness
+        low = p.rim_top + 1.0
+        top = p.thickness + retention.top(p)
+        high = low + p.strap_thickness + 2.0
+        post = 4.0 * p.rim_thickness
         heights = (low + 0.2, 0.5 * (low + high), high - 0.2)
         free = [1.0 - area(q, -half, half, h) / (width * p.rim_thickness) for q in places for h in heights]
         bars = [area(q, -half, half, h) / (width * p.rim_thickness) for q in places for h in (high + 0.2, top - 2.0)]
@@ -154,7 +166,8 @@ def _holders(solid: _Print, shoe: Shoe, build: ShoeBuild, retention: Retention) 
         yield Feature("posts beside each slot", "strap", least(ends))
     elif retention.kind == "clips":
         reach = p.clip_hook + p.clearance
-        hooks, free = [], []
+        hooks = []
+        free = []
         for q in places:
             arm, hook = (area(q, -half, half, p.thickness + q.edge + z) for z in (-1.5, reach - 0.05))
             hooks.append((hook - arm) / (width * reach))

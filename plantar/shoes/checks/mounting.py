@@ -69,14 +69,16 @@ def check_mounting(
     hooks -= p.clearance
     walls = [share * p.rim_height - 0.011 for share in LEVELS] + [p.rim_height - p.lead_in - 0.011]
     walls = [height for height in walls if height < hooks]
-    gap = way = math.inf
+    gap = math.inf
+    way = math.inf
     for height in walls:
         solid = section(shoe, floor + height)
         gap = min(gap, _gap(foot, height, solid))
         way = min(way, _gap_on_the_way(foot, height + 0.011, solid))
     play = _play(foot.passing(p.rim_height), section(shoe, floor + p.rim_height - p.lead_in - 0.011))
     above = math.inf
-    top, start = retention.top(p), min(p.rim_height, hooks)
+    top = retention.top(p)
+    start = min(p.rim_height, hooks)
     for i in range(_ABOVE if retention.places else 0):
         height = start + (top - start) * (i + 0.47) / _ABOVE
         solid = section(shoe, floor + height)
@@ -99,7 +101,8 @@ def check_mounting(
 
 
 def _links_met(links: Array, shoe: Array, p: ShoeParameters) -> int:
-    heights, count = links[:, 2] + p.thickness, 0
+    heights = links[:, 2] + p.thickness
+    count = 0
     for low in np.arange(0.0, float(shoe[..., 2].max()), _SLICE).tolist():
         near = links[(heights > low) & (heights <= low + _SLICE)]
         if len(near):
@@ -112,7 +115,8 @@ def _undercut(shoe: Array, retention: Retention, p: ShoeParameters) -> float:
     kept = [shapely.box(q.x - half, 0.0, q.x + half, q.side * 1e3) for q in retention.places]
     levels = np.unique(shoe[..., 2].round(3))
     levels = levels[(levels > p.thickness - 1e-3) & (levels < p.rim_top + 1e-3)]
-    below, area = None, 0.0
+    below = None
+    area = 0.0
     for low, high in pairwise(levels.tolist()):
         if high - low < 0.02:
             continue

@@ -69,7 +69,9 @@ def _overhang(triangles: Array, bridge_max: float) -> tuple[float, float]:
     cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     double = np.linalg.norm(cross, axis=1)
     keep = double > 1e-9
-    triangles, cross, double = triangles[keep], cross[keep], double[keep]
+    triangles = triangles[keep]
+    cross = cross[keep]
+    double = double[keep]
     down = -cross[:, 2] / double
     on_bed = triangles[..., 2].max(axis=1) < triangles[..., 2].min() + 0.05
     overhang = float(0.5 * double[(down > _STEEP) & (down < _FLAT) & ~on_bed].sum())
@@ -140,5 +142,6 @@ def _skin(shoe: Shoe, p: ShoeParameters) -> float:
     plan = shoe.plan
     if plan.cell is not None and plan.lands:
         return float(sum(q.area for q in plan.pockets)) * plan.cell.thickness
-    heads, bases = sum(c.area for c in plan.cells), sum(q.area for q in plan.pockets)
+    heads = sum(c.area for c in plan.cells)
+    bases = sum(q.area for q in plan.pockets)
     return float(heads) * p.taxel_protrusion + float(bases) * p.pocket_depth

@@ -76,7 +76,8 @@ def fit_cells(
         room = max(overhang, overhang_max - CORNER * border)
         fit = fit_lattice(foot, taxels=taxels, overhang=overhang, overhang_max=room, pattern=pattern)
         reach = fit.overhang
-    lattice, axial = fit.lattice, fit.cells
+    lattice = fit.lattice
+    axial = fit.cells
     rooms = tuple(lattice.corners(axial))
     pockets = _placed(lattice, axial, ring(joined(pocket_parts(cell))))
     cells = rooms if cell.kind == "tile" else _placed(lattice, axial, active_shape(cell))
@@ -99,14 +100,16 @@ def fit_cells(
 
 
 def _note(cell: Cell, pattern: CellPattern) -> str:
-    name, what = cell.label, {"tile": "tiles", "film": "films below lands of the pad"}[cell.kind]
+    name = cell.label
+    what = {"tile": "tiles", "film": "films below lands of the pad"}[cell.kind]
     return f"cell {name}: {what}, {pattern.width:.2f} mm apart in a row, rows {pattern.rise:.2f} mm apart"
 
 
 def _placed(lattice: Lattice, axial: NDArray[np.int64], shape: Array) -> tuple[Array, ...]:
     if isinstance(lattice, RowLattice):
         return tuple(lattice.shapes(axial, shape))
-    c, s = math.cos(lattice.angle), math.sin(lattice.angle)
+    c = math.cos(lattice.angle)
+    s = math.sin(lattice.angle)
     return tuple(lattice.centres(axial)[:, None] + shape @ np.array([[c, s], [-s, c]]))
 
 
@@ -129,9 +132,12 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
     sheet = tidy(edge) if not edge.is_empty else edge
     inside = sheet.buffer(-cell.edge, join_style="mitre")
     at = _crossings(region, inside, cell)
-    px, py = 0.5 * cell.pitch_x, 0.5 * cell.pitch_y
+    px = 0.5 * cell.pitch_x
+    py = 0.5 * cell.pitch_y
     lines = np.column_stack([_ranks(at[:, 1]), _ranks(at[:, 0])])
-    cells, kept_lines, crossings = [], [], []
+    cells = []
+    kept_lines = []
+    crossings = []
     for (cx, cy), line in zip(at.tolist(), lines, strict=True):
         whole = shapely.box(cx - px, cy - py, cx + px, cy + py)
         part = whole if sheet.covers(whole) else shapely.intersection(whole, sheet, grid_size=1e-4)

@@ -71,8 +71,10 @@ class RowLattice:
     angle: float
 
     def _placed(self, points: Array) -> Array:
-        c, s = math.cos(self.angle), math.sin(self.angle)
-        x, y = points[..., 0], points[..., 1]
+        c = math.cos(self.angle)
+        s = math.sin(self.angle)
+        x = points[..., 0]
+        y = points[..., 1]
         return np.stack([self.origin[0] + c * x - s * y, self.origin[1] + s * x + c * y], axis=-1)
 
     def _flat(self, axial: Any) -> Array:
@@ -98,8 +100,10 @@ class RowLattice:
         p = self.pattern
         box = np.array([[lower[0], lower[1]], [upper[0], lower[1]], [upper[0], upper[1]], [lower[0], upper[1]]])
         box = box - np.array(self.origin)
-        c, s = math.cos(self.angle), math.sin(self.angle)
-        along, across = c * box[:, 0] + s * box[:, 1], -s * box[:, 0] + c * box[:, 1]
+        c = math.cos(self.angle)
+        s = math.sin(self.angle)
+        along = c * box[:, 0] + s * box[:, 1]
+        across = -s * box[:, 0] + c * box[:, 1]
         more = p.reach + max(p.width, p.rise)
         cells = []
         for j in range(math.floor((across.min() - more) / p.rise), math.ceil((across.max() + more) / p.rise) + 1):
@@ -141,7 +145,8 @@ def pattern_of(cell: Cell, rib: float) -> CellPattern:
     """
     parts = pocket_parts(cell, 0.5 * rib)
     points = np.concatenate(parts)
-    low, high = points.min(axis=0), points.max(axis=0)
+    low = points.min(axis=0)
+    high = points.max(axis=0)
     width = _pitch(cell, "x", high[0] - low[0], rib)
     if cell.shape == "hex":
         if cell.kind == "tile":
@@ -175,7 +180,9 @@ def _least_rise(parts: Sequence[Array], width: float, shift: float, height: floa
             room.intersection(shapely.affinity.translate(room, dx, rise)).area <= _TOUCH for dx in (-shift, shift)
         )
 
-    low, high = 0.5 * height, height  # the row after the next lies right above
+    # the row after the next lies right above
+    low = 0.5 * height
+    high = height
     if apart(low):
         return float(low)
     while high - low > 1e-7:

@@ -110,7 +110,8 @@ class _Line:
 
 
 def _strip(edge: Any, inside: Any, depth: float, length: float) -> list[Any]:
-    inner, outer = _Line(inside), _Line(edge)
+    inner = _Line(inside)
+    outer = _Line(edge)
     cuts = _cuts(inner, outer, depth, length)
     cells = []
     for (a, b), (c, d) in zip(cuts, [*cuts[1:], cuts[0]], strict=True):
@@ -146,9 +147,11 @@ def _core(inside: Any, cell_area: float) -> tuple[list[Array], Lattice, int]:
     clear = inside.buffer(-_CLEAR, join_style="mitre")
     try:
         fit = fit_lattice(clear, cell_area=cell_area)
-        lattice, bound = fit.lattice, fit.bound
+        lattice = fit.lattice
+        bound = fit.bound
     except FootError:  # too narrow for a whole one
-        lattice, bound = hex_pattern(cell_area).at((inside.centroid.x, inside.centroid.y), 0.0), 0
+        lattice = hex_pattern(cell_area).at((inside.centroid.x, inside.centroid.y), 0.0)
+        bound = 0
     box = np.array(inside.bounds).reshape(2, 2)
     corners = lattice.corners(lattice.cells_near(box[0], box[1]))
     cells = shapely.polygons(corners)
@@ -179,7 +182,8 @@ def fit_fine_rim(foot: Any, *, cell_area: float, overhang: float, border: float)
     Raises:
         FootError: If BLIND_MOST cannot be kept.
     """
-    region, face = tidy(grown(foot, overhang)), tidy(grown(foot, overhang + border))
+    region = tidy(grown(foot, overhang))
+    face = tidy(grown(foot, overhang + border))
     strip, inside = strip_cells(region, face, cell_area)
     core, lattice, bound = _core(inside, cell_area)
     polygons = [shapely.Polygon(c) for c in (*strip, *(gathered(c, np.concatenate(strip)) for c in core))]

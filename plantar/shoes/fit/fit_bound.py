@@ -23,7 +23,9 @@ _MOST_ANGLES = 6
 _AT_ONCE = 1000  # boxes
 _CHUNK = 6_000_000  # numbers held at a time
 _SLACK = 1e-3  # mm by which a cell may leave the outline, as in the fit
-_DETAIL, _COARSE_DETAIL = 0.01, 0.1  # mm of detail that is dropped, of an outline with many corners
+# mm of detail that is dropped, of an outline with many corners
+_DETAIL = 0.01
+_COARSE_DETAIL = 0.1
 _MANY_CORNERS = 40
 
 Array = NDArray[np.float64]
@@ -73,7 +75,8 @@ def bound_whole_cells(region: Any, pattern: CellPattern, *, known: int = 0, shar
     detail = _DETAIL if len(region.exterior.coords) <= _MANY_CORNERS else _COARSE_DETAIL
     larger = region.simplify(detail).buffer(detail + _SLACK, join_style="mitre", mitre_limit=2.0)
     outline = _Outline.of(larger, pattern)
-    width, rise = pattern.width, pattern.rise
+    width = pattern.width
+    rise = pattern.rise
     far = outline.radius + pattern.reach
     turns = max(1, math.ceil(far * 0.5 * pattern.period / (0.25 * width)))
     count = np.array([4, 4, turns])
@@ -82,24 +85,31 @@ def bound_whole_cells(region: Any, pattern: CellPattern, *, known: int = 0, shar
     boxes = np.stack([a.ravel() for a in np.meshgrid(*axes, indexing="ij")], axis=1)
     upper = np.full(len(boxes), math.floor(region.area / pattern.area + 1e-6))
     eighths = np.array([[i, j, k] for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)], dtype=float)
-    best, placement, looked, bound = known, None, 0, int(upper[0])
+    best = known
+    placement = None
+    looked = 0
+    bound = int(upper[0])
     while len(boxes):
         inside, possible = outline.counts(boxes[:_AT_ONCE], half[:_AT_ONCE], best)
         looked += len(inside)
         top = int(inside.argmax())
         if inside[top] > best:
-            best, placement = int(inside[top]), boxes[top]
+            best = int(inside[top])
+            placement = boxes[top]
         upper[:_AT_ONCE] = np.minimum(upper[:_AT_ONCE], possible)
         bound = max(best, int(upper.max()))
         if bound <= best / share or looked * outline.conditions > _BUDGET:
             break
         halves = np.repeat(0.5 * half[:_AT_ONCE], 8, axis=0)
         eight = np.repeat(boxes[:_AT_ONCE], 8, axis=0) + np.tile(eighths, (len(inside), 1)) * halves
-        boxes, half = np.concatenate([eight, boxes[_AT_ONCE:]]), np.concatenate([halves, half[_AT_ONCE:]])
+        boxes = np.concatenate([eight, boxes[_AT_ONCE:]])
+        half = np.concatenate([halves, half[_AT_ONCE:]])
         upper = np.concatenate([np.repeat(upper[:_AT_ONCE], 8), upper[_AT_ONCE:]])
         order = np.argsort(-upper, kind="stable")  # those that may hold the most come first
         order = order[upper[order] > best]
-        boxes, half, upper = boxes[order], half[order], upper[order]
+        boxes = boxes[order]
+        half = half[order]
+        upper = upper[order]
     else:
         bound = best
     angles: list[float] = [] if placement is None else [float(placement[2])]
@@ -109,7 +119,8 @@ def bound_whole_cells(region: Any, pattern: CellPattern, *, known: int = 0, shar
     if placement is None:
         return CellBound(bound, 0, (0.0, 0.0), 0.0, looked, tuple(angles))
     u, v, angle = (float(x) for x in placement)
-    c, s = math.cos(angle), math.sin(angle)
+    c = math.cos(angle)
+    s = math.sin(angle)
     origin = (outline.centre[0] + c * u - s * v, outline.centre[1] + s * u + c * v)
     return CellBound(bound, best, origin, angle, looked, tuple(angles))
 
@@ -135,7 +146,9 @@ class _Outline:
         points = shapely.get_coordinates(shapely.geometry.polygon.orient(hull).exterior)[:-1] - [centre.x, centre.y]
         edge = np.roll(points, -1, axis=0) - points
         length = np.hypot(*edge.T)
-        points, edge, length = points[length > 1e-9], edge[length > 1e-9], length[length > 1e-9]
+        points = points[length > 1e-9]
+        edge = edge[length > 1e-9]
+        length = length[length > 1e-9]
         normals = np.column_stack([edge[:, 1], -edge[:, 0]]) / length[:, None]
         pockets = [p for p in getattr(hull.difference(region), "geoms", [hull.difference(region)]) if p.area > 1e-2]
         triangles = [
@@ -172,8 +185,10 @@ class _Outline:
         return np.concatenate([p[0] for p in parts]), np.concatenate([p[1] for p in parts])
 
     def _counts(self, boxes: Array, half: Array, wanted: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        offset, angle = boxes[:, :2], boxes[:, 2]
-        c, s = np.cos(angle), np.sin(angle)
+        offset = boxes[:, :2]
+        angle = boxes[:, 2]
+        c = np.cos(angle)
+        s = np.sin(angle)
         turn = np.stack([np.stack([c, s], -1), np.stack([-s, c], -1)], -2)  # to the lattice's frame
         normals = np.einsum("bij,kj->bki", turn, self.normals)
         room = self.offsets - _reach(normals, np.concatenate(self.parts)) - np.einsum("bki,bi->bk", normals, offset)
@@ -192,7 +207,8 @@ class _Outline:
         """Clearance of cells (b, n) from triangles; negative inside (separating axes)."""
         corners = np.einsum("bij,tkj->btki", turn, self.triangles)
         edge = np.roll(corners, -1, axis=2) - corners
-        first, second = corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0]
+        first = corners[:, :, 1] - corners[:, :, 0]
+        second = corners[:, :, 2] - corners[:, :, 0]
         area = first[..., 0] * second[..., 1] - first[..., 1] * second[..., 0]
         normal = np.stack([edge[..., 1], -edge[..., 0]], -1) / np.hypot(edge[..., 0], edge[..., 1])[..., None]
         normal = normal * np.sign(area)[..., None, None]

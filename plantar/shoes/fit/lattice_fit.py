@@ -15,7 +15,9 @@ from plantar.shoes.fit.fit_bound import bound_whole_cells
 
 CELL_AREAS = (100.0, 5000.0)  # cell areas in mm^2 that are taken
 
-_ANGLE_STEP, _TAILED_STEP = 5, 15  # degrees between the lattice angles that are looked at; of cells with a tail
+# degrees between the lattice angles that are looked at; of cells with a tail
+_ANGLE_STEP = 5
+_TAILED_STEP = 15
 _LONG_EDGE = 0.1  # of the outline's length
 _MOST_EDGE_ANGLES = 6
 _DECIMALS = 4  # of a placement in mm
@@ -74,7 +76,8 @@ def whole_cell_region(region: Any, parts: Sequence[NDArray[np.float64]], angle: 
         >>> bool(abs(whole_cell_region(shapely.box(0, 0, 10, 10), parts, 0.0).area - (10 - 3**0.5) * 8) < 0.1)
         True
     """
-    c, s = math.cos(angle), math.sin(angle)
+    c = math.cos(angle)
+    s = math.sin(angle)
     turn = np.array([[c, s], [-s, c]])
     region = region.buffer(_SLACK, join_style="mitre")
     swept = [_swept(np.array(region.exterior.coords), part @ turn) for part in parts]
@@ -156,7 +159,9 @@ def _least_overhang(sole: Any, pattern: CellPattern, taxels: int, overhang: floa
             f"{taxels} taxels of {pattern.area:g} mm^2 do not fit: at most {at_most} with cells up to "
             f"{overhang + steps * _OVERHANG_STEP:g} mm beyond the sole; ask for fewer or use a smaller cell area"
         )
-    low, high = 0, steps  # low does not hold enough, high does
+    # low does not hold enough, high does
+    low = 0
+    high = steps
     while high - low > 1:
         middle = (low + high) // 2
         low, high = (low, middle) if most(middle) >= taxels else (middle, high)
@@ -251,7 +256,8 @@ def _placements(sole: Any, pattern: CellPattern, taxels: int | None, scans: list
 def _sampled_offsets(pattern: CellPattern, angle: float) -> NDArray[np.float64]:
     share = np.arange(_COARSE) / _COARSE
     u, v = np.meshgrid(share * pattern.width, share * pattern.rise)
-    c, s = math.cos(angle), math.sin(angle)
+    c = math.cos(angle)
+    s = math.sin(angle)
     return np.asarray(np.stack([c * u - s * v, s * u + c * v], axis=-1).reshape(-1, 2).round(_DECIMALS))
 
 
@@ -265,10 +271,13 @@ def _critical_offsets(allowed: Any, pattern: CellPattern, lattice: Lattice) -> N
     )
     points = np.concatenate([corners, shapely.get_coordinates(shapely.intersection(moved, edge))])
     # The same placement, moved by a lattice vector to the unit cell at the origin.
-    c, s = math.cos(lattice.angle), math.sin(lattice.angle)
-    u, v = c * points[:, 0] + s * points[:, 1], -s * points[:, 0] + c * points[:, 1]
+    c = math.cos(lattice.angle)
+    s = math.sin(lattice.angle)
+    u = c * points[:, 0] + s * points[:, 1]
+    v = -s * points[:, 0] + c * points[:, 1]
     row = np.floor(v / pattern.rise)
-    u, v = u - pattern.shift * row, v - pattern.rise * row
+    u = u - pattern.shift * row
+    v = v - pattern.rise * row
     u = u - pattern.width * np.floor(u / pattern.width)
     return np.unique(np.column_stack([c * u - s * v, s * u + c * v]).round(_DECIMALS), axis=0)
 
@@ -323,12 +332,14 @@ def _centred(start: _Candidate, sole: Any, region: Any, pattern: CellPattern) ->
     """Same cells moved to the sole's centre as far as the region allows."""
     allowed = whole_cell_region(region, pattern.parts, start.lattice.angle)
     shapely.prepare(allowed)
-    best, step = start, 1.6
+    best = start
+    step = 1.6
     while step >= 0.05:
         moves = [(dx * step, dy * step) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
         trials = []
         for dx, dy in moves:
-            x, y = round(best.lattice.origin[0] + dx, _DECIMALS), round(best.lattice.origin[1] + dy, _DECIMALS)
+            x = round(best.lattice.origin[0] + dx, _DECIMALS)
+            y = round(best.lattice.origin[1] + dy, _DECIMALS)
             lattice = pattern.at((x, y), best.lattice.angle)
             centres = lattice.centres(best.cells)
             if shapely.contains_xy(allowed, centres[:, 0], centres[:, 1]).all():

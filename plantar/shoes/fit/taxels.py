@@ -209,9 +209,12 @@ def _cut_placement(
     """Score, lattice, axial coordinates and shares of a placement's cells that the region cuts least."""
     angle = math.radians(degrees)
     start = HexLattice(cell_area, angle=angle)
-    c, s = math.cos(angle), math.sin(angle)
-    u, v = i * start.width, j * 1.5 * start.side
-    x, y = region.centroid.x + c * u - s * v, region.centroid.y + s * u + c * v
+    c = math.cos(angle)
+    s = math.sin(angle)
+    u = i * start.width
+    v = j * 1.5 * start.side
+    x = region.centroid.x + c * u - s * v
+    y = region.centroid.y + s * u + c * v
     lattice = HexLattice(cell_area, (round(x, 4), round(y, 4)), angle)
     box = np.array(region.bounds).reshape(2, 2)
     axial = lattice.cells_near(box[0], box[1])

@@ -106,7 +106,8 @@ def foot_from_outline(name: str, outline: Any, notes: tuple[str, ...] = ()) -> F
     """
     sole = tidy(outline)
     low_x, low_y, high_x, high_y = sole.bounds
-    length, width = high_x - low_x, high_y - low_y
+    length = high_x - low_x
+    width = high_y - low_y
     low, high = FOOT_LENGTHS
     if not (low <= length <= high and 0.25 * low <= width <= length * 1.05):
         raise FootError(

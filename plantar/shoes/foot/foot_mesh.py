@@ -122,7 +122,8 @@ def foot_from_triangles(
     if sole_z is not None and not math.isfinite(sole_z):
         raise InputError(f"sole plane is at {sole_z} mm; allowed: a finite height")
     scale, note = unit_scale(float(np.ptp(triangles.reshape(-1, 3), axis=0).max()), unit, file_unit, where)
-    read, triangles = triangles, triangles * scale
+    read = triangles
+    triangles = triangles * scale
     notes = [note, *([] if is_closed(triangles) else ["the mesh is not closed; only its outline is used"])]
     settings: dict[str, Any] = {
         "where": where, "mesh_side": mesh_side, "sole_z": sole_z, "forward": forward, "sole_band": sole_band,
@@ -172,7 +173,8 @@ def _standing(
     up_given: bool = False,
 ) -> Foot:
     """Foot from triangles in mm, z up; links move as the surface does from `read`."""
-    notes, tilt = list(notes), 0.0
+    notes = list(notes)
+    tilt = 0.0
     if sole_z is None:
         triangles, tilt = levelled(triangles)
         if tilt > 0.0:
@@ -203,7 +205,8 @@ def _standing(
     box = sole.bounds
     if not _box_holds(box, 0.5):
         middle = np.array([0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3]), 0.0]).round(3)
-        triangles, links = triangles - middle, None if links is None else links - middle
+        triangles = triangles - middle
+        links = None if links is None else links - middle
         sole = _checked_sole(triangles, sole_band, forward, where)
         notes.append("the mesh's origin lies far from the sole: the layout's origin is the middle of the sole instead")
     notes.append(f"sole {box[2] - box[0]:.1f} x {box[3] - box[1]:.1f} mm (lowest {sole_band:g} mm of the mesh)")
@@ -290,7 +293,8 @@ def _checked_sole(triangles: Triangles, sole_band: float, forward: Axis | None, 
     block = max(length, width) < 1.15 * min(length, width) and height > 0.5 * length
     silhouette = convex_outline(points[:, :2]).area
     if sole.area < _SOLE_SHARE * silhouette:
-        way, bands = "the axis that points up (--up), or ", (b for b in _WIDER if b > sole_band and not block)
+        way = "the axis that points up (--up), or "
+        bands = (b for b in _WIDER if b > sole_band and not block)
         if all(flat_share(triangles @ rotation_up(a).T) < _SOLE_SHARE for a in AXES if a != "z"):
             wide = [b for b in bands if outline_of(cut_below(triangles, b), b).area >= _SOLE_SHARE * silhouette]
             way = f"--set sole_band={wide[0]:g} for a rounded sole, or " if wide else ""
@@ -318,5 +322,6 @@ def _checked_sole(triangles: Triangles, sole_band: float, forward: Axis | None, 
 
 
 def _box_holds(box: tuple[float, float, float, float], slack: float) -> bool:
-    dx, dy = slack * (box[2] - box[0]), slack * (box[3] - box[1])
+    dx = slack * (box[2] - box[0])
+    dy = slack * (box[3] - box[1])
     return box[0] - dx <= 0.0 <= box[2] + dx and box[1] - dy <= 0.0 <= box[3] + dy

@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 
 from plantar.common.optional_library import optional_library
 
-_CHORD, _ANGLE = 0.05, 0.2  # share of an edge, and rad: how far triangles may lie off a curved face
+# share of an edge, and rad: how far triangles may lie off a curved face
+_CHORD = 0.05
+_ANGLE = 0.2
 
 
 def triangles_of_step(path: Path) -> dict[str, NDArray[Any]]:
@@ -49,7 +51,8 @@ def _triangles(shape: Any) -> list[NDArray[np.float64]]:
     out = []
     faces = TopExp_Explorer(shape, TopAbs_FACE)
     while faces.More():
-        face, place = TopoDS.Face_s(faces.Current()), TopLoc_Location()
+        face = TopoDS.Face_s(faces.Current())
+        place = TopLoc_Location()
         faces.Next()
         mesh = BRep_Tool.Triangulation_s(face, place)
         if mesh is None:

@@ -103,7 +103,9 @@ def _check_off(file: Path) -> None:
         raise FootError(f"{file}: has {words[2].decode():.20} faces; allowed: up to {MOST_TRIANGLES}; reduce the mesh")
 
 
-_HEAD, _TRIANGLE = 84, 50  # bytes
+# bytes
+_HEAD = 84
+_TRIANGLE = 50
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _VERTEX = re.compile(rb"\bvertex\s++(\S{1,64}+)\s++(\S{1,64}+)\s++(\S{1,64}+)", re.IGNORECASE)
 
@@ -141,7 +143,8 @@ def _refuse_more(count: int, most: int, where: str) -> None:
 
 
 def _triangles_of_obj(data: bytes, most: int, where: str) -> NDArray[np.float64]:
-    corners, faces = array("d"), array("q")
+    corners = array("d")
+    faces = array("q")
     for line in _lines(data):
         if line[:2] in (b"v ", b"v\t"):
             x, y, z = line.split(None, 4)[1:4]

@@ -32,7 +32,10 @@ _NOT_NEEDED: tuple[str, ...] = (
     *("keys", "sensors", "actuators", "tendons", "equalities", "pairs", "excludes", "tuples", "skins", "flexes"),
     "textures",
 )
-_COLLIDING, _DRAWN, _ELSEWHERE = 0, 1, 2  # groups of geoms
+# groups of geoms
+_COLLIDING = 0
+_DRAWN = 1
+_ELSEWHERE = 2
 
 Array = NDArray[np.float64]
 # Gives the rotation (3, 3) and place (3,) of shapes for angles of joints
@@ -137,7 +140,8 @@ class ModelSource:
 
     def mass(self, name: str) -> tuple[float | None, str]:
         """Mass in kg of a body's robot, None if unknown; and a note."""
-        model, problem = None, ""
+        model = None
+        problem = ""
         for read_all in (False, True):
             try:
                 spec = self.spec()
@@ -168,7 +172,9 @@ class ModelSource:
         part = [geom for body in _fixed_to(spec.body(name)) for geom in body.geoms]
         for geom in part:
             geom.group = _COLLIDING if _collides(geom) else _DRAWN
-            geom.contype = geom.conaffinity = 0  # no convex hull of a mesh is needed then
+            # no convex hull of a mesh is needed then
+            geom.contype = 0
+            geom.conaffinity = 0
         delete_all(spec, [geom for geom in spec.geoms if geom.group == _ELSEWHERE])
         if len(part) > most:
             raise FootError(f"{self.file}: body '{name}' has {len(part)} shapes; allowed: up to {most}")
@@ -209,7 +215,8 @@ class ModelSource:
 
         spec = self.spec()
         own = {body.name for body in _fixed_to(spec.body(name))}
-        kept, link = {body.name for body in spec.body(name).find_all("body")}, _moving(spec.body(name))
+        kept = {body.name for body in spec.body(name).find_all("body")}
+        link = _moving(spec.body(name))
         for _ in range(count + 1):
             kept |= {body.name for body in _fixed_to(link)}
             if link.parent is None or link.parent.name == "world":
@@ -219,13 +226,15 @@ class ModelSource:
         spare = [g for g in spec.geoms if g.parent.name in drawn and _collides(g)]
         delete_all(spec, [*(g for g in spec.geoms if g.parent.name not in kept - own and g not in spare), *spare])
         for geom in spec.geoms:
-            geom.contype = geom.conaffinity = 0
+            geom.contype = 0
+            geom.conaffinity = 0
         self._give_meshes(spec, read_all=False)
         for mesh in spec.meshes:
             mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
         model, data = self._placed(spec)
         foot = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name)
-        joints, start = _hinges_above(model, foot), data.xmat[foot].reshape(3, 3).copy()
+        joints = _hinges_above(model, foot)
+        start = data.xmat[foot].reshape(3, 3).copy()
 
         def poses(angles: Iterable[float]) -> list[tuple[Array, Array]]:
             data.qpos[model.jnt_qposadr[joints]] = list(angles)
@@ -332,7 +341,8 @@ def _hinges_above(model: Any, body: int) -> list[int]:
 
     joints: list[int] = []
     while body > 0 and len(joints) < 2:
-        first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
+        first = int(model.body_jntadr[body])
+        count = int(model.body_jntnum[body])
         joints += [j for j in range(first, first + count) if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_HINGE][::-1]
         body = int(model.body_parentid[body])
     return joints[:2]

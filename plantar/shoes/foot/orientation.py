@@ -24,7 +24,9 @@ _NEAR = 1.0  # mm
 _MANY = 100_000  # points, above which the lowest in each column are looked at
 _COLUMN = 1.0  # mm
 _RESTS = 0.3  # share of the silhouette that one plane of the hull must have to be what the foot rests on
-_BAND, _DEEP = 5.0, 2.0  # mm: how far what lies below reaches up, and a face on a side inwards
+# mm: how far what lies below reaches up, and a face on a side inwards
+_BAND = 5.0
+_DEEP = 2.0
 _SIDE = 1.5  # of the face below: a face on a side that is so much larger is the sole
 _SLANTED = "a slanted one"
 _DECK_TILT = 3.0  # degrees by which a deck may be tilted over a sole that nothing levels
@@ -62,7 +64,8 @@ def rotation_up(up: Axis) -> Array:
 
 def rotation_forward(forward: Axis) -> Array:
     """Rotation (3, 3) about z of a horizontal mesh axis to +x."""
-    x, z = _direction(forward), np.array([0.0, 0.0, 1.0])
+    x = _direction(forward)
+    z = np.array([0.0, 0.0, 1.0])
     return np.stack([x, np.cross(z, x), z])
 
 
@@ -84,7 +87,9 @@ def _resting_plane(triangles: Array) -> tuple[Array, float]:
 def _area_in_plane(triangles: Array, normal: Array, *, inwards: bool = False) -> float:
     """Area in mm^2 of faces in the outermost plane with a normal, inward ones too."""
     cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    double, depth, along = np.linalg.norm(cross, axis=1), triangles @ normal, cross @ normal
+    double = np.linalg.norm(cross, axis=1)
+    depth = triangles @ normal
+    along = cross @ normal
     flat = (np.abs(along) if inwards else along) > _SAME_PLANE * double
     return float(0.5 * double[flat & (depth.max() - depth.min(axis=1) < _NEAR)].sum())
 
@@ -155,7 +160,8 @@ def check_level(triangles: Array, where: str, levelled_by: float = 0.0) -> list[
     Raises:
         FootError: If tilted 3 to 25 degrees, or if only its upper side was level.
     """
-    (below, share), flip = _resting_plane(triangles), np.array([1.0, 1.0, -1.0])
+    below, share = _resting_plane(triangles)
+    flip = np.array([1.0, 1.0, -1.0])
     above, deck = _resting_plane(triangles * flip)
     tilt = math.degrees(math.acos(min(1.0, -float(above[2]))))
     if share < _RESTS or _flat_area(triangles, below) < _RESTS * share:
@@ -255,7 +261,8 @@ def straightened(triangles: Array, where: str = "the mesh") -> tuple[Array, list
             f"shows where it points; turn the mesh, or give the forward axis ({', '.join(AXES[:4])}) to take it as it "
             "stands"
         )
-    c, s = math.cos(math.radians(-off)), math.sin(math.radians(-off))
+    c = math.cos(math.radians(-off))
+    s = math.sin(math.radians(-off))
     turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     note = f"the foot points {off:.1f} degrees past an axis of the mesh, by its symmetry: turned back by that"
     return np.asarray(triangles @ turn.T), [note]
@@ -275,7 +282,8 @@ def forward_axis(triangles: Array, where: str = "the mesh") -> tuple[Axis, str]:
         FootError: If origin and block disagree.
     """
     points = triangles.reshape(-1, 3)
-    low, high = points.min(axis=0), points.max(axis=0)
+    low = points.min(axis=0)
+    high = points.max(axis=0)
     size = high - low
     i = 1 if size[1] > _LONGER * size[0] else 0
     name = "xy"[i]

@@ -29,14 +29,18 @@ from plantar.shoes.geometry.outline import single_outline
 
 OUTLINE_FORMATS: tuple[str, ...] = (".dxf", ".svg", ".geojson", ".json")  # file endings of drawings that are read
 
-_LARGEST, _LARGEST_DXF = 10e6, 4e6  # bytes
+# bytes
+_LARGEST = 10e6
+_LARGEST_DXF = 4e6
 _FARTHEST = 1e9  # in the drawing's unit
 _MEETINGS = 50  # segments that one meets, on average
 _BLOCK = 200  # segments
 _DXF_UNITS: dict[int, tuple[Unit, float]] = {1: ("in", 1), 2: ("in", 12), 4: ("mm", 1), 5: ("cm", 1), 6: ("m", 1)}
 _SECOND = 0.25  # of the largest outline: what lies apart and is smaller is a part of the foot
 _LOOP_MAX = 0.01  # of the enclosed area: a loop where a line's ends overlap, and no more
-_TURN_MAX, _LONG = 10.0, 1.3  # degrees off an axis at which a sole is pointed out that is so much longer than wide
+# degrees off an axis at which a sole is pointed out that is so much longer than wide
+_TURN_MAX = 10.0
+_LONG = 1.3
 
 
 def foot_from_drawing(
@@ -77,7 +81,8 @@ def foot_from_drawing(
     outline = shapely.transform(outline, lambda points: points @ turn.T)
     low_x, low_y, high_x, high_y = outline.bounds
     if not (low_x <= 0.0 <= high_x and low_y <= 0.0 <= high_y):
-        x, y = round(0.5 * (low_x + high_x), 3), round(0.5 * (low_y + high_y), 3)
+        x = round(0.5 * (low_x + high_x), 3)
+        y = round(0.5 * (low_y + high_y), 3)
         outline = shapely.affinity.translate(outline, -x, -y)
         notes.append("the drawing's origin lies outside the sole: the layout's origin is the middle of the sole")
     return foot_from_outline(Path(path).stem, outline, tuple(notes))
@@ -214,7 +219,9 @@ Lines = list[NDArray[np.float64]]  # lines of points (k, 2)
 
 MOST_POINTS = 20_000  # points that a drawing may have, those on its curves counted
 
-_LONGEST_PATH, _LONGEST_TRANSFORM = 1_000_000, 10_000  # characters
+# characters
+_LONGEST_PATH = 1_000_000
+_LONGEST_TRANSFORM = 10_000
 _MOST_USES = 20  # of each other
 _LINK = "{http://www.w3.org/1999/xlink}href"
 _SVG_UNITS: dict[str, tuple[Unit, float]] = {
@@ -237,7 +244,8 @@ def _lines_of_svg(file: Path) -> tuple[Lines, Unit | None, float]:
     root = parse_xml(read_input(file, FootError, XML_MOST), FootError, str(file))
     unit, factor, start = _svg_unit(root)
     lines: Lines = []
-    count = walked = 0
+    count = 0
+    walked = 0
     named = {e.get("id", ""): e for e in root.iter()}
 
     def walk(element: ElementTree.Element, outer: NDArray[np.float64], uses: int = 0) -> None:
@@ -294,7 +302,8 @@ def _svg_unit(root: ElementTree.Element) -> tuple[Unit | None, float, NDArray[np
     match = re.fullmatch(r"\s*([0-9.eE+-]+)\s*([a-z]*)\s*", root.get("width", ""))
     if match is None:
         return None, 1.0, upright
-    size, name = float(match[1]), match[2]
+    size = float(match[1])
+    name = match[2]
     if name in _SVG_UNITS:
         unit, factor = _SVG_UNITS[name] if len(box) == 4 and box[2] > 0.0 else _SVG_UNITS["px"]
         return unit, factor * size / box[2] if len(box) == 4 and box[2] > 0.0 else factor, upright
@@ -313,9 +322,11 @@ def _svg_transform(text: str | None) -> NDArray[np.float64]:
         elif name == "translate":
             step[:2, 2] = [v[0], v[1] if len(v) > 1 else 0.0]
         elif name == "scale":
-            step[0, 0], step[1, 1] = v[0], v[1] if len(v) > 1 else v[0]
+            step[0, 0] = v[0]
+            step[1, 1] = v[1] if len(v) > 1 else v[0]
         elif name == "rotate":
-            c, s = math.cos(math.radians(v[0])), math.sin(math.radians(v[0]))
+            c = math.cos(math.radians(v[0]))
+            s = math.sin(math.radians(v[0]))
             about = np.array(v[1:3] if len(v) > 2 else [0.0, 0.0])
             step[:2, :2] = [[c, -s], [s, c]]
             step[:2, 2] = about - step[:2, :2] @ about
@@ -337,7 +348,8 @@ def _flattened(commands: list[tuple[str, tuple[Any, ...]]], matrix: NDArray[np.f
         elif lines and name == "closePath":
             lines[-1].append(lines[-1][0])
         elif lines and at:
-            n, share = len(at), np.linspace(0.0, 1.0, 25 if len(at) > 1 else 2)[1:, None]
+            n = len(at)
+            share = np.linspace(0.0, 1.0, 25 if len(at) > 1 else 2)[1:, None]
             corners = enumerate([lines[-1][-1], *at])
             lines[-1] += list(sum(math.comb(n, k) * (1 - share) ** (n - k) * share**k * p for k, p in corners))
     return [np.array(points) @ matrix[:2, :2].T + matrix[:2, 2] for points in lines]

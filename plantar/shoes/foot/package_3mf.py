@@ -50,9 +50,12 @@ class _Model:
         self.items: list[tuple[_Name, str | None]] = []
         self.named: list[str] = []
         self._part = ""
-        self._most, self._where = most, where
+        self._most = most
+        self._where = where
         self._here = _Object()
-        self._parts = self._corners = self._faces = 0
+        self._parts = 0
+        self._corners = 0
+        self._faces = 0
 
     def read(self, stream: IO[bytes], part: str) -> None:
         self._part = part
@@ -90,7 +93,8 @@ class _Model:
 
     def _add_part(self, name: str, attributes: dict[str, str]) -> None:
         if name == "object":
-            self._here = self.objects[self._part, attributes.get("id", "")] = _Object()
+            self._here = _Object()
+            self.objects[self._part, attributes.get("id", "")] = self._here
             return
         part = _plain(attributes[_PATH]) if _PATH in attributes else self._part
         if part not in self.named:
@@ -103,7 +107,8 @@ class _Model:
 
     def triangles(self) -> Array:
         parts: list[Array] = []
-        count = calls = 0
+        count = 0
+        calls = 0
         queue = [(item, np.eye(4), 0) for item in reversed(self.items)]
         while queue:
             (identity, move), outer, depth = queue.pop()
@@ -112,7 +117,8 @@ class _Model:
                 raise FootError(f"{self._where}: the 3MF package names an object that it does not hold")
             if calls > _MOST_PARTS:
                 raise FootError(f"{self._where}: is put together of more than {_MOST_PARTS} components")
-            found, place = self.objects[identity], _matrix(move) @ outer
+            found = self.objects[identity]
+            place = _matrix(move) @ outer
             count += len(found.faces) // 3
             if count > self._most:
                 raise FootError(f"{self._where}: has more than {self._most} triangles; reduce the mesh")
@@ -137,7 +143,8 @@ def triangles_of_3mf(path: Path, most: int) -> tuple[Array, str]:
             raise FootError(f"{path}: the 3MF package holds no model part")
         main = min(names, key=lambda i: (i.filename.lower() != "3d/3dmodel.model", i.filename))
         held = {_plain(i.filename): i for i in names}
-        model, done = _Model(most, str(path)), 0
+        model = _Model(most, str(path))
+        done = 0
         model.named.append(_plain(main.filename))
         while done < len(model.named):
             part = model.named[done]

@@ -54,7 +54,8 @@ def side_of_name(name: str) -> Literal["left", "right"] | None:
     words = [w.lower() for w in re.findall(r"[A-Z]?[a-z]+|[A-Z]+|\d+", name)]
     left, right = (s in words or name.lower().startswith(s) for s in ("left", "right"))
     if left == right:
-        left, right = "l" in words, "r" in words
+        left = "l" in words
+        right = "r" in words
     return None if left == right else "left" if left else "right"
 
 
@@ -130,7 +131,8 @@ def swept_points(source: ModelSource, name: str, surface: Array) -> tuple[Array 
     if not surfaces:
         return None, "the links above the foot have no shape"
     clouds = [thinned(surface_points(triangles, _SPACING), _SPACING) for triangles in surfaces]
-    low, high = surface.min(axis=(0, 1)) - _NEAR, surface.max(axis=(0, 1)) + _NEAR
+    low = surface.min(axis=(0, 1)) - _NEAR
+    high = surface.max(axis=(0, 1)) + _NEAR
     found = []
     for angles in itertools.product(*(np.linspace(*span, _POSES) for span in ranges)):
         for points, (turn, place) in zip(clouds, poses(angles), strict=True):

@@ -69,7 +69,8 @@ def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
             f"--body ({models}), the outline of a sole ({outlines})"
         )
     named = source.mesh_side or side_of_name(re.sub(r"(?i)r\d+", " ", path.stem))  # a foot_r2 is no right one
-    assumed, side = (() if named else (_ASSUMED,)), cast(Any, named or "left")
+    assumed = () if named else (_ASSUMED,)
+    side = cast(Any, named or "left")
     options: dict[str, Any] = {"unit": source.unit, "forward": source.forward}
     if kind in OUTLINE_FORMATS:
         for option, value in (("--body", source.body), ("--sole-z", source.sole_z), ("--up", source.up)):

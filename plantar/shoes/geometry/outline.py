@@ -61,7 +61,8 @@ def _with_fewer(points: NDArray[np.float64]) -> NDArray[np.float64] | None:
 def _without_edge(points: NDArray[np.float64]) -> NDArray[np.float64] | None:
     """Ring without its second edge: with one corner where those next to it meet, or without what lies on a line."""
     a, b, c, d = points[:4]
-    u, v = b - a, d - c
+    u = b - a
+    v = d - c
     across = u[0] * v[1] - u[1] * v[0]
     if abs(across) > 1e-9:
         point = a + ((c - a)[0] * v[1] - (c - a)[1] * v[0]) / across * u
@@ -105,7 +106,8 @@ def flush(outer: Any, inner: Any) -> Any:
 
 def joined_corners(outline: Any, other: Any) -> Any:
     """Gives shapely outline in mm without one of corners that nearly coincide: other's stay, or those on its edges."""
-    points, corners = ring(outline), set(map(tuple, ring(other).tolist()))
+    points = ring(outline)
+    corners = set(map(tuple, ring(other).tolist()))
     along = other.exterior.distance(shapely.points(points)) < _EXACT
     rank = [2 if tuple(p) in corners else int(on) for p, on in zip(points.tolist(), along, strict=True)]
     kept: list[int] = []
@@ -140,7 +142,8 @@ def rounded_rectangle(length: float, width: float, centre: tuple[float, float], 
         (-80.0, -50.0, 120.0, 50.0)
     """
     x, y = centre
-    a, b = 0.5 * length - radius, 0.5 * width - radius
+    a = 0.5 * length - radius
+    b = 0.5 * width - radius
     core = shapely.LineString([(x - a, y), (x + a, y)]) if b <= 0.0 < a else shapely.box(x - a, y - b, x + a, y + b)
     facets = max(8, math.ceil(math.pi / 4.0 / math.acos(max(0.0, 1.0 - _BULGE / radius)))) if radius > 0.0 else 0
     return tidy(core.buffer(radius, quad_segs=facets) if radius > 0.0 else core)
@@ -161,10 +164,12 @@ def outlines_below(triangles: NDArray[np.float64]) -> Callable[[float], Any]:
     """
     if len(triangles) < 2 * _BAND:
         return lambda height: outline_below(triangles, height)
-    low, high = triangles[..., 2].min(axis=1), triangles[..., 2].max(axis=1)
+    low = triangles[..., 2].min(axis=1)
+    high = triangles[..., 2].max(axis=1)
     order = np.argsort(low, kind="stable")
     bands: list[tuple[float, Any, NDArray[np.int64]]] = []  # height, outline below it, triangles that reach higher
-    cover, near = _EMPTY, order[:0]
+    cover = _EMPTY
+    near = order[:0]
     for band in np.array_split(order, len(order) // _BAND):
         start = float(low[band[0]])
         below = high[near] <= start
@@ -234,7 +239,9 @@ def cut_below(triangles: NDArray[np.float64], height: float) -> NDArray[np.float
         # Turn each triangle so that its odd corner comes first.
         odd = np.argmax(inside[count == kept] == (kept == 1), axis=1)
         turned = chosen[np.arange(len(chosen))[:, None], (odd[:, None] + np.arange(3)) % 3]
-        a, b, c = turned[:, 0], turned[:, 1], turned[:, 2]
+        a = turned[:, 0]
+        b = turned[:, 1]
+        c = turned[:, 2]
         ab = a + ((height - a[:, 2]) / (b[:, 2] - a[:, 2]))[:, None] * (b - a)
         ac = a + ((height - a[:, 2]) / (c[:, 2] - a[:, 2]))[:, None] * (c - a)
         if kept == 1:

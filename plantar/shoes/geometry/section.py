@@ -23,7 +23,8 @@ def cut_segments(triangles: Array, height: float) -> tuple[Array, Array]:
     crossing = triangles[above.any(axis=1) & ~above.all(axis=1)]
     ends = []
     for i, j in ((0, 1), (1, 2), (2, 0)):
-        a, b = crossing[:, i], crossing[:, j]
+        a = crossing[:, i]
+        b = crossing[:, j]
         crosses = (a[:, 2] > height) != (b[:, 2] > height)
         rise = np.where(crosses, b[:, 2] - a[:, 2], 1.0)
         point = a[:, :2] + ((height - a[:, 2]) / rise)[:, None] * (b - a)[:, :2]
@@ -60,7 +61,9 @@ def wall_thickness(segments: Array, outwards: Array, leave_out: tuple[int, Bands
     """
     length = np.hypot(*(segments[:, 1] - segments[:, 0]).T)
     keep = length > 1e-3
-    segments, length, outwards = segments[keep], length[keep], outwards[keep]
+    segments = segments[keep]
+    length = length[keep]
+    outwards = outwards[keep]
     if not len(segments):
         return math.inf
     along = (segments[:, 1] - segments[:, 0]) / length[:, None]
@@ -74,7 +77,8 @@ def wall_thickness(segments: Array, outwards: Array, leave_out: tuple[int, Bands
     if leave_out is not None:
         at = start[:, leave_out[0]]
         measured = ~np.any([(at > low) & (at < high) for low, high in leave_out[1]], axis=0)
-        start, which = start[measured], which[measured]
+        start = start[measured]
+        which = which[measured]
     thinnest = math.inf
     step = max(1, 4_000_000 // len(segments))
     for i in range(0, len(start), step):
@@ -119,7 +123,8 @@ def thinnest_wall(triangles: Array, engraved: Bands = ()) -> float:
 def _heights(triangles: Array, count: int | None) -> list[float]:
     z = triangles[..., 2]
     if count is not None:
-        low, high = float(z.min()), float(z.max())
+        low = float(z.min())
+        high = float(z.max())
         return [low + (high - low) * (i + 0.517) / count for i in range(count)]
     flat = np.unique(z[np.ptp(z, axis=1) < 1e-6].round(2))
     return [float(0.5 * (a + b)) + 1.7e-5 for a, b in pairwise(flat) if b - a > 0.15]

@@ -28,7 +28,8 @@ def corner_numbers(points: Array) -> Numbers:
         >>> corner_numbers(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1e-6]])).tolist()
         [0, 1, 0]
     """
-    shape, places = points.shape[:-1], np.rint(points.reshape(-1, points.shape[-1]) / _GRID).astype(np.int64)
+    shape = points.shape[:-1]
+    places = np.rint(points.reshape(-1, points.shape[-1]) / _GRID).astype(np.int64)
     number: Numbers = np.zeros(len(places), dtype=np.int64)
     for i in range(places.shape[1]):
         axis = places[:, i] - places[:, i].min(initial=0)
@@ -48,7 +49,8 @@ def thinned(points: Array, spacing: float) -> Array:
 def is_closed(triangles: Array) -> bool:
     """Whether every edge of triangles (n, 3, 3) in mm is in exactly two."""
     corners = corner_numbers(triangles)
-    start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
+    start = corners.ravel()
+    end = np.roll(corners, -1, axis=1).ravel()
     long = start != end
     key = np.minimum(start, end)[long] * (int(corners.max(initial=0)) + 1) + np.maximum(start, end)[long]
     return bool((np.unique(key, return_counts=True)[1] == 2).all())
@@ -57,7 +59,8 @@ def is_closed(triangles: Array) -> bool:
 def convex_outline(points: Array) -> Any:
     """Shapely convex hull of points (n, 2) in mm; inner points are left out first."""
     if len(points) > _FEW:
-        x, y = np.ascontiguousarray(points[:, 0]), np.ascontiguousarray(points[:, 1])
+        x = np.ascontiguousarray(points[:, 0])
+        y = np.ascontiguousarray(points[:, 1])
         extreme: list[int] = []
         for turn in np.arange(_DIRECTIONS) * np.pi / _DIRECTIONS:
             along = np.cos(turn) * x + np.sin(turn) * y
@@ -77,7 +80,8 @@ def covered_area(flat: Array) -> Any:
         FootError: If unjoined and overlapping.
     """
     flat = np.rint(flat / _GRID) * _GRID
-    u, v = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+    u = flat[:, 1] - flat[:, 0]
+    v = flat[:, 2] - flat[:, 0]
     double = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
     flat = np.where((double < 0.0)[:, None, None], flat[:, ::-1], flat)[np.abs(double) > 0.1 * _GRID**2]
     if not len(flat):
@@ -117,7 +121,8 @@ def _united(flat: Array) -> Any:
 def _left_over(flat: Array) -> tuple[Array, Numbers]:
     """Directed triangle edges (m, 2, 2) that no others cancel, and each one's count."""
     corners = corner_numbers(flat)
-    start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
+    start = corners.ravel()
+    end = np.roll(corners, -1, axis=1).ravel()
     count = int(corners.max()) + 1
     key = np.minimum(start, end) * count + np.maximum(start, end)
     order = np.argsort(key, kind="stable")
@@ -134,12 +139,15 @@ def _left_over(flat: Array) -> tuple[Array, Numbers]:
 def _winding(points: Array, edges: Array, times: Numbers) -> Numbers:
     """Winding number (k,) of directed edges (m, 2, 2) about points (k, 2)."""
     out = np.zeros(len(points), dtype=np.int64)
-    (ax, ay), (bx, by) = edges[:, 0].T, edges[:, 1].T
+    ax, ay = edges[:, 0].T
+    bx, by = edges[:, 1].T
     step = max(1, 4_000_000 // len(edges))
     for i in range(0, len(points), step):
-        x, y = points[i : i + step, :1], points[i : i + step, 1:]
+        x = points[i : i + step, :1]
+        y = points[i : i + step, 1:]
         side = (bx - ax) * (y - ay) - (by - ay) * (x - ax)  # > 0: the point lies left of the edge
-        up, down = (ay <= y) & (by > y) & (side > 0.0), (ay > y) & (by <= y) & (side < 0.0)
+        up = (ay <= y) & (by > y) & (side > 0.0)
+        down = (ay > y) & (by <= y) & (side < 0.0)
         out[i : i + step] = ((up.astype(np.int64) - down) * times).sum(axis=1)
     return out
 

@@ -22,11 +22,17 @@ from plantar.shoes.solid.pad import mould_surface, pad_surface, prism_surface, t
 Array = NDArray[np.float64]
 Bodies = list[tuple[Array, tuple[float, float, float]]]
 
-_PRINT, _PAD = (0.36, 0.55, 0.72), (0.30, 0.31, 0.33)
+_PRINT = (0.36, 0.55, 0.72)
+_PAD = (0.30, 0.31, 0.33)
 _TAXELS = ((0.45, 0.72, 0.50), (0.55, 0.82, 0.58), (0.37, 0.62, 0.43))  # in turn, so that neighbours differ
-_WIRE, _BOARD, _FOOT, _MOULD = (0.84, 0.28, 0.22), (0.16, 0.42, 0.30), (0.78, 0.74, 0.68), (0.80, 0.63, 0.40)
-_ABOVE, _BELOW = {"azimuth": -62.0, "elevation": 38.0}, {"azimuth": -62.0, "elevation": -48.0}
-_BEHIND, _LOW = {"azimuth": -160.0, "elevation": 14.0}, {"azimuth": -62.0, "elevation": 20.0}
+_WIRE = (0.84, 0.28, 0.22)
+_BOARD = (0.16, 0.42, 0.30)
+_FOOT = (0.78, 0.74, 0.68)
+_MOULD = (0.80, 0.63, 0.40)
+_ABOVE = {"azimuth": -62.0, "elevation": 38.0}
+_BELOW = {"azimuth": -62.0, "elevation": -48.0}
+_BEHIND = {"azimuth": -160.0, "elevation": 14.0}
+_LOW = {"azimuth": -62.0, "elevation": 20.0}
 _WIRE_WIDE = 1.6
 _STYLE = """
 .step { display: grid; gap: .5rem 1.5rem; grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); align-items: start; }
@@ -114,7 +120,8 @@ def _coupon(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
 
 
 def _print(shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], views: _Views) -> str:
-    p, made = build.parameters, build.parameters.made_by
+    p = build.parameters
+    made = build.parameters.made_by
     rows = []
     for side, check in checks.items():
         best = check.printing[0]
@@ -147,7 +154,8 @@ def _print(shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], views:
 
 
 def _pad(shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], views: _Views) -> str:
-    p, weight = build.parameters, checks[shoe.side].weights.pad
+    p = build.parameters
+    weight = checks[shoe.side].weights.pad
     if p.pad_foam > 0.0:
         return _step(
             [
@@ -175,8 +183,11 @@ def _pad(shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], views: _
 
 
 def _taxels(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
-    plan, p, made = shoe.plan, build.parameters, build.parameters.made_by
-    count, patches = len(shoe.layout), len(plan.connectors)
+    plan = shoe.plan
+    p = build.parameters
+    made = build.parameters.made_by
+    count = len(shoe.layout)
+    patches = len(plan.connectors)
     cut = int((build.fit.shares < 1.0 - 1e-6).sum())
     kinds = f", {cut} of them smaller than a whole one (cells_{shoe.side}.dxf has each outline)" if cut else ""
     groups = f" in {patches} patches" if patches > 1 else ""
@@ -209,7 +220,8 @@ def _taxels(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
 
 
 def _wires(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
-    plan, ids = shoe.plan, shoe.layout.ids.tolist()
+    plan = shoe.plan
+    ids = shoe.layout.ids.tolist()
     lengths = {j: length_of(line) for j, line in wire_lines(plan).items()}
     chain: dict[int, list[int]] = {}
     for i, j in plan.route:
@@ -217,7 +229,8 @@ def _wires(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
     rows = []
     for i, nexts in chain.items():
         rows.append(row(f"from {ids[i]}", (", ".join(f"{ids[j]} ({lengths[j]:.0f})" for j in nexts),)))
-    total, patches = sum(lengths.values()), len(plan.connectors)
+    total = sum(lengths.values())
+    patches = len(plan.connectors)
     span = f"{min(lengths.values()):.0f} to {max(lengths.values()):.0f}" if lengths else "none"
     starts = ", ".join(str(ids[c]) for c in plan.connectors)
     return _step(
@@ -235,7 +248,9 @@ def _wires(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
 
 
 def _exit(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
-    plan, p, ids = shoe.plan, build.parameters, shoe.layout.ids.tolist()
+    plan = shoe.plan
+    p = build.parameters
+    ids = shoe.layout.ids.tolist()
     lines = channel_lines(plan, p)
     first = length_of(lines[0])
     others = [
@@ -276,7 +291,8 @@ def _glue(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
 
 
 def _put_on(shoe: Shoe, build: ShoeBuild, bills: Mapping[str, Sequence[Part]], views: _Views) -> str:
-    retention, p = build.retention, build.parameters
+    retention = build.retention
+    p = build.parameters
     if build.kind == "insole":
         text = [
             f"Lay it into the wearer's shoe, pad down, toes to the front; it is {p.thickness:g} thick: take out the "
@@ -336,7 +352,9 @@ def _tare(shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], views: 
 class _Views:
     def __init__(self, shoe: Shoe, build: ShoeBuild) -> None:
         assert shoe.surface is not None
-        self.shoe, self.build, self.surface = shoe, build, shoe.surface
+        self.shoe = shoe
+        self.build = build
+        self.surface = shoe.surface
         p = build.parameters
         taxels = taxel_surfaces(shoe.plan, p)
         self.taxels: Bodies = [(t, _TAXELS[i % len(_TAXELS)]) for i, t in enumerate(taxels)]
@@ -361,9 +379,11 @@ class _Views:
         return self._shown([(mould, _MOULD), (turned + 2.0 * self.apart, _PAD)], _ABOVE)
 
     def _cables(self) -> Bodies:
-        plan, p = self.shoe.plan, self.build.parameters
+        plan = self.shoe.plan
+        p = self.build.parameters
         lines = [*wire_lines(plan).values(), *channel_lines(plan, p)]
-        low, high = p.ceiling - min(_WIRE_WIDE, 0.6 * p.pocket_depth) - 0.1, p.ceiling - 0.1
+        low = p.ceiling - min(_WIRE_WIDE, 0.6 * p.pocket_depth) - 0.1
+        high = p.ceiling - 0.1
         shapes = [shapely.LineString(line).buffer(0.5 * _WIRE_WIDE, join_style="mitre") for line in lines]
         return [(prism_surface(s, low, high), _WIRE) for s in shapes if s.geom_type == "Polygon" and not s.interiors]
 
@@ -371,7 +391,8 @@ class _Views:
         return self._shown([(self.surface, _PRINT), *self._cables()], {**_BELOW, "elevation": -70.0})
 
     def of_exit(self) -> bytes:
-        heel, p = self.shoe.plan.heel, self.build.parameters
+        heel = self.shoe.plan.heel
+        p = self.build.parameters
         if not heel.board:
             return self._shown([(self.surface, _PRINT), *self._cables()], {"azimuth": 160.0, "elevation": -35.0})
         half = 0.5 * p.board_length
@@ -395,7 +416,8 @@ class _Views:
         return self._shown([*self._whole(), (self._foot(), _FOOT)], _LOW)
 
     def _foot(self) -> Array:
-        foot, (low_x, _, high_x, _) = self.build.foot, self.build.foot.sole.bounds
+        foot = self.build.foot
+        low_x, _, high_x, _ = self.build.foot.sole.bounds
         surface = foot.triangles
         if surface is None:
             surface = prism_surface(foot.sole, 0.0, 0.3 * (high_x - low_x))

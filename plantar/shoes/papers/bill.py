@@ -30,7 +30,9 @@ class Part:
 
 def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
     """Gives parts of a build's shoe with weights."""
-    p, plan, side = build.parameters, shoe.plan, shoe.side
+    p = build.parameters
+    plan = shoe.plan
+    side = shoe.side
     low_x, low_y, high_x, high_y = plan.contact.bounds
     outline = f"{high_x - low_x:.1f} x {high_y - low_y:.1f}"
     flat = build.kind == "insole"
@@ -82,7 +84,9 @@ def _window(plan: ShoePlan) -> str:
 
 
 def _cable(plan: ShoePlan, p: ShoeParameters) -> float:
-    wires, pockets, ways = wire_lines(plan), np.array([q.centroid.coords[0] for q in plan.pockets]), dict[int, float]()
+    wires = wire_lines(plan)
+    pockets = np.array([q.centroid.coords[0] for q in plan.pockets])
+    ways = dict[int, float]()
     for connector, line in zip(plan.connectors, channel_lines(plan, p), strict=True):
         before = min(ways, key=lambda i: math.dist(pockets[i], line[-1]), default=connector)
         ways[connector] = length_of(line) + ways.get(before, 0.0)
@@ -93,7 +97,8 @@ def _cable(plan: ShoePlan, p: ShoeParameters) -> float:
 
 
 def _holding(build: ShoeBuild, width: float) -> list[Part]:
-    p, retention = build.parameters, build.retention
+    p = build.parameters
+    retention = build.retention
     if retention is None or not retention.places:
         return []
     if retention.kind == "straps":

@@ -39,8 +39,10 @@ def draw_shoe(shoe: Shoe, build: ShoeBuild, triangles: Array, paths: Sequence[st
 
 def sheet_of(shoe: Shoe, build: ShoeBuild, triangles: Array) -> Sheet:
     """Gives sheet of a build's shoe with triangles, as written by `draw_shoe`."""
-    sheet, body = Sheet(), triangles.reshape(-1, 3)
-    low, high = body.min(axis=0), body.max(axis=0)
+    sheet = Sheet()
+    body = triangles.reshape(-1, 3)
+    low = body.min(axis=0)
+    high = body.max(axis=0)
     size = high - low
     scale, name = next(((s, n) for s, n in _SCALES if size[0] * s <= _PLAN[0] and size[1] * s <= _PLAN[1]), _SCALES[-1])
     sheet.box((20.0, 10.0), (410.0, 287.0), "OUTLINE")
@@ -73,7 +75,9 @@ def _cuts(shoe: Shoe, build: ShoeBuild) -> tuple[float, float]:
 
 
 def _plan(view: View, shoe: Shoe, build: ShoeBuild, low: Array, high: Array, cuts: tuple[float, float]) -> None:
-    plan, sheet, p = shoe.plan, view.sheet, build.parameters
+    plan = shoe.plan
+    sheet = view.sheet
+    p = build.parameters
     flip = 1.0 if shoe.side == "left" else -1.0
     for pocket in plan.pockets:
         view.draw(pocket, "HIDDEN")
@@ -92,7 +96,8 @@ def _plan(view: View, shoe: Shoe, build: ShoeBuild, low: Array, high: Array, cut
     if plan.heel.board:
         slot = shapely.box(-p.board_gap - p.board_thickness, -0.5 * p.board_length, -p.board_gap, 0.5 * p.board_length)
         view.draw(plan.heel.placed(slot))
-    (left, bottom), (right, upper) = view.place(low[0], low[1]), view.place(high[0], high[1])
+    left, bottom = view.place(low[0], low[1])
+    right, upper = view.place(high[0], high[1])
     zero = view.place(0.0, 0.0)
     sheet.line([(left - 8.0, zero[1]), (right + 8.0, zero[1])], "CENTRE")
     sheet.line([(zero[0], bottom - 5.0), (zero[0], upper + 5.0)], "CENTRE")
@@ -108,10 +113,12 @@ def _plan(view: View, shoe: Shoe, build: ShoeBuild, low: Array, high: Array, cut
             sheet.line([end, (end[0] + 2.0 * way[0], end[1] + 2.0 * way[1])], "OUTLINE")
             sheet.text((end[0] - 2.0 + 5.0 * way[0], end[1] + 4.5 * way[1]), letter, 3.5)
     face = plan.contact.bounds
-    a, b = view.place(face[0], low[1]), view.place(face[2], low[1])
+    a = view.place(face[0], low[1])
+    b = view.place(face[2], low[1])
     sheet.dimension(a, b, f"{face[2] - face[0]:.1f} ±0.3", -6.0)
     sheet.dimension((left, bottom), (right, bottom), f"({high[0] - low[0]:.1f})", -13.0)
-    a, b = view.place(low[0], face[1]), view.place(low[0], face[3])
+    a = view.place(low[0], face[1])
+    b = view.place(low[0], face[3])
     sheet.dimension((left, a[1]), (left, b[1]), f"{face[3] - face[1]:.1f} ±0.3", -17.0)
     sides = ("outer", "inner") if shoe.side == "left" else ("inner", "outer")
     sheet.text((left, upper + 2.0), f"left, {sides[0]} side", 2.0)
@@ -122,13 +129,17 @@ def _plan(view: View, shoe: Shoe, build: ShoeBuild, low: Array, high: Array, cut
 
 
 def _section(view: View, shoe: Shoe, build: ShoeBuild, triangles: Array, axis: int, at: float, name: str) -> Any:
-    p, plan, sheet = build.parameters, shoe.plan, view.sheet
-    cut, across = section_along(triangles, axis, at), 1 - axis
+    p = build.parameters
+    plan = shoe.plan
+    sheet = view.sheet
+    cut = section_along(triangles, axis, at)
+    across = 1 - axis
     line = shapely.LineString([(at, -1e4), (at, 1e4)] if axis == 0 else [(-1e4, at), (1e4, at)])
 
     def filled(shapes: Any, low: float, high: float, colour: str) -> None:
         for part in (q for s in shapes for q in shapely.get_parts(s.intersection(line)) if q.length > 0.0):
-            a, b = part.bounds[across], part.bounds[across + 2]
+            a = part.bounds[across]
+            b = part.bounds[across + 2]
             sheet.areas.append((colour, view.at([(a, low), (b, low), (b, high), (a, high)])))
 
     top = land_top(plan, p) if plan.lands else p.bottom
@@ -147,7 +158,8 @@ def _section(view: View, shoe: Shoe, build: ShoeBuild, triangles: Array, axis: i
 
 
 def _foot_section(shoe: Shoe, build: ShoeBuild, axis: int, at: float, top: float) -> Any:
-    floor, triangles = build.parameters.thickness, build.foot.triangles
+    floor = build.parameters.thickness
+    triangles = build.foot.triangles
     room = shapely.box(-1e4, floor, 1e4, top)
     if triangles is not None:
         turned = triangles if shoe.side == "left" else (triangles * np.array([1.0, -1.0, 1.0]))[:, ::-1]
@@ -156,7 +168,8 @@ def _foot_section(shoe: Shoe, build: ShoeBuild, axis: int, at: float, top: float
             return cut.intersection(room)
     place = at if shoe.side == "left" or axis == 0 else -at
     line = shapely.LineString([(place, -1e4), (place, 1e4)] if axis == 0 else [(-1e4, place), (1e4, place)])
-    bands, heights = [], np.linspace(0.0, top - floor, 8)
+    bands = []
+    heights = np.linspace(0.0, top - floor, 8)
     for low, high in zip(heights[:-1].tolist(), heights[1:].tolist(), strict=True):
         ends = build.foot.passing(high).intersection(line).bounds
         if len(ends) == 4:
@@ -166,8 +179,11 @@ def _foot_section(shoe: Shoe, build: ShoeBuild, axis: int, at: float, top: float
 
 
 def _heights(view: View, build: ShoeBuild, cut: Any) -> None:
-    p, sheet = build.parameters, view.sheet
-    low, high, made = cut.bounds[0], cut.bounds[2], build.parameters.made_by
+    p = build.parameters
+    sheet = view.sheet
+    low = cut.bounds[0]
+    high = cut.bounds[2]
+    made = build.parameters.made_by
     levels = [(p.thickness, f"{p.thickness:g} ±{2 * made.scatter:g}")]
     levels += [(p.rim_top, f"{p.rim_top:g} ±0.3")] if build.kind == "shoe" else []
     for n, (level, text) in enumerate(levels):
@@ -177,8 +193,11 @@ def _heights(view: View, build: ShoeBuild, cut: Any) -> None:
 
 
 def _details(top: View, along: View, across: View, shoe: Shoe, build: ShoeBuild, triangles: Array, cut: Any) -> None:
-    plan, p, made = shoe.plan, build.parameters, build.parameters.made_by
-    flat, half = 2.0 * made.scatter, p.bottom + 0.5 * p.pocket_depth
+    plan = shoe.plan
+    p = build.parameters
+    made = build.parameters.made_by
+    flat = 2.0 * made.scatter
+    half = p.bottom + 0.5 * p.pocket_depth
     cut_y, _ = _cuts(shoe, build)
     beside = section_along(triangles, 1, cut_y + 0.5 * p.port_width + 2.0)  # next to the ports
     details: list[tuple[str, View, Any, Array, float, tuple[str, ...]]] = [
@@ -192,9 +211,11 @@ def _details(top: View, along: View, across: View, shoe: Shoe, build: ShoeBuild,
         texts: tuple[str, ...] = (f"port {min(p.port_width, most):.1f} ±{made.slide:g} wide", "cut at half the depth")
         details.append(("port", top, level, ends.mean(axis=0), 8.5, texts))
     if build.retention is not None and build.retention.places:
-        width, kind = build.retention.width, build.retention.kind
+        width = build.retention.width
+        kind = build.retention.kind
         flip = build.retention.places[-1].side * (1.0 if shoe.side == "left" else -1.0)
-        edge, high = cut.bounds[2 if flip > 0.0 else 0], p.thickness + build.retention.top(p)
+        edge = cut.bounds[2 if flip > 0.0 else 0]
+        high = p.thickness + build.retention.top(p)
         name, texts = {
             "straps": (
                 "lug",
@@ -209,7 +230,8 @@ def _details(top: View, along: View, across: View, shoe: Shoe, build: ShoeBuild,
         details.append((name, across, cut, np.array([edge - 2.0 * flip, high - 6.0]), 8.5, texts))
     if plan.heel.board:
         level = section(triangles, p.thickness + 0.5 * p.rim_height + _OFF)
-        wide, thick = p.board_length + 2.0 * made.slide, p.board_thickness + 2.0 * made.slide
+        wide = p.board_length + 2.0 * made.slide
+        thick = p.board_thickness + 2.0 * made.slide
         texts = (
             f"slot {wide:g} x {thick:g} +{made.slide:g} 0, entry {slot_entry(p):g} x 45°",
             f"gap to the wall {p.board_gap:g} ±0.3",
@@ -232,7 +254,8 @@ def _detail(
     letter: str, at: tuple[float, float], name: str, source: View, shape: Any, centre: Array,
     radius: float, texts: Sequence[str],
 ) -> None:  # fmt: skip
-    sheet, scale = source.sheet, _DETAIL / radius
+    sheet = source.sheet
+    scale = _DETAIL / radius
     circle = shapely.Point(centre).buffer(radius, quad_segs=24)
     view = View(sheet, scale, at, (float(centre[0]), float(centre[1])))
     view.hatch(shape.intersection(circle))
@@ -277,7 +300,9 @@ def _features(sheet: Sheet, shoe: Shoe, build: ShoeBuild) -> None:
 
 
 def _inspection(sheet: Sheet, shoe: Shoe, build: ShoeBuild) -> None:
-    p, made, plan = build.parameters, build.parameters.made_by, shoe.plan
+    p = build.parameters
+    made = build.parameters.made_by
+    plan = shoe.plan
     flat = 2.0 * made.scatter
     rows = [
         ("flatness of A", "0", f"{flat:g}", "surface plate"),

@@ -55,7 +55,9 @@ class ShoeReport:
 
     def as_dict(self) -> dict[str, Any]:
         """Plain JSON values; a pair's top level holds the worse figure, `sides` each shoe's own."""
-        build, fit, first = self.build, self.build.fit, self.build.shoes[0]
+        build = self.build
+        fit = self.build.fit
+        first = self.build.shoes[0]
         out: dict[str, Any] = {
             "name": first.layout.name,
             "kind": build.kind,
@@ -118,7 +120,8 @@ def _plain(value: Any) -> Any:
 
 
 def _layout_text(shoe: Shoe, build: ShoeBuild, weights: Weights | None) -> str:
-    plan, ids = shoe.plan, shoe.layout.ids.tolist()
+    plan = shoe.plan
+    ids = shoe.layout.ids.tolist()
     extra: dict[str, Any] = {
         "thickness": round(to_m(build.parameters.thickness), 6),
         "overhang": round(to_m(plan.overhang), 6),
@@ -164,7 +167,8 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
     bills: dict[str, list[Part]] = {}
     files: list[str] = []
     for i, shoe in enumerate(build.shoes):
-        side, count = shoe.side, len(build.shoes)
+        side = shoe.side
+        count = len(build.shoes)
         if shoe.surface is not None:
             report_progress(i / count, f"writing the {side} shoe")
             surface, step, names = _write_solids(shoe, build, target)
@@ -194,7 +198,8 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
 
 def _write_solids(shoe: Shoe, build: ShoeBuild, target: Path) -> tuple[NDArray[np.float64], StepSolid, list[str]]:
     assert shoe.surface is not None
-    side, p = shoe.side, build.parameters
+    side = shoe.side
+    p = build.parameters
     names = [f"{build.kind}_{side}.stl", f"{build.kind}_{side}.step", f"{build.kind}_{side}.3mf"]
     names.append(f"assembly_{side}.step")
     title = f"{shoe.layout.name} {build.kind} {side}"
@@ -215,7 +220,8 @@ def _write_solids(shoe: Shoe, build: ShoeBuild, target: Path) -> tuple[NDArray[n
 
 def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
     assert shoe.surface is not None
-    side, p = shoe.side, build.parameters
+    side = shoe.side
+    p = build.parameters
     names = [f"cells_{side}.dxf", f"assembly_{side}.3mf", f"board_{side}.kicad_pcb", f"board_{side}.net"]
     bodies = [
         NamedBody(f"{build.kind} {side}", p.material, "#4C72B0", shoe.surface),
@@ -234,7 +240,8 @@ def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
 
 
 def _draw(shoe: Shoe, build: ShoeBuild, surface: NDArray[np.float64], target: Path) -> list[str]:
-    side, p = shoe.side, build.parameters
+    side = shoe.side
+    p = build.parameters
     formats = ("png", "svg", "pdf", "dxf")
     drawn = draw_shoe(shoe, build, surface, [target / f"drawing_{side}.{ending}" for ending in formats])
     pad = pad_surface(shoe.plan, p) if p.pad_thickness > 0.0 else None

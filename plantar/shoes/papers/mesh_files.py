@@ -42,7 +42,8 @@ def write_3mf(triangles: NDArray[np.float64], name: str, path: str | os.PathLike
 
 def write_assembly(bodies: Sequence[NamedBody], name: str, path: str | os.PathLike[str]) -> Path:
     """Write bodies with names and materials as one 3MF assembly; name is the assembly's; returns the path."""
-    title, first = _plain(name), 2
+    title = _plain(name)
+    first = 2
     kinds = dict.fromkeys((b.material, b.colour) for b in bodies)
     bases = "".join(f'<base name="{_plain(m)}" displaycolor="{c}"/>' for m, c in kinds)
     place = {kind: i for i, kind in enumerate(kinds)}

@@ -41,14 +41,16 @@ def render(
     Returns:
         Picture (height, width, 3), 0..1, on white.
     """
-    a, e = math.radians(azimuth), math.radians(elevation)
+    a = math.radians(azimuth)
+    e = math.radians(elevation)
     towards = np.array([math.cos(e) * math.cos(a), math.cos(e) * math.sin(a), math.sin(e)])
     right = np.array([-math.sin(a), math.cos(a), 0.0])
     frame = np.stack([right, np.cross(towards, right), towards])
     triangles = np.concatenate([b[0] for b in bodies])
     colours = np.repeat(np.array([b[1] for b in bodies]), [len(b[0]) for b in bodies], axis=0)
     seen = triangles @ frame.T
-    low, high = seen.reshape(-1, 3).min(axis=0), seen.reshape(-1, 3).max(axis=0)
+    low = seen.reshape(-1, 3).min(axis=0)
+    high = seen.reshape(-1, 3).max(axis=0)
     scale = (1.0 - 2.0 * margin) * width / (high[0] - low[0])
     height = max(1, math.ceil((high[1] - low[1]) * scale + 2.0 * margin * width))
     pixel = np.empty_like(seen)
@@ -58,7 +60,9 @@ def render(
     normal = np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])
     length = np.linalg.norm(normal, axis=1)
     front = (normal[:, 2] > 1e-9 * length) & (length > 1e-9)
-    pixel, normal, colours = pixel[front], normal[front] / length[front, None], colours[front]
+    pixel = pixel[front]
+    normal = normal[front] / length[front, None]
+    colours = colours[front]
     depth, which = _nearest(pixel, height, width)
     shade = 0.42 + 0.58 * np.clip(normal @ np.array([-0.35, 0.5, 0.79]), 0.0, 1.0)  # lit from there
     picture = np.vstack([shade[:, None] * colours, np.ones(3)]).astype(np.float32)[which]
@@ -74,25 +78,35 @@ def _nearest(pixel: Array, height: int, width: int) -> tuple[Array, NDArray[np.i
     first = np.clip(np.ceil(y.min(axis=1) - 0.5), 0, height).astype(np.int64)
     last = np.clip(np.floor(y.max(axis=1) - 0.5), -1, height - 1).astype(np.int64)
     triangle, row = _spread(first, np.maximum(last - first + 1, 0))
-    corners, middle = pixel[triangle], row + 0.5
+    corners = pixel[triangle]
+    middle = row + 0.5
     ends = []
     for i in range(3):
-        (ax, ay), (bx, by) = corners[:, i - 1, :2].T, corners[:, i, :2].T
+        ax, ay = corners[:, i - 1, :2].T
+        bx, by = corners[:, i, :2].T
         with np.errstate(all="ignore"):
             share = (middle - ay) / (by - ay)
             ends.append(np.where((share >= 0.0) & (share <= 1.0), ax + share * (bx - ax), np.nan))
-    left, right = np.fmin.reduce(ends), np.fmax.reduce(ends)
+    left = np.fmin.reduce(ends)
+    right = np.fmax.reduce(ends)
     known = np.isfinite(left)
-    triangle, row, left, right = triangle[known], row[known], left[known], right[known]
+    triangle = triangle[known]
+    row = row[known]
+    left = left[known]
+    right = right[known]
     start = np.clip(np.ceil(left - 0.5), 0, width).astype(np.int64)
     end = np.clip(np.floor(right - 0.5), -1, width - 1).astype(np.int64)
     span, column = _spread(start, np.maximum(end - start + 1, 0))
-    a, u, v = pixel[:, 0], pixel[:, 1] - pixel[:, 0], pixel[:, 2] - pixel[:, 0]
+    a = pixel[:, 0]
+    u = pixel[:, 1] - pixel[:, 0]
+    v = pixel[:, 2] - pixel[:, 0]
     up = np.cross(u, v)
-    slope_x, slope_y = -up[:, 0] / up[:, 2], -up[:, 1] / up[:, 2]
+    slope_x = -up[:, 0] / up[:, 2]
+    slope_y = -up[:, 1] / up[:, 2]
     level = a[:, 2] - slope_x * a[:, 0] - slope_y * a[:, 1]
     begin = level[triangle] + slope_y[triangle] * (row + 0.5) + 0.5 * slope_x[triangle]
-    z, place = begin[span] + slope_x[triangle][span] * column, row[span] * width + column
+    z = begin[span] + slope_x[triangle][span] * column
+    place = row[span] * width + column
     np.maximum.at(depth, place, z)
     seen = z >= depth[place]
     which[place[seen]] = triangle[span[seen]]
@@ -108,11 +122,14 @@ def _spread(first: NDArray[np.int64], count: NDArray[np.int64]) -> tuple[NDArray
 def _edges(depth: Array, which: NDArray[np.int64], normal: Array, jump: float) -> NDArray[np.bool_]:
     out = np.zeros(depth.size, dtype=bool)
     number = np.arange(depth.size).reshape(depth.shape)
-    flat, face = np.where(which < 0, -1e6, depth).ravel(), which.ravel()
+    flat = np.where(which < 0, -1e6, depth).ravel()
+    face = which.ravel()
     for here, there in ((number[:-1], number[1:]), (number[:, :-1], number[:, 1:])):
         apart = face[here] != face[there]  # within a triangle nothing bends
-        a, b = here[apart], there[apart]
-        one, two = normal[face[a]], normal[face[b]]
+        a = here[apart]
+        b = there[apart]
+        one = normal[face[a]]
+        two = normal[face[b]]
         bend = (np.einsum("ij,ij->i", one, two) < 0.9) & (face[b] >= 0)
         facing = np.minimum(one[:, 2], two[:, 2])
         out[a[bend | (np.abs(flat[a] - flat[b]) > jump / np.maximum(facing, 0.2) * 3.0)]] = True
@@ -120,7 +137,8 @@ def _edges(depth: Array, which: NDArray[np.int64], normal: Array, jump: float) -
 
 
 def _halved(view: Picture) -> Picture:
-    height, width = view.shape[0] // 2, view.shape[1] // 2
+    height = view.shape[0] // 2
+    width = view.shape[1] // 2
     return np.asarray(view[: 2 * height].reshape(height, 2, width, 2, 3).mean(axis=(1, 3)))
 
 
@@ -135,7 +153,8 @@ def draw_picture(surface: Array, pad: Array | None, title: str, path: str | os.P
     """Draw a printed surface (n, 3, 3) in mm from above and, its pad or None apart, from below, with a title, to a
     path; returns the path.
     """
-    low, high = surface.reshape(-1, 3).min(axis=0), surface.reshape(-1, 3).max(axis=0)
+    low = surface.reshape(-1, 3).min(axis=0)
+    high = surface.reshape(-1, 3).max(axis=0)
     apart = np.array([0.0, 0.0, 0.28 * (high[1] - low[1]) + 12.0])
     above = [(surface, _PRINTED)]
     below = [(surface, _PRINTED)]

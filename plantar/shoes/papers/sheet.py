@@ -106,8 +106,10 @@ class Sheet:
 
     def table(self, at: Point, widths: Iterable[float], rows: Iterable[Iterable[str]], step: float = 4.0) -> None:
         """Table at its upper left corner: column widths, rows, first a head, row step, in mm."""
-        columns, lines = list(widths), [list(row) for row in rows]
-        edges, text = np.cumsum([at[0], *columns]), 0.55 * step
+        columns = list(widths)
+        lines = [list(row) for row in rows]
+        edges = np.cumsum([at[0], *columns])
+        text = 0.55 * step
         for i, row in enumerate(lines):
             low = at[1] - step * (i + 1)
             for x, cell in zip(edges.tolist(), row, strict=False):
@@ -144,7 +146,8 @@ class Sheet:
         out: list[str] = []
         for (x, y), text, height, turn, align in self.texts:
             plain = text.replace("⌀", "%%c").replace("±", "%%p").replace("°", "%%d").replace("²", "2")
-            code, place = {"left": "0", "center": "1", "right": "2"}[align], (f"{x:.3f}", f"{y:.3f}")
+            code = {"left": "0", "center": "1", "right": "2"}[align]
+            place = (f"{x:.3f}", f"{y:.3f}")
             out += ["0", "TEXT", "8", "TEXT", "10", place[0], "20", place[1], "30", "0.0", "40", f"{height:g}"]
             out += ["1", plain, "50", f"{turn:g}", "72", code, "11", place[0], "21", place[1], "31", "0.0"]
         return dxf_text(lines, out)
@@ -195,7 +198,8 @@ class View:
         if shape.is_empty:
             return
         low_x, low_y, high_x, high_y = shape.bounds
-        tall, step = high_y - low_y, math.sqrt(2.0) * _HATCH / self.scale
+        tall = high_y - low_y
+        step = math.sqrt(2.0) * _HATCH / self.scale
         starts = np.arange(low_x - tall, high_x, step)
         lines = shapely.linestrings([[(x, low_y), (x + tall, high_y)] for x in starts.tolist()])
         for line in shapely.get_parts(shapely.intersection(lines, shape)):

@@ -25,12 +25,15 @@ _HERE = (0.0, 0.0, 0.0)
 def assembly_parts(shoe: Shoe, build: ShoeBuild) -> list[StepPart]:
     """Gives parts of a build's shoe, printed first, taxels, pad, board, straps; in the sole frame."""
     assert shoe.solid is not None
-    plan, p, name = shoe.plan, build.parameters, f"{build.kind} {shoe.side}"
+    plan = shoe.plan
+    p = build.parameters
+    name = f"{build.kind} {shoe.side}"
     parts = [StepPart(f"{shoe.layout.name} {name}", shoe.solid, {name: _HERE}), *_taxels(plan, p)]
     if p.pad_thickness > 0.0:
         parts.append(StepPart("pad", _pad(plan, p), {"pad": _HERE}))
     if plan.heel.board:
-        gap, half = p.board_gap + p.made_by.slide, 0.5 * p.board_length
+        gap = p.board_gap + p.made_by.slide
+        half = 0.5 * p.board_length
         face = plan.heel.placed(shapely.box(-gap - p.board_thickness, -half, -gap, half))
         board = _solid(Block(face, p.thickness, p.thickness + BOARD_UP))
         parts.append(StepPart("connection board", board, {"connection board": _HERE}))
@@ -62,7 +65,8 @@ def _from_lowest(points: NDArray[np.float64], grid: float) -> NDArray[np.int64]:
 
 
 def _pad(plan: ShoePlan, p: ShoeParameters) -> Polyhedron:
-    low, high = 0.5 * p.pad_thickness, p.pad_thickness + p.pad_rim_height
+    low = 0.5 * p.pad_thickness
+    high = p.pad_thickness + p.pad_rim_height
     within = pad_rim(plan, p).buffer(-2.0 * _DETAIL, join_style="mitre").buffer(_DETAIL, join_style="mitre")
     rim = [Block(q, low, high) for q in shapely.get_parts(within.simplify(_DETAIL)) if not q.is_empty]
     lands = [Block(q, low, land_top(plan, p)) for q in plan.lands]
@@ -70,14 +74,18 @@ def _pad(plan: ShoePlan, p: ShoeParameters) -> Polyhedron:
 
 
 def _straps(shoe: Shoe, build: ShoeBuild) -> list[StepPart]:
-    retention, p = build.retention, build.parameters
+    retention = build.retention
+    p = build.parameters
     if retention is None or retention.kind != "straps":
         return []
-    out, foot = [], keep_out(build.foot)
+    out = []
+    foot = keep_out(build.foot)
     flip = 1.0 if shoe.side == "left" else -1.0
     for n, x in enumerate(dict.fromkeys(q.x for q in retention.places), start=1):
         right, left = slot_lines(build.foot.passing(p.rim_height), x, retention.width, p)
-        slot, lug = p.rim_height + 1.0, p.rim_thickness + 0.5 * p.strap_thickness  # it comes up between lug and foot
+        # it comes up between lug and foot
+        slot = p.rim_height + 1.0
+        lug = p.rim_thickness + 0.5 * p.strap_thickness
         over = strap_path(foot.surface, x, retention.width, (right + lug, left - lug), slot)
         path = np.vstack([[right, slot], over, [left, slot]]) + np.array([0.0, p.thickness + 0.5 * p.strap_thickness])
         line = shapely.LineString(path).simplify(0.5)

@@ -36,7 +36,8 @@ def wiring_text(shoes: tuple[Shoe, ...], parameters: ShoeParameters) -> str:
     rows: list[list[Any]] = []
     sheet = shoes[0].plan.lines is not None
     for shoe in shoes:
-        plan, ids = shoe.plan, shoe.layout.ids.tolist()
+        plan = shoe.plan
+        ids = shoe.layout.ids.tolist()
         centres = to_mm(shoe.layout.positions[:, :2])
         patch = {c: n for n, c in enumerate(plan.connectors)}
         hop = dict.fromkeys(plan.connectors, 0)
@@ -44,7 +45,9 @@ def wiring_text(shoes: tuple[Shoe, ...], parameters: ShoeParameters) -> str:
         wires = wire_lines(plan)
         wires |= dict(zip(plan.connectors, channel_lines(plan, parameters), strict=True))
         for i, j in plan.route:  # a tree, from the connectors outwards
-            patch[j], hop[j], before[j] = patch[i], hop[i] + 1, i
+            patch[j] = patch[i]
+            hop[j] = hop[i] + 1
+            before[j] = i
         for j in sorted(range(len(ids)), key=lambda k: (patch.get(k, 0), hop.get(k, 0), ids[k])):
             x, y = centres[j].round(3).tolist()
             port: list[Any] = ["", "", ""]
@@ -61,7 +64,8 @@ def cells_dxf(shoe: Shoe, build: ShoeBuild) -> str:
     """Gives outlines for flexible boards of a build's shoe as DXF (R12, mm): layers CELLS, POCKETS, BASES, WINDOWS (pad
     holes), OUTLINE, KEEPOUT (no board), and of a sheet ROWS and COLUMNS.
     """
-    p, plan = build.parameters, shoe.plan
+    p = build.parameters
+    plan = shoe.plan
     flip = 1.0 if shoe.side == "left" else -1.0
     keep_out = [*cable_outlines(plan, p), hole_outline(plan, p)]
     if build.retention is not None:
@@ -82,12 +86,14 @@ def cells_dxf(shoe: Shoe, build: ShoeBuild) -> str:
 
 
 def _electrodes(shoe: Shoe) -> dict[str, tuple[Any, ...]]:
-    plan, cell = shoe.plan, shoe.plan.cell
+    plan = shoe.plan
+    cell = shoe.plan.cell
     assert plan.lines is not None
     assert plan.crossings is not None
     assert cell is not None
     middles = plan.crossings
-    half, out = 0.5 * cell.line_width, {}
+    half = 0.5 * cell.line_width
+    out = {}
     for layer, axis in (("ROWS", 0), ("COLUMNS", 1)):
         on = [middles[plan.lines[:, axis] == k] for k in np.unique(plan.lines[:, axis])]
         ends = [(at.min(axis=0) - half, at.max(axis=0) + half) for at in on]
@@ -95,13 +101,16 @@ def _electrodes(shoe: Shoe) -> dict[str, tuple[Any, ...]]:
     return out
 
 
-_PAD, _LINE = 1.0, 0.1  # mm
+# mm
+_PAD = 1.0
+_LINE = 0.1
 _LAYERS = '(0 "F.Cu" signal) (31 "B.Cu" signal) (37 "F.SilkS" user) (44 "Edge.Cuts" user)'
 
 
 def board_nets(shoe: Shoe) -> dict[str, list[str]]:
     """Nets by name with taxel references; layout taxel k is T<k>."""
-    plan, ids = shoe.plan, shoe.layout.ids.tolist()
+    plan = shoe.plan
+    ids = shoe.layout.ids.tolist()
     if plan.lines is None:
         return {f"TAXEL_{k}": [f"T{k}"] for k in ids} | {"GND": [f"T{k}" for k in ids]}
     nets: dict[str, list[str]] = {}

@@ -93,5 +93,6 @@ def tapered(polygon: Any, start: float, end: float, z_low: float, z_high: float)
     """Gives block from z_low to z_high of a polygon moved outwards by start mm below and end mm above, or None where an
     edge would vanish.
     """
-    low, high = moved_edges(ring(polygon), start), moved_edges(ring(polygon), end)
+    low = moved_edges(ring(polygon), start)
+    high = moved_edges(ring(polygon), end)
     return None if low is None or high is None else Block(shapely.Polygon(low), z_low, z_high, shapely.Polygon(high))

@@ -35,7 +35,8 @@ def cell_parameters(cell: Cell | None, parameters: ShoeParameters) -> tuple[Shoe
         return p, ()
     if cell.kind != "tile":
         p = replace(p, scribe=0.0)
-    default, notes = ShoeParameters().pocket_depth, []
+    default = ShoeParameters().pocket_depth
+    notes = []
     least, _, _, _ = ShoeParameters.range_of("pocket_depth")
     flush = cell.kind == "sheet" and p.pocket_depth == default  # a sheet ends level with the print around it
     body = max(cell.thickness, cell.connector_height)
@@ -84,7 +85,8 @@ def led_parameters(
     Raises:
         FootError: If the tail is too wide.
     """
-    p, cell = parameters, plan.cell
+    p = parameters
+    cell = plan.cell
     if cell is None or not plan.connectors:
         return p, ()
     _, widest, _, _ = ShoeParameters.range_of("channel_width")
@@ -92,7 +94,8 @@ def led_parameters(
     if cell.kind == "sheet":
         width = tail_lines(plan) * cell.tail_pitch + 2.0 * _TAIL_PLAY
         if width > widest:
-            name, most = cell.label, widest - 2.0 * _TAIL_PLAY
+            name = cell.label
+            most = widest - 2.0 * _TAIL_PLAY
             raise FootError(
                 f"cell {name}: a tail of {tail_lines(plan)} lines is {width - 2.0 * _TAIL_PLAY:g} mm wide; allowed: "
                 f"{most:g} mm, by a smaller tail_pitch or a larger pitch"
@@ -118,7 +121,8 @@ def led_parameters(
 
 def lead_rooms(plan: ShoePlan, parameters: ShoeParameters) -> tuple[LeadRoom, ...]:
     """Gives fullest port, pocket and channel of a plan and parameters where cells have leads."""
-    p, cell = parameters, plan.cell
+    p = parameters
+    cell = plan.cell
     if cell is None or not cell.leads or not plan.connectors:
         return ()
     each = cell.leads * cell.lead_diameter**2

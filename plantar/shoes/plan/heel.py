@@ -39,7 +39,8 @@ class Heel:
 
     def point(self, x: float, y: float) -> NDArray[np.float64]:
         """Gives point x, y of this frame, (2,) in mm in the sole frame."""
-        c, s = math.cos(self.turn), math.sin(self.turn)
+        c = math.cos(self.turn)
+        s = math.sin(self.turn)
         return np.array([self.x + c * x - s * y, self.y + s * x + c * y])
 
     def mirrored(self) -> "Heel":

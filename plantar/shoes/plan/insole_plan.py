@@ -24,8 +24,12 @@ INSOLE_THICKNESS = (4.0, 15.0)  # least and greatest thickness of an insole in m
 EVEN_SHARE = 0.80  # least share of an even pressure that an insole's cells carry
 
 _SHARES = {"pad_thickness": 1 / 6, "taxel_protrusion": 1 / 6, "pocket_depth": 1 / 4}  # the rest is the floor
-_UP_TO, _ROUND = 15.0, 8.0  # mm of the foot's height, and half the width of a gap that is filled or a spur that is not
-_STATURE, _BODY_MASS_INDEX = 6.6, 24.0  # body height over foot length; kg/m^2
+# mm of the foot's height, and half the width of a gap that is filled or a spur that is not
+_UP_TO = 15.0
+_ROUND = 8.0
+# body height over foot length; kg/m^2
+_STATURE = 6.6
+_BODY_MASS_INDEX = 24.0
 
 
 def person_mass(length: float) -> float:

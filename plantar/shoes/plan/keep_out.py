@@ -18,9 +18,13 @@ from plantar.shoes.geometry.surface import convex_outline, surface_points
 _SPACING = 2.0  # mm between points on the foot
 _ROOM = 2.0  # mm between a link and what is printed or strapped
 _SHANK = 0.1  # of the foot's length: radius of a shank that is not known
-_BLOCK, _UPPER = 0.6, 0.1  # of length and height: what is shorter on top of a foot is what its shank stands on
+# of length and height: what is shorter on top of a foot is what its shank stands on
+_BLOCK = 0.6
+_UPPER = 0.1
 _THIN = 0.05  # height over length: up to it the upper end of a plate that is tilted a little is no shank
-_LEANS, _TALL = math.tan(math.radians(20.0)), 60.0  # of a shank that is not known
+# of a shank that is not known
+_LEANS = math.tan(math.radians(20.0))
+_TALL = 60.0
 
 Array = NDArray[np.float64]
 
@@ -42,7 +46,8 @@ class KeepOut:
 
     def meets(self, low: tuple[float, float, float], high: tuple[float, float, float]) -> int:
         """Gives number of points within 2 mm of a box with corners low and high (3,)."""
-        a, b = np.array(low) - _ROOM, np.array(high) + _ROOM
+        a = np.array(low) - _ROOM
+        b = np.array(high) + _ROOM
         return int(((self.links > a) & (self.links < b)).all(axis=1).sum())
 
     def strap_meets(self, x: float, width: float, lugs: tuple[float, float], slot: float, thickness: float) -> int:
@@ -75,7 +80,8 @@ def keep_out(foot: Foot) -> KeepOut:
     if foot.links is not None:
         return KeepOut(foot.links, surface, True)
     low, _, high, _ = foot.sole.bounds
-    length, top = high - low, min(foot.height, 60.0)
+    length = high - low
+    top = min(foot.height, 60.0)
     shank = shapely.Point(0.0, 0.0).buffer(_SHANK * length)
     if surface is not None and foot.height > _THIN * length:
         upper = surface[surface[:, 2] > (1.0 - _UPPER) * foot.height, :2]

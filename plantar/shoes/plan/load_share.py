@@ -35,7 +35,9 @@ _HARD = 1e3  # N/mm^3: print on the ground, without a pad
 _RESERVE = 1.25  # relief over the taxels' compression at the largest load
 _STEP = 0.1  # mm
 _HALF = 0.9  # share on half the sole that the relief is raised for
-_HARDNESS, _FACTOR = (30.0, 40.0, 50.0, 60.0, 70.0), (0.93, 0.85, 0.73, 0.57, 0.53)  # k by hardness
+# k by hardness
+_HARDNESS = (30.0, 40.0, 50.0, 60.0, 70.0)
+_FACTOR = (0.93, 0.85, 0.73, 0.57, 0.53)
 
 Array = NDArray[np.float64]
 
@@ -89,10 +91,12 @@ def taxel_stiffness(plan: ShoePlan, parameters: ShoeParameters, pressure: float)
     """Gives pressure over compression, in N/mm^3, of a plan's median taxel and pad in series (of films and sheets body,
     land and pad), by parameters and pressure in MPa.
     """
-    p, blocks = parameters, plan.lands or plan.cells
+    p = parameters
+    blocks = plan.lands or plan.cells
     area = float(np.median([c.area for c in blocks]))
     perimeter = float(np.median([c.length for c in blocks]))
-    height, hardness = p.taxel_protrusion + p.pocket_depth, p.taxel_hardness
+    height = p.taxel_protrusion + p.pocket_depth
+    hardness = p.taxel_hardness
     soft = 0.0
     if plan.cell is not None:
         height -= plan.cell.thickness
@@ -130,7 +134,8 @@ def check_load_share(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters)
     springs = _Springs.of(plan, parameters, load.force / sum(c.area for c in plan.cells))
     x, y = springs.points.T
     low_x, low_y, high_x, high_y = plan.contact.bounds
-    middle_x, middle_y = 0.5 * (low_x + high_x), 0.5 * (low_y + high_y)
+    middle_x = 0.5 * (low_x + high_x)
+    middle_y = 0.5 * (low_y + high_y)
     halves = {"heel": x < middle_x, "toes": x > middle_x, "left": y > middle_y, "right": y < middle_y}
     flat, sunk = springs.share(np.ones(len(x), dtype=bool), load.force)
     shares = {name: springs.share(held, load.force)[0] for name, held in halves.items()}
@@ -155,7 +160,8 @@ class _Springs:
         low_x, low_y, high_x, high_y = plan.contact.bounds
         x, y = np.meshgrid(np.arange(low_x + 0.5 * step, high_x, step), np.arange(low_y + 0.5 * step, high_y, step))
         points = np.column_stack([x.ravel(), y.ravel()])
-        rim, cells = pad_rim(plan, p), shapely.union_all(plan.cells)
+        rim = pad_rim(plan, p)
+        cells = shapely.union_all(plan.cells)
         inside, taxel, raised = (_within(shape, points) for shape in (plan.contact, cells, rim))
         gap = np.where(taxel, 0.0, np.where(raised, p.pad_relief, p.taxel_protrusion))
         beside = _HARD
@@ -184,7 +190,8 @@ def spring_forces(points: Array, stiffness: Array, gaps: Array, force: float) ->
     with line search.
     """
     u = np.column_stack([np.ones(len(points)), points / max(1.0, float(np.abs(points).max()))])
-    load, sunk = np.array([force, 0.0, 0.0]), np.zeros((len(gaps), 3))
+    load = np.array([force, 0.0, 0.0])
+    sunk = np.zeros((len(gaps), 3))
     sunk[:, 0] = np.median(gaps, axis=1) + force / stiffness.sum()
 
     def pressed(at: Array) -> Array:
@@ -200,7 +207,8 @@ def spring_forces(points: Array, stiffness: Array, gaps: Array, force: float) ->
             break
         bent = np.einsum("sn,ni,nj->sij", stiffness * (way > 0.0), u, u) + 1e-9 * stiffness.sum() * np.eye(3)
         step = np.linalg.solve(bent, slope[..., None])[..., 0]
-        rate, before = np.ones(len(gaps)), energy(sunk)
+        rate = np.ones(len(gaps))
+        before = energy(sunk)
         for _ in range(20):
             worse = energy(sunk - rate[:, None] * step) > before
             if not worse.any():

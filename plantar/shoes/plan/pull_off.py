@@ -20,7 +20,9 @@ from plantar.shoes.parameters import ShoeParameters
 _MU = 0.3  # plastic on plastic or metal
 _SWING = 5.0  # g
 _SCUFF = 0.1  # of the robot's weight on the toe
-_SHEAR, _OVERLAP = 0.07, 50.0  # MPa and mm of hooks and loops
+# MPa and mm of hooks and loops
+_SHEAR = 0.07
+_OVERLAP = 50.0
 _SCREW = 100.0  # N
 
 SNAP_MOST = 200.0  # force in N that a person pushes with his body at most, at work (EN 1005-3)

@@ -84,7 +84,8 @@ class ShoePlan:
         """
         if self.cell is None:
             edge = self.shared_edge(i, j)
-            middle, across = edge.mean(axis=0), edge[1] - edge[0]
+            middle = edge.mean(axis=0)
+            across = edge[1] - edge[0]
             length = float(np.hypot(*across))
             across = across / length
             along = np.array([across[1], -across[0]])
@@ -127,7 +128,8 @@ class ShoePlan:
         """
         x, y = to_mm(self.layout.positions[:, :2]).T
         low_x, low_y, high_x, high_y = self.contact.bounds
-        third, band = (high_x - low_x) / 3.0, max((high_y - low_y) / 3.0, float(self.cells[0].area) ** 0.5)
+        third = (high_x - low_x) / 3.0
+        band = max((high_y - low_y) / 3.0, float(self.cells[0].area) ** 0.5)
         counts = {
             "heel's third": int((x < low_x + third).sum()),
             "middle third": int(((x >= low_x + third) & (x <= high_x - third)).sum()),
@@ -178,9 +180,12 @@ def plan_face(
     neighbours = _passable(layout) if fit.links is None else _linked(fit.links, len(layout))
     connectors, route = _route(layout, neighbours, (heel.x, heel.y))
     if fit.lines is not None:  # one sheet, whose tail leaves where it is nearest to the heel
-        connectors, route = connectors[:1], ()
+        connectors = connectors[:1]
+        route = ()
     if parameters.port_width <= 0.0:
-        heel, connectors, route = replace(heel, board=False), (), ()
+        heel = replace(heel, board=False)
+        connectors = ()
+        route = ()
         note = "no ports, channel or board for a cable (port_width 0): the cells are to be wired by themselves"
     notes = () if note is None else (note,)
     kinds = (fit.cell, fit.lines, fit.crossings)
@@ -254,7 +259,8 @@ def _route(
         first = rest[int(np.argmin(distance[rest]))]
         connectors.append(first)
         left.discard(first)
-        queue, group = deque([first]), [first]
+        queue = deque([first])
+        group = [first]
         while queue:
             here = queue.popleft()
             for near in sorted(neighbours[here], key=lambda j: (round(float(distance[j]), 9), j)):
@@ -281,7 +287,8 @@ def _passable(layout: SoleLayout) -> tuple[tuple[int, ...], ...]:
 
 
 def _groups(neighbours: Sequence[Sequence[int]]) -> int:
-    left, count = set(range(len(neighbours))), 0
+    left = set(range(len(neighbours)))
+    count = 0
     while left:
         count += 1
         queue = [left.pop()]

@@ -77,24 +77,29 @@ def load_case(foot: Foot, parameters: ShoeParameters) -> LoadCase:
     p = parameters
     low, _, high, _ = foot.sole.bounds
     if p.robot_mass > 0.0:
-        mass, source = p.robot_mass, "as given"
+        mass = p.robot_mass
+        source = "as given"
     elif foot.mass is not None:
-        mass, source = foot.mass, "of the robot's file"
+        mass = foot.mass
+        source = "of the robot's file"
     else:
-        mass, source = estimated_mass(high - low), "estimated from the foot's length; parameter robot_mass gives it"
+        mass = estimated_mass(high - low)
+        source = "estimated from the foot's length; parameter robot_mass gives it"
     force = p.load_factor * mass * GRAVITY
     return LoadCase(mass, source, round(force, 1), force / (p.load_share * foot.sole.area))
 
 
 def check_strength(foot: Foot, contact: Any, parameters: ShoeParameters) -> tuple[LoadCase, tuple[Member, ...]]:
     """Gives load and stresses in plate and wall of a foot with a contact face, by parameters."""
-    p, material = parameters, parameters.printed
+    p = parameters
+    material = parameters.printed
     load = load_case(foot, p)
     allowed = material.strength / p.safety
     reach = float(max(foot.sole.distance(shapely.points(ring(contact)))))
     span = _unsupported_span(foot)
     push = p.friction * load.force / (foot.sole.bounds[3] - foot.sole.bounds[1])
-    pressure, lever = load.pressure, p.rim_height / 3.0
+    pressure = load.pressure
+    lever = p.rim_height / 3.0
 
     def member(name: str, model: str, length: float, moment: float, at: float, limit: float, bent: float) -> Member:
         needed = math.ceil(1e3 * math.sqrt(6.0 * moment / limit) - 1e-6) / 1e3  # never rounded below what it takes

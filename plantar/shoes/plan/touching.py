@@ -19,7 +19,9 @@ from plantar.shoes.units import to_mm
 
 # Least share of taxels that are active at half the weight; most that the footprint's area (share) and the center of
 # pressure (mm) may be off
-ACTIVE_LEAST, AREA_OFF, COP_OFF = 0.95, 0.10, 1.0
+ACTIVE_LEAST = 0.95
+AREA_OFF = 0.10
+COP_OFF = 1.0
 
 _SHOES = 200  # that are drawn
 _RESERVE = 0.01  # of the share of active taxels, for the draw
@@ -32,7 +34,9 @@ _FOAMS = (
     14.0,
     7.0,
 )  # kPa at 25 %: upper ends of ASTM D1056's grades 4 to 0, and between
-_THICKER, _THICKEST = 0.5, 8.0  # mm of pad
+# mm of pad
+_THICKER = 0.5
+_THICKEST = 8.0
 _STRAIN = 0.8  # of the foam at the load case
 
 Array = NDArray[np.float64]
@@ -66,7 +70,8 @@ class Touching:
 
 def check_touching(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> Touching:
     """Gives what touches in drawn shoes with scattered seats, by plan, load and parameters; deterministic."""
-    force, area = 0.5 * load.mass * GRAVITY, np.array([c.area for c in plan.cells])
+    force = 0.5 * load.mass * GRAVITY
+    area = np.array([c.area for c in plan.cells])
     points = np.array([c.centroid.coords[0] for c in plan.cells])
     bed = taxel_stiffness(plan, parameters, force / float(area.sum()))
     scatter = parameters.made_by.scatter
@@ -112,7 +117,9 @@ def softened(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tupl
 
 
 # Least share of the face's length and width that the centres reach over; most error over the face's width
-ALONG, ACROSS, ERROR = 0.55, 0.45, 0.40
+ALONG = 0.55
+ACROSS = 0.45
+ERROR = 0.40
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,8 @@ def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
     """Gives shapely pockets of a plan by parameters, joined where the cable passes."""
     cable = cable_outlines(plan, parameters)
     openings = shapely.union_all([*plan.pockets, *cable])
-    ways, wall = shapely.union_all(cable), parameters.wall_min
+    ways = shapely.union_all(cable)
+    wall = parameters.wall_min
     # A wedge is cut off square, so far as it is near; where that ends, a barb of some hundredths may be left.
     for near, thin in ((1.3 * wall, 1.1 * wall), (2.0 * wall, _BARB)):
         slivers = _slivers(openings, ways.buffer(near), thin)
@@ -59,10 +60,12 @@ def cable_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
     width = parameters.port_width
     for i, j in plan.route:
         ends, across, most = plan.port(i, j)
-        middle, along = ends.mean(axis=0), ends[1] - ends[0]
+        middle = ends.mean(axis=0)
+        along = ends[1] - ends[0]
         length = math.hypot(*along)
         along = along / length
-        reach, port = 0.5 * parameters.rib + 1.0, min(width, most)
+        reach = 0.5 * parameters.rib + 1.0
+        port = min(width, most)
         if plan.cell is not None:  # into the pockets, until a round one is as wide as the port
             radius = 0.5 * min(plan.cell.body)
             reach = 0.5 * length + 1.0 + radius - math.sqrt(max(0.0, radius**2 - 0.25 * port**2))
@@ -130,12 +133,14 @@ def _patch_of(plan: ShoePlan, connector: int) -> list[int]:
 
 def wiring_steps(plan: ShoePlan, parameters: ShoeParameters) -> tuple[list[Block], list[Step]]:
     """Gives blocks of the board's holder behind the heel, and steps that cut slot and hole, by plan and parameters."""
-    p, heel = parameters, plan.heel
+    p = parameters
+    heel = plan.heel
     if not heel.board:
         return [], []
     half = 0.5 * p.board_length
     play = p.made_by.slide
-    back, outer = -holder_depth(p), half + POST + play
+    back = -holder_depth(p)
+    outer = half + POST + play
     low_x, _, high_x, _ = plan.rim.bounds
     length = high_x - low_x
     inner = 0.2 * length  # well inside: what reaches into the foot's place is cut away
@@ -145,7 +150,8 @@ def wiring_steps(plan: ShoePlan, parameters: ShoeParameters) -> tuple[list[Block
         # Behind the plate as it is, up to where the plate is as wide; farther in only what meets the plate.
         full = _WITHIN
         for v in y:
-            start, end = heel.point(back, v), heel.point(0.5 * length, v)
+            start = heel.point(back, v)
+            end = heel.point(0.5 * length, v)
             full = max(full, back + _WITHIN + shapely.Point(start).distance(shapely.LineString([start, end]) & inside))
         behind, on = (heel.placed(shapely.box(back, y[0], x, y[1])) for x in (full, max(inner, full)))
         shape = on & (behind | inside)

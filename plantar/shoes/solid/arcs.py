@@ -14,7 +14,9 @@ from plantar.shoes.solid.polyhedron import Loops, Polyhedron
 _BULGE = 0.25  # how far an arc may lie off a facet's middle, in mm
 
 _OFF = 0.05  # mm: how far a corner may lie off its arc
-_TURN, _WHOLE = math.radians(20.0), math.radians(150.0)  # at a corner that may vanish, and of an arc
+# at a corner that may vanish, and of an arc
+_TURN = math.radians(20.0)
+_WHOLE = math.radians(150.0)
 _FEWEST = 2  # facets of an arc
 _LEVEL = 1e-6  # mm
 
@@ -82,7 +84,8 @@ def _pair(a: int, b: int) -> tuple[int, int]:
 
 
 def _face_of(body: Polyhedron, a: int, b: int, above: int) -> int:
-    one, other = body.neighbours[a, b], body.neighbours[b, a]
+    one = body.neighbours[a, b]
+    other = body.neighbours[b, a]
     return one if above in body.faces[one][0] and len(body.faces[one][0]) == 4 else other
 
 
@@ -111,7 +114,8 @@ def _chains(body: Polyhedron) -> Iterator[list[list[int]]]:
 
 def _column(body: Polyhedron, near: dict[int, list[int]], start: int) -> tuple[int, ...] | None:
     """Stacked corners about which outlines bend gently, from below; None if one must stay."""
-    corners, found = body.corners, [start]
+    corners = body.corners
+    found = [start]
     for v in found:
         level = [u for u in near[v] if abs(corners[u, 2] - corners[v, 2]) < _LEVEL]
         upright = [u for u in near[v] if u not in level]
@@ -119,7 +123,8 @@ def _column(body: Polyhedron, near: dict[int, list[int]], start: int) -> tuple[i
             return None
         if len(upright) == 2 and (corners[upright[0], 2] > corners[v, 2]) == (corners[upright[1], 2] > corners[v, 2]):
             return None
-        a, b = corners[v] - corners[level[0]], corners[level[1]] - corners[v]
+        a = corners[v] - corners[level[0]]
+        b = corners[level[1]] - corners[v]
         if a @ b < math.cos(_TURN) * np.linalg.norm(a) * np.linalg.norm(b):
             return None
         found += [u for u in upright if u not in found]
@@ -156,7 +161,8 @@ def _sides(
 def _arcs(corners: Array, chain: list[list[int]]) -> Iterator[tuple[int, int, list[Arc]]]:
     """Longest chain parts with corners on arcs at every level: first and last place, and arcs."""
     points = [corners[level] for level in chain]
-    start, count = 0, len(chain[0])
+    start = 0
+    count = len(chain[0])
     while start + _FEWEST < count:
         best: tuple[int, list[Arc]] | None = None
         for end in range(start + _FEWEST, count):
@@ -173,18 +179,22 @@ def _arcs(corners: Array, chain: list[list[int]]) -> Iterator[tuple[int, int, li
 
 def _arc(points: Array) -> Arc | None:
     """Best arc through the ends of corners (k, 3); None if those between are not near."""
-    a, b, flat = points[0, :2], points[-1, :2], points[1:-1, :2]
+    a = points[0, :2]
+    b = points[-1, :2]
+    flat = points[1:-1, :2]
     chord = b - a
     length = float(np.hypot(*chord))
     if length < 1e-6:
         return None
-    across, middle = np.array([-chord[1], chord[0]]) / length, 0.5 * (a + b)
+    across = np.array([-chord[1], chord[0]]) / length
+    middle = 0.5 * (a + b)
     out = (flat - middle) @ across
     square = ((flat - middle) ** 2).sum(axis=1) - 0.25 * length**2
     if abs(out).max() < 1e-3:
         return None
     off = float(out @ square / (2.0 * out @ out))
-    centre, radius = middle + off * across, math.hypot(off, 0.5 * length)
+    centre = middle + off * across
+    radius = math.hypot(off, 0.5 * length)
     if np.abs(np.hypot(*(flat - centre).T) - radius).max() > _OFF:
         return None
     chords = np.hypot(*np.diff(points[:, :2], axis=0).T)

@@ -108,7 +108,8 @@ def _fillet(plan: ShoePlan, p: ShoeParameters) -> list[Block]:
     """Three facets of a quarter circle; smaller where the wall bends tightly."""
     angles = np.radians([0.0, 30.0, 60.0, 90.0])
     for radius in min(p.fillet, 0.5 * p.rim_height) * np.array([1.0, 0.5, 0.25]):
-        out, up = radius * (1.0 - np.sin(angles)), p.thickness + radius * (1.0 - np.cos(angles))
+        out = radius * (1.0 - np.sin(angles))
+        up = p.thickness + radius * (1.0 - np.cos(angles))
         facets = [tapered(plan.rim, out[i], out[i + 1], up[i], up[i + 1]) for i in range(3)] if radius > 0.0 else []
         if all(f is not None for f in facets):
             return [f for f in facets if f is not None]
@@ -149,7 +150,8 @@ def mark_outline(plan: ShoePlan, parameters: ShoeParameters, side: Side, floor: 
         while height >= 4.0:
             letters = lettering(line, height)
             for middle in middles:
-                x, y = middle.x - letters.centroid.x, middle.y - letters.centroid.y
+                x = middle.x - letters.centroid.x
+                y = middle.y - letters.centroid.y
                 placed = shapely.affinity.translate(letters, round(x, 3), round(y, 3))
                 if room.covers(placed):
                     return placed

@@ -71,7 +71,8 @@ def _assembled(steps: Sequence[Step]) -> Any:
         if not bodies:
             continue
         if step.within is not None:
-            low, high = min(b.z_low for b in step.blocks), max(b.z_high for b in step.blocks)
+            low = min(b.z_low for b in step.blocks)
+            high = max(b.z_high for b in step.blocks)
             limit = _prism(Block(step.within, low - 1.0, high + 1.0))
             together = _combined(ocp.BRepAlgoAPI.BRepAlgoAPI_Fuse, bodies[:1], bodies[1:])
             bodies = [_combined(ocp.BRepAlgoAPI.BRepAlgoAPI_Common, [together], [limit])]
@@ -108,7 +109,9 @@ def _combined(operation: Any, arguments: Iterable[Any], tools: Sequence[Any]) ->
 
 def _body(block: Block | Groove) -> Any:
     if isinstance(block, Groove):
-        line, edge, low = ring(block.line), ring(block.edge), block.z_low - _BELOW
+        line = ring(block.line)
+        edge = ring(block.edge)
+        low = block.z_low - _BELOW
         levels = [_at(line, low), _at(line, block.z_high), _at(edge, block.z_low), _at(edge, low)]
         return _solid([_face(levels[0][::-1], levels[-1]), *(q for pair in pairwise(levels) for q in _sides(*pair))])
     if block.high is None:
@@ -175,7 +178,8 @@ def _polyhedron(shape: Any) -> Polyhedron:
         loops: list[tuple[int, ...]] = []
         outer = ocp.BRepTools.BRepTools.OuterWire_s(face)
         for wire in map(ocp.TopoDS.TopoDS.Wire_s, parts_of(face, ocp.TopAbs.TopAbs_WIRE)):
-            edges, loop = ocp.BRepTools.BRepTools_WireExplorer(wire, face), list[int]()
+            edges = ocp.BRepTools.BRepTools_WireExplorer(wire, face)
+            loop = list[int]()
             while edges.More():
                 loop.append(found.FindIndex(edges.CurrentVertex()) - 1)
                 edges.Next()

@@ -15,7 +15,9 @@ from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import Block
 from plantar.shoes.plan.shoe_plan import ShoePlan, pad_rim
 
-_MOULD_WALL, _MOULD_FLOOR = 6.0, 3.0  # mm around and below the cast pad
+# mm around and below the cast pad
+_MOULD_WALL = 6.0
+_MOULD_FLOOR = 3.0
 
 Array = NDArray[np.float64]
 
@@ -39,9 +41,12 @@ def mould_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
 
 
 def _faces(plan: ShoePlan, p: ShoeParameters, around: float = 0.0) -> tuple[list[Any], list[float]]:
-    rim, full = pad_rim(plan, p), p.pad_thickness + p.pad_rim_height
+    rim = pad_rim(plan, p)
+    full = p.pad_thickness + p.pad_rim_height
     # Borders cut each other where they meet, so that neighbouring faces share their corners.
-    whole, pad, raised = plan.contact.buffer(around, join_style="mitre"), plan.contact.buffer(GRID), rim.buffer(GRID)
+    whole = plan.contact.buffer(around, join_style="mitre")
+    pad = plan.contact.buffer(GRID)
+    raised = rim.buffer(GRID)
     lands = [land.buffer(GRID) for land in plan.lands]
     borders = [shape.boundary for shape in (plan.contact, rim, whole, *plan.lands)]
     lines = shapely.union_all(borders, grid_size=GRID)
@@ -97,7 +102,8 @@ def _film(cell: Cell, pocket: Any, land: Any, p: ShoeParameters) -> list[Block]:
     """Body with its tail, less play, at the ceiling; below the tail's end, away from the land, its connector."""
     blocks = [Block(pocket.buffer(-cell.play, join_style="mitre"), p.ceiling - cell.thickness, p.ceiling)]
     if cell.connector_height > cell.thickness:
-        end, half = 0.5 * cell.body[0] + cell.tail_length, 0.5 * cell.tail_width
+        end = 0.5 * cell.body[0] + cell.tail_length
+        half = 0.5 * cell.tail_width
         x, y = np.subtract(pocket.centroid.coords[0], land.centroid.coords[0])
         box = shapely.box(end - cell.connector_length, -half, end, half)
         turned = shapely.affinity.rotate(box, math.atan2(y, x), origin=(0.0, 0.0), use_radians=True)

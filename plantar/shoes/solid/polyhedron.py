@@ -82,7 +82,8 @@ def triangles_of(corners: Array, face: Loops) -> NDArray[np.int64]:
     }
     parts = shapely.constrained_delaunay_triangles(shapely.Polygon(flat[0], flat[1:]))
     points = shapely.get_coordinates(parts).reshape(-1, 4, 2)[:, :3]
-    u, v = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
+    u = points[:, 1] - points[:, 0]
+    v = points[:, 2] - points[:, 0]
     turned = (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] > 0.0) != up
     points[turned] = points[turned, ::-1]
     return np.array([[number[q] for q in map(tuple, t)] for t in points.tolist()])

@@ -107,7 +107,9 @@ def choose_retention(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> 
 
 
 def _screws(foot: Foot, plan: ShoePlan, p: ShoeParameters, note: str) -> Retention:
-    places, wide, middle = _screw_places(plan, p), p.screw_diameter, plan.foot.centroid.y
+    places = _screw_places(plan, p)
+    wide = p.screw_diameter
+    middle = plan.foot.centroid.y
     if foot.triangles is not None:
         x, y, above = (surface_points(foot.triangles, _SAMPLES) - np.array([0.0, 0.0, 0.5 * p.rim_height])).T
         level = (above >= 0.25 * wide) & (above <= wide)
@@ -134,13 +136,15 @@ def _screw_places(plan: ShoePlan, p: ShoeParameters) -> tuple[_Place, ...]:
 def _strap_places(foot: Foot, plan: ShoePlan, width: float, p: ShoeParameters) -> tuple[_Place, ...]:
     """Lugs at usual places, or as far apart as other links allow."""
     low, _, high, _ = plan.foot.bounds
-    length, middle = high - low, 0.5 * (low + high)
+    length = high - low
+    middle = 0.5 * (low + high)
     two = length >= 6.0 * p.strap_width + 4.0 * _LUG_END
     usual = [round(middle + share * length, 3) for share in ((-0.2, 0.24) if two else (0.0,))]
     others = keep_out(foot)
     free = [x for x in usual if strap_meets(others, plan.foot, x, width, p) == 0]
     if len(free) < len(usual):
-        half, y = 0.5 * width + _LUG_END, plan.foot.centroid.y
+        half = 0.5 * width + _LUG_END
+        y = plan.foot.centroid.y
         tries = [round(x, 3) for x in np.arange(low + half, high - half, 2.0).tolist()]
         tries = [x for x in tries if max(_wall_line(plan.foot, x, s, half, y)[1] for s in (1, -1)) < _ROUND]
 
@@ -159,9 +163,12 @@ def strap_meets(others: KeepOut, outline: Any, x: float, width: float, parameter
     """Gives number of points of others (robot links) in the way of a strap at x of a width in mm and its lugs, by foot
     outline and parameters.
     """
-    p, y = parameters, outline.centroid.y
-    half, top = 0.5 * (width + _SLOT_PLAY) + _LUG_END, p.rim_height + p.strap_thickness + _SLOT_PLAY + _BAR + 1.0
-    count, ends = 0, slot_lines(outline, x, width, p)
+    p = parameters
+    y = outline.centroid.y
+    half = 0.5 * (width + _SLOT_PLAY) + _LUG_END
+    top = p.rim_height + p.strap_thickness + _SLOT_PLAY + _BAR + 1.0
+    count = 0
+    ends = slot_lines(outline, x, width, p)
     for side, out in zip((-1, 1), ends, strict=True):
         edge = _wall_line(outline, x, side, half, y)[0]
         count += others.meets((x - half, min(edge, out), 0.0), (x + half, max(edge, out), top))
@@ -170,7 +177,8 @@ def strap_meets(others: KeepOut, outline: Any, x: float, width: float, parameter
 
 def slot_lines(outline: Any, x: float, width: float, parameters: ShoeParameters) -> tuple[float, float]:
     """Gives outer y of right and left lug; outline, x, width, parameters as in `strap_meets`."""
-    p, half = parameters, 0.5 * (width + _SLOT_PLAY) + _LUG_END
+    p = parameters
+    half = 0.5 * (width + _SLOT_PLAY) + _LUG_END
     out = p.clearance + p.strap_thickness + p.rim_thickness
     right, left = (_wall_line(outline, x, side, half, outline.centroid.y)[0] for side in (-1, 1))
     return right - out, left + out
@@ -186,10 +194,13 @@ def _clips(foot: Foot, plan: ShoePlan, p: ShoeParameters) -> tuple[Retention | N
     if foot.triangles is None:
         return None, "the foot's upper side is not known"
     low, _, high, _ = plan.foot.bounds
-    length, middle = high - low, 0.5 * (low + high)
-    samples, others = surface_points(foot.triangles, _SAMPLES), keep_out(foot)
+    length = high - low
+    middle = 0.5 * (low + high)
+    samples = surface_points(foot.triangles, _SAMPLES)
+    others = keep_out(foot)
     outline = foot.passing(min(foot.height, p.clip_height_max))
-    places, strain = [], 0.0
+    places = []
+    strain = 0.0
     for share in (-0.27, 0.27):
         for side in (1, -1):
             x = middle + share * length
@@ -279,7 +290,8 @@ def _lugs(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -
     slot_low = p.rim_top + 1.0
     slot_high = slot_low + p.strap_thickness + _SLOT_PLAY
     bevel = min(p.fillet + 1.0, _LUG_END - 1.0)
-    blocks, cuts = [], []
+    blocks = []
+    cuts = []
     for place in retention.places:
         lug = outer.intersection(_window(place.x, place.side, half, middle))
         blocks.append(Block(tidy(lug), p.bottom, p.thickness + top))
@@ -305,7 +317,8 @@ def _arms(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -
     outline = foot.passing(min(foot.height, p.clip_height_max))
     middle = plan.foot.centroid.y
     half = 0.5 * retention.width
-    gaps, arms = [], []
+    gaps = []
+    arms = []
     for place in retention.places:
         side = place.side
         gaps.append(Block(_window(place.x, side, half + _ARM_GAP, middle), p.thickness, p.rim_top + 100.0))
@@ -325,7 +338,9 @@ def _arms(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -
         low = p.thickness + place.edge + _PLAY - p.clearance
         bite = 0.5 * p.clip_thickness * side
         tip = inner - side * reach
-        thin, thick, high = plate(inner, inner + bite), plate(tip, inner + bite), low + reach
+        thin = plate(inner, inner + bite)
+        thick = plate(tip, inner + bite)
+        high = low + reach
         arms += [Block(thin, low, high, thick), Block(thick, high, high + 1.0)]
         arms.append(Block(thick, high + 1.0, low + 2.0 * reach + 1.0, thin))
     return [Step("cut", "windows of the clips", tuple(gaps)), Step("add", "clips", tuple(arms))]
@@ -334,10 +349,13 @@ def _arms(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -
 def _bosses(plan: ShoePlan, retention: Retention, p: ShoeParameters) -> tuple[list[Block], list[Step]]:
     middle = plan.foot.centroid.y
     diameter = retention.width
-    half, depth = diameter + 3.0, 0.8 * diameter + 2.0
-    nut_width, nut_height = 1.8 * diameter + 0.4, 0.8 * diameter + 0.4
+    half = diameter + 3.0
+    depth = 0.8 * diameter + 2.0
+    nut_width = 1.8 * diameter + 0.4
+    nut_height = 0.8 * diameter + 0.4
     hole_z = p.thickness + 0.5 * p.rim_height
-    blocks, cuts = [], []
+    blocks = []
+    cuts = []
     for place in retention.places:
         line, _ = _wall_line(plan.rim, place.x, place.side, half, middle)
         start, end = sorted((line - place.side * (p.rim_thickness + 1.0), line + place.side * depth))

@@ -14,7 +14,9 @@ _SLIVER = 1e-3  # mm^2
 _TWIST = 0.01  # mm by which a face bends, from which it may fold
 _EVEN = 0.03  # mm by which faces bend, up to which the fewest triangles count
 _TINY = 0.05  # mm^2, twice the area of a triangle that may turn by up to 90 degrees
-_STEEP, _LEVEL = 0.7072, 0.999  # of a unit normal downwards: at 45 degrees, and of a ceiling
+# of a unit normal downwards: at 45 degrees, and of a ceiling
+_STEEP = 0.7072
+_LEVEL = 0.999
 
 Array = NDArray[np.float64]
 _Face = list[list[int]]
@@ -30,7 +32,8 @@ def without_short_edges(body: Polyhedron, least: float) -> Polyhedron:
     Returns:
         Solid; edges stay whose loss would make it touch itself, or a bent face fold or hang over.
     """
-    work, corners = _Contraction(body, least), body.corners
+    work = _Contraction(body, least)
+    corners = body.corners
     ends = np.array([e for e in body.neighbours if e[0] < e[1]])
     length = np.linalg.norm(corners[ends[:, 0]] - corners[ends[:, 1]], axis=1)
     stands = np.arange(len(corners))  # in place of those that are lost
@@ -46,7 +49,9 @@ class _Contraction:
     """Solid whose edges are contracted one after the other: its faces, and the faces at each corner."""
 
     def __init__(self, body: Polyhedron, least: float) -> None:
-        self._corners, self._normals, self._least = body.corners, body.normals, least
+        self._corners = body.corners
+        self._normals = body.normals
+        self._least = least
         self._faces: list[_Face] = [[list(loop) for loop in face] for face in body.faces]
         self._bent: set[int] = set()
         self._at: dict[int, set[int]] = {}
@@ -131,7 +136,8 @@ class _Contraction:
         own = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         double = np.linalg.norm(own, axis=1)
         own /= np.maximum(double, 1e-300)[:, None]
-        down, least = -own[:, 2], np.where(double < _TINY, 0.0, _STEEP)
+        down = -own[:, 2]
+        least = np.where(double < _TINY, 0.0, _STEEP)
         return bool(((down > _STEEP) & (down < _LEVEL) | (own @ self._normals[number] < least)).any())
 
     def _is_closed(self, changed: dict[int, _Face], corners: tuple[int, ...]) -> bool:

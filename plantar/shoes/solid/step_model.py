@@ -94,7 +94,8 @@ def write_step(parts: Sequence[StepPart], path: str | os.PathLike[str], name: st
     text = Path(path).read_text(encoding="utf-8")
     text = re.sub(r"FILE_NAME\('[^']*','[^']*'", f"FILE_NAME('{plain}','{release_date()}'", text, count=1)
     # Both count the exports of the process.
-    text, number = re.sub(r"(STEP translator \d+\.\d+) \d+", r"\1", text), count(1)
+    text = re.sub(r"(STEP translator \d+\.\d+) \d+", r"\1", text)
+    number = count(1)
     text = re.sub(r"(?<=NEXT_ASSEMBLY_USAGE_OCCURRENCE\(')\d+", lambda _: str(next(number)), text)
     Path(path).write_text(with_shared_entities(text), encoding="utf-8")
 
@@ -132,12 +133,14 @@ def _direction(way: Array) -> Any:
 
 
 def _solid(solid: CurvedSolid) -> Any:
-    corners, known = solid.body.corners, _Known()
+    corners = solid.body.corners
+    known = _Known()
     vertices = [ocp.BRepBuilderAPI.BRepBuilderAPI_MakeVertex(_point(p)).Vertex() for p in corners]
     edges = {
         (a, b): _edge(corners, vertices, a, b, solid.arcs.get((a, b)), known) for a, b in solid.body.neighbours if a < b
     }
-    builder, shell = ocp.BRep.BRep_Builder(), ocp.TopoDS.TopoDS_Shell()
+    builder = ocp.BRep.BRep_Builder()
+    shell = ocp.TopoDS.TopoDS_Shell()
     builder.MakeShell(shell)
     for number, (face, normal) in enumerate(zip(solid.body.faces, solid.body.normals, strict=True)):
         curved = number in solid.curved
@@ -166,7 +169,8 @@ def _curve(corners: Array, a: int, b: int, arc: Arc) -> Any:
 
 
 def _wire(loop: tuple[int, ...], edges: dict[tuple[int, int], Any]) -> Any:
-    builder, wire = ocp.BRep.BRep_Builder(), ocp.TopoDS.TopoDS_Wire()
+    builder = ocp.BRep.BRep_Builder()
+    wire = ocp.TopoDS.TopoDS_Wire()
     builder.MakeWire(wire)
     for a, b in zip(loop, (*loop[1:], loop[0]), strict=True):
         builder.Add(wire, edges[a, b] if a < b else ocp.TopoDS.TopoDS.Edge_s(edges[b, a].Reversed()))
@@ -186,13 +190,15 @@ def _flat_face(corners: Array, face: Loops, normal: Array, edges: dict[tuple[int
 
 
 def _curved_face(solid: CurvedSolid, face: Loops, normal: Array, edges: dict[tuple[int, int], Any]) -> Any:
-    loop, corners = face[0], solid.body.corners
+    loop = face[0]
+    corners = solid.body.corners
     around = tuple(zip(loop, (*loop[1:], loop[0]), strict=True))
     both = [(a, b) for a, b in around if (min(a, b), max(a, b)) in solid.arcs]
     (a, b), (d, c) = sorted(both, key=lambda e: float(corners[e[0], 2]))
     one, two = (solid.arcs[min(e), max(e)] for e in ((a, b), (c, d)))
     low = float(corners[a, 2])
-    rise, wider = float(corners[c, 2]) - low, two.radius - one.radius
+    rise = float(corners[c, 2]) - low
+    wider = two.radius - one.radius
     outwards = np.array([*(np.array(one.middle[:2]) - one.centre), 0.0])
     seam = ocp.gp.gp_Dir(*-outwards)  # opposite of the arc
     axes = ocp.gp.gp_Ax3(ocp.gp.gp_Pnt(*one.centre, low), ocp.gp.gp_Dir(0.0, 0.0, 1.0), seam)
@@ -204,7 +210,8 @@ def _curved_face(solid: CurvedSolid, face: Loops, normal: Array, edges: dict[tup
     else:
         surface = ocp.Geom.Geom_ConicalSurface(axes, math.atan2(wider, rise), one.radius)
     turned = normal @ outwards < 0.0
-    made, builder = ocp.TopoDS.TopoDS_Face(), ocp.BRep.BRep_Builder()
+    made = ocp.TopoDS.TopoDS_Face()
+    builder = ocp.BRep.BRep_Builder()
     builder.MakeFace(made, surface, _TOLERANCE)
     builder.Add(made, _wire(loop[::-1] if turned else loop, edges))
     for edge in map(ocp.TopoDS.TopoDS.Edge_s, parts_of(made, ocp.TopAbs.TopAbs_EDGE)):
@@ -217,7 +224,8 @@ def read_step(path: str | os.PathLike[str]) -> StepSolid:
     reader = ocp.STEPControl.STEPControl_Reader()
     reader.ReadFile(str(path))
     reader.TransferRoots()
-    shape, volume = reader.OneShape(), ocp.GProp.GProp_GProps()
+    shape = reader.OneShape()
+    volume = ocp.GProp.GProp_GProps()
     ocp.BRepGProp.BRepGProp.VolumeProperties_s(shape, volume)
     edges = map(ocp.TopoDS.TopoDS.Edge_s, parts_of(shape, ocp.TopAbs.TopAbs_EDGE))
     curves = [ocp.BRepAdaptor.BRepAdaptor_Curve(e) for e in edges]

@@ -19,7 +19,9 @@ def with_shared_entities(text: str) -> str:
     """
     begin = text.index("DATA;\n") + len("DATA;\n")
     end = text.index("\nENDSEC;", begin)
-    start, data, tail = text[:begin], text[begin:end], text[end + 1 :]
+    start = text[:begin]
+    data = text[begin:end]
+    tail = text[end + 1 :]
     lines = (re.sub(r"\n *", "", line).removeprefix("#") for line in data.removesuffix(";").split(";\n"))
     entities = [(number, _rounded(body)) for number, _, body in (line.partition(" = ") for line in lines)]
     stands = {number: number for number, _ in entities}

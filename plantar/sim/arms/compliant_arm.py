@@ -47,7 +47,9 @@ class CompliantArm:
         encoder_noise: float,
         seed: int,
     ) -> None:
-        self._settings, self._world, self._encoder_noise = settings, world, encoder_noise
+        self._settings = settings
+        self._world = world
+        self._encoder_noise = encoder_noise
         self._rng = np.random.default_rng([seed, 0xA3])
         model = world.model
         joints = [model.joint(name) for name in worn.joints]
@@ -81,7 +83,9 @@ class CompliantArm:
         Returns:
             Origin (3,) in m and rotation (3, 3) in the base frame of each skinned link, by name.
         """
-        data, rng, k = self._world.data, self._rng, len(self._places)
+        data = self._world.data
+        rng = self._rng
+        k = len(self._places)
         self.angles = data.qpos[self._places] + self._encoder_noise * rng.standard_normal(k)
         speeds = data.qvel[self._speeds] + self._settings.speed_noise * rng.standard_normal(k)
         self._robot.update(self.angles, speeds, float(data.time))

@@ -41,7 +41,8 @@ class WornArm:
         if robot.arms is None:
             raise SceneError(f"robot '{robot.name}' has no arm to move; allowed: robots with a table [arms], as h1")
         self.side = side
-        self._chest, self._torso = robot.arms.chest, robot.torso_body
+        self._chest = robot.arms.chest
+        self._torso = robot.torso_body
         self._machine = load_machine(robot.arms.machine)
         self._root = robot.arms.roots[side]
         whole = self._machine.spec().compile()
@@ -100,7 +101,8 @@ class WornArm:
         Raises:
             RobotError: If there is no such chest.
         """
-        chest, base = spec.body(self._chest), spec.body(self._torso)
+        chest = spec.body(self._chest)
+        base = spec.body(self._torso)
         while base.parent is not None and base.parent.name != "world":
             base = base.parent
         if chest is None:
@@ -167,11 +169,13 @@ def _shoulder(whole: Any, root: str, base: str) -> NDArray[np.float64]:
 
 def _place_on_base(chest: Any, base: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Place (3,) in m and rotation (3, 3) of a body welded to the base."""
-    place, turn = np.zeros(3), np.eye(3)
+    place = np.zeros(3)
+    turn = np.eye(3)
     body = chest
     while body is not None and body.name != base:
         own = rotation_of(body.quat)
-        place, turn = body.pos + own @ place, own @ turn
+        place = body.pos + own @ place
+        turn = own @ turn
         body = body.parent
     if body is None:
         raise RobotError(f"[arms] chest is '{chest.name}', which does not hang on '{base}'")

@@ -65,7 +65,8 @@ def replay_physics(run: WatchedSimulation) -> tuple[float, str]:
     model = run.world.model
     data = mujoco.MjData(model)
     mujoco.mj_copyData(data, model, run._began)
-    control, step = data.ctrl, mujoco.mj_step
+    control = data.ctrl
+    step = mujoco.mj_step
     start = time.process_time()
     for row in run.controls:
         control[:] = row
@@ -131,8 +132,10 @@ def compare_skipping(scene: str, robot: str, settings: Sequence[str] = (), round
     Of a `robot` with `settings` as `key=value`, in medians of `rounds`, 1 or more. A SceneError if scene or setting is
     unknown, an InputError without a timer signal (see `RoomTimes`).
     """
-    needed, everything = load_scene(scene, tuple(settings), robot), load_scene(scene, (*settings, _NONE), robot)
-    watched, full = WatchedSimulation(needed, _SEED), WatchedSimulation(everything, _SEED)
+    needed = load_scene(scene, tuple(settings), robot)
+    everything = load_scene(scene, (*settings, _NONE), robot)
+    watched = WatchedSimulation(needed, _SEED)
+    full = WatchedSimulation(everything, _SEED)
     summary = watched.run()
     full.run()
     motions = {watched.motion, full.motion}

@@ -47,7 +47,8 @@ class SkinElectronics:
         self._rng = np.random.default_rng([seed, 7])
         count = len(skin)
         gains = 1.0 + np.clip(self._rng.normal(0.0, settings.gain_error, (2, count)), -0.9, 0.9)
-        self._half_force, self._half_distance = settings.half_force * gains[0], settings.half_distance * gains[1]
+        self._half_force = settings.half_force * gains[0]
+        self._half_distance = settings.half_distance * gains[1]
         self._dead = self._rng.permutation(count)[: round(settings.dead_taxels * count)]
         self._levels = float(2**settings.bits - 1)
         self._due = -np.inf
@@ -84,7 +85,8 @@ class SkinElectronics:
         distance: NDArray[np.float64],
         temperature: NDArray[np.float64] | None,
     ) -> SkinReading:
-        s, levels = self.settings, self._levels
+        s = self.settings
+        levels = self._levels
         noise = self._rng.standard_normal((2, len(self._skin))) * s.noise
         pressed = np.rint((force / (force + self._half_force) + noise[0]) * levels).clip(0.0, levels - 1.0)
         measured_force = s.half_force * pressed / (levels - pressed)

@@ -31,7 +31,8 @@ class Obstacle:
         self.geom = geom
         self.name = model.geom(geom).name or f"geom {geom}"
         self.body = int(model.geom_bodyid[geom])
-        kind, size = int(model.geom_type[geom]), model.geom_size[geom]
+        kind = int(model.geom_type[geom])
+        size = model.geom_size[geom]
         if kind not in _KINDS.values():
             raise SceneError(
                 f"obstacle '{self.name}' is of a kind that skin cannot measure; allowed: {', '.join(_KINDS)}"
@@ -76,7 +77,8 @@ class Obstacle:
             for i, (start, way) in enumerate(zip(starts, ways, strict=True)):
                 found[i] = mujoco.mj_rayMesh(self._model, data, self.geom, start, way)
             return found
-        positions, frames = data.geom_xpos[self.geom, None], data.geom_xmat[self.geom, None]
+        positions = data.geom_xpos[self.geom, None]
+        frames = data.geom_xmat[self.geom, None]
         if self._half:  # a capsule is a cylinder and two spheres
             axis = self._half * data.geom_xmat[self.geom, 2::3]
             positions = positions + np.array([np.zeros(3), axis, -axis])

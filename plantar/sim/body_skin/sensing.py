@@ -86,7 +86,8 @@ class SkinSensor:
         seed: int,
         obstacles: Sequence[int] | None = None,
     ) -> None:
-        self.skin, self.settings = skin, settings
+        self.skin = skin
+        self.settings = settings
         self._bodies = [_body(model, link) for link in skin.links]
         self._patches = [_ready(model, skin, i, self._bodies) for i in range(len(skin.patches))]
         geoms = np.flatnonzero(model.geom_group == OBSTACLE_GROUP).tolist() if obstacles is None else list(obstacles)
@@ -94,15 +95,18 @@ class SkinSensor:
         _separate(model, self._bodies, [o.geom for o in self._obstacles])
         self._broad = _BroadPhase(model, self._patches, geoms)
         self._touched = sorted({*self._bodies, *(o.body for o in self._obstacles)} - {0})
-        self.force, self.distance = np.zeros(len(skin)), np.full(len(skin), np.inf)
+        self.force = np.zeros(len(skin))
+        self.distance = np.full(len(skin), np.inf)
         self.wrenches = np.zeros((len(skin.links), 6))
         self.on_obstacles = {o.name: np.zeros(6) for o in self._obstacles}
         self.temperature: NDArray[np.float64] | None = None
-        self.cast = self.skipped = 0
+        self.cast = 0
+        self.skipped = 0
         self._time = -np.inf
         self._period = 0.0
         self._geoms = np.array(geoms, dtype=np.int64)
-        self._before = self._now = (np.zeros((len(geoms), 3)), np.zeros((len(geoms), 9)))
+        self._before = (np.zeros((len(geoms), 3)), np.zeros((len(geoms), 9)))
+        self._now = self._before
         self._dirty = True
         self._electronics = SkinElectronics(skin, settings, seed)
 
@@ -114,7 +118,8 @@ class SkinSensor:
         period = float(data.time) - self._time
         self._time = float(data.time)
         self._period = period if 0.0 < period < _LONGEST_STEP else 0.0
-        self._before, self._now = self._now, (data.geom_xpos[self._geoms], data.geom_xmat[self._geoms])
+        self._before = self._now
+        self._now = (data.geom_xpos[self._geoms], data.geom_xmat[self._geoms])
         if self._dirty:
             self._clear(data)
         near = self._broad.everything if self.settings.everything else self._broad.near(data)
@@ -135,7 +140,9 @@ class SkinSensor:
         return float(self.force[self.skin.slices[patch]].sum())
 
     def _clear(self, data: Any) -> None:
-        self.force[:], self.distance[:], self.wrenches[:] = 0.0, np.inf, 0.0
+        self.force[:] = 0.0
+        self.distance[:] = np.inf
+        self.wrenches[:] = 0.0
         for wrench in self.on_obstacles.values():
             wrench[:] = 0.0
         data.xfrc_applied[self._touched] = 0.0
@@ -166,8 +173,10 @@ class SkinSensor:
         points, normals, depths = contact
         obstacle = self._obstacles[index]
         now, before = (tuple(part[index] for part in where) for where in (self._now, self._before))
-        s, body = self.settings, patch.body
-        spin, drift = data.cvel[body, :3], data.cvel[body, 3:]
+        s = self.settings
+        body = patch.body
+        spin = data.cvel[body, :3]
+        drift = data.cvel[body, 3:]
         middle = data.subtree_com[patch.root]
         sliding = obstacle.velocity(points, now, before, self._period) - drift - np.cross(spin, points - middle)
         rates = np.einsum("ij,ij->i", sliding, normals)
@@ -200,10 +209,12 @@ class _BroadPhase:
         self._middles = np.ascontiguousarray(middles[:, :, None])
         self._squares = np.square(spans)
         boxes = model.geom_aabb[self._geoms].reshape(-1, 6)
-        self._centres, self._halves = boxes[:, None, :3].copy(), boxes[:, None, 3:].copy()
+        self._centres = boxes[:, None, :3].copy()
+        self._halves = boxes[:, None, 3:].copy()
         lows = [p.starts.min(0) - p.reach for p in patches]
         highs = [p.starts.max(0) + p.reach for p in patches]
-        self._lows, self._highs = np.array(lows), np.array(highs)
+        self._lows = np.array(lows)
+        self._highs = np.array(highs)
         bounds = model.geom_rbound[self._geoms].copy()
         bounds[bounds == 0.0] = np.inf  # a plane has none
         self._bounds = np.square(bounds)
@@ -259,7 +270,8 @@ def _separate(model: Any, skinned: list[int], obstacles: list[int]) -> None:
     solid = [g for g in obstacles if touchable[g]]
     others = touchable & ~np.isin(model.geom_bodyid, skinned)
     model.geom_conaffinity[others] |= _CONTACT_BIT
-    model.geom_contype[solid] = model.geom_conaffinity[solid] = _CONTACT_BIT
+    model.geom_contype[solid] = _CONTACT_BIT
+    model.geom_conaffinity[solid] = _CONTACT_BIT
     for g in range(model.ngeom):
         body = model.geom_bodyid[g]
         model.body_contype[body] |= model.geom_contype[g]

@@ -133,10 +133,12 @@ def _meet(
     model: Any, data: Any, body: int, starts: NDArray[np.float64], ways: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     # Lengths (n,) of rays in a body's frame, -1 for misses, and surface normals (n, 3).
-    place, turn = data.xpos[body], data.xmat[body].reshape(3, 3)
+    place = data.xpos[body]
+    turn = data.xmat[body].reshape(3, 3)
     begin = model.body_geomadr[body]
     geoms = [g for g in range(begin, begin + model.body_geomnum[body]) if model.geom_group[g] != OBSTACLE_GROUP]
-    lengths, normals = np.full(len(starts), -1.0), np.zeros((len(starts), 3))
+    lengths = np.full(len(starts), -1.0)
+    normals = np.zeros((len(starts), 3))
     normal = np.zeros(3)
     for i, (start, way) in enumerate(zip(starts @ turn.T + place, ways @ turn.T, strict=True)):
         for g in geoms:
@@ -146,7 +148,8 @@ def _meet(
                 solid = (data.geom_xpos[g], data.geom_xmat[g], model.geom_size[g])
                 length = mujoco.mju_rayGeom(*solid, start, way, int(model.geom_type[g]), normal)
             if length >= 0.0 and (lengths[i] < 0.0 or length < lengths[i]):
-                lengths[i], normals[i] = length, normal @ turn
+                lengths[i] = length
+                normals[i] = normal @ turn
     return lengths, normals
 
 

@@ -37,14 +37,16 @@ def upper_body_skin(model: Any, base: int, *, leg: float, weight: float) -> Body
             f"the upper body on '{model.body(base).name}' measures {size} m, which carries no skin; "
             f"allowed: shapes of {_SMALLEST * leg:.3f} m and more in each direction"
         )
-    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    middle = 0.5 * (low + high)
+    half = 0.5 * (high - low)
     lattice = HexLattice(_CELL * leg * leg)
     patches = []
     for name, (forward, left) in FACES.items():
         inward = -np.array([forward, left, 0.0])
         across = np.array([-left, forward, 0.0])
         up = np.array([0.0, 0.0, 1.0])
-        wide, tall = float(np.abs(across) @ half), float(half[2])
+        wide = float(np.abs(across) @ half)
+        tall = float(half[2])
         cells = lattice.centres(lattice.cells_near(np.array([-wide, -tall]), np.array([wide, tall])))
         cells = cells[(np.abs(cells[:, 0]) <= wide) & (np.abs(cells[:, 1]) <= tall)]
         positions = middle - inward * (np.abs(inward) @ half) + cells[:, :1] * across + cells[:, 1:] * up
@@ -67,7 +69,8 @@ def _extent(model: Any, base: int) -> tuple[NDArray[np.float64], NDArray[np.floa
     # Lowest and highest coordinates (3,) in the base frame of welded shapes, or inertial boxes.
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
-    turn, origin = data.xmat[base].reshape(3, 3), data.xpos[base]
+    turn = data.xmat[base].reshape(3, 3)
+    origin = data.xpos[base]
     welded = model.body_weldid[model.geom_bodyid] == model.body_weldid[base]
     points = [_corners(model, data, g) for g in np.flatnonzero(welded).tolist()]
     if not points:
@@ -80,7 +83,8 @@ def _extent(model: Any, base: int) -> tuple[NDArray[np.float64], NDArray[np.floa
 
 
 def _corners(model: Any, data: Any, geom: int) -> NDArray[np.float64]:
-    rotation, place = data.geom_xmat[geom].reshape(3, 3), data.geom_xpos[geom]
+    rotation = data.geom_xmat[geom].reshape(3, 3)
+    place = data.geom_xpos[geom]
     if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH:
         local = mesh_surface(model, int(model.geom_dataid[geom]))[0]
     else:
@@ -91,6 +95,7 @@ def _corners(model: Any, data: Any, geom: int) -> NDArray[np.float64]:
 
 def _inertial_box(model: Any, data: Any, body: int) -> NDArray[np.float64]:
     # Corners (8, 3) in the world of the solid box with a link's mass and inertia.
-    inertia, mass = model.body_inertia[body], float(model.body_mass[body])
+    inertia = model.body_inertia[body]
+    mass = float(model.body_mass[body])
     half = np.sqrt(np.maximum(1.5 / mass * (inertia.sum() - 2.0 * inertia), 0.0))
     return np.asarray(_SIGNS * half @ data.ximat[body].reshape(3, 3).T + data.xipos[body])

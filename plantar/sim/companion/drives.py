@@ -14,13 +14,15 @@ class Encoders:
     """Measures positions and velocities with white noise, of a floating base too; its orientation is the IMU's."""
 
     def __init__(self, world: World, settings: CompanionControl, seed: int) -> None:
-        self._world, self._settings = world, settings
+        self._world = world
+        self._settings = settings
         self._floats = world.machine.base.kind == "floating"
         self._rng = np.random.default_rng([seed, 0xEC])
 
     def read(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Positions (nq,) and velocities (nv,), in the machine's model order."""
-        world, s = self._world, self._settings
+        world = self._world
+        s = self._settings
         qpos = world.data.qpos[world.positions]
         qvel = world.data.qvel[world.speeds]
         moved = self._rng.normal(0.0, s.encoder_noise, len(qvel))
@@ -44,7 +46,9 @@ class Drives:
 
     def __init__(self, world: World, servo: ServoTable, period: float) -> None:
         machine = world.machine
-        self._world, self._servo, self._period = world, servo, period
+        self._world = world
+        self._servo = servo
+        self._period = period
         self._efforts = machine.efforts
         limits = np.where(np.isfinite(machine.velocities), machine.velocities, _FASTEST)
         self._gain = servo.velocity_gain * np.where(np.isfinite(self._efforts), self._efforts, 0.0) / limits
@@ -57,7 +61,8 @@ class Drives:
 
     def _hold_speeds_implicitly(self) -> None:
         # Apply servo damping implicitly: explicit, it shakes a light wrist.
-        model, motors = self._world.model, self._world.motors
+        model = self._world.model
+        motors = self._world.motors
         model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
         model.actuator_biastype[motors] = mujoco.mjtBias.mjBIAS_AFFINE
         model.actuator_biasprm[motors, 2] = -self._gain

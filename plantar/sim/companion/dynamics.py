@@ -29,7 +29,8 @@ class MujocoDynamics:
     def __init__(self, model: Any) -> None:
         self.model = model
         self.data = mujoco.MjData(model)
-        self.time, self.jacobians = 0.0, 0
+        self.time = 0.0
+        self.jacobians = 0
         simple = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE)
         moved = np.flatnonzero(np.isin(model.jnt_type, [int(kind) for kind in simple]))
         if model.nu:
@@ -55,7 +56,8 @@ class MujocoDynamics:
         mujoco.mj_kinematics(self.model, self.data)
 
     def _forget(self) -> None:
-        self._placed = self._moving = False
+        self._placed = False
+        self._moving = False
         self._mass: NDArray[np.float64] | None = None
         self._bias: NDArray[np.float64] | None = None
         self._made: dict[int, NDArray[np.float64]] = {}

@@ -79,7 +79,8 @@ def add_moved(
     """Add a moved body `name`, far away, to a `spec`: its geom of `kind`, `size`, `rgba` is measured by skin only."""
     body = spec.worldbody.add_body(name=name, mocap=True, pos=AWAY)
     shape = body.add_geom(name=name, type=kind, size=size, group=OBSTACLE_GROUP, rgba=rgba)
-    shape.contype = shape.conaffinity = 0
+    shape.contype = 0
+    shape.conaffinity = 0
 
 
 @dataclass(frozen=True)
@@ -126,9 +127,13 @@ class Experiment:
     view: ClassVar[tuple[str, View]] = ("", View())
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
-        self.machine, self.settings, self.control, self.seed = machine, settings, control, seed
+        self.machine = machine
+        self.settings = settings
+        self.control = control
+        self.seed = seed
         self.duration = 5.0
-        self.fell = self.done = False
+        self.fell = False
+        self.done = False
         self.rng = np.random.default_rng([seed, 0xE])
 
     def add_to(self, spec: Any) -> None:

@@ -37,7 +37,8 @@ class Lidar:
 
     def __init__(self, model: Any, base: str, settings: LidarSettings, seed: int) -> None:
         self.settings = settings
-        self._model, self._base = model, model.body(base).id
+        self._model = model
+        self._base = model.body(base).id
         self._rng = np.random.default_rng([seed, 0x11DA])
         angles = np.arange(settings.rays) * (2.0 * math.pi / settings.rays)
         self._ways = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(settings.rays)])
@@ -62,7 +63,8 @@ class Lidar:
         found = np.full(len(ways), np.inf)
         for geom in np.flatnonzero(~self._own).tolist():
             center = data.geom_xpos[geom] - origin
-            reach, kind = float(self._model.geom_rbound[geom]), int(self._model.geom_type[geom])
+            reach = float(self._model.geom_rbound[geom])
+            kind = int(self._model.geom_type[geom])
             if kind == mujoco.mjtGeom.mjGEOM_PLANE or np.hypot(*center[:2]) - reach > self.settings.reach:
                 continue
             along = ways @ center  # only rays that pass the geom's sphere

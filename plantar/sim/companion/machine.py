@@ -117,13 +117,15 @@ class Machine:
             delete_all(spec, getattr(spec, part))
         delete_all(spec, spec.worldbody.geoms)
         spec.option.gravity = [0.0, 0.0, -GRAVITY]
-        spec.option.density = spec.option.viscosity = 0.0
+        spec.option.density = 0.0
+        spec.option.viscosity = 0.0
         spec.option.timestep = 0.001
         for geom in spec.geoms:
             if geom.group == OBSTACLE_GROUP:
                 geom.group = _UNSEEN  # many models keep their collision shapes in the group of obstacles
             if geom.contype or geom.conaffinity:
-                geom.contype, geom.conaffinity = 1, 2
+                geom.contype = 1
+                geom.conaffinity = 2
         for name, joint in self.joints.items():
             motor = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
             motor.gainprm[0] = 1.0
@@ -158,7 +160,8 @@ def load_machine(name: str | os.PathLike[str]) -> Machine:
         >>> load_machine("planar-arm").base.kind
         'fixed'
     """
-    path, own = builtin_or_file(name, "machine", _builtin(), RobotError), Path(name).suffix == ".toml"
+    path = builtin_or_file(name, "machine", _builtin(), RobotError)
+    own = Path(name).suffix == ".toml"
     where = str(path) if own else f"machine '{name}'"
     source = read_toml(path, RobotError, f"machine file {path}")
     refuse_unknown_keys(source, _KEYS, where, RobotError)
@@ -237,7 +240,8 @@ _MOBILE = (mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJ
 
 
 def _joints(source: Mapping[str, Any], spec: Any, where: str) -> dict[str, JointTable]:
-    given, defaults = source.get("joints", {}), source.get("joint_defaults", {})
+    given = source.get("joints", {})
+    defaults = source.get("joint_defaults", {})
     JointTable.from_table(defaults, f"{where}: [joint_defaults]", RobotError)
     if not isinstance(given, Mapping):
         raise RobotError(f"{where}: [joints] is not a table of tables, one a joint")
@@ -267,7 +271,8 @@ def _patches(source: Mapping[str, Any], spec: Any, where: str) -> tuple[Mapping[
     if not isinstance(patches, list) or not all(isinstance(p, Mapping) for p in patches):
         raise RobotError(f"{where}: 'patch' is not a list of tables; allowed: [[patch]]")
     for table in patches:
-        name, link = table.get("name", "?"), table.get("link")
+        name = table.get("name", "?")
+        link = table.get("link")
         if link not in bodies:
             raise RobotError(f"{where}: patch '{name}': {_unknown('link', link, bodies)}")
     return tuple(patches)

@@ -36,7 +36,8 @@ class Companion(Run):
     """
 
     def __init__(self, scene: CompanionScene, seed: int) -> None:
-        self.scene, self.seed = scene, seed
+        self.scene = scene
+        self.seed = seed
         machine = load_machine(scene.robot)
         control = scene.control
         self.experiment = scene.experiment_type(machine, scene.experiment, control, seed)
@@ -74,7 +75,8 @@ class Companion(Run):
         return f"{self.world.data.time:.1f} of {self.experiment.duration:.1f} s"
 
     def open_log(self, path: Path, files: ExitStack) -> None:
-        world, skin = self.world, self.skin.skin
+        world = self.world
+        skin = self.skin.skin
         metadata = {"scene": self.scene.name, "robot": world.machine.name, "seed": self.seed}
         recorder = files.enter_context(Recorder(path, metadata))
         fields = [(f"link_{i}_{part}", 3) for i in range(len(skin.links)) for part in ("force", "moment")]

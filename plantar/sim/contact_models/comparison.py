@@ -150,7 +150,9 @@ def full_stance(sole: Sole, layout: SoleLayout, seeds: int) -> dict[str, Any]:
     """
     middle, half = bounding_rectangle(layout)
     targets = [middle + half * (x, y) for x in np.linspace(-INNER, INNER, 5) for y in np.linspace(-INNER, INNER, 5)]
-    errors, forces, moments = [], [], []
+    errors = []
+    forces = []
+    moments = []
     contacts = 0
     for seed in range(seeds):
         rng = np.random.default_rng(seed)
@@ -163,7 +165,8 @@ def full_stance(sole: Sole, layout: SoleLayout, seeds: int) -> dict[str, Any]:
                 rig = _standing(sole, layout, MASS * GRAVITY)
                 continue
             taxels = layout.wrench_map @ sole.read(rig.data)
-            cop, true = _cop(taxels), _cop(wrench)
+            cop = _cop(taxels)
+            true = _cop(wrench)
             errors.append(float(np.hypot(*(cop - true))) * 1e3)
             forces.append(abs(float(taxels[2] - wrench[2])))
             moments.append(float(np.hypot(*(taxels - wrench)[3:5])))
@@ -214,7 +217,8 @@ def _edge(sole: Sole, layout: SoleLayout, direction: NDArray[np.float64]) -> tup
     middle, half_sizes = bounding_rectangle(layout)
     half = float(half_sizes @ np.abs(direction))
     rig = _standing(sole, layout, _TIPPING_LOAD)
-    pivot = shown = -math.inf
+    pivot = -math.inf
+    shown = -math.inf
     reach = 0.9 * half
     while rig.tilt() < _TIPPED and reach < half + 0.03:
         reach += 0.04 * sole.model.opt.timestep
@@ -232,8 +236,10 @@ def _on_beams(candidate: Candidate, layout: SoleLayout) -> dict[str, Any]:
     import shapely
 
     middle, half = bounding_rectangle(layout)
-    contact_ratio, taxel_ratio = [], []
-    wrong = silent = 0
+    contact_ratio = []
+    taxel_ratio = []
+    wrong = 0
+    silent = 0
     shapes = [shapely.Polygon(layout.cell_polygon(i)) for i in range(len(layout))]
     for width in _BEAMS:
         for offset in _BEAM_OFFSETS:
@@ -245,7 +251,8 @@ def _on_beams(candidate: Candidate, layout: SoleLayout) -> dict[str, Any]:
             for _ in range(20):
                 rig.push(600.0, middle + np.array([offset, 0.0]))
                 rig.step(10)
-            low, high = middle[0] + offset - 0.5 * width, middle[0] + offset + 0.5 * width
+            low = middle[0] + offset - 0.5 * width
+            high = middle[0] + offset + 0.5 * width
             true = width * 2.0 * half[1]
             contacts = foot_contacts(rig.sole.model, rig.data, rig.sole.geoms)
             contact_ratio.append(area(support_polygon_of_contacts([contacts])) / true)

@@ -78,7 +78,8 @@ def _measure(name: str, contact: Contact, layout: SoleLayout) -> ParameterRow:
     rig.push(2.0 * weight, middle)
     rig.step(500)
     depth = -float(rig.data.contact.dist.min()) * 1e3
-    force, times = [], []
+    force = []
+    times = []
     for _ in range(300):
         start = time.perf_counter()
         rig.step()
@@ -106,7 +107,8 @@ def _creep(rig: Rig, middle: Any, tangential: tuple[float, float], twist: float)
     for _ in range(30):
         rig.push(MASS * GRAVITY, middle, tangential, twist)
         rig.step(10)
-    place, turn = data.qpos[:2].copy(), 2.0 * float(data.qpos[6])
+    place = data.qpos[:2].copy()
+    turn = 2.0 * float(data.qpos[6])
     for _ in range(50):
         rig.push(MASS * GRAVITY, middle, tangential, twist)
         rig.step(10)
@@ -132,7 +134,9 @@ def _land(contact: Contact, layout: SoleLayout) -> tuple[float, int]:
     data.qvel[0] = -0.15
     data.qpos[1] = 3.0 * GRAVITY / 2e5  # the servo carries the foot's weight
     sole = {model.geom("sole").id}
-    peak, rebounds, before = 0.0, 0, False
+    peak = 0.0
+    rebounds = 0
+    before = False
     for _ in range(300):
         mujoco.mj_step(model, data)
         force = float(contact_wrench_in_world(foot_contacts(model, data, sole), data.xpos[2])[2])

@@ -17,14 +17,16 @@ from plantar.sim.contact_models.parameters import ParameterRow, study_contact_pa
 from plantar.sim.contact_models.sole import MASS
 from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Contact
 
-COP_LIMIT_MM, EDGE_LIMIT_MM = 2.0, 1.0
+COP_LIMIT_MM = 2.0
+EDGE_LIMIT_MM = 1.0
 """What is required of the chosen model: largest error of the centre of pressure in full-sole stance, and largest
 distance of the tip-over edge from the sole's edge."""
 
 # The sole that is measured where none is given: 250 x 155 mm, in m
 _SOLE = ((-0.125, -0.0775), (0.125, -0.0775), (0.125, 0.0775), (-0.125, 0.0775))
 
-_LEAST, _MOST = 1e-2, 150.0
+_LEAST = 1e-2
+_MOST = 150.0
 """Errors in mm that are drawn: smaller and larger ones are drawn there."""
 
 
@@ -56,7 +58,8 @@ def contact_text(result: Mapping[str, Any]) -> str:
     """The comparison's main figures."""
     lines = [f"{'contact model':24}{'CoP max mm':>12}{'edge mm':>10}{'step us':>10}{'read us':>10}"]
     for row in result["models"]:
-        x, y = row["edge_x_mm"], row["edge_y_mm"]
+        x = row["edge_x_mm"]
+        y = row["edge_y_mm"]
         edge = "-" if None in (x, y) else f"{round(x if abs(x) >= abs(y) else y, 2) + 0.0:.2f}"
         cop = "-" if row["cop_max_mm"] is None else f"{row['cop_max_mm']:.2f}"
         lines.append(f"{row['name']:24}{cop:>12}{edge:>10}{row['step_us']:>10.1f}{row['read_us']:>10.1f}")
@@ -151,7 +154,8 @@ _PARAMETERS = {
 
 def _page(layout: SoleLayout, rows: Sequence[ContactRow], parameters: Sequence[ParameterRow]) -> str:
     length, width = 1e3 * (layout.outline.max(axis=0) - layout.outline.min(axis=0))
-    texts, best = {c.name: c.text for c in CANDIDATES}, Contact()
+    texts = {c.name: c.text for c in CANDIDATES}
+    best = Contact()
     ratios = [r.millisecond_us / rows[0].millisecond_us for r in rows]
     stance = [[*cells, ratio] for cells, ratio in zip(_cells(rows, _STANCE), ratios, strict=True)]
     return _HEAD.format(

@@ -69,7 +69,8 @@ def _reader(candidate: Candidate, model: Any, layout: SoleLayout, geoms: frozens
 
 
 def _tactile(candidate: Candidate, model: Any, layout: SoleLayout, geoms: frozenset[int]) -> Reader:
-    n, site = len(layout), model.site("left_sole").id
+    n = len(layout)
+    site = model.site("left_sole").id
 
     def read(data: Any) -> NDArray[np.float64]:
         depth = np.abs(data.sensordata[:n])
@@ -100,7 +101,8 @@ def _fitted(depth: NDArray[np.float64], layout: SoleLayout, wrench: NDArray[np.f
 
 
 def _by_contact(candidate: Candidate, model: Any, layout: SoleLayout, geoms: frozenset[int]) -> Reader:
-    n, site = len(layout), model.site("left_sole").id
+    n = len(layout)
+    site = model.site("left_sole").id
     owner = np.zeros(model.ngeom, dtype=np.int64)
     for i in geoms:
         owner[i] = int(model.geom(i).name.split("_")[0].removeprefix("taxel"))

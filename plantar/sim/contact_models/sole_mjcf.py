@@ -82,7 +82,8 @@ class SoleMjcf(NamedTuple):
 
 def bounding_rectangle(layout: SoleLayout) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Middle (2,) and half size (2,) in m of a `layout`'s outline."""
-    low, high = layout.outline.min(axis=0), layout.outline.max(axis=0)
+    low = layout.outline.min(axis=0)
+    high = layout.outline.max(axis=0)
     return 0.5 * (low + high), 0.5 * (high - low)
 
 
@@ -99,7 +100,8 @@ def sole_mjcf(candidate: Candidate, layout: SoleLayout, attributes: str) -> Sole
 
 
 def _box(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
-    ((cx, cy), (hx, hy)), h = bounding_rectangle(layout), 0.5 * SOLE_THICKNESS
+    (cx, cy), (hx, hy) = bounding_rectangle(layout)
+    h = 0.5 * SOLE_THICKNESS
     place = f'size="{hx} {hy} {h}" pos="{cx} {cy} {h}"'
     return SoleMjcf("", f'<geom name="left_sole_box" type="box" {place} {attributes}/>')
 
@@ -137,7 +139,9 @@ def _prisms(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMj
 
 
 def _square(layout: SoleLayout, i: int, attributes: str) -> str:
-    half, (x, y), depth = 0.5 * float(np.sqrt(layout.areas[i])), layout.positions[i, :2], 0.5 * _PRISM_DEPTH
+    half = 0.5 * float(np.sqrt(layout.areas[i]))
+    x, y = layout.positions[i, :2]
+    depth = 0.5 * _PRISM_DEPTH
     return f'<geom name="taxel{i}_0" type="box" size="{half} {half} {depth}" pos="{x} {y} {depth}" {attributes}/>'
 
 

@@ -19,5 +19,6 @@ class _Missing:
 try:
     from gymnasium import Env, ObservationWrapper, spaces
 except ImportError:
-    Env = ObservationWrapper = _Missing
+    Env = _Missing
+    ObservationWrapper = _Missing
     spaces = None

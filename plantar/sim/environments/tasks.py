@@ -109,15 +109,21 @@ class Step(Task):
     size = 4
 
     def reset(self, rng: np.random.Generator) -> None:
-        self._begin, self._swing, self.steps, self._lifted = 0.0, 0, 0, False
+        self._begin = 0.0
+        self._swing = 0
+        self.steps = 0
+        self._lifted = False
         self._target: NDArray[np.float64] | None = None
 
     def disturb(self, rng: np.random.Generator) -> None:
-        now, env = float(self.env.data.time), self.env
+        now = float(self.env.data.time)
+        env = self.env
         passed = now - self._begin >= 3.0 * self.beat
         if passed:
             self.steps += int(self._lifted and self._load() > 0.05 and self._off() < 0.1 * self.leg)
-            self._begin, self._swing, self._lifted = now, 1 - self._swing, False
+            self._begin = now
+            self._swing = 1 - self._swing
+            self._lifted = False
         if passed or self._target is None:
             other = env.data.site_xpos[env.world.sole_sites[SIDES[1 - self._swing]], :2]
             c, s = self._heading()
@@ -145,11 +151,13 @@ class Step(Task):
         return min((float(self.env.data.time) - self._begin) / (3.0 * self.beat), 1.0)
 
     def observe(self) -> NDArray[np.float64]:
-        (x, y), (c, s) = self._to_target() / self.leg, self._heading()
+        x, y = self._to_target() / self.leg
+        c, s = self._heading()
         return np.array([1.0 - 2.0 * self._swing, self._share(), c * x + s * y, c * y - s * x])
 
     def reward(self) -> float:
-        share, in_air = self._share(), self._load() < 0.05
+        share = self._share()
+        in_air = self._load() < 0.05
         self._lifted = self._lifted or in_air
         lifted = 0.2 * in_air if share < 0.8 else 0.2
         return lifted + 0.4 * self.upright + 0.4 * share * math.exp(-((self._off() / (0.1 * self.leg)) ** 2))
@@ -166,7 +174,8 @@ class Walk(Task):
     """
 
     size = 3
-    _LOW, _HIGH = np.array([-0.1, -0.1, -0.1]), np.array([0.3, 0.1, 0.1])
+    _LOW = np.array([-0.1, -0.1, -0.1])
+    _HIGH = np.array([0.3, 0.1, 0.1])
 
     def ground(self) -> Ground:
         side = 0.6 * self.leg
@@ -179,7 +188,8 @@ class Walk(Task):
         return Ground(tuple(solids), -0.04 * self.leg, Terrain.friction)
 
     def reset(self, rng: np.random.Generator) -> None:
-        model, world = self.env.model, self.env.world
+        model = self.env.model
+        world = self.env.world
         first = model.geom("ground_0").id
         rises = self.env.difficulty * self.leg / 40.0 * rng.uniform(-1.0, 1.0, len(self._level))
         model.geom_pos[first : first + len(rises), 2] = np.where(self._level, 0.0, rises) - 0.1

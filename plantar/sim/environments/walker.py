@@ -86,7 +86,8 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         self.period = self._substeps * step
         if not math.isclose(self.period, period, rel_tol=1e-6):
             raise InputError(f"period is {period} s; allowed: whole multiples of physics_period, {step} s")
-        self.scale, self.difficulty = number(scale, "scale", finite=True), number(difficulty, "difficulty", finite=True)
+        self.scale = number(scale, "scale", finite=True)
+        self.difficulty = number(difficulty, "difficulty", finite=True)
         if self.difficulty < 0.0:
             raise InputError(f"difficulty is {difficulty}; allowed: 0 or more")
         self.render_mode = render_mode
@@ -97,7 +98,8 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         self.body = body_of(self.robot, legs.model)
         self.task: Task = TASKS[task](self)
         self.world = build_world(self.robot, self.task.ground(), step)
-        self.model, self.data = self.world.model, self.world.data
+        self.model = self.world.model
+        self.data = self.world.data
         self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_MIDPHASE  # its boxes do not follow moved ground
         walk = Walk().for_body(self.body)
         height = com_height_of(walk, self.robot)
@@ -133,7 +135,8 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
     ) -> tuple[dict[str, NDArray[np.float32]], dict[str, Any]]:
         """Returns observation and info on ground drawn by `seed`, joints off by 0.01 rad; `options` are unused."""
         super().reset(seed=seed)
-        data, world = self.data, self.world
+        data = self.data
+        world = self.world
         mujoco.mj_resetData(self.model, data)
         self.task.reset(self.np_random)
         data.qpos[:], data.ctrl[:] = self._start
@@ -162,7 +165,8 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
             raise InputError(f"action has shape {moved.shape}; expected {self.last_action.shape} finite numbers")
         if not self.readings:
             raise InputError("the environment has no episode yet; call reset() before step()")
-        data, servos = self.data, self.world.servos
+        data = self.data
+        servos = self.world.servos
         data.ctrl[servos] = self._start[1][servos] + self.scale * moved
         self.task.disturb(self.np_random)
         mujoco.mj_step(self.model, data, self._substeps)
@@ -191,7 +195,8 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
     @property
     def velocity(self) -> NDArray[np.float64]:
         """The torso's velocity (forward, left) in m/s in its heading, and turn in rad/s."""
-        data, torso = self.data, self.world.torso
+        data = self.data
+        torso = self.world.torso
         root = self.model.body_rootid[torso]
         spin = data.xmat[root].reshape(3, 3) @ data.qvel[3:6]
         vx, vy, _ = data.qvel[:3] + np.cross(spin, data.xpos[torso] - data.xpos[root])
@@ -200,7 +205,8 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         return np.array([(c * vx + s * vy) / length, (c * vy - s * vx) / length, float(spin[2])])
 
     def _observe(self) -> dict[str, NDArray[np.float32]]:
-        data, world = self.data, self.world
+        data = self.data
+        world = self.world
         self.readings = {side: self.skins[side](data) for side in SIDES}
         sensed = data.sensordata
         measured = (self._imu_to_torso @ sensed[at : at + 3] for at in (world.gyro, world.accelerometer))

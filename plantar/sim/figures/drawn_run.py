@@ -37,12 +37,19 @@ from plantar.sim.model.world import World
 _FRAMES = 0.02  # s between two messages of where bodies are
 _SOLES = 0.04  # s between two readings of the soles and of the balance
 _CORNERS = 12  # of a support polygon that is drawn; it seldom has more
-_CELL, _THICK = 0.92, 2e-3  # of a taxel's cell, and m: how wide and how thick it is drawn
+# of a taxel's cell, and m: how wide and how thick it is drawn
+_CELL = 0.92
+_THICK = 2e-3
 _ARROW = 0.5  # leg: length of the arrow for the robot's weight
-_BEHIND, _AHEAD = 4, 12  # footsteps that are drawn before and after the current one
+# footsteps that are drawn before and after the current one
+_BEHIND = 4
+_AHEAD = 12
 _VIRIDIS = [[0.27, 0.0, 0.33], [0.23, 0.32, 0.55], [0.13, 0.57, 0.55], [0.37, 0.79, 0.38], [0.99, 0.91, 0.14]]
 _SIDE_COLOURS = {"left": (0.12, 0.42, 0.75, 1.0), "right": (0.80, 0.33, 0.10, 1.0)}
-_FORCE, _ZMP, _COM, _POLYGON = (0.85, 0.1, 0.3, 1.0), (0.85, 0.1, 0.3), (0.95, 0.6, 0.1, 1.0), (0.1, 0.55, 0.3, 1.0)
+_FORCE = (0.85, 0.1, 0.3, 1.0)
+_ZMP = (0.85, 0.1, 0.3)
+_COM = (0.95, 0.6, 0.1, 1.0)
+_POLYGON = (0.1, 0.55, 0.3, 1.0)
 
 
 FULL_COLOUR = 0.1
@@ -51,7 +58,8 @@ FULL_COLOUR = 0.1
 
 def scale_colours(largest: float) -> NDArray[np.float64]:
     """Viridis (64, 3) from zero force to FULL_COLOUR; `largest` is the full value."""
-    shares, steps = np.linspace(0.0, 1.0, 64), np.linspace(0.0, 1.0, len(_VIRIDIS))
+    shares = np.linspace(0.0, 1.0, 64)
+    steps = np.linspace(0.0, 1.0, len(_VIRIDIS))
     return largest * np.column_stack([np.interp(shares, steps, column) for column in zip(*_VIRIDIS, strict=True)])
 
 
@@ -66,12 +74,14 @@ class DrawnRun:
         self._world = world
         self._latest: Mapping[Side, Reading] = {}
         self._bodies = drawn_bodies(world.model)
-        self._next_frame = self._next_soles = -math.inf
+        self._next_frame = -math.inf
+        self._next_soles = -math.inf
         self._step: int | None = None
         self._change: AppliedChange | None = None
         self._layouts = world.robot.layouts
         self._drawn_steps: dict[tuple[int, Footstep], Message] = {}
-        self._full, self._metres = FULL_COLOUR * world.body.weight, _ARROW * world.body.leg / world.body.weight
+        self._full = FULL_COLOUR * world.body.weight
+        self._metres = _ARROW * world.body.leg / world.body.weight
         self._colours = scale_colours(1.0)
         self._unit = 0.02 * world.body.leg  # diameter of the ball at a point
         frames = self._frames_template()
@@ -124,9 +134,11 @@ class DrawnRun:
 
     def _frame_values(self) -> NDArray[np.float64]:
         """Flat position and quaternion (x, y, z, w) of bodies, soles and CoM."""
-        data, n = self._world.data, len(self._bodies)
+        data = self._world.data
+        n = len(self._bodies)
         out = np.zeros((n + 3, 7))
-        out[-1, :3], out[-1, 6] = data.subtree_com[self._world.torso], 1.0
+        out[-1, :3] = data.subtree_com[self._world.torso]
+        out[-1, 6] = 1.0
         out[:n, :3] = data.xpos[self._bodies]
         out[:n, 3:] = data.xquat[self._bodies][:, [1, 2, 3, 0]]
         for i, side in enumerate(SIDES, n):
@@ -215,7 +227,8 @@ def _taxels(layout: SoleLayout, first: int) -> list[Message]:
     parts = []
     for i, corners in enumerate(layout.corners):
         cell = layout.vertices[list(corners), :2]
-        low, high = cell.min(axis=0), cell.max(axis=0)
+        low = cell.min(axis=0)
+        high = cell.max(axis=0)
         x, y = (0.5 * (low + high)).tolist()
         a, b = (_CELL * (high - low)).tolist()
         colour = (*(slot(first + 3 * i + j) for j in range(3)), 1.0)

@@ -54,7 +54,8 @@ def _colour(model: Any, geom: int) -> tuple[float, ...]:
 
 
 def _primitives(model: Any, geom: int) -> list[Message]:
-    kind, colour = int(model.geom_type[geom]), _colour(model, geom)
+    kind = int(model.geom_type[geom])
+    colour = _colour(model, geom)
     a, b, c = map(float, model.geom_size[geom])
     position = tuple(map(float, model.geom_pos[geom]))
     w, x, y, z = map(float, model.geom_quat[geom])
@@ -100,7 +101,8 @@ def coarse_mesh(
     """
     size = float(np.ptp(vertices, axis=0).max())
     cells = 128
-    coarse, kept = vertices, faces
+    coarse = vertices
+    kept = faces
     while len(kept) > most and cells > 0:
         lattice = np.floor((vertices - vertices.min(axis=0)) / (size / cells)).astype(np.int64).clip(max=cells - 1)
         owner = np.unique(lattice, axis=0, return_inverse=True)[1].ravel()

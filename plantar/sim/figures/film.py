@@ -21,10 +21,13 @@ _INSET = 0.25  # of the picture's height
 _ARROW = 0.5  # leg: length of the arrow for the robot's weight
 _LEAST = 0.05  # weight on a sole below which none is drawn: a swing foot's noise
 _COLOUR = (217, 26, 77)
-_WIDTH, _HEIGHT = 960, 540
+_WIDTH = 960
+_HEIGHT = 540
 _TAXEL = 0.005  # m: half a side of the cube that is drawn for a taxel of a body
 _FULL_TAXEL = 0.01  # weight on a taxel of a body that has the last colour
-_LINES, _INK = 4, (40, 40, 40)  # patches whose force is written, and in which colour
+# patches whose force is written, and in which colour
+_LINES = 4
+_INK = (40, 40, 40)
 
 
 class _Filmed(ExitStack):
@@ -52,7 +55,8 @@ class Film(_Filmed):
         self._writer.add(picture)
 
     def _draw_forces(self, picture: NDArray[np.uint8], readings: Mapping[Side, Reading]) -> None:
-        world, cv2 = self._world, opencv()
+        world = self._world
+        cv2 = opencv()
         for side, reading in readings.items():
             force = np.nan_to_num(reading.force)
             total = float(force.sum())
@@ -77,7 +81,8 @@ class BodyFilm(_Filmed):
         self, path: str | os.PathLike[str], model: Any, data: Any, skin: SkinSensor, body: str, view: View
     ) -> None:
         super().__init__(path, model, model.body(body).id, view=view, groups=[OBSTACLE_GROUP])
-        self._data, self._skin = data, skin
+        self._data = data
+        self._skin = skin
         self._weight = float(
             np.abs(model.opt.gravity[2]) * model.body_subtreemass[model.body_rootid[model.body(body).id]]
         )
@@ -88,7 +93,8 @@ class BodyFilm(_Filmed):
 
     def add(self) -> None:
         """Add a frame of the world now."""
-        data, force = self._data, self._skin.force
+        data = self._data
+        force = self._skin.force
         points = data.xpos[self._bodies] + np.einsum(
             "ijk,ik->ij", data.xmat[self._bodies].reshape(-1, 3, 3), self._places
         )
@@ -99,7 +105,8 @@ class BodyFilm(_Filmed):
         self._writer.add(picture)
 
     def _write_loads(self, picture: NDArray[np.uint8]) -> None:
-        cv2, skin = opencv(), self._skin.skin
+        cv2 = opencv()
+        skin = self._skin.skin
         loads = {p.name: float(self._skin.force[skin.slices[p.name]].sum()) / self._weight for p in skin.patches}
         most = sorted(loads.items(), key=lambda load: -load[1])[:_LINES]
         lines = [

@@ -40,7 +40,9 @@ class WalkPlane:
 
     def frame(self, axis: Any) -> None:
         """Set limits, labels and the legend of a plot."""
-        (x, y), low, high = self.turn, self.low, self.high
+        x, y = self.turn
+        low = self.low
+        high = self.high
         axis.set(xlim=(low[x], high[x]), ylim=(high[y], low[y]) if x else (low[y], high[y]))
         axis.set(aspect="equal", xlabel=AXES[x], ylabel=AXES[y])
         axis.legend(ncol=7, fontsize=7, loc="lower center", bbox_to_anchor=(0.5, 1.01), frameon=False)
@@ -119,7 +121,8 @@ def _draw_trajectories(plane: Any, run: Recording, view: _View) -> None:
 
 def _draw_time(axis: Any, run: Recording, view: _View) -> None:
     along = view.plane.turn[1]
-    zmp, wanted = run.values("/truth/body", "zmp")[:, along], run.values("/reference", "zmp_desired")[:, along]
+    zmp = run.values("/truth/body", "zmp")[:, along]
+    wanted = run.values("/reference", "zmp_desired")[:, along]
     clock = run.topics["/reference"].time
     swing = run.values("/reference", "phase")[:, 0] == 2
     step = run.values("/reference", "step")[:, 0].astype(int)
@@ -127,7 +130,8 @@ def _draw_time(axis: Any, run: Recording, view: _View) -> None:
     for k, ring in view.rings.items():
         stance = np.flatnonzero(swing & (step == k + 1))
         if len(stance):
-            low, high = float(ring[:, along].min()), float(ring[:, along].max())
+            low = float(ring[:, along].min())
+            high = float(ring[:, along].max())
             spread = {"color": COLOURS["edge"], "alpha": 0.22, "lw": 0.0}
             axis.fill_between(clock[stance[[0, -1]]], low, high, label=label, **spread)
             label = None
@@ -153,7 +157,8 @@ def draw_zmps(run: Recording) -> Any:
     topic = run.topics["/zmp"]
     counts = topic.time >= _FROM
     time = topic.time[counts]
-    skin, ankles = topic.fields["skin"][counts], topic.fields["force_torque"][counts]
+    skin = topic.fields["skin"][counts]
+    ankles = topic.fields["force_torque"][counts]
     figure, axes = new_figure(11.0, 8.0, 4, 1, grid=True, sharex=True)
     for i, (value, difference) in enumerate(axes.reshape(2, 2)):
         value.plot(time, ankles[:, i], color=COLOURS["left"], lw=1.2, label="ankle force-torque sensors")

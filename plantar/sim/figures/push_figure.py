@@ -76,12 +76,15 @@ def draw_strides(run: Recording) -> Any:
     rows = max(1, -(-rounds // columns))
     shared: dict[str, bool] = {"squeeze": False, "sharex": True, "sharey": True}
     figure, axes = new_figure(3.4 * columns, 5.2 * rows, rows, columns, **shared)
-    time, com = run.topics["/truth/body"].time, run.values("/truth/body", "com")[:, :2]
-    force, when = run.values("/touch", "force")[:, :2], run.topics["/touch"].time
+    time = run.topics["/truth/body"].time
+    com = run.values("/truth/body", "com")[:, :2]
+    force = run.values("/touch", "force")[:, :2]
+    when = run.topics["/touch"].time
     largest = float(np.linalg.norm(force, axis=1).max(initial=0.0))
     for k, axis in enumerate(axes.ravel()[:rounds]):
         chosen = (step >= k * _STEPS_A_PANEL) & (step < (k + 1) * _STEPS_A_PANEL)
-        begin, end = time[chosen][0], time[chosen][-1]
+        begin = time[chosen][0]
+        end = time[chosen][-1]
         for side in SIDES:
             _draw_footholds(axis, run, side, begin, end)
         axis.plot(com[chosen, 1], com[chosen, 0], color=COLOURS["polygon"], lw=1.4, label="CoM")
@@ -168,8 +171,10 @@ def draw_guide(run: Recording) -> Any:
     The `run` is a recording with "/guide" and "/arm".
     """
     figure, axes = new_figure(11.0, 8.0, 3, 1, grid=True, sharex=True)
-    guide, body = run.topics["/guide"], run.topics["/truth/body"]
-    place, held = guide.fields["place"][:, 0], guide.fields["held"][:, 0]
+    guide = run.topics["/guide"]
+    body = run.topics["/truth/body"]
+    place = guide.fields["place"][:, 0]
+    held = guide.fields["held"][:, 0]
     com = body.fields["com"][:, 0]
     axes[0].plot(guide.time, place - place[0], color=_PARTNER, lw=1.6, label="hand")
     axes[0].plot(guide.time, held - held[0], color=COLOURS["active"], lw=1.0, label="forearm")

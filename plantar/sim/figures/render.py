@@ -80,13 +80,15 @@ class Camera:
         self._shown.geomgroup[list(groups)] = True
         self._camera.distance = view.distance
         self._below = view.below
-        self._camera.azimuth, self._camera.elevation = view.azimuth, view.elevation
+        self._camera.azimuth = view.azimuth
+        self._camera.elevation = view.elevation
         model.vis.global_.offwidth = max(model.vis.global_.offwidth, width)
         model.vis.global_.offheight = max(model.vis.global_.offheight, height)
         quality = model.vis.quality
         kept = quality.offsamples, quality.shadowsize
         if fast:
-            quality.offsamples, quality.shadowsize = 0, kept[1] // 2
+            quality.offsamples = 0
+            quality.shadowsize = kept[1] // 2
         try:
             self._renderer = mujoco.Renderer(model, height, width)
         except Exception as error:  # MuJoCo raises what its OpenGL loader raises
@@ -111,7 +113,8 @@ class Camera:
 
         self._camera.lookat[:] = data.xpos[self._body] - np.array([0.0, 0.0, self._below])
         self._renderer.update_scene(data, self._camera, self._shown)
-        scene, kind = self._renderer.scene, mujoco.mjtGeom.mjGEOM_CAPSULE
+        scene = self._renderer.scene
+        kind = mujoco.mjtGeom.mjGEOM_CAPSULE
         for line in lines:
             geom = scene.geoms[scene.ngeom]
             rgba = np.array(line.colour, dtype=np.float32)
@@ -119,7 +122,8 @@ class Camera:
             mujoco.mjv_connector(geom, kind, line.radius, line.start, line.end)
             scene.ngeom += 1
         if dots is not None:
-            size, turn = np.full(3, dots[2]), np.eye(3).ravel()
+            size = np.full(3, dots[2])
+            turn = np.eye(3).ravel()
             for place, colour in zip(dots[0], np.column_stack([dots[1], np.ones(len(dots[1]))]), strict=True):
                 geom = scene.geoms[scene.ngeom]
                 mujoco.mjv_initGeom(geom, mujoco.mjtGeom.mjGEOM_BOX, size, place, turn, colour.astype(np.float32))
@@ -129,9 +133,11 @@ class Camera:
     def pixels(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Pixels (n, 2), x right and y down, of points (n, 3) in m in the last picture."""
         left, right = self._renderer.scene.camera
-        forward, up = np.array(left.forward), np.array(left.up)
+        forward = np.array(left.forward)
+        up = np.array(left.up)
         offset = points - 0.5 * (np.array(left.pos) + np.array(right.pos))
-        height, width = self._renderer.height, self._renderer.width
+        height = self._renderer.height
+        width = self._renderer.width
         # What is as far as the near plane's distance fills half the picture at frustum_top.
         scale = 0.5 * height * left.frustum_near / left.frustum_top / (offset @ forward)
         return np.column_stack(
@@ -169,7 +175,8 @@ class VideoWriter(ExitStack):
         super().__init__()
         if Path(path).suffix != ".mp4":
             raise InputError(f"video {path} needs a name that ends in .mp4")
-        self._cv2, self._rate = opencv(), rate
+        self._cv2 = opencv()
+        self._rate = rate
         self._temporary = self.enter_context(replacing(path))
         self._writer: Any = None
 

@@ -14,7 +14,9 @@ from plantar.sim.figures.render import opencv
 
 _SECONDS = 4.0  # of the forces that are drawn
 _LEAST = 0.02  # weight on a sole below which no CoP is drawn
-_PAPER, _INK, _SOFT = (255, 255, 255), (40, 40, 40), (150, 150, 150)
+_PAPER = (255, 255, 255)
+_INK = (40, 40, 40)
+_SOFT = (150, 150, 150)
 _LINES = {"left": (31, 107, 191), "right": (204, 84, 26)}
 _COP = (217, 26, 77)
 
@@ -29,7 +31,8 @@ class SoleInset:
         self._height = height
         self._margin = max(4, height // 20)
         corners = np.vstack([layouts[side].outline for side in SIDES])
-        low, high = corners.min(axis=0), corners.max(axis=0)
+        low = corners.min(axis=0)
+        high = corners.max(axis=0)
         self._scale = (height - 2 * self._margin - height // 8) / float(high[0] - low[0])
         self._toe = float(high[0])
         width = int(self._scale * float(high[1] - low[1])) + 2 * self._margin
@@ -72,7 +75,8 @@ class SoleInset:
         corner[:] = inset[: corner.shape[0], : corner.shape[1]]
 
     def _write(self, inset: NDArray[np.uint8], text: str, x: int, y: int, colour: tuple[int, int, int]) -> None:
-        font, size = self._cv2.FONT_HERSHEY_SIMPLEX, self._height / 360
+        font = self._cv2.FONT_HERSHEY_SIMPLEX
+        size = self._height / 360
         self._cv2.putText(inset, text, (x, y), font, size, colour, 1, self._cv2.LINE_AA)
 
     def _draw_forces(self, inset: NDArray[np.uint8], time: float, totals: tuple[float, ...]) -> None:
@@ -80,8 +84,10 @@ class SoleInset:
         past.append((time, totals))
         while past[0][0] < time - _SECONDS:
             past.popleft()
-        height, width = self._height - 2 * self._margin, self._width - self._chart - 2 * self._margin
-        right, floor = self._chart + self._margin + width, self._margin + height
+        height = self._height - 2 * self._margin
+        width = self._width - self._chart - 2 * self._margin
+        right = self._chart + self._margin + width
+        floor = self._margin + height
         most = 1.4 * self._weight
         level = floor - round(height * self._weight / most)
         self._cv2.line(inset, (self._chart + self._margin, level), (right, level), _SOFT, 1)

@@ -38,7 +38,8 @@ class FootholdTruth:
             true = self._under(foothold.side)
             if len(true) < 3 or len(foothold.polygon) < 3:
                 continue
-            middle, found = centroid(true), centroid(foothold.polygon)
+            middle = centroid(true)
+            found = centroid(foothold.polygon)
             assert middle is not None
             assert found is not None
             whole = area(self._world.robot.layouts[foothold.side].outline)
@@ -69,7 +70,8 @@ class FootholdTruth:
 
         site = self._world.sole_sites[side]
         data = self._world.data
-        place, rotation = data.site_xpos[site], data.site_xmat[site].reshape(3, 3)
+        place = data.site_xpos[site]
+        rotation = data.site_xmat[site].reshape(3, 3)
         ring = self._world.robot.layouts[side].outline @ rotation[:2, :2].T + place[:2]
         sole = shapely.Polygon(ring)
         level = _LEVEL * self._world.body.leg

@@ -47,14 +47,21 @@ class GuideTruth:
         way: float,
         starts: float,
     ) -> None:
-        self._world, self._point, self._posture = world, point, posture
+        self._world = world
+        self._point = point
+        self._posture = posture
         self._link = int(world.model.body(link).id)
         self._base = int(world.model.body_rootid[self._link])
         self._places = np.array([int(world.model.joint(name).qposadr[0]) for name in joints])
-        self._way, self._sign, self._starts = abs(way), math.copysign(1.0, way), starts
+        self._way = abs(way)
+        self._sign = math.copysign(1.0, way)
+        self._starts = starts
         self._from: tuple[float, float, float] | None = None
         self._sampled = False
-        self.yielded = self.followed = self.astray = self.turned = 0.0
+        self.yielded = 0.0
+        self.followed = 0.0
+        self.astray = 0.0
+        self.turned = 0.0
 
     def update(self, time: float) -> None:
         """Measure arm and feet at `time` in s, after its physics step."""
@@ -69,14 +76,17 @@ class GuideTruth:
             return
         self._sampled = True
         self.yielded = max(self.yielded, ahead - self._from[0])
-        self.followed, self.astray = self._sign * (x - self._from[1]), abs(y - self._from[2])
+        self.followed = self._sign * (x - self._from[1])
+        self.astray = abs(y - self._from[2])
         self.turned = max(self.turned, float(np.abs(data.qpos[self._places] - self._posture).max()))
 
     def reasons(self) -> list[dict[str, Any]]:
         """Failed criteria, as `verdict.reasons`."""
-        gone, asked = self._way, f"m; a hand that goes {self._way:.3f} m asks for"
+        gone = self._way
+        asked = f"m; a hand that goes {self._way:.3f} m asks for"
         least, way, aside = (round(share * gone, 4) for share in (YIELDED, FOLLOWED, ASTRAY))
-        yielded, followed = f"the arm gave way by {self.yielded:.3f}", f"the feet followed {self.followed:.3f}"
+        yielded = f"the arm gave way by {self.yielded:.3f}"
+        followed = f"the feet followed {self.followed:.3f}"
         astray = f"the feet went {self.astray:.3f} m to a side; allowed: {aside:.3f} m on a way of {gone:.3f} m"
         return unmet(
             (self.yielded >= YIELDED * gone, "yielded", self.yielded, least, f"{yielded} {asked} {least:.3f} m"),

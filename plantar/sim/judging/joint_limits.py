@@ -21,7 +21,8 @@ class JointLimits:
     """
 
     def __init__(self, world: World) -> None:
-        robot, model = world.robot, world.model
+        robot = world.robot
+        model = world.model
         self.names: Sequence[str] = [*robot.legs["left"].joints, *robot.legs["right"].joints]
         self.limited = bool(robot.velocity_limits)
         self._period = world.period
@@ -41,7 +42,8 @@ class JointLimits:
     @property
     def fastest(self) -> NDArray[np.float64]:
         """Largest speed of each joint (k,) as a share of its limit; 0 without limits."""
-        high, low = np.asarray(self.extremes.high), np.asarray(self.extremes.low)
+        high = np.asarray(self.extremes.high)
+        low = np.asarray(self.extremes.low)
         return np.asarray(np.maximum(high, -low) * self._per_speed)
 
     @property

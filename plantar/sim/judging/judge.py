@@ -35,7 +35,8 @@ class PlainGround:
     def __init__(self, ground: Ground, outlines: Mapping[Side, NDArray[np.float64]], around: float) -> None:
         import shapely
 
-        self._outlines, self._around = outlines, around
+        self._outlines = outlines
+        self._around = around
         self._faces = [
             (shapely.Polygon(ring).convex_hull, s.shape == "box" and s.rotation[2, 2] > _LEVEL and not s.motions)
             for s, ring in zip(ground.solids, ground.seen_from_above(), strict=True)
@@ -45,7 +46,8 @@ class PlainGround:
         """Returns whether the `side`'s sole at `x`, `y` in m and `yaw` in rad is on one level face."""
         import shapely
 
-        c, s = math.cos(yaw), math.sin(yaw)
+        c = math.cos(yaw)
+        s = math.sin(yaw)
         ring = self._outlines[side] @ np.array([[c, s], [-s, c]]) + (x, y)
         area = shapely.Polygon(ring).buffer(self._around)
         near = [(face, level) for face, level in self._faces if face.intersects(area)]
@@ -103,10 +105,14 @@ class Judge:
     fall: tuple[float, float, str] | None = None
 
     def __post_init__(self) -> None:
-        world, data, torso, body = self.world, self.world.data, self.world.torso, self.world.body
+        world = self.world
+        data = self.world.data
+        torso = self.world.torso
+        body = self.world.body
         self._geoms = {s: frozenset(world.sole_geoms[s]) for s in SIDES}
         self._contacts = ContactReader(world.model, data, [self._geoms[s] for s in SIDES])
-        self._torso, self._center = data.xmat[torso], data.subtree_com[torso]
+        self._torso = data.xmat[torso]
+        self._center = data.subtree_com[torso]
         self._places = [data.site_xpos[world.sole_sites[s]] for s in SIDES]
         self._angles: list[float | None] = []
         self._lowest = _FALLEN_HEIGHT * self.standing_height
@@ -192,7 +198,8 @@ class Judge:
 
     def _angle(self, side: Side) -> float | None:
         """Angle in degrees between a sole and its most loaded flat face."""
-        model, data = self.world.model, self.world.data
+        model = self.world.model
+        data = self.world.data
         contacts = foot_contacts(model, data, self._geoms[side])
         if not contacts.size:
             return None
@@ -228,7 +235,8 @@ class Judge:
         if self.ground is None:
             return False
         x, y, yaw = before
-        c, s = math.cos(yaw), math.sin(yaw)
+        c = math.cos(yaw)
+        s = math.sin(yaw)
         place = (x + c * way[0] - s * way[1], y + s * way[0] + c * way[1], yaw + way[2])
         return not (self.ground.under(stand.side, *place) and self.ground.under(other_side(stand.side), *before))
 
@@ -237,7 +245,8 @@ class Judge:
         return GroundTruth(*self._reaction.found_now())
 
     def _look_for_fall(self) -> None:
-        tilt, height = _tilt(self._torso.item(8)), self.height
+        tilt = _tilt(self._torso.item(8))
+        height = self.height
         if tilt > _FALLEN_TILT:
             self.fall = (tilt, _FALLEN_TILT, f"the robot fell: the torso tilted by {tilt:.1f} deg")
         elif height < self._lowest:

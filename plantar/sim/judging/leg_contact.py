@@ -27,7 +27,8 @@ class LegContact:
 
     def __init__(self, world: World) -> None:
         self._world = world
-        self._sensed, self._address = world.data.sensordata, world.leg_contact
+        self._sensed = world.data.sensordata
+        self._address = world.leg_contact
         self.duration = 0.0
         self.first: tuple[float, str, str] | None = None
 

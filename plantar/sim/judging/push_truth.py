@@ -76,16 +76,20 @@ def _ways(
     for stand, step in zip(stands, steps, strict=False):
         if stand.side != step.side:
             return
-        (x, y), before = true[start(step.side)], planned[start(step.side)]
+        x, y = true[start(step.side)]
+        before = planned[start(step.side)]
         yield Stride((stand.place[0] - x, stand.place[1] - y), (step.x - before.x, step.y - before.y))
-        planned[step.side], true[step.side] = step, stand.place[:2]
+        planned[step.side] = step
+        true[step.side] = stand.place[:2]
 
 
 class PushTruth:
     """Follows pushes on a robot of a `mass` in kg and `leg` in m; `stride` in s is of a foot, 0 for standing."""
 
     def __init__(self, mass: float, leg: float, stride: float = 0.0) -> None:
-        self._mass, self._leg, self._stride = mass, leg, stride
+        self._mass = mass
+        self._leg = leg
+        self._stride = stride
         self._samples: list[_Sample] = []
 
     def update(
@@ -123,7 +127,8 @@ class PushTruth:
         before = self._around(push.start - self._stride, push.end - self._stride) if self._stride else []
         walks = len(before) >= 4 and not any(s.force.any() for s in before)
         measured = self._unexplained(chosen, way) - (self._unexplained(before, way) if walks else 0.0)
-        times, height = np.array([s.time for s in chosen]), np.array([s.com[2] for s in chosen])
+        times = np.array([s.time for s in chosen])
+        height = np.array([s.com[2] for s in chosen])
         force = np.array([s.force for s in chosen]) @ way
         leverage = np.array([s.leverage for s in chosen]) @ way
         predicted = float(np.trapezoid(force + leverage / height, times))
@@ -142,15 +147,18 @@ class PushTruth:
 
     def _unexplained(self, chosen: Sequence[_Sample], way: NDArray[np.float64]) -> float:
         """Momentum in N s along a way beyond what the ground gives a pendulum."""
-        times, com = np.array([s.time for s in chosen]), np.array([s.com for s in chosen])
-        along, zmp = com[:, :2] @ way, np.array([s.zmp for s in chosen]) @ way
+        times = np.array([s.time for s in chosen])
+        com = np.array([s.com for s in chosen])
+        along = com[:, :2] @ way
+        zmp = np.array([s.zmp for s in chosen]) @ way
         speed = np.gradient(along, times)
         ground = self._mass * GRAVITY * (along - zmp) / com[:, 2]
         return float(self._mass * (speed[-2] - speed[1]) - np.trapezoid(ground[1:-1], times[1:-1]))
 
     def steps_reasons(self, pushes: Sequence[Pushed], changes: Sequence[float]) -> list[dict[str, Any]]:
         """Returns failed criteria where only large `pushes` must change steps, by `changes` in m."""
-        limit, found = CHANGED * self._leg, []
+        limit = CHANGED * self._leg
+        found = []
         for i, push in enumerate(pushes):
             until = pushes[i + 1].step if i + 1 < len(pushes) else push.step + _AFTER + 1
             after = changes[push.step : min(until, push.step + _AFTER + 1)]
@@ -167,7 +175,8 @@ class PushTruth:
 
     def stride_reasons(self, pushes: Sequence[Pushed], ways: Sequence[Stride]) -> list[dict[str, Any]]:
         """Returns failed criteria where each of the `pushes` must lengthen its step, by strides `ways`."""
-        limit, reacted = CHANGED * self._leg, 0
+        limit = CHANGED * self._leg
+        reacted = 0
         for push in pushes:
             if push.step < len(ways):
                 true, planned = (np.array(way) for way in ways[push.step])

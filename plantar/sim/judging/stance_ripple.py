@@ -24,7 +24,8 @@ class StanceRipple:
 
     def __init__(self, world: World, reaction: GroundReaction, least: float) -> None:
         steps = max(1, round(SPAN / world.period)), round(SETTLED / world.period)
-        mass, gravity = float(world.model.body_subtreemass[world.torso]), -float(world.model.opt.gravity[2])
+        mass = float(world.model.body_subtreemass[world.torso])
+        gravity = -float(world.model.opt.gravity[2])
         center = world.data.subtree_com[world.torso]
         self.watch = StanceForce(reaction, center, mass, gravity, world.period, steps, least, EDGE)
         self._weight = mass * gravity
@@ -41,7 +42,8 @@ class StanceRipple:
 
     def summary(self) -> dict[str, float | None]:
         """The figures, rounded."""
-        rms, share = self.rms, self.edge_share
+        rms = self.rms
+        share = self.edge_share
         return {
             "stance_force_rms": None if rms is None else round(rms, 5),
             "zmp_edge_share": None if share is None else round(share, 5),

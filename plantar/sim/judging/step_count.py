@@ -91,12 +91,15 @@ class StepCount:
 
     def count(self) -> Count:
         """The steps taken in order."""
-        steps, start = self.goal.steps, self.goal.start() if self.goal.steps else None
-        stands, missed = self.last_stands(), ""
+        steps = self.goal.steps
+        start = self.goal.start() if self.goal.steps else None
+        stands = self.last_stands()
+        missed = ""
         taken: list[Stand] = []
         before = (0.0, 0.0, 0.0) if start is None else (start.x, start.y, start.yaw)
         course = before[2]  # heading that the plan had, were each step as planned from the one before
-        drift, turned = (0.0, 0.0), 0.0
+        drift = (0.0, 0.0)
+        turned = 0.0
         for stand in stands:
             k = len(taken)
             if k == len(steps):
@@ -108,13 +111,16 @@ class StepCount:
                 continue
             taken.append(stand)
             drift, turned, way = found
-            before, course, missed = stand.place, course + way[2], ""
+            before = stand.place
+            course = course + way[2]
+            missed = ""
         if len(taken) == len(steps):  # in the end both feet still have to stand there
             for side, k in {step.side: k for k, step in enumerate(steps)}.items():
                 last = next(s for s in reversed(stands) if s.side == side)
                 off, turn = _apart(taken[k].place, last.place) if k < len(taken) else (0.0, 0.0)
                 if off > self.goal.near or turn > NEAR_YAW:
-                    taken, missed = taken[:k], _words(side, off, turn)
+                    taken = taken[:k]
+                    missed = _words(side, off, turn)
         if len(taken) < len(steps) and not missed:
             missed = f"the {steps[len(taken)].side} foot did not land for it"
         return Count(tuple(taken), missed, drift, turned)
@@ -127,11 +133,14 @@ class StepCount:
         landed: float,
         so_far: tuple[tuple[float, float], float, float],
     ) -> str | tuple[tuple[float, float], float, Way]:
-        goal, side, (drift, turned, course) = self.goal, self.goal.steps[k].side, so_far
+        goal = self.goal
+        side = self.goal.steps[k].side
+        drift, turned, course = so_far
         if stand.side != side:
             return f"the {stand.side} foot landed in its stead"
         planned, moved = goal.ways(k, stand.touchdown, landed)
-        ways, excuse = [planned], ""
+        ways = [planned]
+        excuse = ""
         if moved is not None and self._justified(stand, planned, before):
             ways.append(moved)
         elif moved is not None:
@@ -143,11 +152,14 @@ class StepCount:
             off, turn, _ = min(offs)
             return _words(side, off, turn) + excuse
         _, _, way = min(fits)
-        c, s = math.cos(course), math.sin(course)
-        ex, ey = true[0] - way[0], true[1] - way[1]
+        c = math.cos(course)
+        s = math.sin(course)
+        ex = true[0] - way[0]
+        ey = true[1] - way[1]
         drift = (drift[0] + c * ex - s * ey, drift[1] + s * ex + c * ey)
         turned += _turn(true[2] - way[2])
-        lost, most = math.hypot(*drift), goal.near + _LOST * goal.way_to(k)
+        lost = math.hypot(*drift)
+        most = goal.near + _LOST * goal.way_to(k)
         if lost > most:
             return f"steps had added up to {lost:.3f} m from their ways; allowed: {most:.3f} m by then{excuse}"
         if abs(turned) > NEAR_YAW + _TURNED * goal.way_to(k) / goal.leg:
@@ -160,8 +172,10 @@ def _turn(angle: float) -> float:
 
 
 def _from(before: tuple[float, float, float], place: tuple[float, float, float]) -> Way:
-    c, s = math.cos(before[2]), math.sin(before[2])
-    dx, dy = place[0] - before[0], place[1] - before[1]
+    c = math.cos(before[2])
+    s = math.sin(before[2])
+    dx = place[0] - before[0]
+    dy = place[1] - before[1]
     return c * dx + s * dy, c * dy - s * dx, _turn(place[2] - before[2])
 
 

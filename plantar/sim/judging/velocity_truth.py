@@ -56,13 +56,16 @@ class VelocityTruth:
 
     def update(self, time: float) -> None:
         """At each control tick, at `time` in s."""
-        world, data = self._world, self._world.data
+        world = self._world
+        data = self._world.data
         com = data.subtree_com[world.torso, :2].copy()
         heading = math.atan2(float(data.xmat[world.torso, 3]), float(data.xmat[world.torso, 0]))
-        last, self._last = self._last, (time, com, heading)
+        last = self._last
+        self._last = (time, com, heading)
         if last is None or time <= last[0]:
             return
-        period, (dx, dy) = time - last[0], (com - last[1]).tolist()
+        period = time - last[0]
+        dx, dy = (com - last[1]).tolist()
         self._speed += 0.05 * (math.hypot(dx, dy) / period - self._speed)
         command = self._table.at(time - self._delay)
         if command is None:
@@ -70,10 +73,12 @@ class VelocityTruth:
         if command is None or time < self._walks_from:
             return
         place, way = self.course
-        ahead, aside = math.cos(way), math.sin(way)
+        ahead = math.cos(way)
+        aside = math.sin(way)
         step = (command.forward * ahead - command.left * aside, command.forward * aside + command.left * ahead)
         self.course = place + period * np.array(step), way + command.turn * period
-        c, s = math.cos(heading), math.sin(heading)
+        c = math.cos(heading)
+        s = math.sin(heading)
         wanted = math.hypot(command.forward, command.left)
         if wanted > 0.0:
             self._way[0] += (command.forward * (c * dx + s * dy) + command.left * (c * dy - s * dx)) / wanted
@@ -97,7 +102,8 @@ class VelocityTruth:
     def reasons(self, landings: list[float]) -> list[dict[str, Any]]:
         """Failed criteria, as `verdict.reasons`, by touchdowns `landings` in s."""
         figures = self.summary(landings)
-        steps, speed = figures["steps_after_stop"], figures["last_speed_m_s"]
+        steps = figures["steps_after_stop"]
+        speed = figures["last_speed_m_s"]
         at_rest = round(self._world.body.in_si("leg/beat") * AT_REST, 4)
         within = f"of the command; allowed: within {SPEED_ERROR:g} of it"
         ratios = [

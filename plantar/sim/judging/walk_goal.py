@@ -30,7 +30,8 @@ NEAR_YAW = math.radians(5.0)
 _DETOUR = 5 / 6
 
 _DETOUR_YAW = math.radians(30.0)
-_AWAY, _DRIFT = 0.5, 0.25
+_AWAY = 0.5
+_DRIFT = 0.25
 """Distance in leg lengths by which it may be moved in all, and share of the way walked so far by which further: a
 detour of 0.4 legs early in a walk, two of them later, a strip that turns away by 10 degrees; no walk that ends where it
 began."""
@@ -66,7 +67,8 @@ class WalkGoal:
     ) -> None:
         self.steps = tuple(steps)
         self.near = _NEAR * leg
-        self.leg, self._led = leg, led
+        self.leg = leg
+        self._led = led
         self.refused = 0
         self._feet = dict(feet)
         self._moves: dict[int, list[_Move]] = {}
@@ -74,7 +76,9 @@ class WalkGoal:
         self._way = self._ways()
 
     def _ways(self) -> list[float]:
-        standing, ways, way = dict(self._feet), [], 0.0
+        standing = dict(self._feet)
+        ways = []
+        way = 0.0
         for step in self.steps:
             before = standing[step.side]
             way += 0.5 * math.hypot(step.x - before.x, step.y - before.y)
@@ -104,11 +108,14 @@ class WalkGoal:
             before = steps[k - 1] if k else self._before(0)
             return steps[k].x - before.x, steps[k].y - before.y
 
-        there, planned = from_the_one_before(places), from_the_one_before(self.steps)
-        step, original = places[k], self.steps[k]
+        there = from_the_one_before(places)
+        planned = from_the_one_before(self.steps)
+        step = places[k]
+        original = self.steps[k]
         away = math.hypot(step.x - original.x, step.y - original.y)
         turned = abs(math.remainder(step.yaw - original.yaw, 2.0 * math.pi))
-        detour, most = _DETOUR * self.leg, _AWAY * self.leg + _DRIFT * self._way[k] + self._led
+        detour = _DETOUR * self.leg
+        most = _AWAY * self.leg + _DRIFT * self._way[k] + self._led
         return math.dist(there, planned) <= detour and away <= most and turned <= _DETOUR_YAW
 
     def ways(self, step: int, time: float, before: float) -> tuple[Way, Way | None]:
@@ -150,7 +157,8 @@ class WalkGoal:
         self, centers: Mapping[Side, NDArray[np.float64]], *, at_start: bool = False
     ) -> tuple[NDArray[np.float64], float]:
         """Returns point (2,) in m between soles' `centers` (2,) and heading in rad, as planned last or `at_start`."""
-        last, steps = dict(self._feet), self.steps if at_start else self._now
+        last = dict(self._feet)
+        steps = self.steps if at_start else self._now
         for step in steps:
             last[step.side] = step
         middle = 0.5 * sum(vrp_of_step(last[side], centers[side]) for side in SIDES)
@@ -160,13 +168,16 @@ class WalkGoal:
         """Moved footsteps: how far in m, when last, why."""
         rows: list[dict[str, object]] = []
         for k, moves in sorted(self._moves.items()):
-            move, planned = moves[-1], self.steps[k]
+            move = moves[-1]
+            planned = self.steps[k]
             moved = math.hypot(move.place.x - planned.x, move.place.y - planned.y)
             rows.append({"step": k, "moved_m": round(moved, 4), "time_s": round(move.time, 3), "reason": move.reason})
         return rows
 
 
 def _way(before: Footstep, step: Footstep) -> Way:
-    c, s = math.cos(before.yaw), math.sin(before.yaw)
-    dx, dy = step.x - before.x, step.y - before.y
+    c = math.cos(before.yaw)
+    s = math.sin(before.yaw)
+    dx = step.x - before.x
+    dy = step.y - before.y
     return c * dx + s * dy, c * dy - s * dx, math.remainder(step.yaw - before.yaw, 2.0 * math.pi)

@@ -61,7 +61,8 @@ class ZmpComparison:
                 cop = sole.position_cop_in_sole
                 loads.append(sole.vertical_force)
                 points.append(None if cop is None else place + turn @ cop)
-        one, other = zmp_of_feet(skin, skin_loads), zmp_of_feet(ankle, ankle_loads)
+        one = zmp_of_feet(skin, skin_loads)
+        other = zmp_of_feet(ankle, ankle_loads)
         if one is not None and other is not None and time >= _BEGIN:
             self._differences.append(one - other)
         self.latest = (one, other)

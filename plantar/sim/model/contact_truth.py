@@ -56,7 +56,8 @@ class ContactSet(NamedTuple):
 
 def _set_of(foot: FootContacts) -> ContactSet:
     k = foot.size
-    ids, vectors = np.array(foot.ids[:k]), np.array(foot.vectors[: 3 * k])
+    ids = np.array(foot.ids[:k])
+    vectors = np.array(foot.vectors[: 3 * k])
     return ContactSet(
         own_geoms=ids[:, 0],
         other_geoms=ids[:, 1],

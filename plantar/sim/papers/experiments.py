@@ -41,10 +41,14 @@ class PaperExperiment(NamedTuple):
     long: bool = False
 
 
-_LEVEL, _BLIND, _NO_PFC = ("walk.steps=6",), ("pfc=false", "footholds=off"), ("pfc=false",)
+_LEVEL = ("walk.steps=6",)
+_BLIND = ("pfc=false", "footholds=off")
+_NO_PFC = ("pfc=false",)
 _ANKLES = ("control.feasibility=force_torque", "sensing.force_torque=true")
-_TOPPLE, _STILL = "skin walks around, ankles fall", ("step_adjustment=false",)
-_TOLERABLE, _AVOID = "pushes with at most 15 N", ("control.policy=avoid", "experiment.duration=10")
+_TOPPLE = "skin walks around, ankles fall"
+_STILL = ("step_adjustment=false",)
+_TOLERABLE = "pushes with at most 15 N"
+_AVOID = ("control.policy=avoid", "experiment.duration=10")
 _ON_LEG = "balance on one leg kept"
 _SLAB = "impact on the slab"
 EXPERIMENTS = (

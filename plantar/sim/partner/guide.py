@@ -20,7 +20,9 @@ from plantar.sim.partner.settings import GuideSettings
 from plantar.sim.partner.touch import Partner
 
 _MASS = 0.02  # of the robot: 1.7 kg next to H1, as a hand and forearm
-_FINGER, _LONG = 1 / 30, 0.075  # leg: radius of a finger and half its length, 20 and 45 mm
+# leg: radius of a finger and half its length, 20 and 45 mm
+_FINGER = 1 / 30
+_LONG = 0.075
 _PLAY = 0.02  # leg: on each side of the arm, 12 mm: an arm that yields turns, and is thicker along the way then
 _QUICK = 7.4  # 1/beat: how quickly it goes along with the forearm, 30 rad/s for H1, critically damped
 _COLOUR = (0.85, 0.6, 0.45, 1.0)
@@ -46,17 +48,23 @@ class Guide(Partner):
     """
 
     def __init__(self, settings: GuideSettings, grip: Grip, body: BodyScale, seed: int) -> None:
-        self.settings, self.grip, self._body = settings, grip, body
+        self.settings = settings
+        self.grip = grip
+        self._body = body
         rng = np.random.default_rng([seed, 0x6D])
         drawn = float(rng.choice([-1.0, 1.0]))
         self.sign = {"forward": 1.0, "backward": -1.0}.get(settings.toward, drawn)
         self.starts = settings.sets_out + float(rng.uniform(0.0, settings.within))
         self._mass = _MASS * body.mass
         self._apart = grip.radius + (_PLAY + _FINGER) * body.leg
-        self._places = self._axes = np.arange(3)
-        self._link = self._root = -1
+        self._places = np.arange(3)
+        self._axes = self._places
+        self._link = -1
+        self._root = -1
         self._start = math.nan
-        self.moved = self.reference = self.force = 0.0
+        self.moved = 0.0
+        self.reference = 0.0
+        self.force = 0.0
         self._forces: list[float] = []
 
     @property
@@ -66,11 +74,14 @@ class Guide(Partner):
 
     def add_to(self, spec: Any) -> None:
         """Add it to a world."""
-        leg, apart = self._body.leg, self._apart
+        leg = self._body.leg
+        apart = self._apart
         body = spec.worldbody.add_body(name="guide", gravcomp=1.0)
         for name, axis in (("x", [1, 0, 0]), ("y", [0, 1, 0]), ("z", [0, 0, 1])):
             body.add_joint(name=f"guide_{name}", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
-        capsule, radius, half = mujoco.mjtGeom.mjGEOM_CAPSULE, _FINGER * leg, _LONG * leg
+        capsule = mujoco.mjtGeom.mjGEOM_CAPSULE
+        radius = _FINGER * leg
+        half = _LONG * leg
         across = [-apart, 0.0, half + radius, apart, 0.0, half + radius]
         shapes = [
             body.add_geom(name=name, type=capsule, size=[radius, half, 0.0], pos=[x, 0.0, 0.0], mass=0.5 * self._mass)
@@ -78,7 +89,8 @@ class Guide(Partner):
         ]
         shapes.append(body.add_geom(type=capsule, size=[radius, 0.0, 0.0], fromto=across, mass=0.0))
         for geom in shapes:
-            geom.contype = geom.conaffinity = 0
+            geom.contype = 0
+            geom.conaffinity = 0
             geom.group = 1
             geom.rgba = _COLOUR
 
@@ -106,10 +118,13 @@ class Guide(Partner):
 
     def drive(self, world: World, skin: SkinSensor) -> None:
         """Set its forces in the `world` for a physics step, after `skin`."""
-        data, s, time = world.data, self.settings, float(world.data.time)
+        data = world.data
+        s = self.settings
+        time = float(world.data.time)
         self.force = -self.sign * sum(float(skin.on_obstacles[f"guide_{side}"][0]) for side in ("behind", "before"))
         self._forces.append(self.force)
-        place, speed = data.qpos[self._places], data.qvel[self._axes]
+        place = data.qpos[self._places]
+        speed = data.qvel[self._axes]
         arm, motion = self.held(world)
         rate = _QUICK / self._body.beat
         force = self._mass * (rate * rate * (arm - place) + 2.0 * rate * (motion - speed))
@@ -119,7 +134,8 @@ class Guide(Partner):
             share, pace = minimum_jerk((time - self.starts) / self.lasts)
             self.reference = s.way * share
             self.moved = self.sign * (float(place[0]) - self._start)
-            off, lag = self.reference - self.moved, s.hand_speed * pace - self.sign * float(speed[0])
+            off = self.reference - self.moved
+            lag = s.hand_speed * pace - self.sign * float(speed[0])
             wanted = s.hand_spring * off + 2.0 * math.sqrt(s.hand_spring * self._mass) * lag
             force[0] = self.sign * min(max(wanted, -s.hand_force), s.hand_force)
         data.qfrc_applied[self._axes] = force

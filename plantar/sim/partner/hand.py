@@ -23,12 +23,15 @@ def body_point(
     """
     place = data.xpos[body] + data.xmat[body].reshape(3, 3) @ local
     # The cross product in full: np.cross takes ten times as long, and this runs once a physics step.
-    (wx, wy, wz), (x, y, z) = data.cvel[body, :3].tolist(), (place - data.subtree_com[root]).tolist()
+    wx, wy, wz = data.cvel[body, :3].tolist()
+    x, y, z = (place - data.subtree_com[root]).tolist()
     return place, data.cvel[body, 3:] + np.array([wy * z - wz * y, wz * x - wx * z, wx * y - wy * x])
 
 
 _MASS = 0.02  # of the robot: 1.7 kg for H1, as a hand and forearm
-_WIDE, _THICK = 0.075, 0.02  # leg: half edges of the palm, 9 x 9 cm and 24 mm for H1
+# leg: half edges of the palm, 9 x 9 cm and 24 mm for H1
+_WIDE = 0.075
+_THICK = 0.02
 _QUICK = 7.4  # 1/beat: natural frequency of how it follows a point, 30 rad/s for H1, critically damped
 _ARM = 0.35  # leg: length of the drawn forearm
 
@@ -61,9 +64,11 @@ class Hand:
     """
 
     def __init__(self, face: str, body: BodyScale) -> None:
-        self.face, self.name = face, f"hand_{face}"
+        self.face = face
+        self.name = f"hand_{face}"
         self.half = _WIDE * body.leg
-        self._thick, self._arm = _THICK * body.leg, _ARM * body.leg
+        self._thick = _THICK * body.leg
+        self._arm = _ARM * body.leg
         self._mass = _MASS * body.mass
         self._stiffness = self._mass * (_QUICK / body.beat) ** 2
         self._damping = 2.0 * self._mass * _QUICK / body.beat
@@ -86,7 +91,8 @@ class Hand:
         ]
         palm = body.add_geom(name=self.name, type=mujoco.mjtGeom.mjGEOM_BOX, size=size, mass=self._mass)
         x, y = FACES[self.face]
-        near, far = self._thick + 0.25 * self.half, self._arm
+        near = self._thick + 0.25 * self.half
+        far = self._arm
         arm = body.add_geom(
             type=mujoco.mjtGeom.mjGEOM_CAPSULE,
             size=[0.4 * self.half, 0.0, 0.0],
@@ -94,7 +100,8 @@ class Hand:
             mass=0.0,
         )
         for geom in (palm, arm):
-            geom.contype = geom.conaffinity = 0
+            geom.contype = 0
+            geom.conaffinity = 0
             geom.group = 1
             geom.rgba = [0.85, 0.6, 0.45, 1.0]
 
@@ -114,7 +121,8 @@ class Hand:
 
     def drive(self, data: Any, target: HandTarget) -> None:
         """Set its forces in `data` towards a `target`, once a physics step."""
-        place, motion = data.qpos[self._places], data.qvel[self._axes]
+        place = data.qpos[self._places]
+        motion = data.qvel[self._axes]
         force = self._stiffness * (self._middle(target) - place[:3]) + self._damping * (target.velocity - motion[:3])
         if target.force is not None:
             force += (target.force - float(force @ target.inward)) * target.inward

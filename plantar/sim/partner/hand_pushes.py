@@ -84,7 +84,8 @@ class HandPushes:
         self.pushes = tuple(pushes)
         self.hands = {face: Hand(face, body) for face in faces_of(self.pushes)}
         self.height = math.nan
-        self._ask, self._body = height, body
+        self._ask = height
+        self._body = body
         self._faces = {face: skin.positions[skin.slices[face]] for face in self.hands}
         self._middles = {face: 0.5 * (at.min(axis=0) + at.max(axis=0))[:2] for face, at in self._faces.items()}
         self._given = dict.fromkeys(self.hands, 0.0)  # N s, in the push that is on
@@ -112,7 +113,8 @@ class HandPushes:
         self.height = self._ask(world)
         frame = _Frame(world.data, self._base)
         for face, hand in self.hands.items():
-            low, high = float(self._faces[face][:, 2].min()), float(self._faces[face][:, 2].max())
+            low = float(self._faces[face][:, 2].min())
+            high = float(self._faces[face][:, 2].max())
             if not low <= self.height <= high:  # half a palm may hang over the edge
                 origin = float(world.data.xpos[self._base, 2])
                 raise SceneError(
@@ -181,7 +183,8 @@ class HandPushes:
 
     def _force(self, push: HandPush, face: str, time: float) -> float | None:
         """Pressing force in N; None when done or given up."""
-        share, since = push.shares()[face], (time - push.start) / push.duration
+        share = push.shares()[face]
+        since = (time - push.start) / push.duration
         if self._given[face] >= share or since >= _LONGEST:
             return None
         peak = 0.5 * math.pi * share / push.duration
@@ -198,7 +201,8 @@ class HandPushes:
 
 class _Frame:
     def __init__(self, data: Any, base: int) -> None:
-        self._data, self._base = data, base
+        self._data = data
+        self._base = base
         self._rotation = data.xmat[base].reshape(3, 3)
         self.yaw = math.atan2(float(self._rotation[1, 0]), float(self._rotation[0, 0]))
 

@@ -43,7 +43,9 @@ class Impedance:
     def __init__(self, settings: PartnerSettings) -> None:
         self._law = settings
         self._built_in = settings.built_in_force if settings.role == "leader" else 0.0
-        self.position = self.velocity = self.rest = 0.0
+        self.position = 0.0
+        self.velocity = 0.0
+        self.rest = 0.0
 
     def update(self, force: float, period: float) -> None:
         """Advance by `period` in s under external `force` f_ex in N, by semi-implicit Euler (K 40)."""
@@ -61,7 +63,9 @@ class Impedance:
 _HAND = (0.02, 0.15, 0.1)  # leg: half edges of the hand: 18 x 12 cm for H1
 _BASE = (0.35, 0.35, 0.2)  # leg: half edges of the base
 _ARM = 0.45  # leg: from the base's front to the hand
-_ARM_SPRING, _ARM_DAMPING = 3.6, 0.43  # weight/leg, weight beat/leg: an arm of 5 kN/m and 150 N s/m before H1
+# weight/leg, weight beat/leg: an arm of 5 kN/m and 150 N s/m before H1
+_ARM_SPRING = 3.6
+_ARM_DAMPING = 0.43
 _ARM_MASS = 0.03  # of the robot: 2.6 kg before H1
 _QUICK = 7.4  # 1/beat: how quickly the drive follows the reference, 30 rad/s for H1, critically damped
 _TOUCHES = 0.00237  # weight: force on the hand that counts as contact, 2 N for H1
@@ -77,30 +81,34 @@ class MobileRobot(Partner):
     """
 
     def __init__(self, settings: PartnerSettings, skin: BodySkin, body: BodyScale, height: float, seed: int) -> None:
-        self.settings, self.law = settings, Impedance(settings)
-        self._body, self._height = body, height
+        self.settings = settings
+        self.law = Impedance(settings)
+        self._body = body
+        self._height = height
         self._front = float(skin.positions[skin.slices["front"]][:, 0].max())
         self._noise = np.random.default_rng([seed, 0x9A])
         self._start = math.nan
-        self._place = self._axis = -1
+        self._place = -1
+        self._axis = -1
         self.moved = 0.0
         self.force = 0.0
         self._forces: list[float] = []
 
     def add_to(self, spec: Any) -> None:
         """Add it to a world."""
-        leg, height = self._body.leg, self._height
+        leg = self._body.leg
+        height = self._height
         body = spec.worldbody.add_body(name="partner")
         body.add_joint(name="partner_x", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[1, 0, 0])
         hand, base = ([share * leg for share in shares] for shares in (_HAND, _BASE))
-        middle, thick = hand[0] + _ARM * leg + base[0], 0.06 * leg
+        middle = hand[0] + _ARM * leg + base[0]
+        thick = 0.06 * leg
         top = (middle, 0.0, height)
-        box, capsule = mujoco.mjtGeom.mjGEOM_BOX, mujoco.mjtGeom.mjGEOM_CAPSULE
+        box = mujoco.mjtGeom.mjGEOM_BOX
+        capsule = mujoco.mjtGeom.mjGEOM_CAPSULE
         arm = body.add_body(name="partner_arm")
-        spring, damping = (
-            _ARM_SPRING * self._body.weight / leg,
-            _ARM_DAMPING * self._body.weight * self._body.beat / leg,
-        )
+        spring = _ARM_SPRING * self._body.weight / leg
+        damping = _ARM_DAMPING * self._body.weight * self._body.beat / leg
         arm.add_joint(
             name="partner_arm", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[1, 0, 0], stiffness=spring, damping=damping
         )
@@ -112,14 +120,16 @@ class MobileRobot(Partner):
             body.add_geom(type=capsule, size=[2 * thick, 0, 0], fromto=[middle, 0, base[2], *top], mass=0.0),
         ]
         for geom, colour in zip(shapes, ([0.85, 0.6, 0.45, 1], *3 * ([0.45, 0.52, 0.6, 1],)), strict=True):
-            geom.contype = geom.conaffinity = 0
+            geom.contype = 0
+            geom.conaffinity = 0
             geom.group = 1
             geom.rgba = colour
 
     def bind(self, world: World) -> tuple[int, ...]:
         """Find it in the compiled world; returns its hand geom's id."""
         joint = world.model.joint("partner_x")
-        self._place, self._axis = int(joint.qposadr[0]), int(joint.dofadr[0])
+        self._place = int(joint.qposadr[0])
+        self._axis = int(joint.dofadr[0])
         return (int(world.model.geom("partner_hand").id),)
 
     def place(self, world: World) -> None:
@@ -131,7 +141,8 @@ class MobileRobot(Partner):
 
     def drive(self, world: World, skin: SkinSensor) -> None:
         """Measure, then follow the reference in the `world`, after `skin`."""
-        data, s = world.data, self.settings
+        data = world.data
+        s = self.settings
         true = -float(skin.on_obstacles["partner_hand"][0])  # its axis points at the robot, against the world's x
         self.force = true
         self._forces.append(true)
@@ -139,7 +150,8 @@ class MobileRobot(Partner):
         if data.time >= s.starts:
             self.law.update(true + s.hand_noise * self._noise.standard_normal(), world.period)
         rate = _QUICK / self._body.beat
-        off, speed = self.law.position - self.moved, self.law.velocity + float(data.qvel[self._axis])
+        off = self.law.position - self.moved
+        speed = self.law.velocity + float(data.qvel[self._axis])
         wanted = s.body_mass * (rate * rate * off + 2.0 * rate * speed) - true
         data.qfrc_applied[self._axis] = -min(max(wanted, -s.drive_force), s.drive_force)
 

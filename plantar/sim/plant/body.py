@@ -58,7 +58,8 @@ def _carry(model: Any, load: float, place: NDArray[np.float64], torso: int) -> N
     """Add a point mass `load` in kg to the torso, at `place` (3,) in m from its CoM."""
     if not load:
         return
-    mass, axes = float(model.body_mass[torso]), rotation_of(model.body_iquat[torso])
+    mass = float(model.body_mass[torso])
+    axes = rotation_of(model.body_iquat[torso])
     reduced = mass * load / (mass + load)
     inertia = (axes * model.body_inertia[torso]) @ axes.T + reduced * (
         place @ place * np.eye(3) - np.outer(place, place)

@@ -179,7 +179,8 @@ def drawn_plant(
     plant = plant.for_body(body)
     values = {name: _value(plant, name, seed) for name in (*plant.items(), *STATED)}
     values["backlash"] = math.radians(values["backlash"])
-    most, spread = math.radians(values.pop("encoder_offset")), values.pop("taxel_gain")
+    most = math.radians(values.pop("encoder_offset"))
+    spread = values.pop("taxel_gain")
     gains, drifts = (_of_each_taxel(stream(seed, name), layouts) for name in ("gains", "drifts"))
     drift = values.pop("taxel_drift")
     found = TruePlant(

@@ -23,9 +23,11 @@ class TorqueCurve:
     """
 
     def __init__(self, model: Any, servos: NDArray[np.int64], speeds: NDArray[np.float64], corner: float) -> None:
-        self._ranges, self._servos = model.actuator_forcerange, servos
+        self._ranges = model.actuator_forcerange
+        self._servos = servos
         self._full = model.actuator_forcerange[servos].copy()
-        self._speeds, self._corner = speeds, corner
+        self._speeds = speeds
+        self._corner = corner
         self.acts = corner < 1.0 and len(speeds) > 0 and bool(model.actuator_forcelimited[servos].all())
 
     def limit(self, speeds: NDArray[np.float64]) -> None:
@@ -49,7 +51,8 @@ class TrueDrives:
     """
 
     def __init__(self, plant: TruePlant | None, stiffness: NDArray[np.float64], damping: NDArray[np.float64]) -> None:
-        self._stiffness, self._damping = stiffness, damping
+        self._stiffness = stiffness
+        self._damping = damping
         late = 0.0 if plant is None else plant.actuation_delay
         self._line: Delay[NDArray[np.float64]] | None = Delay(late) if late else None
         self._zero = 0.0 if plant is None else stiffness * plant.encoder_offsets

@@ -132,7 +132,8 @@ class Plant(Settings):
         Raises:
             InputError: If not three allowed numbers.
         """
-        values, (unit, most) = getattr(self, name), _LARGEST[name]
+        values = getattr(self, name)
+        unit, most = _LARGEST[name]
         if not values or values == RANDOM:
             return (0.0, 0.0, 0.0)
         found = [self.in_si(value, unit, f"setting '{name}'") for value in values]

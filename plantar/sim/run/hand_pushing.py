@@ -113,7 +113,9 @@ def _with_swing(steps: Steps, k: int, direction: tuple[float, float]) -> int:
 
 class _When:
     def __init__(self, push: Push, schedule: Callable[[], WalkSchedule], step: int) -> None:
-        self._push, self._schedule, self._step = push, schedule, step
+        self._push = push
+        self._schedule = schedule
+        self._step = step
         self._moment = math.inf  # by the last plan that had the step
         self._of: WalkSchedule | None = None
 
@@ -155,12 +157,14 @@ def pushed_height(push: Push, skin: BodySkin, faces: Sequence[str], world: World
 
     Named heights of a `push` move until all palms on `faces` find `skin`.
     """
-    model, data = world.model, world.data
+    model = world.model
+    data = world.data
     base = float(data.xpos[model.body_rootid[world.torso], 2])
     if push.place == "height":
         return float(data.xipos[world.torso, 2]) + push.height - base
     levels = [skin.positions[skin.slices[face], 2] for face in faces] or [skin.positions[:, 2]]
-    low, high = max(float(z.min()) for z in levels), min(float(z.max()) for z in levels)
+    low = max(float(z.min()) for z in levels)
+    high = min(float(z.max()) for z in levels)
     joints = [model.joint(world.robot.legs[side].joints[0]).id for side in SIDES]
     hips = float(data.xanchor[joints, 2].mean()) - base
     named = {

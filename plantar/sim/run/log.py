@@ -97,7 +97,8 @@ class RunLog(ExitStack):
 
     def _footholds(self, time: float, command: Command) -> None:
         for found in command.footholds:
-            ring, polygon = found.polygon[:MOST_VERTICES].ravel(), np.full(2 * MOST_VERTICES, np.nan)
+            ring = found.polygon[:MOST_VERTICES].ravel()
+            polygon = np.full(2 * MOST_VERTICES, np.nan)
             polygon[: len(ring)] = ring
             self._foothold.write(time, found.step, SIDES.index(found.side), found.area_ratio, found.vrp, polygon)
 
@@ -124,8 +125,11 @@ class RunLog(ExitStack):
             truth: Of the judge.
             loads: Vertical in N on left and right foot.
         """
-        w, time = self._world, sensors.time
-        data, state, reference = w.data, command.state, command.reference
+        w = self._world
+        time = sensors.time
+        data = w.data
+        state = command.state
+        reference = command.reference
         self._joints.write(time, sensors.joint_positions, joints, data.actuator_force[w.servos])
         self._estimate.write(time, state.com, state.com_velocity, command.dcm, _or_nan(state.zmp))
         planned = command.com, reference.dcm, reference.vrp, command.zmp_desired
@@ -150,7 +154,8 @@ class RunLog(ExitStack):
     def _record_touch(self, touch: Touch, sensors: Sensors, command: Command) -> None:
         measured = np.full(3, np.nan)
         if sensors.skin is not None:
-            skin, world = touch.sensor.skin, self._world
+            skin = touch.sensor.skin
+            world = self._world
             active = sensors.skin.force >= skin.thresholds
             measured = np.zeros(3)
             for patch in skin.patches:

@@ -24,17 +24,21 @@ class MotorDrives:
     """
 
     def __init__(self, world: World, motors: CommandMotors, plant: TruePlant | None = None) -> None:
-        self._world, self._motors = world, motors
-        model, servos = world.model, world.servos
+        self._world = world
+        self._motors = motors
+        model = world.model
+        servos = world.servos
         self._stiffness = motors.stiffness * (1.0 if plant is None else plant.stiffness_ratio)
         self._damping = motors.damping
         model.actuator_gainprm[servos, 0] = 1.0
-        model.actuator_biasprm[servos, 1], model.actuator_biasprm[servos, 2] = -self._stiffness, -self._damping
+        model.actuator_biasprm[servos, 1] = -self._stiffness
+        model.actuator_biasprm[servos, 2] = -self._damping
         self._true = TrueDrives(plant, self._stiffness, self._damping)
         speeds = np.array([*world.robot.velocity_limits] * 2)
         self._curve = TorqueCurve(model, servos, speeds, 1.0 if plant is None else plant.corner_speed)
         self._targets = JointTargets(np.zeros(len(servos)), np.zeros(len(servos)))
-        self._share, self._elapsed = 1.0, 0.0
+        self._share = 1.0
+        self._elapsed = 0.0
         self.out_of_reach_since: float | None = None
 
     def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
@@ -48,17 +52,22 @@ class MotorDrives:
             raise SceneError("the command has no joint targets; allowed: a controller with control.drives")
         if self._motors.out_of_reach and self.out_of_reach_since is None:
             self.out_of_reach_since = float(self._world.data.time)
-        self._targets, self._share, self._elapsed = command.joints, command.stiffness, 0.0
+        self._targets = command.joints
+        self._share = command.stiffness
+        self._elapsed = 0.0
         return command.joints.angles
 
     def follow(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
         """Go to `joints` (k,) in rad with `torques` (k,) in N m by the next tick."""
-        self._targets, self._elapsed = JointTargets(joints, torques), 0.0
+        self._targets = JointTargets(joints, torques)
+        self._elapsed = 0.0
 
     def drive(self) -> None:
         """Write the torques of one physics step."""
-        w, target = self._world, self._targets
-        joints, speeds = w.data.qpos[w.joint_qpos], w.data.qvel[w.joint_qvel]
+        w = self._world
+        target = self._targets
+        joints = w.data.qpos[w.joint_qpos]
+        speeds = w.data.qvel[w.joint_qvel]
         asked = self._stiffness * target.angles + target.torques
         if target.velocities is not None:
             asked += (self._damping + self._stiffness * self._elapsed) * target.velocities

@@ -70,7 +70,8 @@ class Pusher:
         """Set the torso's external force for a physics step."""
         if self._next >= len(self.shoves) and not self.pushing:
             return
-        time, period = world.data.time + SAME_TIME, world.period
+        time = world.data.time + SAME_TIME
+        period = world.period
         force = np.zeros(3)
         self.pushing = False
         while self._next < len(self.shoves) and time + period > self.shoves[self._next].start:
@@ -78,7 +79,8 @@ class Pusher:
             if len(self.applied) == self._next:
                 self.applied.append(np.zeros(3))
             self.applied[self._next] += period * part
-            force, self.pushing = force + part, True
+            force = force + part
+            self.pushing = True
             if time + period < self.shoves[self._next].end:
                 break
             self._next += 1
@@ -118,10 +120,12 @@ def _while_standing(push: Push, schedule: WalkSchedule, rng: np.random.Generator
         )
     shoves = []
     for i in range(push.count):
-        angle, strength = rng.uniform(-math.pi, math.pi), rng.uniform(_WEAKEST, 1.0)
+        angle = rng.uniform(-math.pi, math.pi)
+        strength = rng.uniform(_WEAKEST, 1.0)
         along = np.array([math.cos(angle), push.sideways * math.sin(angle), 0.0])
         if push.direction != "seeded":
-            along, strength = np.array([*direction_of(push, 0), 0.0]), 1.0
+            along = np.array([*direction_of(push, 0), 0.0])
+            strength = 1.0
         start = _FIRST + i * push.interval
         shoves.append(Shove(start, start + push.duration, strength * push.strength * along, smooth=True))
     return tuple(shoves)

@@ -65,7 +65,9 @@ class FinishedRun(Protocol):
 
 def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
     """Returns the summary of a `run` by its loop's `result`; None: not measured."""
-    judge, stopped, late = run.judge, run.controller.safe_state, run.servos.out_of_reach_since
+    judge = run.judge
+    stopped = run.controller.safe_state
+    late = run.servos.out_of_reach_since
     count = judge.steps.count()
     balance = {} if run.recovery is None else run.recovery.summary(run.pusher.applied)
     final, why = _end(run, result, count, balance)
@@ -117,7 +119,8 @@ def _of_landings(run: FinishedRun) -> dict[str, list[Any]]:
 def _end(
     run: FinishedRun, result: Result, count: Count, balance: dict[str, Any]
 ) -> tuple[dict[str, float], list[dict[str, Any]]]:
-    world, judge = run.world, run.judge
+    world = run.world
+    judge = run.judge
     ends = [judge.goal.end(run.centers, at_start=at_start) for at_start in (False, True)]
     position, yaw = _final_error(run, ends if run.speeds is None else [run.speeds.course])
     # Where all steps were taken, the feet are where they have to be, and the body has to be over them.
@@ -205,7 +208,8 @@ def _final_error(run: FinishedRun, ends: Sequence[tuple[NDArray[np.float64], flo
 
     A walk ends as planned first or last: steps moved against drift lie as planned first.
     """
-    world, data = run.world, run.world.data
+    world = run.world
+    data = run.world.data
     com = data.subtree_com[world.torso, :2]
     end, wanted = min(ends, key=lambda goal: math.dist(goal[0], com))
     heading = math.atan2(float(data.xmat[world.torso, 3]), float(data.xmat[world.torso, 0]))

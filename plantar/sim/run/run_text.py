@@ -23,7 +23,8 @@ _COMMON |= {"control_us", "control_us_by_active", "skipped", "figures"}
 
 def run_text(summary: Summary) -> str:
     """A walk's or experiment's `summary` as lines of text."""
-    tick, walked = summary["control_us"], "steps_planned" in summary
+    tick = summary["control_us"]
+    walked = "steps_planned" in summary
     parts = (_shares, _plant, _body, _joints, _balance) if walked else (_figures,)
     return "\n".join(
         [
@@ -38,7 +39,8 @@ def run_text(summary: Summary) -> str:
 
 def demo_text(made: Mapping[str, Any], output: Path) -> str:
     """Returns demonstration lines, by results `made` ("shoe", "walk", "analysis", "files") and folder `output`."""
-    shoe, steps = made["shoe"], {side: foot["steps"] for side, foot in made["analysis"]["feet"].items()}
+    shoe = made["shoe"]
+    steps = {side: foot["steps"] for side, foot in made["analysis"]["feet"].items()}
     return (
         f"shoe: {shoe['taxels']} taxels, {shoe['mass_g']:.0f} g, "
         f"{'all checks hold' if shoe['holds'] else 'A CHECK DOES NOT HOLD'}\n"
@@ -108,8 +110,10 @@ def _body(summary: Summary) -> list[str]:
         f"{'-' if margin is None else f'{1e3 * margin:.1f} mm'}"
     ]
     if summary["impacts_N"]:
-        impacts, weight = sorted(summary["impacts_N"]), GRAVITY * summary["body"]["mass_kg"]
-        median, most = impacts[len(impacts) // 2], impacts[-1]
+        impacts = sorted(summary["impacts_N"])
+        weight = GRAVITY * summary["body"]["mass_kg"]
+        median = impacts[len(impacts) // 2]
+        most = impacts[-1]
         lines.append(
             f"  landing impact: median {median / weight:.2f}, largest {most / weight:.2f} body weights "
             f"({median:.0f} and {most:.0f} N)"

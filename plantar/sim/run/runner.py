@@ -83,11 +83,13 @@ class Simulation(Run):
         worn = () if self.worn is None else (self.worn,)
         self.legs = build_leg_model(robot, worn)
         self.body = body_of(robot, self.legs.model)
-        self.scene = scene = scene.for_body(self.body)
+        scene = scene.for_body(self.body)
+        self.scene = scene
         walk = scene.walk
         self.velocities = walk.velocities(seed)
         start = self.start_walk()
-        self.feet, self.steps = dict(start.feet), start.steps
+        self.feet = dict(start.feet)
+        self.steps = start.steps
         skin = upper_body_skin_of(scene, robot, self.legs.model, self.body, self.worn)
         self.settings = controller_settings(
             scene,
@@ -113,7 +115,8 @@ class Simulation(Run):
         self._add_judges()
 
     def _enter_world(self, skin: BodySkin | None) -> None:
-        scene, seed = self.scene, self.seed
+        scene = self.scene
+        seed = self.seed
         worn = () if self.worn is None else (self.worn,)
         self.touched: Touched | None = None
         if skin is not None:
@@ -149,7 +152,9 @@ class Simulation(Run):
                 self.sensors.body_skin = self.touch.read
 
     def _add_judges(self) -> None:
-        scene, robot, ground = self.scene, self.robot, self.ground
+        scene = self.scene
+        robot = self.robot
+        ground = self.ground
         self.recovery = Recovery(self.pusher.shoves, self.body) if scene.push.count else None
         self.zmps: ZmpComparison | None = None
         if scene.sensing.force_torque:
@@ -170,7 +175,8 @@ class Simulation(Run):
     def _arm(self, skin: BodySkin | None) -> CompliantArm | None:
         if self.worn is None:
             return None
-        noise, period = self.scene.sensing.encoder_noise, self.settings.period
+        noise = self.scene.sensing.encoder_noise
+        period = self.settings.period
         arm = CompliantArm(self.worn, skin, self.scene.arm, self.world, period, noise, self.seed)
         self.legs.hold_others(arm.posture)
         self.sensors.body_links = arm.read
@@ -178,7 +184,8 @@ class Simulation(Run):
 
     def start_walk(self) -> Start:
         """Feet at the start, and planned and commanded walk."""
-        scene, height = self.scene, com_height_of(self.scene.walk, self.robot)
+        scene = self.scene
+        height = com_height_of(self.scene.walk, self.robot)
         try:
             return start_of_walk(scene.walk, self.robot, height, scene.terrain.height, self.velocities)
         except SceneError as error:
@@ -263,7 +270,8 @@ class Simulation(Run):
             self._log.zmps(reading.time, *self.zmps.latest)
 
     def _judge_tick(self, reading: Sensors, command: Command) -> None:
-        judge, time = self.judge, reading.time
+        judge = self.judge
+        time = reading.time
         if command.footholds:
             self.foothold_truth.update(command.footholds)
         pushed = self.pusher.pushing or (self.touch is not None and bool(np.any(self.touch.force)))
@@ -275,7 +283,8 @@ class Simulation(Run):
         if self.zmps is not None:
             self.zmps.update(time, command)
         if self.recovery is not None:
-            plan, com = command.reference, self.world.data.subtree_com[self.world.torso, :2]
+            plan = command.reference
+            com = self.world.data.subtree_com[self.world.torso, :2]
             self.recovery.update(time, judge.truth().zmp, com, plan.vrp, plan.com)
 
     def compute_rest(self, command: Command, everything: bool) -> int:

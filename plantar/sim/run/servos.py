@@ -37,7 +37,8 @@ class LegServos:
 
     def __init__(self, world: World, legs: LegModel, period: float, plant: TruePlant | None = None) -> None:
         self._world = world
-        self._legs, self._motion = legs, PlannedMotion(legs, period, world.body.beat)
+        self._legs = legs
+        self._motion = PlannedMotion(legs, period, world.body.beat)
         self._friction = world.joint_friction
         self._rubs = bool(world.joint_friction.any())
         self._slow = SLOW / world.body.beat
@@ -81,7 +82,8 @@ class LegServos:
 
     def follow(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
         """Go to `joints` (k,) in rad by the next tick with feed-forward `torques` (k,) in N m."""
-        self._legs.joints[:], self._legs.torques[:] = joints, torques
+        self._legs.joints[:] = joints
+        self._legs.torques[:] = torques
         self._go_on(None)
 
     def _go_on(self, offsets: NDArray[np.float64] | None) -> None:
@@ -102,7 +104,8 @@ class LegServos:
             self._setpoints.advance()
 
     def _write(self) -> None:
-        data, w = self._world.data, self._world
+        data = self._world.data
+        w = self._world
         if self._drives is None:
             self._setpoints.write()
             if self._stiffness < 1.0:  # kp (u - q) as a share: a set-point on the way from where the joint is
@@ -110,5 +113,6 @@ class LegServos:
                 data.ctrl[w.servos] = at + self._stiffness * (data.ctrl[w.servos] - at)
             return
         asked = self._true * np.asarray(self._setpoints.setpoint)
-        joints, speeds = data.qpos[w.joint_qpos], data.qvel[w.joint_qvel]
+        joints = data.qpos[w.joint_qpos]
+        speeds = data.qvel[w.joint_qvel]
         data.ctrl[w.servos] = self._drives.offset(float(data.time), asked, joints, speeds) / self._true

@@ -60,8 +60,12 @@ class Touched:
         reach: float,
         worn: WornArm | None = None,
     ) -> None:
-        self._scene, self._skin, self._body, self._seed = scene, skin, body, seed
-        self._feet, self._steps = feet, steps
+        self._scene = scene
+        self._skin = skin
+        self._body = body
+        self._seed = seed
+        self._feet = feet
+        self._steps = steps
         timing = schedule().timing
         self._truth = PushTruth(body.mass, body.leg, 2.0 * (timing.single_support + timing.double_support))
         self.hands: HandPushes | None = None
@@ -85,8 +89,10 @@ class Touched:
         """Find skin and partners in the compiled world; returns the skin."""
         self.touch = Touch(world, self._skin, self.partners, self._seed)
         if self.guide is not None and self._worn is not None:
-            way, worn = self.guide.sign * self.guide.settings.way, self._worn
-            grip, starts = self.guide.grip, self.guide.starts
+            way = self.guide.sign * self.guide.settings.way
+            worn = self._worn
+            grip = self.guide.grip
+            starts = self.guide.starts
             self._led = GuideTruth(world, grip.link, grip.point, tuple(worn.joints), worn.posture, way, starts)
         return self.touch
 
@@ -120,7 +126,8 @@ class Touched:
         """Returns the scene's "push", "partner" and "guide", by feet's `stands` and CoM way `walked` in m."""
         found: dict[str, Any] = {}
         if self.hands is not None:
-            push, figures = self._scene.push, self.hands.summary()
+            push = self._scene.push
+            figures = self.hands.summary()
             for row, measured in zip(figures["pushes"], self._truth.accelerations(self._pushes()), strict=True):
                 row |= {name: round(value, 3) for name, value in measured.items()}
             changes = step_changes(stands, self._feet, self._steps)

@@ -16,7 +16,8 @@ _POINT = 2.6  # widths of a line: half width of a point's square, which spreads 
 _INSIDE = 2e-3  # of a patch's half extent: how far inside its outermost cells a load acts, so that several carry it
 
 
-PATCH_GRID, MOST_PATCHES = 1e-4, 256
+PATCH_GRID = 1e-4
+MOST_PATCHES = 256
 """Distance in m within which patches of springs are the same, and how many are kept."""
 
 
@@ -30,7 +31,9 @@ class Patches(Generic[T]):
     """
 
     def __init__(self, make: Callable[[NDArray[np.float64]], T], grid: float, most: int) -> None:
-        self._make, self._grid, self._most = make, grid, most
+        self._make = make
+        self._grid = grid
+        self._most = most
         self._made: dict[tuple[tuple[int, int], ...], T] = {}
 
     def of(self, points: Sequence[tuple[float, float]]) -> T:
@@ -67,8 +70,10 @@ def patch_polygon(points: NDArray[np.float64], half_width: float) -> tuple[NDArr
             return polygon, lines
         axis = np.array([-lines[thinnest, 1], lines[thinnest, 0]])
     across = np.array([-axis[1], axis[0]])
-    along, side = polygon @ axis, polygon @ across
-    low, high = along.min() - half_width, along.max() + half_width
+    along = polygon @ axis
+    side = polygon @ across
+    low = along.min() - half_width
+    high = along.max() + half_width
     middle = 0.5 * (side.min() + side.max())
     corners = np.array([[low, -1.0], [high, -1.0], [high, 1.0], [low, 1.0]])
     rectangle = np.asarray(corners[:, :1] * axis + (middle + corners[:, 1:] * half_width) * across)
@@ -84,7 +89,8 @@ def half_planes_of(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
     edge = np.concatenate([polygon[1:], polygon[:1]]) - polygon
     length = np.hypot(edge[:, 0], edge[:, 1])
     lines = np.empty((len(polygon), 3))
-    lines[:, 0], lines[:, 1] = edge[:, 1] / length, -edge[:, 0] / length
+    lines[:, 0] = edge[:, 1] / length
+    lines[:, 1] = -edge[:, 0] / length
     lines[:, 2] = lines[:, 0] * polygon[:, 0] + lines[:, 1] * polygon[:, 1]
     return lines
 

@@ -24,7 +24,8 @@ from scipy.linalg.lapack import dposv, dpotrf, dpotri
 _FAR = 12.0  # Thicknesses from which a square moves nothing: the layer's surface gives way locally
 # Sides from which a square counts as a point: off by half a per cent there, and less with the distance's square
 _NEAR = 3.0
-_ROUNDS, _TOGETHER = 80, 12
+_ROUNDS = 80
+_TOGETHER = 12
 _FEW = 12  # Squares about the load that a search begins with where one from all squares fails
 _LEAST = 1e-7  # Of the load: a square that pulls less, or is penetrated by less than this would press it, is right
 
@@ -45,14 +46,17 @@ def influence(points: ArrayLike, sides: ArrayLike, thickness: float, poisson: fl
         >>> round(float(influence([(0.0, 0.0)], [1.0], math.inf)[0, 0] * math.pi), 4)  # 4 ln(1 + sqrt 2)
         3.5255
     """
-    place, side = np.asarray(points, dtype=np.float64), np.asarray(sides, dtype=np.float64)
+    place = np.asarray(points, dtype=np.float64)
+    side = np.asarray(sides, dtype=np.float64)
     x = place[:, None, 0] - place[None, : len(side), 0]
     y = place[:, None, 1] - place[None, : len(side), 1]
     distance = np.hypot(x, y)
     with np.errstate(divide="ignore"):
         out = 1.0 / (math.pi * distance)  # of a force at a point, which a square is from afar
     near = np.nonzero(distance < _NEAR * side)
-    x, y, own = x[near], y[near], side[near[1]]
+    x = x[near]
+    y = y[near]
+    own = side[near[1]]
     half = 0.5 * own
     corners = _love(x + half, y + half) - _love(x - half, y + half) - _love(x + half, y - half)
     out[near] = (corners + _love(x - half, y - half)) / (math.pi * own * own)
@@ -169,7 +173,8 @@ class LayerContact:
         self, load: NDArray[np.float64], gap: NDArray[np.float64] | None, on: NDArray[np.bool_], together: int
     ) -> Contact | None:
         """The contact from squares expected to touch; None below three."""
-        forces, field = np.zeros(len(on)), np.zeros(3)
+        forces = np.zeros(len(on))
+        field = np.zeros(3)
         for i in range(_ROUNDS):
             gains, apart = self.gains(on, gap)
             try:
@@ -177,7 +182,8 @@ class LayerContact:
             except np.linalg.LinAlgError:
                 return None
             approach = np.array([*field, 1.0])
-            forces, sunk = gains @ approach, apart @ approach
+            forces = gains @ approach
+            sunk = apart @ approach
             # What a square asks for as a force: less pull, or less penetration.
             wrong = np.where(on, -forces, sunk / self._own)
             wrong[wrong <= _LEAST * load[0]] = 0.0
@@ -204,7 +210,8 @@ class LayerContact:
         off = np.flatnonzero(~on)
         rest = np.zeros(len(on)) if gap is None else gap
         sides = np.column_stack([self._u, -rest])
-        forces, sunk = np.zeros_like(sides), np.zeros_like(sides)
+        forces = np.zeros_like(sides)
+        sunk = np.zeros_like(sides)
         if 2 * len(off) <= len(on):
             whole = np.column_stack([self._stiff_u, -(self._stiffness @ rest) if gap is not None else rest])
             forces += whole

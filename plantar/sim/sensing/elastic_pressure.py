@@ -57,7 +57,9 @@ class _Patch:
         self.shares = shares
         self.reach = reach_of(convex_hull(points), inside)
         self._on: NDArray[np.bool_] | None = None
-        self._squares = self._taxels = np.empty((0, 3))  # what squares and taxels carry of a load (1, x, y)
+        # what squares and taxels carry of a load (1, x, y)
+        self._squares = np.empty((0, 3))
+        self._taxels = self._squares
 
     def forces(self, load: NDArray[np.float64]) -> NDArray[np.float64]:
         if self._on is not None and float((self._squares @ load).min()) >= -_STAYS:

@@ -100,7 +100,8 @@ class SoleProximity:
                 rays.lengths[i] = mujoco.mj_ray(self._model, data, start, way, _GROUPS, 1, -1, geom)
         rays.measure()
         if self._colours is not None:
-            distances, met = rays.distances, rays.starts + rays.lengths[:, None] * rays.ways
+            distances = rays.distances
+            met = rays.starts + rays.lengths[:, None] * rays.ways
             distances *= self._colours.stretch(met)
         return rays
 
@@ -142,7 +143,8 @@ class ProximitySensor:
         Returns:
             (n,) in m, inf out of range, NaN for a dead taxel; None where not wanted.
         """
-        row, count = self._noise.advance(), self._count
+        row = self._noise.advance()
+        count = self._count
         if not (wanted or everything):
             self.skipped += count
             return None

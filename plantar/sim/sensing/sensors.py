@@ -119,7 +119,8 @@ class SensorSuite:
     def _read_now(self) -> Sensors:
         joints, gyro, specific = self._body.read()
         if self._imu_to_base is not None:
-            gyro, specific = self._imu_to_base.dot(gyro), self._imu_to_base.dot(specific)
+            gyro = self._imu_to_base.dot(gyro)
+            specific = self._imu_to_base.dot(specific)
         return Sensors(
             time=self._world.data.time,
             joint_positions=joints,
@@ -135,7 +136,8 @@ class SensorSuite:
         """Wrench (6,) of each foot in the sensor's frame; empty without sensors."""
         if self._ankle_noise is None:
             return {}
-        s, data = self._sensing, self._world.data.sensordata
+        s = self._sensing
+        data = self._world.data.sensordata
         wrenches: dict[Side, NDArray[np.float64]] = {}
         scale = np.array([s.ankle_force_noise] * 3 + [s.ankle_torque_noise] * 3)
         noise = scale * self._ankle_noise.standard_normal((2, 6))
@@ -153,7 +155,8 @@ def _dead_taxels(count: int, share: float, chance: np.random.Generator) -> list[
 
 def _skin(world: World, sensing: Sensing, side: Side, foam: float) -> SoleSkin:
     geoms = [world.model.geom(g).name for g in world.sole_geoms[side]]
-    site, rubber = world.robot.legs[side].sole_site, _RUBBER * world.body.sole + foam
+    site = world.robot.legs[side].sole_site
+    rubber = _RUBBER * world.body.sole + foam
     layer = sensing.layer + foam if sensing.taxels == "elastic" else None
     return SoleSkin(
         world.model,
@@ -175,7 +178,8 @@ def _proximity(
     rng: np.random.Generator,
     colours: GroundColours | None,
 ) -> ProximitySensor:
-    site, layout = world.robot.legs[side].sole_site, world.robot.layouts[side]
+    site = world.robot.legs[side].sole_site
+    layout = world.robot.layouts[side]
     rays = SoleProximity(world.model, layout, site, sensing.proximity_range, world.ground_top, colours)
     return ProximitySensor(rays, sensing.proximity_noise, sensing.proximity_bias, rng, dead)
 

@@ -187,7 +187,8 @@ class SkinSensor:
         """
         now = float(data.time)
         if not self._queue:
-            self._start, self._taken = now, 0
+            self._start = now
+            self._taken = 0
         if now >= self._start + self._taken * self.period - SAME_TIME:
             # Count on from now: steps longer than the period skip samples, they do not pile up.
             self._taken = int((now - self._start) / self.period + 1e-6) + 1

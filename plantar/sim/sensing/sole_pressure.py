@@ -105,7 +105,8 @@ class SolePressure:
         off = points - centre
         scale = max(float(np.abs(off).max()), 1e-3)
         u = np.empty((len(points), 3))
-        u[:, 0], u[:, 1:] = 1.0, off / scale
+        u[:, 0] = 1.0
+        u[:, 1:] = off / scale
         return PressedPatch(
             cells,
             (float(centre[0]), float(centre[1])),
@@ -144,7 +145,8 @@ class SolePressure:
 def _pseudo_inverse(matrix: NDArray[np.float64], least: float) -> NDArray[np.float64]:
     """Pseudo-inverse of a symmetric semidefinite matrix (n, n), faster than `np.linalg.pinv`."""
     values, vectors = np.linalg.eigh(matrix)
-    values, vectors = values[::-1], np.ascontiguousarray(vectors[:, ::-1])
+    values = values[::-1]
+    vectors = np.ascontiguousarray(vectors[:, ::-1])
     limit = least * values[0]
     inverse = np.array([1.0 / value if value > limit else 0.0 for value in values.tolist()])
     return np.asarray(vectors @ (inverse[:, None] * vectors.T))

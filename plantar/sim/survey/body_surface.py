@@ -12,11 +12,18 @@ from scipy.spatial import ConvexHull, QhullError
 from plantar.geometry.hull_plane import hull_plane
 from plantar.mujoco.mesh_surface import mesh_surface
 
-_AROUND, _ALONG = 32, 8  # of a round shape
-_MARKER, _BALL = 0.02, 0.5  # of the largest shape's size: smaller drawn shapes, and smaller balls, mark a place
-_PLANE, _SPHERE = mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_SPHERE
+# of a round shape
+_AROUND = 32
+_ALONG = 8
+# of the largest shape's size: smaller drawn shapes, and smaller balls, mark a place
+_MARKER = 0.02
+_BALL = 0.5
+_PLANE = mujoco.mjtGeom.mjGEOM_PLANE
+_SPHERE = mujoco.mjtGeom.mjGEOM_SPHERE
 _STEEPEST = math.cos(math.radians(45.0))  # of a plane to rest on
-_SAME_PLANE, _FACES = math.cos(math.radians(1.0)), 24  # of the hull that are looked at for it
+# of the hull that are looked at for it
+_SAME_PLANE = math.cos(math.radians(1.0))
+_FACES = 24
 _BOX = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
 
 SHAPES: Mapping[Any, tuple[str, int]] = {
@@ -48,7 +55,8 @@ def shapes_of(model: Any, bodies: Collection[int]) -> tuple[list[int], list[int]
 
 def geom_triangles(model: Any, data: Any, geom: int) -> Triangles:
     """Returns triangles (n, 3, 3) of a `geom` in the world in m, of `model` and `data`."""
-    kind, size = int(model.geom_type[geom]), model.geom_size[geom]
+    kind = int(model.geom_type[geom])
+    size = model.geom_size[geom]
     if kind == mujoco.mjtGeom.mjGEOM_MESH:
         corners, faces = mesh_surface(model, int(model.geom_dataid[geom]))
         local = corners[faces]

@@ -111,7 +111,8 @@ class _Checked:
 
     def result(self) -> RobotCheck:
         stands = settled(self.robot, self.legs, self.walked.feet, self.walked.com_height)
-        model, gains = self.legs.model, self._gains(self.legs.model, self.legs.configuration)
+        model = self.legs.model
+        gains = self._gains(self.legs.model, self.legs.configuration)
         reach = plan_reach(self.robot, self.legs, self.walked)
         found = [*self._reach(reach, stands), self._apart(), *gains, *self._soles(model)]
         if math.isfinite(reach.shift):  # the legs followed the plan to its end
@@ -119,7 +120,8 @@ class _Checked:
         return RobotCheck(self.robot.name, self.scene.name, tuple(found))
 
     def _walked(self) -> Walked:
-        walk, robot = self.scene.walk, self.robot
+        walk = self.scene.walk
+        robot = self.robot
         feet, plan = self._planned(min(walk.steps if walk.velocities(0) is None else _STEPS, _STEPS), 1.0)
         settings = controller_settings(self.scene, robot, self.body, ankle_sensors(self.legs.model, robot))
         return Walked(
@@ -164,7 +166,8 @@ class _Checked:
         # Rocking legs lean with their soles until the CoM is over the sole's middle.
         half = 0.5 * (self.walked.feet["left"].y - self.walked.feet["right"].y)
         most = math.atan(half / self.walked.com_height) if self.robot.rocks else ROLL_MOST
-        roll, level = math.degrees(reach.roll), reach.roll <= most
+        roll = math.degrees(reach.roll)
+        level = reach.roll <= most
         roll_text = f"a sole that carries alone is off level by {roll:.1f} degrees" + _unless(
             level, f"; allowed: {math.degrees(most):.3g}; legs with an ankle that rolls work, or a scene that stands"
         )
@@ -204,9 +207,11 @@ class _Checked:
         return Finding("stance", round(1e3 * gap, 1), round(1e3 * least, 1), "mm", gap >= least, text)
 
     def _gains(self, model: Any, configuration: Any) -> list[Finding]:
-        robot, body = self.robot, self.body
+        robot = self.robot
+        body = self.body
         inertia = joint_inertia(robot, model, configuration)
-        stiffness, damping = np.array(robot.stiffness), np.array(robot.damping)
+        stiffness = np.array(robot.stiffness)
+        damping = np.array(robot.damping)
         works, damped = servo_gains(inertia, body.mass, robot.com_height, body.beat, CONTROL_PERIOD)
         swing = np.sqrt(stiffness / inertia.swing) * CONTROL_PERIOD
         allowed = CHATTERS * np.maximum(1.0, np.sqrt(works / stiffness))
@@ -253,13 +258,18 @@ class _Checked:
             foot = rested(model, data, parts, to_sole)
             if foot is None:
                 continue
-            points, to_body = foot.surface.reshape(-1, 3), np.array(self.robot.sole_rotations[side])
+            points = foot.surface.reshape(-1, 3)
+            to_body = np.array(self.robot.sole_rotations[side])
             normal = foot.normal if foot.share >= 0.25 else np.array([0.0, 0.0, -1.0])  # of a rounded sole
-            lowest, tilt = float((points @ -normal).min()), math.acos(min(1.0, -float(normal[2])))
-            turned, key = level_axes(normal), "_right" * (side == "right")
+            lowest = float((points @ -normal).min())
+            tilt = math.acos(min(1.0, -float(normal[2])))
+            turned = level_axes(normal)
+            key = "_right" * (side == "right")
             shank = data.xanchor[model.joint(self.robot.legs[side].joints[-3]).id]
             if float((to_sole @ (shank - data.site_xpos[site]))[2]) < 0.0:
-                tilt, turned = math.pi - tilt, turned @ np.diag([1.0, -1.0, -1.0])  # the leg is below
+                # the leg is below
+                tilt = math.pi - tilt
+                turned = turned @ np.diag([1.0, -1.0, -1.0])
             level = tilt <= _TILT
             text = f"it is tilted by {math.degrees(tilt):.1f} degrees against the foot" + _unless(
                 level, f"; allowed: {math.degrees(_TILT):g}; rotation{key} = {roll_pitch_yaw(to_body @ turned)} works"
@@ -285,7 +295,8 @@ class _Checked:
         return found
 
     def _beside(self, side: Side, foot: Any, to_body: Any, key: str) -> Finding:
-        shoe, most = np.array(self.robot.layouts[side].outline)[:, :2], _BESIDE * self.body.sole_width
+        shoe = np.array(self.robot.layouts[side].outline)[:, :2]
+        most = _BESIDE * self.body.sole_width
         off = min(_beyond(foot, shoe), _beyond(shoe, foot))
         middle = 0.5 * (np.ptp(foot, axis=0) - np.ptp(shoe, axis=0)) + foot.min(axis=0) - shoe.min(axis=0)
         text = f"the foot reaches {1e3 * off:.1f} mm beyond the shoe, which reaches as far on another side"
@@ -341,7 +352,8 @@ class _Checked:
         j = int(share.argmax())
         if share[j] == 0.0:
             return []
-        limit, holds = float(reach.speed[j] / share[j]), bool(share[j] <= _HURRIED)
+        limit = float(reach.speed[j] / share[j])
+        holds = bool(share[j] <= _HURRIED)
         text = f"{self.names[j]} turns by up to {reach.speed[j]:.3g} rad/s" + _unless(
             holds,
             f"; allowed: {_HURRIED:g} x {limit:.3g}, {SPEED_SHARE:g} of its limit; longer single_support helps",
@@ -370,6 +382,7 @@ def _unless(holds: bool, remedy: str) -> str:
 
 
 def _foot_parts(model: Any, name: str, site: str) -> set[int]:
-    foot, shoe = model.body(name).id, int(model.site(site).bodyid[0])
+    foot = model.body(name).id
+    shoe = int(model.site(site).bodyid[0])
     top = int(model.body_weldid[foot])
     return {b for b in range(model.nbody) if int(model.body_weldid[b]) == top and b != shoe}

@@ -12,7 +12,9 @@ from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
 
 _SOLE_GAP = 0.25  # of the sole's width between two soles that stand side by side: h1 has 0.3
-_SEED_BEND, _LEAST_BEND = math.radians(40.0), math.radians(20.0)  # of a knee
+# of a knee
+_SEED_BEND = math.radians(40.0)
+_LEAST_BEND = math.radians(20.0)
 
 
 def bent_posture(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
@@ -36,12 +38,14 @@ def bent_posture(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
             )
         for k, part in ((pitch[0], -0.5), (pitch[-2], 1.0), (pitch[-1], -0.5)):
             angles[k] += part * _SEED_BEND * math.copysign(1.0, float(data.xaxis[ids[k]] @ across))
-        knee, wanted = pitch[-2], angles[pitch[-2]]
+        knee = pitch[-2]
+        wanted = angles[pitch[-2]]
         for k, i in enumerate(ids):
             if model.jnt_limited[i]:
                 angles[k] = np.clip(angles[k], *model.jnt_range[i])
         if abs(angles[knee] - wanted) > _SEED_BEND - _LEAST_BEND:
-            name, (low, high) = robot.legs[side].joints[knee], np.degrees(model.jnt_range[ids[knee]]).tolist()
+            name = robot.legs[side].joints[knee]
+            low, high = np.degrees(model.jnt_range[ids[knee]]).tolist()
             raise RobotError(
                 f"robot '{robot.name}': knee '{name}', from {low:.0f} to {high:.0f} degrees, does not bend the shank "
                 f"back by {math.degrees(_LEAST_BEND):.0f} degrees; allowed: knees that do: turn its axis round"

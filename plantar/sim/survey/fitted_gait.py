@@ -26,17 +26,22 @@ ROLL_MOST = math.radians(3.0)
 """Angle of a sole that carries alone against level ground up to which its taxels' soft pad lets it rest whole."""
 
 # Phases in paces and length in legs of the steps that the built-in scenes ask for which walk at a velocity.
-QUICK_SINGLE, QUICK_DOUBLE, QUICK_STEP = 2.02, 0.404, 0.15
+QUICK_SINGLE = 2.02
+QUICK_DOUBLE = 0.404
+QUICK_STEP = 0.15
 
 # Height in legs and speed in legs a beat of the slow approach to the ground that the built-in scenes ask for.
-APPROACH_HEIGHT, APPROACH_SPEED = 0.025, 0.0247
+APPROACH_HEIGHT = 0.025
+APPROACH_SPEED = 0.0247
 
 QUICK_HELD = 0.85
 """Share of the torque limits that quick steps may take: OP3's, whose knees took 1.6 of it, sat at a limit in a third of
 all ticks and hit the ground with 6 body weights; at 0.85 of it that was 1 %."""
 
 _OWN_STIFFNESS = 6.0  # over m g h, from which the model's own servos are kept: half of what h1 has
-_ASIDE, _OFF = 2 / 15, 0.008  # of the leg: a step aside, as on the beam, and what a foot may be off after it
+# of the leg: a step aside, as on the beam, and what a foot may be off after it
+_ASIDE = 2 / 15
+_OFF = 0.008
 _NARROWER = 0.9  # of a stance, tried next
 _TURNING = 5  # joints of a leg from which it turns its foot
 _LEAST_CROUCH = 0.05  # of the leg: what scenes on unknown ground ask for
@@ -70,8 +75,12 @@ class FittedGait:
         notes: list[str],
         rotors: Array,
     ) -> None:
-        self.robot, self.body, self.inertia, self.reach = robot, body, inertia, reach
-        self.notes, self.rotors = tuple(notes), rotors
+        self.robot = robot
+        self.body = body
+        self.inertia = inertia
+        self.reach = reach
+        self.notes = tuple(notes)
+        self.rotors = rotors
 
 
 def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Array | None = None) -> FittedGait:
@@ -104,7 +113,8 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
     height = robot.com_height
     narrower = robot if robot.rocks else _narrowed(robot, legs, body)
     if narrower is not robot:
-        robot, reach = narrower, plan_reach(narrower, legs, straight_walk(narrower, body, height, QUICK_STEPS))
+        robot = narrower
+        reach = plan_reach(narrower, legs, straight_walk(narrower, body, height, QUICK_STEPS))
     if robot.rocks:
         notes.append(
             f"without ankle roll soles come off level by up to {math.degrees(reach.roll):.0f} degrees: the robot rocks "
@@ -145,7 +155,9 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
 
 def _narrowed(robot: Robot, legs: LegModel, body: BodyScale) -> Robot:
     """The robot with feet so near that its ankles take a step aside, or as near as its soles may come."""
-    aside, most, least = _ASIDE * body.leg, _OFF * body.leg, least_stance(robot) / _NARROWER
+    aside = _ASIDE * body.leg
+    most = _OFF * body.leg
+    least = least_stance(robot) / _NARROWER
     while missed_aside(robot, legs, aside) > most and robot.stance_width >= least:
         robot = replace(robot, stance_width=round(_NARROWER * robot.stance_width, 3))
     return robot
@@ -159,15 +171,18 @@ def _gains(
     gains: Sequence[tuple[float, float]],
     notes: list[str],
 ) -> tuple[Array, Array]:
-    height, limits = robot.com_height, robot.effort_limits
+    height = robot.com_height
+    limits = robot.effort_limits
     stiffness, damping = servo_gains(inertia, legs.mass, height, body.beat, CONTROL_PERIOD, limits)
     if gains:
-        own, unit = _own_gains(inertia, gains), body.weight * height
+        own = _own_gains(inertia, gains)
+        unit = body.weight * height
         works, _ = servo_gains(inertia, legs.mass, height, body.beat, CONTROL_PERIOD)
         fits = (own[0] <= 1.05 * works) | (CONTROL_PERIOD * np.sqrt(own[0] / inertia.swing) <= CHATTERS)
         fits &= own[1] + inertia.damping >= 2.0 * DAMPED * np.sqrt(own[0] * inertia.swing)
         kept = bool((fits & (own[0] >= _OWN_STIFFNESS * unit)).all())
-        least, most = own[0].min(), own[0].max()
+        least = own[0].min()
+        most = own[0].max()
         notes.append(
             f"the model's own servos have {least:.3g} to {most:.3g} N m/rad; "
             + (

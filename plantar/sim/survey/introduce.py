@@ -87,7 +87,8 @@ class Introduced:
 
     def as_dict(self, output: Path) -> dict[str, Any]:
         """Plain JSON values, with files below a folder."""
-        robot, survey = self.robot, self.survey
+        robot = self.robot
+        survey = self.survey
         return {
             "name": robot.name,
             "mass_kg": round(self.fitted.body.mass, 3),
@@ -111,9 +112,13 @@ class Introduced:
 
     def text(self, output: Path) -> str:
         """As text."""
-        robot, survey, body = self.robot, self.survey, self.fitted.body
+        robot = self.robot
+        survey = self.survey
+        body = self.fitted.body
         turns = " and ".join(f"{np.degrees(survey.soles[s].turn):.1f}" for s in SIDES)
-        joints, taxels, file = robot.legs["left"].joints, len(robot.layouts["left"]), output / "robot.toml"
+        joints = robot.legs["left"].joints
+        taxels = len(robot.layouts["left"])
+        file = output / "robot.toml"
         size = f"{1e3 * body.sole:.0f} x {1e3 * body.sole_width:.0f} mm"
         return "\n".join(
             [

@@ -20,7 +20,9 @@ _FLAT = 0.25  # share of its silhouette that the plane has that a foot rests on
 _AS_LOW = 0.1  # of the robot's height: how far two feet of a pair may differ
 _STANDS = 0.45  # of a limb's farthest reach: a model that is lower than twice that lies, or has another axis up
 _AXES_APART = math.cos(math.radians(20.0))  # how far the line between the feet may be off an axis
-_ON_AXIS, _ALONG = math.cos(math.radians(2.0)), math.cos(math.radians(0.5))  # it may be so far, and off the hips' line
+# it may be so far, and off the hips' line
+_ON_AXIS = math.cos(math.radians(2.0))
+_ALONG = math.cos(math.radians(0.5))
 _AHEAD = 0.03  # of the foot's length: what shows toes from heel
 
 Array = NDArray[np.float64]
@@ -79,7 +81,8 @@ def find_legs(model: Any, data: Any, where: str) -> Legs:
 
 class _Tree:
     def __init__(self, model: Any, data: Any) -> None:
-        self.model, self.data = model, data
+        self.model = model
+        self.data = data
         self.links = sorted({int(i) for i in model.body_weldid})
         self.bodies = {i: frozenset(np.flatnonzero(model.body_weldid == i).tolist()) for i in self.links}
         self.above = {i: int(model.body_weldid[model.body_parentid[i]]) for i in self.links if i > 0}
@@ -97,7 +100,8 @@ class _Tree:
         return found
 
     def joints(self, link: int) -> list[int]:
-        first, count = int(self.model.body_jntadr[link]), int(self.model.body_jntnum[link])
+        first = int(self.model.body_jntadr[link])
+        count = int(self.model.body_jntnum[link])
         return [j for j in range(first, first + count) if self.model.jnt_type[j] != mujoco.mjtJoint.mjJNT_FREE]
 
     def hinges(self, links: list[int]) -> list[int]:
@@ -113,7 +117,8 @@ class _Tree:
 
 def _upwards(tree: _Tree, where: str) -> tuple[Array, tuple[str, ...]]:
     """Up (3,) in the model's world: away from the farthest hanging part."""
-    model, com = tree.model, tree.data.subtree_com[0]
+    model = tree.model
+    com = tree.data.subtree_com[0]
     ends = [i for i in tree.points if len(tree.hinges(tree.chain(i))) >= LEAST_JOINTS]
     if not ends:
         longest = max(tree.points, key=lambda i: len(tree.hinges(tree.chain(i))), default=0)
@@ -177,7 +182,8 @@ def _pair(tree: _Tree, up: Array, where: str) -> tuple[list[int], list[int]]:
 
 
 def _apart(tree: _Tree, a: int, b: int) -> tuple[list[int], list[int]]:
-    one, two = tree.chain(a)[::-1], tree.chain(b)[::-1]
+    one = tree.chain(a)[::-1]
+    two = tree.chain(b)[::-1]
     shared = 0
     while shared < min(len(one), len(two)) and one[shared] == two[shared]:
         shared += 1
@@ -186,7 +192,8 @@ def _apart(tree: _Tree, a: int, b: int) -> tuple[list[int], list[int]]:
 
 def _leg(tree: _Tree, up: Array, chain: list[int], where: str) -> Leg:
     """The leg of a chain of links; the highest on the floor is the foot."""
-    model, data = tree.model, tree.data
+    model = tree.model
+    data = tree.data
     up = _above_sole(tree.points[chain[-1]], up)
     floor = float((tree.points[chain[-1]] @ up).min())
     last = len(chain) - 1
@@ -196,7 +203,8 @@ def _leg(tree: _Tree, up: Array, chain: list[int], where: str) -> Leg:
         if float((tree.points[chain[last - 1]] @ up).min()) - floor > _NEAR_FLOOR * (anchor - floor):
             break
         last -= 1
-    links, foot = chain[: last + 1], chain[last]
+    links = chain[: last + 1]
+    foot = chain[last]
     hinges = tree.hinges(links)
     other = next((j for i in links for j in tree.joints(i) if j not in hinges), None)
     if other is not None:
@@ -223,8 +231,12 @@ def _above_sole(points: Array, up: Array) -> Array:
 
 def _ankle(data: Any, hinges: list[int], foot: Array) -> Array:
     """Where a leg's last axes meet, or the last's middle if parallel."""
-    a, b = hinges[-1], hinges[-2]
-    p, u, q, v = data.xanchor[a], data.xaxis[a], data.xanchor[b], data.xaxis[b]
+    a = hinges[-1]
+    b = hinges[-2]
+    p = data.xanchor[a]
+    u = data.xaxis[a]
+    q = data.xanchor[b]
+    v = data.xaxis[b]
     parallel = float(u @ v)
     if abs(parallel) > 0.9:
         middle = 0.5 * (foot.min(axis=0) + foot.max(axis=0))
@@ -258,7 +270,8 @@ def _facing(tree: _Tree, up: Array, legs: list[Leg], where: str) -> tuple[Array,
 
 def _forward_votes(tree: _Tree, legs: list[Leg], forward: Array, up: Array) -> tuple[float, str]:
     """Positive where toes and knees indicate forward, negative for backward."""
-    toes = knees = 0.0
+    toes = 0.0
+    knees = 0.0
     for leg in legs:
         foot = np.concatenate([tree.points[i] for i in tree.below(leg.foot) if i in tree.points]) @ forward
         ahead = 0.5 * float(foot.min() + foot.max()) - float(leg.ankle @ forward)
@@ -269,7 +282,8 @@ def _forward_votes(tree: _Tree, legs: list[Leg], forward: Array, up: Array) -> t
 
 def _knee_vote(tree: _Tree, leg: Leg, left: Array) -> float:
     """1 where the knee's range bends it forward, -1 for backward, else 0."""
-    model, data = tree.model, tree.data
+    model = tree.model
+    data = tree.data
     pitch = [j for j in leg.joints if abs(float(data.xaxis[j] @ left)) > 0.7]
     if len(pitch) < 3:
         return 0.0

@@ -58,7 +58,9 @@ def add_rotors(file: Path, rotors: Mapping[str, float]) -> None:
 
 class _Copy:
     def __init__(self, model: Any, legs: Legs, folder: Path, held: Mapping[str, float]) -> None:
-        self.model, self.legs, self.folder = model, legs, folder
+        self.model = model
+        self.legs = legs
+        self.folder = folder
         self.hinges = {j for leg in legs.by_side.values() for j in leg.joints}
         self.feet = frozenset(b for leg in legs.by_side.values() for b in leg.parts)
         self.meshes: dict[int, str] = {}
@@ -68,10 +70,12 @@ class _Copy:
             if angle is not None and joint not in self.hinges:
                 data.qpos[model.jnt_qposadr[joint]] = angle
         mujoco.mj_kinematics(model, data)
-        self.positions, self.rotations = data.xpos, data.xmat.reshape(-1, 3, 3)
+        self.positions = data.xpos
+        self.rotations = data.xmat.reshape(-1, 3, 3)
 
     def written(self, name: str, imu: tuple[str, str, str] | None) -> str:
-        model, legs = self.model, self.legs
+        model = self.model
+        legs = self.legs
         root = Element("mujoco", model=name)
         SubElement(root, "compiler", angle="radian", autolimits="true", meshdir=MESH_FOLDER, balanceinertia="true")
         assets = SubElement(root, "asset")
@@ -116,7 +120,8 @@ class _Copy:
                 mass=f"{model.body_mass[body]:.9g}",
                 diaginertia=_text(np.maximum(model.body_inertia[body], 1e-12)),
             )
-        first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
+        first = int(model.body_jntadr[body])
+        count = int(model.body_jntnum[body])
         for joint in range(first, first + count):
             if joint in self.hinges:
                 self._joint(element, joint)
@@ -147,7 +152,8 @@ class _Copy:
 
     def _geom(self, element: Element, geom: int) -> None:
         model = self.model
-        kind, body = int(model.geom_type[geom]), int(model.geom_bodyid[geom])
+        kind = int(model.geom_type[geom])
+        body = int(model.geom_bodyid[geom])
         attributes = {"pos": _text(model.geom_pos[geom]), "quat": _text(model.geom_quat[geom]), "type": "mesh"}
         if kind == mujoco.mjtGeom.mjGEOM_MESH:
             attributes["mesh"] = Path(self._mesh(int(model.geom_dataid[geom]), body in self.feet)).stem

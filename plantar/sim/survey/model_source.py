@@ -151,7 +151,9 @@ def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, stated: _Sta
         "held, as their limits leave no range (lower and upper are 0 where a URDF leaves them out)", locked
     )
     for joint in root.findall("joint"):
-        name, limit, mimic = joint.get("name", ""), joint.find("limit"), joint.find("mimic")
+        name = joint.get("name", "")
+        limit = joint.find("limit")
+        mimic = joint.find("mimic")
         if mimic is not None:
             stated.coupled.append((name, mimic.get("joint", "")))
         for key, found_limits in (("effort", stated.efforts), ("velocity", stated.speeds)):
@@ -168,10 +170,12 @@ def _locked(joint: ElementTree.Element, file: Path) -> str:
     Raises:
         RobotError: If limits contradict.
     """
-    name, limit = joint.get("name", ""), joint.find("limit")
+    name = joint.get("name", "")
+    limit = joint.find("limit")
     if joint.get("type") not in ("revolute", "prismatic") or limit is None:
         return ""
-    lower, upper = _number(limit.get("lower")), _number(limit.get("upper"))
+    lower = _number(limit.get("lower"))
+    upper = _number(limit.get("upper"))
     if -math.inf < lower < upper < math.inf:
         return ""
     if not lower == upper == 0.0:
@@ -262,7 +266,9 @@ def _collect_motors(spec: Any, stated: _Stated) -> None:
     servos: set[str] = set()
     for motor in spec.actuators:
         gear = float(motor.gear[0]) or 1.0
-        gain, spring, rate = float(motor.gainprm[0]), float(motor.biasprm[1]), float(motor.biasprm[2])
+        gain = float(motor.gainprm[0])
+        spring = float(motor.biasprm[1])
+        rate = float(motor.biasprm[2])
         force = _times(gear, _range(motor, "force"))
         pushes = motor.gaintype == mujoco.mjtGain.mjGAIN_FIXED and gain != 0.0 and spring == 0.0
         if pushes and (motor.biastype == mujoco.mjtBias.mjBIAS_NONE or rate != -gain):
@@ -283,7 +289,8 @@ def _collect_motors(spec: Any, stated: _Stated) -> None:
             both = damping + more if min(damping, more) >= 0.0 else min(damping, more)  # ratios do not add
             stated.gains[motor.target] = (stiffness + gear**2 * gain, both)
         elif gain > 0.0 and rate == -gain and spring == 0.0:
-            rates[motor.target], force = (gear**2 * gain, _weaker(force)), _ANY
+            rates[motor.target] = (gear**2 * gain, _weaker(force))
+            force = _ANY
         torques.setdefault(motor.target, []).append(force)
     stated.notes += named_note("servos on tendons are replaced by one a joint", sorted(servos))
     for name in rates.keys() & stated.gains.keys():  # a position servo that a velocity servo damps
@@ -337,7 +344,8 @@ def _check_limits(spec: Any, file: Path) -> None:
 
 
 def _imus_of(spec: Any) -> tuple[tuple[str, str], ...]:
-    kinds, named = (mujoco.mjtSensor.mjSENS_GYRO, mujoco.mjtSensor.mjSENS_ACCELEROMETER), ("site", "body")
+    kinds = (mujoco.mjtSensor.mjSENS_GYRO, mujoco.mjtSensor.mjSENS_ACCELEROMETER)
+    named = ("site", "body")
     found = [("site", s.objname) for k in kinds for s in spec.sensors if s.type == k and spec.site(s.objname)]
     places = zip(named, (spec.sites, spec.bodies), strict=True)
     return tuple(dict.fromkeys([*found, *((what, e.name) for what, es in places for e in es if _IMU.search(e.name))]))
@@ -350,7 +358,8 @@ def _compiled(spec: Any, file: Path) -> Any:
         except ValueError as error:
             problem = error
         for geom in [g for g in spec.geoms if g.type == mujoco.mjtGeom.mjGEOM_MESH]:
-            geom.contype = geom.conaffinity = 0
+            geom.contype = 0
+            geom.conaffinity = 0
     raise RobotError(f"{file}: cannot be simulated: {' '.join(str(problem).split())}") from None
 
 

@@ -158,7 +158,8 @@ def plan_reach(
 
 class _Pass:
     def __init__(self, robot: Robot, legs: LegModel, walked: Walked) -> None:
-        self.legs, self.walked = legs, walked
+        self.legs = legs
+        self.walked = walked
         self.middles = {s: middle_of_sole(robot.layouts[s], robot.ankle_reach) for s in SIDES}
         self.inertia = leg_inertia(robot, legs, walked.com_height).turning
         frequency = pendulum_frequency(walked.com_height, 2.0 * self.inertia)
@@ -168,15 +169,20 @@ class _Pass:
         self.every = walked.timing.single_support / _INSTANTS
         self.missed = settled(robot, legs, walked.feet, walked.com_height)
         self.probe = _Probe(robot, legs)
-        self.knee, self.straightest = self.probe.knees(legs), 0.0
-        self.spare, self.roll = self.probe.spare(legs, SIDES), 0.0
+        self.knee = self.probe.knees(legs)
+        self.straightest = 0.0
+        self.spare = self.probe.spare(legs, SIDES)
+        self.roll = 0.0
         self.seen: list[tuple[Array, ...]] = []
         self.feet = dict(walked.feet)
         self.ground = float(np.mean([foot.z for foot in walked.feet.values()]))
 
     def look(self, time: float) -> None:
-        walked, legs, feet = self.walked, self.legs, self.feet
-        phase, shift = self.plan.schedule.at(time), self.momentum.at(time)
+        walked = self.walked
+        legs = self.legs
+        feet = self.feet
+        phase = self.plan.schedule.at(time)
+        shift = self.momentum.at(time)
         reference = self.plan.at(time).plus(shift)
         for foot in walked.steps[: phase.step]:
             feet[foot.side] = foot
@@ -199,7 +205,8 @@ class _Pass:
         legs.follow(com, torso, positions, rotations, iterations=_EACH, yielding=yielding, largest_step=_STEP)
         bend = self.probe.knees(legs)
         if bend < self.knee:
-            self.knee, self.straightest = bend, time - _BEGIN
+            self.knee = bend
+            self.straightest = time - _BEGIN
         for s in SIDES:  # what a swinging foot misses in the air is made up for before it lands
             lands = s in carrying or phase.end - time < _LANDING * (phase.end - phase.start)
             self.missed = max(self.missed, (1.0 if lands else _SWINGING) * self.probe.off(s, positions[s]))
@@ -244,8 +251,10 @@ class _Pass:
             for amount in (static + moving + reaction, static, moved)
         )
         _, about_y, about_z = np.abs(moment[alone.any(axis=1)]).max(axis=0, initial=0.0)
-        low, high = self.outline.min(axis=0), self.outline.max(axis=0)
-        weight, place = self.legs.mass * GRAVITY, self.middles["left"][0]
+        low = self.outline.min(axis=0)
+        high = self.outline.max(axis=0)
+        weight = self.legs.mass * GRAVITY
+        place = self.middles["left"][0]
         shift = about_y / (weight * min(high[0] - place, place - low[0]))
         turn = about_z / (Terrain.friction * weight * _ARM * math.hypot(*(high - low)))
         return PlanReach(
@@ -274,14 +283,16 @@ class _Probe:
         model = legs.model
         self._data = stood(robot, model)
         ids = [model.joint(n).id for s in SIDES for n in robot.legs[s].joints]
-        self.places, self._joints = model.jnt_qposadr[ids], ids
+        self.places = model.jnt_qposadr[ids]
+        self._joints = ids
         dofs = model.jnt_dofadr[ids]
         self.damping = model.dof_damping[dofs]
         self.swinging = floating_inertia(model, legs.configuration)[dofs]
         free = model.jnt_limited[ids] == 0
         self._low = np.where(free, -math.inf, model.jnt_range[ids, 0])
         self._high = np.where(free, math.inf, model.jnt_range[ids, 1])
-        self._model, self._torso = model, model.body(robot.torso_body).id
+        self._model = model
+        self._torso = model.body(robot.torso_body).id
         self._root = int(model.body_rootid[self._torso])
         self._soles = {s: model.site(robot.legs[s].sole_site).id for s in SIDES}
         self._pitch: list[tuple[int, int, int]] = []
@@ -300,8 +311,10 @@ class _Probe:
             thigh = self._data.xanchor[knee] - self._data.xanchor[hip]
             shank = self._data.xanchor[ankle] - self._data.xanchor[knee]
             axis = self._data.xaxis[knee] * math.copysign(1.0, float(self._data.xaxis[knee] @ across))
-            thigh, shank = thigh - (thigh @ axis) * axis, shank - (shank @ axis) * axis
-            (a, b, c), (d, e, f) = thigh.tolist(), shank.tolist()
+            thigh = thigh - (thigh @ axis) * axis
+            shank = shank - (shank @ axis) * axis
+            a, b, c = thigh.tolist()
+            d, e, f = shank.tolist()
             around = np.array([b * f - c * e, c * d - a * f, a * e - b * d])  # np.cross takes ten times as long
             bends.append(math.atan2(float(around @ axis), float(thigh @ shank)))
         return min(bends, default=math.pi)
@@ -323,7 +336,8 @@ class _Probe:
 
     def angular_momenta(self, configurations: Array, every: float) -> Array:
         """Angular momenta (n, 3) in N m s about the CoM of configurations (n, nq) that follow `every` so many s."""
-        model, data = self._model, self._data
+        model = self._model
+        data = self._data
         found = np.zeros((len(configurations), 3))
         for i in range(1, len(configurations) - 1):
             before, now, after = configurations[i - 1 : i + 2]

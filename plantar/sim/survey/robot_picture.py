@@ -16,7 +16,8 @@ from plantar.sim.survey.plan_reach import settled
 from plantar.sim.terrain import Ground, Terrain
 
 _VIEWS = ((180.0, -8.0), (90.0, -8.0), (145.0, -30.0))  # azimuth and elevation in degrees: front, side, from above
-_WIDTH, _HEIGHT = 640, 900
+_WIDTH = 640
+_HEIGHT = 900
 _BONE = (0.25, 0.27, 0.3, 1.0)
 _COLOURS = ((0.85, 0.2, 0.2, 1.0), (0.2, 0.65, 0.25, 1.0), (0.2, 0.35, 0.85, 1.0))
 
@@ -53,7 +54,8 @@ def draw_robot(robot: Robot, path: Path) -> Path:
 
 
 def _bones(robot: Robot, world: World) -> list[Line]:
-    model, data = world.model, world.data
+    model = world.model
+    data = world.data
     chains = {s: [data.xanchor[model.joint(n).id].copy() for n in robot.legs[s].joints] for s in SIDES}
     ends = [(chains["left"][0], chains["right"][0])]
     ends += [pair for chain in chains.values() for pair in pairwise(chain)]
@@ -62,5 +64,6 @@ def _bones(robot: Robot, world: World) -> list[Line]:
 
 
 def _axes(data: mujoco.MjData, site: int, length: float) -> list[Line]:
-    start, rotation = data.site_xpos[site].copy(), data.site_xmat[site].reshape(3, 3)
+    start = data.site_xpos[site].copy()
+    rotation = data.site_xmat[site].reshape(3, 3)
     return [Line(start, start + length * rotation[:, i], 0.03 * length, colour) for i, colour in enumerate(_COLOURS)]

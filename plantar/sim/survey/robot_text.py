@@ -138,7 +138,9 @@ def _posture(robot: Robot) -> list[str]:
 
 
 def _gait(fitted: FittedGait) -> list[str]:
-    robot, body, reach = fitted.robot, fitted.body, fitted.reach
+    robot = fitted.robot
+    body = fitted.body
+    reach = fitted.reach
     leg = "hip over knee to ankle" if not robot.leg_length else "shorter than the leg, see the note above"
     pace = robot.single_support / math.sqrt(robot.com_height / GRAVITY)
     return [
@@ -197,7 +199,8 @@ def _loaded(robot: Robot) -> list[str]:
 
 
 def _servo(survey: Survey, fitted: FittedGait) -> list[str]:
-    robot, inertia = fitted.robot, fitted.inertia
+    robot = fitted.robot
+    inertia = fitted.inertia
     wanted = STIFFNESS * fitted.body.weight * robot.com_height
     hertz = np.sqrt(np.array(robot.stiffness) / inertia.swing) / (2.0 * math.pi)
     lines = [

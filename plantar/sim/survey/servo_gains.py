@@ -65,7 +65,8 @@ def _floating(model: Any, data: Any) -> NDArray[np.float64]:
 
 def _above(model: Any, data: Any, joint: int) -> float:
     """Inertia in kg m^2 about a joint's axis of all bodies above it."""
-    axis, anchor = data.xaxis[joint], data.xanchor[joint]
+    axis = data.xaxis[joint]
+    anchor = data.xanchor[joint]
     hanging = set(hanging_on(model, int(model.jnt_bodyid[joint])))
     total = 0.0
     for body in range(1, model.nbody):

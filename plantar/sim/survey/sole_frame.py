@@ -17,7 +17,9 @@ _RESTS = 0.25  # share of the silhouette that a plane must have to be what the f
 _LEVEL = math.radians(0.2)  # a sole that is tilted by less is taken as level: rounding of the model's numbers
 _BAND = 0.005  # m: the lowest part of a foot, which is its sole
 _COVERED = 0.4  # of the silhouette by the lowest band; less are balls, bars or a rounded sole
-_LEAST_LENGTH, _LEAST_WIDTH = 0.06, 0.015  # m: of a sole that a shoe is built for
+# m: of a sole that a shoe is built for
+_LEAST_LENGTH = 0.06
+_LEAST_WIDTH = 0.015
 _TOED_OUT = math.radians(8.0)  # between the foot's long side and the robot's forward direction
 _ACROSS = 1.5  # width over length of a sole at most
 _SLENDER = 1.3  # length over width of a foot whose long side is given
@@ -97,7 +99,8 @@ def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> S
     found = rested(model, data, leg.parts, rotation)
     if found is None:
         raise RobotError(f"{where}: foot '{name}' has no shape to stand on; give its body a mesh, box or sphere")
-    surface, normal = found.surface, found.normal
+    surface = found.surface
+    normal = found.normal
     share = 100.0 * min(found.share, 1.0)
     notes = [f"sole plane: that of the {found.kind} shapes of '{name}', {share:.0f} % of their silhouette"]
     if found.share < _RESTS:
@@ -125,7 +128,8 @@ def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> S
     in_body = to_body @ sole_to_robot
     outline = triangles.reshape(-1, 3)
     outline = outline[outline[:, 2] <= _BAND][:, :2]
-    low, high = outline.min(axis=0), outline.max(axis=0)
+    low = outline.min(axis=0)
+    high = outline.max(axis=0)
     length, width = (high - low).tolist()
     if min(length, width) < _LEAST_WIDTH or max(length, width) < _LEAST_LENGTH:
         raise RobotError(
@@ -165,7 +169,8 @@ def _axes(surface: Array, normal: Array) -> tuple[Array, float]:
     angle = _long_side(flat)
     if not _TOED_OUT < abs(angle) < math.radians(50.0):
         return level, 0.0
-    c, s = math.cos(angle), math.sin(angle)
+    c = math.cos(angle)
+    s = math.sin(angle)
     return np.asarray(level @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])), angle
 
 
@@ -176,12 +181,16 @@ def _long_side(points: Array) -> float:
     except (QhullError, ValueError):
         return 0.0
     sides = np.roll(corners, -1, axis=0) - corners
-    best, angle, size = math.inf, 0.0, (1.0, 1.0)
+    best = math.inf
+    angle = 0.0
+    size = (1.0, 1.0)
     for a in np.arctan2(sides[:, 1], sides[:, 0]).tolist():
         turned = corners @ np.array([[math.cos(a), -math.sin(a)], [math.sin(a), math.cos(a)]])
         length, width = np.ptp(turned, axis=0).tolist()
         if length * width < best:
-            best, angle, size = length * width, a, (length, width)
+            best = length * width
+            angle = a
+            size = (length, width)
     if size[1] > size[0]:
         angle += 0.5 * math.pi
     return 0.0 if max(size) < _SLENDER * min(size) else math.remainder(angle, math.pi)
@@ -190,7 +199,8 @@ def _long_side(points: Array) -> float:
 def _covered(triangles: Array) -> float:
     """Share of the silhouette under lowest faces: small for balls, 1 for a plate."""
     flat = triangles[(triangles[..., 2] <= _BAND).all(axis=1)][..., :2]
-    a, b = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+    a = flat[:, 1] - flat[:, 0]
+    b = flat[:, 2] - flat[:, 0]
     cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
     down = 0.5 * float(-cross[cross < 0.0].sum())
     up = 0.5 * float(np.abs(cross).sum()) - down

@@ -32,7 +32,8 @@ HELD = 0.75
 # Shares of the way to the sole's edge by which a swinging leg may move the ZMP, and of friction's moment by which it
 # may turn the sole: h1 has 0.19 and 0.08. The plan makes way for the leg, so that 0.4 is walked, too; slower steps are
 # no safer, as what balance misses on a part of a sole grows as long as the step lasts.
-SHIFT, TURN = 0.3, 0.15
+SHIFT = 0.3
+TURN = 0.15
 
 SPARE = math.radians(1.0)
 """Angle of a joint's range that a walk leaves unused."""
@@ -41,22 +42,31 @@ QUICK_STEPS = 4
 """Steps that are looked at: two of each foot."""
 
 _FULL = 0.95  # of the torque limits: no knee bends for more
-_MORE_BENT, _STRONG = math.radians(10.0), 0.6  # of knees, and share of the torque limits from which they are
+# of knees, and share of the torque limits from which they are
+_MORE_BENT = math.radians(10.0)
+_STRONG = 0.6
 _WIDE = 0.33  # of the leg: distance of the feet above which a narrower stance is tried, too; h1 has 0.28
-_SINGLE, _DOUBLE = 3.15, 1.05  # t_ss and t_ds of h1 over sqrt(h / g) of its height
+# t_ss and t_ds of h1 over sqrt(h / g) of its height
+_SINGLE = 3.15
+_DOUBLE = 1.05
 _H1_STEP = 4.85  # beats of a step of h1
 _LEAN = 0.48  # rad of trunk lean per leg length of lateral motion, as h1
 _SHORTER = (1.0, 0.85, 0.7, 0.55, 0.4)
 _OTHER_PACES = (0.8, 1.25, 0.64, 1.6)
 _TRIED_LEANS = (1.0, 1.6, 2.4)
 _TRIED_STANCES = (0.3, 0.24)  # of the leg
-_HIGHEST, _LOWEST, _LOWER = 0.15, 0.45, 0.04  # of the leg, above and below the posture with knees of 40 degrees
+# of the leg, above and below the posture with knees of 40 degrees
+_HIGHEST = 0.15
+_LOWEST = 0.45
+_LOWER = 0.04
 _WORSE = 3  # heights in a row that cost more, below which no others are looked at
 _LEAST_KNEE = math.radians(10.0)
 # Cost of a walk from which no other one is looked for: level steps at h1's pace with 75 % of the torque have 0.15
 _GOOD = 0.3
 # Cost of steps half as long, or of twice or half the pace; of each further lean, and stance
-_OTHER_SPEED, _OTHER_LEAN, _OTHER_STANCE = 0.6, 0.1, 0.15
+_OTHER_SPEED = 0.6
+_OTHER_LEAN = 0.1
+_OTHER_STANCE = 0.15
 
 Array = NDArray[np.float64]
 
@@ -170,7 +180,8 @@ def _others(robot: Robot, body: BodyScale) -> list[tuple[Robot, float]]:
 def _least(
     best: _Tried | None, robot: Robot, legs: LegModel, body: BodyScale, heights: Array, paid: float
 ) -> _Tried | None:
-    own, worse = math.inf, 0
+    own = math.inf
+    worse = 0
     for height in heights.tolist():
         tried = _tried(robot, legs, body, height, paid)
         if tried is None:
@@ -194,7 +205,8 @@ def _tried(robot: Robot, legs: LegModel, body: BodyScale, height: float, paid: f
     # A robot that cannot crouch needs bent knees as it is: those that are almost straight throw the leg as it lands.
     more = 1.0 if robot.rocks else min(1.0, max(0.0, (asked - _STRONG) / (HELD - _STRONG)))
     least = KNEE_LEAST + more * _MORE_BENT
-    straight, bent = max(0.0, least - reach.knee), max(0.0, reach.knee - least)
+    straight = max(0.0, least - reach.knee)
+    bent = max(0.0, reach.knee - least)
     over = 4.0 * max(0.0, asked - HELD) + 20.0 * max(0.0, asked - _FULL)
     cost = paid + 0.2 * asked + over + 6.0 * straight + 0.5 * bent
     return _Tried(cost, paid, robot, body, reach)

@@ -13,7 +13,8 @@ from plantar.common.files.gate import read_apart
 from plantar.common.files.input_file import check_input, open_input
 from plantar.errors import DependencyError, RobotError
 
-_READ_BY_MUJOCO, _CONVERTED = (".obj", ".msh"), (".dae", ".stl")
+_READ_BY_MUJOCO = (".obj", ".msh")
+_CONVERTED = (".dae", ".stl")
 _MOST_BYTES = 400_000_000
 _LARGEST = 200_000  # faces of an STL file that MuJoCo reads
 

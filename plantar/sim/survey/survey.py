@@ -114,7 +114,8 @@ def survey_model(file: Path, folder: Path) -> Survey:
 
 
 def _check_masses(model: Any, feet: float, file: Path) -> None:
-    weight, size = float(mujoco.mj_getTotalmass(model)), 0.5 * float(model.stat.extent)
+    weight = float(mujoco.mj_getTotalmass(model))
+    size = 0.5 * float(model.stat.extent)
     radius = np.sqrt(model.body_inertia.max(axis=1) / np.maximum(model.body_mass, 0.01 * weight))
     widest = int(radius.argmax())
     if not (_WEIGHTS[0] <= weight <= _WEIGHTS[1] and radius[widest] <= size):
@@ -147,11 +148,13 @@ def _loop_notes(source: ModelSource, legs: Legs) -> list[str]:
 def _held(source: ModelSource, legs: Legs) -> tuple[dict[str, float], list[str]]:
     model = source.model
     hinges = {j for leg in legs.by_side.values() for j in leg.joints}
-    held, outside = {}, []
+    held = {}
+    outside = []
     for joint in range(model.njnt):
         if joint in hinges or model.jnt_type[joint] != mujoco.mjtJoint.mjJNT_HINGE:
             continue
-        name, zero = model.joint(joint).name, float(model.qpos0[model.jnt_qposadr[joint]])
+        name = model.joint(joint).name
+        zero = float(model.qpos0[model.jnt_qposadr[joint]])
         angle = source.upper_posture.get(name, zero)
         if model.jnt_limited[joint]:
             low, high = model.jnt_range[joint].tolist()
@@ -188,7 +191,8 @@ def _coupled_notes(source: ModelSource, names: Mapping[Side, list[str]]) -> list
 
 
 def _unlike(soles: Mapping[Side, Sole]) -> list[str]:
-    left, right = soles["left"], soles["right"]
+    left = soles["left"]
+    right = soles["right"]
     mirrored = np.array([[right.low[0], -right.high[1]], [right.high[0], -right.low[1]]])
     gap: NDArray[np.float64] = np.abs(mirrored - [left.low, left.high])
     text = f"the soles differ by up to {1e3 * float(gap.max()):.0f} mm; the shoes are those of the left one, mirrored"

@@ -115,7 +115,8 @@ class ClusterWorkers(Workers):
         self._ended: SimpleQueue[Any] = SimpleQueue()
         self._error: PlantarError | None = None
         self._threads = 0
-        self._answered = self._manned = time.monotonic()
+        self._answered = time.monotonic()
+        self._manned = self._answered
         self._closed = threading.Event()
         threading.Thread(target=self._watch, daemon=True).start()
 

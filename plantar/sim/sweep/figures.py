@@ -107,7 +107,8 @@ def _map(plan: Plan, rows: Rows) -> Any:
         return None
     completed = np.array([row["completed"] == "True" for row in rows.values()])
     (name_x, x), (name_y, y) = numeric[:2]
-    (in_x, names_x), (in_y, names_y) = _cells(x), _cells(y)
+    in_x, names_x = _cells(x)
+    in_y, names_y = _cells(y)
     figure, axis = new_figure(max(4.5, 1.6 + 1.05 * len(names_x)), max(3.2, 1.2 + 0.62 * len(names_y)))
     shares = np.full((len(names_y), len(names_x)), np.nan)
     for i in range(len(names_y)):

@@ -45,7 +45,8 @@ def changes(before: Mapping[str, str], now: Mapping[str, str]) -> str:
     """
     found = []
     for label in [*before, *(label for label in now if label not in before)]:
-        old, new = before.get(label), now.get(label)
+        old = before.get(label)
+        new = now.get(label)
         if old == new:
             continue
         if new is None or old is None:

@@ -14,12 +14,16 @@ from scipy.special import chdtrc
 
 _LAPSES = (0.0, 0.02, 0.1)
 _WIDTHS = 12
-_NARROWEST, _WIDEST = 1e-3, 0.5  # widths of the logistic curve, in shares of the range
+# widths of the logistic curve, in shares of the range
+_NARROWEST = 1e-3
+_WIDEST = 0.5
 _BEYOND = 0.5  # how far limits are looked for outside of the range, in shares of it: whether it is in it is to be found
 _LIMITS = 161
 _NEGLIGIBLE = 1e-6  # probability that is left out when the grid is drawn around the rest
 _LEAST = 1e-12
-_GROUP, _GROUPS = 10, 20  # least runs of a group by which a curve is held against its runs, and most groups
+# least runs of a group by which a curve is held against its runs, and most groups
+_GROUP = 10
+_GROUPS = 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,7 +147,8 @@ def _log_likelihoods(
     down = np.zeros_like(up)
     for value, completed, failed in zip(tried, good, bad, strict=True):
         share = _shares(float(value), limits, widths)
-        yes, no = np.log(np.maximum(share, _LEAST)), np.log(np.maximum(1.0 - share, _LEAST))
+        yes = np.log(np.maximum(share, _LEAST))
+        no = np.log(np.maximum(1.0 - share, _LEAST))
         up += completed * yes + failed * no
         down += completed * no + failed * yes
     return up, down

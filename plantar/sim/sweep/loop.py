@@ -142,7 +142,9 @@ class _Tasks:
     """
 
     def __init__(self, plan: Plan, inputs: Mapping[str, Mapping[str, str]], rows: Rows) -> None:
-        self._plan, self._inputs, self._rows = plan, inputs, rows
+        self._plan = plan
+        self._inputs = inputs
+        self._rows = rows
         self.keys: dict[Task, Key] = {}
         self.count = 0
 
@@ -156,7 +158,8 @@ class _Tasks:
             if key_of(*run) in self._rows:
                 continue
             point, seed = run
-            robot, settings = checked.robot_of(point), (*checked.settings, *point)
+            robot = checked.robot_of(point)
+            settings = (*checked.settings, *point)
             inputs = tuple(self._inputs[robot].items())
             task = Task(_anywhere(checked.scene), _anywhere(robot), settings, seed, inputs)
             self.keys[task] = key_of(*run)
@@ -164,7 +167,8 @@ class _Tasks:
 
 
 def _rows_of(tasks: Iterator[Task | None], pool: Workers, note: StopNote) -> Iterator[tuple[Task, Row]]:
-    running, more = 0, True
+    running = 0
+    more = True
     while not note.number:
         while more and pool.room > 0:
             task = next(tasks, _END)

@@ -181,7 +181,8 @@ def open_results(
     `axes` the grid's settings and first columns, `columns` those after the seed. An InputError if the folder is
     unusable, in use, or another sweep's.
     """
-    path, plan = folder / "results.csv", folder / "sweep.json"
+    path = folder / "results.csv"
+    plan = folder / "sweep.json"
     with ExitStack() as stack:
         try:
             folder.mkdir(parents=True, exist_ok=True)

@@ -129,7 +129,8 @@ class ValueRange:
         found = [_END.fullmatch(end) for end in ends.split(":")]
         if not equals or not key.strip() or len(found) != 2 or found[0] is None or found[1] is None:
             raise InputError(f"{option} {text!r} is not of the form key=from:to, two numbers")
-        low, high = found[0], found[1]
+        low = found[0]
+        high = found[1]
         units = [(end["unit"] or "").strip() for end in (low, high)]
         if units[0] != units[1]:
             raise InputError(f"{option} {text!r} has two units; allowed: the same one twice, or none")

@@ -80,7 +80,8 @@ class LocalWorkers(Workers):
                 rows += self._replace(worker, task)
                 continue
             if kind == "ready":
-                worker.ready, self._false_starts = True, 0
+                worker.ready = True
+                self._false_starts = 0
             elif kind == "error":
                 self._error = answer
             else:

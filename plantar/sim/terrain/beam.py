@@ -37,7 +37,8 @@ class Beam(Terrain):
         near = way.begin + start * way.along + offset * np.array([-way.along[1], way.along[0]])
         # The platforms' edges run across the walk; the beam's ends run 50 mm into them, so that no gap opens where it
         # is turned.
-        turned, length = way.heading + math.radians(self.yaw), self.length / math.cos(math.radians(self.yaw))
+        turned = way.heading + math.radians(self.yaw)
+        length = self.length / math.cos(math.radians(self.yaw))
         beam = Way(near, turned, length).piece((-0.05, self.height), (length + 0.05, self.height), 0.5 * self.width)
         end = start + self.length
         platforms = ((start - 1.2, start), (end, max(end, way.length) + 1.0))

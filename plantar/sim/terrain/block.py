@@ -52,10 +52,13 @@ class Block(Terrain):
             raise SceneError(f"terrain.step is {self.step}; allowed: 0 to {len(feet.steps) - 1}, the steps of the walk")
         foot = feet.steps[self.step]
         top = max(0.001, self.top + float(rng.uniform(-1.0, 1.0)) * self.height_range)
-        box, pitch, roll = self.shape == "box", self.pitch, self.roll
+        box = self.shape == "box"
+        pitch = self.pitch
+        roll = self.roll
         if self.slope > 0.0:
             way = _WAYS[int(rng.integers(len(_WAYS)))]
-            pitch, roll = pitch + way[0] * self.slope, roll + way[1] * self.slope
+            pitch = pitch + way[0] * self.slope
+            roll = roll + way[1] * self.slope
         solids = (self._box(foot, top, self._room(foot, feet), pitch, roll),) if box else self._spheres(foot, top)
         return Ground(
             solids,

@@ -16,7 +16,8 @@ from plantar.kernels.contacts.face_contacts import FaceContacts
 MARK = 1 << 29
 """Bit of `contype` of a geom whose flat faces carry soles; no geom's `conaffinity` answers to it."""
 
-_BOX, _CYLINDER = int(mujoco.mjtGeom.mjGEOM_BOX), int(mujoco.mjtGeom.mjGEOM_CYLINDER)
+_BOX = int(mujoco.mjtGeom.mjGEOM_BOX)
+_CYLINDER = int(mujoco.mjtGeom.mjGEOM_CYLINDER)
 _KINDS = 9  # geom types, as of mjNGEOMTYPES
 _SEARCHED = 1 << 18  # bytes at the head of a structure of MuJoCo in which its arrays' addresses are
 _Function = ctypes.CFUNCTYPE(
@@ -90,11 +91,13 @@ def _library() -> ctypes.CDLL:
 
 def _collide(find: Callable[..., int], other: Any, where: _Addresses) -> Callable[..., int]:
     """A collision function: `find` for marked geoms, else MuJoCo's own."""
-    word, whole = ctypes.c_size_t.from_address, ctypes.c_int.from_address
+    word = ctypes.c_size_t.from_address
+    whole = ctypes.c_int.from_address
 
     def collide(model: int, data: int, contacts: int, first: int, second: int, margin: float) -> int:
         kinds = word(model + where.contype).value
-        a, b = whole(kinds + 4 * first).value & MARK, whole(kinds + 4 * second).value & MARK
+        a = whole(kinds + 4 * first).value & MARK
+        b = whole(kinds + 4 * second).value & MARK
         found = -1
         if a != b:
             ground, sole, sign = (first, second, 1.0) if a else (second, first, -1.0)

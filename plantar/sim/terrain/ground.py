@@ -47,7 +47,8 @@ class Footprint:
 
     def place(self, along: float, across: float) -> NDArray[np.float64]:
         """Returns the point (2,) in the world, `along` forward and `across` left of the centre in m."""
-        c, s = math.cos(self.yaw), math.sin(self.yaw)
+        c = math.cos(self.yaw)
+        s = math.sin(self.yaw)
         return np.asarray(self.center + np.array([c * along - s * across, s * along + c * across]))
 
 
@@ -115,7 +116,8 @@ class Solid:
     @property
     def top(self) -> float:
         """Largest height in m of any part, ever."""
-        up, (a, b, c) = np.abs(self.rotation[2]), self.size
+        up = np.abs(self.rotation[2])
+        a, b, c = self.size
         reach = {
             "box": up @ self.size,
             "sphere": a,

@@ -48,7 +48,8 @@ class Mixed(Laid):
 
     def _piece(self, piece: str, foot: Footprint, feet: PlannedFeet, rng: np.random.Generator) -> Solid:
         if piece == "part":
-            share, part = float(rng.uniform(self.share_min, 1.0)), _PARTS[int(rng.integers(len(_PARTS)))]
+            share = float(rng.uniform(self.share_min, 1.0))
+            part = _PARTS[int(rng.integers(len(_PARTS)))]
             return stone_under(foot, feet, self.height, self.depth, share, part)
         if piece == "slope":
             pitch, roll = drawn_slope(rng, self.slope_range)

@@ -68,7 +68,8 @@ class Partial(Laid):
             raise SceneError(f"terrain.step is {self.step}; allowed: 0 to {len(feet.steps) - 1}, the steps of the walk")
         if not same_place(foot, feet.steps[self.step]):
             return [stone_under(foot, feet, self.height, self.depth)]
-        height, depth = self.height + self.rise, self.depth + self.rise
+        height = self.height + self.rise
+        depth = self.depth + self.rise
         return [stone_under(feet.steps[self.step], feet, height, depth, self.share, self.part)]
 
 
@@ -114,12 +115,15 @@ class Uneven(Terrain):
         solids = {
             side: [stone_under(feet.standing[side], feet, self.height, self.depth, gap=self.gap)] for side in SIDES
         }
-        place, height = dict(feet.standing), dict.fromkeys(SIDES, 0.0)
+        place = dict(feet.standing)
+        height = dict.fromkeys(SIDES, 0.0)
         for foot in feet.steps:
             rise = float(rng.uniform(-1.0, 1.0)) * self.height_range
             pitch, roll = drawn_slope(rng, self.slope_range)
             if overlapping(foot, place[foot.side]) and not same_place(foot, place[foot.side]):
-                rise, pitch, roll = height[foot.side], 0.0, 0.0
+                rise = height[foot.side]
+                pitch = 0.0
+                roll = 0.0
             height[foot.side] = rise
             if same_place(foot, place[foot.side]):
                 stone = solids[foot.side][-1]
@@ -153,7 +157,8 @@ class Pebbles(Laid):
     def _drawn(self, rng: np.random.Generator, foot: Footprint) -> Any:
         if self.bump_min > self.bump_max:
             raise SceneError(f"terrain.bump_min is {self.bump_min:g} m; allowed: up to bump_max, {self.bump_max:g} m")
-        slope, places = drawn_slope(rng, self.slope_range), rng.uniform(-1.0, 1.0, (self.bumps, 2)) * foot.half
+        slope = drawn_slope(rng, self.slope_range)
+        places = rng.uniform(-1.0, 1.0, (self.bumps, 2)) * foot.half
         return slope, places, rng.uniform(self.bump_min, self.bump_max, self.bumps)
 
     def _under(self, foot: Footprint, k: int, feet: PlannedFeet, drawn: Any) -> Sequence[Solid]:
@@ -179,7 +184,8 @@ class Pebbles(Laid):
 
 def drawn_slope(rng: np.random.Generator, largest: float) -> tuple[float, float]:
     """Returns pitch and roll in rad of a slope up to `largest` degrees, direction by `rng`."""
-    size, way = math.radians(largest) * float(rng.uniform()), float(rng.uniform(0.0, 2.0 * math.pi))
+    size = math.radians(largest) * float(rng.uniform())
+    way = float(rng.uniform(0.0, 2.0 * math.pi))
     return size * math.cos(way), size * math.sin(way)
 
 
@@ -195,7 +201,9 @@ def overlapping(foot: Footprint, other: Footprint) -> bool:
 
 def _way(foot: Footprint, other: Footprint) -> tuple[float, float]:
     """Forward and left in m from a footprint's centre to another's, along the first."""
-    (dx, dy), c, s = (other.center - foot.center).tolist(), math.cos(foot.yaw), math.sin(foot.yaw)
+    dx, dy = (other.center - foot.center).tolist()
+    c = math.cos(foot.yaw)
+    s = math.sin(foot.yaw)
     return c * dx + s * dy, c * dy - s * dx
 
 
@@ -234,12 +242,17 @@ def stone_under(
     outward = 1.0 if foot.side == "left" else -1.0
     half_length, half_width = foot.half
     margin = _MARGIN * half_length
-    rear, front = -half_length - margin, half_length + margin
-    inner, outer = -min(_lane(foot, feet, gap), half_width + margin), half_width + margin
+    rear = -half_length - margin
+    front = half_length + margin
+    inner = -min(_lane(foot, feet, gap), half_width + margin)
+    outer = half_width + margin
     if share < 1.0:
-        along, across = half_length * (2.0 * share - 1.0), half_width * (2.0 * share - 1.0)
-        rear, front = -along if part == "front" else rear, along if part == "rear" else front
-        inner, outer = -across if part == "outer" else inner, across if part == "inner" else outer
+        along = half_length * (2.0 * share - 1.0)
+        across = half_width * (2.0 * share - 1.0)
+        rear = -along if part == "front" else rear
+        front = along if part == "rear" else front
+        inner = -across if part == "outer" else inner
+        outer = across if part == "inner" else outer
     center = foot.place(0.5 * (rear + front), outward * 0.5 * (inner + outer))
     rotation = rotation_from_angles(foot.yaw, pitch, roll)
     half = 0.5 * max(depth, 0.02)

@@ -42,7 +42,9 @@ class Way:
 
     def piece(self, first: _Place, last: _Place, half_width: float = _HALF_WIDTH) -> Solid:
         """Returns a box, its upper face from `first` to `last`, `half_width` in m."""
-        (x, z), (length, rise) = first, (last[0] - first[0], last[1] - first[1])
+        x, z = first
+        length = last[0] - first[0]
+        rise = last[1] - first[1]
         rotation = rotation_from_angles(self.heading, -math.atan2(rise, length))
         face = np.array([*(self.begin + (x + 0.5 * length) * self.along), z + 0.5 * rise])
         size = (0.5 * math.hypot(length, rise), half_width, _THICK)
@@ -98,7 +100,8 @@ class Stairs(Terrain):
             )
         ways = np.where(2 * np.arange(len(edges)) < len(edges), 1.0, -1.0)
         rises = planned + self.rise * ways + self.spread * rng.uniform(-1.0, 1.0, len(ways))
-        ends, heights = pairwise([-_BEYOND, *edges, way.length + _BEYOND]), np.cumsum([self.height, *rises]).tolist()
+        ends = pairwise([-_BEYOND, *edges, way.length + _BEYOND])
+        heights = np.cumsum([self.height, *rises]).tolist()
         return _across(self, way, [((a, z), (b, z)) for (a, b), z in zip(ends, heights, strict=True)])
 
 

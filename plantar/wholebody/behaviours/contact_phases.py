@@ -25,9 +25,11 @@ class ContactPhases:
         contact: Sequence[Sequence[Task]],
         duration: float = 2.0,
     ) -> None:
-        self.duration, self.in_contact = duration, False
+        self.duration = duration
+        self.in_contact = False
         self._arrangements = (precontact, contact)
-        self._since, self._from = float("-inf"), 0.0
+        self._since = float("-inf")
+        self._from = 0.0
 
     @property
     def levels(self) -> Sequence[Sequence[Task]]:
@@ -40,7 +42,8 @@ class ContactPhases:
         """
         if in_contact == self.in_contact:
             return False
-        self._from, self._since = self.weight(time), time
+        self._from = self.weight(time)
+        self._since = time
         self.in_contact = in_contact
         return True
 

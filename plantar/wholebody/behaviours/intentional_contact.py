@@ -83,7 +83,9 @@ class IntentionalContact:
             "retreat": (contact, goal, avoidance),
         }
         self._time = -math.inf
-        self._held = self._pressed = 0.0  # for how long what leads on has held, and what leads to a retreat
+        # for how long what leads on has held, and what leads to a retreat
+        self._held = 0.0
+        self._pressed = 0.0
 
     @property
     def levels(self) -> Sequence[Sequence[Task]]:
@@ -94,25 +96,29 @@ class IntentionalContact:
 
         Returns whether the arrangement changed: begin a priority transition.
         """
-        s, before = self.settings, self.arrangement
+        s = self.settings
+        before = self.arrangement
         period = max(0.0, time - self._time) if math.isfinite(self._time) else 0.0
         self._time = time
         pressing = self.arrangement == "approach" and signs.contact > 0.0 and signs.speed <= s.slow
         self._pressed = self._pressed + period if pressing and not signs.arrived else 0.0
         if signs.contact >= s.force_limit or self._pressed > s.patience:
-            self.arrangement, self._held = "retreat", 0.0
+            self.arrangement = "retreat"
+            self._held = 0.0
         else:
             leads_on, wait, following = self._way_on(signs)
             self._held = self._held + period if leads_on else 0.0
             if leads_on and self._held >= wait:
-                self.arrangement, self._held = following, 0.0
+                self.arrangement = following
+                self._held = 0.0
         step = period / s.shrink
         self.range_share = min(1.0, max(0.0, self.range_share + (step if self.arrangement != "approach" else -step)))
         return self.arrangement != before
 
     def _way_on(self, signs: ContactSigns) -> tuple[bool, float, Arrangement]:
         # Whether the arrangement's end condition holds, its time, and the next one.
-        s, near = self.settings, signs.near > 0.0
+        s = self.settings
+        near = signs.near > 0.0
         touched = signs.contact > 0.0
         if self.arrangement == "avoid":
             return not signs.arrived and signs.speed <= s.slow and (near or touched), s.stuck, "approach"

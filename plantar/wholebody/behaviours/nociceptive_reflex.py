@@ -58,9 +58,11 @@ class NociceptiveReflex:
         Returns:
             Whether the arrangement changed: begin a priority transition.
         """
-        s, before = self.settings, self.active
+        s = self.settings
+        before = self.active
         if virtual_force > (s.threshold * s.release if self.active else s.threshold):
-            self.active, self._hurt = True, time
+            self.active = True
+            self._hurt = time
         elif self.active and time - self._hurt >= s.calm:
             self.active = False
         return self.active != before

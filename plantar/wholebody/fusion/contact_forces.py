@@ -32,7 +32,8 @@ class ContactForces:
     def __init__(self, support: Support, base: str, weight: float, weights: DistributionWeights | None = None) -> None:
         self.shares: Mapping[str, float] | None = None
         self.last: WrenchShare | None = None
-        self._support, self._base = support, base
+        self._support = support
+        self._base = base
         self._free: NDArray[np.int64] | None = None  # coordinates that no joint drives
         self._distribution = WrenchDistribution(weight, weights, minimum_force=_LEAST * weight)
 

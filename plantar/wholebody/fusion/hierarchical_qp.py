@@ -51,7 +51,8 @@ class JointLimits:
 
     def accelerations(self, robot: RobotDynamics) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lowest and highest acceleration (k,) by speed and position limits."""
-        position, speed = robot.joint_positions, robot.velocity[robot.joints]
+        position = robot.joint_positions
+        speed = robot.velocity[robot.joints]
         slowest = np.maximum(-self.velocity, (self.low - position) / self.slow_down)
         fastest = np.minimum(self.velocity, (self.high - position) / self.slow_down)
         most = self.acceleration
@@ -72,7 +73,9 @@ class HierarchicalQP:
     """
 
     def __init__(self, limits: JointLimits, shortcut: bool = True) -> None:
-        self.limits, self.shortcut, self.limited = limits, shortcut, False
+        self.limits = limits
+        self.shortcut = shortcut
+        self.limited = False
 
     def __call__(
         self,
@@ -129,7 +132,9 @@ def _descend(
     inverse: NDArray[np.float64], box: Box, levels: Sequence[Sequence[Demand | None]], support: Demand | None
 ) -> NDArray[np.float64]:
     # Meet levels in order, the support unlimited; the rest moves least.
-    y, left = np.zeros(len(inverse)), np.eye(len(inverse))  # and an orthonormal basis of what is left
+    # and an orthonormal basis of what is left
+    y = np.zeros(len(inverse))
+    left = np.eye(len(inverse))
     limited = support is None
     for jacobian, wanted, force in _sublevels(levels, support):
         rows = jacobian @ inverse.T
@@ -141,7 +146,9 @@ def _descend(
         rank = int(np.count_nonzero(strengths > RANK * sizes.max()))
         if rank == 0:
             continue
-        own, strengths, weights = along[:rank], strengths[:rank], np.ones(rank)
+        own = along[:rank]
+        strengths = strengths[:rank]
+        weights = np.ones(rank)
         if wanted is not None:
             lengths = np.linalg.norm(jacobian[counted], axis=1)
             damped = DAMPED * float((sizes[counted] / lengths).min() * np.linalg.norm(jacobian, axis=1).max())

@@ -118,11 +118,16 @@ def joint_torques(
         return force[joints], None
     rows = support.jacobian
     if joints[0] == base:  # those that no joint drives come first
-        carried, driven = rows[:, :base], rows[:, base:]
-        undriven, torque = force[:base], force[base:]
+        carried = rows[:, :base]
+        driven = rows[:, base:]
+        undriven = force[:base]
+        torque = force[base:]
     else:
         free = np.delete(np.arange(len(force)), joints)
-        carried, driven, undriven, torque = rows[:, free], rows[:, joints], force[free], force[joints]
+        carried = rows[:, free]
+        driven = rows[:, joints]
+        undriven = force[free]
+        torque = force[joints]
     least = _least_norm(carried.T, undriven)
     return np.asarray(torque - least.dot(driven)), least
 

@@ -85,7 +85,8 @@ def null_space_torques(
     size = len(robot.bias)
     factor = mass_factor(robot.mass_matrix)
     weighting = factor if consistent else None
-    through, above = np.eye(size), np.zeros((0, size))
+    through = np.eye(size)
+    above = np.zeros((0, size))
     force = np.zeros(size)
     for level in [[support], *levels]:
         asked = [d for d in level if d is not None]

@@ -51,7 +51,8 @@ class PriorityTransition:
     def begin(self, time: float) -> None:
         """Trigger a change at a time in s: the last output is held and fades (tau_(k-1) of T 3.45)."""
         if self._last is not None:
-            self._held, self._began = self._last, time
+            self._held = self._last
+            self._began = time
 
     def blend(self, torque: NDArray[np.float64], time: float) -> NDArray[np.float64]:
         """tau = chi tau_(k-1) + (1 - chi) tau_k (T 3.45).

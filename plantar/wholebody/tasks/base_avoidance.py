@@ -43,7 +43,8 @@ class BaseAvoidance(Task):
             raise InputError(f"half lengths of the footprint are {half_size} m; allowed: above 0")
         self.field = field or AvoidanceField()
         self.obstacles: NDArray[np.float64] = np.zeros((0, 2))
-        self._link, self._half = link, np.asarray(half_size, dtype=float)
+        self._link = link
+        self._half = np.asarray(half_size, dtype=float)
 
     def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
         own = np.clip(self.obstacles, -self._half, self._half)
@@ -52,7 +53,8 @@ class BaseAvoidance(Task):
         near = (distance < self.field.reach) & (distance > 0.0)
         if not near.any():
             return None
-        own, distance = own[near], distance[near]
+        own = own[near]
+        distance = distance[near]
         push = apart[near] * (self.field.force * np.exp(-distance / self.field.decay) / distance)[:, None]
         push *= min(1.0, self.field.force / max(float(np.linalg.norm(push.sum(axis=0))), 1e-12))
         moment = float((own[:, 0] * push[:, 1] - own[:, 1] * push[:, 0]).sum())  # A 17's last column

@@ -53,7 +53,9 @@ class CartesianPose(Task):
         gains: PoseGains | None = None,
         rows: Literal["pose", "position", "orientation"] = "pose",
     ) -> None:
-        self.link, self.point, self.gains = link, point, gains or PoseGains()
+        self.link = link
+        self.point = point
+        self.gains = gains or PoseGains()
         self.target_position: NDArray[np.float64] | None = None
         self.target_rotation: NDArray[np.float64] | None = None
         self.target_velocity = np.zeros(3)
@@ -70,7 +72,8 @@ class CartesianPose(Task):
             self.target_position = position.copy()
         if self.target_rotation is None:
             self.target_rotation = rotation.copy()
-        rows, gains = self._rows, self.gains
+        rows = self._rows
+        gains = self.gains
         jacobian = robot.jacobian(self.link, self.point)
         moving = jacobian.dot(robot.velocity)
         wanted = np.empty(6)

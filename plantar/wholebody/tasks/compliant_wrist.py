@@ -40,7 +40,8 @@ class CompliantWrist(Task):
 
     def __init__(self, skin: BodySkin, patch: str, point: NDArray[np.float64], gains: WristGains | None = None) -> None:
         self.gains = gains or WristGains()
-        self.weight, self.moment = 0.0, np.zeros(3)
+        self.weight = 0.0
+        self.moment = np.zeros(3)
         self._link = skin.patch(patch).link
         self._own = skin.slices[patch]
         self._ranges = skin.ranges[self._own]

@@ -58,12 +58,16 @@ class ContactForce(Task):
         gains: ContactGains | None = None,
     ) -> None:
         self.gains = gains or ContactGains()
-        self.weight, self.target_force, self.target_distance = 0.0, 0.0, 0.03
+        self.weight = 0.0
+        self.target_force = 0.0
+        self.target_distance = 0.03
         self.approach_speed = float("inf")
-        self.force, self.distance = 0.0, np.inf
+        self.force = 0.0
+        self.distance = np.inf
         self._link = skin.patch(patch).link
         self._own = skin.slices[patch]
-        self._point, self._normal = np.asarray(point, dtype=float), np.asarray(normal, dtype=float)
+        self._point = np.asarray(point, dtype=float)
+        self._normal = np.asarray(normal, dtype=float)
         self._push = -skin.unit_wrenches[self._own, :3] @ self._normal  # share of each taxel's force along it
         self._reach = float(skin.ranges[self._own].max())
         self._sum = 0.0
@@ -72,14 +76,17 @@ class ContactForce(Task):
     def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
         if skin is None:
             return None
-        error, gains = self._error(skin, robot.time), self.gains
+        error = self._error(skin, robot.time)
+        gains = self.gains
         outward = robot.pose(self._link)[1] @ self._normal
         jacobian = robot.jacobian(self._link, self._point)
         moving = jacobian @ robot.velocity
         pull = gains.gain * (error + gains.integral * self._sum)
         pace = max(1.0, gains.free_damping / max(gains.damping, 1e-9)) if self.force <= _FELT else 1.0
         wanted = pace * (pull - gains.damping * outward @ moving[:3]) / gains.inertia
-        (a, b, c), (x, y, z), (u, v, w) = moving[3:], outward, moving[:3]
+        a, b, c = moving[3:]
+        x, y, z = outward
+        u, v, w = moving[:3]
         turning = (b * z - c * y) * u + (c * x - a * z) * v + (a * y - b * x) * w  # the normal turns with the hand
         drift = outward @ robot.drift(self._link, self._point)[:3] + turning
         return Demand((outward @ jacobian[:3])[None], acceleration=np.array([wanted]), drift=np.array([drift]))

@@ -20,7 +20,8 @@ class PointForce(Task):
     """
 
     def __init__(self, link: str, point: NDArray[np.float64]) -> None:
-        self.link, self.point = link, np.asarray(point, dtype=float)
+        self.link = link
+        self.point = np.asarray(point, dtype=float)
         self.force: NDArray[np.float64] | None = None
 
     def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
@@ -38,7 +39,8 @@ class AlongForce(Task):
     """
 
     def __init__(self, task: Task, damping: float = 0.0) -> None:
-        self.task, self.damping = task, damping
+        self.task = task
+        self.damping = damping
 
     def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
         asked = self.task.demand(robot, skin)
@@ -49,7 +51,8 @@ class AlongForce(Task):
         pushing = sizes > 0.0
         if not pushing.any():
             return None
-        wrenches, sizes = wrenches[pushing], sizes[pushing]
+        wrenches = wrenches[pushing]
+        sizes = sizes[pushing]
         links = asked.jacobian.reshape(-1, 6, asked.jacobian.shape[1])[pushing]
         rows = np.einsum("ij,ijk->ik", wrenches / sizes[:, None], links)
         return Demand(rows, force=sizes - self.damping * (rows @ robot.velocity))

@@ -60,7 +60,8 @@ class BodyCompliance(Task):
     """
 
     def __init__(self, posture: Posture, *yields: Task) -> None:
-        self.posture, self.yields = posture, yields
+        self.posture = posture
+        self.yields = yields
 
     def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
         torque = np.zeros(len(robot.velocity))

@@ -39,7 +39,9 @@ class SelfCollision(Task):
         self, pairs: Sequence[tuple[Sphere, Sphere]], margin: float, stiffness: float, damping: float = 0.0
     ) -> None:
         self.margin = positive(margin, "margin of self-collision", "m")
-        self.pairs, self.stiffness, self.damping = tuple(pairs), stiffness, damping
+        self.pairs = tuple(pairs)
+        self.stiffness = stiffness
+        self.damping = damping
         spheres = list({(s.link, *np.asarray(s.center).tolist()): s for pair in pairs for s in pair}.values())
         places = {(s.link, *np.asarray(s.center).tolist()): i for i, s in enumerate(spheres)}
         index = [[places[s.link, *np.asarray(s.center).tolist()] for s in pair] for pair in pairs]
@@ -59,7 +61,8 @@ class SelfCollision(Task):
         near = np.flatnonzero((distances < self._reach) & (distances > 0.0))
         if not len(near):
             return None
-        rows, forces = np.empty((len(near), len(robot.velocity))), np.empty(len(near))
+        rows = np.empty((len(near), len(robot.velocity)))
+        forces = np.empty(len(near))
         for i, pair in enumerate(near):
             a, b = self.pairs[pair]
             toward = apart[pair] / distances[pair]

@@ -65,7 +65,9 @@ class TactileGuidance(Task):
             raise InputError(f"an arm of the links {', '.join(arm)} cannot bend; allowed: three or more")
         self.gains = gains or GuidanceGains()
         self._touches = DirectInteraction(skin, self.gains.gain, patches)
-        self._link, self._point, self._arm = link, np.asarray(point, dtype=float), arm
+        self._link = link
+        self._point = np.asarray(point, dtype=float)
+        self._arm = arm
         self._stretch = np.zeros(3)
         self._last: NDArray[np.float64] | None = None
 

@@ -53,7 +53,8 @@ def wrench_demand(robot: RobotDynamics, wrenches: Sequence[LinkWrench]) -> Deman
     """
     if not wrenches:
         return None
-    rows, forces = [], []
+    rows = []
+    forces = []
     for link, wrench, _ in wrenches:
         rotation = robot.pose(link)[1]
         rows.append(robot.jacobian(link))

@@ -98,8 +98,10 @@ def _forward(centres: NDArray[np.float64]) -> NDArray[np.float64]:
     axis = vectors[:, int(np.argmax(values))]
     if axis[0] < 0.0:
         axis = -axis
-    along, across = centres @ axis, centres @ np.array([-axis[1], axis[0]])
-    low, high = float(along.min()), float(along.max())
+    along = centres @ axis
+    across = centres @ np.array([-axis[1], axis[0]])
+    low = float(along.min())
+    high = float(along.max())
     third = (high - low) / 3.0
 
     def width(first: float, last: float) -> float:
@@ -136,7 +138,8 @@ def measures_of_footprint(print_: Footprint, scaled: bool) -> dict[str, Any]:
     def size(value: float) -> float | None:
         return value if scaled else None
 
-    length, region = print_.toeless_length, regions_of(print_)
+    length = print_.toeless_length
+    region = regions_of(print_)
     areas = {name: float(print_.areas[region == i].sum()) for i, name in enumerate(REGIONS) if (region == i).any()}
     heel, fore = (_widest(print_, a * length, b * length) for a, b in ((0.0, 1.0 / 3.0), (2.0 / 3.0, 1.0)))
     arch = print_.arch_index()

@@ -68,7 +68,8 @@ def _draw_events(panel: Any, gait: FootGait, levels: Levels) -> None:
 def _shade_cut_contacts(panel: Any, recording: PressureRecording, gait: FootGait) -> None:
     for contact in gait.contacts:
         if not contact.complete:
-            begin, end = recording.time[contact.begin], recording.time[contact.end - 1]
+            begin = recording.time[contact.begin]
+            end = recording.time[contact.end - 1]
             panel.axvspan(begin, end, color=COLOURS["cell"], zorder=0)
 
 
@@ -93,14 +94,16 @@ def figure_steps(recording: PressureRecording, feet: Mapping[Side, FootGait]) ->
 def draw_sd(panel: Any, curves: NDArray[np.float64], **look: Any) -> None:
     """Draw one standard deviation around the mean of curves (steps, 101) over the stance in a panel, with a look."""
     if len(curves) > 1:
-        mean, sd = curves.mean(axis=0), curves.std(axis=0, ddof=1)
+        mean = curves.mean(axis=0)
+        sd = curves.std(axis=0, ddof=1)
         panel.fill_between(STANCE, mean - sd, mean + sd, linewidth=0, **look)
 
 
 def stance_curves(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
     """Returns forces (steps, 101) in N of a recording over the stance of used steps of a gait."""
     known = np.isfinite(gait.foot.vertical_force)
-    time, force = recording.time[known], gait.foot.vertical_force[known]
+    time = recording.time[known]
+    force = gait.foot.vertical_force[known]
     moments = [s.heel_strike_s + 0.01 * STANCE * (s.toe_off_s - s.heel_strike_s) for s in gait.used]
     return np.array([np.interp(m, time, force) for m in moments]).reshape(-1, len(STANCE))
 

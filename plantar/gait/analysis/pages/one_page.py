@@ -50,9 +50,12 @@ def one_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], ti
 
 
 def _table(metrics: Mapping[str, Any]) -> str:
-    feet, gait, raw = metrics["feet"], metrics["gait"], bool(metrics.get("raw"))
+    feet = metrics["feet"]
+    gait = metrics["gait"]
+    raw = bool(metrics.get("raw"))
     norms = metrics["kind"] != "robot"
-    rows, cadence = [], gait.get("steady_cadence_steps_per_min")
+    rows = []
+    cadence = gait.get("steady_cadence_steps_per_min")
     if cadence is not None:
         both = [f"{number(cadence)} (both feet)", *[""] * (len(feet) - 1)]
         band = [_band("cadence_steps_per_min", {"both": cadence}, 1.0)] if norms else []
@@ -81,7 +84,8 @@ def _band(key: str, means: Mapping[str, float], factor: float) -> str:
     if key not in NORMS:
         return ""
     low, high = NORMS[key]
-    begin, end = low - 0.5 * (high - low), high + 0.5 * (high - low)
+    begin = low - 0.5 * (high - low)
+    end = high + 0.5 * (high - low)
 
     def place(value: float) -> float:
         return 100.0 * min(1.0, max(0.0, (value - begin) / (end - begin)))

@@ -16,7 +16,8 @@ from plantar.recordings.pressure_recording import PressureRecording
 LONGEST = 60.0  # Time in s that the player shows; of a longer recording the first part that is loaded
 USUAL_RATE = 25.0  # Frames a second that the player shows of a long recording
 # Frames that are shown at most, and that a recording of many cells is not thinned below.
-MOST_FRAMES, FEWEST_FRAMES = 1500, 50
+MOST_FRAMES = 1500
+FEWEST_FRAMES = 50
 MOST_EVENTS = 2000  # Events that are listed
 MOST_BYTES = 900_000  # Largest size of the packed pressures; a mat of very many cells is shown with fewer frames
 
@@ -63,12 +64,14 @@ def _events(feet: Mapping[Side, FootGait], begin: float, end: float) -> list[tup
 
 
 def _frames(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> NDArray[np.int64]:
-    time, begin = recording.time, 0
+    time = recording.time
+    begin = 0
     if time[-1] - time[0] > LONGEST:
         first = [c.begin for gait in feet.values() for c in gait.contacts if c.complete]
         if first:
             begin = max(0, int(np.searchsorted(time, time[min(first)] - 1.0)))
-    end, every = int(np.searchsorted(time, time[begin] + LONGEST, side="right")), 1
+    end = int(np.searchsorted(time, time[begin] + LONGEST, side="right"))
+    every = 1
     if end - begin > MOST_FRAMES:
         every = max(1, round(recording.rate_hz / USUAL_RATE), -(-(end - begin) // MOST_FRAMES))
     return np.arange(begin, end, every)
@@ -84,7 +87,8 @@ def _foot(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64
     assert layout is not None
     force = np.nan_to_num(gait.foot.force[chosen])
     loaded = force > gait.cell_threshold
-    cells, outline = np.arange(len(layout)), layout.outline
+    cells = np.arange(len(layout))
+    outline = layout.outline
     if recording.kind == "platform":
         cells, outline = stepped_on(layout, np.asarray(loaded.any(axis=0)))
     cop = gait.cop[chosen] if gait.cop is not None else np.full((len(chosen), 2), np.nan)

@@ -143,7 +143,8 @@ def _player(data: Mapping[str, Any]) -> str:
 
 def facts_of(metrics: Mapping[str, Any], file: str) -> str:
     """Returns a report's HTML heading, from metrics and the name of its file."""
-    robot, length = metrics["kind"] == "robot", metrics["subject"]["foot_length_m"]
+    robot = metrics["kind"] == "robot"
+    length = metrics["subject"]["foot_length_m"]
     facts = [
         ("Robot" if robot else "Participant", _participant(metrics)),
         ("Body mass", _mass(metrics)),
@@ -181,7 +182,8 @@ def _participant(metrics: Mapping[str, Any]) -> str:
 
 
 def _mass(metrics: Mapping[str, Any]) -> str:
-    stated, implied = metrics["subject"]["mass_kg"], metrics["gait"].get("implied_weight_N")
+    stated = metrics["subject"]["mass_kg"]
+    implied = metrics["gait"].get("implied_weight_N")
     parts = [] if stated is None else [f"{number(stated)} kg"]
     if implied is not None:
         parts.append(f"the forces imply {number(implied / GRAVITY)} kg")
@@ -204,7 +206,8 @@ def analysis_text(metrics: Mapping[str, Any], name: str = "") -> str:
     lines = [f"{name + ': ' if name else ''}{metrics['format']}: {metrics['frames']} frame(s){rate}"]
     for side, foot in metrics["feet"].items():
         if "footprint" in foot:
-            print_, arch = foot["footprint"], foot["footprint"]["arch_index"]
+            print_ = foot["footprint"]
+            arch = foot["footprint"]["arch_index"]
             length = "" if print_["length_m"] is None else f"{1e3 * print_['length_m']:.0f} mm long, "
             lines.append(f"  {side} footprint: {length}arch index {'-' if arch is None else f'{arch:.3f}'}")
             continue

@@ -19,7 +19,8 @@ from plantar.recordings.pressure_recording import PressureRecording
 
 # CoP paths drawn a foot, thin, next to the mean one; of more steps every n-th: the map below has to be seen.
 MOST_PATHS = 12
-_FORWARD, _RIGHT = "forward (mm)", "to the right (mm)"
+_FORWARD = "forward (mm)"
+_RIGHT = "to the right (mm)"
 _STANCE = np.linspace(0.0, 1.0, 51)  # Shares of the stance at which paths are averaged
 # Colours of the regions: Tol's bright scheme, which colour-blind readers distinguish.
 REGION_COLOURS = ("#4477aa", "#66ccee", "#228833", "#ccbb44", "#ee6677", "#aa3377", "#bbbbbb")
@@ -161,15 +162,18 @@ def figure_regions(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
 
 
 def _regions(gait: FootGait, platform: bool) -> _Regions | None:
-    print_, region = gait.footprint, gait.region
+    print_ = gait.footprint
+    region = gait.region
     if platform and gait.steps and gait.steps[0].footprint is not None and gait.foot.layout is not None:
-        print_, region = gait.steps[0].footprint, gait.steps[0].region
+        print_ = gait.steps[0].footprint
+        region = gait.steps[0].region
     return None if print_ is None or region is None else _Regions(gait, print_, region)
 
 
 def draw_lines(panel: Any, print_: Footprint, scale: float = 1.0, axis: bool = True, **look: Any) -> None:
     """Draw the thirds of `print_` in a `panel`, and if wanted its `axis` with a `look`, times a `scale`."""
-    low, high = float(print_.rings[:, :, 1].min()), float(print_.rings[:, :, 1].max())
+    low = float(print_.rings[:, :, 1].min())
+    high = float(print_.rings[:, :, 1].max())
     lines = [((u, low), (u, high)) for u in print_.toeless_length * np.arange(4) / 3.0]
     for ends in (*lines, ((0.0, 0.0), (print_.length, 0.0)))[: 5 if axis else 4]:
         x, y = scale * print_.from_foot(np.array(ends)).T
@@ -204,5 +208,6 @@ def stepped_on(layout: SoleLayout, hit: NDArray[np.bool_]) -> tuple[NDArray[np.i
     beside = np.array([any(hit[j] for j in near) for near in layout.neighbours])
     chosen = np.flatnonzero(hit | beside) if hit.any() else np.arange(len(layout))
     points = np.vstack([layout.cell_polygon(int(c)) for c in chosen])
-    (x0, y0), (x1, y1) = points.min(axis=0) - _MARGIN, points.max(axis=0) + _MARGIN
+    x0, y0 = points.min(axis=0) - _MARGIN
+    x1, y1 = points.max(axis=0) + _MARGIN
     return chosen, np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])

@@ -130,7 +130,8 @@ def steps_table(metrics: Mapping[str, Any]) -> str:
 def regions_tables(metrics: Mapping[str, Any]) -> str:
     """HTML table of region means over complete steps, for each foot."""
     shown = [shown_as(key, measure, bool(metrics.get("raw"))) for key, measure in REGION_MEASURES.items()]
-    head, out = ["Region", *(title for _, title, _ in shown)], ""
+    head = ["Region", *(title for _, title, _ in shown)]
+    out = ""
     for side, foot in metrics["feet"].items():
         held = {title: foot["regions"][region] for region, title in REGIONS.items() if region in foot["regions"]}
         means = {t: [scaled(own.get(s.key, {}).get("mean"), s.factor) for s in shown] for t, own in held.items()}

@@ -16,7 +16,8 @@ from plantar.geometry.polygon import convex_hull
 from plantar.layouts.layout import Side, SoleLayout
 
 # Shares of the length, toes included, in which the foot's axis halves the widths of heel and forefoot.
-_HEEL, _FOREFOOT = (0.0, 0.25), (0.55, 0.80)
+_HEEL = (0.0, 0.25)
+_FOREFOOT = (0.55, 0.80)
 _ROUNDS = 4  # How often the axis is found again, in bands that turn with it
 
 
@@ -71,9 +72,12 @@ class Footprint:
 
     def area_between(self, low: float, high: float) -> float:
         """Returns toeless print area in m^2 between lines across the axis at u = low and high in m."""
-        rings, areas = self.rings[~self.is_toe], self.areas[~self.is_toe]
-        first, last = rings[:, :, 0].min(axis=1), rings[:, :, 0].max(axis=1)
-        within, met = (first >= low) & (last <= high), (last > low) & (first < high)
+        rings = self.rings[~self.is_toe]
+        areas = self.areas[~self.is_toe]
+        first = rings[:, :, 0].min(axis=1)
+        last = rings[:, :, 0].max(axis=1)
+        within = (first >= low) & (last <= high)
+        met = (last > low) & (first < high)
         total = float(areas[within].sum())
         if (met & ~within).any():
             cells = CellCutter.of_polygons(list(rings[met & ~within]))
@@ -93,9 +97,12 @@ class Footprint:
 
     def width_at(self, u: float) -> float:
         """Width in m of the convex hull at a line across the axis, or 0."""
-        a, b = self._hull, np.roll(self._hull, -1, axis=0)
-        rise, fall = a[:, 0] - u, b[:, 0] - u
-        met, level = rise * fall <= 0.0, rise == fall
+        a = self._hull
+        b = np.roll(self._hull, -1, axis=0)
+        rise = a[:, 0] - u
+        fall = b[:, 0] - u
+        met = rise * fall <= 0.0
+        level = rise == fall
         at = a[:, 1] + np.where(level, 0.0, rise / np.where(level, 1.0, rise - fall)) * (b[:, 1] - a[:, 1])
         return float(np.ptp(at[met])) if met.any() else 0.0
 
@@ -178,19 +185,22 @@ def _axis(
     through = np.average(0.5 * (rings.min(axis=1) + rings.max(axis=1)), axis=0, weights=areas)
     for _ in range(_ROUNDS):  # the bands turn with the axis
         along = rings @ axis
-        low, length = float(along.min()), float(along.max()) - float(along.min())
+        low = float(along.min())
+        length = float(along.max()) - float(along.min())
         heel, fore = (_middle_of_band(rings, axis, low + a * length, low + b * length) for a, b in (_HEEL, _FOREFOOT))
         if heel is None or fore is None or np.hypot(*(fore - heel)) < 0.2 * length:
             break
         step = fore - heel
-        axis, through = step / np.hypot(*step), heel
+        axis = step / np.hypot(*step)
+        through = heel
     return axis, np.asarray(through)
 
 
 def _middle_of_band(
     rings: NDArray[np.float64], axis: NDArray[np.float64], low: float, high: float
 ) -> NDArray[np.float64] | None:
-    across, along = rings @ np.array([-axis[1], axis[0]]), rings @ axis
+    across = rings @ np.array([-axis[1], axis[0]])
+    along = rings @ axis
     centre = 0.5 * (along.min(axis=1) + along.max(axis=1))
     inside = (centre >= low) & (centre <= high)
     if not inside.any():

@@ -27,7 +27,8 @@ from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
 # Cells by which a footprint at the edge is shorter than the others, and the share of their width, where it is cut off.
-_SHORTER, _NARROWER = 1.5, 0.8
+_SHORTER = 1.5
+_NARROWER = 0.8
 # Median place of arch and hallux, in lengths of the footprint, from which they are the other foot's: made and real feet
 # have 0.12 and 0.13 on their own side, flat ones about 0.
 _OTHER = -0.05

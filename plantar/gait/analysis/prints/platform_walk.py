@@ -17,7 +17,8 @@ from plantar.gait.analysis.prints.footprint import Footprint, footprint_of_cells
 from plantar.gait.analysis.prints.joined import joined
 from plantar.layouts.layout import SoleLayout
 
-LONGEST, PAUSE = 0.36, 1.0
+LONGEST = 0.36
+PAUSE = 1.0
 """Largest length in m of one footprint, and time in s without load that ends a pass over the platform."""
 
 _WIDEST = 0.17  # Largest width in m of one footprint
@@ -25,7 +26,8 @@ _BREAK = 0.25  # Time in s without load after which a part of the platform is st
 # Time in s by which two pieces of one footprint may miss each other: heel and toes are not always joined by load.
 _SAME_TIME = 0.1
 # Share of the largest piece's load that a piece carries at least, and the pieces of a footprint together.
-_LEAST_PIECE, _LEAST_PRINT = 0.005, 0.05
+_LEAST_PIECE = 0.005
+_LEAST_PRINT = 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,9 +153,13 @@ _TRAVEL = 0.5
 _STANDING = 0.01  # Path of the CoP in m under which a footprint is one of standing
 # Cosine of the angle to the platform's edge from which the mean axis of two whole footprints or more, whose toes point
 # outwards alike, is the line of walking; share of the longest one's length from which a footprint is whole.
-_TURNED, _WHOLE = 0.985, 0.85
+_TURNED = 0.985
+_WHOLE = 0.85
 # Shares of a footprint's length: the waist, heel and forefoot around it, the ball, and where the toes begin.
-_WAIST, _TRUNK, _BALL, _TOES = (0.33, 0.55), (0.25, 0.60), (0.60, 0.80), 0.82
+_WAIST = (0.33, 0.55)
+_TRUNK = (0.25, 0.60)
+_BALL = (0.60, 0.80)
+_TOES = 0.82
 
 
 @dataclass(frozen=True, eq=False)
@@ -220,7 +226,8 @@ def sides_of_walk(
         stated: Foot in the file, used if footprints lie in one line; else arch and hallux show it.
         notes: Assumptions are added.
     """
-    count, offset = len(walk.prints), walk.centres @ np.array([-forward[1], forward[0]])
+    count = len(walk.prints)
+    offset = walk.centres @ np.array([-forward[1], forward[0]])
     if count >= 2 and np.ptp(offset) >= 2.0 * _ALIKE:
         middle = _line_of_walking(walk.centres @ forward, offset)
         return ["left" if o > m else "right" for o, m in zip(offset, middle, strict=True)]
@@ -281,7 +288,8 @@ def _mean_where(chosen: NDArray[np.bool_], values: NDArray[np.float64], weights:
 
 def _hallux_offset(print_: Footprint, trunk: float) -> float:
     u, v = print_.centres.T / print_.length
-    front, ball = u > _TOES, (u > _BALL[0]) & (u < _BALL[1])
+    front = u > _TOES
+    ball = (u > _BALL[0]) & (u < _BALL[1])
     if not front.any():
         return 0.0
     centre = 0.5 * float(v[ball].min() + v[ball].max()) if ball.any() else trunk

@@ -64,8 +64,10 @@ def _profile(
     print_: Footprint, strip: NDArray[np.bool_], pitch: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     places = np.arange(0.40 * print_.length, print_.length, 0.5 * max(pitch, print_.length / 200.0))
-    rings, pressure = print_.rings[strip], print_.pressure[strip]
-    first, last = rings[:, :, 0].min(axis=1), rings[:, :, 0].max(axis=1)
+    rings = print_.rings[strip]
+    pressure = print_.pressure[strip]
+    first = rings[:, :, 0].min(axis=1)
+    last = rings[:, :, 0].max(axis=1)
     over = (first[:, None] <= places) & (last[:, None] >= places)
     return places, np.where(over, pressure[:, None], 0.0).max(axis=0, initial=0.0)
 
@@ -118,7 +120,8 @@ def regions_of(print_: Footprint, of_sole: float | None = None) -> NDArray[np.in
         (toe, ("toes", "hallux"), (1.0 - _HALLUX,)),
     ):
         if cells.any():
-            low, high = float(print_.rings[cells][:, :, 1].min()), float(print_.rings[cells][:, :, 1].max())
+            low = float(print_.rings[cells][:, :, 1].min())
+            high = float(print_.rings[cells][:, :, 1].max())
             index = np.searchsorted(low + np.array(shares) * (high - low), v[cells])
             out[cells] = np.array([list(REGIONS).index(name) for name in names])[index]
     return out

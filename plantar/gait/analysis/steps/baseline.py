@@ -29,11 +29,14 @@ _LONGEST_SWING = 1.5  # Longest time in s at one level that is a swing and not s
 _SHARE = (0.15, 0.8)  # Share of a walk's time in which a foot is at its level in swing
 # A foot lands and lifts quickly: it spends less than 0.7 of the time at its level between there and 0.3 of the range;
 # a sine, as when weight is shifted from foot to foot, 1.3 times as much.
-_ABOVE, _SPARSE = 0.30, 0.7
+_ABOVE = 0.30
+_SPARSE = 0.7
 # Of recordings of one or two strides: longest contact in s, longest time in s in which a foot that lands or lifts
 # passes the lower half of its force (0.03 to 0.15 s in walking, 0.3 s and more where weight is shifted), and largest
 # share of the time in swing.
-_LONGEST_CONTACT, _QUICK, _FEW_SHARE = 2.0, 0.2, 0.95
+_LONGEST_CONTACT = 2.0
+_QUICK = 0.2
+_FEW_SHARE = 0.95
 _HIGHEST = 20.0  # How many times the range of a walk the level in swing is at most: heart and breath move less
 # Where the level of a single swing lies farther from the usual one, as a share of the range, each swing has a level
 # of its own: events lie at 5 % of the range.
@@ -71,7 +74,8 @@ def resting_level(force: NDArray[np.float64], rate: float) -> RestingLevel | Non
         >>> float(resting_level(walk, 100.0).level[0]), resting_level(500.0 + 20.0 * np.sin(time), 100.0)
         (300.0, None)
     """
-    found, each = _usual_level(force, rate), swing_levels(force, rate)
+    found = _usual_level(force, rate)
+    each = swing_levels(force, rate)
     if each is not None:
         level = 0.0 if found is None else float(np.median(found.level))
         if np.abs(each.level - level)[each.swing].max() > FOLLOWED * each.span:
@@ -80,7 +84,8 @@ def resting_level(force: NDArray[np.float64], rate: float) -> RestingLevel | Non
 
 
 def _usual_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None:
-    n, tried = len(force), []
+    n = len(force)
+    tried = []
     for window in _WINDOWS:
         edges = np.linspace(0, n, max(1, int(n / rate / window)) + 1).astype(int)
         found = [_level(force[a:b], rate) for a, b in pairwise(edges)]
@@ -141,7 +146,8 @@ def without_baselines(recording: PressureRecording) -> PressureRecording:
     """Recording without offsets of feet and swing readings of creases and stuck cells, each with a warning."""
     if recording.kind == "platform":
         return recording
-    feet, notes = dict(recording.feet), list(recording.warnings)
+    feet = dict(recording.feet)
+    notes = list(recording.warnings)
     unit = "counts" if recording.raw else "N"
     for side, foot in recording.feet.items():
         rest = resting_level(foot.vertical_force, recording.rate_hz)
@@ -149,14 +155,16 @@ def without_baselines(recording: PressureRecording) -> PressureRecording:
             continue
         hot = _hot_cells(foot, rest)
         if len(hot):
-            foot = feet[side] = _without_hot(foot, rest, hot)
+            foot = _without_hot(foot, rest, hot)
+            feet[side] = foot
             rest = resting_level(foot.vertical_force, recording.rate_hz) or rest
             names = foot.layout.ids[hot] if foot.layout is not None else hot + 1
             notes.append(
                 f"{_cells(names.tolist())} of the {side} foot: what they read in swing, more than half of what they "
                 "read under load (a crease, or a cell that sticks), is taken off (--baseline keep leaves it)"
             )
-        offset, drift = float(np.median(rest.level)), float(np.ptp(rest.level))
+        offset = float(np.median(rest.level))
+        drift = float(np.ptp(rest.level))
         if _is_offset(rest):
             feet[side] = _without_offset(foot, rest)
             moving = f", and drifts by {drift:.3g} {unit}" if drift > 0.05 * rest.span else ""
@@ -173,7 +181,8 @@ def without_baselines(recording: PressureRecording) -> PressureRecording:
 
 
 def _is_offset(rest: RestingLevel) -> bool:
-    drift, pulls = float(np.ptp(rest.level)), rest.level.min() < -_PULL * rest.span
+    drift = float(np.ptp(rest.level))
+    pulls = rest.level.min() < -_PULL * rest.span
     return bool(drift > FOLLOWED * rest.span or np.abs(rest.level).max() > OFFSET * rest.span or pulls)
 
 
@@ -203,7 +212,8 @@ def _without_offset(foot: FootRecording, rest: RestingLevel) -> FootRecording:
         return replace(foot, total=total)
     places, stretches = _stretches(rest)
     means = [_in_swing(foot, a + _frames(rest.swing[a:b])) for a, b in stretches]
-    at, table = np.array(places), np.array(means)
+    at = np.array(places)
+    table = np.array(means)
     force = table_of_blocks(
         foot.force, lambda rows: foot.force[rows] - _between(np.arange(rows.start, rows.stop), at, table)
     )
@@ -222,7 +232,8 @@ def _stretches(rest: RestingLevel) -> tuple[list[float], list[tuple[int, int]]]:
     """Places (frames) where cells have their own baseline, and each one's stretch of frames."""
     if rest.each is not None:
         return rest.each.places.tolist(), [(int(a), int(b)) for a, b in rest.each.spans]
-    n, drifts = len(rest.level), float(np.ptp(rest.level)) > 0.05 * rest.span
+    n = len(rest.level)
+    drifts = float(np.ptp(rest.level)) > 0.05 * rest.span
     count = min(20, max(1, int((np.diff(rest.swing.astype(np.int8)) == 1).sum()) // 5)) if drifts else 1
     edges = np.unique(np.linspace(0, n, 1 + count).astype(int)).tolist()
     stretches = [(a, b) for a, b in pairwise(edges) if rest.swing[a:b].any()]
@@ -245,5 +256,6 @@ def _hot_cells(foot: FootRecording, rest: RestingLevel) -> NDArray[np.int64]:
 
 def _without_hot(foot: FootRecording, rest: RestingLevel, hot: NDArray[np.int64]) -> FootRecording:
     cells = np.isin(np.arange(foot.force.shape[1]), hot)
-    air, least = np.where(cells, _in_swing(foot, _frames(rest.swing)), 0.0), np.where(cells, 0.0, -np.inf)
+    air = np.where(cells, _in_swing(foot, _frames(rest.swing)), 0.0)
+    least = np.where(cells, 0.0, -np.inf)
     return replace(foot, force=table_of_blocks(foot.force, lambda rows: np.maximum(foot.force[rows] - air, least)))

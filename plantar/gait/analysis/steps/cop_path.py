@@ -28,8 +28,10 @@ def averaged_path(points: NDArray[np.float64], weight: NDArray[np.float64], fram
     after = np.minimum.accumulate(np.where(known, n, index)[::-1])[::-1] - index
     half = np.minimum(frames // 2, np.minimum(before, after) - 1).clip(0)
     load = np.where(known, weight, 0.0)
-    total, out = np.concatenate([[0.0], np.cumsum(load)]), np.full_like(points, np.nan)
-    first, last = (index - half)[known], (index + half + 1)[known]
+    total = np.concatenate([[0.0], np.cumsum(load)])
+    out = np.full_like(points, np.nan)
+    first = (index - half)[known]
+    last = (index + half + 1)[known]
     for axis in range(2):
         moment = np.concatenate([[0.0], np.cumsum(load * np.where(known, points[:, axis], 0.0))])
         out[known, axis] = (moment[last] - moment[first]) / (total[last] - total[first])
@@ -52,7 +54,8 @@ def cop_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dict
     known = np.isfinite(points[:, 0])
     if known.sum() < 2:
         return {}
-    points, time = points[known], time[known]
+    points = points[known]
+    time = time[known]
     pieces, seconds = chords(time, points)
     path = float(pieces.sum())
     along, across = (float(v) for v in np.ptp(points, axis=0))
@@ -94,9 +97,11 @@ def excursion_index(print_: Footprint, points: NDArray[np.float64]) -> float:
     if len(path) < 3 or not path[0, 0] < at < path[-1, 0]:
         return float("nan")
     crossing = int(np.flatnonzero((path[:-1, 0] <= at) & (path[1:, 0] > at))[0])
-    one, two = path[crossing], path[crossing + 1]
+    one = path[crossing]
+    two = path[crossing + 1]
     own = one[1] + (at - one[0]) / (two[0] - one[0]) * (two[1] - one[1])
-    first, last = path[0], path[-1]
+    first = path[0]
+    last = path[-1]
     line = first[1] + (at - first[0]) / (last[0] - first[0]) * (last[1] - first[1])
     return float(100.0 * (line - own) / width) if width > 0.0 else float("nan")  # v runs to the medial side
 

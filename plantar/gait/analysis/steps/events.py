@@ -48,13 +48,15 @@ MINIMUM_SWING = 0.15
 
 LONGEST_BRIDGE = 0.1  # Longest gap in s of frames that were not measured over which the force is interpolated
 # Standard deviations of the noise that a foot's release, and its contact, lie above the level at rest.
-_NOISE_RELEASE, _NOISE_CONTACT = 4.0, 8.0
+_NOISE_RELEASE = 4.0
+_NOISE_CONTACT = 8.0
 _MEDIAN_OF_NORMAL = 0.6745  # Median of the magnitude of a normal variable, in standard deviations
 # Shares of the range that part the fall of push-off, from its steepest piece on: a foot that leaves slowly goes on
 # falling at 0.4 of that or more; where the force hardly falls any more the shoe presses, and the piece before is
 # continued straight. Of shares and slopes tried, these have the least largest mean over the sets of
 # `benchmarks/gait_events.py`.
-_FALL, _SHELF = (0.60, 0.30, 0.15, 0.075), 0.4
+_FALL = (0.60, 0.30, 0.15, 0.075)
+_SHELF = 0.4
 _BESIDE = 0.5  # Time in s before a landing and after a push-off in which the force at rest is looked for
 # Shares of the range that part the rise of a landing, from the event level on: its steepest piece is continued back
 # straight. A shoe that touches lightly before the foot lands makes the first piece flat.
@@ -62,7 +64,9 @@ _RISE = (0.20, 0.50)
 _LIGHT = 0.7  # Share of the middle load that a contact has to reach for its peak to count
 # Contacts of more than 1.5 s are looked at for steps in them: force that rises by more than half of the foot's range
 # within 0.25 s, from 0.2 to 0.8 of what it ranges over there; weight is shifted more slowly.
-_LONGEST_STEP, _DEEP, _LANDING = 1.5, 0.5, 0.25
+_LONGEST_STEP = 1.5
+_DEEP = 0.5
+_LANDING = 0.25
 _FEWEST_STEPS = 20  # Steps between swing samples from which their noise is judged
 
 
@@ -149,8 +153,10 @@ def smoothed(force: NDArray[np.float64]) -> NDArray[np.float64]:
     """Median of five frames of force (n,): single damaged frames are no peaks."""
     padded = np.pad(force, 2, mode="edge")
     a, b, c, d, e = (padded[k : len(force) + k] for k in range(5))
-    low, high = np.minimum(a, b), np.maximum(a, b)
-    least, most = np.minimum(c, d), np.maximum(c, d)
+    low = np.minimum(a, b)
+    high = np.maximum(a, b)
+    least = np.minimum(c, d)
+    most = np.maximum(c, d)
     inner = np.maximum(low, least), np.minimum(high, most)  # without the smallest and the largest of four
     return np.maximum(np.minimum(*inner), np.minimum(np.maximum(*inner), e))
 
@@ -216,7 +222,8 @@ def find_contacts(
         return []
     contacts: list[Contact] = []
     for start, stop in measured_spans(time, force):
-        gap, part = ~np.isfinite(force[start:stop]), force[start:stop].copy()
+        gap = ~np.isfinite(force[start:stop])
+        part = force[start:stop].copy()
         if gap.any():
             part[gap] = np.interp(time[start:stop][gap], time[start:stop][~gap], part[~gap])
         contacts += _contacts_of_span(time[start:stop], part, levels, start, minimum_stance)
@@ -293,7 +300,8 @@ def _begin_of_rise(
     """Begin of a landing's rise, continued back straight: not before the force leaves its rest."""
     begin, end = span
     assert levels.clear is not None
-    at, heights = [strike], [levels.release]
+    at = [strike]
+    heights = [levels.release]
     for share in _RISE:
         level = levels.rest + share * (levels.peak - levels.rest)
         above = np.flatnonzero(force[begin:end] >= level)
@@ -317,7 +325,8 @@ def _end_of_push_off(
     """End of push-off, continued straight: after `lift`, not after the force is clear."""
     begin, end = span
     assert levels.clear is not None
-    after, at = force[end : int(np.searchsorted(time, time[end] + _BESIDE)) + 1], []
+    after = force[end : int(np.searchsorted(time, time[end] + _BESIDE)) + 1]
+    at = []
     for share in _FALL:
         level = levels.rest + share * (levels.peak - levels.rest)
         loaded = np.flatnonzero(force[begin:end] >= level)

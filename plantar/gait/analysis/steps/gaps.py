@@ -19,7 +19,9 @@ def without_gaps(recording: PressureRecording) -> PressureRecording:
 
     `metadata["missing_percent"]` holds each foot's missing share.
     """
-    feet, notes, shares = dict(recording.feet), list(recording.warnings), {}
+    feet = dict(recording.feet)
+    notes = list(recording.warnings)
+    shares = {}
     most = int(LONGEST_GAP * recording.rate_hz)
     for side, foot in recording.feet.items():
         missing = foot.missing

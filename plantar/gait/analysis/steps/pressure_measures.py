@@ -64,9 +64,11 @@ def region_measures(
     pressure = np.maximum.reduceat(np.take(load.pressure, order, axis=1), starts, axis=1)
     loaded = np.take(load.loaded, order, axis=1)
     on = np.logical_or.reduceat(loaded, starts, axis=1).astype(float)
-    whole, time = load.integral(load.force.sum(axis=1)), np.array(durations)
+    whole = load.integral(load.force.sum(axis=1))
+    time = np.array(durations)
     with np.errstate(invalid="ignore", divide="ignore"):
-        impulse, step = load.integral(force), np.diff(load.time)
+        impulse = load.integral(force)
+        step = np.diff(load.time)
         usual = float(np.median(step[step > 0.0])) if (step > 0.0).any() else 0.0
         contact = np.minimum(np.add.reduceat(on, load.starts, axis=0) * usual, time[:, None])
         out = {

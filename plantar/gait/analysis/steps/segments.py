@@ -13,10 +13,14 @@ from plantar.gait.analysis.steps.events import Contact
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 
 # A contact over twice the median of the three before and the three after it, and over 1.2 s, is standing.
-_LONG, _LEAST, _BESIDE = 2.0, 1.2, 3
+_LONG = 2.0
+_LEAST = 1.2
+_BESIDE = 3
 # A stride of a run has a flight of more than 0.01 s and a stance below half of it, on average over both feet: they are
 # longer off the ground than on it together. Of one foot, stance is below 45 %.
-FLIGHT, _HALF, _RUN = 0.01, 50.0, 45.0
+FLIGHT = 0.01
+_HALF = 50.0
+_RUN = 45.0
 _SAME = 0.8  # Share of both feet's contacts that is common where both hop at once; walking has 0.2
 # Measures of the stride from a step to the next one of its foot.
 _OF_STRIDE = (
@@ -92,7 +96,8 @@ def _both_at_once(feet: Mapping[Side, FootGait]) -> bool:
         np.array([[cast(float, c.heel_strike), cast(float, c.toe_off)] for c in own]) for own in (left, right)
     )
     near = np.clip(np.searchsorted(other[:, 0], one[:, 0])[:, None] + np.array([-1, 0]), 0, len(other) - 1)
-    begin, end = one[:, :1], one[:, 1:]
+    begin = one[:, :1]
+    end = one[:, 1:]
     common = np.minimum(end, other[near, 1]) - np.maximum(begin, other[near, 0])
     whole = np.maximum(end, other[near, 1]) - np.minimum(begin, other[near, 0])
     return float(np.median((common / whole).max(axis=1))) > _SAME

@@ -14,7 +14,8 @@ _SAME = 0.25  # Longest time in s between a stated event and a found one that ar
 
 def stated_contacts(time: NDArray[np.float64], events: StatedEvents) -> list[Contact]:
     """Returns contacts of stated `events` at `time` (n,) in s: heel strike to the toe off after it; cut at the ends."""
-    strikes, lifts = events.heel_strikes, events.toe_offs
+    strikes = events.heel_strikes
+    lifts = events.toe_offs
     ends = np.append(strikes[1:], np.inf)[: len(strikes)]
     early = lifts[lifts <= strikes[0]] if len(strikes) else lifts[:0]
     pairs: list[tuple[float | None, float | None]] = [(None, float(early[-1]))] if len(early) else []

@@ -38,15 +38,18 @@ def with_used_steps(
         left = tuple(_of_other(step) for step in others)
         return replace(gait, steps=left) if left else gait
     odd = _odd(steps, raw) if len(steps) >= _FEWEST_TO_JUDGE and kind in ("insole", "robot") else [""] * len(steps)
-    used, notes = np.ones(len(steps), dtype=bool), list(gait.warnings)
-    side, reason = gait.foot.side, ""
+    used = np.ones(len(steps), dtype=bool)
+    notes = list(gait.warnings)
+    side = gait.foot.side
+    reason = ""
     if options.steps == "steady":
         ends = _ends(odd)
         if ends.any():
             used &= ~ends
             reason = "starts or stops the walk"
             numbers = np.array([step.number for step in steps])
-            steady, verbs = numbers[~ends], ("starts or stops", "is") if ends.sum() == 1 else ("start or stop", "are")
+            steady = numbers[~ends]
+            verbs = ("starts or stops", "is") if ends.sum() == 1 else ("start or stop", "are")
             notes.append(
                 f"steady walking of the {side} foot is steps {steady[0]}-{steady[-1]}: "
                 f"{', '.join(map(str, numbers[ends]))} {verbs[0]} the walk and {verbs[1]} left out of the means "
@@ -56,7 +59,8 @@ def with_used_steps(
         first, last = options.steps
         used &= np.array([first <= step.number <= last for step in steps])
         reason = f"not one of the steps {first}-{last}"
-    begin, end = -np.inf if options.begin is None else options.begin, np.inf if options.end is None else options.end
+    begin = -np.inf if options.begin is None else options.begin
+    end = np.inf if options.end is None else options.end
     within = [step.heel_strike_s >= begin and step.toe_off_s <= end for step in steps]
     out = [
         replace(step, used=bool(u and w), unused=reason if not u else "" if w else "outside --from and --to", odd=o)

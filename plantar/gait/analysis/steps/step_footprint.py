@@ -46,7 +46,8 @@ def _highest_of_steps(recording: PressureRecording, gait: FootGait, loads: StepL
 def _with_regions(
     print_: Footprint, loaded: NDArray[np.bool_], of_sole: float | None = None
 ) -> tuple[Footprint, NDArray[np.int64]]:
-    print_, region = with_toe_line(print_), np.full(len(loaded), -1)
+    print_ = with_toe_line(print_)
+    region = np.full(len(loaded), -1)
     region[loaded] = regions_of(print_, of_sole)
     return print_, region
 

@@ -67,7 +67,9 @@ class StepLoads:
     """
 
     def __init__(self, recording: PressureRecording, foot: FootRecording, threshold: NDArray[np.float64]) -> None:
-        self.recording, self.foot, self.threshold = recording, foot, threshold
+        self.recording = recording
+        self.foot = foot
+        self.threshold = threshold
         self._read = 0
 
     def of(self, *contacts: Contact) -> StepLoad:
@@ -97,7 +99,8 @@ class StepLoads:
         for contact in contacts:
             if group and frames + contact.end - contact.begin > most:
                 yield group
-                group, frames = [], 0
+                group = []
+                frames = 0
             group.append(contact)
             frames += contact.end - contact.begin
         if group:

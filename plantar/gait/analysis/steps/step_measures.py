@@ -33,9 +33,12 @@ def step_measures(
         pressures: Pressure measures.
         load: Of a robot's cells in the step.
     """
-    foot, span = gait.foot, slice(contact.begin, contact.end)
-    force, time = foot.vertical_force[span], recording.time[span]
-    known, strike = np.isfinite(force), cast(float, contact.heel_strike)
+    foot = gait.foot
+    span = slice(contact.begin, contact.end)
+    force = foot.vertical_force[span]
+    time = recording.time[span]
+    known = np.isfinite(force)
+    strike = cast(float, contact.heel_strike)
     out = force_measures(time[known], force[known], strike, cast(float, contact.toe_off)) | dict(pressures)
     out["landing_impact_N"] = landing_impact(recording.time, foot.vertical_force, strike)
     if out.get("footprint_area_m2", 0.0) > 0.0:
@@ -58,7 +61,8 @@ def _cop_measures(
     cop: NDArray[np.float64],
     print_: Footprint | None,
 ) -> dict[str, float]:
-    kind, layout = recording.kind, gait.foot.layout
+    kind = recording.kind
+    layout = gait.foot.layout
     # On a platform the foot's own axis is forward, in a sole the sole's, on a plate the way of the CoP.
     seen = _along_its_way(cop) if kind == "plate" else cop
     out = cop_measures(time, print_.in_foot(cop) if print_ is not None and kind == "platform" else seen)
@@ -121,7 +125,8 @@ def force_measures(
         >>> round(m["first_peak_percent"]), round(m["valley_N"]), round(m["impulse_Ns"], 1)
         (28, 600, 551.7)
     """
-    duration, impulse = lift - strike, float(np.trapezoid(force, time))
+    duration = lift - strike
+    impulse = float(np.trapezoid(force, time))
     impulse += 0.5 * max(0.0, float(time[0]) - strike) * float(force[0])
     impulse += 0.5 * max(0.0, lift - float(time[-1])) * float(force[-1])
     top = int(np.argmax(force))
@@ -132,7 +137,8 @@ def force_measures(
         "impulse_Ns": impulse,
     }
     share = (time - strike) / duration
-    early, late = np.flatnonzero(share <= 0.5), np.flatnonzero(share > 0.5)
+    early = np.flatnonzero(share <= 0.5)
+    late = np.flatnonzero(share > 0.5)
     rise = top
     if len(early) >= 3 and len(late) >= 3:
         first = _first_hump(force, len(early), _HUMP * float(force[early].max()))
@@ -174,7 +180,8 @@ def _loading(time: NDArray[np.float64], force: NDArray[np.float64], strike: floa
     """Loading rates to the first peak: mean slope between 20 and 80 % of the rise's time, and largest."""
     if len(time) < 3 or time[-1] <= strike:
         return {}
-    begin, end = strike + 0.2 * (time[-1] - strike), strike + 0.8 * (time[-1] - strike)
+    begin = strike + 0.2 * (time[-1] - strike)
+    end = strike + 0.8 * (time[-1] - strike)
     low, high = np.interp([begin, end], time, force)
     return {
         "loading_rate_N_s": float((high - low) / (end - begin)),

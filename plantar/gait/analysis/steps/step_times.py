@@ -14,7 +14,8 @@ from plantar.gait.analysis.steps.events import Contact, measured_spans
 from plantar.recordings.pressure_recording import PressureRecording
 
 # A stride longer than so many times the median of this many before or after it holds a pause or an unrecorded step.
-PAUSE, _BESIDE = 1.75, 7
+PAUSE = 1.75
+_BESIDE = 7
 # Time in s after which the other foot's heel strike is not that of the next step: runners fly for 0.3 s.
 _LONGEST_FLIGHT = 0.6
 
@@ -76,7 +77,8 @@ def time_measures(
         longest: Strike interval in s that holds a pause (`longest_strides`).
         others: Other foot's contacts, None if not recorded.
     """
-    strike, lift = cast(float, contact.heel_strike), cast(float, contact.toe_off)
+    strike = cast(float, contact.heel_strike)
+    lift = cast(float, contact.toe_off)
     duration = lift - strike
     share = 100.0 * duration / stride
     out = {
@@ -115,7 +117,9 @@ class OtherFoot:
         self._measured = [(float(time[first]), float(time[after - 1])) for first, after in spans]
         begin = [float(time[c.begin]) if c.heel_strike is None else c.heel_strike for c in contacts]
         end = [float(time[c.end - 1]) if c.toe_off is None else c.toe_off for c in contacts]
-        self._begin, self._end, self._walk = np.array(begin), np.array(end), np.array([c.walk for c in contacts])
+        self._begin = np.array(begin)
+        self._end = np.array(end)
+        self._walk = np.array([c.walk for c in contacts])
 
     def was_measured(self, begin: float, end: float) -> bool:
         """Returns whether the foot was measured from begin to end in s, without long gaps."""
@@ -123,7 +127,8 @@ class OtherFoot:
 
     def strikes_between(self, begin: float, end: float) -> NDArray[np.float64]:
         """Returns heel strikes (k,) in s between begin and end, in s."""
-        first, last = np.searchsorted(self.strikes, begin, "right"), np.searchsorted(self.strikes, end, "left")
+        first = np.searchsorted(self.strikes, begin, "right")
+        last = np.searchsorted(self.strikes, end, "left")
         return self.strikes[first:last]
 
     def flight(self, lift: float) -> float:
@@ -144,6 +149,8 @@ class OtherFoot:
             self.was_measured(strike, lift) and (self._begin[own] < strike).any() and (self._end[own] > lift).any()
         ):
             return float("nan")
-        first, last = np.searchsorted(self._end, strike, "right"), np.searchsorted(self._begin, lift, "left")
-        begin, end = self._begin[first:last], self._end[first:last]
+        first = np.searchsorted(self._end, strike, "right")
+        last = np.searchsorted(self._begin, lift, "left")
+        begin = self._begin[first:last]
+        end = self._end[first:last]
         return float((np.minimum(end, lift) - np.maximum(begin, strike)).clip(0.0).sum())

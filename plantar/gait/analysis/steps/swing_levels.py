@@ -20,16 +20,19 @@ _CONTACTS = (1.6, 0.9, 2.6)
 _WELL = 0.9  # Share of the gaps between contacts that are swings from which no other window is tried
 # In stretches of 4 s the force of a walk ranges over little more than from its level in swing to its peak; a window
 # that is shorter than the contacts sees less than 0.6 of that.
-_STRETCH, _WHOLE = 4.0, 0.6
+_STRETCH = 4.0
+_WHOLE = 0.6
 _NEAR = 0.10  # A swing's frames lie so close above the level, as a share of the range of force
 # Longest time in s off the ground that is a swing; of a longer one at an end of the recording what lies beside the
 # contact is taken.
 _LONGEST_SWING = 1.5
 # Longest time in s, and as a share of the contact, in which a foot that lands or lifts passes the lower half.
-_QUICK, _QUICK_SHARE = 0.2, 0.12
+_QUICK = 0.2
+_QUICK_SHARE = 0.12
 # A walking foot spends less than 0.4 of the time at its level between there and 0.3 of the range (0.03 to 0.2); the
 # sway of standing 0.7 and more, a sine 0.8.
-_ABOVE, _SPARSE = 0.30, 0.4
+_ABOVE = 0.30
+_SPARSE = 0.4
 _OFTEN = 0.5  # Share of the gaps between contacts that are swings; of the dips of a standing foot a seventh or less
 _FEWEST = 3  # Swings between contacts from which they are those of a walk
 # A level that changes by more from one swing to the next, as a share of the range, may do so from one frame to the
@@ -176,7 +179,8 @@ def _range(under: NDArray[np.float64]) -> float:
 def _swings(
     under: NDArray[np.float64], course: NDArray[np.float64], span: float, rate: float
 ) -> tuple[list[tuple[int, int]], float]:
-    n, near = len(under), under <= _NEAR * span
+    n = len(under)
+    near = under <= _NEAR * span
     if (~near & (under <= _ABOVE * span)).sum() > _SPARSE * near.sum():
         return [], 0.0
     contacts = true_runs(~near)
@@ -184,13 +188,16 @@ def _swings(
     lands = {a for (a, _), (rises, _) in zip(contacts, quick, strict=True) if rises}
     lifts = {b for (_, b), (_, falls) in zip(contacts, quick, strict=True) if falls}
     steps = sum(under[a:b].max() > 0.5 * span for a, b in contacts)
-    most, least = int(_LONGEST_SWING * rate), max(3, round(MINIMUM_SWING * rate))
-    found, inner = [], 0
+    most = int(_LONGEST_SWING * rate)
+    least = max(3, round(MINIMUM_SWING * rate))
+    found = []
+    inner = 0
     for a, b in true_runs(near):
         ends = (a == 0 or a in lifts) and (b == n or b in lands) and b - a < n
         if not ends or b - a < least or (a > 0 and b < n and b - a > most):
             continue
-        at_start, at_end = a == 0, b == n
+        at_start = a == 0
+        at_end = b == n
         a, b = _level_at_end(course, a, b, span, least)
         a, b = (max(a, b - most), b) if at_start else (a, min(b, a + most)) if at_end else (a, b)
         if b - a < least:

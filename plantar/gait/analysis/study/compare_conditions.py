@@ -83,7 +83,8 @@ def _compared(results: Sequence[RecordingResult], a: str, b: str) -> Comparison:
             f"differences take {FEWEST} in both, or {FEWEST} others in each"
         )
         return Comparison(a, b, False, {}, note=note)
-    recordings_a, recordings_b = [of_a[w] for w in first], [of_b[w] for w in second]
+    recordings_a = [of_a[w] for w in first]
+    recordings_b = [of_b[w] for w in second]
     unit, curves = _curves(recordings_a, recordings_b)
     chain = [] if curves is None else grid_neighbours(np.ones((1, curves[0].shape[1]), dtype=bool))
     curve_test = None if curves is None else permutation_test(*curves, paired, chain)

@@ -125,7 +125,8 @@ def measure_recording(
     known = with_layout(known, folder / who.layout) if who.layout else known
     subject = Subject(who.participant, who.mass_kg, who.foot_length_m)
     analysis = analyse_one(folder / who.file, None, known, choices=choices, subject=subject)
-    recording, rows = analysis.recording, _rows(analysis, who)
+    recording = analysis.recording
+    rows = _rows(analysis, who)
     return RecordingResult(
         who=who,
         digest=digest,
@@ -192,18 +193,22 @@ def _means(rows: list[dict[str, Any]], side: Side) -> dict[str, float]:
 
 
 def _map(analysis: Analysis, gait: FootGait) -> NDArray[np.float64] | None:
-    layout, picture = gait.foot.layout, gait.picture
+    layout = gait.foot.layout
+    picture = gait.picture
     if layout is None or picture is None or not gait.used:
         return None
     if analysis.recording.kind == "platform":
         print_ = gait.used[0].footprint
         if print_ is None:
             return None
-        points, values = print_.centres, print_.pressure
+        points = print_.centres
+        values = print_.pressure
         corners = print_.rings.reshape(-1, 2)
     else:
         medial = np.array([1.0, 1.0 if gait.foot.side == "right" else -1.0])
-        points, values, corners = layout.positions[:, :2] * medial, picture, layout.outline * medial
+        points = layout.positions[:, :2] * medial
+        values = picture
+        corners = layout.outline * medial
     return sampled(points, values, corners)
 
 
@@ -217,7 +222,8 @@ def sampled(
         values: Their values (k,).
         corners: Points (m, 2) spanning the sole.
     """
-    low, extent = corners.min(axis=0), np.ptp(corners, axis=0)
+    low = corners.min(axis=0)
+    extent = np.ptp(corners, axis=0)
     along = low[0] + (np.arange(GRID[0]) + 0.5) / GRID[0] * extent[0]
     across = low[1] + (np.arange(GRID[1]) + 0.5) / GRID[1] * extent[1]
     places = np.array([[u, v] for u in along for v in across])

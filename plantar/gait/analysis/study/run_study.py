@@ -125,7 +125,9 @@ def run_study(
         FormatError: If the table is unreadable.
     """
     report = progress or (lambda fraction, text: None)
-    root, target, chosen = Path(folder), Path(out), choices or AnalysisOptions()
+    root = Path(folder)
+    target = Path(out)
+    chosen = choices or AnalysisOptions()
     chosen.of_several("a study has")
     listed = [] if participants is None else read_participants(participants)
     # A file's own name may begin or end with blanks.
@@ -169,7 +171,9 @@ def _others(
 def _result(
     root: Path, cache: Path, who: Participation, choices: AnalysisOptions, options: ReadOptions | None
 ) -> RecordingResult:
-    path, digest, key = root / who.file, "", ""
+    path = root / who.file
+    digest = ""
+    key = ""
     try:
         if not path.resolve().is_relative_to(root.resolve()):
             raise InputError(f"{who.file} is not in the study's folder")

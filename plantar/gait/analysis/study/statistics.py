@@ -98,7 +98,8 @@ def student_quantile(probability: float, freedom: float) -> float:
         (2.2622, 1.96)
     """
     # With t = sqrt(n) tan(a) the density is cos(a)^(n - 1), smooth on a finite range.
-    low, high = 0.0, 0.5 * math.pi if freedom < 30.0 else math.atan(40.0 / math.sqrt(freedom))
+    low = 0.0
+    high = 0.5 * math.pi if freedom < 30.0 else math.atan(40.0 / math.sqrt(freedom))
     places, weights = np.polynomial.legendre.leggauss(200)
 
     def mass(a: float) -> float:
@@ -130,20 +131,25 @@ def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: f
         >>> effect.difference, round(effect.effect_size, 2)
         (1.0, 0.8)
     """
-    n, m = len(a), len(b)
+    n = len(a)
+    m = len(b)
     difference = float(b.mean() - a.mean())
-    va, vb = float(a.var(ddof=1)), float(b.var(ddof=1))
+    va = float(a.var(ddof=1))
+    vb = float(b.var(ddof=1))
     pooled = math.sqrt(((n - 1) * va + (m - 1) * vb) / (n + m - 2))
     if paired:
-        freedom, error = float(n - 1), float((b - a).std(ddof=1)) / math.sqrt(n)
+        freedom = float(n - 1)
+        error = float((b - a).std(ddof=1)) / math.sqrt(n)
         # Of equal variances 2 (1 - r) / n, r the correlation; of others that would be too small where r is near 1.
-        correction, scale = _correction(n - 1), (error / pooled) ** 2 if pooled > 0.0 else 0.0
+        correction = _correction(n - 1)
+        scale = (error / pooled) ** 2 if pooled > 0.0 else 0.0
         weight = 1.0 / (2.0 * n)
     else:
         error = math.sqrt(va / n + vb / m)
         parts = (va / n) ** 2 / (n - 1) + (vb / m) ** 2 / (m - 1)
         freedom = error**4 / parts if parts > 0.0 else float(n + m - 2)
-        correction, scale = _correction(n + m - 2), 1.0 / n + 1.0 / m
+        correction = _correction(n + m - 2)
+        scale = 1.0 / n + 1.0 / m
         weight = 1.0 / (2.0 * (n + m))
     reach = student_quantile(0.5 + 0.5 * _CONFIDENCE, max(freedom, 1.0)) * error
     least = _SPREAD * max(abs(float(a.mean())), abs(float(b.mean())))
@@ -193,7 +199,8 @@ def permutation_test(
         >>> (permutation_test(a, b, paired=False).p_all < 0.05).tolist()
         [False, False, True, False, False]
     """
-    a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
+    a = np.asarray(a, dtype=float)
+    b = np.asarray(b, dtype=float)
     freedom = len(a) - 1 if paired else len(a) + len(b) - 2
     beyond = student_quantile(0.975, freedom)
     both = b - a if paired else np.vstack([a, b])
@@ -204,13 +211,16 @@ def permutation_test(
     observed = t_of(np.ones(len(a)) if paired else _first(len(a), len(both)))
     clusters, masses = _clusters(observed, beyond, neighbours)
     each = np.zeros(observed.shape)
-    largest, heaviest = [], []
+    largest = []
+    heaviest = []
     for t in map(t_of, _labels(len(a), len(b), paired, permutations)):
         size = np.abs(t)
         each += size >= np.abs(observed) - 1e-9
         largest.append(float(size.max(initial=0.0)))
         heaviest.append(max(_clusters(t, beyond, neighbours)[1], default=0.0) if masses else 0.0)
-    tops, weights, count = np.array(largest), np.array(heaviest), len(largest)
+    tops = np.array(largest)
+    weights = np.array(heaviest)
+    count = len(largest)
     return PermutationTest(
         t=observed,
         p=each / count,
@@ -228,7 +238,8 @@ def _first(n: int, total: int) -> NDArray[np.float64]:
 
 def _labels(n: int, m: int, paired: bool, most: int) -> Iterator[NDArray[np.float64]]:
     """Signs (n,) of pairs, or which of n + m samples are of A: every choice, or the observed and drawn ones."""
-    random, observed = np.random.default_rng(_SEED), np.ones(n) if paired else _first(n, n + m)
+    random = np.random.default_rng(_SEED)
+    observed = np.ones(n) if paired else _first(n, n + m)
     if paired and 2**n <= most:
         yield from map(np.array, product((1.0, -1.0), repeat=n))
     elif not paired and math.comb(n + m, n) <= most:
@@ -241,13 +252,16 @@ def _labels(n: int, m: int, paired: bool, most: int) -> Iterator[NDArray[np.floa
 
 def _paired_t(change: NDArray[np.float64]) -> NDArray[np.float64]:
     n = len(change)
-    mean, sd = change.mean(axis=0), change.std(axis=0, ddof=1)
+    mean = change.mean(axis=0)
+    sd = change.std(axis=0, ddof=1)
     return _ratio(mean, sd / math.sqrt(n))
 
 
 def _independent_t(both: NDArray[np.float64], first: NDArray[np.float64]) -> NDArray[np.float64]:
-    n, m = first.sum(), len(first) - first.sum()
-    mean_a, mean_b = first @ both / n, (1.0 - first) @ both / m
+    n = first.sum()
+    m = len(first) - first.sum()
+    mean_a = first @ both / n
+    mean_b = (1.0 - first) @ both / m
     rest = ((both - np.where(first[:, None] > 0.5, mean_a, mean_b)) ** 2).sum(axis=0)
     return _ratio(mean_b - mean_a, np.sqrt(rest / (n + m - 2.0) * (1.0 / n + 1.0 / m)))
 

@@ -85,7 +85,8 @@ def _comparison(one: Comparison) -> str:
     if one.note:
         return f"<p>{html.escape(one.note[0].upper() + one.note[1:])}.</p>"
     rows = [row(titled(*_title(key)[:2]), _cells(effect, _title(key)[2])) for key, effect in one.effects.items()]
-    a, b = html.escape(one.a), html.escape(one.b)
+    a = html.escape(one.a)
+    b = html.escape(one.b)
     how = (
         f"{len(one.curves[0]) if one.curves else next(iter(one.effects.values())).n_a} pairs"
         if one.paired
@@ -104,7 +105,8 @@ def _cells(effect: Effect, factor: float) -> list[str]:
     def text(value: float, digits: int = 3) -> str:
         return number(scaled(value, 1.0) if value == value else None, digits)
 
-    low, high = text(effect.low * factor), text(effect.high * factor)
+    low = text(effect.low * factor)
+    high = text(effect.high * factor)
     return [
         text(effect.mean_a * factor),
         text(effect.mean_b * factor),
@@ -183,7 +185,9 @@ def _recordings(results: Sequence[RecordingResult]) -> str:
     return table("Recordings", f"One row a recording.{more}", head, rows, words=head[1:])
 
 
-_A, _B, _FOUND = COLOURS["left"], COLOURS["right"], "#f2c14e"
+_A = COLOURS["left"]
+_B = COLOURS["right"]
+_FOUND = "#f2c14e"
 
 
 def study_figures(comparisons: Sequence[Comparison]) -> list[tuple[str, Any, str]]:
@@ -267,7 +271,8 @@ def _draw_maps(one: Comparison) -> Any | None:
     differs[one.places] = one.map_test.significant
     if differs.any():
         high, wide = one.places.shape
-        rows, columns = (np.arange(high) + 0.5) / high, (np.arange(wide) + 0.5) / wide
+        rows = (np.arange(high) + 0.5) / high
+        columns = (np.arange(wide) + 0.5) / wide
         axes[2].contour(columns, rows, differs[:, ::-1].astype(float), levels=[0.5], colors="#111111", linewidths=1.4)
     axes[0].set_ylabel("length of the sole (share), toes up")
     for panel in axes:

@@ -20,7 +20,9 @@ class ComTask(Task):
     target = Target()
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, body: int) -> None:
-        self._model, self._data, self._body = model, data, body
+        self._model = model
+        self._data = data
+        self._body = body
         self._com = data.subtree_com[body]
         self.target = self._com
 
@@ -37,7 +39,9 @@ class ComTask(Task):
 
         Takes `error` and `jacobian`; returns the kernel.
         """
-        model, data, first = self._model, self._data, self._body
+        model = self._model
+        data = self._data
+        first = self._body
         last = first + 1  # the bodies of a tree follow each other
         while last < model.nbody and model.body_parentid[last] >= first:
             last += 1

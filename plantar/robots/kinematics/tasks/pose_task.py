@@ -20,13 +20,17 @@ class PoseTask(Task):
 
     rows = 6
     lengths = 3
-    position, rotation = Target(), Target()
+    position = Target()
+    rotation = Target()
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, site: int) -> None:
-        self._model, self._data, self._site = model, data, site
+        self._model = model
+        self._data = data
+        self._site = site
         self._position = data.site_xpos[site]
         self._rotation = data.site_xmat[site].reshape(3, 3)
-        self.position, self.rotation = self._position, self._rotation
+        self.position = self._position
+        self.rotation = self._rotation
 
     def error(self, out: NDArray[np.float64]) -> None:
         """Missing way (3,) in m and turn (3,), in the world frame."""
@@ -42,7 +46,8 @@ class PoseTask(Task):
 
         Takes `error` and `jacobian`; returns the kernel.
         """
-        model, data = self._model, self._data
+        model = self._model
+        data = self._data
         body = int(model.site_bodyid[self._site])
         return PoseRows(
             *(chain(model, body), data.cdof, data.subtree_com[model.body_rootid[body]]),
@@ -61,7 +66,9 @@ class OrientationTask(Task):
     target = Target()
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, body: int) -> None:
-        self._model, self._data, self._body = model, data, body
+        self._model = model
+        self._data = data
+        self._body = body
         self._rotation = data.xmat[body].reshape(3, 3)
         self.target = self._rotation
 

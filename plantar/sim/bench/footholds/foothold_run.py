@@ -109,7 +109,9 @@ def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) 
     `seed` draws ground, push and noise. InputError if the policy fails, SceneError if physics become unstable.
     """
     run = Simulation(scene_of_trial(trial, robot), seed)
-    world, data, judge = run.world, run.world.data, run.judge
+    world = run.world
+    data = run.world.data
+    judge = run.judge
     stance = JointTargets(run.legs.joints.copy(), run.legs.torques.copy())
     names = (*run.robot.legs["left"].joints, *run.robot.legs["right"].joints)
     period = run.settings.period
@@ -117,9 +119,11 @@ def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) 
     policy = _called(make_policy, task)
     if not callable(getattr(policy, "step", None)):
         raise InputError(f"make_policy(task) returned {policy!r}; allowed: an object with a method step(sensors)")
-    tick_every, look_every = round(period / world.period), round(_LOOK / world.period)
+    tick_every = round(period / world.period)
+    look_every = round(_LOOK / world.period)
     last = round(_PATIENCE * run.end / world.period)
-    k, taken_all = 0, None
+    k = 0
+    taken_all = None
     while k < last and judge.fall is None and (taken_all is None or data.time < taken_all + _STAY):
         if k % run.sensors.skin_every == 0:
             run.sensors.read_skins()

@@ -13,7 +13,8 @@ from plantar.sim.bench.footholds.foothold_run import TRIALS, run_trial
 from plantar.sim.bench.footholds.policy import OwnController, load_policy
 
 _COLUMNS = ("policy", "robot", "kind", "value", "seed", "completed", "steps", "planned", "fell", "tilt_deg", "froude")
-_TABLE, _PAGE = "footholds.csv", "footholds.md"
+_TABLE = "footholds.csv"
+_PAGE = "footholds.md"
 
 
 def measure_footholds(

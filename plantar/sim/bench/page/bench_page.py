@@ -39,7 +39,8 @@ def bench_page(result: Mapping[str, Any], figures: Mapping[str, bytes] | None = 
     )
     sections = []
     for key, part, needed, name, content in parts:
-        found, drawn = result.get(part, {}), (figures or {}).get(key)
+        found = result.get(part, {})
+        drawn = (figures or {}).get(key)
         if found.get(needed):
             sections.append(Section(key, name, content(found) + ("" if drawn is None else figure(drawn, name))))
     style = files("plantar.sim.bench.page").joinpath("bench.css").read_text(encoding="utf-8")
@@ -167,7 +168,8 @@ def _papers(found: Mapping[str, Any]) -> str:
     lines = []
     for one in found["experiments"]:
         for name, printed in one["printed"].items():
-            ours, unit = one["ours"][name], _UNITS.get(name, "\u00a0N")
+            ours = one["ours"][name]
+            unit = _UNITS.get(name, "\u00a0N")
             most = max(printed, ours or 0.0) or 1.0
             lost = "fell" if one["fell"] else "" if one["completed"] else "not completed"
             ends = ["fell" if one["printed_fell"] else "", lost]

@@ -33,14 +33,16 @@ _SILENT = ("force", "proximity", "encoder", "gyro", "accelerometer")
 
 class _SpheresBelow:
     def __init__(self, robot: Robot, count: int) -> None:
-        self._robot, self._count = robot, count
+        self._robot = robot
+        self._count = count
 
     def names(self, side: Side) -> list[str]:
         return [f"{side}_point_{i}" for i in range(self._count * len(self._robot.layouts[side]))]
 
     def add_to(self, spec: Any) -> None:
         for side in SIDES:
-            box, layout = spec.geom(f"{side}_sole_box"), self._robot.layouts[side]
+            box = spec.geom(f"{side}_sole_box")
+            layout = self._robot.layouts[side]
             site = spec.site(self._robot.legs[side].sole_site)
             rotation = rotation_of(site.quat)
             points = np.concatenate([support_points(layout.cell_polygon(i), self._count) for i in range(len(layout))])
@@ -53,7 +55,8 @@ class _SpheresBelow:
                     mass=0.0,
                     **{k: getattr(box, k) for k in ("group", "contype", "conaffinity", "condim", "friction")},
                 )
-            box.contype = box.conaffinity = 0
+            box.contype = 0
+            box.conaffinity = 0
 
 
 class ChangedRun(Simulation):
@@ -82,8 +85,10 @@ class ChangedRun(Simulation):
         if spheres is not None:
             soles = {side: tuple(model.geom(name).id for name in spheres.names(side)) for side in SIDES}
             for side in SIDES:
-                box, ids = world.sole_geoms[side][0], list(soles[side])
-                model.geom_solref[ids], model.geom_solimp[ids] = model.geom_solref[box], model.geom_solimp[box]
+                box = world.sole_geoms[side][0]
+                ids = list(soles[side])
+                model.geom_solref[ids] = model.geom_solref[box]
+                model.geom_solimp[ids] = model.geom_solimp[box]
                 model.geom_gap[ids] = model.geom_gap[box]
             world = replace(world, sole_geoms=soles)
         if setting.contact_time is not None:
@@ -132,11 +137,14 @@ class TracedRun(ChangedRun):
     def __init__(self, *args: Any, **named: Any) -> None:
         super().__init__(*args, **named)
         period = self.world.period
-        self._every, self._steps = max(1, round(_FORCES_EVERY / period)), 0
+        self._every = max(1, round(_FORCES_EVERY / period))
+        self._steps = 0
         self._of_sample = round(SAMPLE / period)
         self._contacts = ContactReader(self.world.model, self.world.data, [self.world.sole_geoms[s] for s in SIDES])
         self._touched = [self.world.touch[side] for side in SIDES]
-        self._wrench, self._force, self._looks = np.zeros(6), np.zeros(2), 0
+        self._wrench = np.zeros(6)
+        self._force = np.zeros(2)
+        self._looks = 0
         self.keeping_s = 0.0
         self._landings: tuple[tuple[str, float, float], ...] = ()
         self._rows: list[tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]] = []
@@ -157,7 +165,9 @@ class TracedRun(ChangedRun):
         if self._steps % self._of_sample == 0:
             com = data.subtree_com[self.world.torso].copy()
             self._rows.append((com, self._wrench / self._looks, self._force / self._of_sample))
-            self._wrench, self._force, self._looks = np.zeros(6), np.zeros(2), 0
+            self._wrench = np.zeros(6)
+            self._force = np.zeros(2)
+            self._looks = 0
 
     def keep_landings(self, summary: Mapping[str, Any]) -> None:
         """Keep the landings of the run's summary."""

@@ -133,7 +133,8 @@ def _costs(run: ChangedRun) -> dict[str, Any]:
     start = time.process_time()
     summary = run.run()
     used = time.process_time() - start - (run.keeping_s if isinstance(run, TracedRun) else 0.0)
-    impacts, margin = summary["impacts_N"], summary["zmp_margin_min_m"]
+    impacts = summary["impacts_N"]
+    margin = summary["zmp_margin_min_m"]
     if isinstance(run, TracedRun):
         run.keep_landings(summary)
     return {

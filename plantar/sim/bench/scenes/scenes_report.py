@@ -22,7 +22,8 @@ CASES: tuple[SceneCase, ...] = tuple(
 )
 """The walks: a few steps of each scene, since each setting walks them several times."""
 
-_SEEDS, _TRACED = 5, 2
+_SEEDS = 5
+_TRACED = 2
 
 
 def measure_scenes(
@@ -140,7 +141,8 @@ def _draw(path: Path, rows: Sequence[SceneRow]) -> None:
     for column, case in enumerate(cases):
         mine = [r for r in rows if (r.scene, r.robot) == case]
         for line, (name, label, factor) in enumerate(_ERRORS):
-            axis, title = axes[line, column], ", ".join(case) if line == 0 else ""
+            axis = axes[line, column]
+            title = ", ".join(case) if line == 0 else ""
             errors = {id(r): factor * float(getattr(r, name)) for r in mine}
             kept = [r for r in mine if r.setting not in (NOISE, r.against) and math.isfinite(errors[id(r)] * r.ratio)]
             marks = [

@@ -234,7 +234,8 @@ class FaultySensors:
 
     def passed(self, sensors: Sensors) -> Sensors:
         """The readings of one tick with their faults."""
-        f, rng = self.faults, self._rng
+        f = self.faults
+        rng = self._rng
         readings = {side: self._sole(side, sensors.readings[side]) for side in SIDES}
         changed: dict[str, Any] = {"readings": readings}
         lost = 0.0 <= f.lost_after <= sensors.time
@@ -252,10 +253,13 @@ class FaultySensors:
         return passed if self._named is None or since < 0.0 else self._named(passed, since)
 
     def _sole(self, side: Side, reading: Reading) -> Reading:
-        f, rng = self.faults, self._rng
+        f = self.faults
+        rng = self._rng
         if side in self._last and f.dropped and rng.random() < f.dropped:
             return self._last[side]
-        force, near, time = reading.force, reading.proximity, reading.time
+        force = reading.force
+        near = reading.proximity
+        time = reading.time
         if f.stuck:
             if side not in self._stuck:
                 self._stuck[side] = (rng.random(len(force)) < f.stuck, force)

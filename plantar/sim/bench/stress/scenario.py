@@ -83,7 +83,8 @@ def draw_scenario(number: int) -> Scenario:
         (True, False)
     """
     rng = np.random.default_rng([number, 0x57])
-    scene, robot = str(rng.choice(list(SCENES))), str(rng.choice(ROBOTS))
+    scene = str(rng.choice(list(SCENES)))
+    robot = str(rng.choice(ROBOTS))
     own, tables = SCENES[scene]
     settings = [*own, *_SHORT]
     if scene not in ("balance", "stop", "turn", "wander"):  # those walk by velocities, or not at all
@@ -96,7 +97,8 @@ def draw_scenario(number: int) -> Scenario:
             settings.append(f"{name}={rng.choice(choices)}")
     settings += [f"sensing.{name}={value}" for name, value in _drawn(Sensing, rng, 0.1).items() if name in _READ]
     for table in rng.choice(tables, 2, replace=False).tolist():
-        drawn, keys = _drawn(CONTROLLER_TABLES[table][0], rng, 0.15), controller_keys(table)
+        drawn = _drawn(CONTROLLER_TABLES[table][0], rng, 0.15)
+        keys = controller_keys(table)
         settings += [f"{table}.{name}={value}" for name, value in drawn.items() if name in keys]
     place = (0.0, 0.0, 0.0)
     if scene in _ANYWHERE and rng.random() < 0.7:

@@ -55,7 +55,8 @@ class CommandCheck:
             if not np.isfinite(values).all():
                 return f"not finite: {name}"
         targets = [command.com, *(foot.position for foot in feet)]
-        last, self._last = self._last, targets
+        last = self._last
+        self._last = targets
         middle = 0.5 * (feet[0].position + feet[1].position)
         if float(np.linalg.norm(command.com - middle)) > _FARTHEST * self._body.leg:
             return "out of bounds: the CoM is far from the feet"
@@ -97,12 +98,14 @@ class _Faulty(Exception): ...
 
 class _StressedRun(Simulation):
     def __init__(self, scenario: Scenario, longest: float) -> None:
-        self._place, self._longest = scenario.place, longest
+        self._place = scenario.place
+        self._longest = longest
         super().__init__(load_scene(scenario.scene, scenario.settings, scenario.robot), scenario.number)
         limits: dict[Side, float] = {side: self.robot.layouts[side].force_limit for side in SIDES}
         sensors = FaultySensors(scenario.faults, limits, scenario.number)
         check = CommandCheck(self.body, self.settings.period)
-        step, solve = self.controller.step, self.servos.command
+        step = self.controller.step
+        solve = self.servos.command
 
         def checked(command: Command) -> NDArray[np.float64]:
             joints = solve(command)
@@ -124,7 +127,8 @@ class _StressedRun(Simulation):
 
     def _placed(self, foot: Footstep) -> Footstep:
         x, y, yaw = self._place
-        c, s = float(np.cos(yaw)), float(np.sin(yaw))
+        c = float(np.cos(yaw))
+        s = float(np.sin(yaw))
         return Footstep(foot.side, x + c * foot.x - s * foot.y, y + s * foot.x + c * foot.y, foot.yaw + yaw, foot.z)
 
     @property

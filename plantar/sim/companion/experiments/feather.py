@@ -61,7 +61,8 @@ class Feather(StandingExperiment):
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
         super().__init__(machine, settings, control, seed)
-        box, sphere = mujoco.mjtGeom.mjGEOM_BOX, mujoco.mjtGeom.mjGEOM_SPHERE
+        box = mujoco.mjtGeom.mjGEOM_BOX
+        sphere = mujoco.mjtGeom.mjGEOM_SPHERE
         self.visitors = [
             Visitor("visiting hand", box, (0.03, 0.045, 0.015), 0.015),
             Visitor("feather", sphere, (0.015, 0.0, 0.0), 0.015),
@@ -81,7 +82,8 @@ class Feather(StandingExperiment):
         self._rest = self.robot.pose(self._link)[0]
         self._closest = {v.name: _FARTHEST for v in self.visitors}
         self._moved = {v.name: 0.0 for v in self.visitors}
-        self._early = self._measured = 0.0
+        self._early = 0.0
+        self._measured = 0.0
         self._trace: list[tuple[float, float, float]] = []
 
     def add_to(self, spec: Any) -> None:
@@ -124,7 +126,8 @@ class Feather(StandingExperiment):
         self._trace.append((time, nearest, moved))
 
     def verdict(self) -> Verdict:
-        closest, s = min(self._closest.values()), self.settings
+        closest = min(self._closest.values())
+        s = self.settings
         touch = f"the hand was touched: nearest distance {1e3 * closest:.1f} mm, force {self._measured:.2f} N"
         early = f"the hand moved by {1e3 * self._early:.1f} mm before anything was near"
         repelled = "{} repelled the hand by {:.0f} mm; wanted: {:.0f}"

@@ -26,7 +26,9 @@ from plantar.sim.figures.render import View
 _AFTER = 1.0  # s after an interaction that still count as disturbed by it
 _SETTLING = 4.0  # s after the sigmoid, or after coming near, from which force or distance count
 _ARM = {"forearm": (0.045, (0.1, 0.3)), "upper_arm": (0.055, (0.15, 0.35))}  # radius and places along it in m
-_SHORTEST, _PAUSES = 1.2, (0.2, 0.6)  # s: the shortest touch, three ramps long, and between touches
+# s: the shortest touch, three ramps long, and between touches
+_SHORTEST = 1.2
+_PAUSES = (0.2, 0.6)
 _EVERY = 5  # physics steps from one look at how things move to the next
 _HALF_THICK = 0.02  # m of the object
 
@@ -127,9 +129,15 @@ class ForceTracking(Experiment):
         self._hand: HandController
         self.record = ForceRecord()
         self._errors: dict[str, list[float]] = {"free": [], "disturbed": [], "distance": []}
-        self._measured = self._lost = self._highest = self._tilt = self._moved = 0.0
-        self._nearest, self._bumped = math.inf, 0.0
-        self._guided, self._steps = 0.0, 0
+        self._measured = 0.0
+        self._lost = 0.0
+        self._highest = 0.0
+        self._tilt = 0.0
+        self._moved = 0.0
+        self._nearest = math.inf
+        self._bumped = 0.0
+        self._guided = 0.0
+        self._steps = 0
         self._base = np.zeros(3)
         self._places: dict[str, NDArray[np.float64]] = {}
 
@@ -141,7 +149,8 @@ class ForceTracking(Experiment):
             while end - time >= 2.0 * _SHORTEST + _PAUSES[1]:
                 link = str(self.rng.choice(list(_ARM)))
                 radius, (low, high) = _ARM[link]
-                along, angle = self.rng.uniform(low, high), self.rng.uniform(0.0, 2.0 * math.pi)
+                along = self.rng.uniform(low, high)
+                angle = self.rng.uniform(0.0, 2.0 * math.pi)
                 force = self.rng.uniform(*(self.settings.touch_force or (5.0, 10.0)))
                 pause = self.rng.uniform(*_PAUSES)
                 length = min(self.rng.uniform(1.5, 2.5), (end - time - pause) / 2.0)
@@ -202,15 +211,18 @@ class ForceTracking(Experiment):
         self._visitor.act(world, time)
 
     def _command_base(self, time: float) -> None:
-        s, rate = self.settings, 2.0 * math.pi / self.settings.base_period
-        target, speed = self._posture.copy(), np.zeros(len(self._posture))
+        s = self.settings
+        rate = 2.0 * math.pi / self.settings.base_period
+        target = self._posture.copy()
+        speed = np.zeros(len(self._posture))
         for window, sizes in ((s.circle, (s.circle_radius, s.circle_radius)), (s.swing, (0.0, s.swing_amplitude))):
             if window and window[0] <= time < window[1]:
                 phase = rate * (time - window[0])
                 share = come_and_go(time, window[0], window[1], 2.0)
                 target[:2] += share * np.array(sizes) * (math.cos(phase), math.sin(phase))
                 speed[:2] = share * rate * np.array(sizes) * (-math.sin(phase), math.cos(phase))
-        self._hand.posture.target, self._hand.posture.target_velocity = target, speed
+        self._hand.posture.target = target
+        self._hand.posture.target_velocity = speed
 
     def _place_object(self, world: World, time: float) -> None:
         turn = 0.0

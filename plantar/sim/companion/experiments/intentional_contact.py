@@ -24,10 +24,14 @@ from plantar.sim.figures.render import View
 from plantar.sim.model.contact_truth import feet_contacts
 
 _EVERY = 0.02  # s between two records
-_DRAWS, _CLEAR = 100, 0.08  # of a layout; m from its posts to the links' ends and middles at first
+# of a layout; m from its posts to the links' ends and middles at first
+_DRAWS = 100
+_CLEAR = 0.08
 _TOUCHED = 1.0  # N on an obstacle, from which it counts as touched
 _SHOVED_AFTER = (0.2, 1.0)  # s after the first touch
-_SHOVING, _SHOVE_RAMP = 1.5, 0.3  # s: how long, and how long it takes to come and go
+# s: how long, and how long it takes to come and go
+_SHOVING = 1.5
+_SHOVE_RAMP = 0.3
 _MARGIN = 1.1  # of the tolerable force: what a run may have at most
 
 
@@ -93,8 +97,11 @@ class IntentionalContactExperiment(Experiment):
         self.layout = self._draw_layout(np.vstack([data.xpos, data.xipos]))
         self._goal = np.array([*self.layout.goal, self._height])
         self.record = ReachRecord(machine, self.layout, s.force_limit)
-        self._since = self._reached = self._error = math.inf
-        self._highest = self._due = 0.0
+        self._since = math.inf
+        self._reached = math.inf
+        self._error = math.inf
+        self._highest = 0.0
+        self._due = 0.0
         self._pressed: dict[str, NDArray[np.float64]] = {}
         self._posts: dict[str, int] = {}
         self._shove: tuple[str, float, NDArray[np.float64]] | None = None  # which post, from when, and direction
@@ -102,7 +109,8 @@ class IntentionalContactExperiment(Experiment):
 
     def _draw_layout(self, arm: NDArray[np.float64]) -> Layout:
         # Layouts are drawn until one has no way without contact, and is clear of places (n, 3) of the arm.
-        s, tip = self.settings, self.start_tip
+        s = self.settings
+        tip = self.start_tip
         kinds = KINDS[:-1] if tip.lifts else KINDS
         kind = s.layout if s.layout != "any" else kinds[self.seed % len(kinds)]
         reach = (s.near, s.far), (math.radians(s.least_angle), math.radians(s.largest_angle))

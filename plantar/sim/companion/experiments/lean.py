@@ -79,14 +79,17 @@ class Lean(StandingExperiment):
 
     def add_to(self, spec: Any) -> None:
         # As where robots walk: a sole with a load to the side would creep off its edge by 2 mm a second.
-        spec.option.cone, spec.option.impratio = mujoco.mjtCone.mjCONE_ELLIPTIC, 10.0
-        add, box = spec.worldbody.add_geom, mujoco.mjtGeom.mjGEOM_BOX
+        spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+        spec.option.impratio = 10.0
+        add = spec.worldbody.add_geom
+        box = mujoco.mjtGeom.mjGEOM_BOX
         carries = {"contype": 2, "conaffinity": 1, "friction": [0.8, 0.005, 0.0001]}
         shown = {"contype": 0, "conaffinity": 0}
         felt = {**shown, "group": OBSTACLE_GROUP}
         grey = (0.72, 0.74, 0.72)
         for side, (low, high) in self._ground().items():
-            middle, half = 0.5 * (low + high), 0.5 * (high - low)
+            middle = 0.5 * (low + high)
+            half = 0.5 * (high - low)
             add(name=f"{side}_ground", type=box, size=[*half, 0.05], pos=[*middle, -0.05], rgba=[*grey, 1.0], **carries)
             below = [*middle, -0.01 - _SEEN_LOWER]
             add(name=f"{side}_seen", type=box, size=[*half, 0.01], pos=below, rgba=[*grey, 0.0], **felt)
@@ -100,7 +103,8 @@ class Lean(StandingExperiment):
         for side in ("left", "right"):
             place = self.stance.places[f"{side}_foot"][:2]
             half = self.robot.model.geom(f"{side}_sole_box").size[:2]
-            low, high = place - half, place + half
+            low = place - half
+            high = place + half
             if side == "right":
                 share = self.settings.sole_share
                 axis = 0 if self.part in ("front", "rear") else 1
@@ -142,7 +146,9 @@ class Lean(StandingExperiment):
         held = trace[trace[:, 0] > self.duration - 3.0]
         held = held if len(held) else trace[-1:]
         reasons = self.balance_reasons()
-        beyond, force, error = held[:, 1].min(), held[:, 4].min(), held[:, 5].max()
+        beyond = held[:, 1].min()
+        force = held[:, 4].min()
+        error = held[:, 5].max()
         goals = unmet(
             (beyond >= _OUTSIDE, "beyond", beyond, _OUTSIDE, f"centre of mass {1e3 * beyond:.0f} mm beyond the feet"),
             (force > 0.0, "forearm", force, 0.0, "the forearm lost the table"),

@@ -27,11 +27,15 @@ from plantar.wholebody.tasks.cartesian_pose import CartesianPose
 from plantar.wholebody.tasks.skin_interaction import PressureInteraction
 from plantar.wholebody.tasks.task import Task
 
-_PATCH, _LINK = "right_hand_back", "right_hand"
+_PATCH = "right_hand_back"
+_LINK = "right_hand"
 _FACES = {"one": 0.010, "seven": 0.035}  # m: radius; seven taxels are one and the six about it
 _CHANGING = 0.1  # s after a change of priorities in which torques are looked at
 _RATE = 6.0  # N/s: how fast a probe presses harder, times its taxels
-_PHASE, _HOLD, _REST = 5.0, 0.6, 2.0  # s: a probe's time, how long it goes on once the hand gives way, and a pause
+# s: a probe's time, how long it goes on once the hand gives way, and a pause
+_PHASE = 5.0
+_HOLD = 0.6
+_REST = 2.0
 
 
 class NociceptionSettings(Settings):
@@ -97,7 +101,8 @@ class Nociception(StandingExperiment):
         self._control: StandingController
         self._virtual = 0.0
         self._last: Any = None
-        self._jump, self._changed = 0.0, -np.inf
+        self._jump = 0.0
+        self._changed = -np.inf
         self._trace: list[tuple[float, ...]] = []
         self.reflex = NociceptiveReflex([], [])
         self.transition = PriorityTransition()
@@ -117,7 +122,8 @@ class Nociception(StandingExperiment):
 
     def _before(self, robot: MujocoDynamics, measured: SkinReading) -> None:
         strongest = [float(np.linalg.norm(w.wrench[:3])) for w in self._pressure.wrenches(measured)]
-        before, self._virtual = self._virtual, max(strongest, default=0.0)
+        before = self._virtual
+        self._virtual = max(strongest, default=0.0)
         if self.control.reflex and self.reflex.update(self._virtual, robot.time):
             self._control.stack.levels = [list(level) for level in self.reflex.levels]
         elif (before > 0.0) == (self._virtual > 0.0):
@@ -146,14 +152,16 @@ class Nociception(StandingExperiment):
             if probe.begin <= time < probe.begin + _PHASE + 0.5:
                 probe.moved = max(probe.moved, moved)
                 if self.reflex.active and not np.isfinite(probe.triggered):
-                    probe.triggered, probe.since = self.pressing(probe.pad), time
+                    probe.triggered = self.pressing(probe.pad)
+                    probe.since = time
         if self._steps % 10 == 0:
             force = sum(self.pressing(p.pad) for p in self.probes.values())
             self._trace.append((time, force, self._virtual, 1e3 * moved, float(self.reflex.active)))
 
     def verdict(self) -> Verdict:
         s = self.settings
-        one, seven = self.probes["one"], self.probes["seven"]
+        one = self.probes["one"]
+        seven = self.probes["seven"]
         ratio = seven.triggered / one.triggered
         off = abs(ratio / 7.0 - 1.0) if np.isfinite(ratio) else 1.0
         moved = min(p.moved for p in self.probes.values())

@@ -20,7 +20,9 @@ from plantar.sim.companion.standing.standing import StandingExperiment
 from plantar.wholebody.tasks.skin_interaction import DirectInteraction, PressureInteraction
 from plantar.wholebody.tasks.task import Task
 
-_PATCH, _JOINTS = "torso_front", ("waist_yaw", "waist_pitch")  # the joints that carry the torso
+# the joints that carry the torso
+_PATCH = "torso_front"
+_JOINTS = ("waist_yaw", "waist_pitch")
 _FACES = {"one": 0.010, "hundred": 0.148}  # m: radius; a taxel's inner radius is 14 mm
 # When a probe is measured, in s from its full force on. Noise of the gyro, 2 mrad/s in each tick, is damped like
 # motion and lets torso and pelvis drift: by up to 6 % of the slow speed in 14.4 s, and, as a random walk, by 0.7 of
@@ -137,7 +139,8 @@ class Pressure(StandingExperiment):
             self._trace.append((time, sum(self.pressing(p.pad) for p in self._pushes.values()), speed))
 
     def verdict(self) -> Verdict:
-        one, many = self._pushes["one"], self._pushes["hundred"]
+        one = self._pushes["one"]
+        many = self._pushes["hundred"]
         areas = float(np.mean(many.taxels or [0.0]) / np.mean(one.taxels or [np.nan]))
         forces = float(np.mean(one.forces or [np.nan]) / np.mean(many.forces or [np.nan]))
         ratio = one.speed / many.speed / forces

@@ -28,9 +28,12 @@ from plantar.wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
 from plantar.wholebody.tasks.skin_interaction import TemperatureInteraction
 from plantar.wholebody.tasks.task import Task
 
-_LINK, _PATCHES = "right_hand", ("right_hand_palm", "right_hand_back")
+_LINK = "right_hand"
+_PATCHES = ("right_hand_palm", "right_hand_back")
 _WARM_EVERY = 10  # physics steps
-_BEGIN, _WAY = 1.0, 2.0  # s: when the hand sets out for the plate, and how long it takes
+# s: when the hand sets out for the plate, and how long it takes
+_BEGIN = 1.0
+_WAY = 2.0
 _CIRCLE = 4.0  # s
 
 
@@ -78,18 +81,22 @@ class Stove(StandingExperiment):
         self.duration = settings.duration
         skin = self.skin
         self._taxels = np.concatenate([np.arange(len(skin))[skin.slices[name]] for name in _PATCHES])
-        self._points, self._normals = skin.positions[self._taxels], skin.normals[self._taxels]
+        self._points = skin.positions[self._taxels]
+        self._normals = skin.normals[self._taxels]
         self._palm = skin.positions[skin.slices["right_hand_palm"]].mean(0)
         place = self.robot.place(_LINK, self._palm)
         self.height = settings.height * self.rng.uniform(0.8, 1.2)
-        self._radius, self._phase = self.rng.uniform(0.0, 0.04), self.rng.uniform(0.0, 2.0 * math.pi)
+        self._radius = self.rng.uniform(0.0, 0.04)
+        self._phase = self.rng.uniform(0.0, 2.0 * math.pi)
         away = np.array([0.10, -0.16, 0.0]) * self.rng.uniform(0.8, 1.0)
         self.middle = place + away - [0.0, 0.0, self.height]
         self.plate = HotPlate(self.middle, settings, len(self._taxels))
         self._warmth = np.full(len(skin), settings.room)
         self._start = place
         self._hottest = settings.room
-        self._retreat, self._arrived, self._silent = 0.0, False, True
+        self._retreat = 0.0
+        self._arrived = False
+        self._silent = True
         self._trace: list[tuple[float, ...]] = []
         self._hand = CartesianPose(_LINK, self._palm, PoseGains(speed=0.2))
         self._transition = PriorityTransition()
@@ -110,7 +117,8 @@ class Stove(StandingExperiment):
         c = self.control
         self._heat = TemperatureInteraction(skin, c.repulsion, c.threshold, _PATCHES)
         self._heat.damping = (c.repelled_damping, 0.02 * c.repelled_damping)
-        base, posture = self.balance_tasks(), self.posture_task()
+        base = self.balance_tasks()
+        posture = self.posture_task()
         self._working: list[list[Task]] = [base, [self._hand], [posture]]
         self._shunning: list[list[Task]] = (
             [base, [self._heat], [self._hand], [posture]] if c.keep_hand else [base, [self._heat, posture]]

@@ -78,7 +78,8 @@ class Fist:
             self._depth = -_AWAY
             world.data.mocap_pos[place] = AWAY
             return
-        period, wanted = float(world.model.opt.timestep), push.wanted(time)
+        period = float(world.model.opt.timestep)
+        wanted = push.wanted(time)
         if measured == 0.0 and time > 0.5 * (push.start + push.end):
             self._depth -= 0.3 * period
         elif measured == 0.0:  # it comes near, and touches slowly

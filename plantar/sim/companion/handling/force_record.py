@@ -32,7 +32,10 @@ class ForceRecord:
         `windows`, begin and end in s of each kind of interaction, are shaded below the `title`. Returns the path.
         """
         t, wanted, true, distance, *rest = np.array(self.rows).T
-        moment, hand, base, tilt = rest[:3], rest[3:6], rest[6:9], rest[9]
+        moment = rest[:3]
+        hand = rest[3:6]
+        base = rest[6:9]
+        tilt = rest[9]
         figure, axes = new_figure(9.0, 11.0 if force else 9.5, rows=6 if force else 5, sharex=True)
         axis = list(axes)
         if force:

@@ -90,9 +90,12 @@ class HandController(Controller):
     """
 
     def __init__(self, machine: Machine, skin: BodySkin, settings: HandControl) -> None:
-        s = self.settings = settings
+        s = settings
+        self.settings = settings
         taxels = next(p for p in skin.patches if p.name == "hand").positions
-        middle, normal = taxels.mean(axis=0), np.array([0.0, 0.0, 1.0])  # level with a surface all feel it alike
+        # level with a surface all feel it alike
+        middle = taxels.mean(axis=0)
+        normal = np.array([0.0, 0.0, 1.0])
         arm_skin = [p.name for p in skin.patches if p.name != "hand"]
         self._touch = DirectInteraction(skin, patches=arm_skin)
         stiffness = s.distance_rate * s.force_damping / s.force_gain  # for the distance error's decay rate
@@ -127,7 +130,8 @@ class HandController(Controller):
         self._change = PriorityTransition()
         servo = machine.servo.kind if s.servo == "machine" else s.servo
         self._feeds_forward = s.feed_forward and servo == "torque"  # a resolver's virtual robot is pushed by nothing
-        self._taken = self.wanted_force = 0.0
+        self._taken = 0.0
+        self.wanted_force = 0.0
 
     def enter_contact(self, time: float) -> None:
         """Activate the contact phase at a time in s (A 4.2.2)."""
@@ -141,7 +145,8 @@ class HandController(Controller):
         self._keep_clear.obstacles = points
 
     def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
-        self.force.weight = self.wrist.weight = self.phases.weight(robot.time)
+        self.wrist.weight = self.phases.weight(robot.time)
+        self.force.weight = self.wrist.weight
         self.force.target_force = self.wanted_force
         s = self.settings
         self.force.approach_speed = s.landing_speed if self.phases.in_contact else s.approach_speed

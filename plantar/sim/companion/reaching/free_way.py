@@ -10,7 +10,9 @@ from scipy import ndimage
 
 from plantar.sim.companion.reaching.layout import Post
 
-_CELL, _AROUND = 0.01, 0.3  # m: of the grid, and how far beyond start, goal and obstacles it reaches
+# m: of the grid, and how far beyond start, goal and obstacles it reaches
+_CELL = 0.01
+_AROUND = 0.3
 _UPRIGHT = 0.999  # of an axis, from which it counts as vertical
 
 
@@ -39,7 +41,8 @@ class Tip(NamedTuple):
         if shape < 0 or model.geom_type[shape] != mujoco.mjtGeom.mjGEOM_CAPSULE:
             return cls(place, place, 0.0, lifts)
         radius, half, _ = model.geom_size[shape]
-        axis, origin = data.geom_xmat[shape].reshape(3, 3)[:, 2], data.geom_xpos[shape]
+        axis = data.geom_xmat[shape].reshape(3, 3)[:, 2]
+        origin = data.geom_xpos[shape]
         return cls(place, origin + np.clip((place - origin) @ axis, -half, half) * axis, float(radius), lifts)
 
 
@@ -51,8 +54,10 @@ def free_way(tip: Tip, goal: NDArray[np.float64], tolerance: float, posts: Seque
     """
     free = 2 + tip.lifts
     ends = np.array([tip.place, goal, *([*post.place, tip.place[2]] for post in posts)])
-    low, high = ends.min(axis=0) - _AROUND, ends.max(axis=0) + _AROUND
-    low[free:] = high[free:] = tip.middle[free:]
+    low = ends.min(axis=0) - _AROUND
+    high = ends.max(axis=0) + _AROUND
+    low[free:] = tip.middle[free:]
+    high[free:] = tip.middle[free:]
     axes = [a + _CELL * np.arange(round((b - a) / _CELL) + 1) for a, b in zip(low, high, strict=True)]
     cells = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
     within = 0.5 * _CELL * float(np.sqrt(free))

@@ -86,7 +86,8 @@ def random_layout(
     range of force in N that moves a post.
     """
     (near, far), (low, high) = reach
-    length, angle = rng.uniform(near, far), rng.uniform(low, high)
+    length = rng.uniform(near, far)
+    angle = rng.uniform(low, high)
     way = np.array([math.cos(angle), math.sin(angle)])
     side = np.array([-way[1], way[0]]) * rng.choice([-1.0, 1.0])
     goal = tip + length * way
@@ -104,7 +105,8 @@ def random_layout(
     posts = [post(0, length + rng.uniform(-0.02, 0.02), rng.uniform(-0.02, 0.02))]
     if kind == "goal":
         return Layout(kind, goal, posts)
-    middle, bow = rng.uniform(0.5, 0.6) * length, rng.uniform(0.16, 0.22)
+    middle = rng.uniform(0.5, 0.6) * length
+    bow = rng.uniform(0.16, 0.22)
     for i, angle in enumerate((-_SPACING / bow, 0.0, _SPACING / bow), 1):
         along = middle - bow * (1.0 - math.cos(angle)) + rng.uniform(-0.005, 0.005)
         posts.append(post(i, along, bow * math.sin(angle) + rng.uniform(-0.005, 0.005), kind == "beside" and i == 3))

@@ -84,7 +84,8 @@ class ReachController(Controller):
         tip: tuple[str, NDArray[np.float64]],
         force_limit: float,
     ) -> None:
-        self.settings = s = settings
+        self.settings = settings
+        s = settings
         self._free = PoseGains(stiffness=60.0, damping=20.0, speed=s.speed)
         self.goal = CartesianPose(*tip, gains=self._free, rows="position")
         self._near = ProximityInteraction(skin, s.proximity, s.range)
@@ -100,10 +101,13 @@ class ReachController(Controller):
             [Posture(machine.posture, 6.0, 12.0, joints=range(base, len(machine.posture)))],
         ]
         limits = ContactSettings(slow=s.slow, force_limit=s.limit_share * force_limit, stuck=s.stuck)
-        contact, avoidance = AlongForce(self._yielding, s.brake), AlongForce(self._near, s.brake)
+        contact = AlongForce(self._yielding, s.brake)
+        avoidance = AlongForce(self._near, s.brake)
         self.policy = IntentionalContact([self.goal], [contact], [avoidance], limits)
         self.signs = ContactSigns(np.inf, 0.0, 0.0)
-        self._velocity, self._seen, self._time = np.zeros(3), 0.0, np.inf
+        self._velocity = np.zeros(3)
+        self._seen = 0.0
+        self._time = np.inf
         self._blend = PriorityTransition(s.transition)
         speeds = np.minimum(machine.velocities, s.joint_speed)
         low, high = machine.ranges(machine.spec().compile())

@@ -21,7 +21,8 @@ class ReachRecord:
     """Notes of a `machine`'s run, with tolerable force `limit` in N."""
 
     def __init__(self, machine: Machine, layout: Layout, limit: float) -> None:
-        self._layout, self._limit = layout, limit
+        self._layout = layout
+        self._limit = limit
         self._links = [body.name for body in machine.spec().bodies if body.name not in ("", "world")]
         self._rows: list[tuple[float, ...]] = []
         self._arrangements: list[str] = []

@@ -69,7 +69,9 @@ class StandingController(Controller):
         settings: StandingControl,
         before: Callable[[MujocoDynamics, SkinReading], None] | None = None,
     ) -> None:
-        self.stance, self.skin, self.settings = stance, skin, settings
+        self.stance = stance
+        self.skin = skin
+        self.settings = settings
         self.stack = TaskStack(levels, stance.support())
         self.before = before
         self.active: list[int] = []
@@ -124,7 +126,8 @@ class StandingController(Controller):
         if not wrenches:
             return None, np.zeros(2)
         total = np.zeros(len(robot.velocity))
-        mx = my = 0.0
+        mx = 0.0
+        my = 0.0
         for link, wrench, _taxels in wrenches:
             origin, rotation = robot.pose(link)
             turned = (wrench.reshape(2, 3) @ rotation.T).ravel()

@@ -15,7 +15,8 @@ from plantar.common.settings.schema import Settings, number
 
 _STEFAN_BOLTZMANN = 5.670374e-8  # W/(m^2 K^4)
 _KELVIN = 273.15
-_RINGS, _SECTORS = 4, 10
+_RINGS = 4
+_SECTORS = 10
 
 
 class PlateSettings(Settings):
@@ -43,7 +44,8 @@ class HotPlate:
     """
 
     def __init__(self, middle: NDArray[np.float64], settings: PlateSettings, count: int) -> None:
-        self.settings, self.middle = settings, np.asarray(middle, dtype=float)
+        self.settings = settings
+        self.middle = np.asarray(middle, dtype=float)
         self.temperature = np.full(count, settings.room)
         radii = (np.arange(_RINGS) + 0.5) / _RINGS * settings.radius
         angles = (np.arange(_SECTORS) + 0.5) / _SECTORS * 2.0 * math.pi
@@ -64,7 +66,8 @@ class HotPlate:
         Returns degC (n,).
         """
         s = self.settings
-        hot, own = s.temperature + _KELVIN, self.temperature + _KELVIN
+        hot = s.temperature + _KELVIN
+        own = self.temperature + _KELVIN
         radiated = s.emissivity**2 * _STEFAN_BOLTZMANN * self.view_factors(points, outward) * (hot**4 - own**4)
         above = points - self.middle
         over = np.hypot(above[:, 0], above[:, 1]) < s.radius

@@ -22,7 +22,8 @@ class JointRange(Task):
     def __init__(
         self, low: ArrayLike, high: ArrayLike, margin: float, stiffness: ArrayLike, damping: ArrayLike = 0.0
     ) -> None:
-        self.low, self.high = np.asarray(low, dtype=float) + margin, np.asarray(high, dtype=float) - margin
+        self.low = np.asarray(low, dtype=float) + margin
+        self.high = np.asarray(high, dtype=float) - margin
         self.stiffness = np.broadcast_to(np.asarray(stiffness, dtype=float), self.low.shape)
         self.damping = np.broadcast_to(np.asarray(damping, dtype=float), self.low.shape)
         self._rows: NDArray[np.float64] | None = None

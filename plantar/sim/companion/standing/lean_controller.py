@@ -88,13 +88,16 @@ class LeanController(Controller):
     """
 
     def __init__(self, experiment: StandingExperiment, skin: BodySkin) -> None:
-        self.settings, self.control = experiment.settings, experiment.control
-        self.skin, self.stance = skin, experiment.stance
+        self.settings = experiment.settings
+        self.control = experiment.control
+        self.skin = skin
+        self.stance = experiment.stance
         self.began: dict[str, float] = {}
         self.areas: dict[str, Rectangle] = {}
         base = experiment.machine.base.link
         self._weight = experiment.weight
-        self._feet, self._all = self.stance.support(), self.stance.support()
+        self._feet = self.stance.support()
+        self._all = self.stance.support()
         # Feet that push each other sideways would cost the hips what they need for the trunk.
         feet = DistributionWeights(ankle=0.1, pressure=1.0, friction=1.0)
         self._carried = ContactForces(self._feet, base, self._weight, weights=feet)
@@ -110,8 +113,10 @@ class LeanController(Controller):
         self._trunk = CartesianPose(base, None, PoseGains(turn_stiffness=60.0, turn_damping=15.0), "orientation")
         self._turn = CartesianPose(_ARM, None, PoseGains(turn_stiffness=60.0, turn_damping=15.0), "orientation")
         self._hand = CartesianPose("left_hand", HAND, PoseGains(stiffness=40.0, damping=13.0), "position")
-        self._measured = self.wanted = 0.0
-        self._com_aim, self._hand_aim = Aim(np.array([1.0, 1.0, 0.0])), Aim(np.ones(3))
+        self._measured = 0.0
+        self.wanted = 0.0
+        self._com_aim = Aim(np.array([1.0, 1.0, 0.0]))
+        self._hand_aim = Aim(np.ones(3))
         # Accelerations, not torques: what a level above releases must not let springs of the posture loose.
         self._posture = Posture(experiment.first[7:], self.control.posture_rate)
         self._waist = list(experiment.machine.joints).index("waist_pitch")
@@ -196,7 +201,8 @@ class LeanController(Controller):
         return convex_hull(corners)
 
     def _between_feet(self) -> NDArray[np.float64]:
-        places, total = np.zeros(2), 0.0
+        places = np.zeros(2)
+        total = 0.0
         for link, area in self.areas.items():
             places += SHARES[link] * (self.stance.places[link][:2] + area.center)
             total += SHARES[link]
@@ -209,7 +215,8 @@ class LeanController(Controller):
             places = self.skin.positions[own][reading.distance[own] < _NEAR] - middle
             if len(places) < 2:
                 continue
-            low, high = places.min(axis=0) + _MARGIN, places.max(axis=0) - _MARGIN
+            low = places.min(axis=0) + _MARGIN
+            high = places.max(axis=0) - _MARGIN
             low, high = np.minimum(low, 0.5 * (low + high)), np.maximum(high, 0.5 * (low + high))
             area = Rectangle(float(low[0]), float(high[0]), float(low[1]), float(high[1]))
             if self.areas.get(link) != area:

@@ -35,10 +35,13 @@ class Pad:
     """
 
     def __init__(self, name: str, patch: SkinPatch, taxel: int, face: float, stiffness: float) -> None:
-        self.name, self.patch, self.face = f"pad {name}", patch, face
+        self.name = f"pad {name}"
+        self.patch = patch
+        self.face = face
         self.wanted = 0.0
         self.parked = True
-        self.middle, self._turn = patch.positions[taxel], patch.rotations[taxel]
+        self.middle = patch.positions[taxel]
+        self._turn = patch.rotations[taxel]
         self._half = 0.02
         self._gap = _CLEAR
         self._stiffness = stiffness
@@ -66,7 +69,8 @@ class Pad:
         origin, rotation = world.pose(self.patch.link)
         before = self._last or (origin, rotation)
         self._last = (origin, rotation)
-        ahead, turned = 2.0 * origin - before[0], rotation @ before[1].T @ rotation
+        ahead = 2.0 * origin - before[0]
+        turned = rotation @ before[1].T @ rotation
         inward = turned @ self.inward
         number = int(world.model.body(self.name).mocapid[0])
         self.parked = self.wanted <= 0.0 and self._gap >= _CLEAR

@@ -35,9 +35,14 @@ _SHARES = {"upper_arm": 0.03, "lower_arm": 0.02, "hand": 0.012, "torso": 0.04, "
 _TRUNK = ("torso", "hip")
 _FACES = {"torso": 0.07, "hip": 0.06}  # m: radius; elsewhere _FACE
 _FACE = 0.04
-_FIRST, _APART, _EACH = 0.6, 1.0, 1.5  # s: when single contacts begin; each takes half a second to come near
+# s: when single contacts begin; each takes half a second to come near
+_FIRST = 0.6
+_APART = 1.0
+_EACH = 1.5
 _RESTS = 500  # physics steps of 1 ms after which it has settled, before anything presses
-_TOGETHER, _SWELLING = 4.6, 1.5  # s: contacts that press together, and of that both to grow and to fade
+# s: contacts that press together, and of that both to grow and to fade
+_TOGETHER = 4.6
+_SWELLING = 1.5
 _STRONGEST = 4.0  # times the force of a single contact
 
 
@@ -133,7 +138,8 @@ class PressedExperiment(StandingExperiment):
 
     def _on_springs(self, contact: PlannedContact) -> float:
         # Posture springs' compliance in mm/N along a pad's normal.
-        robot, pad = self.robot, contact.pad
+        robot = self.robot
+        pad = contact.pad
         place = pad.touching(robot)[0]
         origin, rotation = robot.pose(contact.against)
         root = robot.jacobian(contact.against, rotation.T @ (place - origin))[:3]
@@ -201,7 +207,8 @@ class PressedExperiment(StandingExperiment):
             upper.plot(trace[:, 0], trace[:, 1 + i], label=places[place] if i < len(places) else None, **looks)
         upper.set(xlabel="time [s]", ylabel="force of each pad [N]")
         upper.legend(fontsize=7, ncols=2, title="alone, then together", title_fontsize=7)
-        active, took = np.array(self._control.active), np.array(self._control.took[: len(self._control.active)])
+        active = np.array(self._control.active)
+        took = np.array(self._control.took[: len(self._control.active)])
         if len(took):
             apart = np.random.default_rng(0).uniform(-0.2, 0.2, len(active))
             lower.plot(active + apart, took, ".", markersize=1.5, color=COLOURS["edge"])
@@ -215,5 +222,7 @@ class PressedExperiment(StandingExperiment):
 
 def _reaching(fixed: NDArray[np.float64], scaled: NDArray[np.float64], length: float) -> float:
     # Factor k at which |fixed + k scaled| is a length; 0 where longer.
-    a, b, c = float(scaled @ scaled), float(fixed @ scaled), float(fixed @ fixed) - length**2
+    a = float(scaled @ scaled)
+    b = float(fixed @ scaled)
+    c = float(fixed @ fixed) - length**2
     return max(0.0, (-b + math.sqrt(max(0.0, b * b - a * c))) / a)

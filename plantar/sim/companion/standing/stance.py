@@ -64,8 +64,10 @@ class Stance:
 
     def locate(self, robot: MujocoDynamics) -> None:
         """Set a measured `robot`'s base position and velocity so that the feet rest."""
-        qpos, qvel = robot.data.qpos.copy(), robot.data.qvel.copy()
-        off, slip = np.zeros(3), np.zeros(3)
+        qpos = robot.data.qpos.copy()
+        qvel = robot.data.qvel.copy()
+        off = np.zeros(3)
+        slip = np.zeros(3)
         for link, point in self.feet.items():
             origin, rotation = robot.pose(link)
             off += self.places[link] - origin - rotation @ point
@@ -85,12 +87,14 @@ class Stance:
         rotation (3, 3) to the world, and further level links `lifted` with their origin (3,) in m. The `robot`, in a
         near posture, is updated.
         """
-        qpos, rest = robot.data.qpos.copy(), robot.data.qpos.copy()
+        qpos = robot.data.qpos.copy()
+        rest = robot.data.qpos.copy()
         n = self.model.nv
         level = [(link, point, self.places[link]) for link, point in self.feet.items()]
         level += [(link, np.zeros(3), place) for link, place in lifted.items()]
         for _ in range(60):
-            rows, errors = [], []
+            rows = []
+            errors = []
             for link, point, place in level:
                 origin, rotation = robot.pose(link)
                 rows.append(robot.jacobian(link, point))
@@ -100,7 +104,8 @@ class Stance:
             position, jacobian, _drift = robot.com()
             rows.append(jacobian)
             errors.append(com - position)
-            stacked, missing = np.vstack(rows), np.concatenate(errors)
+            stacked = np.vstack(rows)
+            missing = np.concatenate(errors)
             inverse = np.linalg.pinv(stacked, rcond=1e-6)
             back = np.zeros(n)
             mujoco.mj_differentiatePos(self.model, back, 1.0, qpos, rest)

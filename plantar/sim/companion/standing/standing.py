@@ -70,7 +70,8 @@ class StandingExperiment(Experiment):
         self.robot.update(self.first, np.zeros(alone.nv), 0.0)
         self.com = self.robot.com()[0]
         self.pads: list[Pad] = []
-        self.tilt_max = self.com_off_max = 0.0
+        self.tilt_max = 0.0
+        self.com_off_max = 0.0
         self.cop_margin_min = math.inf
         self._steps = 0
         self._borne: deque[tuple[float, ...]] = deque(maxlen=_CARRIED)
@@ -78,7 +79,8 @@ class StandingExperiment(Experiment):
 
     def _first_posture(self) -> NDArray[np.float64]:
         # Positions (nq,), centre of mass over the feet.
-        robot, model = self.robot, self.robot.model
+        robot = self.robot
+        model = self.robot.model
         qpos = model.qpos0.copy()
         qpos[7:] = self.machine.posture
         for name, degrees in self.posture.items():
@@ -124,7 +126,8 @@ class StandingExperiment(Experiment):
     def posture_task(self) -> Posture:
         """Springs and dampers towards the first posture, by motor torque."""
         strength = self.machine.efforts / 75.0
-        stiff, damp = self.control.posture * strength, self.control.posture_damping * strength
+        stiff = self.control.posture * strength
+        damp = self.control.posture_damping * strength
         return Posture(self.first[7:], stiff, damp, torques=True)
 
     def joint_range_task(self) -> JointRange:
@@ -185,7 +188,8 @@ class StandingExperiment(Experiment):
 
     def _cop_margin(self, world: World) -> float:
         # Distance in m of true centre of pressure, over 20 ms, to the soles' rectangle; negative outside.
-        model, data = world.model, world.data
+        model = world.model
+        data = world.data
         floor = model.geom("floor").id
         pressed = foot_contacts(model, data, {floor})
         loads = -pressed.forces[:, 2]
@@ -197,7 +201,8 @@ class StandingExperiment(Experiment):
         for side in self.sides:
             geom = model.geom(f"{side}_sole_box")
             corners += [data.geom(geom.id).xpos[:2] + s * geom.size[:2] for s in (-1.0, 1.0)]
-        low, high = np.min(corners, axis=0), np.max(corners, axis=0)
+        low = np.min(corners, axis=0)
+        high = np.max(corners, axis=0)
         cop = np.array(moment) / total
         return float(min((cop - low).min(), (high - cop).min()))
 
@@ -205,7 +210,8 @@ class StandingExperiment(Experiment):
         """Failed criteria of the balance."""
         if self.fell:
             return unmet((False, "balance", self.tilt_max, 35.0, f"it fell: tilted by {self.tilt_max:.0f} degrees"))
-        margin, least = 1e3 * self.cop_margin_min, self.cop_margin_least
+        margin = 1e3 * self.cop_margin_min
+        least = self.cop_margin_least
         text = f"the centre of pressure was {margin:.1f} mm inside the soles' edge; wanted: {least:g}"
         return unmet((margin >= least, "cop_margin_mm", margin, least, text))
 
@@ -220,5 +226,6 @@ class StandingExperiment(Experiment):
 
 def by_active(took: Sequence[float], active: Sequence[int]) -> dict[str, float]:
     """Returns the median time in us of ticks `took` by number of `active` links."""
-    counts, times = np.array(active), np.array(took[: len(active)])
+    counts = np.array(active)
+    times = np.array(took[: len(active)])
     return {str(n): round(float(np.median(times[counts == n])), 1) for n in np.unique(counts).tolist()}

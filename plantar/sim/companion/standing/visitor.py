@@ -19,11 +19,16 @@ class Visitor:
     """
 
     def __init__(self, name: str, kind: Any, size: tuple[float, float, float], face: float) -> None:
-        self.name, self.face = name, face
-        self._kind, self._size = kind, size
-        self._target, self._way = np.zeros(3), np.array([0.0, 0.0, 1.0])
+        self.name = name
+        self.face = face
+        self._kind = kind
+        self._size = size
+        self._target = np.zeros(3)
+        self._way = np.array([0.0, 0.0, 1.0])
         self._times = (np.inf, np.inf)
-        self._speed = self._far = self._beyond = 0.0
+        self._speed = 0.0
+        self._far = 0.0
+        self._beyond = 0.0
 
     def add_to(self, spec: Any) -> None:
         """Add it to a world."""
@@ -43,8 +48,11 @@ class Visitor:
         It sets out at `begin` in s with `speed` in m/s, `far` in m before the `target` (3,) of its face in the world in
         m, comes along `way` (3,) and goes `beyond` by so many m.
         """
-        self._target, self._way = target, way / np.linalg.norm(way)
-        self._speed, self._far, self._beyond = speed, far, beyond
+        self._target = target
+        self._way = way / np.linalg.norm(way)
+        self._speed = speed
+        self._far = far
+        self._beyond = beyond
         self._times = (begin, begin + 2.0 * (far + beyond) / speed)
         return self._times[1]
 
