@@ -62,13 +62,9 @@ PURPOSES = {
 def examine(libraries: Mapping[str, Mapping[str, str]] = LIBRARIES) -> dict[str, Any]:
     """Load every library that Plantar can use.
 
-    Args:
-        libraries: Distribution and module of libraries of each extra.
-
-    Returns:
-        Versions, platform, whether kernels are compiled, whether pictures need no display (`opengl`), and each
-        library's extra, name, version and problem: None, "missing" or why it cannot be loaded. `holds` is False where a
-        required one is missing, or one is broken.
+    Returns versions, platform, whether kernels are compiled, whether pictures need no display (`opengl`), and each
+    library's extra, name, version and problem: None, "missing" or why it cannot be loaded. `holds` is False where a
+    required one is missing, or one is broken.
 
     Example:
         >>> examine({"": {"no-such-library": "no_such_library"}})["libraries"][0]["problem"]
@@ -93,12 +89,6 @@ def examine(libraries: Mapping[str, Mapping[str, str]] = LIBRARIES) -> dict[str,
 
 def doctor_text(found: Mapping[str, Any]) -> str:
     """`examine`'s result for people: an extra a paragraph, and what to do.
-
-    Args:
-        found: Result.
-
-    Returns:
-        Text.
 
     Example:
         >>> print(doctor_text(examine({"sim": {"no-such-library": "no_such_library"}})).splitlines()[-1].strip())

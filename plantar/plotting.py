@@ -100,14 +100,7 @@ def draw_cells(axes: Any, layout: SoleLayout, values: NDArray[np.float64], highe
 def draw_classes(axes: Any, layout: SoleLayout, index: NDArray[np.int64], colours: Sequence[str]) -> Any:
     """Draw a sole from above, toes up, its cells coloured by class.
 
-    Args:
-        axes: Axes, as in `draw_cells`.
-        layout: Sole, n cells.
-        index: Class (n,) of each cell, an index into colours; below 0 is drawn empty.
-        colours: Colour of each class.
-
-    Returns:
-        Drawn collection.
+    `index`: class (n,) of each cell, an index into colours; below 0 is drawn empty. Returns drawn collection.
     """
     faces = [colours[i] if i >= 0 else COLOURS["cell"] for i in index]
     return _cells(axes, layout, facecolors=faces, **_EDGES)

@@ -14,9 +14,7 @@ _ONE_MEASUREMENT = 1.5e-3  # Least time in s of one measurement: a call that is 
 class Time(NamedTuple):
     """Time of one call.
 
-    Attributes:
-        median: Median over the rounds in s.
-        spread: Interquartile range over the rounds, as a share of the median.
+    `median`: median over the rounds in s; `spread`: interquartile range over the rounds, as a share of the median.
     """
 
     median: float
@@ -69,10 +67,8 @@ def _seconds(route: Callable[[Any], object], cases: Sequence[Any], repeats: int)
 class Route(NamedTuple):
     """One way to a result.
 
-    Attributes:
-        call: What is timed: a function of one case.
-        value: What is compared, from what `call` returns; not timed.
-        approximate: Whether the route is one by nature, not by rounding.
+    `call`: what is timed: a function of one case; `value`: what is compared, from what `call` returns; not timed;
+    `approximate`: whether the route is one by nature, not by rounding.
     """
 
     name: str
@@ -86,8 +82,7 @@ class Route(NamedTuple):
 class Reference(NamedTuple):
     """Right results for each case, and an error's unit.
 
-    Attributes:
-        scales: Size by which an error is divided; the reference's largest component where None.
+    `scales`: size by which an error is divided; the reference's largest component where None.
     """
 
     values: Sequence[ArrayLike]
@@ -98,14 +93,8 @@ class Reference(NamedTuple):
 class Result:
     """Time and error of one route.
 
-    Attributes:
-        size: Active taxels, or another size.
-        ours: Whether of this package.
-        approximate: Whether by nature.
-        median_us: Median time of a call in microseconds.
-        spread: Interquartile range of rounds over median.
-        ratio: Its time over our first route's.
-        error: Largest relative error over cases, or None.
+    `size`: active taxels, or another size; `spread`: interquartile range of rounds over median; `ratio`: its time over
+    our first route's; `error`: largest relative error over cases, or None.
     """
 
     kernel: str

@@ -19,11 +19,7 @@ from plantar.plotting import new_figure, save_figure
 class Target:
     """A wanted figure of the kernels, and a run's.
 
-    Attributes:
-        what: What is wanted.
-        figure: Of the run; the worst of all sizes.
-        at_least: Whether more is better.
-        where: Where the worst was.
+    `figure` of the run; the worst of all sizes; `at_least`: whether more is better.
     """
 
     what: str

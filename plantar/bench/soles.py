@@ -20,12 +20,7 @@ _CASES = 12
 
 @dataclass(frozen=True, eq=False)
 class Contact:
-    """A sole with some taxels active.
-
-    Attributes:
-        active: Mask (n,).
-        force: Normal forces (n,) in N, 0 where not active.
-    """
+    """A sole with some taxels active. `active`: mask (n,); `force`: normal forces (n,) in N, 0 where not active."""
 
     layout: SoleLayout
     active: NDArray[np.bool_]

@@ -65,15 +65,7 @@ def write_rows(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
 class GrowingTable:
     """A CSV file of appended rows: a stopped benchmark continues, without a cut row.
 
-    Args:
-        path: The file; its folder must exist at the first row.
-        what: What it lists, for messages.
-
-    Attributes:
-        rows: Its rows, as text by column.
-
-    Raises:
-        InputError: If the file has other columns.
+    `path`: the file; its folder must exist at the first row.
 
     Example:
         >>> from tempfile import TemporaryDirectory
@@ -108,15 +100,7 @@ class GrowingTable:
 
 
 class Mark(NamedTuple):
-    """A point of a figure of run time against error.
-
-    Attributes:
-        error: 0 is drawn at the figure's least.
-        group: For colour and legend.
-        ours: Whether of this project.
-        hollow: Drawn hollow, as approximations are.
-        text: Written next to it.
-    """
+    """A point of a figure of run time against error. `error`: 0 is drawn at the figure's least."""
 
     cost: float
     error: float

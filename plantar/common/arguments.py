@@ -20,20 +20,7 @@ _Value = TypeVar("_Value")
 def number(
     value: object, name: str, error: type[PlantarError] = InputError, *, finite: bool = False, nan: bool = False
 ) -> float:
-    """One real number as a float.
-
-    Args:
-        value: Argument.
-        name: Name in errors.
-        error: Error class.
-        finite: Refuse inf, and what is beyond `LARGEST`.
-        nan: Allow NaN.
-
-    Returns:
-        Float.
-
-    Raises:
-        PlantarError: Not a number.
+    """One real number as a float. `finite`: refuse inf, and what is beyond `LARGEST`; `nan`: allow NaN.
 
     Example:
         >>> number(np.float32(0.5), "threshold"), number(np.array(2), "threshold")
@@ -50,18 +37,7 @@ def number(
 
 
 def positive(value: object, name: str, unit: str = "") -> float:
-    """One finite number above 0.
-
-    Args:
-        value: Argument.
-        name: Name in errors.
-        unit: Its unit.
-
-    Returns:
-        Float.
-
-    Raises:
-        InputError: Another.
+    """One finite number above 0. `unit`: its unit.
 
     Example:
         >>> positive(-2.0, "CoM height", "m")
@@ -75,20 +51,7 @@ def positive(value: object, name: str, unit: str = "") -> float:
 
 
 def integer(value: object, name: str, low: int, high: int | None = None, error: type[PlantarError] = InputError) -> int:
-    """One whole number in a range.
-
-    Args:
-        value: Argument.
-        name: Name in errors.
-        low: Smallest allowed.
-        high: Largest allowed; None: no limit.
-        error: Error class.
-
-    Returns:
-        Int.
-
-    Raises:
-        PlantarError: No whole number in range.
+    """One whole number in a range. `high`: largest allowed; None: no limit.
 
     Example:
         >>> integer(np.int64(3), "frame", 0, 9)
@@ -107,18 +70,6 @@ def integer(value: object, name: str, low: int, high: int | None = None, error: 
 def instance(value: _Kind, kind: type | UnionType, name: str, error: type[PlantarError] = InputError) -> _Kind:
     """Object of a class.
 
-    Args:
-        value: Argument.
-        kind: Class; `str | os.PathLike` is a path.
-        name: Name in errors.
-        error: Error class.
-
-    Returns:
-        Object.
-
-    Raises:
-        PlantarError: Another type.
-
     Example:
         >>> instance(3, str, "name")
         Traceback (most recent call last):
@@ -131,17 +82,6 @@ def instance(value: _Kind, kind: type | UnionType, name: str, error: type[Planta
 
 def items(value: Iterable[_Value], name: str, error: type[PlantarError] = InputError) -> tuple[_Value, ...]:
     """Several objects as a tuple.
-
-    Args:
-        value: Argument.
-        name: Name in errors.
-        error: Error class.
-
-    Returns:
-        Tuple.
-
-    Raises:
-        PlantarError: Not a list.
 
     Example:
         >>> items(range(2), "poses")
@@ -156,12 +96,7 @@ def items(value: Iterable[_Value], name: str, error: type[PlantarError] = InputE
 def does(name: str, verb: str) -> str:
     """Subject and verb of an error, in agreement.
 
-    Args:
-        name: Name of argument; a plural if it, or what precedes "of", ends in s.
-        verb: "are", "have" or "hold".
-
-    Returns:
-        Both.
+    `name`: name of argument; a plural if it, or what precedes "of", ends in s; `verb`: "are", "have" or "hold".
 
     Example:
         >>> does("forces", "are"), does("polygon", "have"), does("mask of taxels", "hold")

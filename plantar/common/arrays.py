@@ -24,16 +24,7 @@ _Value = TypeVar("_Value")
 def numbers(value: object, name: str, error: type[PlantarError] = InputError) -> NDArray[np.float64]:
     """Real numbers as float64, any shape.
 
-    Args:
-        value: Argument.
-        name: Name in errors; a plural ends in s.
-        error: Error class.
-
-    Returns:
-        Array itself if float64, else a converted one.
-
-    Raises:
-        PlantarError: If invalid.
+    `name`: name in errors; a plural ends in s. Returns array itself if float64, else a converted one.
 
     Example:
         >>> numbers([1, 2.5], "forces").tolist()
@@ -50,18 +41,7 @@ def numbers(value: object, name: str, error: type[PlantarError] = InputError) ->
 
 
 def held_numbers(value: object, name: str, error: type[PlantarError] = InputError) -> NDArray[Any]:
-    """Real numbers in their own type, too many to convert.
-
-    Args:
-        value: Argument, e.g. memory-mapped.
-        name: Name in errors.
-        error: Error class.
-
-    Returns:
-        Array itself, or one of value.
-
-    Raises:
-        PlantarError: As `numbers`.
+    """Real numbers in their own type, too many to convert. Returns array itself, or one of value.
 
     Example:
         >>> held_numbers(np.zeros(2, dtype=np.float32), "forces").dtype
@@ -84,18 +64,8 @@ def array(
 ) -> NDArray[np.float64]:
     """Real numbers of a given shape.
 
-    Args:
-        value: Argument.
-        name: Name in errors.
-        shape: Length of each axis; text for any, `...` in front for any number of axes.
-        error: Error class.
-        finite: Refuse NaN, inf, and what is beyond `LARGEST`.
-
-    Returns:
-        Array itself if float64, else a converted one.
-
-    Raises:
-        PlantarError: If invalid.
+    `shape`: length of each axis; text for any, `...` in front for any number of axes; `finite`: refuse NaN, inf, and
+    what is beyond `LARGEST`. Returns array itself if float64, else a converted one.
 
     Example:
         >>> array([[1, 2], [3, 4]], "points", (..., 2)).shape
@@ -112,12 +82,6 @@ def array(
 def own(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Read-only copy.
 
-    Args:
-        values: Array of any shape.
-
-    Returns:
-        Copy.
-
     Example:
         >>> own(np.zeros(2)).flags.writeable
         False
@@ -130,19 +94,7 @@ def own(values: NDArray[np.float64]) -> NDArray[np.float64]:
 def integers(
     value: object, name: str, shape: tuple[object, ...], error: type[PlantarError] = InputError
 ) -> NDArray[np.int64]:
-    """Whole numbers of a given shape.
-
-    Args:
-        value: Argument.
-        name: Name in errors.
-        shape: As in `array`.
-        error: Error class.
-
-    Returns:
-        Array as int64; an empty list is one without rows.
-
-    Raises:
-        PlantarError: If invalid.
+    """Whole numbers of a given shape. Returns array as int64; an empty list is one without rows.
 
     Example:
         >>> integers([[0, 1]], "cells", ("m", 2)).dtype
@@ -163,17 +115,7 @@ def mask(
 ) -> NDArray[np.bool_]:
     """Truth values of a given shape.
 
-    Args:
-        value: Bools, or whole numbers 0 or 1.
-        name: Name in errors.
-        shape: As in `array`.
-        error: Error class.
-
-    Returns:
-        Array itself if bool, else a converted one.
-
-    Raises:
-        PlantarError: If invalid.
+    `value`: bools, or whole numbers 0 or 1. Returns array itself if bool, else a converted one.
 
     Example:
         >>> mask([1, 0], "mask", ("n",)).tolist()
@@ -190,13 +132,7 @@ def mask(
 
 
 def is_finite(values: NDArray[np.float64]) -> bool:
-    """Whether all numbers are finite and not beyond `LARGEST`.
-
-    Args:
-        values: Array of any shape.
-
-    Returns:
-        True where it is empty.
+    """Whether all numbers are finite and not beyond `LARGEST`. Returns True where it is empty.
 
     Example:
         >>> is_finite(np.array([1.0, np.nan])), is_finite(np.empty(0))
@@ -210,13 +146,7 @@ def is_finite(values: NDArray[np.float64]) -> bool:
 
 
 def read_only(value: _Value) -> _Value:
-    """Close an object's arrays to writing.
-
-    Args:
-        value: Array, or nested tuples of some; else unchanged.
-
-    Returns:
-        Same object.
+    """Close an object's arrays to writing. `value`: array, or nested tuples of some; else unchanged.
 
     Example:
         >>> read_only(np.zeros(2)).flags.writeable
@@ -228,14 +158,6 @@ def read_only(value: _Value) -> _Value:
 
 def not_finite(values: NDArray[np.float64], name: str, error: type[PlantarError] = InputError) -> PlantarError:
     """Error for numbers not all finite.
-
-    Args:
-        values: Array of any shape.
-        name: Name in errors.
-        error: Error class.
-
-    Returns:
-        Error, to be raised.
 
     Example:
         >>> not_finite(np.array([np.nan]), "positions")

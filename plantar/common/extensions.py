@@ -12,15 +12,7 @@ T = TypeVar("T")
 
 @cache
 def extensions(group: str, kind: type[T], taken: tuple[str, ...] = ()) -> dict[str, T]:
-    """Returns parts of a group by names of their entry points.
-
-    Args:
-        group: Such as "plantar.terrain".
-        kind: Class of each part.
-        taken: Names of built-in parts.
-
-    Raises:
-        InputError: If one cannot be loaded, is of another class or has a taken name.
+    """Returns parts of a group by names of their entry points. `group`: such as "plantar.terrain".
 
     Example:
         >>> extensions("plantar.no_such_group", object)

@@ -18,15 +18,7 @@ def optional_library(library: str, extra: str) -> Iterator[None]:
 
     Only that very module's absence is "not installed". Ctrl-C waits until it is loaded.
 
-    Args:
-        library: Name of module as it is imported.
-        extra: Name of Plantar extra that brings it.
-
-    Yields:
-        None.
-
-    Raises:
-        DependencyError: If the library is not installed or cannot be loaded.
+    Yields None.
 
     Example:
         >>> with optional_library("no_such_library", "shoes"):
@@ -45,14 +37,7 @@ def optional_library(library: str, extra: str) -> Iterator[None]:
 
 
 def need_libraries(extra: str, *libraries: str) -> None:
-    """Raise an error unless all can be loaded.
-
-    Args:
-        extra: Name of Plantar extra that brings them.
-        libraries: Names of modules as they are imported.
-
-    Raises:
-        DependencyError: If one is not installed or cannot be loaded.
+    """Raise an error unless all can be loaded. `libraries`: names of modules as they are imported.
 
     Example:
         >>> need_libraries("sim", "json", "no_such_library")

@@ -14,16 +14,7 @@ _FLOAT = np.dtype(np.float64)
 def plane_points(value: object, name: str = "polygon", *, finite: bool = True) -> NDArray[np.float64]:
     """Points of the plane; an empty list is none.
 
-    Args:
-        value: Argument.
-        name: Name in errors.
-        finite: Refuse NaN, inf, and what is beyond `LARGEST`.
-
-    Returns:
-        Points (k, 2), not copied if float64.
-
-    Raises:
-        InputError: Not (k, 2).
+    `finite`: refuse NaN, inf, and what is beyond `LARGEST`. Returns points (k, 2), not copied if float64.
 
     Example:
         >>> plane_points([]).shape
@@ -43,16 +34,6 @@ def plane_points(value: object, name: str = "polygon", *, finite: bool = True) -
 
 def plane_point(value: object, name: str = "point") -> tuple[float, float]:
     """One point of the plane, NaN or not.
-
-    Args:
-        value: Argument.
-        name: Name in errors.
-
-    Returns:
-        Its x and y.
-
-    Raises:
-        InputError: Not two numbers.
 
     Example:
         >>> plane_point([1, 2])

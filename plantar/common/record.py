@@ -35,12 +35,6 @@ _Class = TypeVar("_Class")
 def constructed_by_kernel(cls: type[_Class]) -> type[_Class]:
     """Construct a class by its base kernel, with its own `__init__`'s signature.
 
-    Args:
-        cls: Class; its `__init__` has typed parameters, and no body.
-
-    Returns:
-        Class.
-
     Example:
         >>> class Fields:
         ...     def __init__(self, time):

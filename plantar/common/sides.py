@@ -10,13 +10,7 @@ SIDES: tuple[Side, Side] = ("left", "right")
 
 
 def other_side(side: Side) -> Side:
-    """Side of the other foot.
-
-    Args:
-        side: "left" or "right".
-
-    Returns:
-        Other one.
+    """Side of the other foot. `side`: "left" or "right".
 
     Example:
         >>> other_side("left"), [other_side(side) for side in SIDES]

@@ -16,13 +16,6 @@ def csv_text(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
     Text that a spreadsheet would run (=, +, -, @, tab, line end) follows an apostrophe. None, NaN and infinities are
     empty.
 
-    Args:
-        names: Heads of columns.
-        rows: Cells of each row.
-
-    Returns:
-        Text.
-
     Example:
         >>> csv_text(["file", "N"], [["=1+1.csv", -0.5], ["-2e3", None]])
         "file,N\\n'=1+1.csv,-0.5\\n-2e3,\\n"
@@ -33,11 +26,7 @@ def csv_text(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
 
 
 def write_csv_rows(stream: TextIO, rows: Iterable[Sequence[Any]]) -> None:
-    """Write a table's rows, as `csv_text`.
-
-    Args:
-        stream: Where to; opened with newline="".
-        rows: Cells of each row.
+    """Write a table's rows, as `csv_text`. `stream`: where to; opened with newline="".
 
     Example:
         >>> import sys
@@ -49,13 +38,7 @@ def write_csv_rows(stream: TextIO, rows: Iterable[Sequence[Any]]) -> None:
 
 
 def csv_row(cells: Sequence[Any]) -> str:
-    """One row as `csv_text` writes it.
-
-    Args:
-        cells: Its cells.
-
-    Returns:
-        Row with its line end.
+    """One row as `csv_text` writes it. Returns row with its line end.
 
     Example:
         >>> csv_row([1, None, "a,b"])
@@ -69,12 +52,7 @@ def csv_row(cells: Sequence[Any]) -> str:
 def mapping_rows(names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> Iterable[list[Any]]:
     """Cells of rows that are mappings.
 
-    Args:
-        names: Heads of columns.
-        rows: Cells of each row by name.
-
-    Returns:
-        Cells of each row in order of names; None if absent.
+    `rows`: cells of each row by name. Returns cells of each row in order of names; None if absent.
 
     Example:
         >>> list(mapping_rows(["a", "b"], [{"b": 2}]))
@@ -85,12 +63,6 @@ def mapping_rows(names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> Ite
 
 def original_cell(text: str) -> str:
     """Cell without its added apostrophe.
-
-    Args:
-        text: Cell as it was read.
-
-    Returns:
-        Text.
 
     Example:
         >>> original_cell("'=1"), original_cell("'quoted'")

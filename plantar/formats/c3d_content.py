@@ -52,11 +52,10 @@ def event_of(label: str, context: str = "") -> tuple[Side, str] | None:
 def content_of_file(path: Path) -> dict[str, Any]:
     """Force plates, foot tracks and events of a C3D file.
 
-    Returns:
-        "rate" in Hz and "frames" of the analog channels, number of "plates"; of plate i "channels_i" (c, n) as scaled
-        by the file, "units_i", "type_i", "corners_i" (4, 3), "origin_i" (3,) and "matrix_i" (6, c) or empty;
-        "point_unit"; "track_left" and "track_right" (n, 3), the foot's mean marker at the analog rate; "strikes_..."
-        and "lifts_..." of each side in s from the first frame.
+    Returns "rate" in Hz and "frames" of the analog channels, number of "plates"; of plate i "channels_i" (c, n) as
+    scaled by the file, "units_i", "type_i", "corners_i" (4, 3), "origin_i" (3,) and "matrix_i" (6, c) or empty;
+    "point_unit"; "track_left" and "track_right" (n, 3), the foot's mean marker at the analog rate; "strikes_..." and
+    "lifts_..." of each side in s from the first frame.
     """
     import ezc3d  # 0.08 s
 

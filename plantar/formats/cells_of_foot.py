@@ -47,14 +47,7 @@ def cells_of_foot(
 ) -> FootRecording:
     """Returns one foot's forces from values in a unit; FormatError for an unfit layout, or pressures without areas.
 
-    Args:
-        side: Foot.
-        values: Values (n, k), NaN if unmeasured; become the forces in place.
-        unit: Their unit.
-        options: With the user's layout.
-        warnings: Assumptions are added.
-        ids: Cell ids of the columns, if named.
-        own: File's own layout.
+    `values`: values (n, k), NaN if unmeasured; become the forces in place; `unit`: their unit.
     """
     layout = layout_for(side, options.layout) or own
     if layout is not None and ids is not None:
@@ -87,15 +80,9 @@ def foot_of_matrix(
 ) -> FootRecording:
     """Returns forces of a cell matrix, on the user's layout or rectangles; FormatError if unfit.
 
-    Args:
-        side: Foot.
-        values: Cell values (n, k) row by row, NaN if unmeasured; become the forces in place.
-        unit: Their unit.
-        options: With the user's layout.
-        present: Which matrix places (rows, columns) are cells.
-        pitch: Row and column distance in m.
-        name: Of the layout.
-        threshold: Cell counts as loaded from this pressure in Pa.
+    `values`: cell values (n, k) row by row, NaN if unmeasured; become the forces in place; `unit`: their unit;
+    `present`: which matrix places (rows, columns) are cells; `pitch`: row and column distance in m; `threshold`: cell
+    counts as loaded from this pressure in Pa.
     """
     layout = layout_for(side, options.layout) or grid_cells(present, *pitch, side=side, name=name, threshold=threshold)
     foot = FootRecording(side, values, layout)

@@ -61,14 +61,9 @@ _STATED = {**FORCES, **PASCALS, **LENGTHS, **MOMENTS, **BODY_WEIGHTS}
 class Heading:
     """Meaning of a heading.
 
-    Attributes:
-        quantity: Quantity.
-        axis: "x", "y", "z", "vertical", "ap" or "ml", or empty.
-        side: Named foot or None.
-        number: Last number, of a plate or cell, or None.
-        unit: As stated, or empty.
-        plate: Whether a force plate, belt or ground reaction is named.
-        words: Words other than side, number or unit, joined.
+    `axis`: "x", "y", "z", "vertical", "ap" or "ml", or empty; `side`: named foot or None; `number`: last number, of a
+    plate or cell, or None; `unit`: as stated, or empty; `plate`: whether a force plate, belt or ground reaction is
+    named; `words`: words other than side, number or unit, joined.
     """
 
     quantity: Quantity

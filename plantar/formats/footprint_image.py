@@ -28,9 +28,7 @@ _WORKING = 1600  # Longer side in pixels that is enough to outline a foot; large
 class Print:
     """One footprint.
 
-    Attributes:
-        mask: Its pixels (h, w).
-        contours: Outlines (k, 2) of foot and separate toes as (column, row) in mask pixels.
+    `mask`: its pixels (h, w); `contours`: outlines (k, 2) of foot and separate toes as (column, row) in mask pixels.
     """
 
     mask: NDArray[np.bool_]
@@ -41,12 +39,7 @@ class Print:
 class FootprintImage:
     """Image with one or two footprints, left to right.
 
-    Attributes:
-        path: File.
-        pixel: Mask pixel in m, or None.
-        picture: RGB image (h, w, 3) of the masks' size.
-        prints: Footprints.
-        warnings: What was assumed.
+    `pixel`: mask pixel in m, or None; `picture`: RGB image (h, w, 3) of the masks' size; `warnings`: what was assumed.
     """
 
     path: Path
@@ -57,13 +50,7 @@ class FootprintImage:
 
 
 def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintImage:
-    """Returns footprints in an image at path, of mm_per_pixel mm or the file's resolution.
-
-    Raises:
-        FormatError: If unreadable or without footprint.
-        InputError: If mm_per_pixel is impossible.
-        DependencyError: If OpenCV is missing.
-    """
+    """Returns footprints in an image at path, of mm_per_pixel mm or the file's resolution."""
     if mm_per_pixel is not None and not (np.isfinite(mm_per_pixel) and 0.001 <= mm_per_pixel <= 50.0):
         raise InputError(f"--mm-per-pixel {mm_per_pixel} is not possible; allowed: 0.001 to 50")
     with optional_library("cv2", "formats"):
@@ -96,8 +83,7 @@ def _decoded(path: Path, data: bytes) -> tuple[NDArray[np.uint8], float]:
 def decoded_image(path: Path) -> dict[str, Any]:
     """Image large enough to outline a foot, for `confined`.
 
-    Returns:
-        "image": 8-bit BGR over white (h, w, 3), empty if OpenCV reads none; "factor": of its reduction.
+    Returns "image": 8-bit BGR over white (h, w, 3), empty if OpenCV reads none; "factor": of its reduction.
     """
     import cv2
 

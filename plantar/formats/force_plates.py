@@ -52,17 +52,8 @@ def feet_of_plates(
 
     Each plate's zero is the mean of its empty frames; its sign that of its load.
 
-    Args:
-        plates: As given by the file.
-        rate: Frames a second.
-        options: With the plates' feet, if given.
-        warnings: Assumptions are added.
-        markers: Each foot's markers (n, 2) in m, NaN if unseen.
-        events: Each foot's stated heel strikes in s from the first frame.
-
-    Raises:
-        FormatError: If load is no foot's.
-        InputError: For another number of plates.
+    `markers`: each foot's markers (n, 2) in m, NaN if unseen; `events`: each foot's stated heel strikes in s from the
+    first frame.
     """
     if options.plates and len(options.plates) != len(plates):
         raise InputError(f"--plates names {len(options.plates)} plates; the file has {len(plates)}")

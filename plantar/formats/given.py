@@ -26,10 +26,6 @@ def recording_of(given: Any, format: str | None = None, options: ReadOptions | N
             NPZ file's arrays; or data frame (pandas, polars) named as a CSV table. Masked values are NaN.
         format: By content where None.
         options: What else is known. Arrays without unit are raw counts.
-
-    Raises:
-        InputError: For another type, or a recording whose parts disagree.
-        FormatError: Without frames of load.
     """
     known = options or ReadOptions()
     if isinstance(given, PressureRecording):

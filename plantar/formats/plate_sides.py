@@ -39,7 +39,6 @@ class Plate:
         origin: Surface point (2,) in m of moments.
         corners: (4, 2) in m.
         side: Foot named by file or user.
-        stepped: Whether stepped on.
         placed: Whether laboratory place and axes are known.
         normal: Of the surface (3,), upwards.
     """
@@ -91,15 +90,7 @@ def sides_of_contacts(
 ) -> list[Side]:
     """Returns foot of each of the plates' contacts; its reason is added to the warnings.
 
-    Args:
-        plates: May name their foot.
-        contacts: Of any number.
-        treadmill: Whether each plate is a one-foot belt.
-        rate: Frames a second.
-        given: User's side.
-        warnings: Added to.
-        markers: Each foot's (n, 2) in m.
-        events: Each foot's heel strikes in s.
+    `markers`: each foot's (n, 2) in m; `events`: each foot's heel strikes in s.
     """
     if treadmill:
         _report_crossings(plates, contacts, rate, warnings)

@@ -35,13 +35,7 @@ _FOLDERS = "metadata.yaml"
 def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
     """Returns recording of a bag's arrays.
 
-    Args:
-        path: ROS 2 bag folder, or one of its files.
-        options: Layout, unit and side, which bags lack.
-
-    Raises:
-        FormatError: If damaged or without arrays.
-        DependencyError: If rosbags is missing.
+    `path`: ROS 2 bag folder, or one of its files; `options`: layout, unit and side, which bags lack.
     """
     if os.path.isdir(path) and not is_file(path / _FOLDERS):
         raise FormatError("cannot be read (a folder that is no ROS 2 bag)")
@@ -119,8 +113,7 @@ class _Series:
 def series_of_bag(path: Path) -> dict[str, Any]:
     """Arrays of a bag, a ROS 2 folder or file; called in a separate process.
 
-    Returns:
-        "names" of the arrays, "<topic>/<field>", and of each "<name>:times" (n,) in s and "<name>:values" (n, k).
+    Returns "names" of the arrays, "<topic>/<field>", and of each "<name>:times" (n,) in s and "<name>:values" (n, k).
     """
     from rosbags.highlevel import AnyReader
     from rosbags.typesys import Stores, get_typestore

@@ -34,12 +34,8 @@ Pairs = dict[Side, dict[int, tuple[float, float]]]
 def read_events(path: str | os.PathLike[str]) -> dict[Side, StatedEvents]:
     """Read each foot's events from a file.
 
-    Args:
-        path: Moticon report (.xlsx) whose sheets "Left Steps" and "Right Steps" have initial contact and toe off in s
-            as second and third columns; or CSV with columns side, heel_strike_s and toe_off_s.
-
-    Raises:
-        FormatError: If neither, eventless, mistimed or out of order.
+    `path`: moticon report (.xlsx) whose sheets "Left Steps" and "Right Steps" have initial contact and toe off in s as
+    second and third columns; or CSV with columns side, heel_strike_s and toe_off_s.
     """
     with open_input(path, FormatError) as stream:
         zipped = stream.read(2) == b"PK"

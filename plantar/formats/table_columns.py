@@ -40,13 +40,8 @@ def recording_of_columns(
     Columns are plates' forces, moments and CoP, a foot's forces, or cells, by quantity; others are left out with a
     warning. FormatError without load columns, for trial curves, or an unknown unit.
 
-    Args:
-        table: Numbers (n, k), NaN if missing.
-        names: Columns (k); may be empty.
-        options: What is known.
-        path: Recording's name.
-        facts: "unit", "rate", "side" of comments.
-        warnings: Assumptions are added.
+    `table`: numbers (n, k), NaN if missing; `names`: columns (k); may be empty; `facts`: "unit", "rate", "side" of
+    comments.
     """
     facts = {} if facts is None else facts
     warnings = [] if warnings is None else warnings

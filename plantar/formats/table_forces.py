@@ -54,13 +54,8 @@ def feet_of_forces(
 ) -> tuple[dict[Side, FootRecording], bool, str, bool]:
     """Returns feet; whether every step is seen; "plate" or "insole"; and whether forces are percent of body weight.
 
-    Args:
-        table: Numbers (n, k).
-        columns: Headings by column number, without times.
-        rate: Frames a second.
-        options: What is known.
-        stated: Unit in comments; FormatError if unknown, or no force is vertical.
-        warnings: Assumptions are added.
+    `table`: numbers (n, k); `columns`: headings by column number, without times; `stated`: unit in comments;
+    FormatError if unknown, or no force is vertical.
     """
     _take_out_marks(table, columns, warnings)
     loaded = _by_plate(columns)

@@ -23,13 +23,8 @@ _UNITS = {*FORCES, *PASCALS, *LENGTHS, *MOMENTS, *RAW, *_OTHERS.split(), ""}
 class TableHead:
     """Beginning of a table.
 
-    Attributes:
-        names: Column names; may be empty.
-        delimiter: Sign between cells; None for blanks.
-        width: Cells of a row.
-        first: Line number of the first row.
-        facts: Of lines above the table, by lower-case name.
-        labels: Columns of one text.
+    `names`: column names; may be empty; `delimiter`: sign between cells; None for blanks; `first`: line number of the
+    first row; `facts` of lines above the table, by lower-case name.
     """
 
     names: list[str]

@@ -150,13 +150,8 @@ def table_of_lines(
 
     Warnings get repairs. FormatError without lines, or if too many are damaged.
 
-    Args:
-        path: Its size decides the room made.
-        lines: Lines.
-        delimiter: Sign between cells; None for blanks.
-        width: Cells of a line, without empty ones at its end.
-        warnings: List.
-        columns: Cells (k,) to read; all if empty.
+    `path`: its size decides the room made; `delimiter`: sign between cells; None for blanks; `width`: cells of a line,
+    without empty ones at its end; `columns`: cells (k,) to read; all if empty.
     """
     wanted = list(columns) or list(range(width))
     table = FrameTable(len(wanted), 0)
@@ -244,7 +239,6 @@ def number_rows(
     None for another count, anything else than finite numbers, or without the compiled kernel.
 
     Args:
-        lines: With their ends or without.
         delimiter: Sign between numbers; None for blanks. Unless a comma, numbers may have decimal commas.
         columns: Numbers of a line; or the column of each, -1 to leave it out.
 

@@ -62,10 +62,7 @@ RAW = ("raw", "counts", "count", "adc", "digital", "do", "bits", "v", "mv", "uv"
 class Unit:
     """Unit of a recording's numbers.
 
-    Attributes:
-        kind: "pressure", "force" or "raw".
-        factor: Pa or N of one; 1 for raw counts.
-        name: As stated.
+    `kind`: "pressure", "force" or "raw"; `factor`: pa or N of one; 1 for raw counts.
     """
 
     kind: Literal["pressure", "force", "raw"]

@@ -51,11 +51,8 @@ class Sensors(Record, frozen=True):
 class FootTarget(Record, frozen=True):
     """Desired pose and load of a sole.
 
-    Attributes:
-        position: Sole origin (3,), world frame, in m.
-        rotation: Sole to world (3, 3).
-        force: Force (3,) in N by the ground.
-        center_of_pressure: Its point (2,), world frame, in m.
+    `position`: sole origin (3,), world frame, in m; `rotation`: sole to world (3, 3); `force`: force (3,) in N by the
+    ground; `center_of_pressure`: its point (2,), world frame, in m.
     """
 
     position: NDArray[np.float64]
@@ -67,12 +64,8 @@ class FootTarget(Record, frozen=True):
 class JointTargets(NamedTuple):
     """Joint targets: a drive exerts stiffness (angles - q) + damping (velocities - v) + torques.
 
-    Attributes:
-        angles: (k,) in rad.
-        torques: Expected load's (k,) in N m.
-        velocities: (k,) in rad/s; None for at rest.
-        stiffness: (k,) in N m/rad; None leaves both gains to the drive.
-        damping: (k,) in N m s/rad.
+    `angles` (k,) in rad; `torques`: expected load's (k,) in N m; `velocities` (k,) in rad/s; None for at rest;
+    `stiffness` (k,) in N m/rad; None leaves both gains to the drive; `damping` (k,) in N m s/rad.
     """
 
     angles: NDArray[np.float64]

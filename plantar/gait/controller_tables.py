@@ -38,9 +38,6 @@ OPTIONAL_PARTS: frozenset[str] = _PARTS[1]
 def controller_keys(table: str) -> tuple[str, ...]:
     """Settings that a table can hold, without those that scenes give.
 
-    Args:
-        table: One of `CONTROLLER_TABLES`.
-
     Example:
         >>> controller_keys("landing")[:6]
         ('contact_force', 'press_force', 'depth', 'speed', 'acceleration', 'reach')
@@ -52,9 +49,7 @@ def controller_keys(table: str) -> tuple[str, ...]:
 def controller_settings_described(table: str, body: BodyScale = REFERENCE_BODY) -> tuple[Setting, ...]:
     """Returns a table's settings; of two classes with one name, the first's.
 
-    Args:
-        table: One of `CONTROLLER_TABLES`.
-        body: Scales defaults that are shares into SI.
+    `body`: scales defaults that are shares into SI.
     """
     found: dict[str, Setting] = {}
     for kind in CONTROLLER_TABLES[table]:
@@ -64,20 +59,7 @@ def controller_settings_described(table: str, body: BodyScale = REFERENCE_BODY) 
 
 
 def check_controller_table(name: str, table: Any, where: str, error: type[PlantarError] = InputError) -> dict[str, Any]:
-    """Check a table whatever runs with it.
-
-    Args:
-        name: One of `CONTROLLER_TABLES`.
-        table: Values by name.
-        where: Table's name, for messages.
-        error: Error class.
-
-    Returns:
-        A copy of the table.
-
-    Raises:
-        PlantarError: As `error`: unknown key, disallowed value.
-    """
+    """Check a table whatever runs with it. `table`: values by name. Returns a copy of the table."""
     if not isinstance(table, Mapping):
         raise error(f"{where} is not a table")
     for kind in CONTROLLER_TABLES[name]:

@@ -24,9 +24,6 @@ def half_planes(lines: ArrayLike, name: str = "lines") -> NDArray[np.float64]:
 class CellCutter:
     """Clips one sole's cells by half-planes.
 
-    Args:
-        layout: Sole, n cells, convex or not.
-
     Example:
         >>> from plantar import hex_layout
         >>> layout = hex_layout([[-0.12, -0.07], [0.12, -0.07], [0.12, 0.07], [-0.12, 0.07]], clip=False)
@@ -59,9 +56,6 @@ class CellCutter:
         Returns:
             Each cell's area left in m^2 and first moments in m^3 about sole origin (n, 3), and cuts' chords (n, m, 3):
             length and middle (x, y) in m, of one piece where a cell has dents.
-
-        Raises:
-            InputError: Not (m, 3), not finite.
         """
         lines = np.ascontiguousarray(half_planes(lines))
         n = len(self._start) - 1

@@ -11,14 +11,7 @@ def hull_plane(
 ) -> tuple[NDArray[np.float64], float]:
     """Largest plane of the convex hull of points (n, 3).
 
-    Args:
-        points: Of a surface.
-        highest: Largest z of its outward normal.
-        same: Cosine between normals of one plane.
-        faces: Number of the hull's largest faces that are looked at.
-
-    Returns:
-        Outward normal (3,) and area; straight down and 0 without one.
+    Returns outward normal (3,) and area; straight down and 0 without one.
 
     Example:
         >>> corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 2) for z in (0, 3)], dtype=float)

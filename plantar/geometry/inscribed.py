@@ -72,8 +72,7 @@ def inscribed_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
 def inscribed_circle(polygon: ArrayLike) -> Circle | None:
     """Largest circle in a convex polygon (k, 2), or any of several, its radius exact to 1e-12.
 
-    Returns:
-        Center and radius in m; radius 0 at middle of polygon without area; None for an empty polygon.
+    Returns center and radius in m; radius 0 at middle of polygon without area; None for an empty polygon.
 
     Example:
         >>> circle = inscribed_circle([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])
@@ -111,12 +110,8 @@ def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
 def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.float64]:
     """Largest rectangle in a concave outline, at a given angle.
 
-    Args:
-        outline: Outline with islands and holes in m.
-        angle: Of first side against x in rad, finite.
-
-    Returns:
-        Corners (4, 2) in m; area exact to 1e-12; to 1e-7 where edges are almost parallel to sides. (0, 2) if empty.
+    `outline`: outline with islands and holes in m; `angle` of first side against x in rad, finite. Returns corners (4,
+    2) in m; area exact to 1e-12; to 1e-7 where edges are almost parallel to sides. (0, 2) if empty.
 
     Example:
         >>> corner = Outline.of_rings([[[0, 0], [4, 0], [4, 1], [1, 1], [1, 3], [0, 3]]])
@@ -135,15 +130,8 @@ def rectangle_in_outline_any_angle(outline: Outline, looks: int = _LOOKS) -> Bou
     A rectangle turned by t holds one of d^2 sin(2 t) / 2 less, d its diagonal; the interval of the largest bound is
     halved.
 
-    Args:
-        outline: Outline with islands and holes in m.
-        looks: Number of angles in scan.
-
-    Returns:
-        Corners (4, 2) in m and gap: no rectangle is larger by more than that share. If empty (0, 2) and 0.
-
-    Raises:
-        InputError: `looks` below 1.
+    `outline`: outline with islands and holes in m. Returns corners (4, 2) in m and gap: no rectangle is larger by more
+    than that share. If empty (0, 2) and 0.
 
     Example:
         >>> tilted = Outline.of_rings([[[0, 0], [1, 1], [0, 2], [-1, 1]]])
@@ -231,17 +219,9 @@ def safe_rectangle(
 
     Its sides move inwards by a safety offset. The bounding box is faster and exceeds the contact (T 4.4.4).
 
-    Args:
-        polygon: Convex support polygon (k, 2) in contact frame in m.
-        offset: How far each side moves inwards in m, 0 or more; T uses 0.01.
-        method: "inscribed" or "bounding".
-
-    Returns:
-        Corners (4, 2) in m: row 0 is (Xmin, Ymin), row 2 (Xmax, Ymax). Sides that would cross meet in the middle.
-        (0, 2) if empty.
-
-    Raises:
-        InputError: Polygon not convex, offset negative.
+    `polygon`: convex support polygon (k, 2) in contact frame in m; `offset`: how far each side moves inwards in m, 0 or
+    more; T uses 0.01; `method`: "inscribed" or "bounding". Returns corners (4, 2) in m: row 0 is (Xmin, Ymin), row 2
+    (Xmax, Ymax). Sides that would cross meet in the middle. (0, 2) if empty.
 
     Example:
         >>> safe_rectangle([[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]], 0.01).round(9).tolist()

@@ -26,14 +26,9 @@ _BOOL = np.dtype(np.bool_)
 class Outline(Rings):
     """Rings around an area, read-only: islands' rims counter-clockwise, holes' clockwise.
 
-    Attributes:
-        points: Vertices (k, 2) of all rings in m, in turn, no last point repeated.
-        starts: Offsets (r + 1) of rings in `points`.
-        ring_areas: Signed area of each ring in m^2, below 0 for a hole.
-        area: Area in m^2, holes left out; exact to 1e-12.
-
-    Raises:
-        InputError: Not finite, other areas.
+    `points`: vertices (k, 2) of all rings in m, in turn, no last point repeated; `starts`: offsets (r + 1) of rings in
+    `points`; `ring_areas`: signed area of each ring in m^2, below 0 for a hole; `area`: area in m^2, holes left out;
+    exact to 1e-12.
 
     Example:
         >>> square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]])
@@ -126,15 +121,8 @@ class Outline(Rings):
     def moved(self, rotation: ArrayLike, translation: ArrayLike) -> Outline:
         """Outline in another frame, seen from above.
 
-        Args:
-            rotation: Rotation (2, 2), or (3, 3), from this frame to the other.
-            translation: Position (2,) or (3,) of this frame's origin in the other frame in m.
-
-        Returns:
-            Outline.
-
-        Raises:
-            InputError: Not a finite rotation and translation.
+        `rotation`: rotation (2, 2), or (3, 3), from this frame to the other; `translation`: position (2,) or (3,) of
+        this frame's origin in the other frame in m.
         """
         whole = array(rotation, "rotation", ("2 or 3", "2 or 3"), finite=True)
         if whole.shape not in ((2, 2), (3, 3)) or np.abs(whole).max() > 1.0 + 1e-6:

@@ -40,11 +40,7 @@ class _SourceFinder:
 def python_form(name: str) -> ModuleType:
     """Interpreted form of a kernel, to compare both.
 
-    Args:
-        name: One of KERNELS, or its last part.
-
-    Returns:
-        Module, loaded from its source under another name, with its imports interpreted too.
+    Returns module, loaded from its source under another name, with its imports interpreted too.
     """
     package = f"{__name__}_in_python"
     if package not in sys.modules:
@@ -60,14 +56,7 @@ def _full(name: str) -> str:
 
 
 def is_compiled(name: str) -> bool:
-    """Whether a kernel runs compiled.
-
-    Args:
-        name: One of KERNELS, or its last part.
-
-    Returns:
-        False without extension, or with PLANTAR_KERNELS=python.
-    """
+    """Whether a kernel runs compiled. Returns False without extension, or with PLANTAR_KERNELS=python."""
     room, kernel = _full(name).split(".")
     return not _PYTHON and any((_FOLDER / room / f"{kernel}{suffix}").is_file() for suffix in EXTENSION_SUFFIXES)
 
@@ -75,8 +64,7 @@ def is_compiled(name: str) -> bool:
 def outdated(folder: Path) -> list[str]:
     """Kernels in a folder of rooms whose source changed after they were compiled.
 
-    Returns:
-        Their names, such as "geometry.convex".
+    Returns their names, such as "geometry.convex".
 
     Example:
         >>> outdated(Path("no such folder"))

@@ -35,13 +35,7 @@ def hexagon_side(area: float) -> float:
 class HexLattice:
     """A hexagonal lattice placed in the sole plane.
 
-    Attributes:
-        area: Of one cell in m^2.
-        origin: Center (2,) of cell (0, 0) in m.
-        angle: Rotation of rows against x in rad.
-
-    Raises:
-        InputError: Invalid value.
+    `area` of one cell in m^2; `origin`: center (2,) of cell (0, 0) in m; `angle`: rotation of rows against x in rad.
 
     Example:
         >>> lattice = HexLattice(area=691e-6)

@@ -80,18 +80,7 @@ def _numbers(value: Any, shape: tuple[int | None, ...], field: str, where: str) 
 
 
 def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLayout:
-    """A checked layout from plain JSON values.
-
-    Args:
-        source: The result of `layout_to_dict`.
-        where: Source's name, for messages.
-
-    Returns:
-        The layout.
-
-    Raises:
-        LayoutError: Wrong field, unit or cell.
-    """
+    """A checked layout from plain JSON values."""
     if not isinstance(source, Mapping):
         raise LayoutError(f"{where}: not a JSON object")
     schema = _take(source, "schema", str, where)
@@ -194,11 +183,7 @@ _OFF = 0.5  # of a cell's size: how far a taxel may be next to its own cell
 
 
 def check_cells(layout: SoleLayout) -> None:
-    """Refuse a layout with cells that contradict themselves.
-
-    Raises:
-        LayoutError: If a cell crosses itself, is clockwise or lacks its taxel or area, or a taxel faces outwards.
-    """
+    """Refuse a layout with cells that contradict themselves."""
     import shapely
 
     if not len(layout):

@@ -29,18 +29,9 @@ def record(
     """Record forces from the first reading's time on into a file that reads up to its last half second at any time,
     until the stream ends, `seconds` of it have passed, or Ctrl-C.
 
-    Args:
-        stream: From `plantar.live.source.open_live`.
-        path: The MCAP recording, replaced once a reading has come.
-        seconds: Above 0.
-        show: Receives the share of `seconds`, and load and center of pressure of each sole as text.
-
-    Returns:
-        `seconds` recorded, and the `frames`, `rate_hz` and largest gap `gap_max_s` of each of the `feet`.
-
-    Raises:
-        InputError: No reading, wrong sole or time, or the source fails.
-        RecordingError: File cannot be written.
+    `stream` from `plantar.live.source.open_live`; `path`: the MCAP recording, replaced once a reading has come;
+    `seconds`: above 0; `show`: receives the share of `seconds`, and load and center of pressure of each sole as text.
+    Returns `seconds` recorded, and the `frames`, `rate_hz` and largest gap `gap_max_s` of each of the `feet`.
     """
     if not seconds > 0.0:
         raise InputError(f"cannot record {seconds} s; allowed: above 0")

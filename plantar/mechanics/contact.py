@@ -15,12 +15,9 @@ from plantar.mechanics.wrench_cone import Rectangle
 class Contact:
     """Flat contact. Reuse the object while it does not change: programs keep its data.
 
-    Attributes:
-        position: Origin (3,) of contact frame in world in m.
-        rotation: Rotation (3, 3) from contact to world frame.
-        rectangle: Contact area in contact frame.
-        friction: Coefficient of friction pyramid, above 0.
-        preferred: Preferred center of pressure (x, y) in contact frame in m; rectangle's middle if None.
+    `position`: origin (3,) of contact frame in world in m; `rotation`: rotation (3, 3) from contact to world frame;
+    `rectangle`: contact area in contact frame; `friction`: coefficient of friction pyramid, above 0; `preferred`:
+    preferred center of pressure (x, y) in contact frame in m; rectangle's middle if None.
     """
 
     position: NDArray[np.float64]

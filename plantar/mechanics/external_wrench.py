@@ -19,17 +19,9 @@ from plantar.common.gravity import GRAVITY
 def vrp_offset(wrench: ArrayLike, mass: float, omega: float, virtual_mass: float = 1.0) -> NDArray[np.float64]:
     """Offset u_w = u_F + u_tau (..., 2) in m of the VRP by a wrench on the body: u = u_ref - u_w (K 9-11 corrected).
 
-    Args:
-        wrench: Wrench (..., 6) about CoM in axes with z up in N and N m, by world on robot.
-        mass: Mass of robot in kg, above 0.
-        omega: Pendulum frequency sqrt(g / z) in rad/s, above 0.
-        virtual_mass: nu of K 10-11: share of mass that answers a push; a smaller one yields more.
-
-    Returns:
-        ZMP at which wrench would not accelerate CoM.
-
-    Raises:
-        InputError: Wrench not (..., 6).
+    `wrench`: wrench (..., 6) about CoM in axes with z up in N and N m, by world on robot; `mass`: mass of robot in kg,
+    above 0; `omega`: pendulum frequency sqrt(g / z) in rad/s, above 0; `virtual_mass`: nu of K 10-11: share of mass
+    that answers a push; a smaller one yields more. Returns ZMP at which wrench would not accelerate CoM.
 
     Example:
         >>> hip = vrp_offset([50.0, 0.0, 0.0, 0.0, 0.0, 0.0], 86.0, 3.44)
@@ -55,15 +47,5 @@ def vrp_offset(wrench: ArrayLike, mass: float, omega: float, virtual_mass: float
 def external_acceleration(
     wrench: ArrayLike, mass: float, omega: float, virtual_mass: float = 1.0
 ) -> NDArray[np.float64]:
-    """Horizontal acceleration w^2 u_w (..., 2) in m/s^2 of the CoM by a wrench, at a fixed ZMP (K 12).
-
-    Args:
-        wrench: As in `vrp_offset`.
-        mass: As in `vrp_offset`.
-        omega: As in `vrp_offset`.
-        virtual_mass: As in `vrp_offset`.
-
-    Returns:
-        Acceleration.
-    """
+    """Horizontal acceleration w^2 u_w (..., 2) in m/s^2 of the CoM by a wrench, at a fixed ZMP (K 12)."""
     return np.asarray(vrp_offset(wrench, mass, omega, virtual_mass) * float(omega) ** 2)

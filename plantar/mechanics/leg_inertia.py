@@ -13,9 +13,7 @@ from plantar.common.record import Record
 class LegInertia(Record, frozen=True):
     """A leg's inertia, 0 where it is not counted.
 
-    Attributes:
-        turning: D in s^2 (`plantar.gait.plan.leg_momentum`).
-        share: mu, less than 1/2.
+    `turning`: D in s^2 (`plantar.gait.plan.leg_momentum`); `share`: mu, less than 1/2.
     """
 
     turning: float = 0.0

@@ -16,11 +16,7 @@ _SOFT = 8  # daqp's word for a limit that may give way
 class Box(NamedTuple):
     """Limits low <= rows y <= high; if they conflict, the first `hard` yield last.
 
-    Attributes:
-        rows: Rows (m, n), each of size 1.
-        low: Lower ends (m,); -inf for none.
-        high: Upper ends (m,); inf for none.
-        hard: Number of hard rows.
+    `rows`: rows (m, n), each of size 1; `low`: lower ends (m,); -inf for none; `high`: upper ends (m,); inf for none.
     """
 
     rows: NDArray[np.float64]
@@ -40,16 +36,8 @@ class Box(NamedTuple):
     ) -> Self:
         """Both sets of rows, each scaled to size 1.
 
-        Args:
-            hard: Rows (h, n) of hard limits.
-            least: Their lower ends (h,).
-            most: Their upper ends (h,).
-            soft: Rows (s, n) of soft limits.
-            low: Their lower ends (s,).
-            high: Their upper ends (s,).
-
-        Returns:
-            Box.
+        `hard`: rows (h, n) of hard limits; `least`: their lower ends (h,); `most`: their upper ends (h,); `soft`: rows
+        (s, n) of soft limits; `low`: their lower ends (s,); `high`: their upper ends (s,).
         """
         rows = np.vstack([hard, soft])
         sizes = np.maximum(np.sqrt(np.einsum("ij,ij->i", rows, rows)), np.finfo(float).tiny)
@@ -66,16 +54,9 @@ def nearest_within(
 ) -> tuple[Box, NDArray[np.float64]]:
     """Nearest point to the target in the directions `own`, such that some of the rest keeps the limits.
 
-    Args:
-        box: Limits of y.
-        y: Settled part (n,).
-        left: Orthonormal basis (n, k) of what may still be added to it.
-        own: Orthonormal directions (r, k) in this basis.
-        target: Wanted along them (r,).
-        weights: Weight (r,) of squared miss along each.
-
-    Returns:
-        Limits, widened as little as needed, and result (r,) along `own`.
+    `y`: settled part (n,); `left`: orthonormal basis (n, k) of what may still be added to it; `own`: orthonormal
+    directions (r, k) in this basis; `target`: wanted along them (r,); `weights`: weight (r,) of squared miss along
+    each. Returns limits, widened as little as needed, and result (r,) along `own`.
     """
     reached = box.rows @ y
     rows = box.rows @ left

@@ -9,15 +9,8 @@ from plantar.common.arrays import array
 def wrench_at(wrench: ArrayLike, point: ArrayLike) -> NDArray[np.float64]:
     """Same wrench (..., 6) about another point: tau_p = tau_o - p x f.
 
-    Args:
-        wrench: Wrench (..., 6) about frame's origin; NaN or inf give such moments.
-        point: New reference point (3,) in the same frame in m.
-
-    Returns:
-        Wrench.
-
-    Raises:
-        InputError: Wrench not (..., 6).
+    `wrench`: wrench (..., 6) about frame's origin; NaN or inf give such moments; `point`: new reference point (3,) in
+    the same frame in m.
 
     Example:
         >>> wrench_at(np.array([0.0, 0.0, 10.0, 0.0, -2.0, 0.0]), np.array([0.2, 0.0, 0.0])).tolist()
@@ -40,13 +33,8 @@ def wrench_in_frame(
 ) -> NDArray[np.float64]:
     """Wrench of frame a about frame b's origin, in b's axes: [R f, R tau + p x R f] (E of T 3.21).
 
-    Args:
-        wrench: Wrench (..., 6) about origin of a.
-        rotation: Rotation R (3, 3) from a to b.
-        position: Origin p (3,) of a in b in m.
-
-    Returns:
-        Wrench (..., 6) about origin of b.
+    `wrench`: wrench (..., 6) about origin of a; `rotation`: rotation R (3, 3) from a to b; `position`: origin p (3,) of
+    a in b in m. Returns wrench (..., 6) about origin of b.
     """
     given = np.asarray(wrench, dtype=float)
     force = given[..., :3] @ rotation.T

@@ -32,15 +32,9 @@ def wrench_cone(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
     the span of a friction pyramid at each corner: |fx| <= mu fz, |fy| <= mu fz, the center of pressure inside, and
     eight limits of the yaw moment (printed 4.40-4.41 mix the edges' signs).
 
-    Args:
-        rectangle: Contact, anywhere, possibly a line or a point.
-        friction: Coefficient mu of each corner's friction pyramid, above 0.
-
-    Returns:
-        Matrix (16, 6); w is in cone where C w <= 0 in every row. Rows: fx, fy, tx, ty (two each), tz (eight).
-
-    Raises:
-        InputError: Rectangle inverted.
+    `rectangle`: contact, anywhere, possibly a line or a point; `friction`: coefficient mu of each corner's friction
+    pyramid, above 0. Returns matrix (16, 6); w is in cone where C w <= 0 in every row. Rows: fx, fy, tx, ty (two each),
+    tz (eight).
 
     Example:
         >>> cone = wrench_cone(Rectangle(-0.1, 0.1, -0.05, 0.05), 0.6)
@@ -56,12 +50,7 @@ def wrench_cone(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
 def cone_rows(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
     """Rows (16, 6) of `wrench_cone`, unchecked, for a control loop.
 
-    Args:
-        rectangle: Contact; swapped edges allow no wrench but 0.
-        friction: Coefficient mu.
-
-    Returns:
-        Matrix (16, 6).
+    `rectangle`: contact; swapped edges allow no wrench but 0. Returns matrix (16, 6).
     """
     x0, x1, y0, y1 = rectangle
     mu = friction

@@ -37,13 +37,10 @@ _TRACKED = 0.005  # of the body weight (or times the unit of length): a net wren
 class DistributionState(StrEnum):
     """How a distribution ended.
 
-    Attributes:
-        TRACKED: The contacts give the wanted net wrench.
-        SATURATED: No wrenches inside the cones give it; the share comes nearest.
-        INFEASIBLE: The constraints contradict each other; the share violates them least.
-        INVALID: The request holds a number that is not finite, or no share above 0; the contacts take the body's weight
-            where they prefer it.
-        AIRBORNE: No contact, no wrench.
+    `TRACKED`: the contacts give the wanted net wrench; `SATURATED`: no wrenches inside the cones give it; the share
+    comes nearest; `INFEASIBLE`: the constraints contradict each other; the share violates them least; `INVALID`: the
+    request holds a number that is not finite, or no share above 0; the contacts take the body's weight where they
+    prefer it.
     """
 
     TRACKED = "tracked"
@@ -57,11 +54,8 @@ class DistributionState(StrEnum):
 class DistributionWeights:
     """Weights of the cost; only ratios matter.
 
-    Attributes:
-        net: Of error of net wrench.
-        ankle: Of moments about preferred centers of pressure (foot compliance).
-        pressure: Of deviation from wanted proportion of normal forces.
-        friction: Of tangential forces and yaw moments; makes share unique.
+    `ankle` of moments about preferred centers of pressure (foot compliance); `pressure` of deviation from wanted
+    proportion of normal forces; `friction` of tangential forces and yaw moments; makes share unique.
     """
 
     net: float = 1e4
@@ -77,11 +71,9 @@ class DistributionWeights:
 class WrenchShare(Record, frozen=True):
     """Wrenches of a distribution.
 
-    Attributes:
-        state: How distribution ended.
-        wrenches: Wrench (6,) of each contact by name, in its frame about its origin, by world on robot.
-        error: Their sum minus wanted net wrench (6,) in world frame, about middle of contacts.
-        violation: Violation in N of worst constraint; 0 unless infeasible.
+    `wrenches`: wrench (6,) of each contact by name, in its frame about its origin, by world on robot; `error`: their
+    sum minus wanted net wrench (6,) in world frame, about middle of contacts; `violation`: violation in N of worst
+    constraint; 0 unless infeasible.
     """
 
     state: DistributionState
@@ -98,12 +90,8 @@ class WrenchShare(Record, frozen=True):
 class Program:
     """One call's quadratic program: minimise 1/2 v' H v + f' v subject to A v <= b.
 
-    Attributes:
-        hessian: H (n, n).
-        gradient: f (n,).
-        constraints: A (m, n).
-        upper: b (m,).
-        unit: Unit (n,) of v in N and N m.
+    `hessian`: H (n, n); `gradient`: f (n,); `constraints`: A (m, n); `upper`: b (m,); `unit`: unit (n,) of v in N and N
+    m.
     """
 
     hessian: NDArray[np.float64]
@@ -145,14 +133,8 @@ class _Workspace:
 class WrenchDistribution:
     """Distributes net wrenches over contacts; one instance a controller.
 
-    Args:
-        weight: Weight of robot in N; unit of forces inside program.
-        weights: Weights of cost.
-        minimum_force: Least normal force in N of each contact.
-        length: Unit of moments over forces inside program in m: about half a sole.
-
-    Raises:
-        InputError: Weight not above 0.
+    `weight`: weight of robot in N; unit of forces inside program; `minimum_force`: least normal force in N of each
+    contact; `length`: unit of moments over forces inside program in m: about half a sole.
 
     Example:
         >>> flat, sole = np.eye(3), Rectangle(-0.1, 0.1, -0.06, 0.06)
@@ -187,17 +169,9 @@ class WrenchDistribution:
     ) -> WrenchShare:
         """Share a net wrench; an infeasible request is no error, see `DistributionState`.
 
-        Args:
-            contacts: Contacts by name, in order; none, one or several.
-            wrench: Wanted net wrench (6,) in world frame about `point`, by world on robot.
-            point: Point (3,) of world frame in m.
-            shares: Share of normal force of each contact, 0 to 1; equal if None.
-
-        Returns:
-            Share.
-
-        Raises:
-            InputError: Shares of other contacts.
+        `contacts`: contacts by name, in order; none, one or several; `wrench`: wanted net wrench (6,) in world frame
+        about `point`, by world on robot; `point`: point (3,) of world frame in m; `shares`: share of normal force of
+        each contact, 0 to 1; equal if None.
         """
         if not contacts:
             return WrenchShare(DistributionState.AIRBORNE, {}, -np.asarray(wrench, dtype=float), 0.0)
@@ -238,14 +212,7 @@ class WrenchDistribution:
     ) -> Program:
         """Copy of the program that `solve` solves, for other solvers.
 
-        Args:
-            contacts: One or more contacts; `wrench`, `point` and `shares` as in `solve`.
-
-        Returns:
-            Its matrices.
-
-        Raises:
-            InputError: No contacts, numbers not finite.
+        `contacts`: one or more contacts; `wrench`, `point` and `shares` as in `solve`.
         """
         if not contacts:
             raise InputError("a wrench distribution without contacts has no program; allowed: one contact or more")

@@ -18,16 +18,9 @@ from plantar.errors import InputError
 def zmp_in_plane(wrench: ArrayLike, height: float = 0.0, minimum_force: float = 0.0) -> NDArray[np.float64] | None:
     """Zero moment point in a plane z = height (T 4.5-4.6): p = [(h fx - ty) / fz, (h fy + tx) / fz].
 
-    Args:
-        wrench: Wrench (6,) about frame's origin.
-        height: Height h of plane above frame's origin in m.
-        minimum_force: Vertical force in N below which there is no ZMP; any load counts by default.
-
-    Returns:
-        Position (2,) in m, or None where vertical force is below `minimum_force`, not above 0, or NaN.
-
-    Raises:
-        InputError: Wrench not (6,).
+    `wrench`: wrench (6,) about frame's origin; `height`: height h of plane above frame's origin in m; `minimum_force`:
+    vertical force in N below which there is no ZMP; any load counts by default. Returns position (2,) in m, or None
+    where vertical force is below `minimum_force`, not above 0, or NaN.
 
     Example:
         >>> zmp_in_plane([10.0, 0.0, 100.0, 5.0, -2.0, 0.0], height=0.1).tolist()
@@ -56,13 +49,7 @@ def zero_moment_wrench(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
     """Wrench transferred to its ZMP (T 4.2.4, after 4.23).
 
-    Args:
-        wrench: As in `zmp_in_plane`.
-        height: As in `zmp_in_plane`.
-        minimum_force: As in `zmp_in_plane`.
-
-    Returns:
-        Point (3,) in m and wrench (6,) about it: same force, moment only about z; None without load.
+    Returns point (3,) in m and wrench (6,) about it: same force, moment only about z; None without load.
 
     Example:
         >>> point, moved = zero_moment_wrench([10.0, 0.0, 100.0, 5.0, -2.0, 0.3])
@@ -85,17 +72,9 @@ def centroidal_moment_pivot(
 
     It is the ZMP where the wrench has no tipping moment about the CoM.
 
-    Args:
-        force: Ground reaction force (3,) or wrench (6,) of all feet in N.
-        com: CoM position (3,) in m.
-        height: Height of ground in m.
-        minimum_force: Vertical force in N below which there is none.
-
-    Returns:
-        Position (2,) in m, or None without load.
-
-    Raises:
-        InputError: Force or CoM of another shape.
+    `force`: ground reaction force (3,) or wrench (6,) of all feet in N; `com`: CoM position (3,) in m; `height`: height
+    of ground in m; `minimum_force`: vertical force in N below which there is none. Returns position (2,) in m, or None
+    without load.
     """
     given = array(force, "force", ("3 or 6",))
     if len(given) not in (3, 6):
@@ -112,15 +91,9 @@ def centroidal_moment_pivot(
 def zmp_of_feet(points: Sequence[ArrayLike | None], vertical_forces: Sequence[float]) -> NDArray[np.float64] | None:
     """Composite ZMP of the feet (T 4.7-4.8).
 
-    Args:
-        points: ZMP (2,) of each foot in a common frame in m, None for a foot without load.
-        vertical_forces: Vertical force of each foot in N.
-
-    Returns:
-        Position (2,) in common frame in m, or None without load; feet with force NaN, 0 or less are left out.
-
-    Raises:
-        InputError: Lists differ in length.
+    `points`: ZMP (2,) of each foot in a common frame in m, None for a foot without load; `vertical_forces`: vertical
+    force of each foot in N. Returns position (2,) in common frame in m, or None without load; feet with force NaN, 0 or
+    less are left out.
 
     Example:
         >>> zmp_of_feet([np.array([0.0, 0.1]), np.array([0.0, -0.1])], [300.0, 100.0]).tolist()

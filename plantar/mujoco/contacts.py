@@ -16,13 +16,7 @@ _ELLIPTIC = int(mujoco.mjtCone.mjCONE_ELLIPTIC)
 
 
 class ContactReader:
-    """Gathers the contacts of several feet of one simulation.
-
-    Args:
-        model: MjModel.
-        data: Its MjData.
-        feet: Ids of each foot's geoms.
-    """
+    """Gathers the contacts of several feet of one simulation. `feet`: ids of each foot's geoms."""
 
     def __init__(self, model: Any, data: Any, feet: Sequence[Collection[int]]) -> None:
         # a copy's may differ

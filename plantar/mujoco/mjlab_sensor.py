@@ -60,8 +60,7 @@ class SkinSensor(_Sensor):
 
     `data` is the force (B, N, 3) on each taxel in N, sole frame, float32.
 
-    Attributes:
-        skin: In the scene's model, after `initialize`.
+    `skin` in the scene's model, after `initialize`.
     """
 
     skin: BoundSkin

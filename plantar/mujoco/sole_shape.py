@@ -20,12 +20,10 @@ _LEAST_FACE = 0.3  # of the sole's outline: a smaller face is a facet of somethi
 class SoleShape(NamedTuple):
     """A sole, in the frame of its body.
 
-    Attributes:
-        position: Sole origin (3,): the body's projected onto the face.
-        rotation: Rotation (3, 3) from sole to body; columns forward, left, into body.
-        outline: Convex outline (k, 2) in sole frame, counter-clockwise.
-        side: "left" where the body is left of its robot's root, along x in reference pose, else "right".
-        is_flat: Whether the geoms have a face; else the sole is round.
+    `position`: sole origin (3,): the body's projected onto the face; `rotation`: rotation (3, 3) from sole to body;
+    columns forward, left, into body; `outline`: convex outline (k, 2) in sole frame, counter-clockwise; `side`: "left"
+    where the body is left of its robot's root, along x in reference pose, else "right"; `is_flat`: whether the geoms
+    have a face; else the sole is round.
     """
 
     position: NDArray[np.float64]
@@ -58,18 +56,8 @@ def sole_shape(
 ) -> SoleShape:
     """Find a body's sole: its geoms' lowest face in the reference pose.
 
-    Args:
-        model: MjModel; its reference pose is the first keyframe, or else `qpos0`.
-        body: Id of body.
-        geoms: Ids of geoms that can touch.
-        outward: Direction (3,) of sole, body frame; None for gravity's.
-        forward: Forward (3,), body frame; None for the world's x.
-
-    Returns:
-        The sole.
-
-    Raises:
-        RobotError: If geoms have no extent, or directions agree.
+    `model`: MjModel; its reference pose is the first keyframe, or else `qpos0`; `outward`: direction (3,) of sole, body
+    frame; None for gravity's; `forward`: forward (3,), body frame; None for the world's x.
     """
     data = mujoco.MjData(model)
     if model.nkey:

@@ -17,10 +17,8 @@ from plantar.layouts.layout import SoleLayout
 class ArrayLoads(NamedTuple):
     """Sums of forces; "..." are dimensions before taxels.
 
-    Attributes:
-        wrench: Ground reaction wrench (..., 6) about sole origin in N and N m (T 4.23).
-        contact_area: Area (...) of active cells in m^2 (T 4.22).
-        center_of_pressure: Position (..., 2) in sole frame in m (T 4.21); NaN without load.
+    `wrench`: ground reaction wrench (..., 6) about sole origin in N and N m (T 4.23); `contact_area`: area (...) of
+    active cells in m^2 (T 4.22); `center_of_pressure`: position (..., 2) in sole frame in m (T 4.21); NaN without load.
     """
 
     wrench: Any
@@ -31,16 +29,8 @@ class ArrayLoads(NamedTuple):
 def active(layout: SoleLayout, force: Any, threshold: float | None = None) -> Any:
     """Active taxels (T 4.22): above the threshold, below the layout's force limit, not dead.
 
-    Args:
-        layout: Sole, n taxels.
-        force: Normal forces (..., n) in N, floating point.
-        threshold: Activation threshold in N; layout's if None.
-
-    Returns:
-        Mask (..., n) of the same library.
-
-    Raises:
-        ReadingError: Another array type.
+    `force`: normal forces (..., n) in N, floating point; `threshold`: activation threshold in N; layout's if None.
+    Returns mask (..., n) of the same library.
     """
     instance(layout, SoleLayout, "layout")
     _namespace(layout, force)
@@ -51,16 +41,7 @@ def active(layout: SoleLayout, force: Any, threshold: float | None = None) -> An
 def loads(layout: SoleLayout, force: Any, threshold: float | None = None) -> ArrayLoads:
     """Wrench, contact area and CoP (T 4.21-4.23).
 
-    Args:
-        layout: Sole, n taxels.
-        force: As in `active`.
-        threshold: As in `active`.
-
-    Returns:
-        Sums, of the same library, device, type. The derivative of a CoP without load is 0.
-
-    Raises:
-        ReadingError: As `active`.
+    Returns sums, of the same library, device, type. The derivative of a CoP without load is 0.
     """
     xp = _namespace(layout, force)
     on = active(layout, force, threshold)

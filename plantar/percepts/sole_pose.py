@@ -135,15 +135,8 @@ def _on_surface(ring: NDArray[np.float64], vertices: NDArray[np.float64]) -> NDA
 def wrench_of_feet(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose]) -> NDArray[np.float64]:
     """Sum of the soles' wrenches about the world's origin.
 
-    Args:
-        wrenches_in_sole: Wrench (6,) or (frames, 6) of each sole about its own origin in N and N m, zero in the air.
-        poses: Pose of each sole.
-
-    Returns:
-        Wrench (6,) or (frames, 6) in world frame in N and N m, by world on robot.
-
-    Raises:
-        InputError: Not one pose a wrench.
+    `wrenches_in_sole`: wrench (6,) or (frames, 6) of each sole about its own origin in N and N m, zero in the air.
+    Returns wrench (6,) or (frames, 6) in world frame in N and N m, by world on robot.
     """
     wrenches = items(wrenches_in_sole, "wrenches")
     places = items(poses, "poses")
@@ -162,16 +155,8 @@ def polygon_in_world(
 ) -> NDArray[np.float64]:
     """Polygon of the sole plane, from above in world frame.
 
-    Args:
-        polygon_in_sole: Polygon (k, 2) in sole frame in m.
-        rotation_sole_to_world: Rotation (3, 3).
-        position_sole_in_world: Position (3,) of sole origin in m.
-
-    Returns:
-        Polygon (k, 2) in m in the world's x-y plane.
-
-    Raises:
-        InputError: Not finite, another shape.
+    `polygon_in_sole`: polygon (k, 2) in sole frame in m; `rotation_sole_to_world`: rotation (3, 3);
+    `position_sole_in_world`: position (3,) of sole origin in m. Returns polygon (k, 2) in m in the world's x-y plane.
     """
     seen: NDArray[np.float64] = _kernel.seen_from_above(
         plane_points(polygon_in_sole),
@@ -184,14 +169,8 @@ def polygon_in_world(
 def feet_support_polygon(polygons_in_world: Sequence[ArrayLike]) -> NDArray[np.float64]:
     """Convex support polygon of all feet (T 4.25).
 
-    Args:
-        polygons_in_world: Support polygon (k, 2) of each foot in world frame; empty in the air.
-
-    Returns:
-        Convex polygon (m, 2), counter-clockwise, empty without contact.
-
-    Raises:
-        InputError: Not finite (k, 2).
+    `polygons_in_world`: support polygon (k, 2) of each foot in world frame; empty in the air. Returns convex polygon
+    (m, 2), counter-clockwise, empty without contact.
 
     Example:
         >>> left = np.array([[0.0, 0.1], [0.2, 0.1], [0.2, 0.2], [0.0, 0.2]])

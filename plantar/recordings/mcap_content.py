@@ -83,11 +83,8 @@ class _Topic:
 class McapContent:
     """Content of an MCAP file.
 
-    Attributes:
-        metadata: Metadata records.
-        layouts: Sole layout of each side, if any.
-        topics: Float64 topics by channel number; empty with `sinks`, receivers of some topics.
-        warnings: What was missing, damaged or skipped.
+    `layouts`: sole layout of each side, if any; `topics`: Float64 topics by channel number; empty with `sinks`,
+    receivers of some topics; `warnings`: what was missing, damaged or skipped.
     """
 
     def __init__(self, sinks: Mapping[str, Sink] | None = None) -> None:

@@ -320,7 +320,7 @@ class Recorder:
             self._temporary = None
 
     def close(self) -> None:
-        """Write the last chunk and index, and close the file, once; errors as in `flush`."""
+        """Write the last chunk and index, and close the file, once; raises as `flush` does."""
         if self._file.closed:
             return
         try:

@@ -33,11 +33,7 @@ class Table:
 class Recording:
     """Content of a recording.
 
-    Attributes:
-        metadata: Stored values.
-        layouts: Sole layout of each side, if any.
-        topics: Tables.
-        warnings: What was missing, damaged or skipped.
+    `layouts`: sole layout of each side, if any; `warnings`: what was missing, damaged or skipped.
     """
 
     path: Path

@@ -28,12 +28,9 @@ class BipedParameters:
 
     Attributes:
         total_mass: With skin and shoes; the chest has the rest.
-        base_mass: Pelvis.
         com_height: Above the outer sole in given posture.
         hip_offset: Left hip (3,) in base frame.
         ankle_offset: Left ankle against left hip (x, y) at zero angles.
-        thigh_length: Hip to knee.
-        shank_length: Knee to ankle.
         ankle_height: Ankle axes above bare sole.
         link_masses: Six, hip yaw to foot (without shoe).
         joint_lower: Six limits of left leg; `joint_upper` likewise.
@@ -41,9 +38,6 @@ class BipedParameters:
         velocity_limits: Six, in rad/s.
         chest_size: Box (3,) of upper body.
         armature: Reflected rotor inertia of a joint in kg m^2.
-
-    Raises:
-        RobotError: If a dimension is invalid.
     """
 
     total_mass: float
@@ -213,8 +207,6 @@ def biped_mjcf(
     """MJCF text of the biped, without ground.
 
     Args:
-        p: Dimensions.
-        name: Model name.
         posture: Six left-leg joint angles in degrees for `com_height`.
         sole_center: Center (x, y) of left contact rectangle against ankle in m.
         sole_half_size: Its half lengths (x, y) in m.
@@ -226,9 +218,6 @@ def biped_mjcf(
     Returns:
         MJCF with bodies "base", "<side>_foot", sites "<side>_sole", "imu", geoms "<side>_sole_box" and a position
         actuator a joint.
-
-    Raises:
-        RobotError: If links outweigh the robot.
     """
     chest = p.total_mass - p.base_mass - 2.0 * (sum(p.link_masses) + shoe_mass)
     if chest <= 0.0:

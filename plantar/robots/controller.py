@@ -41,13 +41,9 @@ __all__ = ["JointTargets", "RobotController", "load_controller"]
 class RobotController:
     """A walking controller and the legs that follow it. Made by `load_controller`.
 
-    Attributes:
-        joints: Leg joint names, in order of every joint vector.
-        period: Control period in s; call `step` once in each.
-        stance: Joint angles and torques before the start.
-        base_position: Base position (3,) in m in that stance, world frame.
-        motion: Of the targets.
-        began: Whether sensors were sound.
+    `joints`: leg joint names, in order of every joint vector; `period`: control period in s; call `step` once in each;
+    `stance`: joint angles and torques before the start; `base_position`: base position (3,) in m in that stance, world
+    frame; `began`: whether sensors were sound.
 
     Example:
         >>> walker = load_controller("h1", {"walk": {"steps": 4}})

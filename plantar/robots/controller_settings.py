@@ -68,20 +68,8 @@ def controller_settings(
 ) -> ControllerSettings:
     """Settings of the walking controller for a scene.
 
-    Args:
-        scene: The scene, with shares of the same body.
-        robot: The robot.
-        body: Its size, for shares.
-        ankles: Force-torque sensors, if any.
-        limits: Where its weight may act on one foot (`ankle_limits`); None for anywhere.
-        skin: Skin of its upper body, base frame; None without.
-        inertia: Of its legs (`leg_inertia`).
-
-    Returns:
-        The settings.
-
-    Raises:
-        SceneError: If a setting is unused or lacks a part.
+    `ankles`: force-torque sensors, if any; `limits`: where its weight may act on one foot (`ankle_limits`); None for
+    anywhere; `skin`: skin of its upper body, base frame; None without.
     """
     walk = scene.walk
     _refuse_unused(scene, robot)

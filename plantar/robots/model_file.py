@@ -23,12 +23,8 @@ _SHOE_HEIGHT = 0.02  # m: where the shoe's mass is taken to be above the contact
 def spec_from_file(robot: Robot) -> Any:
     """Read a robot's model file and make it a walking robot.
 
-    Returns:
-        An editable `mujoco.MjSpec` with sites "<side>_sole" and the IMU's, geoms "<side>_sole_box", a position actuator
-        a leg joint, and sensors "imu_gyro", "imu_accelerometer", "<side>_ankle_force" and "<side>_ankle_torque".
-
-    Raises:
-        RobotError: If the file is unreadable or incomplete.
+    Returns an editable `mujoco.MjSpec` with sites "<side>_sole" and the IMU's, geoms "<side>_sole_box", a position
+    actuator a leg joint, and sensors "imu_gyro", "imu_accelerometer", "<side>_ankle_force" and "<side>_ankle_torque".
     """
     spec = _parsed(robot)
     forget_own_simulation(spec)

@@ -51,10 +51,8 @@ class FootShape:
 class Arms:
     """Arms to wear in scenes with moving ones; else part of the chest.
 
-    Attributes:
-        machine: Name or TOML of machine that has them (`plantar.sim.companion.machine`), with the same base.
-        chest: Body whose mass, center and inertia include them.
-        roots: First link of each arm in machine.
+    `machine`: name or TOML of machine that has them (`plantar.sim.companion.machine`), with the same base; `chest`:
+    body whose mass, center and inertia include them; `roots`: first link of each arm in machine.
     """
 
     machine: str

@@ -114,13 +114,7 @@ class RobotTables:
     def text(self, field: str, *tables: str, default: str | None = None) -> str:
         """A text that is not empty.
 
-        Args:
-            field: Its name.
-            tables: Names of its table and those around it; none for the file itself.
-            default: Required if None.
-
-        Returns:
-            The text.
+        `tables`: names of its table and those around it; none for the file itself; `default`: required if None.
         """
         value = self.table(*tables).get(field, default)
         if not isinstance(value, str) or not value:
@@ -138,18 +132,7 @@ class RobotTables:
         return value
 
     def number(self, field: str, table: str, low: float, high: float, default: float | None = None) -> float:
-        """A number of a table within limits.
-
-        Args:
-            field: Its name.
-            table: Name of its table.
-            low: Smallest allowed.
-            high: Largest allowed.
-            default: Required if None.
-
-        Returns:
-            The number.
-        """
+        """A number of a table within limits. `default`: required if None."""
         return _checked_number(self.table(table).get(field, default), field, self.place(table), low, high)
 
     def numbers(self, field: str, table: str, count: int, low: float, high: float) -> tuple[float, ...]:

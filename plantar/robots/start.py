@@ -16,18 +16,8 @@ def start_of_walk(
 ) -> Start:
     """The start of a walk, for its controller.
 
-    Args:
-        walk: The gait, for the same body (`Walk.for_body`).
-        robot: The robot.
-        com_height: Above the soles in m.
-        height: Of the ground in m.
-        velocities: Commanded over time, `walk.velocities`; None for a number of steps.
-
-    Returns:
-        The start.
-
-    Raises:
-        SceneError: If the gait cannot be planned.
+    `com_height`: above the soles in m; `height` of the ground in m; `velocities`: commanded over time,
+    `walk.velocities`; None for a number of steps.
     """
     width = (walk.stance_width or robot.stance_width) + walk.wider
     first: Side = "left" if walk.first == "left" else "right"
@@ -68,18 +58,8 @@ def box_plan(
 ) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
     """A box step: first foot forward, other forward and aside, first closes; back likewise.
 
-    Args:
-        steps: Number of steps, whole rounds.
-        stride: Side of box in m, above 0.
-        width: Distance in m of sole origins with feet together.
-        first: Foot that moves first; the box is on the other's side.
-        height: Of the ground in m.
-
-    Returns:
-        The standing feet at the start, and the steps in order.
-
-    Raises:
-        InputError: If steps or stride are invalid.
+    `stride`: side of box in m, above 0; `width`: distance in m of sole origins with feet together; `height` of the
+    ground in m. Returns the standing feet at the start, and the steps in order.
     """
     if steps % STEPS_A_ROUND:
         raise InputError(f"steps is {steps}; allowed: whole rounds of {STEPS_A_ROUND} steps")

@@ -15,10 +15,8 @@ def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.i
 
     NaN, inf, negative readings and saturated taxels are not active.
 
-    Args:
-        force: Normal forces (..., n) in N.
-        threshold: Activation threshold epsilon_f in N.
-        saturation: Force in N from which taxel is saturated.
+    `force`: normal forces (..., n) in N; `threshold`: activation threshold epsilon_f in N; `saturation`: force in N
+    from which taxel is saturated.
 
     Returns mask; ReadingError, InputError: forces not numeric.
     """
@@ -33,12 +31,8 @@ def hysteresis(
 ) -> NDArray[np.bool_]:
     """Two-threshold switch: on above `high`, off at `low` or below, else as before.
 
-    Args:
-        values: Values (frames, ...) over time.
-        high: Switches on above it.
-        low: Switches off at or below it; not above `high`.
-        initial: State (...) before the first frame.
-        saturation: Switches off from here on.
+    `values`: values (frames, ...) over time; `high`: switches on above it; `low`: switches off at or below it; not
+    above `high`; `initial`: state (...) before the first frame.
 
     Returns state (frames, ...) after each frame; InputError: `low` above `high`.
 

@@ -18,10 +18,8 @@ def active_cells(
 ) -> NDArray[np.bool_]:
     """Mask (..., n) of cells with force OR proximity above a threshold (K 2 corrected; printed AND).
 
-    Args:
-        force: Force signals (..., n), in N or normalised.
-        proximity: Proximity signals (..., n), larger when nearer.
-        force_threshold: epsilon_force in unit of `force`; `proximity_threshold` likewise.
+    `force`: force signals (..., n), in N or normalised; `proximity`: proximity signals (..., n), larger when nearer;
+    `force_threshold`: epsilon_force in unit of `force`; `proximity_threshold` likewise.
 
     Returns mask; NaN, inf or beyond `LARGEST` does not count; errors if shapes differ.
     """
@@ -59,10 +57,8 @@ def pseudo_force(
 def patch_signal(force: ArrayLike, proximity: ArrayLike, weight: float) -> NDArray[np.float64]:
     """Weighted sum F = w f + (1 - w) p of each cell (A 6).
 
-    Args:
-        force: Force signals (..., n), normalised to 0..1.
-        proximity: Proximity signals (..., n), normalised to 0..1, 1 at contact.
-        weight: w: 0 for proximity alone, 1 for force alone.
+    `force`: force signals (..., n), normalised to 0..1; `proximity`: proximity signals (..., n), normalised to 0..1, 1
+    at contact; `weight`: w: 0 for proximity alone, 1 for force alone.
 
     Returns signals (..., n); NaN, inf or beyond `LARGEST` counts as 0; errors if shapes differ.
     """
@@ -76,10 +72,9 @@ def patch_signal(force: ArrayLike, proximity: ArrayLike, weight: float) -> NDArr
 def skin_wrench(positions: ArrayLike, rotations: ArrayLike, signal: ArrayLike) -> NDArray[np.float64]:
     """Wrench of normal forces on skin cells: sum_i [R_i f_i, p_i x R_i f_i] (K 4-5, A 7-8, T 3.16-3.18).
 
-    Args:
-        positions: Cell positions (n, 3) in wanted frame in m; with K, relative to CoM.
-        rotations: Rotations (n, 3, 3) from each cell's frame to wanted frame.
-        signal: Normal forces (n,) or (frames, n) in N; NaN, inf or beyond `LARGEST` counts as 0.
+    `positions`: cell positions (n, 3) in wanted frame in m; with K, relative to CoM; `rotations`: rotations (n, 3, 3)
+    from each cell's frame to wanted frame; `signal`: normal forces (n,) or (frames, n) in N; NaN, inf or beyond
+    `LARGEST` counts as 0.
 
     Returns wrench (6,) or (frames, 6) about wanted frame's origin in N and N m, by world on robot; ReadingError:
     shapes do not agree.

@@ -29,9 +29,7 @@ _TABLE = (np.array([0.0, *_MEAN, 1e300]), np.array([-2.0 * _MEAN[0], *_FORCE, 1e
 def clipped_mean(force: ArrayLike, noise: float) -> NDArray[np.float64]:
     """Mean reading of a sensor whose noise is clipped at zero.
 
-    Args:
-        force: Forces (...) in N, 0 or more.
-        noise: Standard deviation sigma of its white noise in N.
+    `force`: forces (...) in N, 0 or more; `noise`: standard deviation sigma of its white noise in N.
 
     Returns means (...) in N; InputError: noise negative.
     """
@@ -48,9 +46,7 @@ def unclipped_mean(mean: ArrayLike, noise: float) -> NDArray[np.float64]:
 
     A mean below that of no load gives a force below zero, along the tangent.
 
-    Args:
-        mean: Running means (...) of readings in N.
-        noise: Standard deviation sigma of white noise in N.
+    `mean`: running means (...) of readings in N; `noise`: standard deviation sigma of white noise in N.
 
     Returns forces (...) in N; InputError: noise negative.
 

@@ -16,10 +16,7 @@ def center_of_pressure(
 ) -> NDArray[np.float64] | None:
     """Center of pressure (2,) of one sole in its frame in m (T 4.21), or None without force.
 
-    Args:
-        layout: Sole, n taxels.
-        force: Normal forces (n,) in N; only active taxels count.
-        threshold: In N; layout's if None.
+    `force`: normal forces (n,) in N; only active taxels count; `threshold` in N; layout's if None.
 
     Returns point; for many frames see `plantar.batch.loads`; ReadingError or InputError for other shapes.
     """
@@ -31,10 +28,7 @@ def center_of_pressure(
 def ground_reaction_wrench(layout: SoleLayout, force: ArrayLike, threshold: float | None = None) -> NDArray[np.float64]:
     """Ground reaction wrench at sole origin (T 4.23).
 
-    Args:
-        layout: Sole, n taxels.
-        force: Normal forces (n,) or (frames, n) in N; only active taxels count.
-        threshold: In N; layout's if None.
+    `force`: normal forces (n,) or (frames, n) in N; only active taxels count; `threshold` in N; layout's if None.
 
     Returns wrench (6,) or (frames, 6) in sole frame in N and N m, by world on sole; ReadingError, InputError:
     forces not (..., taxels).
@@ -53,11 +47,8 @@ def pressure_driven_wrench(
 ) -> NDArray[np.float64]:
     """Wrench amplified on a small contact area, damped on a large one (T 3.26-3.27): w_P = xi / sum(alpha_i) * w_f.
 
-    Args:
-        layout: Sole, n taxels of areas alpha_i.
-        force: Normal forces (n,) or (frames, n) in N.
-        reference_area: Gain xi in m^2: contact area with unchanged wrench.
-        threshold: Activation threshold epsilon_a in N; layout's if None.
+    `force`: normal forces (n,) or (frames, n) in N; `reference_area`: gain xi in m^2: contact area with unchanged
+    wrench; `threshold`: activation threshold epsilon_a in N; layout's if None.
 
     Returns wrench (6,) or (frames, 6) about sole origin in N and N m; zero without contact; raises ReadingError,
     InputError: forces not (..., taxels).
@@ -72,10 +63,8 @@ def pressure_driven_wrench(
 def scaled_by_area(wrench: ArrayLike, contact_area: ArrayLike, reference_area: float) -> NDArray[np.float64]:
     """Wrench scaled by its contact area: xi / area * w (T 3.27).
 
-    Args:
-        wrench: Wrench (6,) or (frames, 6) in N and N m.
-        contact_area: Contact area () or (frames,) in m^2.
-        reference_area: Gain xi in m^2.
+    `wrench`: wrench (6,) or (frames, 6) in N and N m; `contact_area`: contact area () or (frames,) in m^2;
+    `reference_area`: gain xi in m^2.
 
     Returns wrench in shape of `wrench`; zero where contact area is 0; InputError: shapes differ, area not above
     0.
@@ -96,10 +85,9 @@ def scaled_by_area(wrench: ArrayLike, contact_area: ArrayLike, reference_area: f
 def joint_torque(jacobian: ArrayLike, rotation_to_base: ArrayLike, wrench: ArrayLike) -> NDArray[np.float64]:
     """Joint torques of a wrench at a link: tau = J^T E w (T 3.20, 3.28, 3.33, 3.38; A 13-14).
 
-    Args:
-        jacobian: Geometric Jacobian (6, joints) of link's frame, linear rows first, in base frame.
-        rotation_to_base: Rotation (3, 3) from link's (the sole's) frame to base frame.
-        wrench: Wrench (6,) or (frames, 6) about link's origin in its frame in N and N m.
+    `jacobian`: geometric Jacobian (6, joints) of link's frame, linear rows first, in base frame; `rotation_to_base`:
+    rotation (3, 3) from link's (the sole's) frame to base frame; `wrench`: wrench (6,) or (frames, 6) about link's
+    origin in its frame in N and N m.
 
     Returns torques (joints,) or (frames, joints) in N m; InputError: another shape, not finite.
     """

@@ -72,16 +72,7 @@ def fit_ground_plane(
 
 
 def checked_range(layout: SoleLayout, sensing_range: float | None, tolerance: float) -> float:
-    """Range in m of a fit, checked with its tolerance: both above 0, else InputError.
-
-    Args:
-        layout: Sole.
-        sensing_range: As in `fit_ground_plane`.
-        tolerance: As in `fit_ground_plane`.
-
-    Returns:
-        Range.
-    """
+    """Range in m of a fit, checked with its tolerance: both above 0, else InputError."""
     if not number(tolerance, "tolerance of the ground plane", nan=True) > 0.0:
         raise InputError(f"tolerance of the ground plane is {tolerance} m; allowed: above 0")
     return positive(layout.proximity_range if sensing_range is None else sensing_range, "sensing range", "m")

@@ -19,13 +19,8 @@ from plantar.layouts.taxel_values import taxel_frames
 class TaxelHealth:
     """Taxels of a sole left out of every sum, and why.
 
-    Attributes:
-        dead: Taxels (n,) that read NaN or inf.
-        saturated: Taxels (n,) that read end of their range or more.
-        stuck: Taxels (n,) that have not changed for too long.
-
-    Raises:
-        ReadingError: Masks of different shapes.
+    `dead`: taxels (n,) that read NaN or inf; `saturated`: taxels (n,) that read end of their range or more; `stuck`:
+    taxels (n,) that have not changed for too long.
     """
 
     dead: NDArray[np.bool_]
@@ -58,8 +53,7 @@ class TaxelHealth:
 def dead_taxels(values: ArrayLike) -> NDArray[np.bool_]:
     """Mask (..., n) of taxels without a finite number; not for distances, where inf means out of range.
 
-    Args:
-        values: Readings (..., n) of modality; ReadingError if not numeric.
+    `values`: readings (..., n) of modality; ReadingError if not numeric.
     """
     return np.asarray(~np.isfinite(numbers(values, "readings", ReadingError)))
 
@@ -165,11 +159,8 @@ def fill_from_neighbours(
 ) -> NDArray[np.float64]:
     """Readings with faulty taxels at their sound neighbours' mean, NaN without any.
 
-    Args:
-        layout: Sole, n taxels.
-        values: Readings (n,) or (frames, n); never changed.
-        faulty: Mask (n,) or of shape of `values`: taxels to fill.
-        per_area: Average per area, for forces on unequal cells.
+    `values`: readings (n,) or (frames, n); never changed; `faulty`: mask (n,) or of shape of `values`: taxels to fill;
+    `per_area`: average per area, for forces on unequal cells.
 
     Returns readings in shape of `values`; ReadingError: values or mask do not fit.
     """

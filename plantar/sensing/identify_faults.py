@@ -24,11 +24,9 @@ _MOST_FRAMES = 4000
 class IdentifiedFaults(NamedTuple):
     """Faults of a sole's taxels from a recording.
 
-    Attributes:
-        worn: Taxels' own faults, to apply to other forces; without noise.
-        faults: Their statistics, to draw other such soles.
-        gain_error: Standard error (n,) of each gain; NaN for dead taxels.
-        residual: RMS (n,) in N of each taxel's error after fit.
+    `worn`: taxels' own faults, to apply to other forces; without noise; `faults`: their statistics, to draw other such
+    soles; `gain_error`: standard error (n,) of each gain; NaN for dead taxels; `residual`: RMS (n,) in N of each
+    taxel's error after fit.
     """
 
     worn: WornFaults

@@ -16,17 +16,9 @@ from plantar.sensing.body_skin import skin_wrench
 class SkinPatch:
     """Taxels on one link (T 3.14-3.15), z into the body.
 
-    Attributes:
-        name: Name of patch.
-        link: Link that it is mounted on.
-        positions: Taxel positions (t, 3) in link's frame in m.
-        rotations: Rotations (t, 3, 3) from each taxel's to link's frame.
-        areas: Area (t,) of each taxel in m^2.
-        force_threshold: epsilon_f of T 3.23 in N.
-        proximity_range: d_range of T 3.30 in m; 0 for none.
-
-    Raises:
-        LayoutError: No taxels, shapes differ.
+    `positions`: taxel positions (t, 3) in link's frame in m; `rotations`: rotations (t, 3, 3) from each taxel's to
+    link's frame; `areas`: area (t,) of each taxel in m^2; `force_threshold`: epsilon_f of T 3.23 in N;
+    `proximity_range`: d_range of T 3.30 in m; 0 for none.
     """
 
     name: str
@@ -70,14 +62,11 @@ class SkinPatch:
 class BodySkin:
     """All taxels of a body, link by link: a link's taxels are one slice.
 
-    Args:
-        patches: Patches, any number a link; LayoutError for none, or two of one name.
+    `patches`: patches, any number a link; LayoutError for none, or two of one name.
 
     Attributes:
         patches: Patches, sorted by link.
-        links: Links that have skin.
         link_of: Index (N,) of each taxel's link in `links`.
-        slices: Taxels of each patch by its name.
         positions: Taxel positions (N, 3) in their link's frame in m.
         normals: Direction (N, 3) into body in link's frame.
         areas: Taxel areas (N,) in m^2.
@@ -133,11 +122,8 @@ class BodySkin:
 class SkinReading:
     """One reading of a `BodySkin`, in its order; NaN without data.
 
-    Attributes:
-        time: Time in s.
-        force: Normal force (N,) on each taxel in N, 0 or more.
-        distance: Distance (N,) of each taxel in m; inf out of range.
-        temperature: Temperature (N,) of each taxel in degC; None if not measured.
+    `time`: time in s; `force`: normal force (N,) on each taxel in N, 0 or more; `distance`: distance (N,) of each taxel
+    in m; inf out of range; `temperature`: temperature (N,) of each taxel in degC; None if not measured.
     """
 
     time: float
@@ -157,13 +143,8 @@ class LinkWrench(NamedTuple):
 def link_wrenches(skin: BodySkin, signal: NDArray[np.float64], active: NDArray[np.bool_]) -> list[LinkWrench]:
     """Sum active taxels' signals, a wrench a link (T 3.16-3.18); links without any are left out (T 3.23-3.24).
 
-    Args:
-        skin: Skin.
-        signal: Force (N,) along each taxel's z in N, measured or virtual.
-        active: Mask (N,) of taxels that count.
-
-    Returns:
-        Wrenches, in order of `skin.links`.
+    `signal`: force (N,) along each taxel's z in N, measured or virtual; `active`: mask (N,) of taxels that count.
+    Returns wrenches, in order of `skin.links`.
     """
     taxels = active.nonzero()[0]
     if not len(taxels):

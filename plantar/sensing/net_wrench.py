@@ -46,12 +46,8 @@ def net_wrench(
 ) -> NetWrench:
     """Sum the signals of all taxels (K 2-5, corrected).
 
-    Args:
-        skin: Skin.
-        reading: One reading of it; NaN for a silent taxel.
-        poses: Origin (3,) in m and rotation (3, 3) to world of each measuring link.
-        point: Point (3,) in world in m for moments; in K the CoM.
-        rules: What counts.
+    `reading`: one reading of it; NaN for a silent taxel; `poses`: origin (3,) in m and rotation (3, 3) to world of each
+    measuring link; `point`: point (3,) in world in m for moments; in K the CoM.
 
     Returns wrench; zeros without a push; ReadingError: point not finite.
 

@@ -36,11 +36,9 @@ _TURN = math.radians(12.0)  # prior spread of its direction
 class GroundEdges:
     """Straight ground edges under a sole, and the supported part.
 
-    Attributes:
-        lines: Edges (m, 3) in sole frame: outward normal of length 1, and distance from origin in m.
-        polygon: Supported part (k, 2) of cells' convex hull in sole frame in m, counter-clockwise.
-        deviation: Standard deviation (m,) of each edge's distance in m by noise.
-        residual: RMS difference of loads and fit in N.
+    `lines`: edges (m, 3) in sole frame: outward normal of length 1, and distance from origin in m; `polygon`: supported
+    part (k, 2) of cells' convex hull in sole frame in m, counter-clockwise; `deviation`: standard deviation (m,) of
+    each edge's distance in m by noise; `residual`: RMS difference of loads and fit in N.
     """
 
     lines: NDArray[np.float64]
@@ -51,9 +49,6 @@ class GroundEdges:
 
 class PartialContact:
     """Finds the edges of the ground under one sole.
-
-    Args:
-        layout: Sole, n taxels.
 
     Example:
         >>> from plantar import hex_layout
@@ -95,10 +90,8 @@ class PartialContact:
 
         The pressure is linear where positive, else zero, with the load as resultant, by Newton's method.
 
-        Args:
-            load: Vertical force in N.
-            center_of_pressure: Where it acts (2,) in sole frame in m.
-            lines: Half-planes (m, 3), see `cover`.
+        `load`: vertical force in N; `center_of_pressure`: where it acts (2,) in sole frame in m; `lines`: half-planes
+        (m, 3), see `cover`.
 
         Returns forces, none negative; InputError: not finite.
         """
@@ -139,12 +132,9 @@ class PartialContact:
     ) -> GroundEdges:
         """Fit the edges to the loads, from the last fit while the active cells imply the same.
 
-        Args:
-            load: Force (n,) on each taxel in N; NaN where a taxel is faulty.
-            active: Mask (n,) of taxels that have been loaded.
-            noise: Standard deviation of `load` in N.
-            steps: Gauss-Newton steps.
-            start: First guess of edges (m, 3), see `between`; from loads if None.
+        `load`: force (n,) on each taxel in N; NaN where a taxel is faulty; `active`: mask (n,) of taxels that have been
+        loaded; `noise`: standard deviation of `load` in N; `start`: first guess of edges (m, 3), see `between`; from
+        loads if None.
 
         Returns edges; with no active taxel an empty polygon; ReadingError, InputError: loads or mask do not fit.
         """
@@ -182,9 +172,7 @@ class PartialContact:
     def between(self, supported: ArrayLike, idle: ArrayLike) -> NDArray[np.float64]:
         """Lines half way between supported and idle cells' centers.
 
-        Args:
-            supported: Mask (n,) of cells over ground.
-            idle: Mask (n,) of cells known not to be.
+        `supported`: mask (n,) of cells over ground; `idle`: mask (n,) of cells known not to be.
 
         Returns half-planes (m, 3), side with most idle cells first; m up to 4; ReadingError: a mask does not
         fit.

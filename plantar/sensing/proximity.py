@@ -20,11 +20,8 @@ from plantar.layouts.taxel_values import taxel_mask, taxel_values
 class HeightContour(NamedTuple):
     """Ground nearer to the sole than a height.
 
-    Attributes:
-        height: Height in m.
-        taxels: Taxels (n,) nearer than the height.
-        polygon_in_sole: Convex polygon (k, 2) of their cells in the sole frame in m, counter-clockwise; empty where
-            there is none.
+    `height`: height in m; `taxels`: taxels (n,) nearer than the height; `polygon_in_sole`: convex polygon (k, 2) of
+    their cells in the sole frame in m, counter-clockwise; empty where there is none.
     """
 
     height: float
@@ -35,12 +32,8 @@ class HeightContour(NamedTuple):
 def proximity_measure(distance: ArrayLike, sensing_range: float) -> NDArray[np.float64]:
     """Inverse measure rho = d_range - d, saturated at both ends (T 3.30, T 4.2.6).
 
-    Args:
-        distance: Distances (..., n) in m.
-        sensing_range: Range d_range of sensors in m, above 0.
-
-    Returns:
-        Measures (..., n) in m: 0 out of range and for a dead taxel, `sensing_range` at contact (d <= 0), never NaN.
+    `distance`: distances (..., n) in m; `sensing_range`: range d_range of sensors in m, above 0. Returns measures (...,
+    n) in m: 0 out of range and for a dead taxel, `sensing_range` at contact (d <= 0), never NaN.
     """
     reach = positive(sensing_range, "sensing range", "m")
     measured = np.asarray(reach - numbers(distance, "distances"))
@@ -52,22 +45,13 @@ def proximity_measure(distance: ArrayLike, sensing_range: float) -> NDArray[np.f
 def near_taxels(distance: ArrayLike, threshold: float) -> NDArray[np.bool_]:
     """Mask (..., n) of taxels nearer than a threshold: d < epsilon_p (T 4.2.7 corrected; printed d > epsilon_p).
 
-    Args:
-        distance: Distances (..., n) in m.
-        threshold: Threshold epsilon_p in m.
-
-    Returns:
-        Mask.
+    `distance`: distances (..., n) in m; `threshold`: threshold epsilon_p in m.
     """
     return np.asarray(numbers(distance, "distances") < number(threshold, "threshold of proximity"))
 
 
 def cells_polygon(layout: SoleLayout, taxels: ArrayLike) -> NDArray[np.float64]:
-    """Convex polygon of a sole's cells (T 4.24).
-
-    Args:
-        layout: Sole, n taxels.
-        taxels: Mask (n,) of cells.
+    """Convex polygon of a sole's cells (T 4.24). `taxels`: mask (n,) of cells.
 
     Returns polygon (k, 2) in sole frame in m, counter-clockwise; empty without cells; ReadingError: mask does
     not fit.
@@ -79,10 +63,7 @@ def cells_polygon(layout: SoleLayout, taxels: ArrayLike) -> NDArray[np.float64]:
 def preemptive_polygon(layout: SoleLayout, distance: ArrayLike, threshold: float) -> NDArray[np.float64]:
     """Preemptive support polygon (k, 2) in sole frame in m: hull of near cells (T 4.2.7 corrected).
 
-    Args:
-        layout: Sole, n taxels.
-        distance: Distances (n,) in m.
-        threshold: Threshold epsilon_p in m.
+    `distance`: distances (n,) in m; `threshold`: threshold epsilon_p in m.
 
     Returns polygon, counter-clockwise; empty if none is near; ReadingError, InputError: distances do not fit.
     """
@@ -90,11 +71,7 @@ def preemptive_polygon(layout: SoleLayout, distance: ArrayLike, threshold: float
 
 
 def contour_levels(heights: Sequence[float]) -> tuple[float, ...]:
-    """Heights of contours in m, lowest first.
-
-    Args:
-        heights: Thresholds epsilon_p in m, any order; else InputError.
-    """
+    """Heights of contours in m, lowest first. `heights`: thresholds epsilon_p in m, any order; else InputError."""
     levels: list[float] = sorted(array(heights, "heights of contours", ("m",)).tolist())
     if any(map(math.isnan, levels)):
         raise InputError("heights of contours hold NaN")
@@ -104,10 +81,7 @@ def contour_levels(heights: Sequence[float]) -> tuple[float, ...]:
 def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[float]) -> tuple[HeightContour, ...]:
     """Contours of the ground under a swinging sole (T 4.2.7 corrected, Fig. 39-b).
 
-    Args:
-        layout: Sole, n taxels.
-        distance: Distances (n,) in m.
-        heights: Thresholds epsilon_p in m, in any order.
+    `distance`: distances (n,) in m; `heights`: thresholds epsilon_p in m, in any order.
 
     Returns one per height, lowest first, each including lower ones; read-only; ReadingError, InputError:
     distances do not fit.

@@ -40,9 +40,6 @@ class TaxelFaults:
         resolution: Step in N of readings.
         delay: Time in s from a force to its reading.
 
-    Raises:
-        InputError: Negative, a share above 0.9.
-
     Example:
         >>> from plantar import hex_layout
         >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
@@ -73,13 +70,7 @@ class TaxelFaults:
     def worn(self, layout: SoleLayout, seed: int = 0, batch: tuple[int, ...] = ()) -> "WornFaults":
         """Draw the faults of one sole, or of many.
 
-        Args:
-            layout: Sole, n taxels.
-            seed: Seed of draw.
-            batch: Dimensions of many soles, for arrays (*batch, n).
-
-        Returns:
-            Faults, with state of hysteresis and delay.
+        `batch`: dimensions of many soles, for arrays (*batch, n). Returns faults, with state of hysteresis and delay.
         """
         rng = np.random.default_rng(seed)
         shape = (*batch, len(layout))
@@ -93,12 +84,9 @@ class TaxelFaults:
 class WornFaults:
     """Faults of a sole's taxels, with the state of hysteresis and delay.
 
-    Args:
-        layout: Sole, n taxels.
-        faults: Hysteresis, crosstalk, shear, noise, resolution and delay of all taxels.
-        gains: Gain (..., n) of each taxel; `offsets` its zero in N, `drifts` the final drift of that.
-        dead: Whether each taxel (..., n) is dead.
-        rng: Source of noise; None without noise (else InputError).
+    `faults`: hysteresis, crosstalk, shear, noise, resolution and delay of all taxels; `gains`: gain (..., n) of each
+    taxel; `offsets` its zero in N, `drifts` the final drift of that; `dead`: whether each taxel (..., n) is dead;
+    `rng`: source of noise; None without noise (else InputError).
     """
 
     def __init__(
@@ -130,10 +118,8 @@ class WornFaults:
     def read(self, time: float, force: ArrayLike, vectors: ArrayLike | None = None) -> NDArray[np.float64]:
         """Readings of the taxels.
 
-        Args:
-            time: Time in s, never decreasing.
-            force: Normal force (..., n) on each taxel in N.
-            vectors: Force (..., n, 3) in N with tangential part, for shear.
+        `time`: time in s, never decreasing; `force`: normal force (..., n) on each taxel in N; `vectors`: force (...,
+        n, 3) in N with tangential part, for shear.
 
         Returns readings (..., n) in N; NaN for dead taxels; ReadingError: forces do not fit.
         """
@@ -178,15 +164,7 @@ class WornFaults:
 
 
 def crosstalk_matrix(layout: SoleLayout, crosstalk: float) -> NDArray[np.float64]:
-    """Share (n, n) of each taxel's force in each reading; columns sum to 1.
-
-    Args:
-        layout: Sole, n taxels.
-        crosstalk: Share of each taxel's force that its neighbours read instead.
-
-    Returns:
-        Matrix.
-    """
+    """Share (n, n) of each taxel's force in each reading; columns sum to 1."""
     spread = np.eye(len(layout))
     for i, near in enumerate(layout.neighbours):
         if near:

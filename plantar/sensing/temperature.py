@@ -15,10 +15,8 @@ from plantar.sensing.proximity import cells_polygon
 def temperature_measure(temperature: ArrayLike, threshold: float, highest: float = math.inf) -> NDArray[np.float64]:
     """Excess kappa (..., n) in K over a threshold (T 3.34): 0 below and if dead, never NaN.
 
-    Args:
-        temperature: Temperatures (..., n) in degC; NaN or inf if dead.
-        threshold: Temperature kappa_0 in degC from which taxel reacts.
-        highest: Upper end of sensors' range in degC, where readings are cut.
+    `temperature`: temperatures (..., n) in degC; NaN or inf if dead; `threshold`: temperature kappa_0 in degC from
+    which taxel reacts; `highest`: upper end of sensors' range in degC, where readings are cut.
 
     Returns excess; InputError: not numeric.
     """
@@ -37,11 +35,8 @@ def temperature_wrench(
 
     w = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, gain * kappa_i].
 
-    Args:
-        layout: Sole, n taxels.
-        temperature: Temperatures (n,) or (frames, n) in degC; NaN if dead.
-        threshold: Temperature kappa_0 in degC from which taxel reacts; layout's if None.
-        gain: Force of a kelvin of excess in N/K.
+    `temperature`: temperatures (n,) or (frames, n) in degC; NaN if dead; `threshold`: temperature kappa_0 in degC from
+    which taxel reacts; layout's if None; `gain`: force of a kelvin of excess in N/K.
 
     Returns wrench (6,) or (frames, 6) about sole origin in N and N m; ReadingError: temperatures do not fit.
     """
@@ -56,9 +51,7 @@ def temperature_wrench(
 def warm_taxels(temperature: ArrayLike, threshold: float) -> NDArray[np.bool_]:
     """Taxels at or above a temperature (T 3.34); dead ones are not.
 
-    Args:
-        temperature: Temperatures (..., n) in degC; NaN or inf if dead.
-        threshold: Temperature kappa_0 in degC.
+    `temperature`: temperatures (..., n) in degC; NaN or inf if dead; `threshold`: temperature kappa_0 in degC.
 
     Returns mask (..., n); InputError: not numeric.
     """
@@ -71,10 +64,8 @@ def temperature_footprint(
 ) -> NDArray[np.float64]:
     """Convex polygon of the warm cells (T 4.2.5).
 
-    Args:
-        layout: Sole, n taxels.
-        temperature: Temperatures (n,) in degC; NaN if dead.
-        threshold: Temperature in degC of warm cell; layout's if None.
+    `temperature`: temperatures (n,) in degC; NaN if dead; `threshold`: temperature in degC of warm cell; layout's if
+    None.
 
     Returns polygon (k, 2) in sole frame in m, counter-clockwise; empty if none is warm; ReadingError:
     temperatures do not fit.

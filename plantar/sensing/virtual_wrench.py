@@ -48,9 +48,7 @@ def virtual_ground_reaction_wrench(
 def early_stop(virtual_wrench: ArrayLike, threshold: float) -> NDArray[np.bool_] | bool:
     """Whether the virtual force stops the swing: |f_p| > epsilon_stop (T 4.31, Fig. 49-c).
 
-    Args:
-        virtual_wrench: Virtual wrench (..., 6) in N and N m.
-        threshold: Threshold epsilon_stop in N.
+    `virtual_wrench`: virtual wrench (..., 6) in N and N m; `threshold`: threshold epsilon_stop in N.
 
     Returns bool for one wrench, a mask (...) for several; InputError: wrench not (..., 6).
     """
@@ -65,11 +63,9 @@ def sole_wrenches(
 
     T 4.30 corrected: printed, the virtual part vanishes where |w_f| > 0, which noise exceeds.
 
-    Args:
-        contact: Wrenches (frames, 6) w_f of taxels' forces in N and N m.
-        virtual: Wrenches (frames, 6) w_p of proximity.
-        threshold: Force |f_f| in N above which foot has landed.
-        release: Force in N at or below which it has lifted; half of `threshold` if None.
+    `contact`: wrenches (frames, 6) w_f of taxels' forces in N and N m; `virtual`: wrenches (frames, 6) w_p of
+    proximity; `threshold`: force |f_f| in N above which foot has landed; `release`: force in N at or below which it has
+    lifted; half of `threshold` if None.
 
     Returns wrenches (frames, 6) in N and N m. A part with NaN or inf counts as zero; InputError: not (frames, 6)
     each.

@@ -295,13 +295,6 @@ def build_insole(
     Its `thickness` in mm is from the pad's ground face to the foot's face; `side`, `cell_area`, `rim`, `cell`,
     `parameters`, `name`, `layout_only` and `progress` are as in `build_shoe`.
 
-    Returns:
-        Insoles with layouts and solids.
-
-    Raises:
-        InputError: If an argument is out of range.
-        FootError: If taxels do not fit.
-
     Example:
         >>> from plantar.shoes.foot.foot import foot_from_dimensions
         >>> foot = foot_from_dimensions("a", length=0.26, width=0.095, corner_radius=0.03)

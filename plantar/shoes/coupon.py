@@ -43,10 +43,6 @@ class Coupon:
 def build_coupons(build: ShoeBuild, *, progress: Progress | None = None) -> tuple[Coupon, ...]:
     """Gives pieces of a build's left shoe or insole, a cell with port and a holder; progress receives fraction and
     text.
-
-    Raises:
-        InputError: Without left shoe.
-        FootError: If a piece fails.
     """
     plan = build.shoes[0].plan
     p = build.parameters
@@ -137,11 +133,7 @@ def _limited(steps: tuple[Step, ...], window: Any) -> tuple[Step, ...]:
 
 
 def write_coupons(coupons: tuple[Coupon, ...], folder: str | os.PathLike[str]) -> tuple[str, ...]:
-    """Write coupons into a folder as `coupon_<name>.stl`; returns file names.
-
-    Raises:
-        InputError: If unwritable.
-    """
+    """Write coupons into a folder as `coupon_<name>.stl`; returns file names."""
     names = []
     for coupon in coupons:
         path = Path(folder) / f"coupon_{coupon.name}.stl"

@@ -28,10 +28,8 @@ _AREAS = (100.0, 691.0)  # mm^2 of a taxel: what can be made, and what the paper
 class FoundShoes:
     """Built shoes.
 
-    Attributes:
-        thickness: Contact face below the bare sole in m.
-        mass: Of one in kg; None for layouts.
-        notes: Found, assumed and decided, failed checks included.
+    `thickness`: contact face below the bare sole in m; `mass` of one in kg; None for layouts; `notes`: found, assumed
+    and decided, failed checks included.
     """
 
     thickness: float

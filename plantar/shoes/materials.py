@@ -12,13 +12,8 @@ from dataclasses import dataclass
 class Material:
     """Printed material.
 
-    Attributes:
-        process: Its usual process.
-        density: In g/cm^3.
-        modulus: Young's modulus in MPa.
-        strength: Tensile, within a layer, in MPa.
-        across: Strength share across layers, 0..1.
-        strain: Allowed in a clip, 0..1.
+    `density` in g/cm^3; `modulus`: young's modulus in MPa; `strength`: tensile, within a layer, in MPa; `across`:
+    strength share across layers, 0..1; `strain`: allowed in a clip, 0..1.
     """
 
     name: str
@@ -47,16 +42,8 @@ MATERIALS: dict[str, Material] = {
 class Process:
     """Printing process; gaps a side in mm.
 
-    Attributes:
-        press: Pushed in, stays.
-        slide: Slides.
-        play: Moves freely.
-        scatter: Seat height's standard deviation.
-        sag: Of a bridged ceiling.
-        foot: Spread of the first layer.
-        shrinkage: Beyond the printer's correction, in %.
-        supports: Whether overhangs need support.
-        finish: Work before fitting.
+    `scatter`: seat height's standard deviation; `foot`: spread of the first layer; `shrinkage`: beyond the printer's
+    correction, in %; `supports`: whether overhangs need support; `finish`: work before fitting.
     """
 
     name: str

@@ -23,10 +23,6 @@ def build_ordered(
 ) -> ShoeBuild:
     """Gives an order's shoe or insole for a foot, by parameters and taxels of its robot; for coupons, only layouts;
     progress receives fraction and text.
-
-    Raises:
-        InputError: If the order contradicts itself.
-        FootError: If taxels do not fit.
     """
     light = order.layout_only or order.coupon
     common: dict[str, Any] = {"side": order.side, "cell_area": order.cell_area, "name": order.name}
@@ -46,11 +42,7 @@ def build_ordered(
 
 
 def ordered_cell(order: ShoeOrder) -> Cell | None:
-    """Cell of an order; None for skin hexagons.
-
-    Raises:
-        InputError: If unknown or contradictory.
-    """
+    """Cell of an order; None for skin hexagons."""
     if order.cell is None:
         return None
     if order.rim == "fine":

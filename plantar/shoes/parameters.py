@@ -35,9 +35,6 @@ def text(default: str, meaning: str) -> Any:
 def checked(record: Any, name: str, value: Any, what: str) -> Any:
     """Gives value for the field of a name of a dataclass (record), numbers as floats; what is the word for fields in
     messages.
-
-    Raises:
-        InputError: If not allowed.
     """
     metadata = record.__dataclass_fields__[name].metadata
     if "choices" in metadata:

@@ -26,10 +26,8 @@ _LONGEST = 5  # times its first duration, after which a run whose end is put off
 class Result:
     """What the loop of a run leaves.
 
-    Attributes:
-        ticks_us: Wall time of each control tick in us.
-        wall_time: Of the run in s.
-        overrun: Cut and first planned end in s, or None.
+    `ticks_us`: wall time of each control tick in us; `wall_time` of the run in s; `overrun`: cut and first planned end
+    in s, or None.
     """
 
     ticks_us: list[float]
@@ -40,10 +38,8 @@ class Result:
 class Run(ABC):
     """A scene that is built and ready to run.
 
-    Attributes:
-        seed: Of noise and open choices.
-        periods: Physics step and control period in s.
-        skipped: Counts of what was not computed.
+    `seed` of noise and open choices; `periods`: physics step and control period in s; `skipped`: counts of what was not
+    computed.
     """
 
     seed: int

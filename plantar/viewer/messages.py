@@ -15,13 +15,9 @@ _SCENE = "foxglove.SceneUpdate"
 class Shape:
     """Primitive of an entity.
 
-    Attributes:
-        kind: "arrow", "cube", "sphere", "cylinder", "line", "triangles" or "text".
-        pose: Position in m and quaternion (x, y, z, w), entity's frame.
-        size: (x, y, z) in m of cube, sphere or cylinder.
-        colour: Red, green, blue and opacity, 0..1.
-        points: (x, y, z) in m of lines or triangles.
-        indices: Three points a triangle.
+    `kind`: "arrow", "cube", "sphere", "cylinder", "line", "triangles" or "text"; `pose`: position in m and quaternion
+    (x, y, z, w), entity's frame; `size` (x, y, z) in m of cube, sphere or cylinder; `colour`: red, green, blue and
+    opacity, 0..1; `points` (x, y, z) in m of lines or triangles; `indices`: three points a triangle.
     """
 
     kind: str

@@ -12,14 +12,8 @@ from plantar.viewer.messages import transform_template, transforms
 class Latest:
     """Keeps for each wanted time the last value until it; else the first.
 
-    Args:
-        times: Wanted (n,) in s, ascending.
-        keep: Called with a row slice and value.
-        reach: Farthest time in s from a value's own.
-
-    Attributes:
-        count: Values taken.
-        late: Values left out for later ones before them.
+    `times`: wanted (n,) in s, ascending; `keep`: called with a row slice and value; `reach`: farthest time in s from a
+    value's own. Attributes `late`: values left out for later ones before them.
 
     Example:
         >>> rows = np.empty(3)
@@ -69,8 +63,7 @@ class Latest:
 class FramePoses:
     """Frame poses at wanted times (n,) in s, from foxglove.FrameTransforms; frames missing in a message stay.
 
-    Attributes:
-        poses: (n, k, 7): position in m and quaternion (x, y, z, w).
+    `poses` (n, k, 7): position in m and quaternion (x, y, z, w).
     """
 
     def __init__(self, first: bytes, names: list[str], times: NDArray[np.float64]) -> None:

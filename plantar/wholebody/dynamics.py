@@ -11,13 +11,9 @@ class RobotDynamics(Protocol):
 
     Jacobians map generalized velocity (n,) to the world. Joints: actuated velocity coordinates, model order.
 
-    Attributes:
-        time: In s.
-        velocity: Generalized (n,).
-        mass_matrix: M (n, n), symmetric and positive definite.
-        bias: C(q, q') q' + g (n,).
-        joints: Indices (k,) of actuated coordinates (S); all with a fixed base.
-        joint_positions: Theirs (k,) in rad or m.
+    `time` in s; `velocity`: generalized (n,); `mass_matrix`: M (n, n), symmetric and positive definite; `bias`: C(q,
+    q') q' + g (n,); `joints`: indices (k,) of actuated coordinates (S); all with a fixed base; `joint_positions`:
+    theirs (k,) in rad or m.
     """
 
     @property
@@ -44,12 +40,7 @@ class RobotDynamics(Protocol):
     def jacobian(self, link: str, point: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Geometric Jacobian (6, n) of a link's point, linear rows first, world frame.
 
-        Args:
-            link: By name; InputError if unknown.
-            point: (3,), link frame, in m; None for its origin.
-
-        Returns:
-            The Jacobian.
+        `link` by name; InputError if unknown; `point` (3,), link frame, in m; None for its origin.
         """
 
     def drift(self, link: str, point: NDArray[np.float64] | None = None) -> NDArray[np.float64]:

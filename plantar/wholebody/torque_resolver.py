@@ -39,13 +39,8 @@ class SetPoint(NamedTuple):
 class TorqueResolver:
     """Virtual robot, limited so that servos can follow.
 
-    Args:
-        velocity_limits: Each joint's (k,) in rad/s or m/s.
-        settings: Damping, pull and limits.
-        mass: M_v (k, k) in kg m^2 or kg; None for the robot's current.
-
-    Raises:
-        InputError: Disallowed limit or mass.
+    `velocity_limits`: each joint's (k,) in rad/s or m/s; `mass`: M_v (k, k) in kg m^2 or kg; None for the robot's
+    current.
     """
 
     def __init__(
@@ -66,13 +61,8 @@ class TorqueResolver:
     def step(self, robot: RobotDynamics, torque: NDArray[np.float64], period: float) -> SetPoint:
         """Set-points after a control period of the torques, at first from the real state.
 
-        Args:
-            robot: As measured; its bias is subtracted, its motion draws the virtual one.
-            torque: Stack's (k,) in N m or N, with bias.
-            period: Of control in s.
-
-        Returns:
-            The set-points.
+        `robot`: as measured; its bias is subtracted, its motion draws the virtual one; `torque`: stack's (k,) in N m or
+        N, with bias; `period` of control in s.
         """
         s = self.settings
         joints = robot.joints

@@ -45,10 +45,6 @@ def run_command(app: typer.Typer) -> int:
     """Run the command named by the process's arguments.
 
     Typer prints several lines for wrong arguments, and exits with 1 if stdout is closed.
-
-    Raises:
-        InputError: If an argument is wrong.
-        KeyboardInterrupt: If stopped by the user.
     """
     usage_error = cast(type[Exception], typer.BadParameter.__base__)  # typer exports it under no public name
     command = typer.main.get_command(app)
@@ -83,7 +79,7 @@ def end_command(
     """Print a command's `result`, as one JSON object if `as_json`, else `text`; then `failures` on stderr, a line
     each.
 
-    A typer.Exit with code 1 if `failed`.
+    Raises typer.Exit with code 1 if `failed`.
     """
     print(json.dumps(result) if as_json else plain_lines(text))
     for line in failures:

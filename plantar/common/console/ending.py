@@ -38,8 +38,7 @@ _ENDED_BY = {"SIGTERM": "ended (SIGTERM)", "SIGHUP": "ended: its terminal was cl
 class Terminated(SystemExit):
     """Process was asked to end; raised to close files and remove temporaries.
 
-    Args:
-        text: To show; None for the signal's meaning.
+    `text` to show; None for the signal's meaning.
 
     Example:
         >>> Terminated(signal.SIGTERM).code
@@ -144,10 +143,7 @@ def run(command: Callable[[], int | None]) -> int:
 
 @contextmanager
 def ignore_further_interrupts() -> Iterator[None]:
-    """Ignore signals after the one that interrupted the block, to print its line.
-
-    Yields:
-        None.
+    """Ignore signals after the one that interrupted the block, to print its line. Yields None.
 
     Example:
         >>> with ignore_further_interrupts():

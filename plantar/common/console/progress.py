@@ -13,8 +13,7 @@ Progress = Callable[[float, str], None]
 def progress_bar() -> Iterator[Progress]:
     """Show a progress bar on stderr, if that is a terminal.
 
-    Yields:
-        Moves the bar: takes fraction done, 0..1, and text.
+    Yields moves the bar: takes fraction done, 0..1, and text.
     """
     from rich.console import Console  # 0.1 s, which `plantar --help` need not wait for
     from rich.progress import BarColumn, TextColumn, TimeElapsedColumn

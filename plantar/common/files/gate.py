@@ -32,12 +32,8 @@ _TRIMESH = "plantar.common.files.mesh_library"
 class Helper(NamedTuple):
     """Library that reads a file kind in a separate process.
 
-    Attributes:
-        function: Called there, "package.module:name".
-        what: Expected file, for messages.
-        memory: Allowed bytes: some, and more for each byte of the file.
-        seconds: Processor time in s, likewise.
-        library: Library.
+    `function`: called there, "package.module:name"; `memory`: allowed bytes: some, and more for each byte of the file;
+    `seconds`: processor time in s, likewise.
     """
 
     function: str

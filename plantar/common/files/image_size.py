@@ -14,13 +14,7 @@ _TIFF_NUMBER = {1: "B", 3: "H", 4: "I"}
 
 @dataclass(frozen=True)
 class ImageSize:
-    """Size of an image.
-
-    Attributes:
-        width: Pixels across.
-        height: Pixels down.
-        depth: Decoded bytes a pixel.
-    """
+    """Size of an image. `depth`: decoded bytes a pixel."""
 
     width: int
     height: int

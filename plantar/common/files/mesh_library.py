@@ -15,9 +15,6 @@ from plantar.errors import DependencyError, PlantarError
 def triangles_of_listed(path: Path) -> dict[str, NDArray[Any]]:
     """Triangles (n, 3, 3) in file units of each mesh file that a JSON list at a path names, by its number there; none
     of one that cannot be read.
-
-    Raises:
-        DependencyError: If trimesh is missing.
     """
     found = {}
     for i, name in enumerate(json.loads(path.read_bytes())):
@@ -33,10 +30,6 @@ def triangles_of_listed(path: Path) -> dict[str, NDArray[Any]]:
 def triangles_of_trimesh(path: Path) -> dict[str, NDArray[Any]]:
     """Triangles (n, 3, 3) of the mesh file at a path, as "triangles": in file units; of COLLADA in m, its up axis
     ignored as in RViz and Gazebo (github.com/ros-visualization/rviz/issues/1045).
-
-    Raises:
-        DependencyError: If trimesh is missing.
-        PlantarError: If COLLADA declares entities, or has more elements than a mesh.
     """
     if path.suffix.lower() == ".dae":
         parse_xml(path.read_bytes(), PlantarError, str(path))

@@ -21,9 +21,8 @@ _SEEN = 1024  # bytes in which the zeros of UTF-16 are looked for
 class TextTable(NamedTuple):
     """Table with a row of names.
 
-    Attributes:
-        names: In lower case, without surrounding spaces.
-        rows: Line number and cells of each non-empty row; any count of cells.
+    `names` in lower case, without surrounding spaces; `rows`: line number and cells of each non-empty row; any count of
+    cells.
     """
 
     names: list[str]

@@ -24,15 +24,7 @@ class Section(NamedTuple):
 def page(title: str, about: str, sections: Sequence[Section], script: str = "", style: str = "") -> str:
     """Whole page without other files or network.
 
-    Args:
-        title: Plain text.
-        about: HTML below the title: a line, or facts.
-        sections: Listed in the menu.
-        script: HTML at the end.
-        style: Own style sheet, after the common one.
-
-    Returns:
-        HTML.
+    `about`: HTML below the title: a line, or facts; `style`: own style sheet, after the common one.
     """
     menu = "".join(f'<li><a href="#{key}">{name}</a></li>' for key, name, _ in sections)
     body = "\n".join(
@@ -79,18 +71,7 @@ def warning_list(warnings: Iterable[str]) -> str:
 
 
 def table(label: str, caption: str, head: Iterable[str], rows: Iterable[str], words: Iterable[str] = ()) -> str:
-    """Table that scrolls by itself on narrow pages.
-
-    Args:
-        label: For screen readers.
-        caption: HTML.
-        head: HTML of each column.
-        rows: Of `row` and `group_row`.
-        words: Heads of left-aligned word columns; numbers end right.
-
-    Returns:
-        HTML.
-    """
+    """Table that scrolls by itself on narrow pages. `words`: heads of left-aligned word columns; numbers end right."""
     heads = list(head)
     left = set(words)
     names = "".join(f'<th scope="col">{name}</th>' for name in heads)

@@ -73,9 +73,6 @@ def _dimension(unit: str) -> tuple[int, ...]:
 def si_unit(unit: str) -> str:
     """A unit with SI units in place of the body's.
 
-    Raises:
-        InputError: If it is no unit.
-
     Example:
         >>> si_unit("rad/beat/weight/leg"), si_unit("weight")
         ('rad/s/N/m', 'N')
@@ -88,15 +85,8 @@ def si_unit(unit: str) -> str:
 class BodyScale:
     """Size of a robot, for its shares.
 
-    Attributes:
-        mass: In kg.
-        leg: From hip over knee to ankle in m.
-        sole: Length in m.
-        sole_width: In m.
-        pace_beats: Beats of a pace: 1, or more for slow motors.
-
-    Raises:
-        InputError: Unless finite and above 0.
+    `mass` in kg; `leg` from hip over knee to ankle in m; `sole`: length in m; `sole_width` in m; `pace_beats`: beats of
+    a pace: 1, or more for slow motors.
 
     Example:
         >>> body = BodyScale(mass=33.0, leg=0.5, sole=0.2, sole_width=0.1)
@@ -158,10 +148,8 @@ class Quantity:
 
     @classmethod
     def parsed(cls, text: str) -> Quantity | None:
-        """A quantity from a text such as "0.083 weight" or "1/3 leg"; None unless it begins with a number and a space.
-
-        Raises:
-            InputError: If its unit is unknown.
+        """A quantity from a text such as "0.083 weight" or "1/3 leg"; None unless it begins with a
+        number and a space.
         """
         match = _QUANTITY.fullmatch(text)
         if match is None or (match[2] is not None and float(match[2]) == 0.0):

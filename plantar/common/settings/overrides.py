@@ -11,11 +11,7 @@ from plantar.errors import SceneError
 
 
 def split_setting(setting: str) -> tuple[str, str]:
-    """Key and text of a setting "key=value".
-
-    Raises:
-        SceneError: If malformed.
-    """
+    """Key and text of a setting "key=value"."""
     key, equals, text = str(setting).partition("=")
     if not equals or not key.strip():
         raise SceneError(f"setting {setting!r} is not of the form key=value, such as steps=4")
@@ -25,16 +21,7 @@ def split_setting(setting: str) -> tuple[str, str]:
 def owner_of(key: str, text: str, *groups: Mapping[str, Sequence[str]]) -> tuple[str, str]:
     """Table and name of a setting's key.
 
-    Args:
-        key: "table.name", or the name alone if only one table of the first group with it has it.
-        text: Its value, for messages.
-        groups: Names of each table's settings, in order of precedence.
-
-    Returns:
-        Table and name.
-
-    Raises:
-        SceneError: If unknown or ambiguous; the message names the nearest.
+    `key`: "table.name", or the name alone if only one table of the first group with it has it.
 
     Example:
         >>> owner_of("steps", "4", {"walk": ["steps"], "push": ["step"]})

@@ -69,12 +69,7 @@ def text(default: str) -> Any:
 class Setting(NamedTuple):
     """Description of one setting.
 
-    Attributes:
-        default: As TOML writes it.
-        unit: Empty for words and switches.
-        allowed: Range or choices.
-        meaning: What it does.
-        share: Default as a share of body, or empty.
+    `unit`: empty for words and switches; `share`: default as a share of body, or empty.
     """
 
     name: str

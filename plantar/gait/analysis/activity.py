@@ -52,10 +52,8 @@ _SHORTEST = 5.0  # Time in s of standing under which sway means nothing: its slo
 class Activity:
     """Activity in a recording.
 
-    Attributes:
-        name: "walking", "running", "standing", "walking up stairs", "walking down stairs", "toe walking", "walking
-            without heel strike" (stairs up, a slope or a forefoot gait: not known which), "hopping" or "unknown".
-        why: Reason.
+    `name`: "walking", "running", "standing", "walking up stairs", "walking down stairs", "toe walking", "walking
+    without heel strike" (stairs up, a slope or a forefoot gait: not known which), "hopping" or "unknown".
     """
 
     name: str
@@ -215,14 +213,10 @@ def _is_lifted(force: NDArray[np.float64], usual: float) -> bool:
 def sway_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dict[str, float]:
     """Returns distance and speed of the CoP in standing, by key.
 
-    Args:
-        time: Times (n,) in s.
-        points: Positions (n, 2) forward and to the left in m, NaN for none.
-
-    Returns:
-        sway_ellipse_m2 (95 % prediction ellipse: 5.99 pi times the root of the covariance's determinant; Schubert &
-        Kirchner 2014, Gait Posture 39:518), sway_path_m (see `chords`), sway_velocity_m_s, sway_ap_m and sway_ml_m
-        (standard deviations). Empty below 5 s.
+    `time`: times (n,) in s; `points`: positions (n, 2) forward and to the left in m, NaN for none. Returns
+    sway_ellipse_m2 (95 % prediction ellipse: 5.99 pi times the root of the covariance's determinant; Schubert &
+    Kirchner 2014, Gait Posture 39:518), sway_path_m (see `chords`), sway_velocity_m_s, sway_ap_m and sway_ml_m
+    (standard deviations). Empty below 5 s.
 
     Example:
         >>> t = np.linspace(0.0, 10.0, 1001)

@@ -36,11 +36,7 @@ def analyse_one(
 ) -> Analysis:
     """Returns analysis of one recording.
 
-    Args:
-        given: Any form of `plantar.formats.given.recording_of`.
-        format: As of `analyse_recording`, like `choices` and `subject`.
-        options: What else is known.
-        progress: Called with a share 0..0.5 and the work.
+    `given`: any form of `plantar.formats.given.recording_of`; `progress`: called with a share 0..0.5 and the work.
     """
     report = progress or (lambda fraction, text: None)
     known = options or ReadOptions()
@@ -76,25 +72,16 @@ def analyse_recording(
     """Analyse a recording or footprint image; write metrics.json, tables, figures (PNG and SVG) and report.html.
 
     Args:
-        path: Recording or image.
         out: Output folder, made if needed; left empty on an error.
         format: By content where None.
         layout: Layout file; mirrored for the other foot.
         progress: Called with a share 0..1 and the work.
-        options: What else is known.
         mm_per_pixel: Of an image, in mm.
         choices: Steps in the means, and events used; of recordings only.
-        subject: Person.
         also: Called with analysis and folder, to write more; see `plantar.gait.analysis.exports.exporter`.
-        figures: Whether figures and report.html are written.
 
     Returns:
         Contents of metrics.json, and "files": paths written.
-
-    Raises:
-        FormatError: If unreadable.
-        LayoutError: If the layout is invalid.
-        InputError: If unwritable, or options unfit.
     """
     report = progress or (lambda fraction, text: None)
     report(0.0, "reading")

@@ -45,20 +45,9 @@ def compare_recordings(
 ) -> dict[str, Any]:
     """Analyse two recordings; write comparison.json, figures, report.html, and folders "a" and "b" with each analysis.
 
-    Args:
-        a: First recording.
-        b: Second one.
-        out: Output folder.
-        format: Of both; `progress`, `choices`, `subject` and `figures` likewise as of `analyse_recording`.
-        layout: Layout file for both.
-        options: What else is known of both.
-
-    Returns:
-        "a" and "b": metrics of each; "difference": `difference_of` each foot; "warnings"; "files": paths written.
-
-    Raises:
-        FormatError: If unreadable.
-        InputError: For images, events files, unwritable folders.
+    `format` of both; `progress`, `choices`, `subject` and `figures` likewise as of `analyse_recording`; `options`: what
+    else is known of both. Returns "a" and "b": metrics of each; "difference": `difference_of` each foot; "warnings";
+    "files": paths written.
     """
     report = progress or (lambda fraction, text: None)
     (choices or AnalysisOptions()).of_several("--compare takes")
@@ -128,14 +117,8 @@ def _pairs(a: Analysis, b: Analysis) -> dict[str, tuple[Side, Side]]:
 def difference_of(analyses: Mapping[str, Analysis], one: Side, other: Side) -> dict[str, Any]:
     """Difference B - A of each measure that both recordings have.
 
-    Args:
-        analyses: "a" and "b".
-        one: Foot of A.
-        other: Foot of B.
-
-    Returns:
-        For each measure "a" and "b" (mean, sd, cv_percent, n), "difference", "percent" (of A) and "effect_size"
-        (Cohen's d).
+    `analyses`: "a" and "b". Returns for each measure "a" and "b" (mean, sd, cv_percent, n), "difference", "percent" (of
+    A) and "effect_size" (Cohen's d).
     """
     first = analyses["a"].metrics["feet"][one]["measures"]
     second = analyses["b"].metrics["feet"][other]["measures"]

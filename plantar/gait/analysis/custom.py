@@ -27,11 +27,8 @@ _FARTHEST = 2.0  # Largest distance of a mask's corner from the middle of the fo
 class StepView:
     """Input of a user-defined measure.
 
-    Attributes:
-        step: Step with its measures.
-        load: Times (m,), forces (m, k) in N, pressures (m, k) in Pa, loaded cells (m, k).
-        cop: CoP (m, 2) in m, NaN without load; None without geometry.
-        places: Foot coordinates (k, 2) of cells; None without geometry.
+    `load`: times (m,), forces (m, k) in N, pressures (m, k) in Pa, loaded cells (m, k); `cop`: CoP (m, 2) in m, NaN
+    without load; None without geometry; `places`: foot coordinates (k, 2) of cells; None without geometry.
     """
 
     step: Step

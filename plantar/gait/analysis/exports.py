@@ -28,10 +28,8 @@ from plantar.recordings.pressure_recording import PressureRecording
 class GroundReaction(NamedTuple):
     """Ground reaction on one foot.
 
-    Attributes:
-        force: Force (n, 3) in N, NaN if unmeasured; horizontal parts 0 without wrench.
-        cop: Point (n, 2) in m, 0 without load.
-        free: Free vertical moment (n,) there in N m.
+    `force`: force (n, 3) in N, NaN if unmeasured; horizontal parts 0 without wrench; `cop`: point (n, 2) in m, 0
+    without load; `free`: free vertical moment (n,) there in N m.
     """
 
     force: NDArray[np.float64]
@@ -144,12 +142,7 @@ def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Pa
 
 
 def exporter(formats: Sequence[str]) -> Callable[[Analysis, Path], None] | None:
-    """Function that writes an analysis in `formats`, such as "c3d" or ".csv", into a folder; None without formats.
-
-    Raises:
-        InputError: If a format is unknown.
-        DependencyError: If a package is missing.
-    """
+    """Function that writes an analysis in `formats`, such as "c3d" or ".csv", into a folder; None without formats."""
     suffixes = list(dict.fromkeys(f".{text.lower().removeprefix('.')}" for text in formats))
     for suffix in suffixes:
         if suffix not in EXPORTS:

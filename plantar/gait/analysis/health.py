@@ -40,9 +40,7 @@ _STRIDES = 4
 class SilentCells(NamedTuple):
     """Cells that read 0 among loaded cells.
 
-    Attributes:
-        cells: Indices (m,).
-        missing: Force they lack, as share of the foot's.
+    `cells`: indices (m,); `missing`: force they lack, as share of the foot's.
     """
 
     cells: NDArray[np.int64]

@@ -6,14 +6,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Measure:
-    """One measure.
-
-    Attributes:
-        title: Name in reports.
-        unit: Unit in reports.
-        factor: SI to that unit.
-        group: Heading.
-    """
+    """One measure. `unit`: unit in reports; `factor`: SI to that unit."""
 
     title: str
     unit: str

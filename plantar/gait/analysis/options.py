@@ -15,15 +15,11 @@ ACTIVITIES = ("walking", "running", "hopping")
 class AnalysisOptions:
     """Analysis choices.
 
-    Attributes:
-        steps: First and last step number of each foot in the means; "steady" for steady walking, "all" for all complete
-            ones.
-        begin: Time in s before which steps do not count.
-        end: Time in s after which steps do not count.
-        segment: Activity in the means, such as "walking"; the one with most steps where None.
-        baseline: "auto" removes swing readings that are an offset; "keep" leaves them.
-        events: "own" finds events in the force; "vendor" uses those stored in the file; else the path of an events file
-            (see `plantar.formats.stated_events`).
+    `steps`: first and last step number of each foot in the means; "steady" for steady walking, "all" for all complete
+    ones; `begin`: time in s before which steps do not count; `end`: time in s after which steps do not count;
+    `segment`: activity in the means, such as "walking"; the one with most steps where None; `baseline`: "auto" removes
+    swing readings that are an offset; "keep" leaves them; `events`: "own" finds events in the force; "vendor" uses
+    those stored in the file; else the path of an events file (see `plantar.formats.stated_events`).
     """
 
     steps: tuple[int, int] | Literal["steady", "all"] = "steady"

@@ -59,6 +59,9 @@ def analyse_feet(
         recording: Platforms with feet separated.
         prints: Platform footprints.
         options: Steps in the means.
+
+    Raises:
+        InputError: No step is of the chosen segment.
     """
     known = options or AnalysisOptions()
     if known.events != "own":

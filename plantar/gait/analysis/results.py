@@ -24,13 +24,7 @@ _LONG = 500  # Steps from which metrics.json is one line
 
 @dataclass(frozen=True, eq=False)
 class Analysis:
-    """Recording, its feet and their measures.
-
-    Attributes:
-        recording: Of platforms with footprints separated.
-        feet: Gait of each foot.
-        metrics: Contents of metrics.json.
-    """
+    """Recording, its feet and their measures. `recording` of platforms with footprints separated."""
 
     recording: PressureRecording
     feet: Mapping[Side, FootGait]

@@ -24,13 +24,7 @@ _DISAGREE = 0.3
 class Subject:
     """Person or robot, if known.
 
-    Attributes:
-        name: Name or number, or empty.
-        mass_kg: Body mass in kg, or None.
-        foot_length_m: In m, or None.
-
-    Raises:
-        InputError: If mass or length impossible.
+    `name`: name or number, or empty; `mass_kg`: body mass in kg, or None; `foot_length_m` in m, or None.
     """
 
     name: str = ""
@@ -78,9 +72,8 @@ def mass_doubts(subject: Subject, implied: float | None) -> list[str]:
 def device_of(recording: PressureRecording) -> dict[str, Any]:
     """Device of a recording, if the file states it.
 
-    Returns:
-        "name" (of the format), "sensor" (the file's name, or None), and for each foot with geometry "layout", "cells",
-        and the sole's or platform's "length_m" and "width_m".
+    Returns "name" (of the format), "sensor" (the file's name, or None), and for each foot with geometry "layout",
+    "cells", and the sole's or platform's "length_m" and "width_m".
     """
     known = formats().get(recording.format)
     facts = recording.metadata

@@ -53,13 +53,7 @@ class Saturation(StrEnum):
 
 
 class AnkleVrp(NamedTuple):
-    """VRP of the ankle strategy.
-
-    Attributes:
-        vrp: u_ref (2,) in m.
-        gain: Derivative by the DCM, on both axes; above 1.
-        saturated: Its limit.
-    """
+    """VRP of the ankle strategy. `vrp`: u_ref (2,) in m; `gain`: derivative by the DCM, on both axes; above 1."""
 
     vrp: NDArray[np.float64]
     gain: float
@@ -69,10 +63,7 @@ class AnkleVrp(NamedTuple):
 class TargetDcms(NamedTuple):
     """Desired DCM at the ends of the phases (K 21-24).
 
-    Attributes:
-        double_end: xi_d (2,) in m.
-        single_end: xi_s (2,) in m.
-        slope: d xi_s / d u_e, on both axes.
+    `double_end`: xi_d (2,) in m; `single_end`: xi_s (2,) in m; `slope`: d xi_s / d u_e, on both axes.
     """
 
     double_end: NDArray[np.float64]
@@ -101,12 +92,6 @@ def target_dcms(
         double_support: T_d in s, 0 or more; 0 transfers at once.
         offset: Push's u_w (2,) in m.
         omega: Pendulum's in rad/s.
-
-    Returns:
-        The targets.
-
-    Raises:
-        InputError: Non-finite or misshaped place.
     """
     places = (place, "footstep"), (stance, "place of the stance foot"), (next_stride, "stride of the next step")
     end, start, stride = (_pair(*place) for place in places)
@@ -123,12 +108,7 @@ def target_dcms(
 def sway_share(omega: float, double_support: float) -> float:
     """Share -1..0 of u_e - u_i for gradual VRPs (K 24), e^(-w T_d) (1 - C_d w) - (1 - C_d w_d).
 
-    Args:
-        omega: Pendulum's in rad/s.
-        double_support: T_d in s, 0 or more.
-
-    Returns:
-        The share.
+    `omega`: pendulum's in rad/s; `double_support`: T_d in s, 0 or more. Returns the share.
 
     Example:
         >>> round(sway_share(3.5, 0.2), 4), sway_share(3.5, 0.0)
@@ -144,18 +124,8 @@ def sway_share(omega: float, double_support: float) -> float:
 def single_support_vrp(dcm: ArrayLike, target: ArrayLike, left: float, offset: ArrayLike, omega: float) -> AnkleVrp:
     """VRP for a target DCM at single support's end (K 25), unlimited (see `within_support`).
 
-    Args:
-        dcm: (2,) in m.
-        target: xi_s (2,) in m.
-        left: In s, at least `SHORTEST_TIME`.
-        offset: Push's u_w (2,) in m.
-        omega: Pendulum's in rad/s.
-
-    Returns:
-        The VRP.
-
-    Raises:
-        InputError: Non-finite or misshaped place.
+    `dcm` (2,) in m; `target`: xi_s (2,) in m; `left` in s, at least `SHORTEST_TIME`; `offset`: push's u_w (2,) in m;
+    `omega`: pendulum's in rad/s.
     """
     now = _pair(dcm, "DCM")
     goal = _pair(target, "target of the DCM")
@@ -187,12 +157,6 @@ def double_support_vrp(
         begun: T_c since its begin in s; at least `SHORTEST_TIME` before its end.
         offset: Push's u_w (2,) in m.
         omega: Pendulum's in rad/s.
-
-    Returns:
-        The VRP.
-
-    Raises:
-        InputError: Non-finite or misshaped place.
     """
     now = _pair(dcm, "DCM")
     goal = _pair(target, "target of the DCM")
@@ -209,13 +173,7 @@ def double_support_pull(omega: float, duration: float, left: float) -> float:
 
     Integral of w e^(-w s) q(s), q from 1 to 0 as 1 - sin(w_d t); no 0 / 0 as in K 25.
 
-    Args:
-        omega: Pendulum's in rad/s.
-        duration: T_d in s.
-        left: Time to its end in s, above 0.
-
-    Returns:
-        The displacement.
+    `omega`: pendulum's in rad/s; `duration`: T_d in s; `left`: time to its end in s, above 0.
     """
     rate = 0.5 * math.pi / duration
     half = math.sin(0.5 * rate * left) ** 2
@@ -234,17 +192,8 @@ def shrunk_support(
 ) -> NDArray[np.float64]:
     """Ankle strategy's part (k, 2) in m of a support polygon, f(c) S, f(c) = (beta_x, beta_y) (K 27).
 
-    Args:
-        polygon: S (k, 2), world, in m.
-        rules: Shares along and across the sole.
-        middle: Stance foot's (2,) in m, about which it shrinks.
-        yaw: Sole's heading in rad.
-
-    Returns:
-        The smaller polygon.
-
-    Raises:
-        InputError: Non-finite or misshaped middle.
+    `polygon`: S (k, 2), world, in m; `rules`: shares along and across the sole; `middle`: stance foot's (2,) in m,
+    about which it shrinks; `yaw`: sole's heading in rad.
     """
     about = _pair(middle, "middle")
     c = math.cos(yaw)
@@ -259,15 +208,7 @@ def shrunk_support(
 def within_support(wanted: AnkleVrp, support: ArrayLike) -> AnkleVrp:
     """A VRP, or the closest in the support polygon (`Saturation.SUPPORT`: only a step reaches the target, K 27).
 
-    Args:
-        wanted: Ankle strategy's VRP.
-        support: Convex, shrunk (k, 2) in m; empty for no limit.
-
-    Returns:
-        The VRP.
-
-    Raises:
-        InputError: Non-finite or misshaped polygon.
+    `support`: convex, shrunk (k, 2) in m; empty for no limit.
     """
     nearest = closest_point(support, wanted.vrp)
     if nearest is None or (nearest[0] == wanted.vrp[0] and nearest[1] == wanted.vrp[1]):

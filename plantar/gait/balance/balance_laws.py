@@ -21,12 +21,6 @@ LAWS = ("com_admittance", "wrench_distribution")
 def balance_gains(table: Mapping[str, Any]) -> LawGains:
     """Gains of the law that a `[balance]` table names.
 
-    Args:
-        table: `law` and its gains.
-
-    Raises:
-        InputError: Unknown or disallowed setting.
-
     Example:
         >>> balance_gains({"law": "com_admittance", "dcm_gain": 3.0}).dcm_gain
         3.0
@@ -44,17 +38,7 @@ def balance_gains(table: Mapping[str, Any]) -> LawGains:
 
 
 def balance_law(gains: LawGains, omega: float, mass: float, period: float) -> BalanceLaw:
-    """The law of these gains.
-
-    Args:
-        gains: Gains of a law.
-        omega: Pendulum's in rad/s.
-        mass: Robot's in kg.
-        period: Of control in s.
-
-    Returns:
-        A new law.
-    """
+    """The law of these gains. `omega`: pendulum's in rad/s; `mass`: robot's in kg; `period` of control in s."""
     if isinstance(gains, BalanceGains):
         return DcmBalance(gains, omega, mass, period)
     from plantar.gait.balance.wrench_balance import WrenchBalance

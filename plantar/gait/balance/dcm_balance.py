@@ -42,13 +42,8 @@ class BalanceGains(Part, table="balance"):
 class DcmBalance:
     """DCM feedback with CoM admittance.
 
-    Args:
-        gains: Gains.
-        omega: Pendulum's in rad/s.
-        mass: Robot's in kg.
-        period: Of control in s.
-        integral: Of the DCM error: gain in 1/s, decay in 1/s, limit in m.
-        admittance: Gains of the feet's.
+    `omega`: pendulum's in rad/s; `mass`: robot's in kg; `period` of control in s; `integral` of the DCM error: gain in
+    1/s, decay in 1/s, limit in m.
     """
 
     wants_contacts = False

@@ -35,12 +35,8 @@ class AdmittanceGains(Settings):
 class FootAdmittance:
     """Admittance of both feet.
 
-    Attributes:
-        corrections: Of each commanded sole: `roll`, `pitch` in rad about its axes, `shift` in m upwards.
-
-    Args:
-        gains: The gains.
-        period: Of control in s.
+    Attributes `corrections` of each commanded sole: `roll`, `pitch` in rad about its axes, `shift` in m upwards.
+    `period` of control in s.
     """
 
     def __init__(self, gains: AdmittanceGains, period: float) -> None:

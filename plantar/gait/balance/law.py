@@ -17,11 +17,8 @@ from plantar.mechanics.contact import Contact
 class BalanceState(Record, frozen=True):
     """A balance law's decision, world frame.
 
-    Attributes:
-        zmp_desired: p_d (2,) in m, in the support polygon.
-        com: Reference (2,) in m after admittance.
-        com_velocity: Its rate (2,) in m/s.
-        com_acceleration: For the desired ZMP (2,) in m/s^2.
+    `zmp_desired`: p_d (2,) in m, in the support polygon; `com`: reference (2,) in m after admittance; `com_velocity`:
+    its rate (2,) in m/s; `com_acceleration`: for the desired ZMP (2,) in m/s^2.
     """
 
     zmp_desired: NDArray[np.float64]
@@ -33,14 +30,10 @@ class BalanceState(Record, frozen=True):
 class FootState(Record, frozen=True):
     """A foot as balance laws see it, command frame.
 
-    Attributes:
-        position: Commanded sole origin (3,) in m.
-        level: Sole's commanded rotation (3, 3) before foot damping.
-        rotation: The same after foot damping.
-        center: Point (2,) of the sole in m to load.
-        contact: Frame in the world, loadable part, desired center of pressure; None in the air or without
-            `wants_contacts`.
-        wrench: Measured (6,), sole frame, about its origin, by the world; None in the air, or while walking without it.
+    `position`: commanded sole origin (3,) in m; `level`: sole's commanded rotation (3, 3) before foot damping;
+    `rotation`: the same after foot damping; `center`: point (2,) of the sole in m to load; `contact`: frame in the
+    world, loadable part, desired center of pressure; None in the air or without `wants_contacts`; `wrench`: measured
+    (6,), sole frame, about its origin, by the world; None in the air, or while walking without it.
     """
 
     position: NDArray[np.float64]
@@ -54,11 +47,8 @@ class FootState(Record, frozen=True):
 class Feet(Record, frozen=True):
     """Both feet at a tick.
 
-    Attributes:
-        states: Each foot.
-        stance: Single support's carrying foot, else None.
-        frame: Command frame.
-        rests: Whether the robot stands after a walk.
+    `stance`: single support's carrying foot, else None; `frame`: command frame; `rests`: whether the robot stands after
+    a walk.
     """
 
     states: Mapping[Side, FootState]
@@ -70,12 +60,8 @@ class Feet(Record, frozen=True):
 class FootAction(Record, frozen=True):
     """Ground's desired wrench on a foot, and its yielding.
 
-    Attributes:
-        force: (3,) in N, command frame.
-        center_of_pressure: (2,), command frame, in m, without a horizontal moment.
-        roll: Sole's turn in rad about its x axis.
-        pitch: About its y axis in rad.
-        shift: Sole's in m upwards.
+    `force` (3,) in N, command frame; `center_of_pressure` (2,), command frame, in m, without a horizontal moment;
+    `roll`: sole's turn in rad about its x axis; `pitch`: about its y axis in rad; `shift`: sole's in m upwards.
     """
 
     force: NDArray[np.float64]
@@ -88,9 +74,8 @@ class FootAction(Record, frozen=True):
 class BalanceLaw(Protocol):
     """Protocol of a balance law.
 
-    Attributes:
-        wants_contacts: Whether it needs the feet's contacts and measured wrenches.
-        states: Counts of its named end states; empty without states.
+    `wants_contacts`: whether it needs the feet's contacts and measured wrenches; `states`: counts of its named end
+    states; empty without states.
     """
 
     wants_contacts: bool
@@ -106,26 +91,11 @@ class BalanceLaw(Protocol):
     ) -> BalanceState:
         """Decide on CoM and ZMP.
 
-        Args:
-            reference: Plan now.
-            dcm: Measured (2,) in m.
-            zmp: Measured (2,) in m; None if no foot is loaded.
-            region: For the desired ZMP: convex (k, 2), world, in m; empty for no limit.
-            firm: Whether feet can go anywhere.
-
-        Returns:
-            The decision.
+        `dcm`: measured (2,) in m; `zmp`: measured (2,) in m; None if no foot is loaded; `region`: for the desired ZMP:
+        convex (k, 2), world, in m; empty for no limit; `firm`: whether feet can go anywhere.
         """
         ...
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
-        """Share the ground's wrench between the feet.
-
-        Args:
-            balanced: From `update`, this tick.
-            feet: Both.
-
-        Returns:
-            For each foot.
-        """
+        """Share the ground's wrench between the feet."""
         ...

@@ -32,11 +32,7 @@ def transferred(balanced: BalanceState, mass: float, feet: Feet) -> dict[Side, F
 
 
 class OpenLoop:
-    """Follows the plan (`plantar.gait.balance.law.BalanceLaw`).
-
-    Args:
-        mass: Robot's in kg.
-    """
+    """Follows the plan (`plantar.gait.balance.law.BalanceLaw`). `mass`: robot's in kg."""
 
     wants_contacts = False
 

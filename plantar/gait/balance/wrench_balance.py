@@ -74,12 +74,8 @@ class WrenchBalanceGains(Part, table="balance"):
 class WrenchBalance(DcmBalance):
     """DCM feedback, wrench distribution and foot admittance.
 
-    Args:
-        gains: The law's.
-        omega: Pendulum's in rad/s.
-        mass: Robot's in kg.
-        period: Of control in s.
-        weights: For the distribution, whose end states `states` counts.
+    `omega`: pendulum's in rad/s; `mass`: robot's in kg; `period` of control in s; `weights`: for the distribution,
+    whose end states `states` counts.
     """
 
     wants_contacts = True

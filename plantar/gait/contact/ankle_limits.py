@@ -20,10 +20,8 @@ _ANYWHERE = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])  # m 
 class AnkleLimits:
     """Where one foot alone carries the body.
 
-    Args:
-        strips: (m, 5), sole frame, one a joint, within its torque: unit normal (x, y), middle and half width in m, and
-            the ankle's height in m.
-        margin: Desired ZMP from a support polygon's edge in m.
+    `strips` (m, 5), sole frame, one a joint, within its torque: unit normal (x, y), middle and half width in m, and the
+    ankle's height in m; `margin`: desired ZMP from a support polygon's edge in m.
     """
 
     def __init__(self, strips: NDArray[np.float64], margin: float) -> None:

@@ -16,12 +16,8 @@ from plantar.sensing.reading import Reading
 class ContactMemory:
     """A foot's contacts over its stance.
 
-    Args:
-        layout: Of the sole.
-        least_force: Running mean in N of a carrying cell.
-        gap: Rise in m of a lifted cell.
-        least_share: Carrying cell's load over an even share.
-        smoothing: New reading's weight in the running mean.
+    `least_force`: running mean in N of a carrying cell; `gap`: rise in m of a lifted cell; `least_share`: carrying
+    cell's load over an even share; `smoothing`: new reading's weight in the running mean.
     """
 
     def __init__(

@@ -38,12 +38,7 @@ class _Foothold:
 
 
 class EdgeMemory:
-    """Edges under the last footholds.
-
-    Args:
-        body: Robot's dimensions.
-        memory: Footholds that count.
-    """
+    """Edges under the last footholds."""
 
     def __init__(self, body: BodyScale = REFERENCE_BODY, memory: int = 5) -> None:
         self._spread = _SPREAD * body.sole

@@ -64,8 +64,6 @@ class FootholdFound:
     """Foothold as found.
 
     Attributes:
-        step: Its step.
-        side: Which foot.
         polygon: Support (k, 2), world frame, in m, counter-clockwise.
         area_ratio: Share of the sole's cells.
         vrp: (2,), world frame, in m.
@@ -88,13 +86,7 @@ class FootholdFound:
 
 @dataclass(frozen=True)
 class FootholdSeen:
-    """Partial foothold that a descending foot sees.
-
-    Attributes:
-        step: Its step.
-        side: Which foot.
-        vrp: VRP (2,), world frame, in m.
-    """
+    """Partial foothold that a descending foot sees. `vrp`: VRP (2,), world frame, in m."""
 
     step: int
     side: Side
@@ -117,12 +109,8 @@ class _Foot:
 class FootContacts:
     """Contacts of both feet.
 
-    Args:
-        settings: Contact polygon's.
-        layouts: Of each side.
-        reach: Distance in m along the sole, from its origin, at which an ankle bears the robot.
-        limits: Each ankle's torque limits, or None.
-        sensing_range: Of proximity, in m.
+    `reach`: distance in m along the sole, from its origin, at which an ankle bears the robot; `limits`: each ankle's
+    torque limits, or None; `sensing_range` of proximity, in m.
     """
 
     def __init__(

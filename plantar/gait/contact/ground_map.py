@@ -56,11 +56,9 @@ class GroundMapSettings(
 class GroundView:
     """The ground under a swinging sole.
 
-    Attributes:
-        distance: Down to the first contact in m.
-        middle: Down under the sole's middle in m; the same without a plane.
-        slope: Of the ground along the sole's x, y (tangents) to turn by; None if too little is seen.
-        even: Whether nearly all lies on one plane.
+    `distance`: down to the first contact in m; `middle`: down under the sole's middle in m; the same without a plane;
+    `slope` of the ground along the sole's x, y (tangents) to turn by; None if too little is seen; `even`: whether
+    nearly all lies on one plane.
     """
 
     distance: float
@@ -70,15 +68,7 @@ class GroundView:
 
 
 class GroundMap:
-    """Ground under one sole since lift-off.
-
-    Attributes:
-        bias: Distances' known excess in m.
-
-    Args:
-        layout: Of the sole.
-        settings: Settings.
-    """
+    """Ground under one sole since lift-off. `bias`: distances' known excess in m."""
 
     def __init__(self, layout: SoleLayout, settings: GroundMapSettings) -> None:
         self.layout = layout

@@ -70,13 +70,7 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
 
 
 class StanceContact:
-    """A foot's support over its stance.
-
-    Args:
-        layout: Of the sole, n taxels.
-        settings: Settings.
-        sensing_range: Of proximity, in m.
-    """
+    """A foot's support over its stance. `sensing_range` of proximity, in m."""
 
     def __init__(self, layout: SoleLayout, settings: ContactSettings, sensing_range: float = math.inf) -> None:
         self.layout = layout

@@ -17,13 +17,9 @@ _AGREEMENT = 0.16
 class SupportStrip:
     """Ground's middle line by centroids of partial footholds.
 
-    Attributes:
-        origin: Point (2,) on the walk's line in m.
-        along: Its unit direction (2,).
-        spread: Standard deviation of a foothold's centroid in m.
-        slope: Standard deviation of the strip's slope to the walk.
-        agreement: Largest distance in m across the walk of footholds on one strip.
-        memory: Footholds that count.
+    `origin`: point (2,) on the walk's line in m; `along`: its unit direction (2,); `spread`: standard deviation of a
+    foothold's centroid in m; `slope`: standard deviation of the strip's slope to the walk; `agreement`: largest
+    distance in m across the walk of footholds on one strip.
     """
 
     origin: NDArray[np.float64]

@@ -12,8 +12,7 @@ from plantar.mechanics.lip import GRAVITY
 class SoleWrench:
     """Ground wrench on a sole, with a percept's interface.
 
-    Attributes:
-        wrench_in_sole: (6,) about the sole's origin in N and N m, by the world on the robot.
+    `wrench_in_sole` (6,) about the sole's origin in N and N m, by the world on the robot.
     """
 
     wrench_in_sole: NDArray[np.float64]
@@ -34,11 +33,8 @@ class SoleWrench:
 class AnkleSensor:
     """Ankle force-torque sensor and what hangs below it.
 
-    Attributes:
-        position: Sensor origin (3,), sole frame, in m.
-        rotation: Sensor to sole (3, 3).
-        mass: Foot and shoe below the sensor in kg.
-        com: Their CoM (3,), sole frame, in m.
+    `position`: sensor origin (3,), sole frame, in m; `rotation`: sensor to sole (3, 3); `mass`: foot and shoe below the
+    sensor in kg; `com`: their CoM (3,), sole frame, in m.
     """
 
     position: NDArray[np.float64]

@@ -14,12 +14,8 @@ Readings: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np
 class BodySensors:
     """Bridges missing readings of encoders and IMU.
 
-    Args:
-        period: Of control in s.
-        bridged: Longest use of the last readings in s.
-
-    Attributes:
-        blind: Whether readings were missing longer; final.
+    `period` of control in s; `bridged`: longest use of the last readings in s. Attributes `blind`: whether readings
+    were missing longer; final.
     """
 
     def __init__(self, period: float, bridged: float) -> None:
@@ -31,11 +27,7 @@ class BodySensors:
     def usable(self, readings: Readings) -> Readings | None:
         """Readings to use: given, or the last complete if a number is missing; None if blind.
 
-        Args:
-            readings: Joint angles (k,) in rad, angular velocity (3,) in rad/s and specific force (3,) in m/s^2.
-
-        Raises:
-            InputError: No complete reading yet.
+        `readings`: joint angles (k,) in rad, angular velocity (3,) in rad/s and specific force (3,) in m/s^2.
         """
         if self.blind:
             return None

@@ -6,10 +6,7 @@ class CoMHeight:
 
     A first-order filter starts with speed at each slab: an impact for stiff legs.
 
-    Args:
-        ground: Initial height in m.
-        period: Of control in s.
-        frequency: Natural frequency in rad/s.
+    `ground`: initial height in m; `period` of control in s; `frequency`: natural frequency in rad/s.
     """
 
     def __init__(self, ground: float, period: float, frequency: float = 8.0) -> None:

@@ -11,10 +11,8 @@ from plantar.kernels.base.vectors import vector, vector2
 class CommandFrame:
     """Offset and turn of the command frame in the world.
 
-    Args:
-        anchor: Initial foot position (3,), command frame, in m.
-        period: Of control in s.
-        time_constant: Of following in s.
+    `anchor`: initial foot position (3,), command frame, in m; `period` of control in s; `time_constant` of following in
+    s.
     """
 
     def __init__(self, anchor: NDArray[np.float64], period: float, time_constant: float) -> None:

@@ -32,10 +32,7 @@ class DcmFilterRules(Part, table="dcm_filter", needs={"control.dcm_estimate": ("
 class PushedPendulum(NamedTuple):
     """State of a `DcmFilter`.
 
-    Attributes:
-        com: CoM (2,) in m.
-        dcm: DCM (2,) in m.
-        unfelt: VRP offset (2,) in m by a push that no skin measures.
+    `com`: CoM (2,) in m; `dcm`: DCM (2,) in m; `unfelt`: VRP offset (2,) in m by a push that no skin measures.
     """
 
     com: NDArray[np.float64]
@@ -44,16 +41,7 @@ class PushedPendulum(NamedTuple):
 
 
 class DcmFilter:
-    """CoM and DCM from kinematic CoM, ZMP and measured push.
-
-    Args:
-        rules: Standard deviations.
-        omega: Pendulum's in rad/s.
-        period: Of control in s.
-
-    Raises:
-        InputError: Frequency or period not finite, positive.
-    """
+    """CoM and DCM from kinematic CoM, ZMP and measured push. `omega`: pendulum's in rad/s; `period` of control in s."""
 
     def __init__(self, rules: DcmFilterRules, omega: float, period: float) -> None:
         w = positive(omega, "pendulum frequency", "rad/s")

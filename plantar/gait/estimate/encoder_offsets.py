@@ -29,10 +29,8 @@ class _Posture(Protocol):
 class StandingTolerances(NamedTuple):
     """Standard deviations for a standing robot.
 
-    Attributes:
-        offset: Of an encoder's zero in rad.
-        place: Of each coordinate of a foot in m.
-        turn: Of a sole's angles to the ground, and mean accelerometer direction, in rad.
+    `offset` of an encoder's zero in rad; `place` of each coordinate of a foot in m; `turn` of a sole's angles to the
+    ground, and mean accelerometer direction, in rad.
     """
 
     offset: float
@@ -49,15 +47,9 @@ def encoder_offsets(
 ) -> NDArray[np.float64]:
     """Most probable reading less true angle (k,) in rad.
 
-    Args:
-        kinematics: Maps joint positions (k,) in rad to each sole's position (3,) in m and rotation (3, 3), base frame.
-        joint_positions: Mean encoders (k,) in rad.
-        up: Unit vector (3,) against gravity, base frame.
-        feet: Soles: x, y, z in m and heading in rad.
-        tolerances: Standard deviations.
-
-    Returns:
-        The offsets.
+    `kinematics`: maps joint positions (k,) in rad to each sole's position (3,) in m and rotation (3, 3), base frame;
+    `joint_positions`: mean encoders (k,) in rad; `up`: unit vector (3,) against gravity, base frame; `feet`: soles: x,
+    y, z in m and heading in rad.
     """
     k = len(joint_positions)
     offsets = np.zeros(k)

@@ -34,10 +34,7 @@ from plantar.mechanics.lip import GRAVITY
 class Posture(Record, frozen=True):
     """Kinematics of a joint configuration, base (torso) frame.
 
-    Attributes:
-        com: CoM (3,) in m.
-        positions: Sole origin (3,) of each foot in m.
-        rotations: Each sole to base (3, 3).
+    `com`: CoM (3,) in m; `positions`: sole origin (3,) of each foot in m; `rotations`: each sole to base (3, 3).
     """
 
     com: NDArray[np.float64]
@@ -115,16 +112,13 @@ class FloatingBaseEstimator:
     """Estimator of the floating base.
 
     Attributes:
-        kinematics: Robot's, forward.
         omega: Pendulum's in rad/s.
         period: Of control in s.
         feet: Initial standing pose (x, y, z, yaw) of each sole.
-        gains: Gains.
         gyro_bias: Gyro bias, correcting earlier heading too; None disables both.
         steady: Selects still feet for the gyro; None takes all loaded.
         push: Push by soles and IMU; None disables it.
         dcm_filter: Horizontal CoM and velocity; None uses the observer.
-        legs: By which a swing moves the base.
         push_acceleration: CoM's (2,) in m/s^2 by a push now.
     """
 
@@ -191,14 +185,10 @@ class FloatingBaseEstimator:
             joint_positions: Encoders (k,) in rad.
             gyro: Angular velocity (3,) of the base, base frame, in rad/s.
             accelerometer: Specific force (3,) of the base, base frame, in m/s^2.
-            soles: Each sole's load.
             planned_acceleration: CoM's (2,) in m/s^2.
             airborne: Foot high in the air by plan: its reading becomes its tare.
             felt: CoM's by a push on skin, for `push`; None: soles.
             swing: That (2,) of the swinging foot.
-
-        Returns:
-            The state.
         """
         posture = self._posture(joint_positions)
         if airborne is not None:

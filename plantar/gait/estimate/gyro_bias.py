@@ -20,15 +20,9 @@ class GyroBias:
 
     A foot counts by load; both-feet ticks count tenfold, as a single sole can turn on soft ground.
 
-    Attributes:
-        kernel: Compiled part, called within the estimator's.
-
-    Args:
-        period: Of control in s.
-        time_constant: Of the mean in s.
-        largest: Bias of an axis in rad/s.
-        piece: Its duration in s.
-        slip: Largest angle in rad by noise in a piece.
+    Attributes `kernel`: compiled part, called within the estimator's. `period` of control in s; `time_constant` of the
+    mean in s; `largest`: bias of an axis in rad/s; `piece`: its duration in s; `slip`: largest angle in rad by noise in
+    a piece.
     """
 
     def __init__(self, period: float, time_constant: float, largest: float, piece: float, slip: float) -> None:

@@ -25,18 +25,9 @@ class IdentifiedBody:
 
     Measurements are corrected at once, commands gradually (`joint_offsets`, `com_shift`): joints do not jump.
 
-    Attributes:
-        encoder_offsets: Reading less true angle (k,) in rad; empty until known.
-        com_offset: From the model's (3,), base frame, in m.
-        mass_ratio: Mass by ground forces over the model's.
-        known: Whether identified.
-
-    Args:
-        kinematics: The model's.
-        weight: The model's in N.
-        feet: Initial soles: x, y, z in m and heading in rad.
-        rules: What is identified.
-        period: Of control in s.
+    Attributes `encoder_offsets`: reading less true angle (k,) in rad; empty until known; `com_offset` from the model's
+    (3,), base frame, in m; `mass_ratio`: mass by ground forces over the model's. `weight`: the model's in N; `feet`:
+    initial soles: x, y, z in m and heading in rad; `period` of control in s.
     """
 
     def __init__(

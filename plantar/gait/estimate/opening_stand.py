@@ -13,10 +13,8 @@ from plantar.gait.estimate.estimator import SoleLoad
 class Stood(NamedTuple):
     """Means of a standing robot.
 
-    Attributes:
-        joint_positions: Encoders (k,) in rad.
-        up: Unit vector (3,) against gravity, base frame, by accelerometer.
-        wrenches: (6,) on each sole, own frame, in N and N m.
+    `joint_positions`: encoders (k,) in rad; `up`: unit vector (3,) against gravity, base frame, by accelerometer;
+    `wrenches` (6,) on each sole, own frame, in N and N m.
     """
 
     joint_positions: NDArray[np.float64]

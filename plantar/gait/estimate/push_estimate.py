@@ -26,13 +26,7 @@ class PushRules(Part, table="push_estimate", needs={"control.push_estimate": ("s
 class PushEstimate:
     """CoM acceleration by a push.
 
-    Args:
-        rules: Thresholds.
-        period: Of control in s.
-
-    Attributes:
-        disagreement: Of the last tick, low-passed, (2,) in m/s^2, a push's or not.
-        acts: Whether it is a push's.
+    `period` of control in s. Attributes `disagreement` of the last tick, low-passed, (2,) in m/s^2, a push's or not.
     """
 
     def __init__(self, rules: PushRules, period: float) -> None:

@@ -30,10 +30,8 @@ def percept_to_its_limit(reading: Reading, layout: SoleLayout) -> Percept:
 class SkinLoad:
     """Filtered wrench of a sole.
 
-    Args:
-        layout: Of the sole, n taxels.
-        noise: Standard deviation of a taxel's white noise in N.
-        share: New reading's in the running mean: period / (time constant + period).
+    `noise`: standard deviation of a taxel's white noise in N; `share`: new reading's in the running mean: period /
+    (time constant + period).
     """
 
     def __init__(self, layout: SoleLayout, noise: float, share: float) -> None:

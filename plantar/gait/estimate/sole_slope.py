@@ -17,9 +17,8 @@ class SoleSlope:
     Opening stand slopes, from encoder offsets, are subtracted. With the other foot in the air, a sole's slope follows
     its attitude in the world.
 
-    Args:
-        least_load: Vertical force in N of a foot that shows the ground.
-        smoothing: New tick's share in the opening stand's mean.
+    `least_load`: vertical force in N of a foot that shows the ground; `smoothing`: new tick's share in the opening
+    stand's mean.
     """
 
     def __init__(self, least_load: float, smoothing: float = 0.02) -> None:

@@ -36,10 +36,7 @@ class WrenchFilterRules(Part, table="push_expected", needs={"control.push_estima
 class WrenchFilter:
     """Follows the VRP offset by a body wrench and expects its course.
 
-    Args:
-        rules: Its course.
-        omega: Pendulum's in rad/s.
-        period: Of control in s.
+    `omega`: pendulum's in rad/s; `period` of control in s.
     """
 
     def __init__(self, rules: WrenchFilterRules, omega: float, period: float) -> None:
@@ -85,11 +82,7 @@ class WrenchFilter:
         return self.expected
 
     def mean(self, horizon: float) -> NDArray[np.float64]:
-        """Constant offset (2,) in m that moves the DCM over `horizon` (s) as the expected one.
-
-        Raises:
-            InputError: Time not finite, 0 or more.
-        """
+        """Constant offset (2,) in m that moves the DCM over `horizon` (s) as the expected one."""
         time = number(horizon, "horizon", finite=True)
         if time < 0.0:
             raise InputError(f"horizon is {horizon} s; allowed: 0 or more")

@@ -47,19 +47,10 @@ class SoleSense(Record, frozen=True):
 class FootMotion:
     """Commanded footholds over time.
 
-    Attributes:
-        footholds: Sole's (3,) in m and heading in rad, command frame.
-        landed: Whether the last swing foot has touched.
-        comes_down: Whether it is past half of its swing.
-        surprise: Ground height seen or met, less the expected, in m.
-
-    Args:
-        feet: Initial feet.
-        period: Of control in s.
-        swing_height: Swing foot clearance in m.
-        landing: Of a foot.
-        compliance: Preemptive, of each foot; None lands blindly.
-        swing: Its kind; None takes time polynomials.
+    Attributes `footholds`: sole's (3,) in m and heading in rad, command frame; `landed`: whether the last swing foot
+    has touched; `comes_down`: whether it is past half of its swing; `surprise`: ground height seen or met, less the
+    expected, in m. `period` of control in s; `swing_height`: swing foot clearance in m; `compliance`: preemptive, of
+    each foot; None lands blindly; `swing`: its kind; None takes time polynomials.
     """
 
     def __init__(
@@ -168,10 +159,7 @@ class FootMotion:
     def turn_standing(self, side: Side, turn: NDArray[np.float64], pivot: NDArray[np.float64]) -> None:
         """Turn a standing sole.
 
-        Args:
-            side: Which foot.
-            turn: (2,) about the sole's x and y axes in rad.
-            pivot: Point (2,), sole frame, in m that keeps its height.
+        `turn` (2,) about the sole's x and y axes in rad; `pivot`: point (2,), sole frame, in m that keeps its height.
         """
         before = self.rotation(side)
         self._tilts[side] = self._tilts[side] @ rotation_from_vector(np.array([turn[0], turn[1], 0.0]))
@@ -192,15 +180,9 @@ class FootMotion:
     ) -> None:
         """Advance the swing foot; stop at touchdown, lower it until ground.
 
-        Args:
-            phase: The walk's.
-            time: In s.
-            target: Footstep being taken, in single support.
-            loads: Vertical on each foot in N.
-            frame: Command frame.
-            senses: Percepts, for preemptive compliance.
-            press: Force in N that a seeing foot holds in single support; None for its gains'.
-            heights: Soles' estimated, world frame, in m, for feet that relax.
+        `time` in s; `target`: footstep being taken, in single support; `loads`: vertical on each foot in N; `frame`:
+        command frame; `press`: force in N that a seeing foot holds in single support; None for its gains'; `heights`:
+        soles' estimated, world frame, in m, for feet that relax.
         """
         if self._compliance is not None and senses is not None:
             for side, compliance in self._compliance.items():
@@ -231,13 +213,7 @@ class FootMotion:
         self.footholds[side] = (position + np.array([0.0, 0.0, share * (stands - position.item(2))]), yaw)
 
     def stand_at(self, side: Side, place: NDArray[np.float64], yaw: float) -> None:
-        """Move a landed foot's place.
-
-        Args:
-            side: Which foot.
-            place: Its (3,), command frame, in m.
-            yaw: Its heading in rad.
-        """
+        """Move a landed foot's place. `place`: its (3,), command frame, in m; `yaw`: its heading in rad."""
         self.footholds[side] = (place.copy(), yaw)
 
     def _advance(self, phase: Phase, time: float, load: float) -> None:
@@ -257,11 +233,7 @@ class FootMotion:
     def aim(self, phase: Phase, time: float, target: Footstep, frame: CommandFrame) -> None:
         """Follow a plan changed in the swing; a landed foot lifts and steps again.
 
-        Args:
-            phase: The walk's.
-            time: In s.
-            target: Footstep being taken.
-            frame: Command frame.
+        `time` in s; `frame`: command frame.
         """
         if self._swing is None or phase.swing is None or phase.step != self._step:
             return

@@ -57,12 +57,7 @@ class SoleTurn(NamedTuple):
 
 
 class FootTurn:
-    """Turning of one foot.
-
-    Args:
-        gains: Gains.
-        period: Of control in s.
-    """
+    """Turning of one foot. `period` of control in s."""
 
     def __init__(self, gains: ConformityGains, period: float) -> None:
         self.gains = gains
@@ -82,10 +77,8 @@ class FootTurn:
     ) -> NDArray[np.float64]:
         """Returns the turn (2,) in rad about x, y of a foot taking weight over, a tick.
 
-        Args:
-            load: Vertical on it in N.
-            center_of_pressure: (2,), sole frame, in m.
-            target: Its wanted place (2,), sole frame, in m.
+        `load`: vertical on it in N; `center_of_pressure` (2,), sole frame, in m; `target`: its wanted place (2,), sole
+        frame, in m.
         """
         g = self.gains
         away = math.dist(center_of_pressure, target)
@@ -101,10 +94,8 @@ class FootTurn:
     ) -> NDArray[np.float64]:
         """Returns the turn (2,) in rad about x, y of the carrying foot, a tick.
 
-        Args:
-            load: Vertical on it in N.
-            center_of_pressure: (2,), sole frame, in m.
-            target: Desired ZMP (2,), sole frame, in m.
+        `load`: vertical on it in N; `center_of_pressure` (2,), sole frame, in m; `target`: desired ZMP (2,), sole
+        frame, in m.
         """
         return self._turn(self._rate(load, center_of_pressure, target), center_of_pressure, target)
 
@@ -141,12 +132,8 @@ class FootTurn:
 class GroundConformity:
     """Both feet of a walk.
 
-    Args:
-        gains: Gains.
-        layouts: Of each side.
-        middles: Best place (2,) to load each whole sole, own frame, in m.
-        period: Of control in s.
-        turns_stance: Whether stance feet turn too; not where the balance law turns them.
+    `middles`: best place (2,) to load each whole sole, own frame, in m; `period` of control in s; `turns_stance`:
+    whether stance feet turn too; not where the balance law turns them.
     """
 
     def __init__(
@@ -178,17 +165,9 @@ class GroundConformity:
     ) -> dict[Side, SoleTurn]:
         """Standing soles' turns at a tick.
 
-        Args:
-            phase: The walk's.
-            incoming: Standing foot taking weight over; None at both ends of the walk.
-            zmp_desired: (2,), world frame, in m.
-            state: Estimate.
-            percepts: Of each sole.
-            landed: Whether the swing foot has touched.
-            parts: Carrying part's middle (2,), sole frame, in m, of partially standing soles.
-
-        Returns:
-            For each turning sole.
+        `incoming`: standing foot taking weight over; None at both ends of the walk; `zmp_desired` (2,), world frame, in
+        m; `landed`: whether the swing foot has touched; `parts`: carrying part's middle (2,), sole frame, in m, of
+        partially standing soles. Returns for each turning sole.
         """
         turned: dict[Side, SoleTurn] = {}
         for side in SIDES:

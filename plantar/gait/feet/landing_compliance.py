@@ -28,13 +28,7 @@ class DampingGains(Settings):
 
 @dataclass
 class LandingCompliance:
-    """Turn of a landed foot.
-
-    Attributes:
-        period: Of control in s.
-        gains: Gains.
-        turn: (2,) about the sole's x and y axes in rad.
-    """
+    """Turn of a landed foot. `period` of control in s; `turn` (2,) about the sole's x and y axes in rad."""
 
     period: float
     gains: DampingGains = field(default_factory=DampingGains)
@@ -47,10 +41,8 @@ class LandingCompliance:
     def update(self, force: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> None:
         """A tick of a loaded foot.
 
-        Args:
-            force: Vertical on it in N.
-            center_of_pressure: (2,), sole frame, in m.
-            target: Its wanted place (2,), sole frame, in m.
+        `force`: vertical on it in N; `center_of_pressure` (2,), sole frame, in m; `target`: its wanted place (2,), sole
+        frame, in m.
         """
         # The foot carries the body now: turning it would push the body, and its edge no longer hides the ground.
         g = self.gains
@@ -64,10 +56,8 @@ class LandingCompliance:
     def level(self, force: float, slope: NDArray[np.float64], gain: float) -> None:
         """A tick of a foot landing or just landed: turn it parallel to expected ground.
 
-        Args:
-            force: Vertical on it in N.
-            slope: Sole's rise against it (2,) along x, y in m/m.
-            gain: Turn rate for a slope of 1 in 1/s.
+        `force`: vertical on it in N; `slope`: sole's rise against it (2,) along x, y in m/m; `gain`: turn rate for a
+        slope of 1 in 1/s.
         """
         if force > self.gains.largest_force:
             return

@@ -44,10 +44,7 @@ class PostureCompensation:
     def for_body(cls, body: BodyScale, period: float, fade: float) -> "PostureCompensation":
         """Returns no correction yet, limited to shares of a robot's leg.
 
-        Args:
-            body: Robot's dimensions.
-            period: Of control in s.
-            fade: Time in s of its coming and going.
+        `period` of control in s; `fade`: time in s of its coming and going.
         """
         return cls(period, _TIME_CONSTANT * body.beat, fade, _LARGEST_SHIFT * body.leg)
 
@@ -61,8 +58,7 @@ class PostureCompensation:
     def keep(self, shift: NDArray[np.float64]) -> None:
         """Add a landed foot's farther command, so that its target does not jump; it fades.
 
-        Args:
-            shift: Old less new commanded place (3,) in m, command frame.
+        `shift`: old less new commanded place (3,) in m, command frame.
         """
         self._kept = shift
         self.shift = self.shift + shift

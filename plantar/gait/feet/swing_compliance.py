@@ -27,17 +27,8 @@ _SLOPE_OF_NOISE = 0.015  # tangent of the slope that level ground may seem to ha
 class SwingCompliance:
     """A sole's descent and load, from lift-off to landed.
 
-    Attributes:
-        ground: As the sole sees it.
-        force: Vertical in N on the sole, filtered.
-        by_wrench: Whether its law is "wrench".
-        stopped: Whether virtual force has stopped the swing (T 4.31).
-
-    Args:
-        layout: Of the sole.
-        gains: Of its descent.
-        touchdown: Loads at and after it.
-        ground: Settings of its map.
+    `force`: vertical in N on the sole, filtered; `by_wrench`: whether its law is "wrench"; `stopped`: whether virtual
+    force has stopped the swing (T 4.31).
     """
 
     def __init__(
@@ -88,10 +79,8 @@ class SwingCompliance:
 
         A stopped foot (T 4.31) descends by what it lacks of a touching sole.
 
-        Args:
-            planned: Swing plan's downward speed in m/s.
-            time_left: Until the plan puts weight on it, in s.
-            period: Of control in s.
+        `planned`: swing plan's downward speed in m/s; `time_left`: until the plan puts weight on it, in s; `period` of
+        control in s.
         """
         g = self.gains
         force = float(self._wrench[2])
@@ -110,12 +99,8 @@ class SwingCompliance:
     ) -> float:
         """Returns the descent in m in a tick; negative: up.
 
-        Args:
-            view: Of the sole.
-            planned: Swing plan's downward speed in m/s.
-            remaining: Horizontal distance in m.
-            time_left: Until the plan puts weight on it, in s; negative if it does.
-            period: Of control in s.
+        `planned`: swing plan's downward speed in m/s; `remaining`: horizontal distance in m; `time_left`: until the
+        plan puts weight on it, in s; negative if it does; `period` of control in s.
         """
         g = self.gains
         if view is None:
@@ -154,13 +139,8 @@ class SwingCompliance:
     def turn(self, rotation: NDArray[np.float64], view: GroundView | None, period: float) -> NDArray[np.float64]:
         """Turn of a tick, to the ground's slope, or level if too little is seen.
 
-        Args:
-            rotation: Sole's (3, 3), less its heading.
-            view: Of the sole; None comes to rest.
-            period: Of control in s.
-
-        Returns:
-            The turn (3,) in rad, sole frame.
+        `rotation`: sole's (3, 3), less its heading; `view` of the sole; None comes to rest; `period` of control in s.
+        Returns the turn (3,) in rad, sole frame.
         """
         x = 0.0
         y = 0.0
@@ -184,12 +164,7 @@ class SwingCompliance:
     def turn_rate(self, distance: float, slope: tuple[float, float]) -> float:
         """Largest turning rate in rad/s: an edge descends no faster than the sole, unless slope exceeds noise.
 
-        Args:
-            distance: Down to the first contact in m.
-            slope: Ground's rise along the sole's x, y (tangents).
-
-        Returns:
-            The rate.
+        `distance`: down to the first contact in m; `slope`: ground's rise along the sole's x, y (tangents).
         """
         g = self.gains
         gentle = (g.touch_speed + max(0.0, distance) / g.damping) / self._arm
@@ -203,11 +178,8 @@ class SwingCompliance:
     def yielding(self, load: float, target: float, above: float, period: float) -> float:
         """Returns the descent in m in a tick of a foot on ground, for a force; negative: up.
 
-        Args:
-            load: Vertical in N on the sole.
-            target: Desired force in N.
-            above: Height in m above touchdown, from which a lost foot returns.
-            period: Of control in s.
+        `load`: vertical in N on the sole; `target`: desired force in N; `above`: height in m above touchdown, from
+        which a lost foot returns; `period` of control in s.
         """
         g = self.gains
         t = self.touchdown

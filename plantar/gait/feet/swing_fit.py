@@ -56,16 +56,7 @@ class SwingPoint(Record, frozen=True):
 
 
 class SwingFit:
-    """Path of one swing.
-
-    Args:
-        rules: Its fit.
-        start: Sole (3,) at lift-off in m.
-        period: Of control in s.
-        height: Delta z in m.
-
-    Raises:
-        InputError: Non-finite position, disallowed period.
+    """Path of one swing. `start`: sole (3,) at lift-off in m; `period` of control in s; `height`: delta z in m.
 
     Example:
         A step of 0.2 m whose goal moves by 0.1 m to the side half-way:
@@ -104,16 +95,8 @@ class SwingFit:
     def aim(self, goal: ArrayLike, elapsed: float, duration: float) -> SwingPoint:
         """Reference now towards a goal (K 13-16); at the goal after the duration.
 
-        Args:
-            goal: Landing place (3,) in m.
-            elapsed: T_c since lift-off in s; a control period more each call.
-            duration: T_s from lift-off to touchdown in s.
-
-        Returns:
-            Desired motion.
-
-        Raises:
-            InputError: Non-finite or misshaped input.
+        `goal`: landing place (3,) in m; `elapsed`: T_c since lift-off in s; a control period more each call;
+        `duration`: T_s from lift-off to touchdown in s. Returns desired motion.
         """
         end = array(goal, "goal of the swing", (3,), finite=True)
         now = checked_number(elapsed, "time since lift-off", finite=True)

@@ -100,13 +100,9 @@ class _Course:
 class SwingFlight:
     """Motion of a swing foot.
 
-    Attributes:
-        path: Its initial trajectory.
-        duration: From lift-off to planned touchdown in s.
-        end: Planned sole (3,) at touchdown in m.
-        yaw_end: Heading in rad at touchdown.
-        period: Of control in s.
-        least_time: Time in s to touchdown below which it is not aimed again.
+    `duration` from lift-off to planned touchdown in s; `end`: planned sole (3,) at touchdown in m; `yaw_end`: heading
+    in rad at touchdown; `period` of control in s; `least_time`: time in s to touchdown below which it is not aimed
+    again.
 
     Example:
         >>> path = SwingTrajectory(np.zeros(3), np.array([0.2, 0.0, 0.0]), 0.0, 0.0, 0.05, 0.9)
@@ -157,11 +153,8 @@ class SwingFlight:
     def aimed(self, time: float, place: NDArray[np.float64], yaw: float, duration: float) -> SwingFlight:
         """Returns the flight with a new end from now; unchanged if too late.
 
-        Args:
-            time: Now in s since lift-off.
-            place: Sole (2,) at touchdown in m.
-            yaw: At touchdown in rad.
-            duration: From lift-off to touchdown in s.
+        `time`: now in s since lift-off; `place`: sole (2,) at touchdown in m; `yaw` at touchdown in rad; `duration`
+        from lift-off to touchdown in s.
         """
         old = self.duration - time
         new = duration - time

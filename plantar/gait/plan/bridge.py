@@ -24,16 +24,10 @@ def bridged(
 ) -> tuple[VrpPlan, NDArray[np.float64]]:
     """The plan over other knots, bridged in a time window.
 
-    Args:
-        plan: Until now.
-        knots: Times in s and VRPs (2,) in m of rebuilt stances.
-        now: Time in s, and the plan then.
-        window: Bridge's begin and end in s; None for no bridge.
-        region: Convex (k, 2), world, in m for the bridge's VRP; empty for no limit.
-        kept: First kept knot's index, and the kept knots' shift (2,) in m and delay in s.
-
-    Returns:
-        The plan, and its DCM jump (2,) in m by the region.
+    `knots`: times in s and VRPs (2,) in m of rebuilt stances; `now`: time in s, and the plan then; `window`: bridge's
+    begin and end in s; None for no bridge; `region`: convex (k, 2), world, in m for the bridge's VRP; empty for no
+    limit; `kept`: first kept knot's index, and the kept knots' shift (2,) in m and delay in s. Returns the plan, and
+    its DCM jump (2,) in m by the region.
     """
     time, state = now
     first, shift, delay = kept

@@ -15,15 +15,10 @@ _THERE = read_only(np.zeros(2))
 class FeetView(Record, frozen=True):
     """Commanded feet at a tick.
 
-    Attributes:
-        footholds: Sole's (3,) in m and heading in rad, command frame, read-only.
-        side: Foot of the current or last swing; None before.
-        landed: Whether it has touched.
-        lift_off: Whether its swing begins now.
-        touchdown: Whether it touches now.
-        ahead: Horizontal (2,) in m to its target, command frame.
-        surprise: Ground height seen or met, less the expected, in m.
-        distance: Taxels' (n,) in m from the ground at touchdown; None if unmeasured.
+    `footholds`: sole's (3,) in m and heading in rad, command frame, read-only; `side`: foot of the current or last
+    swing; None before; `lift_off`: whether its swing begins now; `ahead`: horizontal (2,) in m to its target, command
+    frame; `surprise`: ground height seen or met, less the expected, in m; `distance`: taxels' (n,) in m from the ground
+    at touchdown; None if unmeasured.
     """
 
     footholds: Mapping[Side, tuple[NDArray[np.float64], float]]

@@ -15,12 +15,7 @@ from plantar.mechanics.rotation import level_rotation
 class Footstep:
     """Planned sole pose, world frame.
 
-    Attributes:
-        side: Which foot.
-        x: Sole origin forward in m.
-        y: Left in m.
-        yaw: Heading in rad.
-        z: Expected ground height in m.
+    `x`: sole origin forward in m; `y`: left in m; `yaw`: heading in rad; `z`: expected ground height in m.
     """
 
     side: Side
@@ -59,17 +54,12 @@ def straight_plan(
         length: Lead over the other foot in m, negative for backward.
         sideways: Lateral lead of opening steps in m, positive left.
         width: Between sole origins side by side in m.
-        first: First foot; sideways, the one on that side.
         start: Initial midpoint (x, y, yaw) of the feet in m, m, rad.
         height: Of the ground in m.
-        closing: Whether each second step closes the feet.
         climb: Of each place ahead over the last in m, up to the middle of the walk, then down.
 
     Returns:
         Initial feet, and steps in order.
-
-    Raises:
-        InputError: Non-finite or disallowed number.
 
     Example:
         >>> feet, plan = straight_plan(3, length=0.2)

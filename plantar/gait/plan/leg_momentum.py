@@ -42,11 +42,8 @@ def haste(way: float, duration: float) -> float:
 class LegMomentum:
     """DCM and CoM by swinging legs, to be added to a plan's.
 
-    Args:
-        plan: The walk's.
-        omega: Frequency of the pendulum with legs in rad/s.
-        inertia: D in s^2; 0 shifts nothing.
-        arrived: Share of a swing without `haste` after which its foot only descends.
+    `omega`: frequency of the pendulum with legs in rad/s; `inertia`: D in s^2; 0 shifts nothing; `arrived`: share of a
+    swing without `haste` after which its foot only descends.
     """
 
     def __init__(self, plan: WalkPlan, omega: float, inertia: float, arrived: float) -> None:

@@ -44,13 +44,9 @@ class Timing(Settings):
 class Phase:
     """Phase of the walk.
 
-    Attributes:
-        kind: Standing, double or single support.
-        step: Index of the current or next footstep; their number at the end.
-        start: In s.
-        end: In s; inf for final standing.
-        swing: Foot in single support, else None.
-        wait: Time in s before a single support's end by which the foot is down.
+    `kind`: standing, double or single support; `step`: index of the current or next footstep; their number at the end;
+    `start` in s; `end` in s; inf for final standing; `swing`: foot in single support, else None; `wait`: time in s
+    before a single support's end by which the foot is down.
     """
 
     kind: PhaseKind
@@ -73,11 +69,7 @@ class Phase:
 
 @dataclass(frozen=True)
 class WalkSchedule:
-    """A walk's phases without gaps, as a value.
-
-    Attributes:
-        phases: In order, ending with standing.
-        timing: Durations.
+    """A walk's phases without gaps, as a value. `phases` in order, ending with standing.
 
     Example:
         >>> schedule = WalkSchedule.of(("left", "right"), Timing())
@@ -90,16 +82,7 @@ class WalkSchedule:
 
     @classmethod
     def of(cls, sides: Sequence[Side], timing: Timing, begin: float = 0.0) -> WalkSchedule:
-        """Schedule of a walk from standing.
-
-        Args:
-            sides: Each step's foot in order.
-            timing: Durations.
-            begin: First double support's start in s, after standing.
-
-        Returns:
-            The schedule.
-        """
+        """Schedule of a walk from standing. `begin`: first double support's start in s, after standing."""
         phases = [Phase(PhaseKind.STANDING, 0, -math.inf, begin)]
         return cls((*phases, *_walked(sides, 0, begin, timing, timing.start)), timing)
 
@@ -137,13 +120,8 @@ class WalkSchedule:
     def delayed(self, phase: Phase, by: float, wait: float | None = None) -> WalkSchedule:
         """The schedule with a phase's end, and all after, moved.
 
-        Args:
-            phase: One of `phases`.
-            by: Delay in s; negative: sooner.
-            wait: Time in s before its end by which the foot is down; None for unchanged.
-
-        Returns:
-            The schedule.
+        `by`: delay in s; negative: sooner; `wait`: time in s before its end by which the foot is down; None for
+        unchanged.
         """
         i = self.phases.index(phase)
         longer = replace(phase, end=phase.end + by, wait=phase.wait if wait is None else wait)
@@ -158,13 +136,7 @@ class WalkSchedule:
         A begun double support keeps its length, unless it ended the walk or begins the end; a standing robot shifts
         weight first.
 
-        Args:
-            step: Last kept step's index; -1 for none.
-            sides: Each later step's foot.
-            time: Now in s.
-
-        Returns:
-            The schedule.
+        `step`: last kept step's index; -1 for none; `time`: now in s.
         """
         i = next(j for j, p in enumerate(self.phases) if p.step == step + 1 and p.swing is None)
         phase = self.phases[i]

@@ -43,13 +43,8 @@ class PlanChange:
 class MovedStep:
     """A moved footstep.
 
-    Attributes:
-        step: Its index.
-        x: Sole origin's new place, forward, in m.
-        y: Left in m.
-        yaw: Heading in rad.
-        reason: Of the move.
-        before: Old place; None for a new footstep.
+    `step`: its index; `x`: sole origin's new place, forward, in m; `y`: left in m; `yaw`: heading in rad; `before`: old
+    place; None for a new footstep.
     """
 
     step: int
@@ -64,12 +59,8 @@ class MovedStep:
 class AppliedChange:
     """An applied plan change.
 
-    Attributes:
-        time: When in s.
-        change: The change.
-        moved: Moved or added footsteps.
-        gap: Reference's DCM jump in m, as the support polygon limits the bridge.
-        delay: Next double support's extension in s for the bridge.
+    `time`: when in s; `gap`: reference's DCM jump in m, as the support polygon limits the bridge; `delay`: next double
+    support's extension in s for the bridge.
     """
 
     time: float

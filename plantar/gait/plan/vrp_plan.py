@@ -26,13 +26,8 @@ from plantar.kernels.mechanics.pendulum import on_segment
 class LipReference(Record, frozen=True):
     """The plan at a time, horizontal, world frame.
 
-    Attributes:
-        vrp: And ZMP on the ground (2,) in m.
-        dcm: (2,) in m.
-        dcm_velocity: Its rate (2,) in m/s.
-        com: (2,) in m.
-        com_velocity: Its rate (2,) in m/s.
-        com_acceleration: (2,) in m/s^2.
+    `vrp`: and ZMP on the ground (2,) in m; `dcm` (2,) in m; `dcm_velocity`: its rate (2,) in m/s; `com` (2,) in m;
+    `com_velocity`: its rate (2,) in m/s; `com_acceleration` (2,) in m/s^2.
     """
 
     vrp: NDArray[np.float64]
@@ -56,14 +51,8 @@ class LipReference(Record, frozen=True):
 class VrpPlan:
     """DCM and CoM over a piecewise linear VRP.
 
-    Args:
-        times: Knots' (k,) in s, strictly increasing, k >= 2.
-        vrps: At knots (k, 2) in m.
-        omega: Pendulum's in rad/s.
-        com: At the first knot (2,) in m; None for the first VRP.
-
-    Raises:
-        InputError: Disallowed knots.
+    `times`: knots' (k,) in s, strictly increasing, k >= 2; `vrps` at knots (k, 2) in m; `omega`: pendulum's in rad/s;
+    `com` at the first knot (2,) in m; None for the first VRP.
     """
 
     def __init__(self, times: Sequence[float], vrps: ArrayLike, omega: float, com: ArrayLike | None = None) -> None:
@@ -146,18 +135,9 @@ class VrpPlan:
     ) -> "VrpPlan":
         """The plan over other knots, without solving kept ones again.
 
-        Args:
-            times: New knots' (m,) in s, strictly increasing, from now.
-            vrps: Theirs (m, 2) in m.
-            first: First kept knot's index; the number of knots keeps none.
-            shift: Kept knots' (2,) in m.
-            delay: Theirs in s.
-
-        Returns:
-            The plan, from the CoM now.
-
-        Raises:
-            InputError: Disallowed knots.
+        `times`: new knots' (m,) in s, strictly increasing, from now; `vrps`: theirs (m, 2) in m; `first`: first kept
+        knot's index; the number of knots keeps none; `shift`: kept knots' (2,) in m; `delay`: theirs in s. Returns the
+        plan, from the CoM now.
         """
         head = np.asarray(times, float)
         points = np.asarray(vrps, float).reshape(-1, 2)

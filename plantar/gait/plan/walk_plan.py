@@ -34,26 +34,13 @@ _RECORDED = 1000  # changes that the record keeps
 
 
 def vrp_of_step(step: Footstep, vrp_in_sole: ArrayLike) -> NDArray[np.float64]:
-    """Footstep's VRP (2,) in m, world frame (T 4.13).
-
-    Args:
-        step: Footstep.
-        vrp_in_sole: Its place (2,), sole frame, in m.
-
-    Returns:
-        The VRP.
-    """
+    """Footstep's VRP (2,) in m, world frame (T 4.13). `vrp_in_sole`: its place (2,), sole frame, in m."""
     return np.asarray(step.position[:2] + step.rotation_sole_to_world[:2, :2] @ np.asarray(vrp_in_sole, dtype=float))
 
 
 @dataclass(frozen=True)
 class PlannedStep:
-    """Footstep with its VRP.
-
-    Attributes:
-        foothold: Planned sole pose.
-        vrp: Over it (2,), world frame, in m, read-only.
-    """
+    """Footstep with its VRP. `foothold`: planned sole pose; `vrp`: over it (2,), world frame, in m, read-only."""
 
     foothold: Footstep
     vrp: NDArray[np.float64]
@@ -66,12 +53,8 @@ class PlannedStep:
 class PlanView:
     """The plan now, as a value.
 
-    Attributes:
-        first: First kept step's index; above 0 only in endless walks.
-        steps: From that one on.
-        schedule: The phases.
-        standing: VRP (2,) over each foot in m before the first kept step.
-        last: Last applied change.
+    `first`: first kept step's index; above 0 only in endless walks; `standing`: VRP (2,) over each foot in m before the
+    first kept step.
     """
 
     first: int
@@ -94,15 +77,7 @@ class PlanView:
         return self.steps[step - self.first].vrp
 
     def vrp_before(self, step: int, side: Side) -> NDArray[np.float64]:
-        """VRP (2,), world frame, in m over a foot before a step.
-
-        Args:
-            step: Its index.
-            side: Which foot.
-
-        Returns:
-            The VRP.
-        """
+        """VRP (2,), world frame, in m over a foot before a step. `step`: its index."""
         for planned in reversed(self.steps[: step - self.first]):
             if planned.foothold.side == side:
                 return planned.vrp
@@ -119,12 +94,7 @@ class PlanView:
     def knots(self, time: float, last: int) -> tuple[list[float], list[NDArray[np.float64]]]:
         """Times in s and VRPs (2,) in m after a time, up to a step's stance; and the final standing's.
 
-        Args:
-            time: In s.
-            last: That step's index.
-
-        Returns:
-            Both knot sequences.
+        `time` in s; `last`: that step's index. Returns both knot sequences.
         """
         times: list[float] = []
         points: list[NDArray[np.float64]] = []
@@ -146,13 +116,8 @@ class PlanView:
 class WalkPlan:
     """A walk's footsteps, timing and VRPs.
 
-    Args:
-        feet: Initial feet.
-        steps: In order.
-        timing: Durations.
-        vrp_in_sole: (2,) in each sole's frame in m, usually its centroid.
-        omega: Pendulum's in rad/s.
-        begin: First double support's start in s, after standing.
+    `vrp_in_sole` (2,) in each sole's frame in m, usually its centroid; `omega`: pendulum's in rad/s; `begin`: first
+    double support's start in s, after standing.
     """
 
     def __init__(
@@ -226,13 +191,8 @@ class WalkPlan:
     def apply(self, change: PlanChange, time: float, region: NDArray[np.float64]) -> AppliedChange:
         """Change the plan from now; returns the record.
 
-        Args:
-            change: The change.
-            time: Now in s.
-            region: Convex (k, 2), world, in m, counter-clockwise, for a bridge's VRP; empty for no limit.
-
-        Raises:
-            InputError: Unknown step, disallowed phase end.
+        `time`: now in s; `region`: convex (k, 2), world, in m, counter-clockwise, for a bridge's VRP; empty for no
+        limit.
         """
         before = self._view
         if not before.first <= change.step < max(before.count, 1) and change.following is None:

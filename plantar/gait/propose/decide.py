@@ -7,14 +7,6 @@ from plantar.gait.propose.proposer import Proposer, Tick
 
 
 def decide(proposers: Sequence[Proposer], tick: Tick) -> PlanChange | None:
-    """The change to apply, or None: one a tick, of the first `Priority`; among equals, of the first proposer.
-
-    Args:
-        proposers: Proposers in order.
-        tick: Their input.
-
-    Returns:
-        The change.
-    """
+    """The change to apply, or None: one a tick, of the first `Priority`; among equals, of the first proposer."""
     wanted = [(proposer.priority, change) for proposer in proposers if (change := proposer.propose(tick)) is not None]
     return min(wanted, key=lambda pair: pair[0])[1] if wanted else None

@@ -37,12 +37,8 @@ class DoubleSupportTimingRules(
 class DoubleSupportTiming:
     """Proposes another double support end.
 
-    Args:
-        rules: When.
-        weights: Of a change.
-        confidence: c of K 37.
-        period: Of control in s, the unit of a change.
-        ankle: VRP's share of the support polygon (K 27), with law "regulation"; else all of it.
+    `confidence`: c of K 37; `period` of control in s, the unit of a change; `ankle`: VRP's share of the support polygon
+    (K 27), with law "regulation"; else all of it.
     """
 
     priority = Priority.TIMING

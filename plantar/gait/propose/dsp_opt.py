@@ -79,11 +79,8 @@ class DspProblem(NamedTuple):
 class DspSolution(NamedTuple):
     """The best duration.
 
-    Attributes:
-        time: T_d in s.
-        missed: Final DCM error (2,) in m.
-        at_bound: -1 at the shortest, 1 at the longest, else 0.
-        residual: Cost slope in an allowed direction, relative to its largest term.
+    `time`: T_d in s; `missed`: final DCM error (2,) in m; `at_bound`: -1 at the shortest, 1 at the longest, else 0;
+    `residual`: cost slope in an allowed direction, relative to its largest term.
     """
 
     time: float
@@ -94,16 +91,6 @@ class DspSolution(NamedTuple):
 
 def solve_dsp(problem: DspProblem, weights: DspWeights) -> DspSolution:
     """Best double support duration (K 37-38); past the longest it ends now.
-
-    Args:
-        problem: Double support.
-        weights: Of a change.
-
-    Returns:
-        The solution.
-
-    Raises:
-        InputError: Misshaped place, disallowed number.
 
     Example:
         The DCM lags behind: the double support lasts longer.

@@ -28,11 +28,8 @@ class EdgeBeside:
 
     An edge cutting a share f off a sole of width w moves steps by f w / 2.
 
-    Args:
-        layouts: Of each side.
-        drop: Distance in m from the sole of absent ground.
-        largest: Largest move in m by one landing.
-        drift: Whether steps move only for a drift: alike edges at a foot's last landings, none at the other's.
+    `drop`: distance in m from the sole of absent ground; `largest`: largest move in m by one landing; `drift`: whether
+    steps move only for a drift: alike edges at a foot's last landings, none at the other's.
     """
 
     priority = Priority.FOOTHOLD

@@ -76,11 +76,8 @@ class FeasibilityRules(
 class Foothold:
     """What a probe found.
 
-    Attributes:
-        feasible: Accepted by the rule.
-        area_ratio: A_p / A_s.
-        moment: At the ankle in N m while pressing; None without sensor.
-        polygon_in_sole: Support (k, 2), sole frame, in m.
+    `moment` at the ankle in N m while pressing; None without sensor; `polygon_in_sole`: support (k, 2), sole frame, in
+    m.
     """
 
     feasible: bool
@@ -107,12 +104,7 @@ class FootholdProbe:
             self._near = distance < self.rules.near
 
     def update_load(self, force: NDArray[np.float64], moment: NDArray[np.float64] | None) -> None:
-        """Add a reading.
-
-        Args:
-            force: Taxels' (n,) in N; NaN if dead.
-            moment: At the ankle (2,) in N m, or None.
-        """
+        """Add a reading. `force`: taxels' (n,) in N; NaN if dead; `moment` at the ankle (2,) in N m, or None."""
         self._count += 1
         self._force += np.nan_to_num(force)
         if moment is not None:
@@ -138,11 +130,7 @@ def way_around(
 ) -> NDArray[np.float64] | None:
     """Returns the easiest foothold move (2,) in m clear of an obstacle (T Fig. 45), or None.
 
-    Args:
-        obstacle: Points (k, 2), sole frame, in m.
-        outline: Sole's (m, 2), own frame, in m.
-        side: Which foot.
-        rules: Largest moves.
+    `obstacle`: points (k, 2), sole frame, in m; `outline`: sole's (m, 2), own frame, in m.
 
     Example:
         >>> sole = np.array([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
@@ -179,11 +167,8 @@ def room_ahead(
 ) -> float:
     """Returns a later foothold's forward move in m clear of an obstacle; 0 if too far.
 
-    Args:
-        obstacle: Points (k, 2), frame of the refused sole, in m.
-        outline: Sole's (m, 2), own frame, in m.
-        ahead: Later foothold (2,), same frame, in m.
-        rules: Clearance, and largest forward move.
+    `obstacle`: points (k, 2), frame of the refused sole, in m; `outline`: sole's (m, 2), own frame, in m; `ahead`:
+    later foothold (2,), same frame, in m.
 
     Example:
         >>> sole = np.array([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])

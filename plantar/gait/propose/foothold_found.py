@@ -29,12 +29,9 @@ _BORNE = 0.75
 class FootholdCarries:
     """Proposes the VRP over a found foothold, and footsteps on the continuing strip.
 
-    Args:
-        rules: Least and largest moves.
-        middles: Loaded point (2,) of each whole sole, own frame, in m.
-        outlines: Each sole's (k, 2), own frame, in m.
-        strip: Continuing ground.
-        reach: Distance in m along the sole, from its origin, at which an ankle bears the robot.
+    `rules`: least and largest moves; `middles`: loaded point (2,) of each whole sole, own frame, in m; `outlines`: each
+    sole's (k, 2), own frame, in m; `reach`: distance in m along the sole, from its origin, at which an ankle bears the
+    robot.
     """
 
     priority = Priority.FOOTHOLD

@@ -37,10 +37,8 @@ class _State(Enum):
 class CheckedStep:
     """A checked foothold.
 
-    Attributes:
-        step: Its index.
-        foothold: What was found.
-        shift: Its move (2,) along the planned foot's axes in m; None if it stayed or had no way.
+    `step`: its index; `foothold`: what was found; `shift`: its move (2,) along the planned foot's axes in m; None if it
+    stayed or had no way.
     """
 
     step: int
@@ -51,11 +49,7 @@ class CheckedStep:
 class StepGuard:
     """Checks a walk's footholds.
 
-    Attributes:
-        checked: Footholds in order.
-        stopped: Whether it ended the walk without a way on.
-        press: Force in N of a probing foot; None without.
-        rules: Its rules.
+    `stopped`: whether it ended the walk without a way on; `press`: force in N of a probing foot; None without.
     """
 
     priority = Priority.SAFETY

@@ -8,11 +8,7 @@ from plantar.gait.propose.proposer import Priority, Tick
 
 
 class FootholdSeenAhead:
-    """Proposes the VRP over a descending foot's foothold.
-
-    Args:
-        rules: Least distance off the plan.
-    """
+    """Proposes the VRP over a descending foot's foothold. `rules`: least distance off the plan."""
 
     priority = Priority.FOOTHOLD
 

@@ -35,11 +35,7 @@ class LearnedStrideRules(
 
 
 class LearnedStride:
-    """Proposes footsteps with learned strides.
-
-    Args:
-        rules: How fast.
-    """
+    """Proposes footsteps with learned strides."""
 
     priority = Priority.COMMAND
 

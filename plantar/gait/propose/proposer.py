@@ -46,14 +46,10 @@ class Priority(IntEnum):
 class Pendulum(Record, frozen=True):
     """The pendulum at a tick.
 
-    Attributes:
-        omega: Frequency in rad/s.
-        dcm: Estimate (2,) in m.
-        reference: The plan now.
-        goal: Planned DCM (2,) in m at the phase's end.
-        zmp_region: Allowed ZMP: convex (k, 2), world, in m, counter-clockwise.
-        offset: Push's u_w (2,) in m of the VRP off the ZMP until the phase ends (K 18).
-        pushed: Distance (2,) in m that recent pushes would move an unbalanced DCM.
+    `omega`: frequency in rad/s; `dcm`: estimate (2,) in m; `goal`: planned DCM (2,) in m at the phase's end;
+    `zmp_region`: allowed ZMP: convex (k, 2), world, in m, counter-clockwise; `offset`: push's u_w (2,) in m of the VRP
+    off the ZMP until the phase ends (K 18); `pushed`: distance (2,) in m that recent pushes would move an unbalanced
+    DCM.
     """
 
     omega: float
@@ -67,9 +63,8 @@ class Pendulum(Record, frozen=True):
     def beyond_zmp(self, left: float) -> tuple[float, tuple[float, float], tuple[float, float]]:
         """DCM's miss of its goal after `left` seconds T, for the best ZMP (K 25-27), in plain numbers.
 
-        Returns:
-            e^(w T) - 1; ZMP (x, y) in m that reaches the goal; the nearest of `zmp_region`, not empty. The miss is the
-            first times the distance of these two.
+        Returns e^(w T) - 1; ZMP (x, y) in m that reaches the goal; the nearest of `zmp_region`, not empty. The miss is
+        the first times the distance of these two.
         """
         growth = math.expm1(self.omega * left)
         x, y = self.dcm.tolist()
@@ -84,14 +79,9 @@ class Tick(Record, frozen=True):
 
     Attributes:
         time: In s.
-        phase: The walk's.
-        plan: Current.
-        feet: Commanded.
         frame: Command frame.
-        readings: Of each sole.
         loads: Vertical on each foot in N.
         moments: (2,) at each ankle in N m, with force-torque sensors.
-        found: Footholds found now.
         seen: Swing foot's coming foothold.
         pendulum: With balance fed back.
         firm: Whether ground has lately carried whole soles, so that feet can go anywhere.
@@ -118,11 +108,7 @@ class Tick(Record, frozen=True):
 
 
 class Proposer(Protocol):
-    """Proposes plan changes.
-
-    Attributes:
-        priority: Rank among proposers.
-    """
+    """Proposes plan changes."""
 
     priority: Priority
 

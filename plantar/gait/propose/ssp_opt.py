@@ -75,7 +75,6 @@ def footstep_region(
 
     Args:
         rules: Box beside the stance foot.
-        swing: Which foot swings.
         stance: (x, y, yaw), world frame, in m, m, rad.
         touching: Distance in m between sole origins with touching inner edges.
         half_planes: Lines (nx, ny, h), world frame: n . u > h is cut off.
@@ -121,7 +120,6 @@ class SspProblem(NamedTuple):
         stance: u_i (2,) in m, stance foot's middle.
         elapsed: T_c since its start in s.
         target: Last tick's footstep and T_s in s: (x, y, time).
-        nominal: The same, nominal.
         region: Footstep's convex (k, 2) in m, counter-clockwise (`footstep_region`).
         shortest: Least T_s in s.
         longest: Largest T_s in s.
@@ -151,13 +149,9 @@ class SspProblem(NamedTuple):
 class SspSolution(NamedTuple):
     """The best footstep.
 
-    Attributes:
-        place: u_e (2,) in m.
-        time: T_s in s.
-        missed: DCM error (2,) in m at the next phase's start: xi(T_s) - xi_s.
-        at_edge: Whether on its region's edge.
-        at_bound: -1 at the shortest time, 1 at the longest, else 0.
-        residual: Largest KKT violation, relative to the gradient's largest term.
+    `place`: u_e (2,) in m; `time`: T_s in s; `missed`: DCM error (2,) in m at the next phase's start: xi(T_s) - xi_s;
+    `at_bound`: -1 at the shortest time, 1 at the longest, else 0; `residual`: largest KKT violation, relative to the
+    gradient's largest term.
     """
 
     place: NDArray[np.float64]
@@ -212,16 +206,6 @@ class _Program(NamedTuple):
 
 def solve_ssp(problem: SspProblem, weights: StepWeights) -> SspSolution | None:
     """Best footstep and time (K 31-33); None for an empty region.
-
-    Args:
-        problem: Single support.
-        weights: Of a change.
-
-    Returns:
-        The solution.
-
-    Raises:
-        InputError: Misshaped place or region, disallowed number, shortest above longest.
 
     Example:
         A robot that steps in place is pushed to the left; the left foot lands farther out, and sooner.

@@ -37,12 +37,7 @@ class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (
 
 
 class StepTiming:
-    """Proposes another end of a support.
-
-    Args:
-        rules: When.
-        period: Of control in s, the unit of a change.
-    """
+    """Proposes another end of a support. `period` of control in s, the unit of a change."""
 
     priority = Priority.TIMING
 

@@ -31,13 +31,7 @@ _AHEAD = 2  # steps that follow the command, before the one that closes
 
 @dataclass(frozen=True)
 class Velocity:
-    """Commanded velocity, frame of the feet.
-
-    Attributes:
-        forward: m/s.
-        left: m/s.
-        turn: rad/s, to the left.
-    """
+    """Commanded velocity, frame of the feet. `forward`: m/s; `left`: m/s; `turn`: rad/s, to the left."""
 
     forward: float = 0.0
     left: float = 0.0
@@ -57,9 +51,7 @@ STOP: Velocity | None = None
 class VelocityTable:
     """Commands over time, each until the next.
 
-    Attributes:
-        times: Their starts in s, increasing.
-        commands: Command from then on; None stops.
+    `times`: their starts in s, increasing; `commands`: command from then on; None stops.
 
     Example:
         >>> table = VelocityTable((1.0, 5.0), (Velocity(forward=0.1), STOP))
@@ -97,15 +89,7 @@ class Stride(Settings):
 
 @dataclass(frozen=True)
 class Legs:
-    """Step limits in m.
-
-    Attributes:
-        width: Between sole origins side by side.
-        com_height: CoM height.
-        heel: Sole behind its origin.
-        toe: Sole in front of it.
-        inner: Width to the inner edge.
-    """
+    """Step limits in m. `width`: between sole origins side by side; `heel`: sole behind its origin."""
 
     width: float
     com_height: float
@@ -129,15 +113,7 @@ class Legs:
 def next_step(
     stance: Footstep, other: Footstep, velocity: Velocity, legs: Legs, stride: Stride, duration: float
 ) -> Footstep:
-    """Returns a foot's next step.
-
-    Args:
-        stance: Standing foot.
-        other: Moving foot's pose.
-        velocity: Command.
-        legs: Step limits.
-        stride: Largest step.
-        duration: From step to step in s.
+    """Returns a foot's next step. `duration` from step to step in s.
 
     Example:
         >>> left, right = Footstep("left", 0.0, 0.085), Footstep("right", 0.0, -0.085)
@@ -177,13 +153,7 @@ def _moved(x: float, y: float, yaw: float, ahead: float, across: float) -> tuple
 
 
 class VelocityCommand:
-    """Proposes steps at a commanded velocity.
-
-    Args:
-        table: Commands over time.
-        legs: Step limits.
-        stride: Largest step.
-    """
+    """Proposes steps at a commanded velocity."""
 
     priority = Priority.COMMAND
 
@@ -249,12 +219,8 @@ class VelocityCommand:
 def table_of(rows: Sequence[Sequence[float | str]], begin: float) -> VelocityTable:
     """Returns commands from a scene's rows.
 
-    Args:
-        rows: Each [time, forward, left, turn] in s, m/s, m/s and rad/s, or [time, "stop"].
-        begin: Time in s from which rows count.
-
-    Raises:
-        InputError: Unknown row.
+    `rows`: each [time, forward, left, turn] in s, m/s, m/s and rad/s, or [time, "stop"]; `begin`: time in s from which
+    rows count.
 
     Example:
         >>> table_of([[0.0, 0.1, 0.0, 0.0], [10.0, "stop"]], 1.0).times

@@ -21,11 +21,7 @@ class SafeStop:
     "sit" levels a foot in the air with the other, brings the CoM over their middle and lowers it; "limp" releases the
     joints.
 
-    Args:
-        period: Of control in s.
-        leg: Leg length in m.
-        beat: Body's time unit in s.
-        weight: In N.
+    `period` of control in s; `leg`: leg length in m; `beat`: body's time unit in s; `weight` in N.
     """
 
     def __init__(self, period: float, leg: float, beat: float, weight: float) -> None:

@@ -39,23 +39,17 @@ Readings = Mapping[Side, Reading]
 class SafetyShell:
     """Guards a controller's tick.
 
+    Attributes `state`: "fallen", "blind" (both stay), "late" (ends with the first usable time), "waiting" (ends with
+    the first usable reading), or None.
+
     Args:
-        tick: Controller's own.
         start: Command before the first sound reading.
-        layouts: Of each side.
-        joints: Number of angles.
         period: Of control in s.
         mass: Robot's in kg.
         leg: Leg length in m.
         com_height: CoM over the soles in m.
         begin: Of the walk in s; a later first tick has another zero.
         stop: Commands in a state that stays.
-
-    Attributes:
-        state: "fallen", "blind" (both stay), "late" (ends with the first usable time), "waiting" (ends with the first
-            usable reading), or None.
-        errors: Caught exceptions of the tick.
-        error: The last one.
     """
 
     def __init__(

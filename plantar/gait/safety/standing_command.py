@@ -25,16 +25,8 @@ def standing_command(
 ) -> Command:
     """Stand where a walk begins, weight halved between feet.
 
-    Args:
-        feet: Pose of both.
-        plan: The walk's.
-        layouts: Of each side.
-        weight: Robot's in N.
-        com_height: CoM over the soles in m.
-        time: Of the plan in s.
-
-    Returns:
-        With targets as state and unloaded percepts.
+    `weight`: robot's in N; `com_height`: CoM over the soles in m; `time` of the plan in s. Returns with targets as
+    state and unloaded percepts.
     """
     reference = plan.at(time)
     phase = plan.schedule.at(time)

@@ -19,11 +19,8 @@ _FORCE = 4.5  # weight/beat of the force on a foot
 class TargetLimits:
     """Limits targets' moves per tick.
 
-    Args:
-        period: Of control in s.
-        leg: Leg length in m.
-        beat: Body's time unit in s, root of leg over gravity.
-        weight: In N.
+    `period` of control in s; `leg`: leg length in m; `beat`: body's time unit in s, root of leg over gravity; `weight`
+    in N.
     """
 
     def __init__(self, period: float, leg: float, beat: float, weight: float) -> None:
@@ -36,12 +33,7 @@ class TargetLimits:
     def limited(self, before: Command, now: Command) -> Command:
         """A command with targets within the limits from the last tick's.
 
-        Args:
-            before: Last tick's.
-            now: This tick's.
-
-        Returns:
-            `now` itself within limits; else with targets on the way.
+        Returns `now` itself within limits; else with targets on the way.
         """
         left = now.feet["left"]
         right = now.feet["right"]

@@ -14,12 +14,8 @@ class TickClock:
     A tick is expected one period after the last. A near time is used, one a little off pulls the clock slowly, one far
     off is another zero.
 
-    Args:
-        period: Of control in s.
-        latest: First time in s that may be; after a later or negative one ticks count from 0.
-
-    Attributes:
-        odd: Successive ticks with unusable times.
+    `period` of control in s; `latest`: first time in s that may be; after a later or negative one ticks count from 0.
+    Attributes `odd`: successive ticks with unusable times.
 
     Example:
         >>> clock = TickClock(0.005)

@@ -30,10 +30,7 @@ class BodyTargets:
     ) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
         """Returns CoM (3,) in m, heading in rad and torso rotation (3, 3).
 
-        Args:
-            phase: The walk's.
-            com: (2,), world frame, in m.
-            lean: Least needed in rad/m.
+        `com` (2,), world frame, in m; `lean`: least needed in rad/m.
         """
         left = self._footing.motion.footholds["left"][1]
         right = self._footing.motion.footholds["right"][1]

@@ -41,11 +41,8 @@ class Sensed(Record, frozen=True):
 class Estimation:
     """Body state, and the robot's differences from its model.
 
-    Attributes:
-        omega: Pendulum's in rad/s.
-        body: Identified differences; None believes the model.
-        estimator: Of the floating base.
-        stands: Whether still averaging the initial stand, before feedback.
+    `omega`: pendulum's in rad/s; `body`: identified differences; None believes the model; `stands`: whether still
+    averaging the initial stand, before feedback.
     """
 
     def __init__(

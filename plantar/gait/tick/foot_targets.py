@@ -36,14 +36,7 @@ class FootTargets:
         self._contacts: dict[Side, tuple[NDArray[np.float64], tuple[object, ...], Contact]] = {}
 
     def states(self, phase: Phase, soles: Mapping[Side, SoleLoad], contacts: bool, rests: bool) -> Feet:
-        """Returns the feet for a balance law.
-
-        Args:
-            phase: The walk's.
-            soles: Each sole's load.
-            contacts: Whether the law needs contacts and wrenches.
-            rests: Whether the robot stands after a walk; wrenches included.
-        """
+        """Returns the feet for a balance law. `rests`: whether the robot stands after a walk; wrenches included."""
         states: dict[Side, FootState] = {}
         motion = self._footing.motion
         crept = self._crept() if contacts else ()
@@ -90,13 +83,7 @@ class FootTargets:
     ) -> None:
         """Correct a swinging or just landed foot for body lean.
 
-        Args:
-            feet: Targets, with that foot's replaced.
-            phase: The walk's.
-            com: Commanded (3,) in m.
-            torso: Commanded heading in rad.
-            posture: Commanded torso rotation (3, 3).
-            state: The body's.
+        `com`: commanded (3,) in m; `torso`: commanded heading in rad; `posture`: commanded torso rotation (3, 3).
         """
         side = self._footing.motion.last_side
         frame = self._footing.frame

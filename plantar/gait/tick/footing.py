@@ -44,17 +44,9 @@ _MAX_LANDING_OFFSET = 0.25  # leg that a foot that has landed off its place is c
 class Footing:
     """A walk's feet.
 
-    Attributes:
-        frame: Command frame of the footholds.
-        motion: Commanded feet.
-        contacts: Their footholds.
-        damping: Each foot's yielding to load.
-        compensation: Swing foot's correction for body lean.
-        guard: Checks footholds; None allows all.
-        conformity: Turns soles to the ground; None leaves them.
-
-    Raises:
-        InputError: Part without preemptive compliance.
+    `frame`: command frame of the footholds; `damping`: each foot's yielding to load; `compensation`: swing foot's
+    correction for body lean; `guard`: checks footholds; None allows all; `conformity`: turns soles to the ground; None
+    leaves them.
     """
 
     def __init__(
@@ -113,16 +105,7 @@ class Footing:
         self.frame.update(position, state.positions_sole[side], turn)
 
     def swing(self, sensed: Sensed, state: BaseState, feedback: bool) -> FeetView:
-        """Advance the swing foot.
-
-        Args:
-            sensed: Of the soles.
-            state: The body's.
-            feedback: Whether balance is fed back.
-
-        Returns:
-            The feet.
-        """
+        """Advance the swing foot. `feedback`: whether balance is fed back."""
         phase = sensed.phase
         percepts = sensed.percepts
         s = self._settings
@@ -177,14 +160,7 @@ class Footing:
     ) -> tuple[Tick, NDArray[np.float64]]:
         """Footholds for proposers, and the desired ZMP's region (`zmp_region`).
 
-        Args:
-            sensed: Of the soles.
-            state: The body's.
-            feet: Commanded.
-            dcm: (2,) in m; None without feedback.
-
-        Returns:
-            Both.
+        `dcm` (2,) in m; None without feedback.
         """
         time = sensed.time
         phase = sensed.phase
@@ -240,11 +216,7 @@ class Footing:
     ) -> tuple[LipReference, NDArray[np.float64]]:
         """Returns the plan and the ZMP's region, or u* with its share of that (K 25-27).
 
-        Args:
-            phase: Of the present plan.
-            time: In s.
-            pendulum: Before the plan changed; None hands over the plan.
-            region: Desired ZMP's (k, 2) in m.
+        `time` in s; `pendulum`: before the plan changed; None hands over the plan; `region`: desired ZMP's (k, 2) in m.
         """
         reference = self._plan.at(time)
         plan = self._plan.view

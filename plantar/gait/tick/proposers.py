@@ -38,14 +38,8 @@ def proposers(
 ) -> list[Proposer]:
     """Returns a walk's proposers in order.
 
-    Args:
-        settings: The controller's.
-        layouts: Of each side.
-        plan: The walk's.
-        feet: At the start.
-        begin: Plan's start in s.
-        middles: Point (2,) of each sole in m under its ankle.
-        guard: Checks footholds; None allows all.
+    `begin`: plan's start in s; `middles`: point (2,) of each sole in m under its ankle; `guard`: checks footholds; None
+    allows all.
     """
     s = settings
     outlines = {side: layouts[side].outline for side in SIDES}

@@ -18,12 +18,8 @@ _TILTED = 0.9  # cosine of the angle to a cylinder's axis up to which a sole lie
 class FaceContacts:
     """Writes one pair's contacts into the simulator's memory.
 
-    Args:
-        stride: Bytes from one contact to the next; each: gap, position (3,), normal (3,) from first geom to second,
-            first tangent (3,).
-
-    Attributes:
-        count: Number of pairs so far.
+    `stride`: bytes from one contact to the next; each: gap, position (3,), normal (3,) from first geom to second, first
+    tangent (3,). Attributes `count`: number of pairs so far.
     """
 
     def __init__(self, stride):
@@ -41,14 +37,9 @@ class FaceContacts:
     def box(self, places, turns, sizes, ground, sole, margin, out, sign):
         """Number of contacts of a box on a box.
 
-        Args:
-            places: Address of all geoms' positions (n, 3) in m.
-            turns: Address of their rotations (n, 9) to world.
-            sizes: Address of their half sizes (n, 3) in m.
-            ground: Ground's geom; `sole` the other.
-            margin: Largest gap in m of contact.
-            out: Address of contacts, with room for eight.
-            sign: 1 if ground is first in pair, else -1.
+        `places`: address of all geoms' positions (n, 3) in m; `turns`: address of their rotations (n, 9) to world;
+        `sizes`: address of their half sizes (n, 3) in m; `margin`: largest gap in m of contact; `sign`: 1 if ground is
+        first in pair, else -1.
         """
         self.count += 1
         base = addresses.at(places)
@@ -96,8 +87,7 @@ class FaceContacts:
     def cylinder(self, places, turns, sizes, ground, sole, margin, out, sign):
         """Contacts of a box on a cylinder's end, at the corners furthest along the box's diagonals; as `box`.
 
-        Returns:
-            Number of contacts; -1 off the end.
+        Returns number of contacts; -1 off the end.
         """
         self.count += 1
         base = addresses.at(places)

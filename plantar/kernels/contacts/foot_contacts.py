@@ -30,13 +30,7 @@ class ContactList:
 
 
 def gather_feet(feet, listed, forces):
-    """Gather the contacts of several feet.
-
-    Args:
-        feet: Their `FootContacts`, a tuple.
-        listed: The `ContactList`.
-        forces: Forces in N and torques in N m of all contacts.
-    """
+    """Gather the contacts of several feet. `forces`: forces in N and torques in N m of all contacts."""
     for foot in feet:
         foot.gather(listed, forces)
 
@@ -44,15 +38,9 @@ def gather_feet(feet, listed, forces):
 class FootContacts:
     """One foot's contacts with everything else at each instant.
 
-    Args:
-        own: Whether geom belongs to foot (geoms,), 0 or 1.
-
-    Attributes:
-        size: Number of contacts k.
-        ids: Foot's geom and the other (room, 2); -1 for none.
-        vectors: Each contact's position in m, force in N and torque in N m on foot (3 room, 3), in world frame.
-        gaps: Gaps (room,) in m.
-        carries: Whether contact carries (room,).
+    `own`: whether geom belongs to foot (geoms,), 0 or 1. Attributes `ids`: foot's geom and the other (room, 2); -1 for
+    none; `vectors`: each contact's position in m, force in N and torque in N m on foot (3 room, 3), in world frame;
+    `gaps`: gaps (room,) in m; `carries`: whether contact carries (room,).
     """
 
     def __init__(self, own):
@@ -92,9 +80,7 @@ class FootContacts:
     def gather(self, listed, forces):
         """Gather the foot's contacts, forces turned from contact frame to world.
 
-        Args:
-            listed: The `ContactList`.
-            forces: Forces in N and torques in N m on each second geom.
+        `forces`: forces in N and torques in N m on each second geom.
         """
         count = listed.geoms.shape[0]
         if count > self.room:
@@ -140,11 +126,8 @@ class FootContacts:
     def add_to_ground(self, reach, ground, sums, points):
         """Add the contacts to the ground's wrench about the world's origin.
 
-        Args:
-            reach: Largest gap in m of point of support.
-            ground: Whether geoms are ground (geoms,); None for all.
-            sums: Force, torque, and sum of height times vertical force (7,), added to.
-            points: `FewPoints` that receive points of support.
+        `reach`: largest gap in m of point of support; `ground`: whether geoms are ground (geoms,); None for all;
+        `sums`: force, torque, and sum of height times vertical force (7,), added to.
         """
         fx = sums[0]
         fy = sums[1]
@@ -184,9 +167,7 @@ class FootContacts:
         """For each pair of geoms, in order of contact: normal force in N on the plane z = 0, torques about x and y at
         its origin in N m, and points (x, y) in m.
 
-        Args:
-            vectors: As attribute, in plane's frame.
-            reach: Largest gap in m of contact without load.
+        `vectors`: as attribute, in plane's frame; `reach`: largest gap in m of contact without load.
         """
         loads = []
         points = np.zeros((self.size, 3))
@@ -252,10 +233,8 @@ _dot = np.dot
 class ContactsInSole:
     """Turns a foot's contacts into its sole frame.
 
-    Attributes:
-        vectors: Each contact's position in m, force in N and torque in N m (3 room, 3).
-        pressed: How often there were contacts.
-        in_air: How often there were none.
+    `vectors`: each contact's position in m, force in N and torque in N m (3 room, 3); `pressed`: how often there were
+    contacts; `in_air`: how often there were none.
     """
 
     def __init__(self):

@@ -12,16 +12,10 @@ _NONE = float("nan")
 class GroundReaction:
     """Sums the contacts of all feet.
 
-    Args:
-        height: Height in m of ZMP's plane; NaN: force-weighted mean of contacts.
-        least: Vertical force in N below which there is no ZMP.
-        reach: Largest gap in m of contact that could carry.
-        ground: Whether geoms are ground (geoms,); None for all.
-
-    Attributes:
-        loads: Vertical force in N on each foot.
-        found: Whether there is a ZMP, at x, y in m.
-        margin: Signed distance in m of ZMP to support's edge, positive inside; NaN without.
+    `height`: height in m of ZMP's plane; NaN: force-weighted mean of contacts; `least`: vertical force in N below which
+    there is no ZMP; `reach`: largest gap in m of contact that could carry; `ground`: whether geoms are ground (geoms,);
+    None for all. Attributes `loads`: vertical force in N on each foot; `found`: whether there is a ZMP, at x, y in m;
+    `margin`: signed distance in m of ZMP to support's edge, positive inside; NaN without.
     """
 
     def __init__(self, height, least, reach, ground=None):
@@ -86,9 +80,8 @@ class GroundReaction:
     def found_now(self):
         """Current result, to keep.
 
-        Returns:
-            Wrench (6,) about the world's origin; ZMP (x, y) in m or None; support hull, counter-clockwise; margin in m
-            or None; each foot's points of support.
+        Returns wrench (6,) about the world's origin; ZMP (x, y) in m or None; support hull, counter-clockwise; margin
+        in m or None; each foot's points of support.
         """
         wrench = np.array(self.sums[:6])
         points = []

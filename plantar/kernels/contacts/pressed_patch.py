@@ -12,17 +12,9 @@ _EXACT = 1e-12  # of the load and of the cells' extent: how exactly a pressure h
 def spread_whole(u, area, inverse, x, y, force, cells, out):
     """Spread a normal load over cells that all carry: pressure a + b x + c y, never negative.
 
-    Args:
-        u: Coordinates (m, 3) of cells' covered centroids: 1, and scaled place.
-        area: Share (m,) of each cell in covered area.
-        inverse: Load to field (3, 3) of all covered cells.
-        x: Scaled place of load; y likewise.
-        force: Load in N.
-        cells: Index (m,) of each cell in `out`.
-        out: Receives cells' forces in N, if all carry.
-
-    Returns:
-        Whether all cells carry.
+    `u`: coordinates (m, 3) of cells' covered centroids: 1, and scaled place; `area`: share (m,) of each cell in covered
+    area; `inverse`: load to field (3, 3) of all covered cells; `force`: load in N; `cells`: index (m,) of each cell in
+    `out`; `out`: receives cells' forces in N, if all carry.
     """
     a = inverse[0, 0] + inverse[0, 1] * x + inverse[0, 2] * y
     b = inverse[1, 0] + inverse[1, 1] * x + inverse[1, 2] * y
@@ -186,6 +178,8 @@ def patch_key(points, grid):
 class PressedPatch:
     """What does not depend on the load: m covered cells, u = (1, (x - cx)/h, (y - cy)/h).
 
+    Attributes `carried`: whether each cell (m,) carried last; search starts there.
+
     Args:
         cells: Index (m,) of each cell in sole.
         centre: Place (cx, cy) in m.
@@ -194,9 +188,6 @@ class PressedPatch:
         u: Coordinates (m, 3).
         inverse: Load to field (3, 3) where every covered cell carries.
         reach: Polygon (k, 2) in scaled coordinates where cells can carry a load.
-
-    Attributes:
-        carried: Whether each cell (m,) carried last; search starts there.
     """
 
     def __init__(self, cells, centre, scale, area, u, inverse, reach):
@@ -215,13 +206,8 @@ class PressedPatch:
     def spread(self, force, x, y, out):
         """Spread a normal load over the cells.
 
-        Args:
-            force: Load in N.
-            x: Where it acts in m; moved to where cells can carry it; y likewise.
-            out: Receives cells' forces in N, if carried.
-
-        Returns:
-            Whether carrying cells were found; else try `part` from others.
+        `force`: load in N; `x`: where it acts in m; moved to where cells can carry it; y likewise; `out`: receives
+        cells' forces in N, if carried. Returns whether carrying cells were found; else try `part` from others.
         """
         self.x = (x - self.cx) / self.scale
         self.y = (y - self.cy) / self.scale

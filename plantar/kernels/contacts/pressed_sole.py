@@ -12,14 +12,8 @@ _RECENT = 4  # patches that are looked at before any other: one for each piece o
 class PressedSole:
     """Spreads loads over a sole's cells, keeping what was computed for a patch.
 
-    Args:
-        gains: Reading of cell's taxel (n,) per vertical force.
-        grid: Distance in m within which contact points span the same patch.
-        most: Number of patches to keep.
-        make: Makes patch of contact points (k, 2) in m.
-
-    Attributes:
-        forces: Last forces (n,) of taxels in N.
+    `gains`: reading of cell's taxel (n,) per vertical force; `grid`: distance in m within which contact points span the
+    same patch; `make`: makes patch of contact points (k, 2) in m. Attributes `forces`: last forces (n,) of taxels in N.
     """
 
     def __init__(self, gains, grid, most, make):
@@ -46,10 +40,8 @@ class PressedSole:
     def press(self, contacts, vectors, reach):
         """Forces (n,) in N of the taxels under a foot's contacts, pair by pair.
 
-        Args:
-            contacts: Foot's contacts.
-            vectors: Position, force and torque of each in sole frame (at least 3 k, 3).
-            reach: Largest gap in m of contact without load.
+        `vectors`: position, force and torque of each in sole frame (at least 3 k, 3); `reach`: largest gap in m of
+        contact without load.
         """
         self.load(contacts, vectors, reach)
         return self.carried.copy()
@@ -57,10 +49,7 @@ class PressedSole:
     def stand(self, contacts, seen, reach):
         """Set `forces` from a foot's contacts.
 
-        Args:
-            contacts: Foot's contacts.
-            seen: `ContactsInSole`, which turns them into sole frame.
-            reach: Largest gap in m of contact without load.
+        `seen`: `ContactsInSole`, which turns them into sole frame; `reach`: largest gap in m of contact without load.
         """
         seen.turn(contacts)
         self.load(contacts, seen.vectors, reach)

@@ -25,19 +25,12 @@ class TaxelLoad:
     - Tangential forces follow the normal ones, with the rest of the wrench.
     - Contacts that press from above, within 45 degrees of straight down, are left out.
 
-    Args:
-        positions: Taxels (n, 3) in sole frame in m.
-        normals: Axis (n, 3) of each taxel into body.
-        areas: Area (n,) of each cell in m^2.
-        widths: Distance (n,) in m from each taxel to its cell's farthest corner.
-        hull: Convex hull (h, 2) of taxels in m, counter-clockwise.
-
-    Attributes:
-        vectors: Force (n, 3) on each taxel in sole frame in N.
-        forces: Its part (n,) along taxel's axis in N.
-        depths: Overlap (n,) of geoms at each taxel in m.
-        wrench: Wrench (6,) of contacts about sole origin in N and N m.
-        carried: Whether vectors have that wrench, or else only its force.
+    `positions`: taxels (n, 3) in sole frame in m; `normals`: axis (n, 3) of each taxel into body; `areas`: area (n,) of
+    each cell in m^2; `widths`: distance (n,) in m from each taxel to its cell's farthest corner; `hull`: convex hull
+    (h, 2) of taxels in m, counter-clockwise. Attributes `vectors`: force (n, 3) on each taxel in sole frame in N;
+    `forces`: its part (n,) along taxel's axis in N; `depths`: overlap (n,) of geoms at each taxel in m; `wrench`:
+    wrench (6,) of contacts about sole origin in N and N m; `carried`: whether vectors have that wrench, or else only
+    its force.
     """
 
     def __init__(self, positions, normals, areas, widths, hull):

@@ -29,12 +29,8 @@ _LARGEST = 1.7976931348623157e308
 def read_rows(text, delimiter, comma, columns, out):
     """Read lines of numbers up to the first other one; returns their number.
 
-    Args:
-        text: Lines, as bytes.
-        delimiter: Code of sign between numbers, doubled for a missing one; 0 for blanks.
-        comma: Whether numbers may have a decimal comma.
-        columns: Column of `out` for each number of a line; -1 to skip it.
-        out: Receives numbers, a row a line; NaN for a missing one.
+    `delimiter`: code of sign between numbers, doubled for a missing one; 0 for blanks; `columns`: column of `out` for
+    each number of a line; -1 to skip it; `out`: receives numbers, a row a line; NaN for a missing one.
     """
     cursor = _Cursor(text, delimiter, comma)
     row = 0

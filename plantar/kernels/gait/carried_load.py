@@ -8,9 +8,7 @@ _INFINITE = float("inf")
 def take_in(force, forgetting, share, total, mean):
     """Add a reading `force` (n,) in N to running sum and mean; not finite counts as 0.
 
-    Args:
-        forgetting: Share of old value in sum `total` (n,) in N.
-        share: Share of new value in `mean` (n,) in N.
+    `forgetting`: share of old value in sum `total` (n,) in N; `share`: share of new value in `mean` (n,) in N.
     """
     for i in range(force.shape[0]):
         new = force[i] if -_INFINITE < force[i] < _INFINITE else 0.0

@@ -14,12 +14,8 @@ _SAME = 1e-9  # m: a desired ZMP that its region moves by less is not held back
 class ComAdmittance:
     """Offset of the CoM reference from the plan (T 4.29): x, y in m, rates in m/s.
 
-    Args:
-        zmp_gain: k_f in 1/s, from ZMP error to rate.
-        com_gain: k_x in 1/s, rate of return to plan.
-        zmp_filter: Time constant in s of low-pass on ZMP error.
-        period: Control period in s.
-        largest: Largest offset in m.
+    `zmp_gain`: k_f in 1/s, from ZMP error to rate; `com_gain`: k_x in 1/s, rate of return to plan; `zmp_filter`: time
+    constant in s of low-pass on ZMP error; `period`: control period in s; `largest`: largest offset in m.
     """
 
     def __init__(self, zmp_gain, com_gain, zmp_filter, period, largest=math.inf):
@@ -69,7 +65,6 @@ class DcmFeedback:
         gain: k_xi of T 4.28 in 1/s.
         integral: Integral of DCM error: gain in 1/s, decay in 1/s, limit in m.
         period: Control period in s.
-        admittance: Offset of CoM reference.
         after: Whether acceleration uses offset after this tick, or before.
         held: Largest ZMP offset in m by ankles; for more the CoM reference goes along.
         press: Its rate in 1/s from ZMP error then.
@@ -93,16 +88,10 @@ class DcmFeedback:
         """Advance by a tick: desired ZMP p_r + (1 + k_xi / w) (xi - xi_r) with the integral, kept in a region (T 4.28,
         Algorithm 1), and CoM reference (T 4.29).
 
-        Args:
-            vrp: Planned VRP (2,) in m; `planned` DCM and `com` likewise.
-            com_velocity: Planned velocity (2,) of CoM in m/s.
-            dcm: Measured DCM (2,) in m.
-            zmp: Measured ZMP (2,) in m; None without load.
-            region: Convex polygon (k, 2) in m; empty for no limit.
-            firm: Whether a step can catch a fall, so that the CoM may go along.
-
-        Returns:
-            Desired ZMP (2,) in m; CoM reference (2,) in m, its velocity in m/s and acceleration in m/s^2.
+        `vrp`: planned VRP (2,) in m; `planned` DCM and `com` likewise; `com_velocity`: planned velocity (2,) of CoM in
+        m/s; `dcm`: measured DCM (2,) in m; `zmp`: measured ZMP (2,) in m; None without load; `region`: convex polygon
+        (k, 2) in m; empty for no limit; `firm`: whether a step can catch a fall, so that the CoM may go along. Returns
+        desired ZMP (2,) in m; CoM reference (2,) in m, its velocity in m/s and acceleration in m/s^2.
         """
         offset = self.admittance
         at = memory.values(com)
@@ -177,17 +166,10 @@ _RIGHT = 2
 def shared_load(zmp, acceleration, mass, gravity, left, right, stance):
     """Share the pendulum's force, m (a_x, a_y, g), between two feet.
 
-    Args:
-        zmp: Desired ZMP (2,) in m.
-        acceleration: Acceleration (2,) of CoM in m/s^2.
-        mass: Mass m in kg.
-        gravity: g in m/s^2.
-        left: Left foot: `position` (3,) in m and `rotation` (3, 3) of its sole frame, `center` (2,) to load; `right`
-            likewise.
-        stance: Only carrying foot: 1 left, 2 right, 0 for none.
-
-    Returns:
-        Force (3,) on left foot in N, where it acts (2,) in m; right likewise.
+    `zmp`: desired ZMP (2,) in m; `acceleration`: acceleration (2,) of CoM in m/s^2; `mass`: mass m in kg; `gravity`: g
+    in m/s^2; `left`: left foot: `position` (3,) in m and `rotation` (3, 3) of its sole frame, `center` (2,) to load;
+    `right` likewise; `stance`: only carrying foot: 1 left, 2 right, 0 for none. Returns force (3,) on left foot in N,
+    where it acts (2,) in m; right likewise.
     """
     goal = memory.values(zmp)
     rate = memory.values(acceleration)

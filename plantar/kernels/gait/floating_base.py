@@ -65,10 +65,8 @@ class FloatingBase:
     def watch(self, com, left, right, turn_left, turn_right):
         """Keep a posture's arrays, in the base frame, which `take` reads.
 
-        Args:
-            com: CoM (3,) in m.
-            left: Origin (3,) of left sole frame in m; `right` likewise.
-            turn_left: Rotation (3, 3) from the left sole frame; `turn_right` likewise.
+        `com`: CoM (3,) in m; `left`: origin (3,) of left sole frame in m; `right` likewise; `turn_left`: rotation (3,
+        3) from the left sole frame; `turn_right` likewise.
         """
         self.com_now = com
         self.left_now = left
@@ -118,15 +116,7 @@ class FloatingBase:
         self.astray = 0.0
 
     def carry(self, side, load, pressed, x, y):
-        """Set the load of a foot at this tick.
-
-        Args:
-            side: Foot.
-            load: Vertical force in N.
-            pressed: Whether it has a center of pressure.
-            x: That in sole frame in m.
-            y: Same.
-        """
+        """Set the load of a foot at this tick. `load`: vertical force in N; `x`: that in sole frame in m."""
         self.loads[side] = load
         self.pressed[side] = pressed
         self.cops[side, 0] = x
@@ -135,10 +125,9 @@ class FloatingBase:
     def follow(self, gyro_x, gyro_y, gyro_z, specific_x, specific_y, specific_z, planned_x, planned_y):
         """Read this tick's posture, and turn and move the base; returns the ZMP as `place`.
 
-        Args:
-            gyro_x: Angular velocity about base's x in rad/s; `gyro_y` and `gyro_z` likewise.
-            specific_x: Specific force along base's x in m/s^2; `specific_y` and `specific_z` likewise.
-            planned_x: Planned CoM acceleration along world's x in m/s^2; `planned_y` likewise.
+        `gyro_x`: angular velocity about base's x in rad/s; `gyro_y` and `gyro_z` likewise; `specific_x`: specific force
+        along base's x in m/s^2; `specific_y` and `specific_z` likewise; `planned_x`: planned CoM acceleration along
+        world's x in m/s^2; `planned_y` likewise.
         """
         self.take()
         rate = self.rate
@@ -210,12 +199,9 @@ class FloatingBase:
     def turn(self, rate, accelerometer, planned, by_legs, missed):
         """Turn the base by one tick.
 
-        Args:
-            rate: Angular velocity (3,) in base frame in rad/s, less bias.
-            accelerometer: Specific force (3,) in base frame in m/s^2.
-            planned: Planned horizontal CoM acceleration (2,) in m/s^2, or None.
-            by_legs: Whether `missed` or feet correct heading.
-            missed: Turn (3,) of legs beyond gyro in base frame in rad, or None.
+        `rate`: angular velocity (3,) in base frame in rad/s, less bias; `accelerometer`: specific force (3,) in base
+        frame in m/s^2; `planned`: planned horizontal CoM acceleration (2,) in m/s^2, or None; `by_legs`: whether
+        `missed` or feet correct heading; `missed`: turn (3,) of legs beyond gyro in base frame in rad, or None.
         """
         rotation = self.rotation
         specific = self.other
@@ -373,9 +359,8 @@ class FloatingBase:
     def snapshot(self):
         """Copies of the state.
 
-        Returns:
-            Rotation (3, 3) from base to world; base position, CoM in m and its velocity in m/s (3,); left and right
-            sole origins (3,) in m; their rotations (3, 3) to world.
+        Returns rotation (3, 3) from base to world; base position, CoM in m and its velocity in m/s (3,); left and right
+        sole origins (3,) in m; their rotations (3, 3) to world.
         """
         places = self.places
         turns = self.turns

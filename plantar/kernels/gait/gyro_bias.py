@@ -10,14 +10,8 @@ class SteadyLoad:
 
     Landing and lifting feet always turn the same way, which would add up in heading.
 
-    Args:
-        share: Share of total load from which only this foot is still.
-        follow: Share of new load in running mean.
-        band: Largest difference in N of load and mean of still foot.
-
-    Attributes:
-        left: Load of left foot in N, 0 where it may turn.
-        right: Same of the right one.
+    `band`: largest difference in N of load and mean of still foot. Attributes `left`: load of left foot in N, 0 where
+    it may turn.
     """
 
     def __init__(self, share, follow, band):
@@ -51,19 +45,16 @@ class SteadyLoad:
 class GyroBias:
     """Mean difference of gyro and legs' turn, piece by piece.
 
+    Attributes `concluded`: whether piece ended at the last tick.
+
     Args:
         period: Control period in s.
-        least: Least weight of a tick in mean.
         largest: Largest bias of axis in rad/s.
-        most_ticks: Ticks of piece.
         slip: Largest angle in rad about z by which noise differs in a piece.
         one_foot: Weight of one still foot, relative to two.
         known: Weight from which a slip differs from bias.
         value: Receives bias (3,) in base frame in rad/s.
         missed: Receives turn (3,) of legs beyond corrected gyro in last piece, in base frame in rad.
-
-    Attributes:
-        concluded: Whether piece ended at the last tick.
     """
 
     def __init__(self, period, least, largest, most_ticks, slip, one_foot, known, value, missed):
@@ -91,10 +82,9 @@ class GyroBias:
     def update(self, gyro_x, gyro_y, gyro_z, stands, turn_x, turn_y, turn_z, both):
         """Advance by one control tick.
 
-        Args:
-            gyro_x: Angular velocity about base's x in rad/s; `gyro_y` and `gyro_z` likewise.
-            stands: Whether foot is still; `both` whether both are.
-            turn_x: Turn about base's x in rad by still feet; `turn_y` and `turn_z` likewise.
+        `gyro_x`: angular velocity about base's x in rad/s; `gyro_y` and `gyro_z` likewise; `stands`: whether foot is
+        still; `both` whether both are; `turn_x`: turn about base's x in rad by still feet; `turn_y` and `turn_z`
+        likewise.
         """
         self.concluded = False
         if stands:

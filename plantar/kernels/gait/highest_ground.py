@@ -20,17 +20,10 @@ def highest_plane(x, y, distance, readings, noise, least, used, plane):
     Weighted least squares, repeated while ground is above the noise: with points above, then without those far below;
     at last with all within the noise, unless one lies above.
 
-    Args:
-        x: Taxels (n,) in sole frame in m; y likewise.
-        distance: Distances (n,) of ground in m; inf or NaN without.
-        readings: Number of readings (n,) behind each, 1 or more.
-        noise: Standard deviation of reading in m.
-        least: Least number of points for second fit.
-        used: Receives 1 for points (n,) on plane or, without one, remaining points; else 0.
-        plane: Receives level in m, sx and sy (3,).
-
-    Returns:
-        Whether there is a plane: six points or more, not in a row.
+    `x`: taxels (n,) in sole frame in m; y likewise; `distance`: distances (n,) of ground in m; inf or NaN without;
+    `readings`: number of readings (n,) behind each, 1 or more; `noise`: standard deviation of reading in m; `used`:
+    receives 1 for points (n,) on plane or, without one, remaining points; else 0; `plane`: receives level in m, sx and
+    sy (3,). Returns whether there is a plane: six points or more, not in a row.
     """
     n = x.shape[0]
     for i in range(n):

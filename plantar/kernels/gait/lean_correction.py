@@ -56,7 +56,6 @@ def correct(
         kept: Additional commanded displacement (3,) of foot in m.
         largest_shift: Limit of `shift` in m; `largest_turn` of `turn` in rad.
         weight: Weight of correction, 0 to 1.
-        share: Share of new correction in low pass.
         shift: Correction of position (3,) in m, updated in place; `turn` of orientation in rad.
     """
     p = memory.values(position)

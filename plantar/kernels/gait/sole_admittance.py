@@ -12,13 +12,9 @@ _NONE = 1e-7  # rad and m: below what any servo resolves a correction that fades
 class SoleAdmittance:
     """Correction of one commanded sole: `roll`, `pitch` in rad about its axes, `shift` upwards in m.
 
-    Args:
-        period: Control period in s.
-        share: Share of new measurement in its low pass.
-        turn_gain: Turning rate in rad/s per N m of moment error.
-        back: Rate in 1/s of return to zero in stance, may change; `release` in the air.
-        largest_turn: Largest turn about an axis in rad.
-        largest_lift: Largest shift in m.
+    `period`: control period in s; `share`: share of new measurement in its low pass; `turn_gain`: turning rate in rad/s
+    per N m of moment error; `back`: rate in 1/s of return to zero in stance, may change; `release` in the air;
+    `largest_turn`: largest turn about an axis in rad; `largest_lift`: largest shift in m.
     """
 
     def __init__(self, period, share, turn_gain, back, release, largest_turn, largest_lift):
@@ -53,8 +49,7 @@ class SoleAdmittance:
     def turn(self, measured, wanted):
         """Turn by a tick under load from the measured to the desired wrench (6,) in sole frame in N and N m.
 
-        Returns:
-            Error in N of normal force.
+        Returns error in N of normal force.
         """
         now = memory.values(measured)
         goal = memory.values(wanted)

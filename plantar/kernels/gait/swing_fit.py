@@ -10,17 +10,10 @@ def fit(order, now, before, conditions, same, high, pull, way, work, out):
 
     Conditions: position, first and second derivative at `before`.
 
-    Args:
-        order: Order n of polynomial.
-        now: Share s of swing.
-        before: Share at the last tick.
-        conditions: Weight, and value less start, of each condition (3, 1 + 3).
-        same: Matrix (m, m) and, in column m, pull of way, of all axes, m = n - 1.
-        high: Additional terms of third axis (m, m + 2): a matrix, and pulls of height and way.
-        pull: That height.
-        way: End less start (3,).
-        work: Scratch (6 + 2 m, n + 1).
-        out: Receives path less its start, and its derivatives by share (3, 3).
+    `conditions`: weight, and value less start, of each condition (3, 1 + 3); `same`: matrix (m, m) and, in column m,
+    pull of way, of all axes, m = n - 1; `high`: additional terms of third axis (m, m + 2): a matrix, and pulls of
+    height and way; `way`: end less start (3,); `work`: scratch (6 + 2 m, n + 1); `out`: receives path less its start,
+    and its derivatives by share (3, 3).
     """
     n = order
     m = order - 1

@@ -20,9 +20,8 @@ _SMALLEST = 1e-100  # m: products of the edges of a smaller ring may underflow
 def turning(polygon, x0, y0, near):
     """Which way a ring (k, 2) about x0, y0 in m goes: 1 counter-clockwise, -1 clockwise.
 
-    Returns:
-        0 unless it turns one way at every vertex beyond rounding, goes round once, with no neighbours within `near` in
-        m.
+    Returns 0 unless it turns one way at every vertex beyond rounding, goes round once, with no neighbours within `near`
+    in m.
     """
     k = polygon.shape[0]
     if k < 3:

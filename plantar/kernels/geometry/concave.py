@@ -12,8 +12,7 @@ __all__ = ["OutlineRectangles"]
 class OutlineRectangles:
     """Largest rectangles of outlines, with their work arrays.
 
-    Args:
-        lists: Keep lists instead of arrays, faster when interpreted.
+    `lists`: keep lists instead of arrays, faster when interpreted.
     """
 
     def __init__(self, lists):
@@ -70,9 +69,8 @@ class OutlineRectangles:
         another may use a convex region: a window in y, cut by the slants of both. Branch and bound over the pairs: the
         window's box bounds a pair, and the remaining pairs are solved as convex polygons.
 
-        Args:
-            angle: Angle of first side in rad.
-            out: Receives 4 corners about the first vertex, flat, counter-clockwise; untouched without area.
+        `angle`: angle of first side in rad; `out`: receives 4 corners about the first vertex, flat, counter-clockwise;
+        untouched without area.
         """
         self.best = 0.0
         slabs = self._cut(angle)
@@ -347,8 +345,7 @@ class OutlineRectangles:
     def _octagon(self, i, k, low, high, start, end):
         """Region from slab i to slab k: the window, cut by the slants at its ends.
 
-        Returns:
-            Number of vertices, up to 8, in `ring`, counter-clockwise; below 3 if empty.
+        Returns number of vertices, up to 8, in `ring`, counter-clockwise; below 3 if empty.
         """
         ring = self.ring
         x1 = self.line[i]

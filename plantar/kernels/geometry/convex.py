@@ -97,10 +97,8 @@ def area_and_centroid(polygon):
 def _nearest(polygon, turn, x, y):
     """Signed margin and closest point (T Algorithm 1), as three numbers.
 
-    Args:
-        polygon: Ring (k, 2) in m: clean, or of 1 or 2 vertices.
-        turn: 1.0 for counter-clockwise, else -1.0.
-        x: Point in m; likewise y.
+    `polygon`: ring (k, 2) in m: clean, or of 1 or 2 vertices; `turn`: 1.0 for counter-clockwise, else -1.0; `x`: point
+    in m; likewise y.
     """
     k = polygon.shape[0]
     if not (abs(x) <= _LARGEST and abs(y) <= _LARGEST):
@@ -206,9 +204,8 @@ def signed_margin(polygon, x, y):
 def seen_from_above(polygon, rotation, position):
     """A polygon (k, 2) in m of a frame's x-y plane, seen along another's z axis.
 
-    Args:
-        rotation: Rotation (3, 3) from its frame to the other.
-        position: Position (3,) of its frame's origin in the other in m.
+    `rotation`: rotation (3, 3) from its frame to the other; `position`: position (3,) of its frame's origin in the
+    other in m.
     """
     out = np.empty((polygon.shape[0], 2))
     _place(polygon, rotation, position, out)

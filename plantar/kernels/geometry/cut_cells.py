@@ -8,16 +8,11 @@ __all__ = ["cut_cells", "part_below"]
 def cut_cells(points, start, lines, scratch, tags, measure, chords):
     """Clip every cell by half-planes n . x <= h (Sutherland and Hodgman 1974); areas exact to 1e-12 of the cell's.
 
-    Args:
-        points: Corners (c, 2) of cells in m, in turn, counter-clockwise; offsets `start` (n + 1,).
-        lines: Half-planes (m, 3): n of length 1, and h in m.
-        scratch: Room (2, r, 2) for a cell's corners; if convex, r = its corners + m + 1.
-        tags: Room (2, r) for lines that edges lie on.
-        measure: Receives (n, 3): area in m^2 left, and its first moments about origin in m^3.
-        chords: Receives (n, m, 3): length in m of each line's edge, and its middle in m.
-
-    Returns:
-        Whether room was enough; if not, results are not complete.
+    `points`: corners (c, 2) of cells in m, in turn, counter-clockwise; offsets `start` (n + 1,); `lines`: half-planes
+    (m, 3): n of length 1, and h in m; `scratch`: room (2, r, 2) for a cell's corners; if convex, r = its corners + m +
+    1; `tags`: room (2, r) for lines that edges lie on; `measure`: receives (n, 3): area in m^2 left, and its first
+    moments about origin in m^3; `chords`: receives (n, m, 3): length in m of each line's edge, and its middle in m.
+    Returns whether room was enough; if not, results are not complete.
     """
     count = lines.shape[0]
     room = scratch.shape[1]
@@ -105,10 +100,7 @@ def cut_cells(points, start, lines, scratch, tags, measure, chords):
 def part_below(polygon, nx, ny, h):
     """Corners (j, 2) of a convex polygon's part where n . x <= h; keeps near-duplicates on the line.
 
-    Args:
-        polygon: Convex polygon (k, 2) in m, contiguous.
-        nx: Line's normal n, along x; ny along y.
-        h: Distance in m of line from origin, along normal.
+    `polygon`: convex polygon (k, 2) in m, contiguous; `h`: distance in m of line from origin, along normal.
     """
     size = memory.rows(polygon, 2)
     given = memory.values(polygon)

@@ -10,12 +10,7 @@ _INFINITE = float("inf")
 
 
 class FewPoints:
-    """A few points, and the convex hull of some.
-
-    Attributes:
-        count: Number of points.
-        corners: Number of corners of last hull.
-    """
+    """A few points, and the convex hull of some."""
 
     def __init__(self):
         self.count = 0

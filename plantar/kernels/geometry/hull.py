@@ -14,9 +14,7 @@ _INFINITE = float("inf")
 def hull_tolerance(largest, extent):
     """Least distance in m of a corner from its neighbours' line: 4 ulp of `largest`, at most 1e-13 of `extent`.
 
-    Args:
-        largest: Largest absolute coordinate in m.
-        extent: Larger side of points' box in m.
+    `largest`: largest absolute coordinate in m; `extent`: larger side of points' box in m.
     """
     return min(8.9e-16 * largest, 1e-13 * extent)
 
@@ -103,12 +101,9 @@ def _is_straight(ax, ay, bx, by, cx, cy, tolerance):
 def hull_ring(points, way, forth, count, tolerance, ring):
     """Hull of sorted points by Andrew's monotone chain, without vertices on straight edges; returns its size.
 
-    Args:
-        points: Points (n, 2) in m, finite.
-        way: Indices (count,): first `forth` candidates of lower chain, sorted by x, then y; then those of upper chain,
-            back to lowest.
-        tolerance: See `hull_tolerance`.
-        ring: Receives indices of corners, counter-clockwise from lowest x.
+    `points`: points (n, 2) in m, finite; `way`: indices (count,): first `forth` candidates of lower chain, sorted by x,
+    then y; then those of upper chain, back to lowest; `ring`: receives indices of corners, counter-clockwise from
+    lowest x.
     """
     if count == 0:
         return 0

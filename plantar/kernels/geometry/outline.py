@@ -59,10 +59,8 @@ def ring_areas(points, starts):
 class Rings:
     """Rings around an area, base of `plantar.geometry.outline.Outline`.
 
-    Args:
-        points: Vertices (k, 2) of all rings in m, one ring after another.
-        starts: Offsets (r + 1) of rings.
-        ring_areas: Signed area (r) of each ring in m^2.
+    `points`: vertices (k, 2) of all rings in m, one ring after another; `starts`: offsets (r + 1) of rings;
+    `ring_areas`: signed area (r) of each ring in m^2.
     """
 
     def __init__(self, points, starts, ring_areas):
@@ -80,12 +78,9 @@ class Rings:
 class EdgeTable:
     """Directed edges of a sole's cells, each counter-clockwise, in turn.
 
-    Args:
-        edges: Offsets (n + 1,) of each cell's edges and, for each edge (h,), its cell, neighbour's same edge or -1,
-            next edge, first vertex.
-        vertices: Coordinates of the v vertices, flat (2 v,), in m.
-        straight: Distance in m of corner from its neighbours' line.
-        reuse: Keep work arrays from walk to walk; compiled walks cannot interleave.
+    `edges`: offsets (n + 1,) of each cell's edges and, for each edge (h,), its cell, neighbour's same edge or -1, next
+    edge, first vertex; `vertices`: coordinates of the v vertices, flat (2 v,), in m; `straight`: distance in m of
+    corner from its neighbours' line; `reuse`: keep work arrays from walk to walk; compiled walks cannot interleave.
     """
 
     def __init__(self, edges, vertices, straight, reuse):
@@ -108,9 +103,7 @@ class EdgeTable:
     def rings(self, active, kind):
         """Rings around the active cells, the contact on their left, as an object; None where there are not n bytes.
 
-        Args:
-            active: Nonzero bytes of active cells.
-            kind: `Rings` or a derived class; its `__init__` is not called.
+        `kind`: `Rings` or a derived class; its `__init__` is not called.
         """
         if len(active) != len(self.cell_start) - 1:
             return None

@@ -14,14 +14,7 @@ _C_RETURNS = 3  # or C does, walking back
 
 
 class _ChordWalk:
-    """Walk of B round a ring from A, with C and D opposite, relative to A.
-
-    Attributes:
-        best: Largest area so far.
-        corner: Vertex A of it.
-        side_x, side_y: Its side AB.
-        other_x, other_y: Its side AD.
-    """
+    """Walk of B round a ring from A, with C and D opposite, relative to A. `best`: largest area so far."""
 
     def start(self, ring, n):
         self.ring = ring

@@ -9,12 +9,8 @@ __all__ = ["largest_rectangle", "write_corners"]
 class _Gap:
     """Gap between a rotated ring's chains, for a rectangle's width.
 
-    Attributes:
-        x: Where rectangle begins.
-        height: min(top(x), top(x + w)) - max(bottom(x), bottom(x + w)).
-        slope: Slope of largest height in width, by the last cut (tangent).
-        top: Upper side of rectangle.
-        bottom: Its lower side.
+    `height`: min(top(x), top(x + w)) - max(bottom(x), bottom(x + w)); `slope`: slope of largest height in width, by the
+    last cut (tangent).
     """
 
     def start(self, work, upper, tops, lower, bottoms):
@@ -224,11 +220,9 @@ def largest_rectangle(ring, n, angle, floor, work, out):
     Height h(w) = max over x of min(top(x), top(x + w)) - max(bottom(x), bottom(x + w)), concave and piecewise linear;
     cuts (tangents) find both maxima.
 
-    Args:
-        angle: Angle of first side in rad.
-        floor: Give up where no rectangle above this area is left; 0 to find largest.
-        work: Room for 8 n + 16 numbers.
-        out: Receives the 4 corners, flat, counter-clockwise; untouched unless area is above floor.
+    `angle`: angle of first side in rad; `floor`: give up where no rectangle above this area is left; 0 to find largest;
+    `work`: room for 8 n + 16 numbers; `out`: receives the 4 corners, flat, counter-clockwise; untouched unless area is
+    above floor.
     """
     cosine = math.cos(angle)
     sine = math.sin(angle)
@@ -299,10 +293,7 @@ def _edge_out(work, n, bottom, top, x, way):
 def write_corners(out, cosine, sine, x1, x2, y1, y2):
     """Write a rectangle's corners, turned about the origin, flat, counter-clockwise.
 
-    Args:
-        out: Receives the 4 corners.
-        cosine: Cosine of angle; sine its sine.
-        x1: First x in turned frame in m, up to x2; likewise y1 and y2.
+    `out`: receives the 4 corners; `x1`: first x in turned frame in m, up to x2; likewise y1 and y2.
     """
     out[0] = cosine * x1 - sine * y1
     out[1] = sine * x1 + cosine * y1

@@ -18,8 +18,7 @@ _QUARTER = 0.5 * math.pi
 class ConvexShapes:
     """Shapes of convex polygons (k, 2), with work arrays.
 
-    Args:
-        lists: Keep lists instead of arrays, faster when interpreted.
+    `lists`: keep lists instead of arrays, faster when interpreted.
     """
 
     def __init__(self, lists):

@@ -8,11 +8,7 @@ __all__ = ["JointEntries", "LegTargets"]
 class LegTargets:
     """Arrays that receive the targets.
 
-    Args:
-        com: CoM (3,).
-        torso: Rotation (3, 3) of torso.
-        left: Position (3,) and rotation (3, 3) of left sole.
-        right: Same of the right sole.
+    `com`: CoM (3,); `torso`: rotation (3, 3) of torso; `left`: position (3,) and rotation (3, 3) of left sole.
     """
 
     def __init__(self, com, torso, left, right):

@@ -15,6 +15,9 @@ class Setpoints:
     They follow their goal by a critically damped low pass of second order; without lag they would exceed a joint's
     speed limit.
 
+    Attributes `reference`: desired joint angles (k,) in rad, first NaN; `velocity` in rad/s; `goal`: set-points (k,) in
+    rad with which joints follow reference; `setpoint`: written set-points (k,) in rad.
+
     Args:
         controls: Set-points (n,) of all servos, read by simulator.
         servos: Index (k,) of each joint's servo there.
@@ -25,11 +28,6 @@ class Setpoints:
         share: Share of way per step of each low-pass stage, above 0 to 1.
         left: Share left of a leg's lag per control period.
         joints: Desired joint angles (k,) in rad, and holding `torques` (k,) in N m, written by caller.
-
-    Attributes:
-        reference: Desired joint angles (k,) in rad, first NaN; `velocity` in rad/s.
-        goal: Set-points (k,) in rad with which joints follow reference.
-        setpoint: Written set-points (k,) in rad.
     """
 
     def __init__(self, controls, servos, stiffness, damping, per_way, period, step, share, left, joints, torques):
@@ -99,9 +97,8 @@ class Setpoints:
     def load(self, friction=None, offsets=None):
         """Set the goal with which servos follow without lag or error.
 
-        Args:
-            friction: Additional torques (k,) in N m of joints, or None.
-            offsets: Angles (k,) in rad to add, a contiguous float64 array, or None.
+        `friction`: additional torques (k,) in N m of joints, or None; `offsets`: angles (k,) in rad to add, a
+        contiguous float64 array, or None.
         """
         for i in range(self.servos.shape[0]):
             torque = self.torques[i]

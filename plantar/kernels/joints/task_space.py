@@ -16,17 +16,10 @@ __all__ = ["TaskSpace"]
 class TaskSpace:
     """Owned directions and y of n coordinates at a tick.
 
-    Args:
-        size: Number n of generalized coordinates.
-
-    Attributes:
-        used: Number of owned directions.
-        y: Mass-weighted acceleration (n,) in basis of owned directions, these first.
-        columns: Rows of last level in that basis as columns (n, m), in owned order.
-        sizes: Size (m,) of each before any was owned.
-        full: Size (m,) of each with a Jacobian row as long as level's longest.
-        missing: Unmet part (m,) of wanted acceleration; 0 where met.
-        order: Index (m,) of each in level.
+    `size`: number n of generalized coordinates. Attributes `y`: mass-weighted acceleration (n,) in basis of owned
+    directions, these first; `columns`: rows of last level in that basis as columns (n, m), in owned order; `sizes`:
+    size (m,) of each before any was owned; `full`: size (m,) of each with a Jacobian row as long as level's longest;
+    `missing`: unmet part (m,) of wanted acceleration; 0 where met; `order`: index (m,) of each in level.
     """
 
     def __init__(self, size):
@@ -78,15 +71,9 @@ class TaskSpace:
     def own(self, jacobian, wanted, meet, least):
         """Own the directions left of a level's rows, and meet the wanted accelerations there.
 
-        Args:
-            jacobian: Rows (m, n).
-            wanted: Acceleration (m,) along each, used to meet it.
-            meet: Whether it is met.
-            least: Share of row's size below which its rest is no direction.
-
-        Returns:
-            Number of directions, and lower bound on these rows' singular values over full size. If small, or rows have
-            no direction, caller uses `rows`, `missing`.
+        `jacobian`: rows (m, n); `wanted`: acceleration (m,) along each, used to meet it; `least`: share of row's size
+        below which its rest is no direction. Returns number of directions, and lower bound on these rows' singular
+        values over full size. If small, or rows have no direction, caller uses `rows`, `missing`.
         """
         n = self.size
         count = jacobian.shape[0]
@@ -159,10 +146,7 @@ class TaskSpace:
         With L the rows that have a direction and X L the others, w along the former solves (I + X^T X) w = missing_L +
         X^T missing_X. The longest rows are first, so X is small.
 
-        Args:
-            rank: Number of rows with direction.
-            count: Number of rows.
-            least: Share of largest row's size below which a row does not count.
+        `least`: share of largest row's size below which a row does not count.
         """
         first = self.used - rank
         columns = self.columns

@@ -17,7 +17,6 @@ class NewtonStep:
         row_units: Factor (m,) of each row of error and Jacobian; `column_units` (nv,) of each column and velocity.
         movable: Entries (k,) of step that move a joint; `places` (k,) their joints in configuration.
         middle: Middle of each joint's range (k,); `half` of it, inf without one.
-        diagonal: Term on diagonal.
         least_pivot: Least Cholesky pivot of valid step.
         given: Jacobian (m, nv) and error (m,) in m and rad, and configuration (nq,), written by caller.
         jacobian: Receives Jacobian (m, n) in units; `step` (n,) step.
@@ -134,8 +133,7 @@ class Rows:
     def write(self):
         """Write both, into arrays that begin at zero.
 
-        Returns:
-            Whether the error is valid: a missing turn up to a quarter turn.
+        Returns whether the error is valid: a missing turn up to a quarter turn.
         """
         return True
 
@@ -191,9 +189,8 @@ class TurnRows(Rows):
 class PoseRows(Rows):
     """Pose of a frame on a body: missing way (3,) and turn (3,) in world, and Jacobian (6, nv).
 
-    Args:
-        position: Desired origin (3,); `at` the current one.
-        rotation: Desired rotation (3, 3) to world; `turned` the current one.
+    `position`: desired origin (3,); `at` the current one; `rotation`: desired rotation (3, 3) to world; `turned` the
+    current one.
     """
 
     def __init__(self, chain, motions, center, position, rotation, at, turned, error, jacobian):
@@ -215,11 +212,9 @@ class PoseRows(Rows):
 class ComRows(Rows):
     """Bodies' CoM `com` (3,) at a `target` (3,): missing way (3,) and Jacobian (3, nv).
 
-    Args:
-        chains: Velocities that move each of b bodies, in turn, up to its `ends` (b,).
-        masses: Mass (b,) of each body; `share` one over their sum.
-        centers: Centers (t, 3) of trees; `trees` (b,) that of each body.
-        places: CoM (b, 3) of each body.
+    `chains`: velocities that move each of b bodies, in turn, up to its `ends` (b,); `masses`: mass (b,) of each body;
+    `share` one over their sum; `centers`: centers (t, 3) of trees; `trees` (b,) that of each body; `places`: CoM (b, 3)
+    of each body.
     """
 
     def __init__(self, chains, ends, masses, share, motions, centers, trees, places, target, com, error, jacobian):
@@ -272,9 +267,8 @@ _LEAST = 1e-15  # length that counts as none, and what a quaternion's may differ
 class Configuration:
     """Configuration (nq,) and its velocity (nv,).
 
-    Args:
-        ways: Indices (w,) in configuration that velocities `speeds` (w,) add to.
-        turns: Where each quaternion begins (t,), w first; `rates` (t,) its angular velocity, in body's frame.
+    `ways`: indices (w,) in configuration that velocities `speeds` (w,) add to; `turns`: where each quaternion begins
+    (t,), w first; `rates` (t,) its angular velocity, in body's frame.
     """
 
     def __init__(self, ways, speeds, turns, rates, configuration, velocity):
@@ -338,13 +332,7 @@ class Configuration:
 class TaskStep:
     """Takes a step in the plain case.
 
-    Args:
-        rows: Tasks' `task_rows.Rows`, a list.
-        newton: The `NewtonStep`.
-        configuration: The `Configuration` to move.
-
-    Attributes:
-        near: Whether rows held all errors at the last step.
+    `rows`: tasks' `task_rows.Rows`, a list. Attributes `near`: whether rows held all errors at the last step.
     """
 
     def __init__(self, rows, newton, configuration):

@@ -8,13 +8,9 @@ __all__ = ["EstimateError"]
 class EstimateError:
     """Follows errors of estimated CoM and ZMP, tick by tick.
 
-    Args:
-        center: True CoM (3,) in m, updated by simulator.
-        reaction: `GroundReaction` of both feet, with true ZMP.
-
-    Attributes:
-        com: Largest error (3,) in m of CoM; NaN if an estimate was.
-        squares: Sum of squared errors in m^2 of ZMP over `compared` ticks.
+    `center`: True CoM (3,) in m, updated by simulator; `reaction`: `GroundReaction` of both feet, with true ZMP.
+    Attributes `com`: largest error (3,) in m of CoM; NaN if an estimate was; `squares`: sum of squared errors in m^2 of
+    ZMP over `compared` ticks.
     """
 
     def __init__(self, center, reaction):

@@ -8,17 +8,11 @@ __all__ = ["JointExtremes"]
 class JointExtremes:
     """Follows k joints, physics step by physics step.
 
-    Args:
-        speeds: Speeds (n,) of all joints in rad/s, updated by simulator; `places` (k,) joints' indices there.
-        per_speed: One over each joint's speed limit (k,) in s/rad; 0 for none.
-        torques: Torques (m,) of all servos in N m, likewise; `servos` (k,) joints' indices there.
-        per_torque: One over each joint's torque limit (k,) in 1/(N m); 0 for none.
-
-    Attributes:
-        steps: Number of steps.
-        high: Largest speed (k,) in rad/s, 0 at least; `low` the least one, 0 at most.
-        longest: Most steps in a row (k,) above speed limit.
-        held: Steps (k,) at torque limit; `any_held` those of any joint.
+    `speeds`: speeds (n,) of all joints in rad/s, updated by simulator; `places` (k,) joints' indices there;
+    `per_speed`: one over each joint's speed limit (k,) in s/rad; 0 for none; `torques`: torques (m,) of all servos in N
+    m, likewise; `servos` (k,) joints' indices there; `per_torque`: one over each joint's torque limit (k,) in 1/(N m);
+    0 for none. Attributes `high`: largest speed (k,) in rad/s, 0 at least; `low` the least one, 0 at most; `longest`:
+    most steps in a row (k,) above speed limit; `held`: steps (k,) at torque limit; `any_held` those of any joint.
     """
 
     def __init__(self, speeds, places, per_speed, torques, servos, per_torque):

@@ -13,8 +13,9 @@ class StanceForce:
     By Newton's law both agree, so the acceleration is averaged: the second difference of the CoM's height over `span`
     steps each way. What remains is a contact that flickers.
 
+    Attributes `squares`: sum of their squared differences in N^2.
+
     Args:
-        reaction: `GroundReaction` of both feet.
         center: CoM (3,) in m, updated by simulator.
         mass: Robot's mass in kg.
         gravity: In m/s^2.
@@ -22,12 +23,6 @@ class StanceForce:
         steps: `span`, and steps left out after a landing.
         least: Vertical force in N from which a foot touches.
         edge: Distance in m of ZMP at support's edge.
-
-    Attributes:
-        compared: Steps in which force and acceleration were compared.
-        squares: Sum of their squared differences in N^2.
-        single: Steps in single support.
-        at_edge: Those with ZMP at edge.
     """
 
     def __init__(self, reaction, center, mass, gravity, period, steps, least, edge):
@@ -84,11 +79,8 @@ class StanceForce:
 class StandWatch:
     """Follows both feet (0 left, 1 right), touch by touch.
 
-    Args:
-        enough: Ground force in N from which a foot carries.
-
-    Attributes:
-        slip: Largest distance in m of sole's origin from where its foot began to carry.
+    `enough`: ground force in N from which a foot carries. Attributes `slip`: largest distance in m of sole's origin
+    from where its foot began to carry.
     """
 
     def __init__(self, enough):
@@ -113,8 +105,7 @@ class StandWatch:
     def stands(self):
         """All stands that began with a touch and carried, in that order.
 
-        Returns:
-            Rows: touch's physics step, foot, its sole's last x, y in m and heading in rad when carrying.
+        Returns rows: touch's physics step, foot, its sole's last x, y in m and heading in rad when carrying.
         """
         rows = list(self.over)
         for foot in range(2):

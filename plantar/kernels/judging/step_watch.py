@@ -22,6 +22,8 @@ _ROUNDING = 1e-9  # of the cosine of a tilt: nearer than this to a fall, the jud
 class StepWatch:
     """Follows two feet, trunk, legs and joints, in the simulator's arrays.
 
+    Attributes `up`: least cosine of torso's tilt; `margin`: least margin of ZMP in m; inf without a ZMP.
+
     Args:
         reaction: `GroundReaction` of both feet; `stands`, `joints` and `stance` follow them.
         upright: Rotation (9,) of torso, row by row.
@@ -32,10 +34,6 @@ class StepWatch:
         least: Vertical force in N from which a foot touches.
         windows: Steps in the air before a landing, after it for impact, and for contact area.
         fallen: Cosine of torso's tilt, and CoM height in m above lower sole, below which it fell.
-
-    Attributes:
-        up: Least cosine of torso's tilt.
-        margin: Least margin of ZMP in m; inf without a ZMP.
     """
 
     def __init__(

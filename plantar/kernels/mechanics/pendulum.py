@@ -10,12 +10,9 @@ __all__ = ["on_segment"]
 def on_segment(omega, since, until, segment, vrps, rates, growths, shrinkage):
     """Pendulum within a plan's segment: VRP, DCM and rate, CoM, first and second rate, new arrays (2,).
 
-    Args:
-        omega: Pendulum frequency in rad/s.
-        since: Time in s since segment began; `until` until it ends.
-        segment: Number of segment.
-        vrps: VRP (k, 2) at beginning of each segment in m, with `rates` in m/s.
-        growths: A e^(w T) (k, 2) of each in m; `shrinkage` B (2,) of this one.
+    `omega`: pendulum frequency in rad/s; `since`: time in s since segment began; `until` until it ends; `vrps`: VRP (k,
+    2) at beginning of each segment in m, with `rates` in m/s; `growths`: A e^(w T) (k, 2) of each in m; `shrinkage` B
+    (2,) of this one.
     """
     start = memory.values(vrps)
     rate = memory.values(rates)

@@ -116,8 +116,7 @@ def orthonormalise(rotation, work, out):
 def missing_turn(wanted, actual, out):
     """`plantar.mechanics.rotation.rotation_error` of `wanted` and `actual` (3, 3) into `out` (3,).
 
-    Returns:
-        Whether it is at most a quarter turn; beyond, the error is wrong.
+    Returns whether it is at most a quarter turn; beyond, the error is wrong.
     """
     xx, xy, xz, yx, yy, yz, zx, zy, zz = between(wanted, actual)
     out[0] = 0.5 * (zy - yz)

@@ -42,9 +42,7 @@ class WrenchProgram:
     def ask(self, wrench, point, shares):
         """Set a request; returns whether it is finite, with some share above 0.
 
-        Args:
-            wrench: Wanted net wrench, six numbers in N and N m in world frame about `point` in m.
-            shares: Share of normal force of each contact.
+        `wrench`: wanted net wrench, six numbers in N and N m in world frame about `point` in m.
         """
         request = self.request
         fx, fy, fz, tx, ty, tz = wrench
@@ -119,11 +117,7 @@ class WrenchProgram:
         return math.isfinite(total)
 
     def weigh(self, renewed):
-        """Fill the Hessian for the requested shares; returns whether it changed.
-
-        Args:
-            renewed: Whether its fixed part has changed.
-        """
+        """Fill the Hessian for the requested shares; returns whether it changed."""
         hessian = self.hessian
         shares = self.shares
         count = self.shares.shape[0]

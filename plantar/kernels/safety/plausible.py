@@ -17,15 +17,9 @@ _SHOCK = 400.0  # m/s^2
 class BodyCheck:
     """Plausibility of joint angles and IMU, tick by tick.
 
-    Args:
-        joints: Number of joint angles.
-        frozen: Ticks of same bits after which sensors are stuck.
-        slip: Difference in rad of joint's last two steps by which encoders jump.
-
-    Attributes:
-        imu_same: Ticks without a change of IMU.
-        joints_same: Ticks without a change of any joint.
-        slipped: Whether an encoder has jumped, by `slips` (k,) in rad.
+    `frozen`: ticks of same bits after which sensors are stuck; `slip`: difference in rad of joint's last two steps by
+    which encoders jump. Attributes `imu_same`: ticks without a change of IMU; `joints_same`: ticks without a change of
+    any joint; `slipped`: whether an encoder has jumped, by `slips` (k,) in rad.
     """
 
     def __init__(self, joints, frozen, slip=0.02):
@@ -44,8 +38,8 @@ class BodyCheck:
         """Check a reading of the right sizes: joint angles (k,) in rad, gyro (3,) in rad/s and accelerometer (3,) in
         m/s^2.
 
-        Returns:
-            0 for no fault, 1 impossible joint angle, 2 impossible IMU, 3 stuck IMU, 4 stuck joints. NaN is not checked.
+        Returns 0 for no fault, 1 impossible joint angle, 2 impossible IMU, 3 stuck IMU, 4 stuck joints. NaN is not
+        checked.
         """
         q = memory.values(joints)
         w = memory.values(gyro)
@@ -100,10 +94,8 @@ class BodyCheck:
 class SoleCheck:
     """Plausibility of forces on the soles of a robot of a weight in N, tick by tick.
 
-    Attributes:
-        left: Force in N on left sole, of taxels that report one; `right` likewise.
-        left_same: Ticks without a change of `left`; `right_same` likewise.
-        swapped: Whether soles have exchanged their reports.
+    `left`: force in N on left sole, of taxels that report one; `right` likewise; `left_same`: ticks without a change of
+    `left`; `right_same` likewise; `swapped`: whether soles have exchanged their reports.
     """
 
     def __init__(self, weight):

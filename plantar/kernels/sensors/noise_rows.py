@@ -6,11 +6,7 @@ __all__ = ["NoiseRows", "SensedBody", "TaxelSample"]
 
 
 class NoiseRows:
-    """Samples of noise without end.
-
-    Args:
-        draw: Makes the next samples (rows, n), at least one.
-    """
+    """Samples of noise without end. `draw`: makes the next samples (rows, n), at least one."""
 
     def __init__(self, draw):
         self.draw = draw
@@ -84,12 +80,7 @@ _NONE = float("nan")
 class TaxelSample:
     """Samples n taxels.
 
-    Args:
-        noise: `NoiseRows` in N, n a sample.
-        count: n.
-        least: Least force in N that taxels report.
-        most: Largest one.
-        dead: Indices of dead taxels.
+    `noise`: `NoiseRows` in N, n a sample; `least`: least force in N that taxels report; `dead`: indices of dead taxels.
     """
 
     def __init__(self, noise, count, least, most, dead):

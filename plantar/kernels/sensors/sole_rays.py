@@ -16,18 +16,12 @@ _dot = np.dot
 class SoleRays:
     """Rays of n taxels, cast from the sole's current pose.
 
-    Args:
-        starts: Where rays begin (n, 3) in sole frame in m, along unit vectors `ways` (n, 3).
-        lift: How far in m a ray begins inside sole.
-        most: Range of sensors in m.
-        origin: Sole's origin (3,) in world in m, and its `rotation` (3, 3), written by simulator.
-        solids: Rows, kinds, sizes and bounds of solids, as in `cast_rays`.
-        positions: Middles (m, 3) of all solids in world in m; `frames` (m, 9) likewise.
-
-    Attributes:
-        starts: Where the last rays began (n, 3) in world in m; `ways` (n, 3) along them.
-        lengths: Their lengths (n,) in m; below 0 without a hit.
-        distances: Distance (n,) from each taxel to ground in m; inf out of range.
+    `starts`: where rays begin (n, 3) in sole frame in m, along unit vectors `ways` (n, 3); `lift`: how far in m a ray
+    begins inside sole; `most`: range of sensors in m; `origin`: sole's origin (3,) in world in m, and its `rotation`
+    (3, 3), written by simulator; `solids`: rows, kinds, sizes and bounds of solids, as in `cast_rays`; `positions`:
+    middles (m, 3) of all solids in world in m; `frames` (m, 9) likewise. Attributes `starts`: where the last rays began
+    (n, 3) in world in m; `ways` (n, 3) along them; `lengths`: their lengths (n,) in m; below 0 without a hit;
+    `distances`: distance (n,) from each taxel to ground in m; inf out of range.
     """
 
     def __init__(self, starts, ways, lift, most, origin, rotation, solids, positions, frames):

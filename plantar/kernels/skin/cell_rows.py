@@ -11,14 +11,9 @@ def ordered_rows(vertices, rings, starts, tolerance):
     Corners that count only where their cell is the first of its row come first, those that count only where it is the
     last come last.
 
-    Args:
-        vertices: Corner points (v, 2) in m.
-        rings: Vertex indices (k,) of each of n cells; put in order.
-        starts: Offsets (n + 1) of each cell's corners.
-        tolerance: How far in m a copy may be off.
-
-    Returns:
-        Indices of each row's cells, and by cell where its last corners begin and where its first ones end.
+    `vertices`: corner points (v, 2) in m; `rings`: vertex indices (k,) of each of n cells; put in order; `starts`:
+    offsets (n + 1) of each cell's corners; `tolerance`: how far in m a copy may be off. Returns indices of each row's
+    cells, and by cell where its last corners begin and where its first ones end.
     """
     rows = _rows_of_copies([vertices[ring] for ring in rings], tolerance)
     first_end = starts[1:]
@@ -76,9 +71,7 @@ def _rows_of_copies(cells, tolerance):
 def _is_behind(cell, along):
     """Which corners (k,) of a convex cell lie within it and its copies along a direction.
 
-    Args:
-        cell: Corners (k, 2) in m; none if not convex.
-        along: Direction (2,) to copies.
+    `cell`: corners (k, 2) in m; none if not convex; `along`: direction (2,) to copies.
     """
     edge = np.roll(cell, -1, axis=0) - cell
     length = np.hypot(edge[:, 0], edge[:, 1])

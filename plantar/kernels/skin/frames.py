@@ -169,10 +169,8 @@ def _loads(sole, force, threshold, saturation, kept, covered, out):
 def hulls(sole, force, threshold, saturation, size, measure, points):
     """Support polygon of each frame, as `SoleKernel.hull`; returns the frames done, fewer if the room is full.
 
-    Args:
-        size: Receives number of vertices (frames,).
-        measure: Receives area in m^2 and centroid in m (frames, 3), NaN without contact.
-        points: Receives polygons' vertices (room, 2) in m, in turn; empty if not wanted.
+    `size`: receives number of vertices (frames,); `measure`: receives area in m^2 and centroid in m (frames, 3), NaN
+    without contact; `points`: receives polygons' vertices (room, 2) in m, in turn; empty if not wanted.
     """
     scratch = sole.borrow()
     with cython.nogil:

@@ -32,9 +32,7 @@ class GroundScratch:
 class GroundFit:
     """Fits planes to one sole's ground distances.
 
-    Args:
-        positions: Taxel centers (n, 3) in sole frame in m.
-        normals: z axes (n, 3) of taxels in sole frame.
+    `positions`: taxel centers (n, 3) in sole frame in m; `normals`: z axes (n, 3) of taxels in sole frame.
     """
 
     def __init__(self, positions, normals):
@@ -48,13 +46,10 @@ class GroundFit:
     def frames(self, distance, reach, tolerance, out, directions, inliers):
         """Fit a plane to each reading, without the interpreter lock.
 
-        Args:
-            distance: Distances (frames, n) in m.
-            reach: Distance in m, of either sign, out of range from there.
-            tolerance: Distance in m from plane that noise explains.
-            out: Receives height in m, slopes along x and y, and RMS residual in m (frames, 4): NaN without ground.
-            directions: Receives number of determined slopes (frames,); -1 without ground.
-            inliers: Receives used taxels (frames, n); of zeros.
+        `distance`: distances (frames, n) in m; `reach`: distance in m, of either sign, out of range from there;
+        `tolerance`: distance in m from plane that noise explains; `out`: receives height in m, slopes along x and y,
+        and RMS residual in m (frames, 4): NaN without ground; `directions`: receives number of determined slopes
+        (frames,); -1 without ground; `inliers`: receives used taxels (frames, n); of zeros.
         """
         scratch = self._borrow()
         with cython.nogil:

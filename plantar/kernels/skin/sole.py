@@ -22,10 +22,7 @@ _NOT_UPPER = 2
 class SoleScratch:
     """Work arrays of one call.
 
-    Args:
-        taxels: Number of taxels.
-        corners: Number of corner points of their cells.
-        levels: Number of different x of those.
+    `corners`: number of corner points of their cells; `levels`: number of different x of those.
     """
 
     def __init__(self, taxels, corners, levels):
@@ -340,13 +337,9 @@ class SoleKernel:
     def tick(self, force, threshold, saturation, offset, x, y):
         """Controller's needs of one foot: `active`, `loads`, `hull`, `convex.inner_offset`, `convex.closest_point`.
 
-        Args:
-            offset: How far hull's edges move inwards in m; not if 0 or less.
-            x: Point in m to be close to; y likewise.
-
-        Returns:
-            Mask (n,); wrench (6,) in N and N m; contact area in m^2; CoP (2,) in m or None; polygon (k, 2), its area,
-            centroid (2,); smaller polygon (m, 2); its closest point (2,), in m. Points are None without contact.
+        `offset`: how far hull's edges move inwards in m; not if 0 or less; `x`: point in m to be close to; y likewise.
+        Returns mask (n,); wrench (6,) in N and N m; contact area in m^2; CoP (2,) in m or None; polygon (k, 2), its
+        area, centroid (2,); smaller polygon (m, 2); its closest point (2,), in m. Points are None without contact.
         """
         scratch = self._borrow_with_active(force, threshold, saturation)
         self._loads(scratch.force, scratch.mask, scratch.sums)

@@ -17,15 +17,9 @@ def ankle_limits(
     The weight W e_z at p has the torque a . ((p - c) x W e_z) on a joint with axis a through c: a strip of the sole for
     each joint. The ankle's joints are the last that pitches and the last that rolls.
 
-    Args:
-        robot: The robot.
-        model: A model with robot in it.
-        weight: In N.
-        crouch: How much lower in m than in its posture it walks.
-
-    Returns:
-        Strips (m, 5) in each sole's frame: unit normal (x, y), the strip's middle and half width along it in m, and
-        the ankle's height in m, by which a sloping sole moves it; none without limits.
+    `weight` in N; `crouch`: how much lower in m than in its posture it walks. Returns strips (m, 5) in each sole's
+    frame: unit normal (x, y), the strip's middle and half width along it in m, and the ankle's height in m, by which a
+    sloping sole moves it; none without limits.
     """
     data = stood(robot, model)
     limits = _torque_limits(model)

@@ -30,10 +30,6 @@ def leg_length(robot: Robot, model: mujoco.MjModel) -> float:
 
     Summed over the pitching joints in the plane in which they bend the leg, independent of posture; with fewer than
     two, from first to last joint. Returns the length.
-
-    Args:
-        robot: The robot.
-        model: A model with robot in it.
     """
     data = stood(robot, model)
     return round(float(np.mean([_length(robot, side, model, data) for side in SIDES])), _RESOLUTION)

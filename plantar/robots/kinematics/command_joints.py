@@ -26,8 +26,7 @@ _YIELDING: dict[tuple[bool, bool], tuple[Side, ...]] = {
 def follow_command(legs: LegModel, command: Command) -> float:
     """Solve a command for the joints; the angles are `legs.joints`.
 
-    Returns:
-        Largest task error before the last step, in units of length or rad; NaN if a target is.
+    Returns largest task error before the last step, in units of length or rad; NaN if a target is.
     """
     left = command.feet["left"]
     right = command.feet["right"]

@@ -44,17 +44,9 @@ _NULL = 1e-9  # singular value over the largest below which a direction is in th
 class InverseKinematics:
     """Steps of a configuration towards tasks.
 
-    Args:
-        model: The model.
-        data: Its data, to which the tasks are bound; call `move` after a change from outside.
-        tasks: The tasks.
-        posture: Reference posture, for free directions.
-        columns: Velocities (n,) of model that a step may use, in order.
-        unit: Length in m that counts as 1 rad.
-
-    Attributes:
-        plain: Number of steps by normal equations.
-        careful: Number of the other steps.
+    `data`: its data, to which the tasks are bound; call `move` after a change from outside; `posture`: reference
+    posture, for free directions; `columns`: velocities (n,) of model that a step may use, in order; `unit`: length in m
+    that counts as 1 rad. Attributes `plain`: number of steps by normal equations.
     """
 
     def __init__(
@@ -117,12 +109,8 @@ class InverseKinematics:
     def solve(self, iterations: int = 1, largest_step: float = 0.5) -> float:
         """Newton steps from the configuration in the data.
 
-        Args:
-            iterations: Number of steps.
-            largest_step: Largest entry in units of length and rad.
-
-        Returns:
-            Largest task error before the last step (units of length or rad); NaN if a target is.
+        `largest_step`: largest entry in units of length and rad. Returns largest task error before the last step (units
+        of length or rad); NaN if a target is.
         """
         kernel = self._step_kernel
         for _ in range(iterations):
@@ -244,10 +232,7 @@ def _amounts(
 ) -> NDArray[np.float64]:
     """Step (k,) along each right singular vector, damped.
 
-    Args:
-        values: Singular values (k,).
-        along: Residual (m,) along left singular vectors.
-        pulled: Way (k,) to posture.
+    `values`: singular values (k,); `along`: residual (m,) along left singular vectors; `pulled`: way (k,) to posture.
     """
     count = len(values)
     near = np.maximum(0.0, 1.0 - (values / _EPSILON) ** 2)

@@ -17,10 +17,7 @@ _LARGEST_STEP = 0.15  # rad
 def leg_inertia(robot: Robot, legs: LegModel, com_height: float) -> LegInertia:
     """Returns a leg's, the mean forward and aside of a CoM over both feet, which moves the base by 1 / (1 - 2 mu).
 
-    Args:
-        robot: The robot.
-        legs: Its kinematics, left in that posture.
-        com_height: Above the soles in m.
+    `com_height`: above the soles in m.
     """
     joints = np.array([*robot.posture["left"], *robot.posture["right"]])
     stands = legs.posture(joints)
@@ -48,12 +45,8 @@ def angular_momentum(
 ) -> NDArray[np.float64]:
     """Returns those (b, 3) in N m s of all bodies' subtrees about their CoMs.
 
-    Args:
-        model: The model.
-        data: Its data, which is overwritten.
-        every: Time in s between two configurations.
-        before: The first (nq,); `after` the second.
-        at: That at which the motion is looked at; None for the first.
+    `every`: time in s between two configurations; `before`: the first (nq,); `after` the second; `at`: that at which
+    the motion is looked at; None for the first.
     """
     mujoco.mj_differentiatePos(model, data.qvel, every, before, after)
     data.qpos[:] = before if at is None else at

@@ -26,17 +26,11 @@ _FULL_LEG = 6  # joints of a leg that can give its sole any pose
 class LegModel:
     """Kinematics of a free-floating robot that moves its legs only.
 
-    Args:
-        model: The robot alone, first joint free, one hinge a leg joint.
-        joints: Leg joint names in order of all joint vectors.
-        soles: Name of each sole's site.
-        torso: Body that is kept upright.
-        unit: Length in m that counts as 1 rad out of reach (`InverseKinematics`).
-
-    Attributes:
-        joints: Joint angles (k,) in rad of the last `follow`, overwritten by the next.
-        torques: Joint torques (k,) in N m of the last `carry` and `add_motion`, likewise.
-        rows: Places (6 + k,) of the base's and the joints' velocities among the model's.
+    `model`: the robot alone, first joint free, one hinge a leg joint; `joints`: leg joint names in order of all joint
+    vectors; `torso`: body that is kept upright; `unit`: length in m that counts as 1 rad out of reach
+    (`InverseKinematics`). Attributes `joints`: joint angles (k,) in rad of the last `follow`, overwritten by the next;
+    `torques`: joint torques (k,) in N m of the last `carry` and `add_motion`, likewise; `rows`: places (6 + k,) of the
+    base's and the joints' velocities among the model's.
     """
 
     def __init__(
@@ -121,10 +115,8 @@ class LegModel:
     ) -> None:
         """Set start and reference posture of the next `follow`.
 
-        Args:
-            position: Base position (3,) in the world in m.
-            quaternion: Base orientation (4,), w first.
-            joints: Joint angles (k,) in rad.
+        `position`: base position (3,) in the world in m; `quaternion`: base orientation (4,), w first; `joints`: joint
+        angles (k,) in rad.
         """
         self._data.qpos[:3] = position
         self._data.qpos[3:7] = quaternion
@@ -133,11 +125,7 @@ class LegModel:
         self._reference.target = np.array(joints, dtype=float)
 
     def hold_others(self, joints: NDArray[np.float64]) -> None:
-        """Set the joints of no leg.
-
-        Args:
-            joints: Positions (o,) in the model's order in rad or m.
-        """
+        """Set the joints of no leg. `joints`: positions (o,) in the model's order in rad or m."""
         self._data.qpos[self._others] = joints
         self.inverse.move()
         self._probe.qpos[self._others] = joints
@@ -162,16 +150,10 @@ class LegModel:
         The 18 task rows (CoM 3, torso 3, two soles 6 each) meet the 18 unknowns of a 12-joint biped; legs of five
         joints leave the soles' roll to the ground.
 
-        Args:
-            com: CoM (3,) in the world in m.
-            rotation_torso: Rotation (3, 3) from torso to world.
-            positions: Sole frame origin (3,) of each foot in m; `rotations` (3, 3) to the world.
-            iterations: Newton steps.
-            yielding: Feet that miss their targets first: the unloaded ones.
-            largest_step: Largest change in rad or units of length in a step.
-
-        Returns:
-            Largest task error before the last step in units of length or rad, NaN if a target is.
+        `com`: CoM (3,) in the world in m; `rotation_torso`: rotation (3, 3) from torso to world; `positions`: sole
+        frame origin (3,) of each foot in m; `rotations` (3, 3) to the world; `yielding`: feet that miss their targets
+        first: the unloaded ones; `largest_step`: largest change in rad or units of length in a step. Returns largest
+        task error before the last step in units of length or rad, NaN if a target is.
         """
         targets = com, rotation_torso, positions["left"], rotations["left"], positions["right"], rotations["right"]
         try:
@@ -189,9 +171,8 @@ class LegModel:
     def carry(self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]) -> None:
         """Compute the joint `torques` of the last solution: tau = g(q) - sum J^T f.
 
-        Args:
-            forces: Ground force (3,) in N on each sole, world frame.
-            points: Point (3,) in m where it acts, world frame.
+        `forces`: ground force (3,) in N on each sole, world frame; `points`: point (3,) in m where it acts, world
+        frame.
         """
         self.inverse.place()
         load = self._load
@@ -217,12 +198,9 @@ class LegModel:
 
         The ground changes the angular momentum L about the CoM, mostly of a swinging leg, by a couple on the soles.
 
-        Args:
-            velocity: Of base and joints (6 + k,) in m/s and rad/s.
-            acceleration: In m/s^2 and rad/s^2.
-            shares: Of the weight on each sole.
-            momentum: (-L_y', L_x') / (m g) (2,) in m that the forces of `carry` give already.
-            whole: Whether an unloaded leg gets what moves it, too; a stiff servo lands softer without.
+        `velocity` of base and joints (6 + k,) in m/s and rad/s; `acceleration` in m/s^2 and rad/s^2; `momentum` (-L_y',
+        L_x') / (m g) (2,) in m that the forces of `carry` give already; `whole`: whether an unloaded leg gets what
+        moves it, too; a stiff servo lands softer without.
         """
         model = self.model
         data = self._data

@@ -55,9 +55,6 @@ def compiled_model(spec: Any, robot: Robot) -> Any:
     """Compile a model.
 
     Takes `spec` and `robot`; returns the `mujoco.MjModel`.
-
-    Raises:
-        RobotError: If MuJoCo refuses it.
     """
     try:
         return spec.compile()
@@ -67,18 +64,7 @@ def compiled_model(spec: Any, robot: Robot) -> Any:
 
 
 def build_leg_model(robot: Robot, worn: Sequence[Visitor] = ()) -> LegModel:
-    """Kinematic model of the robot alone, for its controller.
-
-    Args:
-        robot: The robot.
-        worn: Additional parts, such as a moving arm.
-
-    Returns:
-        The model.
-
-    Raises:
-        RobotError: If the model is invalid.
-    """
+    """Kinematic model of the robot alone, for its controller. `worn`: additional parts, such as a moving arm."""
     spec = robot_spec(robot)
     for part in worn:
         part.add_to(spec)

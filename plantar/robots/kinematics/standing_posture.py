@@ -23,18 +23,9 @@ def solve_standing(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Stand on given footholds, CoM midway between the soles' centers.
 
-    Args:
-        robot: The robot.
-        legs: Its kinematics, which start from this posture afterwards.
-        feet: Poses of soles.
-        centers: Point (2,) of each sole in the world in m that carries half the weight.
-        com_height: Above the soles in m.
-
-    Returns:
-        Joint angles (k,) in rad, and torques (k,) in N m that hold them.
-
-    Raises:
-        RobotError, SceneError: If an argument is invalid.
+    `legs`: its kinematics, which start from this posture afterwards; `centers`: point (2,) of each sole in the world in
+    m that carries half the weight; `com_height`: above the soles in m. Returns joint angles (k,) in rad, and torques
+    (k,) in N m that hold them.
     """
     posture = posture_of(robot, legs)
     ground = float(np.mean([feet[s].z for s in SIDES]))

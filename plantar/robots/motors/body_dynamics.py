@@ -14,17 +14,11 @@ _BASE = 6  # velocities of the free base: three of its origin in the world frame
 class BodyDynamics:
     """M(q) a + h(q, v) = [0, tau] + sum J^T w over base (6) and leg joints (k).
 
-    Args:
-        model: The robot alone, first joint free.
-        dofs: Place (k,) of each leg joint among the velocities.
-        sites: Sole site of each side.
-
-    Attributes:
-        rows: Places (6 + k,) of base's and joints' velocities.
-        mass: M (6 + k, 6 + k), with rotors, after `place`; its first three rows over the mass are the CoM's Jacobian.
-        bias: h (6 + k,), after `move`: Coriolis, centrifugal, gravity and damping terms.
-        soles: Jacobian (6, 6 + k) of each sole site's velocity and turn, world frame.
-        drifts: Acceleration (6,) of each sole site for a = 0, after `move`.
+    `model`: the robot alone, first joint free; `dofs`: place (k,) of each leg joint among the velocities; `sites`: sole
+    site of each side. Attributes `rows`: places (6 + k,) of base's and joints' velocities; `mass`: M (6 + k, 6 + k),
+    with rotors, after `place`; its first three rows over the mass are the CoM's Jacobian; `bias`: h (6 + k,), after
+    `move`: Coriolis, centrifugal, gravity and damping terms; `soles`: Jacobian (6, 6 + k) of each sole site's velocity
+    and turn, world frame; `drifts`: acceleration (6,) of each sole site for a = 0, after `move`.
     """
 
     def __init__(self, model: mujoco.MjModel, dofs: NDArray[np.int_], sites: Mapping[Side, int]) -> None:

@@ -21,9 +21,7 @@ from plantar.robots.robot import Robot
 class MotorGains(NamedTuple):
     """Gains of the leg joints' motors.
 
-    Attributes:
-        stiffness: Position gains (k,) in N m/rad.
-        damping: Velocity gains (k,) in N m s/rad.
+    `stiffness`: position gains (k,) in N m/rad; `damping`: velocity gains (k,) in N m s/rad.
     """
 
     stiffness: NDArray[np.float64]
@@ -33,9 +31,7 @@ class MotorGains(NamedTuple):
 def motor_gains(robot: Robot, stiffness: float) -> MotorGains:
     """Returns gains of a robot's own motors.
 
-    Args:
-        robot: The robot.
-        stiffness: In N m/rad of every joint instead, damped in proportion to critical; 0 for its own.
+    `stiffness` in N m/rad of every joint instead, damped in proportion to critical; 0 for its own.
     """
     own = np.array([*robot.own_stiffness] * 2)
     damping = np.array([*robot.own_damping] * 2)
@@ -62,17 +58,8 @@ def planned_wrenches(command: Command) -> dict[Side, NDArray[np.float64]]:
 class CommandMotors:
     """Solves commands for the motors (`plantar.gait.command.Motors`).
 
-    Args:
-        robot: The robot.
-        legs: Its legs.
-        body: Its size.
-        gains: Gains of motors.
-        period: Control period in s.
-
-    Attributes:
-        stiffness: Position gains (k,) in N m/rad.
-        damping: Velocity gains (k,) in N m s/rad.
-        out_of_reach: Whether the legs missed the last command.
+    `period`: control period in s. Attributes `stiffness`: position gains (k,) in N m/rad; `damping`: velocity gains
+    (k,) in N m s/rad; `out_of_reach`: whether the legs missed the last command.
     """
 
     def __init__(self, robot: Robot, legs: LegModel, body: BodyScale, gains: MotorGains, period: float) -> None:

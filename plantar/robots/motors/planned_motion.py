@@ -17,15 +17,9 @@ _SMOOTH = 0.04  # beat, time constant of the low pass on the acceleration: 10 ms
 class PlannedMotion:
     """Velocity and acceleration of solutions a control period apart, and their torques.
 
-    Args:
-        legs: Its legs.
-        period: Control period in s.
-        beat: Time scale sqrt(leg / g) in s.
-        whole: Whether unloaded legs get what moves them (`LegModel.add_motion`).
-
-    Attributes:
-        velocity: Of the last solution (6 + k,) in m/s and rad/s; 0 at the first.
-        acceleration: (6 + k,), low-passed.
+    `period`: control period in s; `beat`: time scale sqrt(leg / g) in s; `whole`: whether unloaded legs get what moves
+    them (`LegModel.add_motion`). Attributes `velocity` of the last solution (6 + k,) in m/s and rad/s; 0 at the first;
+    `acceleration` (6 + k,), low-passed.
     """
 
     def __init__(self, legs: LegModel, period: float, beat: float, whole: bool = False) -> None:

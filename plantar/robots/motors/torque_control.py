@@ -54,8 +54,7 @@ class TorqueControl(CommandMotors):
 
     Takes what `CommandMotors` takes.
 
-    Attributes:
-        unsolved: Ticks without a solution.
+    `unsolved`: ticks without a solution.
     """
 
     def __init__(self, robot: Robot, legs: LegModel, body: BodyScale, gains: MotorGains, period: float) -> None:

@@ -37,13 +37,9 @@ _ROWS = 17  # of a sole: the facets of its wrench cone, and its largest normal f
 class Standing:
     """A sole that stands.
 
-    Attributes:
-        rotation: Rotation (3, 3) from sole to world.
-        rectangle: Part of sole that may carry.
-        friction: Coefficient of its friction pyramid.
-        acceleration: Wanted (6,) of its site, world frame.
-        wrench: Preferred (6,) in its frame about its origin in N and N m.
-        most: Largest normal force in N, small while it still finds the ground.
+    `rotation`: rotation (3, 3) from sole to world; `rectangle`: part of sole that may carry; `acceleration`: wanted
+    (6,) of its site, world frame; `wrench`: preferred (6,) in its frame about its origin in N and N m; `most`: largest
+    normal force in N, small while it still finds the ground.
     """
 
     rotation: Array
@@ -58,15 +54,9 @@ class Standing:
 class Wish:
     """What the body should do.
 
-    Attributes:
-        acceleration: a* (6 + k,) of base and joints.
-        weights: d (6 + k,).
-        com: CoM acceleration (3,) in m/s^2.
-        com_weight: c.
-        torque: Limits (k,) in N m; inf without.
-        slowest: Least joint accelerations (k,) in rad/s^2.
-        fastest: Largest (k,).
-        standing: The soles that stand.
+    `acceleration`: a* (6 + k,) of base and joints; `weights`: d (6 + k,); `com`: CoM acceleration (3,) in m/s^2;
+    `torque`: limits (k,) in N m; inf without; `slowest`: least joint accelerations (k,) in rad/s^2; `fastest`: largest
+    (k,).
     """
 
     acceleration: Array
@@ -83,10 +73,7 @@ class Wish:
 class Torques:
     """Torques with their motion and wrenches.
 
-    Attributes:
-        torques: (k,) in N m.
-        acceleration: (6 + k,).
-        wrenches: (6,) of each standing sole in its frame in N and N m.
+    `torques` (k,) in N m; `acceleration` (6 + k,); `wrenches` (6,) of each standing sole in its frame in N and N m.
     """
 
     torques: Array
@@ -100,16 +87,7 @@ _TOLERANCE = 1e-10  # of rows in N, N m, m/s^2 and rad/s^2, of cones in body wei
 
 
 def torques_of(dynamics: BodyDynamics, wish: Wish, gravity: float) -> Torques | None:
-    """Torques for a wish.
-
-    Args:
-        dynamics: Dynamics of body where it is.
-        wish: What it should do.
-        gravity: In m/s^2.
-
-    Returns:
-        The torques; None without a feasible, finite solution.
-    """
+    """Torques for a wish. `gravity` in m/s^2. Returns the torques; None without a feasible, finite solution."""
     mass = dynamics.mass
     bias = dynamics.bias
     size = len(dynamics.bias)

@@ -44,9 +44,6 @@ KEYS: Mapping[str, tuple[str, ...]] = {
 class Cell:
     """Sensor cell kind. Lengths in mm, forces in N; 0 means unset, as texts describe.
 
-    Raises:
-        InputError: If a value is unfit.
-
     Example:
         >>> fsr = Cell(shape="round", size=18.28, active=12.7, thickness=0.46, tail_length=6.7, tail_width=8.0)
         >>> fsr.kind, round(fsr.active_area, 1)
@@ -176,18 +173,7 @@ class Cell:
 
     @classmethod
     def from_mapping(cls, values: Mapping[str, Any], where: str) -> "Cell":
-        """Cell from a TOML table.
-
-        Args:
-            values: Keys and values; `shape` is needed.
-            where: Table's name, for messages.
-
-        Returns:
-            Cell.
-
-        Raises:
-            InputError: For unfit keys or values.
-        """
+        """Cell from a TOML table."""
         if values.get("shape") not in SHAPES:
             given = f"is {values['shape']!r}" if "shape" in values else "is missing"
             raise InputError(f"{where}: cell key shape {given}; allowed: {', '.join(SHAPES)}")

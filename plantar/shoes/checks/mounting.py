@@ -32,11 +32,9 @@ class Mounting:
     """Foot in the shoe.
 
     Attributes:
-        gap: Smallest, foot to wall.
         play: Largest gap at the wall's edge.
         gap_above: Smallest, foot to lugs or clips.
         gap_on_the_way: Smallest, foot to rigid parts while pushed on.
-        floor_gap: Foot's lowest point to the floor.
         support_share: Share of the touching area over the floor, 0..1.
         undercut: Unprintable wall area in mm^2 over the foot's place.
         links: Places where other robot links meet print or strap.

@@ -32,11 +32,8 @@ Array = NDArray[np.float64]
 class Printing:
     """Part on the printer's bed, in a direction.
 
-    Attributes:
-        direction: Of BUILD_DIRECTIONS.
-        overhang: Area in mm^2 facing down by over 45 degrees, bridges aside.
-        bridges: Ceilings in mm^2.
-        size: Bed extent (3,): longer, shorter side and height.
+    `overhang`: area in mm^2 facing down by over 45 degrees, bridges aside; `bridges`: ceilings in mm^2; `size`: bed
+    extent (3,): longer, shorter side and height.
     """
 
     direction: str

@@ -42,21 +42,9 @@ def fit_cells(
 ) -> TaxelFit:
     """Fit cells of a stated body to a shoe's face.
 
-    Args:
-        foot: Shapely outline below the rim's upper edge.
-        cell: Cell.
-        rib: Wall between pockets.
-        taxels: Their number, not of a sheet; None takes as many as fit.
-        overhang: Allowed cell reach beyond the outline without `taxels`; the least with them.
-        overhang_max: Allowed shoe reach beyond the outline.
-        border: Plate beyond the cells.
-
-    Returns:
-        Cells, all whole but at a sheet's edge.
-
-    Raises:
-        InputError: If an argument is out of range.
-        FootError: If they do not fit.
+    `foot`: Shapely outline below the rim's upper edge; `taxels`: their number, not of a sheet; None takes as many as
+    fit; `overhang`: allowed cell reach beyond the outline without `taxels`; the least with them; `overhang_max`:
+    allowed shoe reach beyond the outline. Returns cells, all whole but at a sheet's edge.
 
     Example:
         >>> import shapely

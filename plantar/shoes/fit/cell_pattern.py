@@ -25,13 +25,9 @@ _TOUCH = 1e-6  # mm^2 that rooms may share: rounding
 class CellPattern:
     """Cells and their unplaced lattice.
 
-    Attributes:
-        width: Between centres in a row.
-        rise: From row to row.
-        shift: Of a row against the last, 0 or half of `width`.
-        parts: Corners (k, 2) of a room's convex parts about its centre, rows along x.
-        period: Angle in rad of rotational repetition.
-        hexagon: Cell area in mm^2 of a `HexLattice` room; else None.
+    `width`: between centres in a row; `shift` of a row against the last, 0 or half of `width`; `parts`: corners (k, 2)
+    of a room's convex parts about its centre, rows along x; `period`: angle in rad of rotational repetition; `hexagon`:
+    cell area in mm^2 of a `HexLattice` room; else None.
     """
 
     width: float
@@ -133,9 +129,6 @@ def hex_pattern(area: float) -> CellPattern:
 
 def pattern_of(cell: Cell, rib: float) -> CellPattern:
     """Gives how a tile or film cell repeats: as stated, or as near as the rib between pockets allows.
-
-    Raises:
-        FootError: If a stated rib is thinner.
 
     Example:
         >>> fsr = Cell(shape="round", size=18.0, thickness=0.5, play=0.0)

@@ -47,16 +47,8 @@ def blind_rim(face: Any, centres: Array) -> float:
 def strip_cells(region: Any, face: Any, cell_area: float) -> tuple[tuple[Array, ...], Any]:
     """Cells along a region's edge: the fewest, with those inside, that the blind rim allows.
 
-    Args:
-        region: Shapely polygon for cells.
-        face: Surrounding contact face.
-        cell_area: Whole cell in mm^2.
-
-    Returns:
-        Corners (k, 2) of each cell, counter-clockwise, once around; and the shapely polygon inside.
-
-    Raises:
-        FootError: If BLIND_MOST cannot be kept.
+    `cell_area`: whole cell in mm^2. Returns corners (k, 2) of each cell, counter-clockwise, once around; and the
+    shapely polygon inside.
     """
     found: list[tuple[float, list[Any], Any]] = []
     edge = shapely.geometry.polygon.orient(shapely.Polygon(region.exterior).simplify(_DETAIL))
@@ -170,17 +162,9 @@ def _core(inside: Any, cell_area: float) -> tuple[list[Array], Lattice, int]:
 def fit_fine_rim(foot: Any, *, cell_area: float, overhang: float, border: float) -> TaxelFit:
     """Fit taxels with a fine rim to a shoe's face.
 
-    Args:
-        foot: Shapely outline below the rim's upper edge.
-        cell_area: Whole cell in mm^2.
-        overhang: Allowed cell reach beyond the outline in mm.
-        border: Plate beyond the cells in mm.
-
-    Returns:
-        Cells, heel to toes; the bound is the inner ones'.
-
-    Raises:
-        FootError: If BLIND_MOST cannot be kept.
+    `foot`: Shapely outline below the rim's upper edge; `cell_area`: whole cell in mm^2; `overhang`: allowed cell reach
+    beyond the outline in mm; `border`: plate beyond the cells in mm. Returns cells, heel to toes; the bound is the
+    inner ones'.
     """
     region = tidy(grown(foot, overhang))
     face = tidy(grown(foot, overhang + border))

@@ -35,13 +35,9 @@ Array = NDArray[np.float64]
 class CellBound:
     """Proven bound.
 
-    Attributes:
-        bound: Whole cells no placement exceeds.
-        best: Whole cells of the best seen placement, up to hundredths of a mm outside.
-        origin: Centre of one of its cells in mm.
-        angle: Of its rows in rad.
-        boxes: Placement boxes examined.
-        angles: In rad, of boxes left over, where more may fit.
+    `bound`: whole cells no placement exceeds; `best`: whole cells of the best seen placement, up to hundredths of a mm
+    outside; `origin`: centre of one of its cells in mm; `angle` of its rows in rad; `angles` in rad, of boxes left
+    over, where more may fit.
     """
 
     bound: int
@@ -55,14 +51,8 @@ class CellBound:
 def bound_whole_cells(region: Any, pattern: CellPattern, *, known: int = 0, share: float = 1.0) -> CellBound:
     """Bound the whole cells in an outline.
 
-    Args:
-        region: Shapely polygon without holes in mm.
-        pattern: Cells.
-        known: Cells of a placement.
-        share: Search ends at this share of the bound.
-
-    Returns:
-        Bound and best seen placement; `best` is 0 if none beats `known`.
+    `region`: Shapely polygon without holes in mm; `share`: search ends at this share of the bound. Returns bound and
+    best seen placement; `best` is 0 if none beats `known`.
 
     Example:
         >>> import shapely

@@ -32,10 +32,8 @@ _SLACK = 1e-3  # mm by which a cell may leave the region; above the rounding of 
 class LatticeFit:
     """Placed lattice and its kept cells.
 
-    Attributes:
-        cells: Axial coordinates (n, 2), row by row.
-        overhang: Used cell reach beyond the outline in mm.
-        bound: Proven most whole cells with this overhang.
+    `cells`: axial coordinates (n, 2), row by row; `overhang`: used cell reach beyond the outline in mm; `bound`: proven
+    most whole cells with this overhang.
     """
 
     lattice: Lattice
@@ -62,13 +60,8 @@ class _Candidate:
 def whole_cell_region(region: Any, parts: Sequence[NDArray[np.float64]], angle: float) -> Any:
     """Where a cell's centre may lie with the cell inside a region (erosion), to a micrometre.
 
-    Args:
-        region: Shapely, in mm.
-        parts: Corners (k, 2) in mm of the cell's convex parts.
-        angle: Cell rotation in rad.
-
-    Returns:
-        Shapely geometry, possibly empty.
+    `region`: Shapely, in mm; `parts`: corners (k, 2) in mm of the cell's convex parts; `angle`: cell rotation in rad.
+    Returns Shapely geometry, possibly empty.
 
     Example:
         >>> import shapely
@@ -103,20 +96,9 @@ def fit_lattice(
     At every fifth degree (fifteenth for cells with a tail) the best offset is found exactly; `bound_whole_cells` looks
     between. Ties: straight rows, area under the cells and inside their hull, distance from the sole's centre.
 
-    Args:
-        sole: Shapely outline in mm.
-        cell_area: In mm^2.
-        taxels: Their number, with the least overhang in steps of 0.5 mm; None takes as many as fit.
-        overhang: Allowed cell reach beyond the outline in mm without `taxels`; the least with them.
-        overhang_max: In mm, with `taxels`.
-        pattern: Other cells than hexagons, for `cell_area`.
-
-    Returns:
-        Placement.
-
-    Raises:
-        InputError: If an argument is out of range.
-        FootError: If too few cells fit.
+    `sole`: Shapely outline in mm; `cell_area` in mm^2; `taxels`: their number, with the least overhang in steps of 0.5
+    mm; None takes as many as fit; `overhang`: allowed cell reach beyond the outline in mm without `taxels`; the least
+    with them; `overhang_max` in mm, with `taxels`; `pattern`: other cells than hexagons, for `cell_area`.
     """
     low, high = CELL_AREAS
     if pattern is None and not (math.isfinite(cell_area) and low <= cell_area <= high):

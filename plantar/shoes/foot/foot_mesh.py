@@ -96,24 +96,8 @@ def foot_from_triangles(
 ) -> Foot:
     """Foot from triangles; options as in `foot_from_mesh`.
 
-    Args:
-        name: Of the foot.
-        triangles: (n, 3, 3), ankle at the origin.
-        where: Source, for messages.
-        mesh_side: Shown foot.
-        unit: User's.
-        file_unit: File's.
-        up: Upward axis.
-        sole_z: Sole plane in mm.
-        forward: Axis to the toes.
-        sole_band: Sole height in mm.
-        links: Points (n, 3) of other robot links, likewise.
-
-    Returns:
-        Left foot.
-
-    Raises:
-        FootError: If no foot.
+    `triangles` (n, 3, 3), ankle at the origin; `up`: upward axis; `sole_z`: sole plane in mm; `sole_band`: sole height
+    in mm; `links`: points (n, 3) of other robot links, likewise.
     """
     if forward is not None and forward not in AXES[:4]:
         raise InputError(f"forward axis is {forward!r}; allowed: {', '.join(AXES[:4])}")
@@ -260,9 +244,6 @@ def _check_height(triangles: Triangles, where: str) -> None:
 def unit_scale(extent: float, unit: Unit | None, file_unit: Unit | None, where: str) -> tuple[float, str]:
     """Gives scale to mm and a note for a foot of an extent: user's unit, the file_unit stated in the file, or detected;
     where is the file's name.
-
-    Raises:
-        FootError: If not foot-sized.
     """
     low, high = FOOT_LENGTHS
     allowed = f"allowed: a foot of {low:g} to {high:g} mm"

@@ -15,12 +15,7 @@ _ANGLE = 0.2
 
 
 def triangles_of_step(path: Path) -> dict[str, NDArray[Any]]:
-    """Triangles (n, 3, 3) in mm of all STEP or IGES shapes, as "triangles".
-
-    Raises:
-        DependencyError: If OpenCascade is missing.
-        ValueError: If unreadable.
-    """
+    """Triangles (n, 3, 3) in mm of all STEP or IGES shapes, as "triangles"."""
     with optional_library("OCP", "shoes"):
         from OCP.BRepMesh import BRepMesh_IncrementalMesh
         from OCP.IFSelect import IFSelect_RetDone

@@ -41,11 +41,7 @@ _LARGEST = 100e6  # bytes: so many triangles in binary, a third of them as text
 def read_mesh(path: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Unit | None]:
     """Read a mesh file's triangles; scene parts are joined.
 
-    Returns:
-        Triangles (n, 3, 3) in the file's unit, and that unit if stated.
-
-    Raises:
-        FootError: If unreadable or too large.
+    Returns triangles (n, 3, 3) in the file's unit, and that unit if stated.
     """
     file = Path(path)
     kind = file.suffix.lower()

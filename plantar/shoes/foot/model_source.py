@@ -49,11 +49,8 @@ class _NotCompiled(FootError):
 class BodyPlace(NamedTuple):
     """Body in the zero pose.
 
-    Attributes:
-        shaped: Whether it, or what is fixed to it, has a shape.
-        carries: Whether a moving body hangs on it.
-        depth: Bodies above it.
-        height: Origin in m.
+    `shaped`: whether it, or what is fixed to it, has a shape; `carries`: whether a moving body hangs on it; `depth`:
+    bodies above it; `height`: origin in m.
     """
 
     shaped: bool
@@ -64,13 +61,7 @@ class BodyPlace(NamedTuple):
 
 @dataclass(frozen=True)
 class ModelSource:
-    """MJCF or URDF file read by MuJoCo.
-
-    Attributes:
-        urdf: Text for MuJoCo; None of an MJCF.
-        mesh_names: URDF meshes by names in its text.
-        attached: Models that an MJCF attaches.
-    """
+    """MJCF or URDF file read by MuJoCo. `urdf`: text for MuJoCo; None of an MJCF."""
 
     file: Path
     urdf: str | None
@@ -78,11 +69,7 @@ class ModelSource:
     attached: tuple[Path, ...] = ()
 
     def spec(self) -> Any:
-        """Editable model, without what lacks mass and shape.
-
-        Raises:
-            FootError: If MuJoCo cannot read.
-        """
+        """Editable model, without what lacks mass and shape."""
         with optional_library("mujoco", "sim"):
             mujoco = quiet_mujoco()
         try:
@@ -104,11 +91,7 @@ class ModelSource:
         return spec
 
     def bodies(self) -> dict[str, BodyPlace]:
-        """All robot bodies by name.
-
-        Raises:
-            FootError: If MuJoCo cannot read.
-        """
+        """All robot bodies by name."""
         spec = self.spec()
         parts = {body.name: list(_fixed_to(body)) for body in spec.bodies[1:]}
         shaped = {name: any(len(b.geoms) for b in part) for name, part in parts.items()}
@@ -129,9 +112,6 @@ class ModelSource:
     def shapes(self, name: str, most: int) -> tuple[list[Array], list[Array]]:
         """Gives drawn and colliding surfaces of the body of a name and what is fixed to it, most in number: triangles
         (n, 3, 3) in m about its origin, turned as in the zero pose.
-
-        Raises:
-            FootError: If unreadable or too many.
         """
         try:
             return self._shapes(name, most, read_all=False)
@@ -200,16 +180,8 @@ class ModelSource:
     def links_above(self, name: str, count: int) -> tuple[list[Array], list[tuple[float, float]], Poses]:
         """Shapes of links above a foot and its toes, and how the ankle moves them.
 
-        Args:
-            name: Body.
-            count: Links above.
-
-        Returns:
-            Triangles (n, 3, 3) in m of each shape; ranges in rad of the last two hinges above; function from their
-            angles to each shape's rotation (3, 3) and place (3,), body frame at the zero pose.
-
-        Raises:
-            FootError: If unreadable.
+        `count`: links above. Returns triangles (n, 3, 3) in m of each shape; ranges in rad of the last two hinges
+        above; function from their angles to each shape's rotation (3, 3) and place (3,), body frame at the zero pose.
         """
         import mujoco
 
@@ -304,11 +276,7 @@ class ModelSource:
 
 
 def read_model_source(file: Path) -> ModelSource:
-    """Robot model, once its outermost element and file names are allowed.
-
-    Raises:
-        FootError: If foreign, or outside its folders.
-    """
+    """Robot model, once its outermost element and file names are allowed."""
     root = parsed_model(file, FootError)
     check_model_size(root, FootError, str(file))
     if root.tag == "robot":

@@ -125,11 +125,7 @@ def check_upright(triangles: Array, where: str) -> list[str]:
     Faces are compared by the hull of nearby points, along the axes and the hull's largest plane; those above do not
     count, since a deck may exceed the sole.
 
-    Returns:
-        Note where a side is about as large.
-
-    Raises:
-        FootError: If a side exceeds by half.
+    Returns note where a side is about as large.
     """
     points = triangles.reshape(-1, 3)
     points = points if len(points) <= _MANY else thinned(points, _COLUMN)
@@ -154,11 +150,7 @@ def check_level(triangles: Array, where: str, levelled_by: float = 0.0) -> list[
     """Refuse triangles in mm of a foot upside down, or tilted without resting plane; where is the file's name,
     levelled_by degrees removed.
 
-    Returns:
-        Notes on the undetectable: a rounded sole's level, and a foot upside down.
-
-    Raises:
-        FootError: If tilted 3 to 25 degrees, or if only its upper side was level.
+    Returns notes on the undetectable: a rounded sole's level, and a foot upside down.
     """
     below, share = _resting_plane(triangles)
     flip = np.array([1.0, 1.0, -1.0])
@@ -195,11 +187,7 @@ def _face_area(points: Array, outward: Array, deep: float) -> float:
 
 
 def check_one_body(triangles: Array, where: str) -> None:
-    """Refuse triangles in mm that show two feet; where is the file's name.
-
-    Raises:
-        FootError: For two similar bodies.
-    """
+    """Refuse triangles in mm that show two feet; where is the file's name."""
     with optional_library("scipy", "shoes"):
         from scipy.sparse import coo_array
         from scipy.sparse.csgraph import connected_components
@@ -230,9 +218,6 @@ def straightened(triangles: Array, where: str = "the mesh") -> tuple[Array, list
     """Gives triangles with the foot's length along x or y, and notes; where is the file's name.
 
     The direction within 25 degrees of the outline's long axis with the best mirror symmetry.
-
-    Raises:
-        FootError: If the axis is ambiguous.
     """
     hull = convex_outline(triangles.reshape(-1, 3)[:, :2])
     if hull.geom_type != "Polygon":
@@ -277,9 +262,6 @@ def _likeness(outline: Any, degrees: float) -> float:
 def forward_axis(triangles: Array, where: str = "the mesh") -> tuple[Axis, str]:
     """Gives horizontal axis of triangles to the toes, the longer one, away from the ankle (origin, or a block on top),
     and a note; where is the file's name.
-
-    Raises:
-        FootError: If origin and block disagree.
     """
     points = triangles.reshape(-1, 3)
     low = points.min(axis=0)

@@ -52,17 +52,9 @@ def foot_from_drawing(
 ) -> Foot:
     """Straight-sided foot from a drawing of its sole from above.
 
-    Args:
-        path: DXF, SVG or GeoJSON with closed lines.
-        mesh_side: Shown foot; a right one is mirrored.
-        unit: Of the file; None takes the stated one, or detects it.
-        forward: Axis to the toes; None takes the longer one.
-
-    Returns:
-        Left foot; origin is the drawing's if inside the sole, else its middle.
-
-    Raises:
-        FootError: If unreadable or not foot-sized.
+    `path`: DXF, SVG or GeoJSON with closed lines; `unit` of the file; None takes the stated one, or detects it;
+    `forward`: axis to the toes; None takes the longer one. Returns left foot; origin is the drawing's if inside the
+    sole, else its middle.
     """
     if forward is not None and forward not in AXES[:4]:
         raise InputError(f"forward axis is {forward!r}; allowed: {', '.join(AXES[:4])}")
@@ -89,10 +81,8 @@ def foot_from_drawing(
 
 
 def read_outline(path: str | os.PathLike[str]) -> tuple[Lines, Unit | None, float]:
-    """Read lines of a DXF, SVG or GeoJSON file: points (k, 2), y upwards; stated unit or None; size of a number in it.
-
-    Raises:
-        FootError: If unreadable.
+    """Read lines of a DXF, SVG or GeoJSON file: points (k, 2), y upwards; stated unit or None; size of
+    a number in it.
     """
     file = Path(path)
     kind = file.suffix.lower()

@@ -132,10 +132,6 @@ class _Model:
 def triangles_of_3mf(path: Path, most: int) -> tuple[Array, str]:
     """Gives triangles (n, 3, 3) of all build items of the 3MF package at a path, most in number with repeats, and their
     unit.
-
-    Raises:
-        FootError: If foreign, or more.
-        ValueError: Damaged number; other damage: LookupError, ExpatError.
     """
     with open_archive(path, FootError, _LARGEST) as (package, _):
         names = [i for i in package.infolist() if i.filename.lower().endswith(".model")]

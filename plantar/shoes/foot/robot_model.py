@@ -30,11 +30,8 @@ Array = NDArray[np.float64]
 class BodyGeometry:
     """Body surface about its origin, zero pose.
 
-    Attributes:
-        triangles: (n, 3, 3) in m, z up.
-        side: By the body's name.
-        mass: Robot's in kg, or None.
-        links: Points (n, 3) in m of moving links above, or None.
+    `triangles` (n, 3, 3) in m, z up; `mass`: robot's in kg, or None; `links`: points (n, 3) in m of moving links above,
+    or None.
     """
 
     triangles: Array
@@ -62,10 +59,6 @@ def side_of_name(name: str) -> Literal["left", "right"] | None:
 def read_foot_body(path: str | os.PathLike[str], body: str | None, unit: Unit | None = None) -> BodyGeometry:
     """Gives geometry of a robot foot, drawn or else colliding, with what is fixed to it, from the body of an MJCF or
     URDF at a path, in m or a unit.
-
-    Raises:
-        FootError: If unreadable, shapeless or not foot-sized.
-        DependencyError: If MuJoCo is missing.
     """
     source = read_model_source(Path(path))
     bodies = source.bodies()

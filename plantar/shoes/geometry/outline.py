@@ -150,11 +150,7 @@ def rounded_rectangle(length: float, width: float, centre: tuple[float, float], 
 
 
 def outline_below(triangles: NDArray[np.float64], height: float) -> Any:
-    """Gives outline of triangles (n, 3, 3) in mm, cut at a height above the sole plane, by `single_outline`.
-
-    Raises:
-        FootError: If it has no area.
-    """
+    """Gives outline of triangles (n, 3, 3) in mm, cut at a height above the sole plane, by `single_outline`."""
     return outline_of(cut_below(triangles, height), height)
 
 
@@ -189,11 +185,7 @@ def outlines_below(triangles: NDArray[np.float64]) -> Callable[[float], Any]:
 
 
 def outline_of(below: NDArray[np.float64], height: float, lower: Any = _EMPTY) -> Any:
-    """Gives outline of triangles (n, 3, 3) in mm below a height in mm, by `single_outline`, and of a lower part's.
-
-    Raises:
-        FootError: If it has no area.
-    """
+    """Gives outline of triangles (n, 3, 3) in mm below a height in mm, by `single_outline`, and of a lower part's."""
     if len(below) == 0 and lower.is_empty:
         raise FootError(f"the mesh has no surface in its lowest {height:g} mm")
     points = convex_outline(np.concatenate([below.reshape(-1, 3)[:, :2], shapely.get_coordinates(lower)]))

@@ -74,11 +74,7 @@ def convex_outline(points: Array) -> Any:
 
 
 def covered_area(flat: Array) -> Any:
-    """Shapely cover of triangles (n, 3, 2) in mm, in any order and direction.
-
-    Raises:
-        FootError: If unjoined and overlapping.
-    """
+    """Shapely cover of triangles (n, 3, 2) in mm, in any order and direction."""
     flat = np.rint(flat / _GRID) * _GRID
     u = flat[:, 1] - flat[:, 0]
     v = flat[:, 2] - flat[:, 0]
@@ -171,9 +167,6 @@ _SIZES = {"box": 3, "sphere": 1, "cylinder": 2, "capsule": 2, "ellipsoid": 3}
 def primitive(kind: str, size: NDArray[np.float64], where: str) -> NDArray[np.float64]:
     """Gives triangles (n, 3, 3) of a "box", "sphere", "cylinder", "capsule" or "ellipsoid" (kind) about the origin,
     axis z, of a size as in MJCF; where is for messages.
-
-    Raises:
-        FootError: If unknown, or size not positive.
     """
     if kind not in _SIZES:
         raise FootError(f"{where}: '{kind}' is no shape that is read; allowed: mesh, {', '.join(_SIZES)}")

@@ -31,15 +31,9 @@ def render(
 ) -> Picture:
     """Render triangles in parallel projection.
 
-    Args:
-        bodies: Triangles (n, 3, 3), outward counter-clockwise, and colour (r, g, b) 0..1 of each.
-        azimuth: Of the eye, in degrees about z from +x.
-        elevation: Of the eye, in degrees.
-        width: In pixels.
-        margin: Empty share at each side.
-
-    Returns:
-        Picture (height, width, 3), 0..1, on white.
+    `bodies`: triangles (n, 3, 3), outward counter-clockwise, and colour (r, g, b) 0..1 of each; `azimuth` of the eye,
+    in degrees about z from +x; `elevation` of the eye, in degrees; `width` in pixels; `margin`: empty share at each
+    side. Returns picture (height, width, 3), 0..1, on white.
     """
     a = math.radians(azimuth)
     e = math.radians(elevation)

@@ -37,10 +37,7 @@ Point = tuple[float, float]
 class Sheet:
     """A3 sheet, origin at the lower left.
 
-    Attributes:
-        lines: Kind and points (k, 2).
-        areas: Colour and corners.
-        texts: Place, text, height in mm, angle in degrees, alignment.
+    `lines`: kind and points (k, 2); `texts`: place, text, height in mm, angle in degrees, alignment.
     """
 
     lines: list[tuple[str, Array]] = field(default_factory=list)

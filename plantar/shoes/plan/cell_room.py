@@ -81,9 +81,6 @@ def led_parameters(
 ) -> tuple[ShoeParameters, tuple[str, ...]]:
     """Gives parameters whose channel, ports and pockets (with deepen) pass a sheet's tail or the cells' leads of a
     plan, and notes.
-
-    Raises:
-        FootError: If the tail is too wide.
     """
     p = parameters
     cell = plan.cell

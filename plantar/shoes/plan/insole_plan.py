@@ -58,9 +58,6 @@ def insole_parameters(
     """Gives insole parameters for a foot: defaults share its thickness in mm, the floor takes the rest; and
     assumptions.
 
-    Raises:
-        InputError: If thickness or material unfit.
-
     Example:
         >>> from plantar.shoes.foot.foot import foot_from_dimensions
         >>> p, _ = insole_parameters(foot_from_dimensions("a", length=0.26, width=0.095), 6.0, ShoeParameters())
@@ -100,9 +97,6 @@ def fit_insole(
 ) -> TaxelFit:
     """Gives cells up to an insole's edge, within a foot's outline by parameters: hexagons of cell_area in mm^2, fine
     rim or whole, or another cell.
-
-    Raises:
-        FootError: If cells carry below `EVEN_SHARE`.
     """
     room = _within(foot, parameters.clearance + parameters.border)
     if cell is not None:
@@ -139,10 +133,6 @@ def _within(foot: Foot, distance: float) -> Any:
 
 
 def plan_insole(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: str | None = None) -> ShoePlan:
-    """Gives left insole plan of a foot, fit and parameters; its layout takes a name or the foot's.
-
-    Raises:
-        FootError: If no pocket is left.
-    """
+    """Gives left insole plan of a foot, fit and parameters; its layout takes a name or the foot's."""
     face = _within(foot, parameters.clearance)
     return plan_face(foot.sole, face, face, face, fit, parameters, name=name or foot.name)

@@ -46,11 +46,9 @@ Array = NDArray[np.float64]
 class LoadShare:
     """Load share of the taxels.
 
-    Attributes:
-        flat: On flat ground, 0..1.
-        half: On the worst half foothold of four: heel, toes, left, right; 0..1.
-        compression: Print's travel on flat ground in mm.
-        rim_stiffness: Stiffness per area next to the taxels over a taxel's, on flat ground.
+    `flat` on flat ground, 0..1; `half` on the worst half foothold of four: heel, toes, left, right; 0..1;
+    `compression`: print's travel on flat ground in mm; `rim_stiffness`: stiffness per area next to the taxels over a
+    taxel's, on flat ground.
     """
 
     flat: float

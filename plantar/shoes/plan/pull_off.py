@@ -32,12 +32,8 @@ SNAP_MOST = 200.0  # force in N that a person pushes with his body at most, at w
 class PullOff:
     """Holding and needed forces.
 
-    Attributes:
-        force: Force in N to pull off downwards.
-        swing: Needed in N: 5 g on the worn mass.
-        moment: Held in N m about the heel's edge.
-        scuff: Needed in N m.
-        snap: Force in N to snap on the stiffest clip; 0 without clips.
+    `force`: force in N to pull off downwards; `swing`: needed in N: 5 g on the worn mass; `moment`: held in N m about
+    the heel's edge; `scuff`: needed in N m; `snap`: force in N to snap on the stiffest clip; 0 without clips.
     """
 
     force: float
@@ -65,17 +61,8 @@ def pull_off(
 ) -> PullOff:  # fmt: skip
     """Holding forces of a shoe.
 
-    Args:
-        kind: "clips", "straps" or "screws".
-        places: Each holder's x in mm, and a clip's arm length in mm.
-        width: Strap's in mm.
-        heel: Foot's rear edge x in mm.
-        worn: Mass in kg.
-        mass: Robot's in kg.
-        parameters: As used.
-
-    Returns:
-        Holding and needed forces.
+    `kind`: "clips", "straps" or "screws"; `places`: each holder's x in mm, and a clip's arm length in mm; `width`:
+    strap's in mm; `heel`: foot's rear edge x in mm; `worn`: mass in kg; `mass`: robot's in kg.
     """
     p = parameters
     strap = 2.0 * math.sqrt(0.5) * _SHEAR * width * _OVERLAP / 2.0  # at each of its two lugs

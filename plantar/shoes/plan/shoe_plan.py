@@ -144,9 +144,6 @@ class ShoePlan:
 def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: str | None = None) -> ShoePlan:
     """Gives left plan of a foot and fit by parameters, its face around the foot's rim and taxels' border, layout with a
     name or the foot's.
-
-    Raises:
-        FootError: If no pocket is left.
     """
     outline = foot.passing(parameters.rim_height)
     cavity = tidy(grown(outline, parameters.clearance))

@@ -28,13 +28,7 @@ _MOST_MASS = 150.0  # kg: what a robot is estimated to weigh at most
 
 @dataclass(frozen=True)
 class LoadCase:
-    """Load.
-
-    Attributes:
-        mass: Robot's in kg.
-        force: Load in N.
-        pressure: On its share of the sole, in MPa.
-    """
+    """Load. `mass`: robot's in kg; `force`: load in N; `pressure` on its share of the sole, in MPa."""
 
     mass: float
     source: str

@@ -46,13 +46,9 @@ Array = NDArray[np.float64]
 class Touching:
     """Taxels touching flat rigid ground at half the robot's weight, seats scattered.
 
-    Attributes:
-        scatter: Seat height's standard deviation in mm.
-        stiffness: Median taxel with pad in N/mm.
-        active: Mean taxel share above threshold, 0..1.
-        touching: Mean loaded share, 0..1.
-        area: Mean area share of active cells, 0..1.
-        cop_error: Active taxels' CoP error in mm, 95th percentile.
+    `scatter`: seat height's standard deviation in mm; `stiffness`: median taxel with pad in N/mm; `active`: mean taxel
+    share above threshold, 0..1; `touching`: mean loaded share, 0..1; `area`: mean area share of active cells, 0..1;
+    `cop_error`: active taxels' CoP error in mm, 95th percentile.
     """
 
     scatter: float
@@ -126,11 +122,8 @@ ERROR = 0.40
 class Observability:
     """CoP observability by the taxels.
 
-    Attributes:
-        along: Longer side of the centres' smallest rectangle, over the face's length.
-        across: Shorter side, over the face's width; 0 for a line.
-        error: Largest in mm for a load anywhere on the face.
-        width: Face's in mm.
+    `along`: longer side of the centres' smallest rectangle, over the face's length; `across`: shorter side, over the
+    face's width; 0 for a line; `error`: largest in mm for a load anywhere on the face; `width`: face's in mm.
     """
 
     along: float

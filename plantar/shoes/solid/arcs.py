@@ -36,10 +36,7 @@ class Arc:
 class CurvedSolid:
     """Solid with arcs.
 
-    Attributes:
-        body: Corners and loops; curved faces have four corners.
-        arcs: By their two corners, smaller number first.
-        curved: Curved face numbers.
+    `body`: corners and loops; curved faces have four corners; `arcs` by their two corners, smaller number first.
     """
 
     body: Polyhedron

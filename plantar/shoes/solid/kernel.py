@@ -18,11 +18,7 @@ from plantar.shoes.solid.short_edges import without_short_edges
 
 @cache
 def load_kernel() -> Any:
-    """OpenCascade's module with all packages; loading takes a second.
-
-    Raises:
-        DependencyError: If missing or unloadable.
-    """
+    """OpenCascade's module with all packages; loading takes a second."""
     with optional_library("OCP", "shoes"):
         import OCP
         import OCP.TopoDS  # gives names of the version before
@@ -47,11 +43,7 @@ Points = Sequence[Any] | NDArray[np.float64]
 
 
 def build_solid(steps: Sequence[Step]) -> Polyhedron:
-    """One shoe's solid in the sole frame: blocks added and cut in order; the first step adds.
-
-    Raises:
-        FootError: If not one solid.
-    """
+    """One shoe's solid in the sole frame: blocks added and cut in order; the first step adds."""
     load_kernel()
     try:
         shape = _assembled(steps)

@@ -44,11 +44,7 @@ class _Place:
 class Retention:
     """How the shoe is held.
 
-    Attributes:
-        places: On the left shoe.
-        width: Of strap or clip, or screw's diameter in mm.
-        strain: Of a clip's arm snapping on; 0 without clips.
-        note: Choice and reason.
+    `width` of strap or clip, or screw's diameter in mm; `strain` of a clip's arm snapping on; 0 without clips.
     """
 
     kind: Literal["clips", "straps", "screws", "none"]
@@ -77,11 +73,7 @@ class Retention:
 
 
 def choose_retention(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> Retention:
-    """Gives clips where a foot has edges, else strap lugs, or the parameters' kind, by left plan.
-
-    Raises:
-        FootError: If clips lack an edge, or screws a side.
-    """
+    """Gives clips where a foot has edges, else strap lugs, or the parameters' kind, by left plan."""
     p = parameters
     length = plan.foot.bounds[2] - plan.foot.bounds[0]
     if p.retention == "none":

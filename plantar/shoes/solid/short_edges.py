@@ -25,12 +25,8 @@ _Face = list[list[int]]
 def without_short_edges(body: Polyhedron, least: float) -> Polyhedron:
     """Contract edges below a length; bent faces are cut into triangles.
 
-    Args:
-        body: Solid.
-        least: Shortest kept edge in mm; no corner moves farther.
-
-    Returns:
-        Solid; edges stay whose loss would make it touch itself, or a bent face fold or hang over.
+    `least`: shortest kept edge in mm; no corner moves farther. Returns solid; edges stay whose loss would make it touch
+    itself, or a bent face fold or hang over.
     """
     work = _Contraction(body, least)
     corners = body.corners

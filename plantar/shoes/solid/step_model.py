@@ -29,12 +29,7 @@ _Known = dict[tuple[float, ...], list[tuple[Any, Array, Array]]]  # lines and pl
 
 @dataclass(frozen=True)
 class StepPart:
-    """Part of an assembly.
-
-    Attributes:
-        name: Of the product.
-        places: Shifts (3,) in mm by instance name.
-    """
+    """Part of an assembly. `places`: shifts (3,) in mm by instance name."""
 
     name: str
     body: Polyhedron
@@ -50,12 +45,8 @@ class StepPart:
 class StepSolid:
     """Solid of a STEP file.
 
-    Attributes:
-        valid: Without faults, by the kernel.
-        volume: In mm^3.
-        corners: Points (n, 3).
-        circles: Arc centre and radius (m, 4).
-        shortest: Shortest edge.
+    `valid`: without faults, by the kernel; `volume` in mm^3; `corners`: points (n, 3); `circles`: arc centre and radius
+    (m, 4).
     """
 
     solids: int

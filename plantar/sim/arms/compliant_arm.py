@@ -25,16 +25,8 @@ class CompliantArm:
 
     Joints avoid their limits; below that springs hold a posture and skin forces move it (A 13-14, 18).
 
-    Args:
-        skin: The robot's skin, or None.
-        settings: Of the tasks, for the same robot.
-        world: With the arm in it.
-        period: Control period in s.
-        encoder_noise: Standard deviation in rad.
-
-    Attributes:
-        angles: Last measured (k,) in rad.
-        posture: Of the springs at rest (k,) in rad.
+    `skin`: the robot's skin, or None; `period`: control period in s; `encoder_noise`: standard deviation in rad.
+    Attributes `angles`: last measured (k,) in rad; `posture` of the springs at rest (k,) in rad.
     """
 
     def __init__(
@@ -80,8 +72,7 @@ class CompliantArm:
     def read(self) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
         """Read the encoders.
 
-        Returns:
-            Origin (3,) in m and rotation (3, 3) in the base frame of each skinned link, by name.
+        Returns origin (3,) in m and rotation (3, 3) in the base frame of each skinned link, by name.
         """
         data = self._world.data
         rng = self._rng

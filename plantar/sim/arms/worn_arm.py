@@ -23,18 +23,8 @@ _PREFIX = "arm/"  # What the names of its links and joints begin with: a robot m
 class WornArm:
     """One arm to be added to a robot's model (`plantar.sim.model.world.Visitor`).
 
-    Args:
-        posture: Degrees from shoulder to wrist; empty: the machine file's.
-
-    Attributes:
-        joints: Limits by name, from shoulder to wrist.
-        links: From shoulder to hand.
-        posture: (k,) in rad.
-        model: Of the arm alone, on an upright base in the world's origin.
-
-    Raises:
-        RobotError: If machine or arm is invalid.
-        SceneError: If arm or posture is impossible.
+    `posture`: degrees from shoulder to wrist; empty: the machine file's. Attributes `joints`: limits by name, from
+    shoulder to wrist; `posture` (k,) in rad; `model` of the arm alone, on an upright base in the world's origin.
     """
 
     def __init__(self, robot: Robot, side: Side, posture: Sequence[float] = ()) -> None:
@@ -73,11 +63,7 @@ class WornArm:
     def surface(self, patch: str) -> tuple[str, NDArray[np.float64], float]:
         """The part of a link under a patch wrapped around its z axis.
 
-        Returns:
-            The link, the patch's middle (3,) in its frame in m, and largest radius in m.
-
-        Raises:
-            InputError: If there is no such patch.
+        Returns the link, the patch's middle (3,) in its frame in m, and largest radius in m.
         """
         found = self.skin.patch(patch)
         at = found.positions
@@ -96,11 +82,7 @@ class WornArm:
         return low, high
 
     def add_to(self, spec: Any) -> None:
-        """Move the arm from the chest of a `spec` to the base.
-
-        Raises:
-            RobotError: If there is no such chest.
-        """
+        """Move the arm from the chest of a `spec` to the base."""
         chest = spec.body(self._chest)
         base = spec.body(self._torso)
         while base.parent is not None and base.parent.name != "world":

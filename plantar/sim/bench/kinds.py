@@ -18,15 +18,9 @@ from plantar.sim.libraries import LIBRARIES
 class BenchOptions:
     """Options; `measure` refuses those that a kind does not take.
 
-    Attributes:
-        layout: Layout file of sole, or None.
-        scenarios: Number of scenarios of whole loop.
-        first: Number of the first one.
-        scene: Walks to run; all where empty.
-        robot: Robots for them; all where empty.
-        quick: Run the most informative cases, once.
-        policy: Python file, or None for built-in controller.
-        seeds: Runs of each trial.
+    `layout`: layout file of sole, or None; `scenarios`: number of scenarios of whole loop; `scene`: walks to run; all
+    where empty; `robot`: robots for them; all where empty; `quick`: run the most informative cases, once; `policy`:
+    Python file, or None for built-in controller.
     """
 
     layout: Path | None = None
@@ -48,12 +42,7 @@ class Measured(NamedTuple):
 
 
 def measure(what: str, options: BenchOptions, output: Path) -> Measured:
-    """Returns what came of a kind `what`, or "all", with `options`; files go to `output`.
-
-    Raises:
-        InputError: If kind or option is wrong.
-        DependencyError: If a library is missing.
-    """
+    """Returns what came of a kind `what`, or "all", with `options`; files go to `output`."""
     allowed = (*_PARTS, *_TABLES, "all")
     if what not in allowed:
         wrong = f"cannot measure '{what}'" if what else "give what to measure: plantar bench kernels"

@@ -46,9 +46,6 @@ class RoomTimes:
     """Samples the present room a thousand times a second; for the main thread.
 
     A timer signal counts the innermost function of a room; other languages count for their caller.
-
-    Raises:
-        InputError: Without such a timer (Windows).
     """
 
     def __init__(self) -> None:

@@ -26,10 +26,7 @@ from plantar.sim.run.scene import Scene, load_scene
 class WatchedSimulation(Simulation):
     """A simulation that keeps its controls and hashes its motion.
 
-    Attributes:
-        controls: Servo set-points at each physics step.
-        members: How often each member of a percept was computed.
-        percepts: Number of percepts.
+    `controls`: servo set-points at each physics step; `members`: how often each member of a percept was computed.
     """
 
     def __init__(self, *args: Any, **named: Any) -> None:
@@ -98,7 +95,6 @@ class SkipRow:
     """Cost of a scene with a robot: CPU times in s, medians.
 
     Attributes:
-        settings: Changes of scene.
         everything_s: With all percepts, rays and recording.
         physics_s: Of the same motion by `mj_step` in a loop.
         factor: Everything but the physics over the physics.

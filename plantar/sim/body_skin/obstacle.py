@@ -16,16 +16,7 @@ _PIECES = (_KINDS["cylinder"], _KINDS["sphere"], _KINDS["sphere"])
 
 
 class Obstacle:
-    """A geom that skin measures; its velocity is that of its motion.
-
-    Attributes:
-        name: Of the geom.
-        geom: Geom id.
-        body: Body id.
-
-    Raises:
-        SceneError: If its shape is unsupported.
-    """
+    """A geom that skin measures; its velocity is that of its motion."""
 
     def __init__(self, model: Any, geom: int) -> None:
         self.geom = geom

@@ -87,9 +87,8 @@ def add_moved(
 class World:
     """The simulated machine and its surroundings; `model` and `data` are the truth.
 
-    Attributes:
-        positions: Places (nq of machine alone,) in `data.qpos`, in its own model's order; `speeds` in `data.qvel`.
-        motors: Places (k,) of motors in `data.ctrl`; `joints` of their joints in `data.qvel`.
+    `positions`: places (nq of machine alone,) in `data.qpos`, in its own model's order; `speeds` in `data.qvel`;
+    `motors`: places (k,) of motors in `data.ctrl`; `joints` of their joints in `data.qvel`.
     """
 
     machine: Machine
@@ -176,11 +175,7 @@ def _of_others() -> dict[str, Any]:
 
 
 def experiment_class(name: str) -> type[Experiment]:
-    """The class of an experiment, by its file's name with hyphens.
-
-    Raises:
-        SceneError: If unknown.
-    """
+    """The class of an experiment, by its file's name with hyphens."""
     known = experiment_names()
     if name not in known:
         raise SceneError(f"unknown experiment '{name}'; {nearest(name, known)}allowed: {', '.join(known)}")
@@ -214,11 +209,7 @@ class CompanionScene:
     lidar: LidarSettings | None
 
     def setting_name(self, key: str) -> str:
-        """Full name "table.name" of a setting's key, or "robot".
-
-        Raises:
-            SceneError: If unknown.
-        """
+        """Full name "table.name" of a setting's key, or "robot"."""
         if key.strip() in _MACHINE:
             return "robot"
         kinds = {section: kind.names() for section, kind in companion_tables(self.kind).items()}
@@ -231,11 +222,7 @@ class CompanionScene:
 
 
 def companion_tables(kind: str) -> dict[str, type[Settings]]:
-    """Settings class of each table of a scene, by the table's name.
-
-    Raises:
-        SceneError: If the experiment is unknown.
-    """
+    """Settings class of each table of a scene, by the table's name."""
     found = experiment_class(kind)
     tables: dict[str, type[Settings]] = {
         "skin": SkinSensing,

@@ -73,12 +73,7 @@ class JointTable(Settings):
 class Machine:
     """A machine; joints are in the model's order.
 
-    Attributes:
-        description: One line.
-        base: What carries the joints.
-        servo: How joints are commanded.
-        joints: Limits of each joint, by name.
-        patches: Unread `[[patch]]` tables, for `plantar.sim.body_skin.surface`.
+    `joints`: limits of each joint, by name; `patches`: unread `[[patch]]` tables, for `plantar.sim.body_skin.surface`.
     """
 
     name: str
@@ -107,10 +102,8 @@ class Machine:
         return np.array([t.posture if n in slides else math.radians(t.posture) for n, t in self.joints.items()])
 
     def spec(self) -> Any:
-        """The machine alone as a new `mujoco.MjSpec` with a motor a joint. Its geoms touch obstacles, not each other.
-
-        Raises:
-            RobotError: If the model is unreadable.
+        """The machine alone as a new `mujoco.MjSpec` with a motor a joint. Its geoms touch
+        obstacles, not each other.
         """
         spec = _parsed(self.model_file, f"machine '{self.name}'")
         for part in ("keys", "equalities", "tendons", "pairs", "excludes", "sensors", "actuators", "lights"):

@@ -25,15 +25,7 @@ from plantar.sim.model.world import add_looks
 
 
 class Companion(Run):
-    """A scene, ready to run; `seed` draws noise and the experiment's choices.
-
-    Attributes:
-        skin: The machine's skin sensor.
-
-    Raises:
-        RobotError: If the machine is invalid.
-        SceneError: If it cannot be simulated.
-    """
+    """A scene, ready to run; `seed` draws noise and the experiment's choices."""
 
     def __init__(self, scene: CompanionScene, seed: int) -> None:
         self.scene = scene

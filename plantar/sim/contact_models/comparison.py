@@ -41,7 +41,6 @@ class ContactRow:
         seen_x_mm: Taxel CoP then, less the true edge.
         beam_contact_ratio: Contact hull over true contact area; mean over the beams.
         beam_taxel_ratio: The same of the active cells' corners.
-        beam_wrong_cells: Active cells that do not touch the beam.
         beam_silent_cells: Inactive cells with a quarter or more on the beam.
         step_us: Median of a full-sole physics step; `read_us` of a taxel reading.
     """

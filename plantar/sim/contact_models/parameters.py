@@ -47,7 +47,6 @@ class ParameterRow:
         landing_N: Peak of a 3 kg foot landing at 0.15 m/s under 40 kg on a stiff servo.
         rebounds: How often it lifts off within 0.3 s.
         ripple_N: Of the normal force in quiet stance.
-        step_us: Median of a physics step.
     """
 
     name: str

@@ -22,10 +22,7 @@ _ROUNDS = 8  # How often cells that would pull are left out of the fit to the wr
 class Sole(NamedTuple):
     """A compiled rig with one sole and its reader.
 
-    Attributes:
-        site: Id of the sole frame.
-        geoms: Ids that touch.
-        read: Taxel forces (n,) in N from the MjData.
+    `site`: id of the sole frame; `read`: taxel forces (n,) in N from the MjData.
     """
 
     model: Any

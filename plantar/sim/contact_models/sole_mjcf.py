@@ -15,13 +15,8 @@ from plantar.layouts.layout import SoleLayout
 class Candidate:
     """One way to model a sole.
 
-    Attributes:
-        name: As in the tables.
-        text: Short description.
-        kind: "box", "spheres" or "prisms": what touches the ground.
-        count: Spheres a taxel.
-        reading: "patches", "tactile" or "contacts": where taxel forces come from.
-        fit: What a tactile reading is scaled to: "force" or "wrench".
+    `kind`: "box", "spheres" or "prisms": what touches the ground; `reading`: "patches", "tactile" or "contacts": where
+    taxel forces come from; `fit`: what a tactile reading is scaled to: "force" or "wrench".
     """
 
     name: str
@@ -88,11 +83,7 @@ def bounding_rectangle(layout: SoleLayout) -> tuple[NDArray[np.float64], NDArray
 
 
 def sole_mjcf(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
-    """Returns the MJCF of a `layout` by a contact model `candidate`, with `attributes` of touching geoms.
-
-    Raises:
-        InputError: If kind or reading is unknown.
-    """
+    """Returns the MJCF of a `layout` by a contact model `candidate`, with `attributes` of touching geoms."""
     make = _MAKERS.get((candidate.kind, candidate.reading))
     if make is None or (candidate.kind == "spheres" and candidate.count < 1):
         raise InputError(f"contact model {candidate.name!r} has an unknown kind or reading; allowed: see CANDIDATES")

@@ -18,11 +18,7 @@ _STEPS = 500  # of 20 ms: episodes of 10 s
 
 
 def register() -> None:
-    """Add the environments to Gymnasium's registry, once.
-
-    Raises:
-        DependencyError: If one is missing.
-    """
+    """Add the environments to Gymnasium's registry, once."""
     need_libraries("gym", "gymnasium", "mujoco")
     import gymnasium
 

@@ -42,11 +42,7 @@ class Simulated(Protocol):
 
 
 class Task:
-    """Stand still, on flat ground.
-
-    Attributes:
-        size: Numbers that `observe` returns.
-    """
+    """Stand still, on flat ground. `size`: numbers that `observe` returns."""
 
     size = 1
 

@@ -48,18 +48,9 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
     An episode ends where the torso tilts by 40 degrees or sinks by 30 %, or physics diverge. `info`: "time" in s,
     "velocity" (2,) in m/s in its heading, "load" of both soles in body weights, and the task's.
 
-    Args:
-        task: "stand", "step", "walk" or "board".
-        robot: Built-in name or robot file.
-        period: Step in s, whole `physics_period`s.
-        skin: Whether it is observed.
-        faults: Of taxels, drawn at each reset, or None.
-        scale: Angle in rad of an action of 1.
-        difficulty: Scales pushes, ground and commands; 0 or more.
-        render_mode: "rgb_array" or None.
-
-    Raises:
-        InputError, RobotError: If an argument is invalid.
+    `task`: "stand", "step", "walk" or "board"; `period`: step in s, whole `physics_period`s; `faults` of taxels, drawn
+    at each reset, or None; `scale`: angle in rad of an action of 1; `difficulty`: scales pushes, ground and commands; 0
+    or more; `render_mode`: "rgb_array" or None.
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 50}  # noqa: RUF012
@@ -154,11 +145,8 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
     ) -> tuple[dict[str, NDArray[np.float32]], float, bool, bool, dict[str, Any]]:
         """One control step.
 
-        Args:
-            action: Set-points (k,), clipped to -1..1.
-
-        Returns:
-            Observation, reward, whether it fell, False (`TimeLimit` truncates), and info.
+        `action`: set-points (k,), clipped to -1..1. Returns observation, reward, whether it fell, False (`TimeLimit`
+        truncates), and info.
         """
         moved = np.clip(np.asarray(action, dtype=np.float32), -1.0, 1.0)
         if moved.shape != self.last_action.shape or not np.isfinite(moved).all():

@@ -71,10 +71,8 @@ def draw_footholds(run: Recording) -> Any:
 class _View:
     """The supports of a walk and the plane around them.
 
-    Attributes:
-        last: Of each step's last message on "/foothold".
-        rings: Corners (k, 2) in m found for each step.
-        plane: What of the ground is shown.
+    `last` of each step's last message on "/foothold"; `rings`: corners (k, 2) in m found for each step; `plane`: what
+    of the ground is shown.
     """
 
     last: list[int]

@@ -165,11 +165,7 @@ def save_picture(picture: NDArray[np.uint8], path: str | os.PathLike[str]) -> Pa
 
 
 class VideoWriter(ExitStack):
-    """Writes an MP4 at `path`, `rate` frames a second; a context manager.
-
-    Raises:
-        InputError: If the path is unusable.
-    """
+    """Writes an MP4 at `path`, `rate` frames a second; a context manager."""
 
     def __init__(self, path: str | os.PathLike[str], rate: float = FRAME_RATE) -> None:
         super().__init__()

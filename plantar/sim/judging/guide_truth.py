@@ -27,14 +27,8 @@ that yields, and so turns by up to 25 degrees about the vertical, as much as tan
 class GuideTruth:
     """Follows arm and feet of a robot that is led.
 
-    Args:
-        world: The world.
-        link: Held link of the arm.
-        point: Held point (3,) in its frame in m.
-        joints: The arm's.
-        posture: Angles (k,) in rad at rest.
-        way: The hand's along the world's x axis in m.
-        starts: When it moves in s.
+    `world`: the world; `point`: held point (3,) in its frame in m; `posture`: angles (k,) in rad at rest; `way`: the
+    hand's along the world's x axis in m; `starts`: when it moves in s.
     """
 
     def __init__(

@@ -15,9 +15,7 @@ _AT_LIMIT = 0.999  # of a torque limit: a servo there asks for more than it gets
 class JointLimits:
     """Follows the leg joints' speeds and torques in a `world`.
 
-    Attributes:
-        limited: Whether their speeds have limits.
-        extremes: Takes speeds and torques each physics step.
+    `extremes`: takes speeds and torques each physics step.
     """
 
     def __init__(self, world: World) -> None:

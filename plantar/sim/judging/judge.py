@@ -69,12 +69,9 @@ _FLAT_FACES = (int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_BOX))
 class Landing:
     """One landing of one foot.
 
-    Attributes:
-        time: First ground force in s after 0.6 beats or more in the air.
-        impact: Largest vertical ground force in N within 0.2 beats.
-        area: Largest contact hull in m^2 within 2.4 beats.
-        angle: In degrees between sole and first touched face; None on round ground.
-        margin: Smallest true ZMP margin in m until the next landing, or None.
+    `time`: first ground force in s after 0.6 beats or more in the air; `impact`: largest vertical ground force in N
+    within 0.2 beats; `area`: largest contact hull in m^2 within 2.4 beats; `angle` in degrees between sole and first
+    touched face; None on round ground; `margin`: smallest true ZMP margin in m until the next landing, or None.
     """
 
     side: Side
@@ -89,12 +86,8 @@ class Landing:
 class Judge:
     """Follows a run.
 
-    Attributes:
-        standing_height: CoM above the ground at the start in m.
-        goal: The footsteps to take.
-        ground: None where all is plain.
-        learns: Whether pushes change all later steps.
-        fall: The fall as (criterion's value, limit, text), or None.
+    `standing_height`: CoM above the ground at the start in m; `ground`: None where all is plain; `learns`: whether
+    pushes change all later steps; `fall`: the fall as (criterion's value, limit, text), or None.
     """
 
     world: World

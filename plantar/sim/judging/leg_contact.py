@@ -20,9 +20,7 @@ def legs_that_touch(world: World) -> tuple[str, str] | None:
 class LegContact:
     """Follows contacts between legs or soles in a `world`.
 
-    Attributes:
-        duration: In s, in all.
-        first: Time in s of the first contact and both links, or None.
+    `duration` in s, in all; `first`: time in s of the first contact and both links, or None.
     """
 
     def __init__(self, world: World) -> None:

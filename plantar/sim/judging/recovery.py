@@ -36,12 +36,8 @@ class Recovery:
     ) -> None:
         """Take ZMP and CoM at a control tick.
 
-        Args:
-            time: In s.
-            zmp: True ZMP (2,) in m, or None.
-            com: True CoM (2,) in m.
-            reference_zmp: Planned ZMP (2,) in m.
-            reference_com: Planned CoM (2,) in m.
+        `time` in s; `zmp`: True ZMP (2,) in m, or None; `com`: True CoM (2,) in m; `reference_zmp`: planned ZMP (2,) in
+        m; `reference_com`: planned CoM (2,) in m.
         """
         while self._now + 1 < len(self.shoves) and time >= self.shoves[self._now + 1].start:
             self._now += 1

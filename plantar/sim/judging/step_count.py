@@ -37,11 +37,8 @@ class Stand:
 class Count:
     """The steps of a walk that were taken.
 
-    Attributes:
-        stands: The stands that were steps, in order.
-        missed: Why the first missing step failed, or empty.
-        drift: Summed differences in m (forward, left, in the plan's frame) from planned ways.
-        turned: The same in rad.
+    `missed`: why the first missing step failed, or empty; `drift`: summed differences in m (forward, left, in the
+    plan's frame) from planned ways; `turned`: the same in rad.
     """
 
     stands: tuple[Stand, ...]
@@ -60,11 +57,8 @@ class StepCount:
     A step is taken where its foot, last before the other touches down, stands at its place relative to the foothold
     before: taps and dead reckoning do not count, but the way limits summed differences.
 
-    Args:
-        goal: The footsteps.
-        weight: In N.
-        time_of: Time in s of a physics step.
-        justified: Whether ground or push justify a moved step, by stand, planned way, and true foothold before.
+    `weight` in N; `time_of`: time in s of a physics step; `justified`: whether ground or push justify a moved step, by
+    stand, planned way, and true foothold before.
     """
 
     def __init__(

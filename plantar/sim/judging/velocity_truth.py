@@ -28,12 +28,8 @@ class VelocityTruth:
 
     The way in the torso's heading counts against the command one step before, as a foot in the air keeps its target.
 
-    Args:
-        timing: Of the walk's phases.
-        begin: Middle (2,) in m and heading in rad at the start.
-
-    Attributes:
-        course: Commanded place (2,) in m and heading in rad.
+    `begin`: middle (2,) in m and heading in rad at the start. Attributes `course`: commanded place (2,) in m and
+    heading in rad.
     """
 
     def __init__(

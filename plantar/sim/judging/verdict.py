@@ -28,12 +28,10 @@ class Ending:
     Attributes:
         fall: (criterion's value, limit, text), or None.
         stopped: The controller's final safe state, or None.
-        steps: Taken and planned.
         missed: Why the first missing step failed.
         position: CoM's distance in m from the walk's end, or None.
         heading: Heading error in degrees, or None.
         tilt: Of the torso in degrees.
-        pushes: Recovered from, and all.
         overrun: Cut and first planned end in s, or None.
         raised: Ticks at which the controller raised, and the last error.
     """

@@ -47,15 +47,8 @@ class _Move:
 class WalkGoal:
     """Where feet must be put down, in order.
 
-    Args:
-        feet: At the start.
-        steps: As planned at the start.
-        leg: Leg length in m.
-        led: How far in m the robot is led; moves may add that.
-
-    Attributes:
-        near: Distance in m that counts as reached.
-        refused: Moves without reason, not finite, or too far.
+    `leg`: leg length in m; `led`: how far in m the robot is led; moves may add that. Attributes `near`: distance in m
+    that counts as reached; `refused`: moves without reason, not finite, or too far.
     """
 
     def __init__(

@@ -26,13 +26,8 @@ _BEGIN = 1.0  # s from which it counts
 class ZmpComparison:
     """Follows both ZMPs through a run.
 
-    Args:
-        layouts: Of each side.
-        noise: Standard deviation of a taxel in N.
-        period: Control period in s.
-
-    Attributes:
-        latest: World ZMP (2,) in m from the skin and from the ankles, None without load.
+    `noise`: standard deviation of a taxel in N; `period`: control period in s. Attributes `latest`: world ZMP (2,) in m
+    from the skin and from the ankles, None without load.
     """
 
     def __init__(self, layouts: Mapping[Side, SoleLayout], noise: float, period: float) -> None:

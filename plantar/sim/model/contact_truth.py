@@ -33,12 +33,9 @@ __all__ = [
 class ContactSet(NamedTuple):
     """The k contacts of one foot with everything else.
 
-    Attributes:
-        own_geoms: Geom ids (k,) of the foot; `other_geoms`, -1 for a flex.
-        positions: (k, 3) in the world in m.
-        forces: On the foot (k, 3) in the world in N; `torques` in N m.
-        distances: Gap (k,) in m, negative in penetration.
-        carries: Mask (k,): the solver may put a force there; False within `gap` only.
+    `own_geoms`: geom ids (k,) of the foot; `other_geoms`, -1 for a flex; `positions` (k, 3) in the world in m; `forces`
+    on the foot (k, 3) in the world in N; `torques` in N m; `distances`: gap (k,) in m, negative in penetration;
+    `carries`: mask (k,): the solver may put a force there; False within `gap` only.
     """
 
     own_geoms: NDArray[np.int32]
@@ -72,12 +69,9 @@ def _set_of(foot: FootContacts) -> ContactSet:
 class GroundTruth(NamedTuple):
     """What the ground does to all feet, world frame.
 
-    Attributes:
-        wrench: (6,) about the world's origin.
-        zmp: True ZMP (2,) in m; None below the minimum force.
-        ring: Corners (x, y) in m of the true support polygon, counter-clockwise, or empty.
-        margin: ZMP's distance in m to its edge, positive inside, or None.
-        points: Each foot's (x, y) in m that carry or could.
+    `wrench` (6,) about the world's origin; `zmp`: True ZMP (2,) in m; None below the minimum force; `ring`: corners (x,
+    y) in m of the true support polygon, counter-clockwise, or empty; `margin`: ZMP's distance in m to its edge,
+    positive inside, or None; `points`: each foot's (x, y) in m that carry or could.
     """
 
     wrench: NDArray[np.float64]
@@ -140,14 +134,8 @@ def ground_truth(
 ) -> GroundTruth:
     """Wrench, ZMP, support polygon and margin of all feet together (T 4.5-4.8), in the world frame.
 
-    Args:
-        feet: Of each foot.
-        plane_height: Of the ZMP in m; None: force-weighted contact height.
-        minimum_force: Vertical in N, below which there is no ZMP.
-        reach: Largest gap in m of a point that could carry.
-
-    Returns:
-        The truth.
+    `plane_height` of the ZMP in m; None: force-weighted contact height; `minimum_force`: vertical in N, below which
+    there is no ZMP; `reach`: largest gap in m of a point that could carry.
     """
     height = math.nan if plane_height is None else plane_height
     reaction = GroundReaction(height, minimum_force, reach)

@@ -121,9 +121,7 @@ class World:
     """A compiled world and its addresses; left leg first.
 
     Attributes:
-        joint_qpos: Addresses of the leg joints in qpos; `joint_qvel` in qvel.
         servos: Indices of the legs' actuators in ctrl.
-        sole_geoms: Geom ids of each sole.
         sole_sites: Site id of each sole frame.
         stiffness: Servo gains (k,) in N m/rad of the robot's file; `damping` in N m s/rad.
         joint_damping: Of the robot's model (k,) in N m s/rad; `joint_friction` in N m.
@@ -177,18 +175,8 @@ def build_world(
 ) -> World:
     """Build and compile the world in its reference configuration.
 
-    Args:
-        robot: The robot.
-        ground: The ground.
-        period: Physics step in s.
-        plant: True differences, or None.
-        others: Bodies with coordinates after the robot's.
-
-    Returns:
-        The world.
-
-    Raises:
-        RobotError: If the model is unusable.
+    `period`: physics step in s; `plant`: True differences, or None; `others`: bodies with coordinates after the
+    robot's. Returns the world.
     """
     spec = robot_spec(robot)
     _set_solver(spec, period)

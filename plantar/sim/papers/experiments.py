@@ -14,17 +14,9 @@ _NONE: Mapping[str, float] = MappingProxyType({})
 class PaperExperiment(NamedTuple):
     """An experiment of a paper.
 
-    Attributes:
-        source: Section, figure or table.
-        paper: What the paper reports.
-        figure: Which figure of a run is compared (`figure_of`).
-        without: Settings of the ablation; empty where there is none.
-        robot: Robot; empty for that of the scene.
-        settings: Settings of all variants.
-        printed: The paper's figures of a real robot by name.
-        printed_without: The same without.
-        fell_without: Whether the paper's robot fell without.
-        long: Whether a quick bench leaves it out.
+    `source`: section, figure or table; `without`: settings of the ablation; empty where there is none; `robot`: robot;
+    empty for that of the scene; `printed`: the paper's figures of a real robot by name; `long`: whether a quick bench
+    leaves it out.
     """
 
     name: str
@@ -144,15 +136,8 @@ EXPERIMENTS = (
 def figure_of(name: str, summary: Mapping[str, Any]) -> float | None:
     """A figure of a run.
 
-    Args:
-        name: As an experiment's `figure` or `printed`, or a number of the summary.
-        summary: The run's.
-
-    Returns:
-        Impact in N, steps, longer strides, ZMPs' difference in mm, or the number; None where the run has none.
-
-    Raises:
-        PlantarError: If no figure has that name.
+    `name`: as an experiment's `figure` or `printed`, or a number of the summary. Returns impact in N, steps, longer
+    strides, ZMPs' difference in mm, or the number; None where the run has none.
     """
     impacts = summary.get("impacts_N") or []
     match name:

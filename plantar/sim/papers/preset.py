@@ -15,11 +15,8 @@ from plantar.errors import SceneError
 class PaperSettings(NamedTuple):
     """What a paper states.
 
-    Attributes:
-        source: Such as "K Table 1", and what for.
-        scenes: Names that it holds for.
-        robot: The only one it holds for; empty for every one.
-        settings: "key=value" each.
+    `source`: such as "K Table 1", and what for; `robot`: the only one it holds for; empty for every one; `settings`:
+    "key=value" each.
     """
 
     source: str
@@ -35,9 +32,6 @@ def paper_files() -> dict[str, Path]:
 
 def paper_settings(paper: str) -> tuple[PaperSettings, ...]:
     """What a paper, named by its mark, states, in order.
-
-    Raises:
-        SceneError: If it is unknown.
 
     Example:
         >>> paper_settings("K")[1].settings[1]
@@ -67,16 +61,7 @@ def paper_text(paper: str) -> str:
 def with_paper(settings: Sequence[str], scene: str, robot: str) -> tuple[str, list[str]]:
     """Replace "paper=K" by what that paper states; own settings count after it.
 
-    Args:
-        settings: "key=value" each.
-        scene: Scene name.
-        robot: The scene's, where no setting names one.
-
-    Returns:
-        The paper's mark, or empty, and the settings.
-
-    Raises:
-        SceneError: If not one paper fits.
+    `settings`: "key=value" each. Returns the paper's mark, or empty, and the settings.
 
     Example:
         >>> paper, found = with_paper(["paper=K", "walk.confidence=1"], "push-step", "h1")

@@ -39,12 +39,8 @@ class Grip(NamedTuple):
 class Guide(Partner):
     """The hand; `seed` chooses start and open direction.
 
-    Attributes:
-        grip: Where it takes the arm.
-        sign: 1 forward, -1 backward.
-        starts: When it leads in s.
-        moved: True way in m; `reference` the wanted one.
-        force: True force in N along its way.
+    `grip`: where it takes the arm; `sign`: 1 forward, -1 backward; `starts`: when it leads in s; `moved`: True way in
+    m; `reference` the wanted one; `force`: True force in N along its way.
     """
 
     def __init__(self, settings: GuideSettings, grip: Grip, body: BodyScale, seed: int) -> None:

@@ -39,12 +39,8 @@ _ARM = 0.35  # leg: length of the drawn forearm
 class HandTarget(NamedTuple):
     """Where a hand should be.
 
-    Attributes:
-        position: Of its palm (3,) in the world in m.
-        velocity: Of that point (3,) in m/s.
-        yaw: Robot heading in rad.
-        inward: Pressing direction (3,) in the world.
-        force: In N along that; None to hold position.
+    `position` of its palm (3,) in the world in m; `velocity` of that point (3,) in m/s; `yaw`: robot heading in rad;
+    `inward`: pressing direction (3,) in the world; `force` in N along that; None to hold position.
     """
 
     position: NDArray[np.float64]
@@ -57,10 +53,7 @@ class HandTarget(NamedTuple):
 class Hand:
     """A hand for one face of the upper body.
 
-    Attributes:
-        face: One of `plantar.sim.body_skin.upper_body.FACES`.
-        name: Of body and palm geom.
-        half: Half its palm's edge in m.
+    `face`: one of `plantar.sim.body_skin.upper_body.FACES`; `half`: half its palm's edge in m.
     """
 
     def __init__(self, face: str, body: BodyScale) -> None:

@@ -68,14 +68,8 @@ def faces_of(pushes: Sequence[HandPush]) -> tuple[str, ...]:
 class HandPushes:
     """Hands that push, one push after another.
 
-    Args:
-        pushes: In the order of time.
-        skin: In the base frame.
-        height: Returns the pushed height above the base's origin in m.
-
-    Attributes:
-        hands: By face.
-        height: Above the base's origin in m; NaN before placing.
+    `skin` in the base frame; `height`: returns the pushed height above the base's origin in m. Attributes `height`:
+    above the base's origin in m; NaN before placing.
     """
 
     def __init__(
@@ -105,11 +99,7 @@ class HandPushes:
         return tuple(hand.geom for hand in self.hands.values())
 
     def place(self, world: World) -> None:
-        """Put the hands where they wait, once the robot stands.
-
-        Raises:
-            SceneError: If a palm misses the skin.
-        """
+        """Put the hands where they wait, once the robot stands."""
         self.height = self._ask(world)
         frame = _Frame(world.data, self._base)
         for face, hand in self.hands.items():

@@ -24,13 +24,7 @@ class Impedance:
     M x'' + D x' + K x = f_ex + f_in + K x_r (K 39). The rest x_r moves by the stride S once x is farther off (K 41,
     whose second case must read x < x_r - S).
 
-    Args:
-        settings: M, D, K, S, and a leader's f_in.
-
-    Attributes:
-        position: x in m.
-        velocity: x' in m/s.
-        rest: x_r in m.
+    `position`: x in m; `velocity`: x' in m/s; `rest`: x_r in m.
 
     Example:
         >>> law = Impedance(PartnerSettings(role="leader"))
@@ -74,10 +68,8 @@ _TOUCHES = 0.00237  # weight: force on the hand that counts as contact, 2 N for 
 class MobileRobot(Partner):
     """The partner; `skin` is in the base frame, its hand at `height` in the world in m.
 
-    Attributes:
-        law: Impedance controller, its axis towards the robot.
-        moved: True way to the robot in m.
-        force: True hand force in N, positive towards the robot.
+    `law`: impedance controller, its axis towards the robot; `moved`: True way to the robot in m; `force`: True hand
+    force in N, positive towards the robot.
     """
 
     def __init__(self, settings: PartnerSettings, skin: BodySkin, body: BodyScale, height: float, seed: int) -> None:

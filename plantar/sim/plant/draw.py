@@ -48,10 +48,7 @@ def _whole(chance: np.random.Generator, limit: float) -> float:
 class Range(NamedTuple):
     """Range that an item is drawn from.
 
-    Attributes:
-        limit: Largest difference at level 2; proportional at others.
-        unit: Of the limit; body units grow with the robot.
-        draw: By a generator and the limit in SI.
+    `limit`: largest difference at level 2; proportional at others; `unit` of the limit; body units grow with the robot.
     """
 
     limit: float

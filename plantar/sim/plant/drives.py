@@ -15,11 +15,8 @@ RIPPLES = 200.0
 class TorqueCurve:
     """Torque limits that fall with driving speed; a brake keeps full torque.
 
-    Args:
-        model: The world's, whose force ranges are written.
-        servos: Actuator indices (k,).
-        speeds: Limits (k,) in rad/s; empty without.
-        corner: Share up to which torque is full.
+    `model`: the world's, whose force ranges are written; `servos`: actuator indices (k,); `speeds`: limits (k,) in
+    rad/s; empty without.
     """
 
     def __init__(self, model: Any, servos: NDArray[np.int64], speeds: NDArray[np.float64], corner: float) -> None:
@@ -44,10 +41,8 @@ class TrueDrives:
     servo with the set-point u the offset is stiffness u. A gear with play b passes the spring torque of the excess over
     b / 2, one with ripple (1 + r sin(n q)) times the torque.
 
-    Args:
-        plant: None for the nominal one.
-        stiffness: True position gains (k,) in N m/rad.
-        damping: Velocity gains (k,) in N m s/rad.
+    `plant`: None for the nominal one; `stiffness`: True position gains (k,) in N m/rad; `damping`: velocity gains (k,)
+    in N m s/rad.
     """
 
     def __init__(self, plant: TruePlant | None, stiffness: NDArray[np.float64], damping: NDArray[np.float64]) -> None:

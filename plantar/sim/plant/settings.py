@@ -123,14 +123,7 @@ class Plant(Settings):
     def vector(self, name: str) -> tuple[float, ...]:
         """Three numbers in SI for the settings' body.
 
-        Args:
-            name: Setting that is not "random".
-
-        Returns:
-            The numbers; zeros where not given or drawn.
-
-        Raises:
-            InputError: If not three allowed numbers.
+        `name`: setting that is not "random". Returns the numbers; zeros where not given or drawn.
         """
         values = getattr(self, name)
         unit, most = _LARGEST[name]

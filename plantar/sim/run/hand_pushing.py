@@ -32,18 +32,7 @@ def upper_body_skin_of(
 ) -> BodySkin | None:
     """A robot's upper body skin in a scene; None where not touched.
 
-    Args:
-        scene: For the same body.
-        robot: The robot.
-        model: Of the robot alone.
-        body: The robot's size.
-        worn: Its moving arm with skin, or None.
-
-    Returns:
-        The skin, in frames of base and arm links.
-
-    Raises:
-        SceneError: If led arms do not move.
+    `worn`: its moving arm with skin, or None. Returns the skin, in frames of base and arm links.
     """
     if scene.guide.way > 0.0 and worn is None:
         raise SceneError("[guide] way is above 0 and arm.side 'none'; allowed: with an arm that moves, left or right")
@@ -61,19 +50,7 @@ def hand_pushes(
 ) -> HandPushes:
     """A scene's hands and pushes.
 
-    Args:
-        push: The scene's.
-        schedule: Returns the walk's planned phases.
-        steps: Standing feet and planned steps at the start.
-        skin: Of the upper body.
-        body: The robot's size.
-        seed: Of open direction and step.
-
-    Returns:
-        The hands.
-
-    Raises:
-        SceneError: If the walk lacks the step.
+    `schedule`: returns the walk's planned phases; `steps`: standing feet and planned steps at the start.
     """
     made = []
     for first, share in _pushed_steps(push, schedule(), np.random.default_rng([seed, 0xB0])):

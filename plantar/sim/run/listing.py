@@ -8,14 +8,7 @@ from plantar.sim.papers.preset import paper_files
 def listed(what: str) -> dict[str, str]:
     """Names with a line on each.
 
-    Args:
-        what: "robots", "scenes", "papers", "formats" or "sources".
-
-    Returns:
-        Descriptions by name.
-
-    Raises:
-        InputError: If it is another.
+    `what`: "robots", "scenes", "papers", "formats" or "sources". Returns descriptions by name.
 
     Example:
         >>> "h1" in listed("robots"), "beam" in listed("scenes")

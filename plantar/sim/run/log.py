@@ -29,13 +29,8 @@ MOST_VERTICES = 24
 class RunLog(ExitStack):
     """Writes a run's recording; a context manager.
 
-    Args:
-        path: MCAP file.
-        world: The world.
-        metadata: The run's identity.
-        zmps: Whether to record skin and ankle ZMPs.
-        touch: Partners and their skin, or None.
-        arm: The moving arm, or None.
+    `world`: the world; `zmps`: whether to record skin and ankle ZMPs; `touch`: partners and their skin, or None; `arm`:
+    the moving arm, or None.
     """
 
     def __init__(
@@ -117,13 +112,7 @@ class RunLog(ExitStack):
     ) -> None:
         """Record one control tick, after its physics step.
 
-        Args:
-            sensors: The controller's input.
-            command: Its output.
-            plan: Of the walk.
-            joints: References (k,) in rad.
-            truth: Of the judge.
-            loads: Vertical in N on left and right foot.
+        `joints`: references (k,) in rad; `loads`: vertical in N on left and right foot.
         """
         w = self._world
         time = sensors.time

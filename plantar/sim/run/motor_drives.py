@@ -14,13 +14,8 @@ from plantar.sim.plant.drives import TorqueCurve, TrueDrives
 class MotorDrives:
     """Hands joint targets to motors, and moves angles on between control ticks.
 
-    Args:
-        world: Its actuators become torque sources with the gains.
-        motors: Solver of the commands.
-        plant: True differences, or None.
-
-    Attributes:
-        out_of_reach_since: Time in s of the first unreachable command, or None.
+    `world`: its actuators become torque sources with the gains; `plant`: True differences, or None. Attributes
+    `out_of_reach_since`: time in s of the first unreachable command, or None.
     """
 
     def __init__(self, world: World, motors: CommandMotors, plant: TruePlant | None = None) -> None:

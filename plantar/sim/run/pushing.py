@@ -25,21 +25,12 @@ _WEAKEST = 0.6  # of the scene's impulse: the weakest of several seeded pushes
 class Pusher:
     """Applies pushes to the torso.
 
+    Attributes `step` of the push, or None; `pushing`: whether a push acts now; `applied`: impulse (3,) in N s of each
+    begun push.
+
     Args:
-        push: The scene's.
-        schedule: Phases of the walk.
         seed: In a step: seeds 0-3 push forward, backward, left and right, and so on; the step is drawn. Standing: draws
             directions, and strengths of 0.6 to 1 of the impulse.
-
-    Attributes:
-        direction: In words.
-        step: Of the push, or None.
-        shoves: The pushes.
-        pushing: Whether a push acts now.
-        applied: Impulse (3,) in N s of each begun push.
-
-    Raises:
-        SceneError: If step or stand is missing.
     """
 
     def __init__(self, push: Push, schedule: WalkSchedule, seed: int) -> None:

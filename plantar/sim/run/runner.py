@@ -183,7 +183,7 @@ class Simulation(Run):
         return arm
 
     def start_walk(self) -> Start:
-        """Feet at the start, and planned and commanded walk."""
+        """Feet at the start, and planned and commanded walk; raises SceneError if the robot cannot walk so."""
         scene = self.scene
         height = com_height_of(self.scene.walk, self.robot)
         try:

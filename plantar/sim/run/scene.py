@@ -105,14 +105,8 @@ _ALIASES: Mapping[str, str] = {
 class Scene:
     """A scene.
 
-    Attributes:
-        description: One line.
-        robot: Name or TOML file.
-        controller: Given controller settings by table and name (`plantar.gait.controller_tables`).
-        plant: True differences from the controller's model.
-        partner: Mobile robot in front.
-        arm: Moving arm.
-        guide: Hand that leads by that arm.
+    `controller`: given controller settings by table and name (`plantar.gait.controller_tables`); `plant`: True
+    differences from the controller's model; `partner`: mobile robot in front; `guide`: hand that leads by that arm.
     """
 
     name: str
@@ -136,9 +130,6 @@ class Scene:
     def setting_name(self, key: str) -> str:
         """Full name of a setting's key, "section.key", or "robot".
 
-        Raises:
-            SceneError: If there is no such key.
-
         Example:
             >>> load_scene("flat").setting_name("t_ss")
             'walk.single_support'
@@ -156,11 +147,7 @@ class Scene:
         raise SceneError(f"scene '{self.name}' has no setting '{key}'")
 
     def for_body(self, body: BodyScale) -> "Scene":
-        """The scene with body shares as numbers.
-
-        Raises:
-            SceneError: If a number is not allowed.
-        """
+        """The scene with body shares as numbers."""
         sections: dict[str, Any] = {}
         for name in SECTIONS:
             try:
@@ -184,15 +171,11 @@ def override(source: Mapping[str, Any], settings: Sequence[str]) -> dict[str, An
     """Apply `key=value` settings to a scene's tables.
 
     Args:
-        source: As read from TOML.
         settings: "section.key=value" or, for a unique key, "key=value"; values are TOML, bare words texts. A scene's
             own key comes before a controller's.
 
     Returns:
         A changed copy.
-
-    Raises:
-        SceneError: If a setting is invalid.
 
     Example:
         >>> override({"walk": {"steps": 20}}, ["steps=4", "control.feedback=false"])
@@ -227,9 +210,6 @@ def _terrain_kind(source: Mapping[str, Any]) -> dict[str, type[Settings]]:
 
 def scene_file(name: str | os.PathLike[str]) -> Path:
     """A scene's file, by built-in name (`builtin_scenes()`) or path.
-
-    Raises:
-        SceneError: If there is none.
 
     Example:
         >>> scene_file("flat").name

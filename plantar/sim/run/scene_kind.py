@@ -38,11 +38,7 @@ def open_scene(
 
 
 def robot_file_of(scene: Scene | CompanionScene) -> Path:
-    """The TOML of a scene's robot or machine.
-
-    Raises:
-        RobotError: If it is invalid.
-    """
+    """The TOML of a scene's robot or machine."""
     if isinstance(scene, Scene):
         from plantar.robots import load_robot
 
@@ -53,12 +49,7 @@ def robot_file_of(scene: Scene | CompanionScene) -> Path:
 
 
 def simulation_of(scene: Scene | CompanionScene, seed: int) -> Run:
-    """Returns the run, not begun, of a `scene` with a `seed`.
-
-    Raises:
-        SceneError: If it cannot be simulated.
-        RobotError: If the robot is invalid.
-    """
+    """Returns the run, not begun, of a `scene` with a `seed`."""
     if isinstance(scene, Scene):
         from plantar.sim.run.runner import Simulation
 

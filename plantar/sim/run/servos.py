@@ -25,14 +25,8 @@ class LegServos:
     held set-points would make a saw tooth of kp q'_d dt in torque. At a speed limit all joints of a leg move by the
     same share of their way.
 
-    Args:
-        world: The world.
-        legs: Its kinematics.
-        period: Control period in s.
-        plant: True differences, or None.
-
-    Attributes:
-        out_of_reach_since: Time in s of the first unreachable command, or None.
+    `world`: the world; `period`: control period in s; `plant`: True differences, or None. Attributes
+    `out_of_reach_since`: time in s of the first unreachable command, or None.
     """
 
     def __init__(self, world: World, legs: LegModel, period: float, plant: TruePlant | None = None) -> None:

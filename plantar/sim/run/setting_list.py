@@ -14,16 +14,8 @@ from plantar.sim.terrain import terrain_kinds
 def settings_listed(name: str | None = None, body: BodyScale = REFERENCE_BODY) -> dict[str, Setting]:
     """The settings by their dotted names.
 
-    Args:
-        name: Table such as "estimator" or "terrain.beam", dotted name, or its last part; None: all.
-        body: For defaults in SI.
-
-    Returns:
-        Descriptions; a terrain's under "terrain.KIND." (in a scene `terrain.kind` and the last part), an experiment's
-        under its name.
-
-    Raises:
-        InputError: If there is none.
+    `name`: table such as "estimator" or "terrain.beam", dotted name, or its last part; None: all. Returns descriptions;
+    a terrain's under "terrain.KIND." (in a scene `terrain.kind` and the last part), an experiment's under its name.
 
     Example:
         >>> settings_listed("estimator.gravity")["estimator.gravity"][1:4]
@@ -53,12 +45,7 @@ def settings_listed(name: str | None = None, body: BodyScale = REFERENCE_BODY) -
 
 
 def settings_of_robot(name: str | None, robot: str | None) -> dict[str, Setting]:
-    """Returns settings of a `name` (`settings_listed`) with numbers of a `robot`, H1's for None.
-
-    Raises:
-        InputError: If there is none.
-        RobotError: If the robot is invalid.
-    """
+    """Returns settings of a `name` (`settings_listed`) with numbers of a `robot`, H1's for None."""
     if robot is None:
         return settings_listed(name)
     from plantar.robots import load_robot

@@ -32,18 +32,8 @@ def stand(
 ) -> None:
     """Stand the robot on its footholds, and let it settle until time 0.
 
-    Args:
-        world: Its state is replaced.
-        legs: Kinematics, started from this posture.
-        servos: Hold this posture.
-        feet: Places of the soles.
-        centers: (2,) of each sole in the world frame in m, carrying half the weight.
-        com_height: Above the soles in m.
-        hold: Holds other moving parts each physics step, or None.
-
-    Raises:
-        RobotError: If the feet are crossed.
-        SceneError: If the stance is impossible.
+    `centers` (2,) of each sole in the world frame in m, carrying half the weight; `com_height`: above the soles in m;
+    `hold`: holds other moving parts each physics step, or None.
     """
     joints, torques = solve_standing(world.robot, legs, feet, centers, com_height)
     ground = float(np.mean([feet[s].z for s in SIDES]))

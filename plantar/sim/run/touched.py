@@ -30,22 +30,9 @@ from plantar.sim.run.scene import Scene
 class Touched:
     """Hands and partner, from plan to verdict.
 
-    Args:
-        scene: For the same body.
-        skin: Of the upper body.
-        schedule: Returns the walk's planned phases.
-        feet: At the start.
-        steps: As planned at the start.
-        seed: Of noise and open choices.
-        reach: A partner's hand height in the world in m.
-        worn: The moving arm, or None.
-
-    Attributes:
-        partners: To be added to the world.
-        touch: In the world; None before `enter`.
-
-    Raises:
-        SceneError: If the walk lacks the step.
+    `schedule`: returns the walk's planned phases; `seed` of noise and open choices; `reach`: a partner's hand height in
+    the world in m; `worn`: the moving arm, or None. Attributes `partners` to be added to the world; `touch` in the
+    world; None before `enter`.
     """
 
     def __init__(

@@ -15,10 +15,7 @@ class BlindRim:
     """Springs next to the taxels. The taxels carry A_taxels / (A_taxels + k A_rim) of a patch's load, areas over and
     next to taxels, k the stiffness per area over a taxel's.
 
-    Args:
-        layout: The sole.
-        stiffness: k.
-        rubber: Half width in m of a line contact.
+    `rubber`: half width in m of a line contact.
 
     Example:
         >>> from plantar import hex_layout

@@ -24,10 +24,8 @@ MOST_PATCHES = 256
 class Patches(Generic[T]):
     """Keeps results of the latest patches.
 
-    Args:
-        make: Computes it from contact points (k, 2) in m.
-        grid: Distance in m within which patches are the same.
-        most: Largest number kept.
+    `make`: computes it from contact points (k, 2) in m; `grid`: distance in m within which patches are the same;
+    `most`: largest number kept.
     """
 
     def __init__(self, make: Callable[[NDArray[np.float64]], T], grid: float, most: int) -> None:
@@ -83,8 +81,7 @@ def patch_polygon(points: NDArray[np.float64], half_width: float) -> tuple[NDArr
 def half_planes_of(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
     """Half-planes n . x <= h of the edges of a convex polygon (k, 2) in m, counter-clockwise.
 
-    Returns:
-        Outward unit normal, and h in m, of each edge (k, 3).
+    Returns outward unit normal, and h in m, of each edge (k, 3).
     """
     edge = np.concatenate([polygon[1:], polygon[:1]]) - polygon
     length = np.hypot(edge[:, 0], edge[:, 1])
@@ -98,12 +95,7 @@ def half_planes_of(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
 def reach_of(hull: NDArray[np.float64], inside: float = _INSIDE) -> NDArray[np.float64]:
     """Where a load of several cells can act: their hull moved inward, shrunk where thinner.
 
-    Args:
-        hull: (k, 2) of the cells' places.
-        inside: Distance in the hull's unit.
-
-    Returns:
-        Polygon (m, 2) in the same unit.
+    `hull` (k, 2) of the cells' places; `inside`: distance in the hull's unit. Returns polygon (m, 2) in the same unit.
     """
     smaller = inner_offset(hull, inside)
     if len(smaller) >= 3:

@@ -33,14 +33,9 @@ _LEAST = 1e-7  # Of the load: a square that pulls less, or is penetrated by less
 def influence(points: ArrayLike, sides: ArrayLike, thickness: float, poisson: float = 0.4) -> NDArray[np.float64]:
     """Displacement of each point by a unit force on each square, for E* = 1.
 
-    Args:
-        points: (n, 2) in m.
-        sides: (m,) in m of squares about the first m points, evenly pressed.
-        thickness: In m; infinity for the half-space.
-        poisson: Poisson's ratio, 0 to below 0.5.
-
-    Returns:
-        (n, m) in m for 1 N and E* of 1 Pa: divide by E*.
+    `points` (n, 2) in m; `sides` (m,) in m of squares about the first m points, evenly pressed; `thickness` in m;
+    infinity for the half-space; `poisson`: poisson's ratio, 0 to below 0.5. Returns (n, m) in m for 1 N and E* of 1 Pa:
+    divide by E*.
 
     Example:
         >>> round(float(influence([(0.0, 0.0)], [1.0], math.inf)[0, 0] * math.pi), 4)  # 4 ln(1 + sqrt 2)
@@ -106,11 +101,8 @@ def _held_back_table(poisson: float) -> NDArray[np.float64]:
 class Contact(NamedTuple):
     """A rigid body pressed on the layer.
 
-    Attributes:
-        forces: (n,) in N, none negative.
-        field: (3,): approach at the origin in m times E*, and its slopes along x, y.
-        on: (n,) that touch.
-        settled: Whether no square pulls and none is penetrated.
+    `forces` (n,) in N, none negative; `field` (3,): approach at the origin in m times E*, and its slopes along x, y;
+    `on` (n,) that touch; `settled`: whether no square pulls and none is penetrated.
     """
 
     forces: NDArray[np.float64]
@@ -126,12 +118,7 @@ class LayerContact:
     f - g - s, U = (1, x, y). A primal-dual active set finds the squares that touch: F = 0 where s < 0. With B = C^-1,
     s_off = B_off,off^-1 (B (U f - g))_off; where most are off, those that touch are solved instead.
 
-    Args:
-        compliance: Symmetric (n, n), see `influence`.
-        points: (n, 2) in m.
-
-    Raises:
-        numpy.linalg.LinAlgError: If not positive definite.
+    `compliance`: symmetric (n, n), see `influence`; `points` (n, 2) in m.
     """
 
     def __init__(self, compliance: NDArray[np.float64], points: NDArray[np.float64]) -> None:
@@ -151,13 +138,9 @@ class LayerContact:
     ) -> Contact:
         """Press a body with a given load.
 
-        Args:
-            load: Force in N, and times its x and y in N m, inside the points' hull.
-            gap: Undeformed (n,) in m times E*; None for 0.
-            start: Squares (n,) expected to touch; None for all.
-
-        Returns:
-            The contact; not settled where no set of squares fits.
+        `load`: force in N, and times its x and y in N m, inside the points' hull; `gap`: undeformed (n,) in m times E*;
+        None for 0; `start`: squares (n,) expected to touch; None for all. Returns the contact; not settled where no set
+        of squares fits.
         """
         on = np.ones(len(self.points), dtype=bool) if start is None or int(start.sum()) < 3 else start
         contact = self._settled(load, gap, on, _TOGETHER)
@@ -200,12 +183,8 @@ class LayerContact:
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """What an approach (1, x, y) and, last, the gap cause while the same squares touch.
 
-        Args:
-            on: Squares (n,) that touch.
-            gap: Undeformed (n,) in m times E*; None for 0.
-
-        Returns:
-            Forces (n, 4) on touching squares, and depth (n, 4) of the others, else 0.
+        `on`: squares (n,) that touch; `gap`: undeformed (n,) in m times E*; None for 0. Returns forces (n, 4) on
+        touching squares, and depth (n, 4) of the others, else 0.
         """
         off = np.flatnonzero(~on)
         rest = np.zeros(len(on)) if gap is None else gap

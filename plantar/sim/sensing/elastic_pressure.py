@@ -40,10 +40,7 @@ class _Squares(NamedTuple):
 class _Patch:
     """What does not depend on the load, and how the touching squares answer.
 
-    Attributes:
-        contact: Of the k covered squares.
-        shares: (taxels, k) of each square's force.
-        reach: Polygon in which a load can act.
+    `shares` (taxels, k) of each square's force; `reach`: polygon in which a load can act.
     """
 
     def __init__(
@@ -82,13 +79,7 @@ class _Patch:
 class ElasticPressure:
     """Spreads a normal load over an elastic layer's taxels; interface of `SolePressure`.
 
-    Args:
-        layout: The sole.
-        thickness: Of the layer in m; infinity for the half-space.
-        rubber: Half width in m of a line contact.
-
-    Raises:
-        LayoutError: If a taxel does not face the ground.
+    `thickness` of the layer in m; infinity for the half-space; `rubber`: half width in m of a line contact.
 
     Example:
         >>> from plantar import hex_layout
@@ -112,13 +103,9 @@ class ElasticPressure:
     ) -> NDArray[np.float64]:
         """Taxel forces of a load on a patch.
 
-        Args:
-            patch: Contact points (k, 2) in the sole frame in m.
-            force: Normal force in N; 0 or less loads no taxel.
-            center_of_pressure: (2,) in the sole frame in m, moved to the nearest possible.
-
-        Returns:
-            (n,) in N, none negative, with vertical sum `force`.
+        `patch`: contact points (k, 2) in the sole frame in m; `force`: normal force in N; 0 or less loads no taxel;
+        `center_of_pressure` (2,) in the sole frame in m, moved to the nearest possible. Returns (n,) in N, none
+        negative, with vertical sum `force`.
         """
         if not (0.0 < force < math.inf) or not len(patch):
             return np.zeros(len(self.layout))

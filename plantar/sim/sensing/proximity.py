@@ -28,16 +28,8 @@ _SIMPLE = tuple(
 class SoleProximity:
     """Distances from the taxels of one sole to the ground.
 
-    Args:
-        model: With ground geoms in group `GROUND_GROUP`.
-        layout: The sole.
-        site: Name of the sole frame's site.
-        sensing_range: In m.
-        ground_top: Largest ground height in m.
-        colours: None: as light as at calibration.
-
-    Raises:
-        RobotError: If there is no such site.
+    `site`: name of the sole frame's site; `sensing_range` in m; `ground_top`: largest ground height in m; `colours`:
+    None: as light as at calibration.
     """
 
     def __init__(
@@ -109,12 +101,8 @@ class SoleProximity:
 class ProximitySensor:
     """Proximity as its electronics deliver it: noisy, biased, with dead taxels.
 
-    Args:
-        proximity: The noise-free sensor.
-        noise_std: In m.
-        bias: In m.
-        rng: Advances at each `read`, with or without rays.
-        dead: Indices that read NaN.
+    `proximity`: the noise-free sensor; `noise_std` in m; `bias` in m; `rng`: advances at each `read`, with or without
+    rays; `dead`: indices that read NaN.
     """
 
     def __init__(
@@ -135,13 +123,8 @@ class ProximitySensor:
     def read(self, data: Any, wanted: bool, everything: bool = False) -> NDArray[np.float64] | None:
         """One sample.
 
-        Args:
-            data: MjData after a step.
-            wanted: Whether this sole is due.
-            everything: Cast the rays in any case.
-
-        Returns:
-            (n,) in m, inf out of range, NaN for a dead taxel; None where not wanted.
+        `everything`: cast the rays in any case. Returns (n,) in m, inf out of range, NaN for a dead taxel; None where
+        not wanted.
         """
         row = self._noise.advance()
         count = self._count

@@ -28,16 +28,8 @@ _RUBBER = 0.013  # of a sole's length that its rubber is thick: 3 mm for H1
 class SensorSuite:
     """Reads all sensors of a world.
 
-    Args:
-        world: The world.
-        sensing: Rates, noise and delay.
-        seed: Of all noise; one stream a sensor.
-        proximity: Whether the soles have it.
-        force_torque: Whether the ankles have it.
-        plant: True differences; None for sensors as modelled.
-
-    Attributes:
-        body_skin: Upper body skin reader, or None.
+    `world`: the world; `sensing`: rates, noise and delay; `plant`: True differences; None for sensors as modelled.
+    Attributes `body_skin`: upper body skin reader, or None.
     """
 
     def __init__(
@@ -96,12 +88,7 @@ class SensorSuite:
     def read_skins(self, near: Collection[Side] = SIDES, everything: bool = False) -> tuple[FootContacts, ...]:
         """Read the soles, every `skin_every` physics steps.
 
-        Args:
-            near: Soles whose proximity is asked for.
-            everything: Measure all; same readings.
-
-        Returns:
-            The contacts of both soles.
+        `everything`: measure all; same readings. Returns the contacts of both soles.
         """
         data = self._world.data
         feet = self._contacts.read()

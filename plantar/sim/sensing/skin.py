@@ -32,19 +32,8 @@ from plantar.sim.sensing.white_noise import white_noise
 class SoleSkin:
     """The skin of one sole.
 
-    Args:
-        model: MjModel.
-        layout: The sole.
-        site: Name of the sole frame's site.
-        geoms: Names of its collision geoms.
-        rubber: Thickness in m, see `SolePressure`.
-        reach: Largest gap in m that the rubber closes.
-        layer: Thickness in m of an elastic layer; None for springs.
-        rim_stiffness: See `BlindRim`.
-
-    Raises:
-        RobotError: If site or geom is missing.
-        LayoutError: If a taxel faces away.
+    `site`: name of the sole frame's site; `rubber`: thickness in m, see `SolePressure`; `reach`: largest gap in m that
+    the rubber closes; `layer`: thickness in m of an elastic layer; None for springs.
     """
 
     def __init__(
@@ -91,15 +80,7 @@ class SoleSkin:
         return int(self._in_sole.in_air)
 
     def taxel_forces(self, data: Any, contacts: FootContacts | None = None) -> NDArray[np.float64]:
-        """Normal taxel forces without noise.
-
-        Args:
-            data: MjData after a step.
-            contacts: The sole's, where known.
-
-        Returns:
-            (n,) in N, none negative.
-        """
+        """Normal taxel forces without noise. Returns (n,) in N, none negative."""
         contacts = self._seen_in(data, contacts)
         if self.springs is not None:
             self.springs.stand(contacts, self._in_sole, self._reach)
@@ -113,16 +94,7 @@ class SoleSkin:
         return out
 
     def sampled(self, data: Any, contacts: FootContacts | None, sample: TaxelSample) -> NDArray[np.float64]:
-        """What electronics read of the springs.
-
-        Args:
-            data: MjData after a step.
-            contacts: The sole's, where known.
-            sample: Samples the taxels.
-
-        Returns:
-            Readings (n,) in N.
-        """
+        """What electronics read of the springs. Returns readings (n,) in N."""
         seen = self._seen_in(data, contacts)
         return np.asarray(sample.of_contacts(self.springs, seen, self._in_sole, self._reach))
 
@@ -140,13 +112,8 @@ class SkinSensor:
 
     Samples are due at multiples of the period from the first call.
 
-    Args:
-        skin: The noise-free skin.
-        sensing: Rate, noise and delay of the soles' skin.
-        rng: Of the noise.
-        proximity: Sampled with the forces, or None.
-        errors: Of the taxels, or None.
-        dead: Indices that read NaN.
+    `sensing`: rate, noise and delay of the soles' skin; `proximity`: sampled with the forces, or None; `errors` of the
+    taxels, or None; `dead`: indices that read NaN.
     """
 
     def __init__(
@@ -176,14 +143,8 @@ class SkinSensor:
     ) -> Reading:
         """What is delivered now; call at every physics step.
 
-        Args:
-            data: MjData after a step.
-            contacts: The sole's, where known.
-            near: Whether proximity is wanted.
-            everything: Measure it always; the reading holds it where wanted.
-
-        Returns:
-            The reading; the same object until a newer sample arrives.
+        `everything`: measure it always; the reading holds it where wanted. Returns the reading; the same object until a
+        newer sample arrives.
         """
         now = float(data.time)
         if not self._queue:

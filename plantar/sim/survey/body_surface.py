@@ -81,9 +81,8 @@ def convex_surface(points: NDArray[np.float64]) -> Triangles:
 def resting_plane(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
     """The plane on which surface points (n, 3), z up, would rest.
 
-    Returns:
-        Outward normal (3,) of the largest lower plane of their convex hull, and its area over the silhouette's from
-        above: straight down and 0 without one within 45 degrees.
+    Returns outward normal (3,) of the largest lower plane of their convex hull, and its area over the silhouette's from
+    above: straight down and 0 without one within 45 degrees.
     """
     normal, area = hull_plane(points, -_STEEPEST, _SAME_PLANE, _FACES)
     return normal, area / ConvexHull(points[:, :2]).volume if area > 0.0 else 0.0

@@ -45,13 +45,7 @@ _MOVING = 1.2  # of a torque limit: what is missing for some ticks, the other jo
 
 @dataclass(frozen=True)
 class Finding:
-    """One measured thing.
-
-    Attributes:
-        limit: Most or least that the value may be.
-        holds: Whether it is within.
-        text: In words, with value that works.
-    """
+    """One measured thing. `limit`: most or least that the value may be."""
 
     name: str
     value: float

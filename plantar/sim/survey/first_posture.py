@@ -18,11 +18,7 @@ _LEAST_BEND = math.radians(20.0)
 
 
 def bent_posture(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
-    """Returns joint angles in rad of a `robot`'s `legs` with knees bent by 40 degrees, within their limits.
-
-    Raises:
-        RobotError: If a leg has fewer than three joints that pitch, or a knee that bends backwards.
-    """
+    """Returns joint angles in rad of a `robot`'s `legs` with knees bent by 40 degrees, within their limits."""
     model = legs.model
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)

@@ -59,11 +59,8 @@ Array = NDArray[np.float64]
 class FittedGait:
     """A robot with numbers that fit, and their reasons.
 
-    Attributes:
-        inertia: About the joints of a leg.
-        reach: Demands of level steps of a third of a leg.
-        notes: What was not met or was assumed.
-        rotors: Additional rotor inertia in kg m^2 about each leg joint of the model's copy.
+    `inertia`: about the joints of a leg; `reach`: demands of level steps of a third of a leg; `notes`: what was not met
+    or was assumed; `rotors`: additional rotor inertia in kg m^2 about each leg joint of the model's copy.
     """
 
     def __init__(
@@ -86,16 +83,8 @@ class FittedGait:
 def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Array | None = None) -> FittedGait:
     """Fit a walk to a robot of known names, soles and limits.
 
-    Args:
-        draft: The robot; its posture, gait and gains are replaced.
-        gains: The model's stiffness in N m/rad and damping in N m s/rad of each leg joint, or empty.
-        rotors: Assumed rotor inertia in kg m^2 about each leg joint, or None.
-
-    Returns:
-        The robot with its numbers.
-
-    Raises:
-        RobotError: If it cannot stand.
+    `draft`: the robot; its posture, gait and gains are replaced; `gains`: the model's stiffness in N m/rad and damping
+    in N m s/rad of each leg joint, or empty; `rotors`: assumed rotor inertia in kg m^2 about each leg joint, or None.
     """
     legs = build_leg_model(draft)
     robot = replace(draft, posture=bent_posture(draft, legs))

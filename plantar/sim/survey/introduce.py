@@ -64,14 +64,7 @@ folder to write to, and the robot's mass in kg."""
 
 @dataclass(frozen=True)
 class Introduced:
-    """A robot that was introduced.
-
-    Attributes:
-        survey: Findings in its model.
-        fitted: Its walk.
-        files: Names of written files.
-        walked: Notes on its first steps in simulation.
-    """
+    """A robot that was introduced. `walked`: notes on its first steps in simulation."""
 
     robot: Robot
     survey: Survey

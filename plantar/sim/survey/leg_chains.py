@@ -32,12 +32,9 @@ Array = NDArray[np.float64]
 class Leg:
     """One leg.
 
-    Attributes:
-        joints: Ids of its hinges from hip to ankle.
-        foot: Id of body that the last one moves.
-        parts: Ids of all bodies that move with foot.
-        toes: Names of held hinges below foot.
-        ankle: Point (3,) in m that the foot turns about, model's world.
+    `joints`: ids of its hinges from hip to ankle; `foot`: id of body that the last one moves; `parts`: ids of all
+    bodies that move with foot; `toes`: names of held hinges below foot; `ankle`: point (3,) in m that the foot turns
+    about, model's world.
     """
 
     joints: tuple[int, ...]
@@ -51,10 +48,7 @@ class Leg:
 class Legs:
     """Both legs, and the model's rotation to stand upright along x.
 
-    Attributes:
-        pelvis: Id of body that both hang on.
-        rotation: Rotation (3, 3) from the model's world to x forward, y left, z up.
-        notes: How that was found.
+    `rotation`: rotation (3, 3) from the model's world to x forward, y left, z up; `notes`: how that was found.
     """
 
     by_side: dict[Side, Leg]
@@ -64,11 +58,7 @@ class Legs:
 
 
 def find_legs(model: Any, data: Any, where: str) -> Legs:
-    """Returns the legs of a `model` in state `data`; errors name the file `where`.
-
-    Raises:
-        RobotError: Unless two legs of four or more hinges are found.
-    """
+    """Returns the legs of a `model` in state `data`; errors name the file `where`."""
     tree = _Tree(model, data)
     up, how = _upwards(tree, where)
     pair = _pair(tree, up, where)

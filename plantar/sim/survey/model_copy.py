@@ -36,13 +36,8 @@ def write_model_copy(
 ) -> str:
     """Write the copy and its simplified meshes; returns the upright body's name.
 
-    Args:
-        model: The compiled model with all joints.
-        legs: Its legs.
-        folder: For "model.xml" and meshes.
-        name: Name of robot.
-        held: Angles in rad by name of other joints; the rest as in the file.
-        imu: "site" or "body" of IMU, its name, and name of the copy's site; or None.
+    `folder`: for "model.xml" and meshes; `held`: angles in rad by name of other joints; the rest as in the file; `imu`:
+    "site" or "body" of IMU, its name, and name of the copy's site; or None.
     """
     return _Copy(model, legs, folder, held).written(name, imu)
 

@@ -78,15 +78,7 @@ class _Stated:
 
 
 def read_model(file: Path, folder: Path) -> ModelSource:
-    """Returns a robot's model.
-
-    Args:
-        file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml).
-        folder: For converted meshes.
-
-    Raises:
-        RobotError: If unreadable, or with files outside its place.
-    """
+    """Returns a robot's model."""
     check_model(file, RobotError)
     stated = _Stated()
     root = parsed_model(file, RobotError)
@@ -165,11 +157,7 @@ def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, stated: _Sta
 
 
 def _locked(joint: ElementTree.Element, file: Path) -> str:
-    """Name of a joint without range, which MuJoCo takes as unlimited; else empty.
-
-    Raises:
-        RobotError: If limits contradict.
-    """
+    """Name of a joint without range, which MuJoCo takes as unlimited; else empty."""
     name = joint.get("name", "")
     limit = joint.find("limit")
     if joint.get("type") not in ("revolute", "prismatic") or limit is None:

@@ -45,15 +45,9 @@ Array = NDArray[np.float64]
 class Walked:
     """A walk to be examined.
 
-    Attributes:
-        feet: At the start.
-        steps: The footsteps.
-        timing: Durations.
-        swing_height: Clearance in m.
-        com_height: Above the soles in m.
-        lean: Roll of torso over stance foot in rad per metre of lateral CoM motion.
-        approach_height: Height in m above ground where a slow approach begins.
-        approach_speed: In m/s.
+    `swing_height`: clearance in m; `com_height`: above the soles in m; `lean`: roll of torso over stance foot in rad
+    per metre of lateral CoM motion; `approach_height`: height in m above ground where a slow approach begins;
+    `approach_speed` in m/s.
     """
 
     feet: Mapping[Side, Footstep]
@@ -77,7 +71,6 @@ class PlanReach:
         spare: Least distance in rad of each joint of a carrying leg to its limits, over both legs.
         torque: Largest torque in N m of each joint, over both legs: to carry, against damping and inertia, and against
             what a swinging leg takes.
-        carrying: The same to carry alone.
         speed: Largest speed in rad/s of each joint, over both legs.
         shift: Largest share of the way to the sole's edge by which a swinging leg moves the ZMP along it.
         turn: Largest share of friction's moment by which it turns the sole that carries.
@@ -139,14 +132,8 @@ def plan_reach(
 ) -> PlanReach:
     """Go through a planned walk on level ground.
 
-    Args:
-        robot: The robot.
-        legs: Its kinematics.
-        walked: The walk.
-        bears: Given `missed`, `knee` and `spare` so far, which only worsen; False ends the pass.
-
-    Returns:
-        Demands on the legs; infinite torques if ended early.
+    `bears`: given `missed`, `knee` and `spare` so far, which only worsen; False ends the pass. Returns demands on the
+    legs; infinite torques if ended early.
     """
     found = _Pass(robot, legs, walked)
     for time in np.arange(_BEGIN, found.plan.schedule.walking_end + found.every, found.every).tolist():

@@ -23,11 +23,7 @@ _COLOURS = ((0.85, 0.2, 0.2, 1.0), (0.2, 0.65, 0.25, 1.0), (0.2, 0.35, 0.85, 1.0
 
 
 def draw_robot(robot: Robot, path: Path) -> Path:
-    """Draw the `robot` at `path`, sole axes in red, green and blue; returns the path.
-
-    Raises:
-        InputError: If no renderer works; the message names the cause.
-    """
+    """Draw the `robot` at `path`, sole axes in red, green and blue; returns the path."""
     legs = build_leg_model(robot)
     settled(robot, legs, straight_plan(0, width=robot.stance_width)[0], robot.com_height)
     world = build_world(robot, Ground((), 0.0, Terrain.friction))

@@ -18,11 +18,8 @@ from plantar.robots.robot import Robot
 class JointInertia:
     """Inertia about each leg joint in kg m^2, the lesser leg's, with rotor.
 
-    Attributes:
-        swing: Robot floating freely: 1 / (M^-1)_jj.
-        stance: Of all above a joint whose foot stands still.
-        armature: The rotor's share.
-        damping: The joint's own in N m s/rad.
+    `swing`: robot floating freely: 1 / (M^-1)_jj; `stance` of all above a joint whose foot stands still; `armature`:
+    the rotor's share; `damping`: the joint's own in N m s/rad.
     """
 
     swing: NDArray[np.float64]
@@ -111,16 +108,8 @@ def servo_gains(
     Stiffness is 12 m g h, as of h1, or less: a foot's own swing sqrt(k / I) by 1.5 rad in a control period at most, and
     0.007 rad take all torque at most. Damping is critical for the swing, or as of h1 if more, less the joint's own.
 
-    Args:
-        inertia: About each joint of a leg.
-        mass: In kg.
-        com_height: In m.
-        beat: Time scale sqrt(leg / g) in s.
-        period: Control period in s.
-        limits: Torque limits in N m, or empty.
-
-    Returns:
-        Stiffness in N m/rad and damping in N m s/rad of each joint, of two digits.
+    `mass` in kg; `com_height` in m; `beat`: time scale sqrt(leg / g) in s; `period`: control period in s; `limits`:
+    torque limits in N m, or empty. Returns stiffness in N m/rad and damping in N m s/rad of each joint, of two digits.
     """
     wanted = STIFFNESS * mass * GRAVITY * com_height
     least = LEAST_STIFFNESS * mass * GRAVITY * com_height
@@ -137,14 +126,8 @@ def rotor_inertia(inertia: JointInertia, mass: float, com_height: float, period:
     With it a bare foot on a servo of `STIFFNESS` swings by `SAMPLED` in a control period: 0.07 kg m^2 about the ankles
     of JVRC-1, 0.02 about iCub's. On softer ankles a robot sways at its steps' pace, and the swinging leg rocks it.
 
-    Args:
-        inertia: About each joint of a leg.
-        mass: In kg.
-        com_height: In m.
-        period: Control period in s.
-
-    Returns:
-        Inertia in kg m^2 to add about each joint, of two digits; 0 if none is missing.
+    `mass` in kg; `com_height` in m; `period`: control period in s. Returns inertia in kg m^2 to add about each joint,
+    of two digits; 0 if none is missing.
     """
     wanted = STIFFNESS * mass * GRAVITY * com_height
     missing = wanted * (period / SAMPLED) ** 2 - inertia.swing

@@ -55,11 +55,8 @@ class Sole:
 class Rested:
     """The shapes of a foot that it stands on.
 
-    Attributes:
-        kind: "drawn" or "colliding".
-        surface: Triangles (n, 3, 3) in m, in wanted axes.
-        normal: Outward normal (3,) of plane that they rest on.
-        share: That plane's area over silhouette from above.
+    `kind`: "drawn" or "colliding"; `surface`: triangles (n, 3, 3) in m, in wanted axes; `normal`: outward normal (3,)
+    of plane that they rest on; `share`: that plane's area over silhouette from above.
     """
 
     kind: str
@@ -91,9 +88,6 @@ def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> S
     """Returns the sole of a `leg` of `model` in state `data`, the posture of the file `where`.
 
     `rotation` (3, 3) is from the model's world to x forward, y left, z up.
-
-    Raises:
-        RobotError: If the foot has no shape.
     """
     name = model.body(leg.foot).name
     found = rested(model, data, leg.parts, rotation)

@@ -72,14 +72,7 @@ Array = NDArray[np.float64]
 
 
 def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int = 6) -> Walked:
-    """Returns level steps of a third of a leg at a `robot`'s pace.
-
-    Args:
-        robot: The robot.
-        body: Its size.
-        com_height: In m.
-        steps: Their number.
-    """
+    """Returns level steps of a third of a leg at a `robot`'s pace. `com_height` in m."""
     feet, plan = straight_plan(steps, length=STEP_SHARE * body.leg, width=robot.stance_width)
     walk = Walk().for_body(body)
     return Walked(feet, plan, walk_timing(walk, robot, body), walk.swing_height, com_height, robot.trunk_lean)
@@ -99,15 +92,7 @@ def best_steps(
 ) -> tuple[Robot, BodyScale, PlanReach]:
     """Returns the `robot` with the best height, pace, stance and lean, the `body` of its steps, and their demands.
 
-    Args:
-        robot: In its posture.
-        legs: Its kinematics.
-        body: Its size.
-        seed: Height in m of its CoM in that posture.
-        notes: What was not met is added.
-
-    Raises:
-        RobotError: If no steps are within the joints' limits.
+    `seed`: height in m of its CoM in that posture; `notes`: what was not met is added.
     """
     best: _Tried | None = None
     heights = seed + body.leg * np.arange(_HIGHEST, -_LOWEST, -_LOWER)

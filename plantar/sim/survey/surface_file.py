@@ -22,12 +22,7 @@ Triangles = NDArray[np.float64]
 
 
 def meshes_for_mujoco(paths: Iterable[Path], folder: Path, model: Path) -> dict[Path, Path | None]:
-    """Returns for each of `paths` itself, a file converted into `folder`, or None if unreadable.
-
-    Raises:
-        DependencyError: If trimesh is missing.
-        RobotError: If converting all meshes of the `model` takes more time or memory than is allowed.
-    """
+    """Returns for each of `paths` itself, a file converted into `folder`, or None if unreadable."""
     found = {path: path if _is_read_by_mujoco(path) else None for path in paths}
     sizes = {path: _size(path) for path, own in found.items() if own is None}
     foreign = [path for path, size in sizes.items() if size]

@@ -27,12 +27,9 @@ _WEIGHTS = (0.1, 1000.0)  # kg: the least that walk weigh 1 kg, 1000 in g
 class Survey:
     """What was found in a model.
 
-    Attributes:
-        held: Angles in rad by name of other joints.
-        imu: "site" or "body" of IMU, and its name; or None.
-        efforts: Largest torque in N m of each leg joint, or None; `speeds` in rad/s, or empty.
-        gains: Stiffness in N m/rad and damping in N m s/rad of each leg joint, or empty.
-        notes: For the user, each a sentence.
+    `held`: angles in rad by name of other joints; `imu`: "site" or "body" of IMU, and its name; or None; `efforts`:
+    largest torque in N m of each leg joint, or None; `speeds` in rad/s, or empty; `gains`: stiffness in N m/rad and
+    damping in N m s/rad of each leg joint, or empty.
     """
 
     source: ModelSource
@@ -60,11 +57,7 @@ class Survey:
 
 
 def survey_model(file: Path, folder: Path) -> Survey:
-    """Returns the findings on the robot in `file`; converted meshes go to `folder`.
-
-    Raises:
-        RobotError: If the file holds no biped.
-    """
+    """Returns the findings on the robot in `file`; converted meshes go to `folder`."""
     source = read_model(file, folder)
     model = source.model
     data = mujoco.MjData(model)

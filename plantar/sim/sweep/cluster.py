@@ -44,11 +44,7 @@ def check_address(address: str) -> str:
 
 
 def tls_files(environment: Mapping[str, str] = os.environ) -> dict[str, str]:
-    """Paths of authority and client certificates and key, from Dask's environment variables.
-
-    Raises:
-        InputError: If one is missing.
-    """
+    """Paths of authority and client certificates and key, from Dask's environment variables."""
     found = {}
     for key, name in _FILES.items():
         path = environment.get(_VARIABLE + name, "")
@@ -90,10 +86,6 @@ class ClusterWorkers(Workers):
 
     Two tasks fit a worker thread. Dask restarts a dead worker's run on another, as often as its setting
     `allowed-failures` allows.
-
-    Raises:
-        DependencyError: If Dask's `distributed` is missing.
-        InputError: If address, certificates or scheduler fail.
     """
 
     def __init__(self, address: str) -> None:

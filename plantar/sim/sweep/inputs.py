@@ -20,10 +20,6 @@ _FOLDERS = re.compile(rb"""\b(?:meshdir|texturedir|assetdir)\s*=\s*["']([^"']+)[
 def inputs_of(scene: str, robot: str) -> dict[str, str]:
     """Returns library versions, and SHA-256 of all files that a `scene` with a `robot` reads.
 
-    Raises:
-        SceneError: If the scene is unknown.
-        RobotError: If the robot is invalid.
-
     Example:
         >>> sorted(inputs_of("flat", "h1"))[:3]
         ['layout layout_left.json', 'layout layout_right.json', 'mujoco']

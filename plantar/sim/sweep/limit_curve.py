@@ -30,12 +30,9 @@ _GROUPS = 20
 class LimitCurve:
     """What outcomes show of a limit.
 
-    Attributes:
-        rising: Whether larger values complete more runs.
-        limits: Possible limits (n,) in the setting's unit, ascending.
-        probability: Probability (n,) of each.
-        widths: Possible widths (k,) in that unit.
-        joint: Probability (k, n, lapses) of width, limit and lapse.
+    `rising`: whether larger values complete more runs; `limits`: possible limits (n,) in the setting's unit, ascending;
+    `probability`: probability (n,) of each; `widths`: possible widths (k,) in that unit; `joint`: probability (k, n,
+    lapses) of width, limit and lapse.
 
     Example:
         >>> curve = limit_curve([1.0, 2.0, 3.0, 4.0] * 5, [True, True, False, False] * 5, 0.0, 5.0)

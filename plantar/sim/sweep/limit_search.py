@@ -25,14 +25,8 @@ _SURE = 0.95
 class LimitSearch(Plan):
     """The setting's value with half of the runs completed, at each grid point.
 
-    Attributes:
-        sweep: Scene, grid and, as "seeds", the most runs at each point; every run has its own seed.
-        limit: The setting and its range.
-        within: Width of the limit's 95 % interval, as a share of limit, that ends the search.
-
-    Raises:
-        InputError: If share or settings are invalid.
-        SceneError: If setting or range is not allowed.
+    `sweep`: scene, grid and, as "seeds", the most runs at each point; every run has its own seed; `within`: width of
+    the limit's 95 % interval, as a share of limit, that ends the search.
     """
 
     sweep: Sweep

@@ -134,12 +134,7 @@ def run_sweep(
 
 
 class _Tasks:
-    """A plan's runs without a row, as tasks; None while the next depends on rows to come.
-
-    Attributes:
-        keys: Key of each task's row.
-        count: Number of the plan's runs so far.
-    """
+    """A plan's runs without a row, as tasks; None while the next depends on rows to come."""
 
     def __init__(self, plan: Plan, inputs: Mapping[str, Mapping[str, str]], rows: Rows) -> None:
         self._plan = plan

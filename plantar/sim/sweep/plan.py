@@ -132,7 +132,7 @@ class Sweep(Plan):
         first_seed: int = 0,
     ) -> Sweep:
         """Returns a sweep of texts `grid` "key=a,b,c" (TOML values or bare words); `scene`, `seeds`, `robot`,
-        `settings`, `first_seed` and errors as of the class.
+        `settings` and `first_seed` as of the class; raises InputError for another form.
         """
         axes = []
         for text in grid:

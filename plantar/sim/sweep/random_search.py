@@ -16,13 +16,7 @@ from plantar.sim.sweep.value_range import ValueRange
 class RandomSearch(Plan):
     """Runs at random points, the same at every grid point.
 
-    Attributes:
-        sweep: Scene, grid, and seeds: one point a seed.
-        ranges: Settings drawn uniformly from their ranges.
-
-    Raises:
-        InputError: If no setting is drawn, or one twice.
-        SceneError: If setting or range is not allowed.
+    `sweep`: scene, grid, and seeds: one point a seed; `ranges`: settings drawn uniformly from their ranges.
     """
 
     sweep: Sweep

@@ -25,11 +25,7 @@ _PLACE = 1 << 20  # where Windows locks a byte: behind the owner's name, which s
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Hold an existing folder's lock, which ends with its owner.
-
-    Raises:
-        InputError: If another process holds it (named), or the file system has no locks.
-    """
+    """Hold an existing folder's lock, which ends with its owner."""
     path = folder / _NAME
     handle = _acquire(path)
     try:
@@ -100,8 +96,7 @@ _BREAKS = re.compile("[\\r\\n\\0]+")
 class Results:
     """Rows of results.csv, open to append to, made by `open_results`.
 
-    Attributes:
-        rows: Its rows by values of their axes and their seed.
+    `rows`: its rows by values of their axes and their seed.
     """
 
     def __init__(self, path: Path, axes: Sequence[str], columns: Sequence[str]) -> None:
@@ -120,11 +115,7 @@ class Results:
         self._size = whole
 
     def append(self, row: Mapping[str, Any]) -> None:
-        """Add a row to file and table, on disk or not at all; line breaks become spaces.
-
-        Raises:
-            InputError: If the file cannot be written.
-        """
+        """Add a row to file and table, on disk or not at all; line breaks become spaces."""
         texts = {name: _BREAKS.sub(" ", str(row[name])) for name in self.header}
         key = self._key(texts)
         if key in self.rows:

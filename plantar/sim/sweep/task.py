@@ -117,13 +117,7 @@ def criteria_of(row: Mapping[str, str]) -> list[str]:
 
 
 def run_task(task: Task) -> Row:
-    """Run a task on a worker; a defect becomes its row.
-
-    Raises:
-        ImportError: If no run is possible here.
-        DependencyError: Likewise.
-        InputError: If scene or robot have changed.
-    """
+    """Run a task on a worker; a defect becomes its row."""
     _check_inputs(task)
     try:
         return run_one(task.scene, task.robot, task.settings, task.seed)

@@ -15,9 +15,6 @@ _OPENING = ("[", "{", '"', "'")  # what a value begins with that may hold commas
 def split_values(text: str) -> list[str]:
     """TOML values and bare words of a list, split at outer commas.
 
-    Raises:
-        InputError: If malformed.
-
     Example:
         >>> split_values("[1, 2], [3, 4]")
         ['[1, 2]', '[3, 4]']
@@ -44,9 +41,6 @@ def is_word(key: str) -> bool:
 
 def canonical(text: str, *, word: bool = False) -> str:
     """Returns the one text for TOML values or bare words `text` of one meaning; a `word` only loses quotes.
-
-    Raises:
-        InputError: If malformed or not printable.
 
     Example:
         >>> [canonical(text) for text in ("1.0", "0.10", "[1,2]", "'left'", "left", '"1"')]
@@ -93,15 +87,8 @@ _END = re.compile(r"\s*(?P<number>[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?)\s*(?P<unit
 class ValueRange:
     """The range of a searched setting.
 
-    Attributes:
-        name: The setting.
-        low: Smallest value.
-        high: Largest value.
-        unit: Share of a body in which both are given, such as "sole", or empty.
-        whole: Whether only whole numbers are tried.
-
-    Raises:
-        InputError: If empty or not finite.
+    `unit`: share of a body in which both are given, such as "sole", or empty; `whole`: whether only whole numbers are
+    tried.
 
     Example:
         >>> ValueRange.from_text("width=0.2 sole:0.6 sole", "limit").text(0.41237)
@@ -120,11 +107,7 @@ class ValueRange:
 
     @classmethod
     def from_text(cls, text: str, option: str) -> "ValueRange":
-        """Returns the range of `text` "key=from:to" of `option`; both ends may be shares of one unit.
-
-        Raises:
-            InputError: If malformed or empty.
-        """
+        """Returns the range of `text` "key=from:to" of `option`; both ends may be shares of one unit."""
         key, equals, ends = text.partition("=")
         found = [_END.fullmatch(end) for end in ends.split(":")]
         if not equals or not key.strip() or len(found) != 2 or found[0] is None or found[1] is None:

@@ -28,11 +28,7 @@ class Workers(Protocol):
         """Begin a task."""
 
     def finished(self, timeout: float) -> Sequence[tuple[Task, Row]]:
-        """Wait for a task's end, or a time in s; return ended tasks with rows.
-
-        Raises:
-            WorkerError: If the workers cannot go on.
-        """
+        """Wait for a task's end, or a time in s; return ended tasks with rows."""
 
     def close(self) -> None:
         """End the workers at once."""

@@ -27,11 +27,7 @@ _installed: list[Any] = []  # the functions in the table, which must live as lon
 
 
 def install_face_contacts() -> None:
-    """Put marked geoms' contacts into MuJoCo's collision table, once a process.
-
-    Raises:
-        InputError: If there is no table.
-    """
+    """Put marked geoms' contacts into MuJoCo's collision table, once a process."""
     if _installed:
         return
     table = (ctypes.c_void_p * (_KINDS * _KINDS)).in_dll(_library(), "mjCOLLISIONFUNC")

@@ -26,7 +26,6 @@ class Footprint:
     """Planned place of a sole.
 
     Attributes:
-        side: Which foot.
         center: Of the sole's rectangle (2,) in the world in m.
         yaw: Heading in rad.
         half: Half length and half width in m.
@@ -72,10 +71,7 @@ class PlannedFeet:
 class Motion:
     """A move of a solid at constant speed.
 
-    Attributes:
-        start: Time in s.
-        duration: In s; 0 jumps.
-        position: Final centre (3,) in m.
+    `start`: time in s; `duration` in s; 0 jumps; `position`: final centre (3,) in m.
     """
 
     start: float

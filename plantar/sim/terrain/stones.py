@@ -229,15 +229,8 @@ def stone_under(
 ) -> Solid:
     """Returns a box that carries a footprint with a margin, or part of it.
 
-    Args:
-        foot: The footprint.
-        feet: All footprints, to keep clear of.
-        height: Of the upper face in m.
-        depth: Of the box in m.
-        share: Carried share.
-        part: "rear", "front", "inner" or "outer".
-        pitch: Along the foot in rad; `roll` across it.
-        gap: Between both feet's boxes in m.
+    `height` of the upper face in m; `depth` of the box in m; `share`: carried share; `part`: "rear", "front", "inner"
+    or "outer"; `pitch`: along the foot in rad; `roll` across it; `gap`: between both feet's boxes in m.
     """
     outward = 1.0 if foot.side == "left" else -1.0
     half_length, half_width = foot.half

@@ -9,14 +9,9 @@ from plantar.wholebody.tasks.task import Task
 class ContactPhases:
     """Precontact and contact: tasks of each, entered when the user reports it.
 
-    Args:
-        precontact: Levels before: distance, compliant wrist, tactile guidance, base avoidance and posture.
-        contact: Levels in contact: force, compliant wrist, position, and compliance with base avoidance and posture.
-        duration: Of the sigmoid of w (A 6) from 0 to 1 in s; 0 jumps.
-
-    Attributes:
-        in_contact: Whether in the contact phase.
-        levels: The current levels.
+    `precontact`: levels before: distance, compliant wrist, tactile guidance, base avoidance and posture; `contact`:
+    levels in contact: force, compliant wrist, position, and compliance with base avoidance and posture; `duration` of
+    the sigmoid of w (A 6) from 0 to 1 in s; 0 jumps.
     """
 
     def __init__(

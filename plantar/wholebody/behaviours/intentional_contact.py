@@ -40,11 +40,8 @@ class ContactSettings(Settings):
 class ContactSigns(NamedTuple):
     """Measurements that choose the arrangement.
 
-    Attributes:
-        speed: ||x'|| of the end effector in m/s.
-        near: ||f_p||: proximity's virtual force, whole range, in N.
-        contact: ||f_c||: largest contact force on skin in N.
-        arrived: Whether the goal is reached, where it can rest.
+    `speed`: ||x'|| of the end effector in m/s; `near`: ||f_p||: proximity's virtual force, whole range, in N;
+    `contact`: ||f_c||: largest contact force on skin in N; `arrived`: whether the goal is reached, where it can rest.
     """
 
     speed: float
@@ -56,15 +53,8 @@ class ContactSigns(NamedTuple):
 class IntentionalContact:
     """Current arrangement, and used share of the sensing range.
 
-    Args:
-        goal: Tasks to the goal, tau_g of T 3.40.
-        contact: Tasks yielding to contact, tau_c of T 3.41.
-        avoidance: Tasks avoiding obstacles, tau_p of T 3.33.
-
-    Attributes:
-        arrangement: Current.
-        range_share: Of the sensing range for avoidance, 0 to 1.
-        levels: Current, the highest first.
+    `goal`: tasks to the goal, tau_g of T 3.40; `contact`: tasks yielding to contact, tau_c of T 3.41; `avoidance`:
+    tasks avoiding obstacles, tau_p of T 3.33. Attributes `range_share` of the sensing range for avoidance, 0 to 1.
     """
 
     def __init__(

@@ -24,13 +24,8 @@ class ReflexSettings(Settings):
 class NociceptiveReflex:
     """Two task arrangements, one current.
 
-    Args:
-        default: Levels without pain, the highest first.
-        reflex: Default levels without those that hold against the pressure.
-        settings: Begin and end.
-
-    Attributes:
-        active: Whether the reflex acts; `levels` the current ones.
+    `default`: levels without pain, the highest first; `reflex`: default levels without those that hold against the
+    pressure. Attributes `active`: whether the reflex acts; `levels` the current ones.
     """
 
     def __init__(
@@ -51,12 +46,8 @@ class NociceptiveReflex:
     def update(self, virtual_force: float, time: float) -> bool:
         """Update with the virtual force; the reflex begins at once, ends after calm.
 
-        Args:
-            virtual_force: Norm of f_P of T 3.27 in N, the links' largest.
-            time: In s.
-
-        Returns:
-            Whether the arrangement changed: begin a priority transition.
+        `virtual_force`: norm of f_P of T 3.27 in N, the links' largest; `time` in s. Returns whether the arrangement
+        changed: begin a priority transition.
         """
         s = self.settings
         before = self.active

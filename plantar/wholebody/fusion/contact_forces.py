@@ -18,15 +18,8 @@ _LEAST = 0.01  # least normal force of a contact, as a share of the weight
 class ContactForces:
     """Shares a free base's load among contacts, as `joint_torques`, within friction cones.
 
-    Args:
-        support: Task of the carrying contacts.
-        base: Link of the free coordinates.
-        weight: Robot's in N.
-        weights: Of the distribution.
-
-    Attributes:
-        shares: Desired load shares by contact name; None for equal.
-        last: Last wrench of each contact, own frame.
+    `base`: link of the free coordinates; `weight`: robot's in N. Attributes `shares`: desired load shares by contact
+    name; None for equal; `last`: last wrench of each contact, own frame.
     """
 
     def __init__(self, support: Support, base: str, weight: float, weights: DistributionWeights | None = None) -> None:

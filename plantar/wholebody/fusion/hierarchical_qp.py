@@ -31,9 +31,6 @@ class JointLimits:
         slow_down: Least time in s to a position limit.
         reach: Time in s to bring back excess speed: some control periods.
         acceleration: Every joint's largest in rad/s^2 or m/s^2.
-
-    Raises:
-        InputError: Disallowed limit, empty range.
     """
 
     torque: NDArray[np.float64]
@@ -64,12 +61,8 @@ class JointLimits:
 class HierarchicalQP:
     """Fusion, called as `plantar.wholebody.fusion.hierarchy.fuse`.
 
-    Args:
-        limits: Joint limits.
-        shortcut: Whether to use the hierarchy's motion if within limits: same result, much faster.
-
-    Attributes:
-        limited: Whether a limit acted last.
+    `shortcut`: whether to use the hierarchy's motion if within limits: same result, much faster. Attributes `limited`:
+    whether a limit acted last.
     """
 
     def __init__(self, limits: JointLimits, shortcut: bool = True) -> None:

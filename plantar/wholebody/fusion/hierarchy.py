@@ -34,10 +34,8 @@ itself may vanish at a singularity, such as that of the direction in which an ar
 class Fused(NamedTuple):
     """Result of fused tasks.
 
-    Attributes:
-        torque: (k,) of `RobotDynamics.joints` in N m or N, with gravity.
-        acceleration: Generalized (n,) without other pushes.
-        support_force: (s,) along the support's rows, or None.
+    `torque` (k,) of `RobotDynamics.joints` in N m or N, with gravity; `acceleration`: generalized (n,) without other
+    pushes; `support_force` (s,) along the support's rows, or None.
     """
 
     torque: NDArray[np.float64]
@@ -62,18 +60,9 @@ def fuse(
 
     Within a level accelerations are met first, together; forces add up in the rest (T 3.22).
 
-    Args:
-        robot: Its dynamics now.
-        levels: Tasks' demands, highest priority first; None for none.
-        support: Support rows above all levels; needed for an undriven base.
-        external: Known generalized force (n,), such as skin's J^T w.
-        split: Load sharing of joints and support; None for `joint_torques`.
-
-    Returns:
-        Torques, acceleration and support force.
-
-    Raises:
-        InputError: Incomplete demand, indefinite mass matrix.
+    `levels`: tasks' demands, highest priority first; None for none; `support`: support rows above all levels; needed
+    for an undriven base; `external`: known generalized force (n,), such as skin's J^T w; `split`: load sharing of
+    joints and support; None for `joint_torques`.
     """
     every = [[d for d in level if d is not None] for level in ([support], *levels)]
     asked = [level for level in every if level]
@@ -97,16 +86,8 @@ def joint_torques(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
     """Split a generalized force: S^T tau + J_s^T f_s (T 3.12), with least support force.
 
-    Args:
-        robot: The robot.
-        force: Generalized (n,).
-        support: Its rows; None if all coordinates are driven.
-
-    Returns:
-        Joint torques (k,) and support force (s,) or None.
-
-    Raises:
-        InputError: Coordinates neither driven nor supported.
+    `force`: generalized (n,); `support`: its rows; None if all coordinates are driven. Returns joint torques (k,) and
+    support force (s,) or None.
     """
     joints = robot.joints
     if support is None:

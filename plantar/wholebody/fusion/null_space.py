@@ -20,11 +20,7 @@ Projection = Literal["recursive", "augmented", "successive"]
 
 
 def mass_factor(mass_matrix: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Lower Cholesky factor L (n, n) of a mass matrix, M = L L^T.
-
-    Raises:
-        InputError: Indefinite matrix.
-    """
+    """Lower Cholesky factor L (n, n) of a mass matrix, M = L L^T."""
     factor, info = lapack.dpotrf(mass_matrix, lower=1, clean=1)
     if info != 0:
         raise InputError("the mass matrix is not positive definite: a model needs mass or armature at every joint")
@@ -51,12 +47,8 @@ def null_space_projector(
     With M = L L^T, J's dynamically consistent inverse (A 25) is L^-T times the pseudo-inverse of J L^-T, also at
     singularities.
 
-    Args:
-        jacobian: Task's J (m, n).
-        factor: L (n, n), for the dynamically consistent inverse; None for Moore-Penrose.
-
-    Returns:
-        (n, n) of generalized forces.
+    `jacobian`: task's J (m, n); `factor`: L (n, n), for the dynamically consistent inverse; None for Moore-Penrose.
+    Returns (n, n) of generalized forces.
     """
     rows = jacobian if factor is None else solve_triangular(factor, jacobian.T, lower=True).T
     size = jacobian.shape[1]
@@ -78,9 +70,7 @@ def null_space_torques(
 
     `robot`, `levels`, `support` and `external` as in `plantar.wholebody.fusion.hierarchy.fuse`; returns the same.
 
-    Args:
-        projection: How higher tasks count.
-        consistent: Whether dynamically consistent; if not, lower tasks push higher ones.
+    `consistent`: whether dynamically consistent; if not, lower tasks push higher ones.
     """
     size = len(robot.bias)
     factor = mass_factor(robot.mass_matrix)
@@ -115,8 +105,7 @@ def weighted_sum(
 
     `robot`, `levels`, `support` and `external` as in `plantar.wholebody.fusion.hierarchy.fuse`; returns the same.
 
-    Args:
-        weights: Each level's: a number or (n,); None for 1.
+    `weights`: each level's: a number or (n,); None for 1.
     """
     weights = [1.0] * len(levels) if weights is None else weights
     if len(weights) != len(levels):

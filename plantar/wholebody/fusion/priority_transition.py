@@ -16,12 +16,7 @@ STEEPNESS = 2.0
 def smooth_share(elapsed: float, duration: float) -> float:
     """1 - chi of T 3.46 (corrected): sigmoid, 0 until the trigger, 1 from the end.
 
-    Args:
-        elapsed: Since the trigger in s.
-        duration: Of the change in s; 0 jumps.
-
-    Returns:
-        New one's share, 0 to 1.
+    `elapsed`: since the trigger in s; `duration` of the change in s; 0 jumps. Returns new one's share, 0 to 1.
 
     Example:
         >>> [round(smooth_share(t, 0.2), 3) for t in (-1.0, 0.0, 0.05, 0.1, 0.2)]
@@ -38,8 +33,7 @@ def smooth_share(elapsed: float, duration: float) -> float:
 class PriorityTransition:
     """Blends torques in priority changes; continuous even for overlapping ones.
 
-    Args:
-        duration: From trigger to the new arrangement alone in s; 0 jumps.
+    `duration` from trigger to the new arrangement alone in s; 0 jumps.
     """
 
     def __init__(self, duration: float = 0.2) -> None:
@@ -57,12 +51,8 @@ class PriorityTransition:
     def blend(self, torque: NDArray[np.float64], time: float) -> NDArray[np.float64]:
         """tau = chi tau_(k-1) + (1 - chi) tau_k (T 3.45).
 
-        Args:
-            torque: Current arrangement's (k,) in N m or N.
-            time: In s.
-
-        Returns:
-            Output (k,): the argument itself without a change.
+        `torque`: current arrangement's (k,) in N m or N; `time` in s. Returns output (k,): the argument itself without
+        a change.
         """
         share = smooth_share(time - self._began, self.duration)
         if self._held is None or share >= 1.0:

@@ -27,15 +27,8 @@ class AvoidanceField(Settings):
 class BaseAvoidance(Task):
     """Pushes the base from each obstacle by f_max exp(-d / alpha) (A 15-16; from it to the base).
 
-    Args:
-        link: The base; its x and y span the ground.
-        half_size: Half lengths (x, y) of its rectangle in m.
-
-    Attributes:
-        obstacles: Obstacles' nearest points (m, 2), base frame, in m, by its sensors.
-
-    Raises:
-        InputError: Half length not positive.
+    `half_size`: half lengths (x, y) of its rectangle in m. Attributes `obstacles`: obstacles' nearest points (m, 2),
+    base frame, in m, by its sensors.
     """
 
     def __init__(self, link: str, half_size: tuple[float, float], field: AvoidanceField | None = None) -> None:

@@ -13,14 +13,8 @@ from plantar.wholebody.tasks.task import Demand, Task
 class CenterOfMass(Task):
     """Draws the center of mass to its target: x''* = K (x_d - x) + D (x'_d - x') (T 3.25 corrected, A 4).
 
-    Args:
-        target: Wanted (3,), world frame, in m.
-        stiffness: K in 1/s^2.
-        damping: D in 1/s; critical if None.
-        axes: Held of x, y, z.
-
-    Attributes:
-        target_velocity: Wanted (3,) in m/s.
+    `target`: wanted (3,), world frame, in m; `stiffness`: K in 1/s^2; `damping`: D in 1/s; critical if None. Attributes
+    `target_velocity`: wanted (3,) in m/s.
     """
 
     def __init__(

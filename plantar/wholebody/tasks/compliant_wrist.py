@@ -29,13 +29,8 @@ class WristGains(Settings):
 class CompliantWrist(Task):
     """omega'* = (K Gamma - D omega) / Lambda, Gamma the patch's moment about its middle (A 10 corrected).
 
-    Args:
-        patch: By name; InputError if unknown.
-        point: Its middle (3,), link frame, in m.
-
-    Attributes:
-        weight: w of A 6: 0 for proximity, 1 for force.
-        moment: Last demand's Gamma (3,), link frame, in N m.
+    `patch` by name; InputError if unknown; `point`: its middle (3,), link frame, in m. Attributes `weight`: w of A 6: 0
+    for proximity, 1 for force; `moment`: last demand's Gamma (3,), link frame, in N m.
     """
 
     def __init__(self, skin: BodySkin, patch: str, point: NDArray[np.float64], gains: WristGains | None = None) -> None:

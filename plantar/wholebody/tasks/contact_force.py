@@ -37,16 +37,11 @@ class ContactGains(Settings):
 class ContactForce(Task):
     """x''* = (K (w (f_d - f_c) + (1 - w) k (d - d_d)) - D x') / Lambda along a patch's outward normal (A 6, 9).
 
-    Args:
-        patch: Touching one by name; InputError if unknown.
-        point: Its middle (3,), link frame, in m.
-        normal: Out of the body (3,), link frame: h_z of A.
-
-    Attributes:
-        weight: w of A 6: 0 for distance, 1 for force.
-        target_force: f_d in N; `force` the last demand's f_c.
-        target_distance: d_d in m; `distance` the last demand's mean of taxels in range, inf without.
-        approach_speed: Speed in m/s without contact: the error is bounded to D v / K; infinite at first.
+    `patch`: touching one by name; InputError if unknown; `point`: its middle (3,), link frame, in m; `normal`: out of
+    the body (3,), link frame: h_z of A. Attributes `weight`: w of A 6: 0 for distance, 1 for force; `target_force`: f_d
+    in N; `force` the last demand's f_c; `target_distance`: d_d in m; `distance` the last demand's mean of taxels in
+    range, inf without; `approach_speed`: speed in m/s without contact: the error is bounded to D v / K; infinite at
+    first.
     """
 
     def __init__(

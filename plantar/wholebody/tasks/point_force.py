@@ -11,12 +11,7 @@ from plantar.wholebody.tasks.task import Demand, Task
 class PointForce(Task):
     """Applies a force: tau = J_p^T f (T 3.29).
 
-    Args:
-        link: Its link.
-        point: (3,), link frame, in m.
-
-    Attributes:
-        force: (3,), world frame, in N; None or 0 for no demand.
+    `point` (3,), link frame, in m. Attributes `force` (3,), world frame, in N; None or 0 for no demand.
     """
 
     def __init__(self, link: str, point: NDArray[np.float64]) -> None:
@@ -33,9 +28,7 @@ class PointForce(Task):
 class AlongForce(Task):
     """Another task's wrenches with one row a link, not six, so that lower tasks can slide along.
 
-    Args:
-        task: Its demand has six rows a link.
-        damping: Force in N per m/s along the push, either way.
+    `damping`: force in N per m/s along the push, either way.
     """
 
     def __init__(self, task: Task, damping: float = 0.0) -> None:

@@ -54,9 +54,7 @@ class Posture(Task):
 class BodyCompliance(Task):
     """tau_c = K (q_d - q) - D q' + tau_skin + tau_oca (A 18 corrected: yields to pushes).
 
-    Args:
-        posture: Of torques.
-        yields: Force tasks: `DirectInteraction` for A 14, `BaseAvoidance` for A 15.
+    `yields`: force tasks: `DirectInteraction` for A 14, `BaseAvoidance` for A 15.
     """
 
     def __init__(self, posture: Posture, *yields: Task) -> None:

@@ -13,12 +13,7 @@ from plantar.wholebody.tasks.task import Demand, Task
 
 
 class Sphere(NamedTuple):
-    """A sphere on a link.
-
-    Attributes:
-        center: (3,), link frame, in m.
-        radius: In m.
-    """
+    """A sphere on a link. `center` (3,), link frame, in m; `radius` in m."""
 
     link: str
     center: NDArray[np.float64]
@@ -28,11 +23,8 @@ class Sphere(NamedTuple):
 class SelfCollision(Task):
     """Pushes spheres apart along their centers' line, a row a near pair.
 
-    Args:
-        pairs: Of spheres that must not meet.
-        margin: Gap in m from which pairs are pushed; InputError unless above 0.
-        stiffness: Force in N per metre of missing gap.
-        damping: Force in N per m/s of closing.
+    `pairs` of spheres that must not meet; `margin`: gap in m from which pairs are pushed; InputError unless above 0;
+    `stiffness`: force in N per metre of missing gap; `damping`: force in N per m/s of closing.
     """
 
     def __init__(

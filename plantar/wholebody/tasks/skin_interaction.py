@@ -14,8 +14,7 @@ from plantar.wholebody.tasks.task import Demand, Task, wrench_demand
 class SkinInteraction(Task):
     """Yields to taxel forces: tau = sum J^T E w over links with active ones (T 3.22-3.24, 3.28, 3.33, 3.38).
 
-    Args:
-        patches: Names that count; None for all; InputError if unknown.
+    `patches`: names that count; None for all; InputError if unknown.
 
     Attributes:
         counted: Mask (N,) of counting taxels.
@@ -71,9 +70,7 @@ class DirectInteraction(SkinInteraction):
 class PressureInteraction(DirectInteraction):
     """Yields to w_P = xi / (sum of active areas) w_f on each link (T 3.27).
 
-    Args:
-        sensitivity: xi in m^2: area of unchanged force.
-        patches: Names that count; None for all.
+    `sensitivity`: xi in m^2: area of unchanged force; `patches`: names that count; None for all.
     """
 
     def __init__(self, skin: BodySkin, sensitivity: float, patches: Sequence[str] | None = None) -> None:
@@ -94,9 +91,6 @@ class ProximityInteraction(SkinInteraction):
         stiffness: A taxel's k_prox in N/m.
         sensing_range: d_range in m, at most the patches'; None for theirs. Changeable at any time.
         patches: Names that count; None for all.
-
-    Raises:
-        InputError: Unknown patch, range not positive.
     """
 
     def __init__(
@@ -121,10 +115,8 @@ class ProximityInteraction(SkinInteraction):
 class TemperatureInteraction(SkinInteraction):
     """Yields to kappa_i = gain (T_i - kappa_0) of taxels at threshold (T 3.34-3.37).
 
-    Args:
-        gain: A taxel's N per kelvin above threshold.
-        threshold: kappa_0 in degC.
-        patches: Names that count; None for all.
+    `gain`: a taxel's N per kelvin above threshold; `threshold`: kappa_0 in degC; `patches`: names that count; None for
+    all.
     """
 
     def __init__(

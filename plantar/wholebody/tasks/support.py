@@ -19,12 +19,9 @@ _POINT = Rectangle(0.0, 0.0, 0.0, 0.0)
 class Standing:
     """An unmoving contact: a link's point, and what the ground blocks.
 
-    Attributes:
-        point: (3,), link frame, in m, best where the force should be.
-        flat: Whether turning is blocked too, unlike point contacts.
-        area: Carrying area about the point in m, for force distribution.
-        rotation: Contact (z into the body) to link frame (3, 3); None for none.
-        friction: Coefficient of friction, likewise.
+    `point` (3,), link frame, in m, best where the force should be; `flat`: whether turning is blocked too, unlike point
+    contacts; `area`: carrying area about the point in m, for force distribution; `rotation`: contact (z into the body)
+    to link frame (3, 3); None for none.
     """
 
     link: str
@@ -43,8 +40,7 @@ class Standing:
 class Support(Task):
     """Keeps contacts at rest: J_s q'' + J_s' q' = 0, above all tasks (T 3.13).
 
-    Args:
-        contacts: By name, such as the feet; assignable; InputError if empty.
+    `contacts` by name, such as the feet; assignable; InputError if empty.
     """
 
     def __init__(self, contacts: Mapping[str, Standing]) -> None:

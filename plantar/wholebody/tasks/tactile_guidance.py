@@ -43,13 +43,8 @@ class TactileGuidance(Task):
 
     The spring k spans s, from hand to resting place, which a touch carries along.
 
-    Args:
-        patches: Names on the arm.
-        point: (3,), own frame, in m.
-        arm: Three or more links, shoulder to wrist, at whose straight arm guidance ends; None for no such end.
-
-    Raises:
-        InputError: Unknown patch, arm too short.
+    `point` (3,), own frame, in m; `arm`: three or more links, shoulder to wrist, at whose straight arm guidance ends;
+    None for no such end.
     """
 
     def __init__(

@@ -44,12 +44,7 @@ class Task(Protocol):
 def wrench_demand(robot: RobotDynamics, wrenches: Sequence[LinkWrench]) -> Demand | None:
     """Apply wrenches to links: tau = J^T E w, all rows in one demand (T 3.20-3.22, 3.24).
 
-    Args:
-        robot: The robot.
-        wrenches: Each link's; none for no demand.
-
-    Returns:
-        World frame, about each link's origin.
+    Returns world frame, about each link's origin.
     """
     if not wrenches:
         return None

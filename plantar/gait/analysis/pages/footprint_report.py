@@ -36,14 +36,8 @@ def analyse_image(
 ) -> dict[str, Any]:
     """Measure footprints in an image; write metrics.json, footprints.csv, a figure and report.html.
 
-    Args:
-        path: Image.
-        folder: Existing folder to write to.
-        mm_per_pixel: As of `analyse_recording`, like `subject` and `figures`.
-        side: Of a single footprint; inferred from shape where None.
-
-    Returns:
-        Contents of metrics.json. FormatError for no image or no footprint.
+    `mm_per_pixel`: as of `analyse_recording`, like `subject` and `figures`; `side` of a single footprint; inferred from
+    shape where None. Returns contents of metrics.json. FormatError for no image or no footprint.
     """
     image = read_footprints(path, mm_per_pixel)
     pixel = image.pixel if image.pixel is not None else 1.0

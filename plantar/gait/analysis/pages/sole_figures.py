@@ -201,9 +201,7 @@ _MARGIN = 0.01  # Width in m of the frame around the cells
 def stepped_on(layout: SoleLayout, hit: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Returns indices (m,) of stepped-on cells and neighbours, and corners (4, 2) in m around them.
 
-    Args:
-        layout: Platform, k cells.
-        hit: Stepped-on cells (k,); all are returned where none is.
+    `hit`: stepped-on cells (k,); all are returned where none is.
     """
     beside = np.array([any(hit[j] for j in near) for near in layout.neighbours])
     chosen = np.flatnonzero(hit | beside) if hit.any() else np.arange(len(layout))

@@ -132,12 +132,8 @@ def footprint_of_cells(
 ) -> Footprint | None:
     """Returns footprint of loaded cells; None without any.
 
-    Args:
-        layout: Sensor, n cells.
-        pressure: Largest (n,) of each cell.
-        loaded: Cells (n,) of the print.
-        side: Foot.
-        forward: Approximate direction (2,) from heel to toes; exactly the sole's x axis where None.
+    `pressure`: largest (n,) of each cell; `loaded`: cells (n,) of the print; `forward`: approximate direction (2,) from
+    heel to toes; exactly the sole's x axis where None.
     """
     chosen = np.flatnonzero(loaded)
     if len(chosen) == 0:

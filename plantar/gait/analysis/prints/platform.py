@@ -39,13 +39,8 @@ _TRIGGER = 0.25  # Share of the peak up to which load in the first and last fram
 class PlatformPrint:
     """Footprint on a platform.
 
-    Attributes:
-        side: Foot.
-        begin: First loaded frame.
-        end: Frame after the last.
-        cells: Platform indices (n,).
-        forward: Walking direction (2,) in the platform's frame.
-        cut: Whether cut off by the platform's edge.
+    `begin`: first loaded frame; `end`: frame after the last; `cells`: platform indices (n,); `forward`: walking
+    direction (2,) in the platform's frame; `cut`: whether cut off by the platform's edge.
     """
 
     side: Side

@@ -32,13 +32,7 @@ _LEAST_PRINT = 0.05
 
 @dataclass(frozen=True, eq=False)
 class PlatformLoad:
-    """Load of platform cells.
-
-    Attributes:
-        layout: Platform, k cells.
-        force: Force (n, k) in N, 0 if unmeasured.
-        time: Times (n,) in s.
-    """
+    """Load of platform cells. `force`: force (n, k) in N, 0 if unmeasured; `time`: times (n,) in s."""
 
     layout: SoleLayout
     force: NDArray[np.float64]
@@ -85,9 +79,7 @@ class PrintCells:
 def cells_of_prints(load: PlatformLoad, threshold: float) -> list[PrintCells]:
     """Returns pieces of each footprint by a platform's load, in order; with 5 % of the largest piece's load or more.
 
-    Args:
-        load: Load.
-        threshold: Cell counts as loaded above this force in N.
+    `threshold`: cell counts as loaded above this force in N.
     """
     pieces = list(_pieces(load, load.force > threshold))
     top = max((p.load for p in pieces), default=0.0)
@@ -166,10 +158,7 @@ _TOES = 0.82
 class PlatformWalk:
     """One pass over a platform: footprints in the order they begin.
 
-    Attributes:
-        load: Of the platform's cells.
-        prints: Cells of each.
-        centres: Force-weighted centroid (m, 2) of each in m.
+    `centres`: force-weighted centroid (m, 2) of each in m.
     """
 
     load: PlatformLoad
@@ -220,11 +209,8 @@ def sides_of_walk(
 ) -> list[Side]:
     """Returns the foot of each footprint of a walk: left ones lie left of the walking line.
 
-    Args:
-        walk: Pass.
-        forward: Walking direction (2,).
-        stated: Foot in the file, used if footprints lie in one line; else arch and hallux show it.
-        notes: Assumptions are added.
+    `forward`: walking direction (2,); `stated`: foot in the file, used if footprints lie in one line; else arch and
+    hallux show it.
     """
     count = len(walk.prints)
     offset = walk.centres @ np.array([-forward[1], forward[0]])

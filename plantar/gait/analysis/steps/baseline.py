@@ -48,11 +48,9 @@ _FRAMES = 4000  # Frames in swing from which a cell's reading is averaged: enoug
 class RestingLevel:
     """Foot's force in swing.
 
-    Attributes:
-        level: Level (n,) in each frame, in the force's unit.
-        swing: Frames (n,) at that level for longer than `MINIMUM_SWING`.
-        span: Force range above the level.
-        each: Single swings, where the level follows them; else None.
+    `level`: level (n,) in each frame, in the force's unit; `swing`: frames (n,) at that level for longer than
+    `MINIMUM_SWING`; `span`: force range above the level; `each`: single swings, where the level follows them; else
+    None.
     """
 
     level: NDArray[np.float64]
@@ -64,9 +62,7 @@ class RestingLevel:
 def resting_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None:
     """Returns level of a walking foot's force in swing, of each swing where it changes; None as in standing.
 
-    Args:
-        force: Vertical force (n,), NaN if unmeasured.
-        rate: Frames a second.
+    `force`: vertical force (n,), NaN if unmeasured.
 
     Example:
         >>> time = np.arange(0.0, 12.0, 0.01)

@@ -16,10 +16,7 @@ CHORD = 0.05
 def averaged_path(points: NDArray[np.float64], weight: NDArray[np.float64], frames: int) -> NDArray[np.float64]:
     """Returns weighted running mean (n, 2) of points over a centred window, shrinking at ends and gaps.
 
-    Args:
-        points: Positions (n, 2); NaN for none, which stays.
-        weight: (n,), above 0 where there is a position.
-        frames: Window width.
+    `points`: positions (n, 2); NaN for none, which stays; `weight` (n,), above 0 where there is a position.
     """
     known = np.isfinite(points[:, 0])
     n = len(known)
@@ -41,9 +38,7 @@ def averaged_path(points: NDArray[np.float64], weight: NDArray[np.float64], fram
 def cop_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dict[str, float]:
     """Returns length, range and speed of a path by key; empty below two positions.
 
-    Args:
-        time: Times (m,) in s.
-        points: Positions (m, 2), forward and left in m, NaN for none.
+    `time`: times (m,) in s; `points`: positions (m, 2), forward and left in m, NaN for none.
 
     Example:
         >>> t = np.linspace(0.0, 0.5, 51)
@@ -72,9 +67,7 @@ def cop_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dict
 def chords(time: NDArray[np.float64], points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Returns lengths (k,) and times (k,) in s of straight path pieces up to 50 ms: between frames, noise adds length.
 
-    Args:
-        time: (m,) in s, 2 or more.
-        points: Positions (m, 2).
+    `time` (m,) in s, 2 or more; `points`: positions (m, 2).
     """
     every = max(1, round(CHORD * (len(time) - 1) / float(time[-1] - time[0])))
     extremes = [*points.argmin(axis=0).tolist(), *points.argmax(axis=0).tolist()]  # no path is shorter than its range
@@ -88,9 +81,7 @@ def excursion_index(print_: Footprint, points: NDArray[np.float64]) -> float:
     Lateral distance of the path from the line between its ends at the foot's front third, over the footprint's width
     there.
 
-    Args:
-        print_: Footprint.
-        points: Positions (m, 2) in the print's source frame, NaN for none.
+    `points`: positions (m, 2) in the print's source frame, NaN for none.
     """
     path = print_.in_foot(points[np.isfinite(points[:, 0])])
     at, width = print_.front_third

@@ -19,11 +19,8 @@ from plantar.recordings.pressure_recording import Kind, true_runs
 class EventLevels:
     """Force range shares at which events lie.
 
-    Attributes:
-        strike: Rising crossing of a heel strike; below it the foot is off the ground.
-        contact: Share a contact must reach.
-        lift: Last falling crossing, earliest toe off.
-        clear: Falling crossing of the latest toe off; None if at `lift`.
+    `strike`: rising crossing of a heel strike; below it the foot is off the ground; `lift`: last falling crossing,
+    earliest toe off; `clear`: falling crossing of the latest toe off; None if at `lift`.
     """
 
     strike: float
@@ -74,14 +71,8 @@ _FEWEST_STEPS = 20  # Steps between swing samples from which their noise is judg
 class Levels:
     """One foot's force levels in N.
 
-    Attributes:
-        rest: Swing load.
-        peak: Robust peak.
-        release: Heel strike level, below which the foot is off the ground.
-        contact: Level a contact must reach.
-        lift: Earliest toe off.
-        noise: Standard deviation in swing.
-        clear: Latest toe off, where push-off is continued to `rest`; None if at `lift`.
+    `release`: heel strike level, below which the foot is off the ground; `lift`: earliest toe off; `noise`: standard
+    deviation in swing; `clear`: latest toe off, where push-off is continued to `rest`; None if at `lift`.
     """
 
     rest: float
@@ -233,9 +224,7 @@ def find_contacts(
 def measured_spans(time: NDArray[np.float64], force: NDArray[np.float64]) -> list[tuple[int, int]]:
     """Returns first and end frames of spans without gaps over `LONGEST_BRIDGE`, in force or time.
 
-    Args:
-        time: (n,) in s, increasing.
-        force: Vertical (n,) in N; NaN if unmeasured.
+    `time` (n,) in s, increasing; `force`: vertical (n,) in N; NaN if unmeasured.
 
     Example:
         >>> measured_spans(np.arange(6) * 0.1, np.array([1.0, 2.0, np.nan, np.nan, np.nan, 0.0]))
@@ -371,13 +360,7 @@ def _crossing(
 
 
 def run_together(force: NDArray[np.float64], rate: float, levels: Levels, contact: Contact) -> int:
-    """Returns number of landings that an offset joins in a contact; 0 if short.
-
-    Args:
-        force: Vertical (n,) in N.
-        rate: Frames a second.
-        levels: Foot's levels.
-        contact: One of the foot's.
+    """Returns number of landings that an offset joins in a contact; 0 if short. `force`: vertical (n,) in N.
 
     Example:
         >>> time = np.arange(0.0, 10.0, 0.01)

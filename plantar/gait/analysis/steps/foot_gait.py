@@ -22,12 +22,9 @@ class Step:
         number: 1 for its foot's first complete contact.
         heel_strike_s: In s.
         toe_off_s: In s.
-        contact: Contact.
         measures: Known ones by key in `plantar.gait.analysis.measures.MEASURES`.
-        regions: Measures of each foot region.
         footprint: Of lengths, arch index and regions.
         region: Index (k,) into `REGIONS` of each cell, -1 for none.
-        used: Whether in the means.
         unused: Why not, or empty.
         odd: Why odd, or empty.
         activity: "walking", "running", "hopping" or empty.
@@ -56,17 +53,14 @@ class FootGait:
     """One foot's recording with events and steps; None for what needs missing geometry.
 
     Attributes:
-        foot: Measurements.
         levels: Force levels of events, None without load.
         contacts: All, also those cut by the recording.
-        steps: Complete, measured.
         cop: CoP (n, 2) of each frame, sole frame in m, averaged over 50 ms; NaN without load.
         cell_threshold: Cells count as loaded above this force (k,) in N.
         picture: Maximum pressure picture (k,) in Pa: mean over steps, of platforms the largest.
         footprint: Of that picture in an insole or sole.
         region: Index (k,) into `REGIONS` of each picture cell, -1 for none.
         sole: Whole insole or sole as footprint.
-        warnings: About the foot.
     """
 
     foot: FootRecording

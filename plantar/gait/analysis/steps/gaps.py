@@ -59,9 +59,7 @@ def _filled_table(foot: FootRecording, most: int) -> NDArray[np.float64]:
 def filled(force: NDArray[np.float64], most: int) -> NDArray[np.float64]:
     """Returns forces (n, k) with short gaps of each cell filled linearly between their ends.
 
-    Args:
-        force: (n, k), NaN if unmeasured.
-        most: Longest filled gap in frames; gaps at the recording's ends stay.
+    `force` (n, k), NaN if unmeasured; `most`: longest filled gap in frames; gaps at the recording's ends stay.
 
     Example:
         >>> filled(np.array([[1.0], [np.nan], [3.0], [np.nan], [np.nan], [6.0], [np.nan]]), 1).ravel().tolist()

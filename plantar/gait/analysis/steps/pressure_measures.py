@@ -48,11 +48,7 @@ def region_measures(
 ) -> list[dict[str, dict[str, float]]]:
     """Returns `REGION_MEASURES` of regions with cells in each contact.
 
-    Args:
-        load: With pressures.
-        region: Index (k,) into `names` of each cell, -1 for none.
-        names: Of the regions.
-        durations: Whole foot's contact times (c,) in s.
+    `region`: index (k,) into `names` of each cell, -1 for none; `durations`: whole foot's contact times (c,) in s.
     """
     assert load.pressure is not None
     order = np.argsort(region, kind="stable")

@@ -36,11 +36,8 @@ _PAUSE = 3.0  # Usual strides without a step that part two segments
 class Segment:
     """Consecutive steps of one activity.
 
-    Attributes:
-        activity: "walking", "running", "hopping" or "standing".
-        begin: First heel strike in s.
-        end: Last toe off in s.
-        steps: Numbers of each foot's steps.
+    `activity`: "walking", "running", "hopping" or "standing"; `begin`: first heel strike in s; `end`: last toe off in
+    s.
     """
 
     activity: str

@@ -19,13 +19,9 @@ NOISE_FRAMES = 5000  # Frames of swing from which a cell's noise is judged: enou
 class StepLoad:
     """Load of k cells in one contact, or in several in sequence.
 
-    Attributes:
-        time: Times (m,) in s.
-        force: Force (m, k) in N.
-        pressure: (m, k) in Pa, counts of raw recordings; None without areas.
-        loaded: Which cells (m, k) are.
-        areas: Areas (k,) in m^2; None without geometry.
-        starts: First frame (c,) of each contact.
+    `time`: times (m,) in s; `force`: force (m, k) in N; `pressure` (m, k) in Pa, counts of raw recordings; None without
+    areas; `loaded`: which cells (m, k) are; `areas`: areas (k,) in m^2; None without geometry; `starts`: first frame
+    (c,) of each contact.
     """
 
     time: NDArray[np.float64]
@@ -62,8 +58,7 @@ class StepLoad:
 class StepLoads:
     """Cuts contacts out of a foot's recording: cell forces, gaps interpolated.
 
-    Args:
-        threshold: Cells count as loaded above this force (k,) in N.
+    `threshold`: cells count as loaded above this force (k,) in N.
     """
 
     def __init__(self, recording: PressureRecording, foot: FootRecording, threshold: NDArray[np.float64]) -> None:

@@ -25,13 +25,7 @@ def step_measures(
 ) -> dict[str, float]:
     """Returns one step's known measures by key that need no other steps.
 
-    Args:
-        recording: Recording.
-        gait: Foot.
-        contact: Complete step.
-        print_: Of lengths and regions; None without geometry.
-        pressures: Pressure measures.
-        load: Of a robot's cells in the step.
+    `print_` of lengths and regions; None without geometry.
     """
     foot = gait.foot
     span = slice(contact.begin, contact.end)
@@ -112,11 +106,8 @@ def force_measures(
 
     The impulse runs from strike to lift; pieces beyond the end frames count as triangles.
 
-    Args:
-        time: Measured frames' times (m,) in contact in s, 2 or more.
-        force: Vertical (m,) in N.
-        strike: Heel strike in s.
-        lift: Toe off in s.
+    `time`: measured frames' times (m,) in contact in s, 2 or more; `force`: vertical (m,) in N; `strike`: heel strike
+    in s; `lift`: toe off in s.
 
     Example:
         >>> t = np.linspace(0.0, 1.0, 201)

@@ -70,12 +70,8 @@ def time_measures(
 ) -> dict[str, float]:
     """Returns time measures of one complete contact; NaN for those of both feet if the other is unmeasured.
 
-    Args:
-        contact: Complete one.
-        previous: Same foot's contact before it.
-        stride: Stride time in s, or NaN.
-        longest: Strike interval in s that holds a pause (`longest_strides`).
-        others: Other foot's contacts, None if not recorded.
+    `stride`: stride time in s, or NaN; `longest`: strike interval in s that holds a pause (`longest_strides`);
+    `others`: other foot's contacts, None if not recorded.
     """
     strike = cast(float, contact.heel_strike)
     lift = cast(float, contact.toe_off)
@@ -102,13 +98,7 @@ def time_measures(
 
 
 class OtherFoot:
-    """Other foot's contacts, as sorted arrays.
-
-    Args:
-        recording: Recording.
-        side: Other foot.
-        contacts: In order.
-    """
+    """Other foot's contacts, as sorted arrays."""
 
     def __init__(self, recording: PressureRecording, side: Side, contacts: Sequence[Contact]) -> None:
         time = recording.time

@@ -46,12 +46,9 @@ _OUTLIER = 0.25
 class SwingLevels:
     """Swings of a foot and its force level, in the force's unit.
 
-    Attributes:
-        places: Frames (m,) with known level, in order.
-        spans: First frame and frame after the last in swing around each place (m, 2).
-        level: Level (n,) under contacts, linear between places.
-        swing: Frames (n,) in swing.
-        span: Force range above the level.
+    `places`: frames (m,) with known level, in order; `spans`: first frame and frame after the last in swing around each
+    place (m, 2); `level`: level (n,) under contacts, linear between places; `swing`: frames (n,) in swing; `span`:
+    force range above the level.
     """
 
     places: NDArray[np.float64]
@@ -64,9 +61,7 @@ class SwingLevels:
 def swing_levels(force: NDArray[np.float64], rate: float) -> SwingLevels | None:
     """Returns level of each swing of a walking foot; None below three swings between contacts.
 
-    Args:
-        force: Vertical (n,), NaN if unmeasured.
-        rate: Frames a second.
+    `force`: vertical (n,), NaN if unmeasured.
 
     Example:
         >>> time = np.arange(0.0, 12.0, 0.01)

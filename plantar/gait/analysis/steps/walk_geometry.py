@@ -16,12 +16,9 @@ _LONGEST_STRIDE = 3.0  # Time in s after which a footprint is not the next one o
 class Place:
     """Place of one step.
 
-    Attributes:
-        time: Heel strike in s.
-        heel: Back of the heel (2,) on the ground in m.
-        axis: Foot direction (2,), heel to toes.
-        forward: Walking direction (2,), if known apart from the steps.
-        walk: Number of the pass, which no length leaves.
+    `time`: heel strike in s; `heel`: back of the heel (2,) on the ground in m; `axis`: foot direction (2,), heel to
+    toes; `forward`: walking direction (2,), if known apart from the steps; `walk`: number of the pass, which no length
+    leaves.
     """
 
     time: float

@@ -36,10 +36,7 @@ class Comparison:
     """Conditions A and B of a study; curves, maps and tests are None with too few participants.
 
     Attributes:
-        a: Name of A.
-        b: Name of B.
         paired: Whether the same participants are in both.
-        effects: Difference B - A by measure.
         curve_unit: "N", "counts" or "% of body weight".
         curves: Mean vertical force curves (participants, 101) of A and B.
         curve_test: Where they differ.
@@ -47,7 +44,6 @@ class Comparison:
         map_test: Where they differ, among `places`.
         places: Map places (36, 14) that every participant has.
         note: Why nothing was compared, or empty.
-        doubts: Of the comparison.
     """
 
     a: str

@@ -47,19 +47,15 @@ class RecordingResult:
     """Result of one recording in a study.
 
     Attributes:
-        who: Participant.
         digest: File's SHA-256.
         key: Digest of file, options and version (`key_of`).
         format: Format's name; empty if unreadable.
         error: Why not measured, or empty.
-        raw: Whether values are counts.
         rows: A row a step, with every measure; None if unknown.
         feet: Each foot's mean of each measure, and "steps" used.
         curves: Each foot's mean vertical force (101,) in N over the stance.
         maps: Each foot's mean maximum pressure `GRID` in Pa, heel to toes, lateral to medial, NaN off the sole.
         warnings: What was assumed.
-        walk: Measures of the whole walk.
-        sensor: Its kind and cells (`sensor_of`).
     """
 
     who: Participation
@@ -108,9 +104,6 @@ def measure_recording(
     """Returns result of one recording in a study's folder.
 
     Args:
-        folder: Study's folder.
-        who: Recording and participant.
-        choices: Steps in the means, and events.
         digest: SHA-256 of the file.
         options: Known of all files; the table overrides. PlantarError if unreadable.
     """
@@ -217,10 +210,8 @@ def sampled(
 ) -> NDArray[np.float64]:
     """Returns map of cell values at the places of `GRID`: nearest cell's, or NaN if far.
 
-    Args:
-        points: Cell centres (k, 2), forward and medial.
-        values: Their values (k,).
-        corners: Points (m, 2) spanning the sole.
+    `points`: cell centres (k, 2), forward and medial; `values`: their values (k,); `corners`: points (m, 2) spanning
+    the sole.
     """
     low = corners.min(axis=0)
     extent = np.ptp(corners, axis=0)

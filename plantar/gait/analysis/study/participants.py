@@ -43,16 +43,11 @@ class Participation:
 
     Attributes:
         file: Path relative to the study's folder.
-        participant: Name; the file's stem where no table states it.
         condition: Name of the condition, or empty.
         mass_kg: Body mass in kg.
         foot_length_m: In m.
         side: "left" or "right" for a one-foot file that does not name it.
-        insole_size: Of a pedar insole.
-        unit: Of the values.
-        rate_hz: Frames a second.
         layout: Layout file relative to the study's folder.
-        more: Other columns.
         listed: Whether the table names the file.
     """
 
@@ -75,10 +70,6 @@ def read_participants(path: str | os.PathLike[str]) -> list[Participation]:
 
     Columns file, participant and condition; optionally mass_kg, foot_length_m (or _mm, _cm), side, insole_size, unit,
     rate_hz and layout; others are carried through.
-
-    Raises:
-        FormatError: Without rows, columns, unique files.
-        InputError: If a value is impossible.
     """
     table = read_text_table(path, FormatError)
     names = table.names

@@ -41,11 +41,8 @@ _SKIPPED_FORMATS = ("image",)
 class Study:
     """Measured study.
 
-    Attributes:
-        results: One a recording; `error` has the reason of unmeasured ones.
-        comparisons: Every two conditions.
-        choices: Steps in the means, and events.
-        files: Written files.
+    `results`: one a recording; `error` has the reason of unmeasured ones; `comparisons`: every two conditions;
+    `choices`: steps in the means, and events.
     """
 
     results: Sequence[RecordingResult]

@@ -26,20 +26,9 @@ _CONFIDENCE = 0.95
 class Effect:
     """Difference of a measure between conditions A and B.
 
-    Attributes:
-        paired: Whether the same participants are in both.
-        n_a: Participants in A; or pairs.
-        n_b: Participants in B.
-        mean_a: Mean in A.
-        mean_b: Mean in B.
-        difference: B less A.
-        low: Lower end of its 95 % confidence interval.
-        high: Upper end.
-        effect_size: Hedges' g; NaN without spread.
-        effect_low: Lower end of its 95 % confidence interval.
-        effect_high: Upper end.
-        p: Probability of such |t| by chance, by permutation.
-        p_all: Same of the largest |t| of all.
+    `paired`: whether the same participants are in both; `low`: lower end of its 95 % confidence interval;
+    `effect_size`: hedges' g; NaN without spread; `effect_low`: lower end of its 95 % confidence interval; `p`:
+    probability of such |t| by chance, by permutation.
     """
 
     paired: bool
@@ -89,9 +78,7 @@ class PermutationTest:
 def student_quantile(probability: float, freedom: float) -> float:
     """Returns Student's t quantile above the median, to about 1e-6 of it, by bisection of its integral.
 
-    Args:
-        probability: 0.5 or more, below 1.
-        freedom: Degrees of freedom, 1 or more.
+    `probability`: 0.5 or more, below 1; `freedom`: degrees of freedom, 1 or more.
 
     Example:
         >>> round(student_quantile(0.975, 9.0), 4), round(student_quantile(0.975, 1e6), 3)
@@ -119,12 +106,7 @@ def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: f
     of Hedges & Olkin 1985, *Statistical Methods for Meta-Analysis*, ch. 5; of pairs with that of their changes next to
     the pooled one.
 
-    Args:
-        a: Values (n,) in A, two or more.
-        b: Values (m,) in B; of pairs in the same order.
-        paired: Whether they are pairs.
-        p: In a permutation test alone.
-        p_all: Among all measures.
+    `a`: values (n,) in A, two or more; `b`: values (m,) in B; of pairs in the same order.
 
     Example:
         >>> effect = effect_of(np.array([1.0, 2.0, 3.0]), np.array([2.0, 3.0, 4.0]), False, 0.4, 0.4)
@@ -185,12 +167,8 @@ def permutation_test(
 ) -> PermutationTest:
     """Returns where two conditions differ, corrected for all values.
 
-    Args:
-        a: Samples (n, k) of A, two or more.
-        b: Samples (m, k) of B; of pairs in the same order.
-        paired: Whether they are pairs.
-        neighbours: Of each value, for clusters; each value is one by itself where None.
-        permutations: Number drawn where there are more.
+    `a`: samples (n, k) of A, two or more; `b`: samples (m, k) of B; of pairs in the same order; `neighbours` of each
+    value, for clusters; each value is one by itself where None; `permutations`: number drawn where there are more.
 
     Example:
         >>> random = np.random.default_rng(0)

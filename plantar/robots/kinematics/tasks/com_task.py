@@ -9,11 +9,7 @@ from plantar.robots.kinematics.tasks.task import Target, Task, chain
 
 
 class ComTask(Task):
-    """A body and its descendants: CoM at a world point.
-
-    Attributes:
-        target: Point (3,) in m, copied where it is set.
-    """
+    """A body and its descendants: CoM at a world point. `target`: point (3,) in m, copied where it is set."""
 
     rows = 3
     lengths = 3

@@ -13,9 +13,7 @@ from plantar.robots.kinematics.tasks.task import Target, Task, chain
 class PoseTask(Task):
     """A site at a position and an orientation of the world.
 
-    Attributes:
-        position: Origin (3,) in m, copied where it is set.
-        rotation: Rotation (3, 3) from site to world, likewise.
+    `position`: origin (3,) in m, copied where it is set; `rotation`: rotation (3, 3) from site to world, likewise.
     """
 
     rows = 6
@@ -56,11 +54,7 @@ class PoseTask(Task):
 
 
 class OrientationTask(Task):
-    """A body at an orientation in the world.
-
-    Attributes:
-        target: Rotation (3, 3) from body to world, copied where it is set.
-    """
+    """A body at an orientation in the world. `target`: rotation (3, 3) from body to world, copied where it is set."""
 
     rows = 3
     target = Target()

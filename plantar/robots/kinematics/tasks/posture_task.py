@@ -10,11 +10,7 @@ from plantar.robots.kinematics.tasks.task import Task
 
 
 class PostureTask(Task):
-    """Hinge and slide joints at given positions.
-
-    Attributes:
-        target: Positions (k,) in rad or m.
-    """
+    """Hinge and slide joints at given positions. `target`: positions (k,) in rad or m."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, joints: Sequence[int]) -> None:
         self.rows = len(joints)

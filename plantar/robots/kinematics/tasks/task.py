@@ -34,10 +34,7 @@ class Task(ABC):
     The error is the missing displacement: a small step dq with J dq = error removes it. Both are read after
     `mj_kinematics` and `mj_comPos`.
 
-    Attributes:
-        rows: Rows of error and Jacobian.
-        lengths: Number of first rows in m; the others are in rad.
-        level: Priority where tasks conflict, lower first.
+    `lengths`: number of first rows in m; the others are in rad; `level`: priority where tasks conflict, lower first.
     """
 
     rows: int
@@ -55,12 +52,8 @@ class Task(ABC):
     def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
         """A kernel that writes both at once, or None.
 
-        Args:
-            error: Receives the error (rows,), but for turns over 90 degrees, which `error` writes.
-            jacobian: Receives the Jacobian (rows, nv); zeros without another writer.
-
-        Returns:
-            The kernel.
+        `error`: receives the error (rows,), but for turns over 90 degrees, which `error` writes; `jacobian`: receives
+        the Jacobian (rows, nv); zeros without another writer.
         """
         return None
 

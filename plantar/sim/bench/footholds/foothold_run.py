@@ -22,11 +22,8 @@ _SIDEWAYS = {"steps": _STEPS, "length": 0.0, "sideways": "2/15 leg"}
 class Trial(NamedTuple):
     """A kind of ground or push at one difficulty.
 
-    Attributes:
-        kind: "beam", "stones", "slopes", "steps" or "push".
-        value: Difficulty, in unit.
-        unit: What the value is a share of.
-        tables: Tables of scene.
+    `kind`: "beam", "stones", "slopes", "steps" or "push"; `value`: difficulty, in unit; `unit`: what the value is a
+    share of.
     """
 
     kind: str
@@ -87,11 +84,8 @@ _STAY = 1.0  # s that the robot has to stay up after its last step
 class FootholdResult(NamedTuple):
     """What came of a run.
 
-    Attributes:
-        completed: Whether all steps were taken in place without a fall.
-        tilt: Largest tilt of torso in degrees.
-        froude: v^2 / (g l), v the way over the time from first to last step.
-        time: Simulated time in s.
+    `completed`: whether all steps were taken in place without a fall; `tilt`: largest tilt of torso in degrees;
+    `froude`: v^2 / (g l), v the way over the time from first to last step; `time`: simulated time in s.
     """
 
     completed: bool

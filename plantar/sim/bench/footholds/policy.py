@@ -22,15 +22,9 @@ from plantar.robots.controller import JointTargets, RobotController, load_contro
 class WalkTask:
     """What a policy knows of a trial: the walk on level ground.
 
-    Attributes:
-        robot: Name or file.
-        joints: Names of its k leg joints, in order of all joint vectors.
-        period: Time in s between calls of `step`.
-        stance: Joint angles (k,) in rad and torques (k,) in N m at time 0.
-        feet: At the start.
-        steps: Footsteps to take, in order, world frame.
-        end: Time in s the built-in controller needs; a run has 1.5 times that.
-        walk: A scene's [walk] table.
+    `joints`: names of its k leg joints, in order of all joint vectors; `period`: time in s between calls of `step`;
+    `stance`: joint angles (k,) in rad and torques (k,) in N m at time 0; `steps`: footsteps to take, in order, world
+    frame; `end`: time in s the built-in controller needs; a run has 1.5 times that.
     """
 
     robot: str
@@ -77,11 +71,7 @@ class OwnController(Policy):
 
 
 def load_policy(path: str | os.PathLike[str]) -> Any:
-    """Run a Python file and return its `make_policy`.
-
-    Raises:
-        InputError: If it cannot be run or lacks that.
-    """
+    """Run a Python file and return its `make_policy`."""
     file = Path(path)
     spec = importlib.util.spec_from_file_location(file.stem, file) if file.is_file() else None
     if spec is None or spec.loader is None:

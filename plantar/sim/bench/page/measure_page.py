@@ -23,9 +23,8 @@ _SEED = 1000  # a fresh one: nothing was ever tuned on it
 def measure_papers(progress: Progress, quick: bool = False) -> dict[str, Any]:
     """Run the experiments with printed figures, without long ones if `quick`; `progress` gets fraction and text.
 
-    Returns:
-        "experiments": each with the paper's figures and source, ours by the same names, and whether each robot fell;
-        plain JSON values. "files": none.
+    Returns "experiments": each with the paper's figures and source, ours by the same names, and whether each robot
+    fell; plain JSON values. "files": none.
     """
     kept = [
         (e, e.settings + ablation, printed, fell)

@@ -62,9 +62,7 @@ class _SpheresBelow:
 class ChangedRun(Simulation):
     """A scene, run with a setting.
 
-    Args:
-        walk: Settings of scene in every run, such as a number of steps.
-        noisy: Whether sensors have the scene's noise.
+    `walk`: settings of scene in every run, such as a number of steps; `noisy`: whether sensors have the scene's noise.
     """
 
     def __init__(
@@ -110,13 +108,9 @@ def _layouts(robot: Robot, ratio: float) -> dict[Side, SoleLayout]:
 class Trace:
     """True motion and forces of a run, in k means over 10 ms.
 
-    Attributes:
-        com: Centre of mass (k, 3) in m.
-        zmp: ZMP (k, 2) of mean wrench in m, or NaN.
-        force: Vertical ground force (k, 2) on left and right sole in N.
-        landings: Side, time in s and largest force in N of each.
-        leg: Leg length in m.
-        weight: In N.
+    `com`: centre of mass (k, 3) in m; `zmp`: ZMP (k, 2) of mean wrench in m, or NaN; `force`: vertical ground force (k,
+    2) on left and right sole in N; `landings`: side, time in s and largest force in N of each; `leg`: leg length in m;
+    `weight` in N.
     """
 
     com: NDArray[np.float64]
@@ -128,11 +122,7 @@ class Trace:
 
 
 class TracedRun(ChangedRun):
-    """A changed run whose motion and ground forces are kept.
-
-    Attributes:
-        keeping_s: CPU time in s of keeping them.
-    """
+    """A changed run whose motion and ground forces are kept. `keeping_s`: CPU time in s of keeping them."""
 
     def __init__(self, *args: Any, **named: Any) -> None:
         super().__init__(*args, **named)
@@ -194,10 +184,8 @@ _SAME_LANDING = 0.05  # s between landings of two runs that are the same landing
 class TraceError(NamedTuple):
     """Root mean square differences until the runs part.
 
-    Attributes:
-        force: Of the vertical sole forces, over the body's weight.
-        impact: Of the landings' impacts until then, over the reference's; NaN for none.
-        together_s: Time until the runs part, or end.
+    `force` of the vertical sole forces, over the body's weight; `impact` of the landings' impacts until then, over the
+    reference's; NaN for none.
     """
 
     com_m: float

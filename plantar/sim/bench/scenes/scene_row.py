@@ -19,8 +19,6 @@ class SceneRow:
     """A scene's setting next to its reference. Medians; NaN if not measured.
 
     Attributes:
-        walk: Settings of scene in all runs.
-        against: Name of setting compared with.
         machine: Whether it is another robot.
         cpu: CPU time in s of a simulated second; `ratio` over the scene's own.
         com_mm: Root mean square error in mm until the runs part; `zmp_mm` likewise.

@@ -32,11 +32,7 @@ class SceneCase(NamedTuple):
 
 
 class SceneRuns:
-    """The table of runs in a folder, and the missing runs.
-
-    Raises:
-        InputError: If the file is no such table.
-    """
+    """The table of runs in a folder, and the missing runs."""
 
     def __init__(self, folder: Path) -> None:
         self._table = GrowingTable(folder / TABLE, COLUMNS, "scene runs")

@@ -11,15 +11,12 @@ class SceneSetting:
     """One way to run a scene.
 
     Attributes:
-        value: In words.
         settings: Of the scene, as `key=value`.
         contact_time: Time constant in s of contacts, or None.
         iterations: Most iterations of MuJoCo's solver, or None.
         points: Spheres a taxel under each sole; 0 for its box.
         cell_ratio: Area of taxels over the robot's own.
-        against: Name of setting compared with.
         machine: Whether it is another robot (its skin, its clock).
-        quick: Whether quick runs have it.
         costly: Whether only the first seed runs.
     """
 

@@ -60,11 +60,7 @@ _RATES = ("sensing.skin_rate", (50.0, 125.0, 250.0, 1000.0)), ("control.period",
 class Scenario:
     """One stress run, determined by its values.
 
-    Attributes:
-        number: The seed of drawing and run.
-        settings: Changes of scene, as `key=value`.
-        place: Start: x and y in m, heading in rad.
-        faults: Of its sensors.
+    `settings`: changes of scene, as `key=value`; `place`: start: x and y in m, heading in rad.
     """
 
     number: int

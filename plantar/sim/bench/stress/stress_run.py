@@ -81,11 +81,8 @@ FAILURES = ("raised", "not finite", "jump", "out of bounds")
 class Outcome(NamedTuple):
     """What came of a run.
 
-    Attributes:
-        kind: "ended", "fell", "stopped" (controller in a safe state), "refused" (by scene), "unstable" (physics), or
-            one of `FAILURES`.
-        detail: In words.
-        time: Simulated time in s.
+    `kind`: "ended", "fell", "stopped" (controller in a safe state), "refused" (by scene), "unstable" (physics), or one
+    of `FAILURES`; `time`: simulated time in s.
     """
 
     kind: str

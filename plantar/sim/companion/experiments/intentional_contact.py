@@ -70,12 +70,7 @@ class ReachSettings(Settings):
 
 
 class IntentionalContactExperiment(Experiment):
-    """A layout drawn by the seed; done after half a second at the goal.
-
-    Attributes:
-        start_tip: The tip in its first place.
-        layout: Goal and obstacles.
-    """
+    """A layout drawn by the seed; done after half a second at the goal."""
 
     settings_type = ReachSettings
     control_type = ReachControl

@@ -37,13 +37,8 @@ def come_and_go(time: float, start: float, end: float, ramp: float) -> float:
 class Push:
     """One push on a link.
 
-    Attributes:
-        start: In s.
-        end: In s.
-        along: Place in m along the link's z axis.
-        angle: Direction about it of push, in rad from the link's x axis.
-        radius: Distance of surface and axis in m.
-        force: In N.
+    `start` in s; `end` in s; `along`: place in m along the link's z axis; `angle`: direction about it of push, in rad
+    from the link's x axis; `radius`: distance of surface and axis in m; `force` in N.
     """
 
     start: float
@@ -96,12 +91,8 @@ class Fist:
 class Visit:
     """One visit of a person.
 
-    Attributes:
-        start: In s.
-        end: In s.
-        goal: Nearest place (2,) in m, in the base's frame at the start.
-        far: First place (2,), likewise.
-        speed: In m/s.
+    `start` in s; `end` in s; `goal`: nearest place (2,) in m, in the base's frame at the start; `far`: first place
+    (2,), likewise; `speed` in m/s.
     """
 
     start: float

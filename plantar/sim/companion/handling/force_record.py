@@ -13,11 +13,7 @@ _SHADES = {"touch": "#8fd19e", "person": "#f1a7a9", "turn": "#ffe08a", "circle":
 
 
 class ForceRecord:
-    """Samples of the truth.
-
-    Attributes:
-        rows: Time, wanted and true force, distance, moment (3,), hand (3,), base (3,), tilt.
-    """
+    """Samples of the truth. `rows`: time, wanted and true force, distance, moment (3,), hand (3,), base (3,), tilt."""
 
     def __init__(self) -> None:
         self.rows: list[list[float]] = []

@@ -79,14 +79,9 @@ class HandControl(CompanionControl):
 class HandController(Controller):
     """Controls distance or force of the hand, its orientation, and its guidance or place.
 
-    Args:
-        machine: A mobile base, patches "hand" on the hand's link and others on arm.
-
-    Attributes:
-        force: First task: force or distance.
-        posture: Task of lowest level; its target and target velocity may be changed.
-        wanted_force: f_d in N.
-        phases: Present arrangement of tasks.
+    `machine`: a mobile base, patches "hand" on the hand's link and others on arm. Attributes `posture`: task of lowest
+    level; its target and target velocity may be changed; `wanted_force`: f_d in N; `phases`: present arrangement of
+    tasks.
     """
 
     def __init__(self, machine: Machine, skin: BodySkin, settings: HandControl) -> None:

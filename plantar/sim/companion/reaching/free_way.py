@@ -19,11 +19,8 @@ _UPRIGHT = 0.999  # of an axis, from which it counts as vertical
 class Tip(NamedTuple):
     """A tip, and a ball inside of its link.
 
-    Attributes:
-        place: Of the tip (3,) at first in m.
-        middle: Of the ball (3,) at first in m.
-        radius: Of the ball in m.
-        lifts: Whether it can leave its height.
+    `place` of the tip (3,) at first in m; `middle` of the ball (3,) at first in m; `radius` of the ball in m; `lifts`:
+    whether it can leave its height.
     """
 
     place: NDArray[np.float64]

@@ -22,11 +22,7 @@ _RING = 9  # posts about the goal, three of which, on the tip's side, can be mov
 class Post:
     """An upright cylinder.
 
-    Attributes:
-        name: Of its body and geom.
-        place: (2,) at first in m.
-        radius: In m.
-        friction: Force in N below which it does not slide; 0 if fixed.
+    `place` (2,) at first in m; `radius` in m; `friction`: force in N below which it does not slide; 0 if fixed.
     """
 
     name: str

@@ -66,14 +66,8 @@ class ReachControl(CompanionControl):
 class ReachController(Controller):
     """Tasks, policy and transitions.
 
-    Args:
-        machine: The machine; joints of a mobile base are held.
-        tip: Link of tip, and tip (3,) in its frame in m.
-        force_limit: Tolerable force in N.
-
-    Attributes:
-        goal: Task of the tip's position.
-        signs: Inputs of the policy's choice.
+    `machine`: the machine; joints of a mobile base are held; `tip`: link of tip, and tip (3,) in its frame in m;
+    `force_limit`: tolerable force in N. Attributes `goal`: task of the tip's position.
     """
 
     def __init__(

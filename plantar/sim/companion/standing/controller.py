@@ -48,16 +48,9 @@ class StandingControl(CompanionControl):
 class StandingController(Controller):
     """Runs a stack on a stance, by the measured robot put on its feet.
 
-    Args:
-        stance: The standing feet, fixed to first places.
-        levels: Tasks by priority, below support.
-        balance: Task of centre of mass that leans against contacts, or None.
-        before: Called with machine and filtered reading before each step.
-
-    Attributes:
-        active: Active instances at each step.
-        took: Time of each step in us.
-        torque: Torque (k,) of the last step in N m.
+    `stance`: the standing feet, fixed to first places; `levels`: tasks by priority, below support; `balance`: task of
+    centre of mass that leans against contacts, or None; `before`: called with machine and filtered reading before each
+    step. Attributes `took`: time of each step in us; `torque`: torque (k,) of the last step in N m.
     """
 
     def __init__(

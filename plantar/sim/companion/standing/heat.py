@@ -37,11 +37,7 @@ class PlateSettings(Settings):
 
 
 class HotPlate:
-    """A level round plate, upper face about `middle` (3,) in m.
-
-    Attributes:
-        temperature: Of the taxels (count,) in degC.
-    """
+    """A level round plate, upper face about `middle` (3,) in m. `temperature` of the taxels (count,) in degC."""
 
     def __init__(self, middle: NDArray[np.float64], settings: PlateSettings, count: int) -> None:
         self.settings = settings

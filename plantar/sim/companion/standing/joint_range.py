@@ -11,12 +11,9 @@ from plantar.wholebody.tasks.task import Demand, Task
 class JointRange(Task):
     """Pushes back joints near an end of their range, one row each.
 
-    Args:
-        low: Lower ends (k,) in rad or m, in order of `RobotDynamics.joints`; -inf for none.
-        high: Upper ends (k,).
-        margin: Distance to an end in rad or m where pushing begins.
-        stiffness: Torque in N m per rad of used margin, one or (k,).
-        damping: Torque in N m per rad/s towards the end, one or (k,).
+    `low`: lower ends (k,) in rad or m, in order of `RobotDynamics.joints`; -inf for none; `high`: upper ends (k,);
+    `margin`: distance to an end in rad or m where pushing begins; `stiffness`: torque in N m per rad of used margin,
+    one or (k,); `damping`: torque in N m per rad/s towards the end, one or (k,).
     """
 
     def __init__(

@@ -58,11 +58,7 @@ class LeanControl(StandingControl):
 class Aim:
     """Integrates a soft task's error: 20 N move it by a centimetre.
 
-    Args:
-        axes: Factor (3,) of each axis; 0 for none.
-
-    Attributes:
-        ahead: How far (3,) it aims beyond the target in m.
+    `axes`: factor (3,) of each axis; 0 for none. Attributes `ahead`: how far (3,) it aims beyond the target in m.
     """
 
     def __init__(self, axes: NDArray[np.float64]) -> None:
@@ -82,9 +78,7 @@ class LeanController(Controller):
     Feet and forearm share the load within their friction cones, the forearm as its skin measures it, else at the
     table's expected place. Of the `experiment` only stance and first posture are used.
 
-    Attributes:
-        began: Begin of each phase in s by name.
-        areas: Measured supported part of each sole, about its middle.
+    `began`: begin of each phase in s by name; `areas`: measured supported part of each sole, about its middle.
     """
 
     def __init__(self, experiment: StandingExperiment, skin: BodySkin) -> None:

@@ -22,16 +22,9 @@ _SETTLE = 60.0  # 1/s: how fast its force is corrected
 class Pad:
     """A moved cylinder or box; its face stays on a taxel's normal.
 
-    Args:
-        name: Body and geom are called "pad " and this.
-        taxel: Index in patch of taxel at middle of its face.
-        face: Radius in m.
-        stiffness: Of the skin under its face in N/m, about.
-
-    Attributes:
-        wanted: Force in N; 0 or less lifts it off.
-        parked: Whether it is far away.
-        middle: Middle (3,) of its face on link, link frame, in m.
+    `name`: body and geom are called "pad " and this; `taxel`: index in patch of taxel at middle of its face; `face`:
+    radius in m; `stiffness` of the skin under its face in N/m, about. Attributes `wanted`: force in N; 0 or less lifts
+    it off; `parked`: whether it is far away; `middle`: middle (3,) of its face on link, link frame, in m.
     """
 
     def __init__(self, name: str, patch: SkinPatch, taxel: int, face: float, stiffness: float) -> None:

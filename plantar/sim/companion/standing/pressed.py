@@ -63,11 +63,7 @@ class PressedSettings(Settings):
 
 
 class PressedExperiment(StandingExperiment):
-    """Pads press on the instances of a skin task.
-
-    Attributes:
-        instances: Instances of direct interaction and their patches.
-    """
+    """Pads press on the instances of a skin task. `instances`: instances of direct interaction and their patches."""
 
     settings_type: ClassVar = PressedSettings
     columns: ClassVar = (

@@ -33,16 +33,8 @@ def add_floor(spec: Any, carries: bool = True) -> None:
 class Stance:
     """Feet at known places on the ground.
 
-    Args:
-        model: MjModel of machine alone.
-        sides: Standing feet: "left", "right" or both.
-
-    Attributes:
-        feet: Middle (3,) of each standing sole by its link, link frame, in m.
-        places: That point (3,) in the world in m.
-
-    Raises:
-        RobotError: If the foot is missing.
+    `model`: MjModel of machine alone; `sides`: standing feet: "left", "right" or both. Attributes `feet`: middle (3,)
+    of each standing sole by its link, link frame, in m; `places`: that point (3,) in the world in m.
     """
 
     def __init__(self, model: Any, sides: Sequence[str]) -> None:
@@ -117,11 +109,7 @@ class Stance:
 
 
 def sole_point(model: Any, side: str) -> tuple[str, NDArray[np.float64]]:
-    """Returns the foot link of a `side` of `model`, and its sole's middle (3,), link frame, in m.
-
-    Raises:
-        RobotError: If the foot is missing.
-    """
+    """Returns the foot link of a `side` of `model`, and its sole's middle (3,), link frame, in m."""
     site = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, SOLE_SITE.format(side=side))
     geom = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, f"{side}_sole_box")
     if site < 0 or geom < 0:

@@ -38,16 +38,10 @@ _CARRIED = 4  # looks over which the centre of pressure is taken
 class StandingExperiment(Experiment):
     """A machine on one foot or two, judged by the true contacts.
 
-    Attributes:
-        skin: The machine's.
-        weight: In N.
-        pads: Pads that press on it.
-        sides: Feet that it stands on.
-        com_height: Wanted height in m of the centre of mass above the feet; None: the posture's.
-        roll: Of the base in degrees; towards the only foot it stands on it relieves that hip.
-        cop_margin_least: Least distance in mm of the true centre of pressure to the soles' edge.
-        posture: Joints in degrees that differ from the machine's.
-        lift: Height in m of a foot that does not stand.
+    `weight` in N; `com_height`: wanted height in m of the centre of mass above the feet; None: the posture's; `roll` of
+    the base in degrees; towards the only foot it stands on it relieves that hip; `cop_margin_least`: least distance in
+    mm of the true centre of pressure to the soles' edge; `posture`: joints in degrees that differ from the machine's;
+    `lift`: height in m of a foot that does not stand.
     """
 
     control_type: ClassVar = StandingControl

@@ -12,10 +12,7 @@ from plantar.sim.companion.experiment import AWAY, add_moved
 class Visitor:
     """A moved body without weight or collision, which only skin measures.
 
-    Args:
-        name: Of body and geom.
-        size: Of the geom (3,) in m.
-        face: Distance in m from middle to front.
+    `size` of the geom (3,) in m; `face`: distance in m from middle to front.
     """
 
     def __init__(self, name: str, kind: Any, size: tuple[float, float, float], face: float) -> None:
