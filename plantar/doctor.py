@@ -15,6 +15,7 @@ from plantar.errors import DependencyError
 LIBRARIES: dict[str, dict[str, str]] = {
     "": {
         "numpy": "numpy",
+        "scipy": "scipy",
         "shapely": "shapely",
         "typer": "typer",
         "rich": "rich",
@@ -30,11 +31,9 @@ LIBRARIES: dict[str, dict[str, str]] = {
         "fonttools": "fontTools",
         "pycollada": "collada",
         "trimesh": "trimesh",
-        "scipy": "scipy",
     },
     "sim": {
         "mujoco": "mujoco",
-        "scipy": "scipy",
         "opencv-contrib-python-headless": "cv2",
         "daqp": "daqp",
         "pycollada": "collada",
