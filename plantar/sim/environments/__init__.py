@@ -1,4 +1,8 @@
-"""Gymnasium environments with plantar skin: `gymnasium.make("PlantarWalk-v0", robot="my_robot.toml")`."""
+"""Gymnasium environments with plantar skin: `gymnasium.make("plantar.sim.environments:PlantarWalk-v0", robot="h1")`.
+
+Gymnasium 1.0 and newer load no entry points: an id is known once this module is imported, which the part before the
+colon does.
+"""
 
 from importlib.util import find_spec
 
@@ -32,5 +36,5 @@ def register() -> None:
             )
 
 
-if find_spec("gymnasium") and find_spec("mujoco"):  # for "plantar.sim.environments:PlantarWalk-v0"
+if find_spec("gymnasium") and find_spec("mujoco"):
     register()
