@@ -73,7 +73,7 @@ def simulation(robot: str) -> Any:
     from plantar.sim.run.runner import Simulation
     from plantar.sim.run.scene import load_scene
 
-    return Simulation(load_scene("push-step", ["push.impulse=0", "push.small=0", "push.verdict=walk"], robot), 0)
+    return Simulation(load_scene("push-step", ["push.impulse=0", "push.small=0", "outcome=none"], robot), 0)
 
 
 def settings(cell: Cell, impulse: float) -> tuple[str, ...]:
@@ -83,7 +83,7 @@ def settings(cell: Cell, impulse: float) -> tuple[str, ...]:
     cycle = (single + cell.phase * whole) / (2.0 * whole)
     return (
         "push.small=0",
-        "push.verdict=walk",
+        "outcome=none",
         "direction=angle",
         "push.with_swing=false",
         "push.duration=0.1",

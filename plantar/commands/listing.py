@@ -16,7 +16,7 @@ def list_(
     ] = None,
     name: Annotated[
         str | None,
-        Argument(help="settings: a table or a setting, such as estimator or balance.dcm_gain; papers: one of them."),
+        Argument(help="settings: a table or a setting, such as estimator or balance.dcm_gain; papers, scenes: one."),
     ] = None,
     robot: Annotated[
         str | None, Option(help="settings: the robot whose numbers are shown where a default is a share of its body.")
@@ -24,6 +24,8 @@ def list_(
     as_json: Json = False,
 ) -> None:
     """List what there is: robots to walk, scenes to run, recording formats to analyse, settings to change.
+
+    `plantar list scenes NAME` shows what a scene's experiment has to show to be completed.
 
     Papers are presets: `--set paper=K` sets what a paper states of a scene; `plantar list papers K` lists it.
 
@@ -48,7 +50,7 @@ def list_(
         _print_names("kinds", kinds, as_json)
         return
     for given, words in ((name, "name"), (robot, "robot")):
-        if given is not None and what != "settings" and (what, words) != ("papers", "name"):
+        if given is not None and what != "settings" and (what, words) not in (("papers", "name"), ("scenes", "name")):
             raise InputError(f"'list {what}' takes no {words}, got '{given}'; allowed: plantar list settings NAME")
     if what == "settings":
         need_libraries("sim", "mujoco")
@@ -57,6 +59,12 @@ def list_(
 
         found = settings_of_robot(name, robot)
         end_command({what: setting_rows(found)}, as_json, setting_text(found))
+        return
+    if name is not None and what == "scenes":
+        from plantar.sim.run.listing import scene_row, scene_text
+
+        row = scene_row(name)
+        end_command({what: [row]}, as_json, scene_text(row))
         return
     if name is not None:
         from plantar.sim.papers.preset import paper_rows, paper_text

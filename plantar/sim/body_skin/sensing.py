@@ -102,6 +102,7 @@ class SkinSensor:
         self.temperature: NDArray[np.float64] | None = None
         self.cast = 0
         self.skipped = 0
+        self._applied = np.zeros((model.nbody, 6))
         self._time = -np.inf
         self._period = 0.0
         self._geoms = np.array(geoms, dtype=np.int64)
@@ -139,6 +140,10 @@ class SkinSensor:
         """True normal force on a patch in N."""
         return float(self.force[self.skin.slices[patch]].sum())
 
+    def add_applied(self, forces: NDArray[np.float64]) -> None:
+        """Add to `forces` (bodies, 6) what it applies now, as MuJoCo's `xfrc_applied`."""
+        forces += self._applied
+
     def _clear(self, data: Any) -> None:
         self.force[:] = 0.0
         self.distance[:] = np.inf
@@ -146,6 +151,7 @@ class SkinSensor:
         for wrench in self.on_obstacles.values():
             wrench[:] = 0.0
         data.xfrc_applied[self._touched] = 0.0
+        self._applied[self._touched] = 0.0
 
     def _feel(self, data: Any, patch: _Patch, obstacles: list[int]) -> None:
         rotation = data.xmat[patch.body].reshape(3, 3)
@@ -190,8 +196,9 @@ class SkinSensor:
         self.wrenches[patch.link, :3] += total
         self.wrenches[patch.link, 3:] += about_origin - np.cross(data.xpos[body], total)
         for target, sign in ((body, 1.0), (obstacle.body, -1.0)):
-            data.xfrc_applied[target, :3] += sign * total
-            data.xfrc_applied[target, 3:] += sign * (about_origin - np.cross(data.xipos[target], total))
+            for forces in (data.xfrc_applied, self._applied):
+                forces[target, :3] += sign * total
+                forces[target, 3:] += sign * (about_origin - np.cross(data.xipos[target], total))
         reaction = self.on_obstacles[obstacle.name]
         reaction[:3] -= total
         reaction[3:] -= about_origin - np.cross(data.geom_xpos[obstacle.geom], total)

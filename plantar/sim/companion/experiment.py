@@ -115,6 +115,7 @@ class Experiment:
         settings_type: Class of the scene's table `[experiment]`.
         control_type: Class of the scene's table `[control]`: the controller's gains and switches.
         columns: Names of those figures that a sweep writes into columns.
+        claims: What it shows, by criterion: what `verdict` looks at.
         uses_lidar: Whether the controller's `scan` takes nearest points (m, 2) of things, base frame, in m.
         view: Body that a video follows (the base where empty), and from where.
     """
@@ -122,6 +123,7 @@ class Experiment:
     settings_type: ClassVar[type[Settings]] = Settings
     control_type: ClassVar[type[CompanionControl]] = CompanionControl
     columns: ClassVar[tuple[str, ...]] = ()
+    claims: ClassVar[Mapping[str, str]] = {}
     uses_lidar: ClassVar[bool] = False
     view: ClassVar[tuple[str, View]] = ("", View())
 
@@ -214,6 +216,10 @@ class CompanionScene:
             return "robot"
         kinds = {section: kind.names() for section, kind in companion_tables(self.kind).items()}
         return ".".join(owner_of(key.strip(), "", kinds))
+
+    def claims(self) -> dict[str, str]:
+        """What its experiment shows, by criterion."""
+        return dict(self.experiment_type.claims)
 
     @property
     def experiment_type(self) -> type[Experiment]:

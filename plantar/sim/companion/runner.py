@@ -11,6 +11,7 @@ import mujoco
 import numpy as np
 
 from plantar.errors import SceneError
+from plantar.kernels.judging.joint_extremes import JointExtremes
 from plantar.recordings.recorder import Channel, Recorder
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import skin_from_tables
@@ -20,6 +21,9 @@ from plantar.sim.companion.experiment import CompanionScene, World
 from plantar.sim.companion.lidar import Lidar
 from plantar.sim.companion.machine import Machine, ServoTable, load_machine
 from plantar.sim.figures.film import BodyFilm
+from plantar.sim.judging.joint_limits import AT_LIMIT
+from plantar.sim.judging.outside_force import OutsideForce
+from plantar.sim.judging.run_limits import limit_reasons
 from plantar.sim.loop import Result, Run
 from plantar.sim.model.world import add_looks
 
@@ -52,6 +56,16 @@ class Companion(Run):
         self._channels: tuple[Channel[Any], ...] | None = None
         data = self.world.data
         data.qpos[self.world.positions[-len(machine.posture) :]] = machine.posture
+        base = int(self.world.model.body_rootid[self.world.model.body(machine.base.link).id])
+        self.outside = OutsideForce(self.world.model, data, base, (self.skin,))
+        self.joints = JointExtremes(
+            data.qvel,
+            self.world.joints.astype(np.intp),
+            np.zeros(len(self.world.joints)),
+            data.actuator_force,
+            self.world.motors.astype(np.intp),
+            1.0 / (AT_LIMIT * machine.efforts),
+        )
         self.experiment.start(self.world)
         mujoco.mj_forward(self.world.model, data)
 
@@ -86,6 +100,8 @@ class Companion(Run):
 
     def summary(self, result: Result) -> dict[str, Any]:
         reasons, figures = self.experiment.verdict()
+        at_limit = self.joints.any_held / max(1, self.joints.steps)
+        reasons = [*reasons, *limit_reasons((), True, at_limit), *self.outside.reasons()]
         self.skipped.update(taxel_rays=self.skin.skipped, taxel_rays_cast=self.skin.cast)
         names = self.scene.name, self.world.machine.name
         common = self.common(result, names, reasons, self.experiment.fell, float(self.world.data.time))
@@ -126,6 +142,8 @@ class Companion(Run):
         if not self.ended:
             self.drives.drive()
             mujoco.mj_step2(self.world.model, data)
+            self.outside.step()
+            self.joints.step()
 
 
 def _misjudge(model: Any, share: float, seed: int) -> None:

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from plantar.kernels.judging.joint_extremes import JointExtremes
 from plantar.sim.model.world import World
 
-_AT_LIMIT = 0.999  # of a torque limit: a servo there asks for more than it gets
+AT_LIMIT = 0.999
+"""Share of a torque limit from which a servo is at it: it asks for more than it gets."""
 
 
 class JointLimits:
@@ -34,7 +35,7 @@ class JointLimits:
             self._per_speed,
             world.data.actuator_force,
             world.servos,
-            1.0 / (_AT_LIMIT * torques),
+            1.0 / (AT_LIMIT * torques),
         )
 
     @property
@@ -48,6 +49,11 @@ class JointLimits:
     def longest(self) -> NDArray[np.float64]:
         """Longest time in s in a row for which each joint (k,) was too fast."""
         return np.asarray(self.extremes.longest) * self._period
+
+    @property
+    def share_at_limit(self) -> float:
+        """Share of the time with a joint at its torque limit."""
+        return float(self.extremes.any_held / max(1, self.extremes.steps))
 
     def summary(self) -> dict[str, Any]:
         """Fastest joint, and how often joints were at their torque limits."""
@@ -63,7 +69,7 @@ class JointLimits:
             if self.limited
             else None,
             "torque_limit": {
-                "share_of_time": round(self.extremes.any_held / steps, 4),
+                "share_of_time": round(self.share_at_limit, 4),
                 "joints": {
                     name: round(float(count) / steps, 4)
                     for name, count in zip(self.names, self.extremes.held, strict=True)

@@ -17,8 +17,11 @@ from plantar.kernels.contacts.ground_reaction import GroundReaction
 from plantar.kernels.judging.estimate_error import EstimateError
 from plantar.kernels.judging.step_watch import FALLING, LEGS, StepWatch
 from plantar.layouts.layout import Side
+from plantar.sim.judging.ground_pieces import GroundPieces
 from plantar.sim.judging.joint_limits import JointLimits
 from plantar.sim.judging.leg_contact import LegContact
+from plantar.sim.judging.other_contact import OtherContact
+from plantar.sim.judging.outside_force import Actor, OutsideForce
 from plantar.sim.judging.stance_ripple import StanceRipple
 from plantar.sim.judging.step_count import Stand, StepCount
 from plantar.sim.judging.walk_goal import WalkGoal, Way
@@ -87,7 +90,8 @@ class Judge:
     """Follows a run.
 
     `standing_height`: CoM above the ground at the start in m; `ground`: None where all is plain; `learns`: whether
-    pushes change all later steps; `fall`: the fall as (criterion's value, limit, text), or None.
+    pushes change all later steps; `actors`: those that push in the scene; `pieces`: of the ground, after
+    `follow_pieces`; `fall`: the fall as (criterion's value, limit, text), or None.
     """
 
     world: World
@@ -95,6 +99,8 @@ class Judge:
     goal: WalkGoal
     ground: PlainGround | None = None
     learns: bool = False
+    actors: Sequence[Actor] = ()
+    pieces: GroundPieces | None = None
     fall: tuple[float, float, str] | None = None
 
     def __post_init__(self) -> None:
@@ -113,6 +119,8 @@ class Judge:
         self.steps = StepCount(self.goal, body.weight, self._time_of, self._justified)
         self._pushed: list[float] = []
         self.legs = LegContact(world)
+        self.outside = OutsideForce(world.model, data, int(world.model.body_rootid[torso]), self.actors)
+        self.others = OtherContact(world)
         self.joints = JointLimits(world)
         ground = is_ground(world).astype(np.uint8)
         self._reaction = GroundReaction(math.nan, _LEAST * body.weight, world.reach, ground)
@@ -135,6 +143,10 @@ class Judge:
             windows,
             (math.cos(math.radians(_FALLEN_TILT)), self._lowest),
         )
+
+    def follow_pieces(self, ground: Ground) -> None:
+        """From now on, follow what the pieces of the `ground` carry."""
+        self.pieces = GroundPieces(self.world, ground, self.steps.watch.enough)
 
     def _time_of(self, step: int) -> float:
         return self._start + (step - 1) * self.world.period
@@ -178,7 +190,12 @@ class Judge:
 
     def step(self) -> int:
         """Take in a physics step; returns what `StepWatch.step` reports."""
-        seen: int = self._watch.step(self._contacts.read())
+        feet = self._contacts.read()
+        seen: int = self._watch.step(feet)
+        self.outside.step()
+        self.others.step(feet)
+        if self.pieces is not None:
+            self.pieces.loads.step(feet)
         if seen:
             if seen & LEGS:
                 self.legs.step()

@@ -107,20 +107,3 @@ def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[
             words = f"{text.format(f'{off:.3g} {unit}')}; allowed: less than {limit:g} {unit}"
             add(criterion, round(off, 4), limit, words)
     return found
-
-
-LED = 0.5
-"""Share of its planned way that a robot which leads has to have moved its partner by: the rest is lost to the gap
-before they touch and to a partner that swings back towards where it rests."""
-
-
-def partner_reasons(role: str, way: float, moved: float) -> list[dict[str, Any]]:
-    """Returns failed criteria, as `verdict.reasons`, of a planned `way` in m towards a partner that `moved`.
-
-    A `role` "leader" asks only a completed walk.
-    """
-    needed = LED * way
-    if role == "leader" or -moved >= needed:
-        return []
-    text = f"the partner was led {-moved:.3f} m; a walk of {way:.3f} m towards it needs {needed:.3f} m"
-    return [{"criterion": "led", "value": round(-moved, 4), "limit": round(needed, 4), "text": text}]

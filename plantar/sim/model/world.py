@@ -19,7 +19,7 @@ from plantar.robots.robot import Robot
 from plantar.sim.model.contact_truth import REACH
 from plantar.sim.plant.body import make_true
 from plantar.sim.plant.draw import TruePlant
-from plantar.sim.terrain import GROUND_GROUP, Ground, Solid
+from plantar.sim.terrain import GROUND_CONTACT, GROUND_GROUP, Ground, Solid
 
 PHYSICS_PERIOD = 0.001
 """Time step of the physics in s, where a scene gives none."""
@@ -116,6 +116,14 @@ def _add_leg_contact(spec: Any, robot: Robot) -> None:
     )
 
 
+def _let_legs_touch_ground(spec: Any) -> None:
+    """Let thighs and shanks meet the ground, as a robot that kneels; feet have their soles for that."""
+    feet = [spec.geom(f"{side}_foot_shape").parent.name for side in SIDES]
+    for geom in spec.geoms:
+        if geom.contype in _LEGS and geom.parent.name not in feet:
+            geom.conaffinity |= GROUND_CONTACT
+
+
 @dataclass(frozen=True)
 class World:
     """A compiled world and its addresses; left leg first.
@@ -188,6 +196,7 @@ def build_world(
     for side in SIDES:
         _add_touch(spec, spec.geom(f"{side}_sole_box"), f"{side}_truth_touch")
     _add_leg_contact(spec, robot)
+    _let_legs_touch_ground(spec)
     soles = _set_contacts(spec, ground.friction)
     for other in others:
         other.add_to(spec)

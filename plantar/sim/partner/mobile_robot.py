@@ -147,6 +147,11 @@ class MobileRobot(Partner):
         wanted = s.body_mass * (rate * rate * off + 2.0 * rate * speed) - true
         data.qfrc_applied[self._axis] = -min(max(wanted, -s.drive_force), s.drive_force)
 
+    @property
+    def largest_force(self) -> float:
+        """Largest true force in N between its hand and the robot."""
+        return max(map(abs, self._forces), default=0.0)
+
     def summary(self) -> dict[str, Any]:
         """Role, its and its rest's way to the robot, largest force in N, share of time in touch."""
         forces = np.abs(np.array(self._forces or [0.0]))

@@ -1,5 +1,7 @@
 """Names of robots, machines, scenes, papers, formats and live sources, without a simulator."""
 
+from typing import Any
+
 from plantar.common.files.structured_text import described_files, packaged_files
 from plantar.errors import InputError
 from plantar.sim.papers.preset import paper_files
@@ -34,3 +36,24 @@ def listed(what: str) -> dict[str, str]:
         found = paper_files()
         return dict(zip(found, described_files(found.values()).values(), strict=True))
     raise InputError(f"cannot list '{what}'; allowed: robots, scenes, papers, formats, sources, settings")
+
+
+def scene_row(name: str) -> dict[str, Any]:
+    """A scene's name, description and outcome: what its experiment shows, by criterion.
+
+    Raises:
+        SceneError: If there is no such scene.
+    """
+    from plantar.sim.run.scene import Scene
+    from plantar.sim.run.scene_kind import open_scene
+
+    scene = open_scene(name)
+    outcome = {k: c.claim() for k, c in scene.outcome.items()} if isinstance(scene, Scene) else scene.claims()
+    return {"name": name, "description": scene.description, "outcome": outcome}
+
+
+def scene_text(row: dict[str, Any]) -> str:
+    """A `scene_row` as text."""
+    lines = [f"{row['name']}: {row['description']}", "completed where the criteria of every run hold"]
+    lines += [f"and {claim} ({criterion})" for criterion, claim in row["outcome"].items()]
+    return "\n".join(lines)

@@ -42,6 +42,8 @@ class Pusher:
         self._next = 0
         self.pushing = False
         self._height = push.height
+        self._torso = -1
+        self._wrench = np.zeros(6)
         if push.strength <= 0.0:
             return
         rng = np.random.default_rng([seed, 0xB0])
@@ -76,7 +78,18 @@ class Pusher:
                 break
             self._next += 1
         fx, fy, fz = force.tolist()
-        world.data.xfrc_applied[world.torso] = (fx, fy, fz, -self._height * fy, self._height * fx, 0.0)
+        self._torso = world.torso
+        self._wrench[:] = (fx, fy, fz, -self._height * fy, self._height * fx, 0.0)
+        world.data.xfrc_applied[world.torso] = self._wrench
+
+    def add_applied(self, forces: NDArray[np.float64]) -> None:
+        """Add what it applies now, as `plantar.sim.judging.outside_force.Actor`."""
+        if self.pushing:
+            forces[self._torso] += self._wrench
+
+    def largest_impulse(self) -> float:
+        """Largest impulse in N s of its pushes so far."""
+        return max((float(np.linalg.norm(given)) for given in self.applied), default=0.0)
 
 
 def direction_name(push: Push, seed: int) -> str:
@@ -94,7 +107,7 @@ def direction_of(push: Push, seed: int) -> tuple[float, float]:
 def _refuse_unused(push: Push) -> None:
     alone = {"direction": push.direction == "step", "cycle": push.cycle >= 0.0, "repeat": push.repeat > 1}
     alone |= {"with_swing": push.with_swing}
-    alone |= {"small": push.small > 0.0, "place": push.place != "height", "verdict": push.verdict != "walk"}
+    alone |= {"small": push.small > 0.0, "place": push.place != "height"}
     given = [name for name, is_given in alone.items() if is_given]
     if given:
         raise SceneError(f"[push] {given[0]} is for pushes by hands; allowed: with push.by = 'hands'")

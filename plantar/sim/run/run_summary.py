@@ -18,6 +18,7 @@ from plantar.robots.robot import Robot
 from plantar.sim.judging.foothold_truth import FootholdTruth
 from plantar.sim.judging.judge import Judge
 from plantar.sim.judging.recovery import Recovery
+from plantar.sim.judging.run_limits import limit_reasons
 from plantar.sim.judging.step_count import Count
 from plantar.sim.judging.velocity_truth import VelocityTruth
 from plantar.sim.judging.verdict import Ending, reasons
@@ -30,7 +31,7 @@ from plantar.sim.run.pushing import Pusher
 from plantar.sim.run.scene import SECTIONS, Scene
 from plantar.sim.run.servos import LegServos
 from plantar.sim.run.touched import Touched
-from plantar.sim.terrain import Ground
+from plantar.sim.terrain import Ground, PlannedFeet
 
 
 class FinishedRun(Protocol):
@@ -50,6 +51,7 @@ class FinishedRun(Protocol):
     centers: dict[Side, NDArray[np.float64]]
     judge: Judge
     foothold_truth: FootholdTruth
+    planned: PlannedFeet
     pusher: Pusher
     recovery: Recovery | None
     speeds: VelocityTruth | None
@@ -70,7 +72,7 @@ def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
     late = run.servos.out_of_reach_since
     count = judge.steps.count()
     balance = {} if run.recovery is None else run.recovery.summary(run.pusher.applied)
-    final, why = _end(run, result, count, balance)
+    final, why = verdict_of(run, count, balance, result.overrun)
     return {
         **run.common(result, (run.scene.name, run.robot.name), why, judge.fell, float(run.world.data.time)),
         "emergency_stop": stopped is not None,
@@ -116,9 +118,13 @@ def _of_landings(run: FinishedRun) -> dict[str, list[Any]]:
     }
 
 
-def _end(
-    run: FinishedRun, result: Result, count: Count, balance: dict[str, Any]
+def verdict_of(
+    run: FinishedRun, count: Count, balance: dict[str, Any], overrun: tuple[float, float] | None = None
 ) -> tuple[dict[str, float], list[dict[str, Any]]]:
+    """Returns how a `run` ended, and all criteria that it failed.
+
+    By its steps' `count`, figures of its `balance`, and cut and first planned end in s, or None, of an `overrun`.
+    """
     world = run.world
     judge = run.judge
     ends = [judge.goal.end(run.centers, at_start=at_start) for at_start in (False, True)]
@@ -137,15 +143,18 @@ def _end(
         heading=turned if run.speeds is None else None,
         tilt=upright,
         pushes=(balance.get("recovered", 0), len(balance.get("pushes", ()))),
-        overrun=result.overrun,
+        overrun=overrun,
     )
     why = reasons(ending, judge.legs, judge.joints)
     if judge.fall is None:  # a robot that falls rattles on any ground
         why += judge.ripple.reasons()
     if run.speeds is not None:
         why += run.speeds.reasons([x.time for x in judge.landings])
-    if run.touched is not None:
-        why += run.touched.reasons(judge.steps.last_stands())
+    impacts = [landing.impact / run.body.weight for landing in judge.landings]
+    why += limit_reasons(impacts, run.ground.level_at(run.scene.terrain.height), judge.joints.share_at_limit)
+    why += judge.others.reasons() + judge.outside.reasons()
+    for criterion in run.scene.outcome.values():
+        why += criterion.reasons(run)
     final = {
         "position_error_m": round(position, 4),
         "heading_error_deg": round(yaw, 3),

@@ -103,8 +103,8 @@ class Simulation(Run):
         self.motors = command_motors(robot, self.legs, self.body, scene.control, self.settings.period)
         self.controller = WalkingController(self.settings, start, robot.layouts, self.legs, self.motors)
         self.centers = self.controller.middles
-        planned = planned_feet(robot, self.feet, self.steps, self.controller.schedule)
-        ground = scene.terrain.ground(planned, np.random.default_rng([seed, 0x7E]))
+        self.planned = planned_feet(robot, self.feet, self.steps, self.controller.schedule)
+        ground = scene.terrain.ground(self.planned, np.random.default_rng([seed, 0x7E]))
         self.ground = ground
         self.plant = drawn_plant(scene.plant, seed, self.body, len(robot.legs["left"].joints) * 2, robot.layouts)
         self.skipped = Counter(percept_members=0, recorded_ticks=0, rendered_frames=0)
@@ -166,7 +166,16 @@ class Simulation(Run):
             begin = goal.end(self.centers)
             self.speeds = VelocityTruth(self.world, self.velocities, self.settings.timing, begin)
         plain = PlainGround(ground, {s: robot.layouts[s].outline for s in SIDES}, _AROUND * self.body.leg)
-        self.judge = Judge(self.world, self.settings.com_height, goal, plain, scene.control.learn_strides)
+        self.judge = Judge(
+            self.world,
+            self.settings.com_height,
+            goal,
+            plain,
+            scene.control.learn_strides,
+            actors=(self.pusher,) if self.touch is None else (self.pusher, self.touch.sensor),
+        )
+        if any(criterion.of_pieces for criterion in scene.outcome.values()):
+            self.judge.follow_pieces(ground)
 
     def build_world(self, others: Sequence[Visitor]) -> World:
         """The run's world, with robot, ground and others."""

@@ -15,6 +15,8 @@ from plantar.errors import InputError, SceneError
 from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table, controller_keys
 from plantar.robots.walk import Control, Walk
 from plantar.sim.arms.settings import ArmSettings
+from plantar.sim.judging.criteria.criterion import Criterion
+from plantar.sim.judging.criteria.kinds import outcome_of
 from plantar.sim.papers.preset import with_paper
 from plantar.sim.partner.settings import GuideSettings, PartnerSettings
 from plantar.sim.plant.settings import Plant
@@ -46,8 +48,6 @@ class Push(Settings):
         sideways: Strength to the side as a share of forward; an ellipse in between.
         height: In m above the torso's CoM; 0.6 is about the neck.
         place: Where hands push: `height`, CoM, hips or shoulders.
-        verdict: Further criterion: "steps", only larger pushes change steps; "stride", pushed steps become longer along
-            the push; "acceleration", the CoM is accelerated as by a force at that height. By hands only.
     """
 
     dv: float = number(0.0, "m/s", 0, 10)
@@ -68,7 +68,6 @@ class Push(Settings):
     sideways: float = number(1.0, "1", 0, 1)
     height: float = number(0.0, "m", -1, 1)
     place: str = choice("height", "com", "hip", "shoulder")
-    verdict: str = choice("walk", "steps", "stride", "acceleration")
 
     @property
     def strength(self) -> float:
@@ -106,7 +105,8 @@ class Scene:
     """A scene.
 
     `controller`: given controller settings by table and name (`plantar.gait.controller_tables`); `plant`: True
-    differences from the controller's model; `partner`: mobile robot in front; `guide`: hand that leads by that arm.
+    differences from the controller's model; `partner`: mobile robot in front; `guide`: hand that leads by that arm;
+    `outcome`: what the experiment shows, criteria by name (`plantar.sim.judging.criteria`).
     """
 
     name: str
@@ -122,6 +122,7 @@ class Scene:
     partner: PartnerSettings = field(default_factory=PartnerSettings)
     arm: ArmSettings = field(default_factory=ArmSettings)
     guide: GuideSettings = field(default_factory=GuideSettings)
+    outcome: Mapping[str, Criterion] = field(default_factory=dict)
 
     @property
     def proximity_range(self) -> float:
@@ -155,7 +156,8 @@ class Scene:
             except InputError as error:
                 words = str(error).removeprefix("setting ")
                 raise SceneError(f"scene '{self.name}': [{name}] {words}, with robot '{self.robot}'") from None
-        return replace(self, **sections)
+        outcome = {name: criterion.for_body(body) for name, criterion in self.outcome.items()}
+        return replace(self, outcome=outcome, **sections)
 
 
 def builtin_scenes() -> tuple[str, ...]:
@@ -196,7 +198,7 @@ def override(source: Mapping[str, Any], settings: Sequence[str]) -> dict[str, An
             pairs.append((key, text))
     keys = {name: kind.names() for name, kind in (SECTIONS | _terrain_kind(result)).items()}
     parts = {name: controller_keys(name) for name in CONTROLLER_TABLES}
-    put_settings(result, pairs, {"robot": "robot"}, keys, parts)
+    put_settings(result, pairs, {"robot": "robot", "outcome": "outcome"}, keys, parts)
     return result
 
 
@@ -237,7 +239,8 @@ def scene_of(source: Mapping[str, Any], path: Path, settings: Sequence[str] = ()
     paper, settings = with_paper(settings, path.stem, robot or str(source.get("robot", "h1")))
     source = override(source, settings)
     where = f"scene '{path.stem}'"
-    refuse_unknown_keys(source, ("name", "description", "robot", *SECTIONS, *CONTROLLER_TABLES), where, SceneError)
+    known = ("name", "description", "robot", "outcome", *SECTIONS, *CONTROLLER_TABLES)
+    refuse_unknown_keys(source, known, where, SceneError)
     if given.isdisjoint(_LEAST):
         raise SceneError(f"scene file {path} names neither ground nor gait; it needs [terrain] or [walk], or both")
     refuse_other_than_texts(source, ("name", "description", "robot"), where, SceneError)
@@ -254,5 +257,6 @@ def scene_of(source: Mapping[str, Any], path: Path, settings: Sequence[str] = ()
             for name in CONTROLLER_TABLES
             if name in source
         },
+        outcome=outcome_of(source.get("outcome", {}), where),
         **parts,
     )

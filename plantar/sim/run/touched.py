@@ -8,15 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.settings.body_scale import BodyScale
-from plantar.common.sides import SIDES, Side
+from plantar.common.sides import Side
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import WalkSchedule
 from plantar.sensing.link_skin import BodySkin
 from plantar.sim.arms.worn_arm import WornArm
+from plantar.sim.judging.criteria.criterion import not_measured
 from plantar.sim.judging.guide_truth import GuideTruth
 from plantar.sim.judging.push_truth import Pushed, PushTruth, step_changes, strides
 from plantar.sim.judging.step_count import Stand
-from plantar.sim.judging.verdict import partner_reasons
 from plantar.sim.model.world import World
 from plantar.sim.partner.guide import Grip, Guide
 from plantar.sim.partner.hand_pushes import HandPushes
@@ -91,23 +91,31 @@ class Touched:
         if self._led is not None:
             self._led.update(time)
 
-    def reasons(self, stands: Sequence[Stand]) -> list[dict[str, Any]]:
-        """Failed further criteria of the scene, by the feet's `stands`."""
-        found: list[dict[str, Any]] = []
-        verdict = self._scene.push.verdict if self.hands is not None else "walk"
-        if verdict == "steps":
-            found += self._truth.steps_reasons(self._pushes(), step_changes(stands, self._feet, self._steps))
-        elif verdict == "stride":
-            found += self._truth.stride_reasons(self._pushes(), strides(stands, self._feet, self._steps))
-        elif verdict == "acceleration":
-            found += self._truth.acceleration_reasons(self._pushes())
-        if self.partner is not None:
-            last = dict(self._feet) | {step.side: step for step in self._steps}
-            way = 0.5 * sum(last[side].x - self._feet[side].x for side in SIDES)
-            found += partner_reasons(self._scene.partner.role, way, self.partner.moved)
-        if self._led is not None:
-            found += self._led.reasons()
-        return found
+    def steps_reasons(self, stands: Sequence[Stand]) -> list[dict[str, Any]]:
+        """`PushTruth.steps_reasons` by the feet's `stands`."""
+        if self.hands is None:
+            return not_measured("larger_pushes_step", "no hand pushed")
+        return self._truth.steps_reasons(self._pushes(), step_changes(stands, self._feet, self._steps))
+
+    def stride_reasons(self, stands: Sequence[Stand]) -> list[dict[str, Any]]:
+        """`PushTruth.stride_reasons` by the feet's `stands`."""
+        if self.hands is None:
+            return not_measured("longer_strides", "no hand pushed")
+        return self._truth.stride_reasons(self._pushes(), strides(stands, self._feet, self._steps))
+
+    def acceleration_reasons(self) -> list[dict[str, Any]]:
+        """`PushTruth.acceleration_reasons`."""
+        if self.hands is None:
+            return not_measured("com_accelerated", "no hand pushed")
+        return self._truth.acceleration_reasons(self._pushes())
+
+    def guide_reasons(self) -> list[dict[str, Any]]:
+        """`GuideTruth.reasons`."""
+        return not_measured("follows_guide", "no hand led") if self._led is None else self._led.reasons()
+
+    def largest_impulse(self) -> float:
+        """Largest true impulse in N s of the hands' pushes so far."""
+        return max((float(np.hypot(*push.impulse)) for push in self._pushes()), default=0.0)
 
     def summary(self, stands: Sequence[Stand], walked: float) -> dict[str, Any]:
         """Returns the scene's "push", "partner" and "guide", by feet's `stands` and CoM way `walked` in m."""
@@ -119,7 +127,7 @@ class Touched:
                 row |= {name: round(value, 3) for name, value in measured.items()}
             changes = step_changes(stands, self._feet, self._steps)
             ways = strides(stands, self._feet, self._steps)
-            given = max((float(np.hypot(*p.impulse)) for p in self._pushes()), default=None)
+            given = self.largest_impulse() if self._pushes() else None
             found["push"] = {
                 "impulse_Ns": None if given is None else round(given, 4),
                 "asked_Ns": round(push.strength, 4),

@@ -3,13 +3,24 @@
 from plantar.sim.terrain.beam import Beam
 from plantar.sim.terrain.block import Block
 from plantar.sim.terrain.course import Course
-from plantar.sim.terrain.ground import GROUND_GROUP, Flat, Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
+from plantar.sim.terrain.ground import (
+    GROUND_CONTACT,
+    GROUND_GROUP,
+    Flat,
+    Footprint,
+    Ground,
+    Motion,
+    PlannedFeet,
+    Solid,
+    Terrain,
+)
 from plantar.sim.terrain.kinds import terrain_kinds
 from plantar.sim.terrain.mixed import Mixed
 from plantar.sim.terrain.stones import Partial, Pebbles, Stones, Uneven
 from plantar.sim.terrain.way import Relief, Slopes, Stairs
 
 __all__ = [
+    "GROUND_CONTACT",
     "GROUND_GROUP",
     "Beam",
     "Block",

@@ -18,7 +18,12 @@ from plantar.layouts.layout import Side
 GROUND_GROUP = 2
 """Geom group of all ground, and only of ground: what proximity sensors see."""
 
+GROUND_CONTACT = 2
+"""MuJoCo's bit of contacts with the ground."""
+
 _FIELD_BASE = 0.05  # m of a field's body below its lowest level
+_LEVEL = 0.9999  # cosine of the tilt up to which a face is level
+_SAME_HEIGHT = 1e-4  # m up to which faces are at one height
 
 
 @dataclass(frozen=True)
@@ -161,6 +166,11 @@ class Ground:
         """Moving solids with their number."""
         return tuple((i, s) for i, s in enumerate(self.solids) if s.motions)
 
+    def level_at(self, height: float) -> bool:
+        """Whether all pieces have level faces at a `height` in m: beams and stones, not steps or slopes."""
+        flat = all(s.shape == "box" and s.rotation[2, 2] > _LEVEL and not s.motions for s in self.solids)
+        return flat and all(abs(solid.top - height) < _SAME_HEIGHT for solid in self.solids)
+
     @property
     def top(self) -> float:
         """Largest height in m of any part, ever."""
@@ -182,7 +192,7 @@ class Ground:
         }
         common = {
             "group": GROUND_GROUP,
-            "contype": 2 | MARK,
+            "contype": GROUND_CONTACT | MARK,
             "conaffinity": 1,
             "friction": [self.friction, 0.005, 0.0001],
         }

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
-from plantar.sim.judging.verdict import FASTER_FOR, Ending, partner_reasons, reasons
+from plantar.sim.judging.verdict import FASTER_FOR, Ending, reasons
 
 STILL = SimpleNamespace(longest=np.zeros(3), fastest=np.zeros(3), names=["hip", "knee", "ankle"])
 APART = SimpleNamespace(first=None, duration=0.0)
@@ -85,11 +85,3 @@ def test_legs_that_touch_and_joints_that_are_too_fast_are_named():
 def test_all_that_failed_is_listed():
     got = failed(fall=(50.0, 40.0, "fell"), stopped="x", steps=(1, 8), missed="y", position=1.0, tilt=60.0)
     assert [name for name, _, _ in got] == ["fall", "emergency_stop", "steps", "position", "tilt"]
-
-
-def test_a_leader_moves_its_partner():
-    assert partner_reasons("follower", 0.8, -0.41) == []
-    (reason,) = partner_reasons("follower", 0.8, -0.39)
-    assert (reason["criterion"], reason["value"], reason["limit"]) == ("led", 0.39, 0.4)
-    assert partner_reasons("follower", 0.8, 0.5)
-    assert partner_reasons("leader", 0.8, 0.5) == []

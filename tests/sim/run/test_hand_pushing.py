@@ -110,7 +110,7 @@ def test_what_the_walk_has_no_room_for_is_refused(given, words):
 
 @pytest.mark.parametrize(
     "given",
-    [{"direction": "step"}, {"cycle": 0.1}, {"repeat": 2}, {"small": 0.5}, {"place": "com"}, {"verdict": "steps"}],
+    [{"direction": "step"}, {"cycle": 0.1}, {"repeat": 2}, {"small": 0.5}, {"place": "com"}],
 )
 def test_a_force_refuses_what_only_hands_do(given):
     push: Settings = Push(impulse=10.0, **given)

@@ -36,7 +36,7 @@ def test_a_step_catches_the_push_that_ankles_do_not():
 @pytest.mark.parametrize(("angle", "cycle", "impulse"), [(180, 0.6875, 55), (45, 0.6875, 60)])
 def test_a_foot_that_has_to_catch_the_body_lands_without_feeling_its_way(angle, cycle, impulse):
     """It fell with a foot that hovered until it was over its place."""
-    hands = ["push.small=0", "push.verdict=walk", "direction=angle", "push.with_swing=false", "push.duration=0.1"]
+    hands = ["push.small=0", "outcome=none", "direction=angle", "push.with_swing=false", "push.duration=0.1"]
     place = [f"push.angle={angle}", "push.step=3", f"push.cycle={cycle}", f"push.impulse={impulse}"]
     _, out = run("push-step", 1000, "walk.steps=7", *hands, *place)
     assert not out["fell"]
@@ -70,7 +70,7 @@ def test_a_trunk_that_leans_leaves_the_hip_what_a_push_needs(seed):
 def test_a_foot_that_the_sinking_pelvis_puts_down_early_comes_to_carry():
     # 42.5 N s to the left as the left foot lifts off: its hip's torque holds the pelvis no longer.
     push = ["push.small=0", "push.impulse=42.5", "push.duration=0.1", "direction=angle", "push.angle=90"]
-    when = ["push.step=3", "push.cycle=0.5", "push.with_swing=false", "push.verdict=walk", "walk.steps=6"]
+    when = ["push.step=3", "push.cycle=0.5", "push.with_swing=false", "outcome=none", "walk.steps=6"]
     simulation, out = run("push-step", 1, *push, *when)
     assert not out["fell"]
     assert any(a.change.reason == "landed beside its place" for a in simulation.controller.plan.record)
@@ -90,7 +90,7 @@ def test_who_is_not_confident_follows_and_who_is_leads():
 @pytest.mark.long
 @pytest.mark.parametrize("learns", [False, True])
 def test_pushed_steps_of_the_box_become_longer_and_stay_so_where_strides_learn(learns):
-    alone = ["push.repeat=6", "push.verdict=walk", f"control.learn_strides={str(learns).lower()}"]
+    alone = ["push.repeat=6", "outcome=none", f"control.learn_strides={str(learns).lower()}"]
     _, out = run("box-step", 0, *alone)
     assert out["completed"], out["reasons"]
     ways = np.array(out["push"]["strides_m"])

@@ -11,6 +11,7 @@ from plantar.common.gravity import GRAVITY
 from plantar.errors import InputError
 from plantar.robots.controller import JointTargets
 from plantar.sim.bench.footholds.policy import Action, WalkTask
+from plantar.sim.run.run_summary import verdict_of
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import Scene, scene_of
 
@@ -36,26 +37,39 @@ def _on(walk: Mapping[str, Any], **terrain: Any) -> dict[str, Mapping[str, Any]]
     return {"terrain": terrain, "walk": walk}
 
 
+def _stood_on(share: float) -> dict[str, Mapping[str, Any]]:
+    """No piece of ground that covers nearly a `share` of a footprint is skipped."""
+    return {"outcome": {"stood_on": {"covers": 0.9 * share}}}
+
+
 _KINDS: tuple[tuple[str, tuple[float, ...], str, Callable[[float], dict[str, Mapping[str, Any]]]], ...] = (
     ("flat", (0.0,), "", lambda _: _on(_FORWARD, kind="flat")),
     (
         "beam",
         (0.8, 0.5, 0.33, 0.25),
         "foot's extent across it",
-        lambda v: _on(_SIDEWAYS, kind="beam", width=f"{v} sole", length="13/6 leg", offset_range=f"{v / 3} sole"),
+        lambda v: (
+            _on(_SIDEWAYS, kind="beam", width=f"{v} sole", length="13/6 leg", offset_range=f"{v / 3} sole")
+            | _stood_on(0.2)
+        ),
     ),
     (
         "stones",
         (0.8, 0.6, 0.4, 0.2),
         "sole, smallest stone",
-        lambda v: _on(_FORWARD, kind="stones", share_min=v, share_max=min(1.0, v + 0.2)),
+        lambda v: _on(_FORWARD, kind="stones", share_min=v, share_max=min(1.0, v + 0.2)) | _stood_on(v),
     ),
-    ("slopes", (2.0, 5.0, 8.0), "deg", lambda v: _on(_FORWARD, kind="uneven", height_range=0.0, slope_range=v)),
+    (
+        "slopes",
+        (2.0, 5.0, 8.0),
+        "deg",
+        lambda v: _on(_FORWARD, kind="uneven", height_range=0.0, slope_range=v) | _stood_on(0.5),
+    ),
     (
         "steps",
         (0.0125, 0.025, 0.05),
         "leg, up or down",
-        lambda v: _on(_FORWARD, kind="uneven", height_range=f"{v} leg"),
+        lambda v: _on(_FORWARD, kind="uneven", height_range=f"{v} leg") | _stood_on(0.5),
     ),
     (
         "push",
@@ -84,8 +98,9 @@ _STAY = 1.0  # s that the robot has to stay up after its last step
 class FootholdResult(NamedTuple):
     """What came of a run.
 
-    `completed`: whether all steps were taken in place without a fall; `tilt`: largest tilt of torso in degrees;
-    `froude`: v^2 / (g l), v the way over the time from first to last step; `time`: simulated time in s.
+    `completed`: whether no criterion of a run failed; `tilt`: largest tilt of torso in degrees; `froude`: v^2 / (g l),
+    v the way over the time from first to last step; `time`: simulated time in s; `failed`: names of the criteria that
+    failed, as of `plantar sim`.
     """
 
     completed: bool
@@ -95,6 +110,7 @@ class FootholdResult(NamedTuple):
     tilt: float
     froude: float
     time: float
+    failed: tuple[str, ...] = ()
 
 
 def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) -> FootholdResult:
@@ -136,14 +152,16 @@ def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) 
         start = np.mean([foot.position[:2] for foot in run.feet.values()], axis=0)
         way = np.mean([stand.place[:2] for stand in count.stands[-2:]], axis=0) - start
         speed = float(np.hypot(*way)) / max(count.stands[-1].touchdown - count.stands[0].touchdown, 1e-9)
+    _, why = verdict_of(run, count, {})
     return FootholdResult(
-        judge.fall is None and count.taken == len(run.steps),
+        not why,
         count.taken,
         len(run.steps),
         judge.fell,
         judge.tilt_max,
         speed**2 / (GRAVITY * run.body.leg),
         float(data.time),
+        tuple(reason["criterion"] for reason in why),
     )
 
 

@@ -12,7 +12,10 @@ from plantar.errors import InputError, SceneError
 from plantar.sim.bench.footholds.foothold_run import TRIALS, run_trial
 from plantar.sim.bench.footholds.policy import OwnController, load_policy
 
-_COLUMNS = ("policy", "robot", "kind", "value", "seed", "completed", "steps", "planned", "fell", "tilt_deg", "froude")
+_COLUMNS = (
+    *("policy", "robot", "kind", "value", "seed", "completed", "steps", "planned", "fell", "tilt_deg", "froude"),
+    "failed",
+)
 _TABLE = "footholds.csv"
 _PAGE = "footholds.md"
 
@@ -52,9 +55,9 @@ def measure_footholds(
         try:
             found = run_trial(make, trial, robot, seed)
             row = (found.completed, found.steps, found.planned, found.fell, round(found.tilt, 2))
-            values: tuple[Any, ...] = (*key, *row, round(found.froude, 4))
+            values: tuple[Any, ...] = (*key, *row, round(found.froude, 4), " ".join(found.failed))
         except SceneError:  # unstable physics: a policy that shakes the robot to pieces
-            values = (*key, False, 0, len(trial.tables), True, 180.0, 0.0)
+            values = (*key, False, 0, len(trial.tables), True, 180.0, 0.0, "unstable")
         table.add(dict(zip(_COLUMNS, values, strict=True)))
         if progress is not None:
             progress((k + 1) / len(wanted), f"{name}, {trial.kind} {trial.value:g}, seed {seed}")

@@ -57,6 +57,12 @@ class Feather(StandingExperiment):
 
     settings_type: ClassVar = FeatherSettings
     control_type: ClassVar = FeatherControl
+    claims: ClassVar = {
+        **StandingExperiment.claims,
+        "touched": "the hand is never touched",
+        "repelled": "each visitor repels it",
+        "early": "it stays while nothing is near",
+    }
     columns: ClassVar = ("distance_min_mm", "moved_mm", "cop_margin_min_mm")
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:

@@ -111,6 +111,15 @@ class ForceTracking(Experiment):
     control_type = HandControl
     uses_lidar = True
     view = ("hand", View(3.2, 60.0, -18.0))
+    claims: ClassVar = {
+        "force_free": "the force follows its target",
+        "force_disturbed": "also while touched, turned or visited",
+        "contact": "contact is kept",
+        "distance": "before contact, the distance is kept",
+        "person": "the person is not touched",
+        "collision": "base and arm do not hit the object",
+        "guidance": "the hand goes along with the one that guides it",
+    }
     columns: ClassVar[tuple[str, ...]] = (
         *("force_rms_free_N", "force_rms_disturbed_N", "force_max_N", "contact_lost_s", "distance_error_max_mm"),
         *("person_nearest_m", "guided_m", "hand_moved_mm", "tilt_max_deg", "base_moved_m"),

@@ -75,6 +75,10 @@ class IntentionalContactExperiment(Experiment):
     settings_type = ReachSettings
     control_type = ReachControl
     view = ("", View(3.5, 90.0, -60.0))
+    claims: ClassVar = {
+        "goal": "the tip reaches its goal",
+        "force": "nothing is pushed harder than allowed",
+    }
     columns: ClassVar[tuple[str, ...]] = ("layout", "reached_s", "error_mm", "force_max_N", "contacts", "retreats")
 
     def __init__(self, machine: Machine, settings: ReachSettings, control: ReachControl, seed: int) -> None:

@@ -52,6 +52,12 @@ class Lean(StandingExperiment):
 
     settings_type: ClassVar = LeanSettings
     control_type: ClassVar = LeanControl
+    claims: ClassVar = {
+        **StandingExperiment.claims,
+        "beyond": "the centre of mass is beyond the feet",
+        "forearm": "the forearm keeps the table",
+        "reach": "the hand reaches its target",
+    }
     columns: ClassVar = ("beyond_mm", "forearm_N", "reach_error_mm", "tilt_max_deg", "sole_part")
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:

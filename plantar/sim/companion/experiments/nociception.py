@@ -83,6 +83,12 @@ class Nociception(StandingExperiment):
 
     settings_type: ClassVar = NociceptionSettings
     control_type: ClassVar = NociceptionControl
+    claims: ClassVar = {
+        **StandingExperiment.claims,
+        "threshold_ratio": "the reflex comes at forces that differ as the areas do",
+        "torque_jump": "no torque jumps as tasks are dropped",
+        "retreat": "the hand gives way",
+    }
     columns: ClassVar = ("threshold_ratio", "torque_jump", "moved_mm", "cop_margin_min_mm")
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:

@@ -87,6 +87,10 @@ class Pressure(StandingExperiment):
 
     settings_type: ClassVar = PressureSettings
     control_type: ClassVar = PressureControl
+    claims: ClassVar = {
+        **StandingExperiment.claims,
+        "area_law": "it yields as fast as the pressed areas differ",
+    }
     columns: ClassVar = ("speed_ratio", "area_ratio", "cop_margin_min_mm")
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:

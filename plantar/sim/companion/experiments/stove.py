@@ -73,6 +73,12 @@ class Stove(StandingExperiment):
 
     settings_type: ClassVar = StoveSettings
     control_type: ClassVar = StoveControl
+    claims: ClassVar = {
+        **StandingExperiment.claims,
+        "arrived": "the hand comes to its work over the plate",
+        "temperature": "no taxel gets too hot",
+        "retreat": "the hand draws back",
+    }
     columns: ClassVar = ("temperature_max", "retreat_mm", "cop_margin_min_mm")
     posture: ClassVar = {"right_wrist_yaw": -90.0, "right_shoulder_pitch": 20.0, "right_elbow": 70.0}
 

@@ -66,6 +66,11 @@ class PressedExperiment(StandingExperiment):
     """Pads press on the instances of a skin task. `instances`: instances of direct interaction and their patches."""
 
     settings_type: ClassVar = PressedSettings
+    claims: ClassVar = {
+        **StandingExperiment.claims,
+        "yields": "every pressed limb yields more than by its posture's springs",
+        "yields_median": "half of them yield several times as far",
+    }
     columns: ClassVar = (
         "tilt_max_deg",
         "com_off_max_mm",

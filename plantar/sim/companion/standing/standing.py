@@ -46,6 +46,10 @@ class StandingExperiment(Experiment):
 
     control_type: ClassVar = StandingControl
     view: ClassVar = ("", View(2.7, 145.0, -10.0, 0.08))
+    claims: ClassVar = {
+        "cop_margin_mm": "the centre of pressure stays inside the soles",
+        "balance": "it does not fall",
+    }
     sides: ClassVar[tuple[str, ...]] = ("left", "right")
     com_height: ClassVar[float | None] = None
     roll: ClassVar[float] = 0.0

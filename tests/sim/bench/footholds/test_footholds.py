@@ -1,5 +1,7 @@
 """The benchmark of footholds: policies are loaded, run, judged and resumed; what is wrong with one is named."""
 
+import dataclasses
+import inspect
 from pathlib import Path
 from typing import NamedTuple
 
@@ -7,10 +9,12 @@ import numpy as np
 import pytest
 
 from plantar import InputError
+from plantar.gait.plan.plan_change import MovedStep
 from plantar.sim.bench.footholds import measure_footholds as module
 from plantar.sim.bench.footholds.foothold_run import TRIALS, FootholdResult, run_trial, scene_of_trial
 from plantar.sim.bench.footholds.measure_footholds import footholds_text, measure_footholds
 from plantar.sim.bench.footholds.policy import Action, OwnController, load_policy
+from plantar.sim.run.runner import Simulation
 
 EXAMPLE = Path(__file__).resolve().parents[4] / "examples" / "own_policy.py"
 SHORT = TRIALS[0]._replace(tables={"terrain": {"kind": "flat"}, "walk": {"steps": 2, "settle": 0.2}})
@@ -28,10 +32,12 @@ class Stiff(NamedTuple):
 def test_the_own_controller_takes_its_steps_and_a_standing_policy_none():
     own = run_trial(OwnController, SHORT)
     assert own.completed
+    assert own.failed == ()
     assert (own.steps, own.planned) == (2, 2)
     assert own.froude > 0.0
     still = run_trial(lambda task: Stiff(Action(task.stance.angles, task.stance.torques)), SHORT)
     assert (still.completed, still.steps, still.fell) == (False, 0, False)
+    assert "steps" in still.failed
 
 
 def test_a_policy_that_falls_is_seen():
@@ -113,3 +119,103 @@ def test_a_policy_that_was_changed_is_another_one(tmp_path, monkeypatch):
 def test_wrong_questions_are_refused(given, tmp_path):
     with pytest.raises(InputError, match="allowed: 1 or more of flat, beam, stones, slopes, steps, push"):
         measure_footholds(tmp_path, **given)
+
+
+def simulation():
+    """The simulation that runs this policy: what a policy that looks for it finds."""
+    frame = inspect.currentframe()
+    while "run" not in frame.f_locals or not isinstance(frame.f_locals["run"], Simulation):
+        frame = frame.f_back
+    return frame.f_locals["run"]
+
+
+class Cheat(OwnController):
+    """The own controller, and something besides at every tick."""
+
+    def __init__(self, task, cheat):
+        super().__init__(task)
+        self._cheat = cheat
+
+    def step(self, sensors):
+        action = super().step(sensors)
+        return self._cheat(sensors.time, action) or action
+
+
+def lift(time, action):
+    simulation().world.data.xfrc_applied[simulation().world.torso, 2] = 400.0
+
+
+def hold(time, action):
+    simulation().world.data.qfrc_applied[simulation().world.joint_qvel[0]] = 1.0
+
+
+def lie(time, action):
+    steps = simulation().steps
+    return action._replace(moved=[MovedStep(k, 0.6 * step.x, step.y, step.yaw, "x") for k, step in enumerate(steps)])
+
+
+STOPPED = {}
+
+
+def stop_early(time, action):
+    return STOPPED.setdefault("action", action) if time > 2.5 else None
+
+
+def slide(time, action):
+    model = simulation().world.model
+    model.geom_friction[:, 0], model.geom_priority[:] = 1e-3, 1
+    model.opt.gravity[0] = 0.3
+
+
+def kneel(time, action):
+    knees = np.array([2.0 * ("knee" in n) - 1.4 * ("hip_pitch" in n) for n in KNEES])
+    return Action(action.angles + min(1.0, max(0.0, time - 1.0)) * knees)
+
+
+def weigh_less(time, action):
+    simulation().world.model.opt.gravity[2] = -8.0
+
+
+KNEES = [
+    f"{side}_{joint}"
+    for side in ("left", "right")
+    for joint in ("hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll")
+]
+
+
+@pytest.mark.parametrize(
+    ("cheat", "reason"),
+    [
+        (lift, "outside_force"),
+        (hold, "outside_force"),
+        (stop_early, "steps"),
+        (slide, "steps"),
+        (kneel, "fall"),
+        (weigh_less, "stance_force"),
+        (lambda time, action: Action(action.angles * 0.6, action.torques), "steps"),
+    ],
+)
+def test_a_policy_that_cheats_is_refused_with_the_reason(cheat, reason):
+    found = run_trial(lambda task: Cheat(task, cheat), SHORT)
+    assert not found.completed
+    assert reason in found.failed
+
+
+def test_places_that_a_policy_names_without_a_reason_of_the_ground_are_none_of_its_steps():
+    """It walks shorter steps than asked for, and reports each as moved."""
+
+    def short(task):
+        return Cheat(replace_length(task), lie)
+
+    found = run_trial(short, SHORT._replace(tables={"terrain": {"kind": "flat"}, "walk": {"steps": 4, "length": 0.2}}))
+    assert "steps" in found.failed
+
+
+def replace_length(task):
+    return dataclasses.replace(task, walk={**task.walk, "length": 0.12})
+
+
+def test_standing_beside_the_stones_does_not_count():
+    trial = next(t for t in TRIALS if (t.kind, t.value) == ("stones", 0.8))
+    still = run_trial(lambda task: Stiff(Action(task.stance.angles, task.stance.torques)), trial)
+    assert {"steps", "stood_on"} <= set(still.failed)

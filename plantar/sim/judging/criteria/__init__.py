@@ -1,0 +1,1 @@
+"""What scenes' experiments show, by the judge's truth: one criterion a file."""
