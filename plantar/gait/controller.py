@@ -125,7 +125,17 @@ class WalkingController:
         self._stop = SafeStop(s.period, s.body.leg, s.body.beat, s.body.weight)
         stand = standing_command(feet, self.plan, layouts, s.mass * GRAVITY, s.com_height, begin)
         self.shell: SafetyShell | None = SafetyShell(
-            self._bridged, stand, layouts, None, s.period, s.mass, s.body.leg, s.com_height, start.time, self._stop
+            self._bridged,
+            stand,
+            layouts,
+            None,
+            s.period,
+            s.mass,
+            s.body.leg,
+            s.com_height,
+            start.time,
+            self._stop,
+            kinematics.posture,
         )
 
     @property

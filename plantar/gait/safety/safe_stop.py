@@ -13,6 +13,7 @@ _SINK = 0.03
 _DEPTH = 0.08  # leg by which a robot sits lower than it walks; legs that walk crouched by 0.05 reach it
 _SHIFT = 0.3  # weight/beat by which forces of the feet change
 _LIMP = 0.5  # s in which forces and stiffness of a fallen robot go to zero
+_SINKS = 2.0  # s in which those of a robot do that sits, and may stand
 
 
 class SafeStop:
@@ -30,18 +31,20 @@ class SafeStop:
         self._sink = _SINK * leg * share
         self._shift = _SHIFT * weight * share
         self._depth = _DEPTH * leg
-        self._limp = period / _LIMP
+        self._limp = {"fallen": period / _LIMP, "limp": period / _SINKS}
         self._height: float | None = None
 
     def after(self, last: Command, state: str | None) -> Command:
-        """Returns the command after `last` in a `state`: "fallen" goes limp, "blind" and "lost" sit, others hold."""
+        """Returns the command after `last` in a `state`: "fallen" goes limp, "limp" likewise in 2 s, "blind" and "lost"
+        sit, others hold.
+        """
         last = last.changed(footholds=(), moved_steps=())
-        if state == "fallen":
-            return self._limped(last)
+        if state in self._limp:
+            return self._limped(last, self._limp[state])
         return self._seated(last) if state in ("blind", "lost") else last
 
-    def _limped(self, last: Command) -> Command:
-        stiffness = max(0.0, last.stiffness - self._limp)
+    def _limped(self, last: Command, by: float) -> Command:
+        stiffness = max(0.0, last.stiffness - by)
         share = stiffness / last.stiffness if last.stiffness > 0.0 else 0.0
         forces = {side: share * foot.force for side, foot in last.feet.items()}
         return last.changed(feet={s: last.feet[s].changed(force=forces[s]) for s in SIDES}, stiffness=stiffness)

@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import Side, other_side
 from plantar.gait.command import Command, Sensors
+from plantar.gait.estimate.estimator import Posture
 from plantar.gait.plan.phases import PhaseKind
+from plantar.gait.safety.fall_check import FallCheck
 from plantar.gait.safety.safe_stop import SafeStop
 from plantar.gait.safety.target_limits import TargetLimits
 from plantar.gait.safety.tick_clock import TickClock
@@ -32,6 +34,9 @@ _WEIGHTLESS = 0.04
 _ROLLED = 0.06  # rad: a sole that stands turns by 0.01 in a walk, by 0.05 in the worst of drawn plants
 _FLAT = 0.5  # spread of the load of a flat sole, of that of an even one; a row of taxels has less than 0.3
 _FALLEN = 0.5  # cosine of the trunk's tilt, and share of its height, below which a robot has fallen
+_LANDING = 0.15  # s of double support within which a foot comes down that lands late
+_EMPTY = 0.05  # weight on both soles of a robot that stands on both feet, below which both are silent
+_UNKNOWN = 2.0  # s after which a blind robot sits, and goes limp where neither IMU nor soles show that it stands
 
 Readings = Mapping[Side, Reading]
 
@@ -39,8 +44,8 @@ Readings = Mapping[Side, Reading]
 class SafetyShell:
     """Guards a controller's tick.
 
-    Attributes `state`: "fallen", "blind" (both stay), "late" (ends with the first usable time), "waiting" (ends with
-    the first usable reading), or None.
+    Attributes `state`: "fallen", "limp", "blind" (these stay, but that a blind robot falls or goes limp), "late" (ends
+    with the first usable time), "waiting" (ends with the first usable reading), or None.
 
     Args:
         start: Command before the first sound reading.
@@ -50,6 +55,7 @@ class SafetyShell:
         com_height: CoM over the soles in m.
         begin: Of the walk in s; a later first tick has another zero.
         stop: Commands in a state that stays.
+        posture: Forward kinematics of joint angles (k,) in rad, base frame; None looks for falls without it.
     """
 
     def __init__(
@@ -64,6 +70,7 @@ class SafetyShell:
         com_height: float,
         begin: float,
         stop: SafeStop,
+        posture: Callable[[NDArray[np.float64]], Posture] | None = None,
     ) -> None:
         self._tick = tick
         self._last = start
@@ -87,6 +94,10 @@ class SafetyShell:
         self._stance: Side | None = None
         self._landed = (0.0, 0.0)
         self._stop = stop
+        self._fall = FallCheck(period, self._weight, com_height, posture)
+        self._empty = 0
+        self._unknown = 0
+        self._carried = False
         self.state: str | None = None
         self.errors = 0
         self.error = ""
@@ -111,13 +122,18 @@ class SafetyShell:
         return command
 
     def _stepped(self, sensors: Sensors, time: float) -> Command:
-        if self.state in ("fallen", "blind"):
+        if self.state in ("fallen", "limp"):
+            return self._held()
+        if self._fall.is_down(sensors) or self._is_fallen():
+            self.state = "fallen"
+            return self._held()
+        if self.state == "blind":
+            self._unknown = 0 if self._fall.knows else self._unknown + 1
+            if self._unknown * self._period > _UNKNOWN:
+                self.state = "limp"
             return self._held()
         self.state = "late" if self._clock.odd * self._period > _LATE else None
         if self.state == "late":
-            return self._held()
-        if self._is_fallen():
-            self.state = "fallen"
             return self._held()
         if self._problem(sensors):
             return self._bridge(time)
@@ -206,18 +222,21 @@ class SafetyShell:
             if counts["left"] != counts["right"]:
                 return None
             readings = {"left": right, "right": left}
-        if self._both_silent(soles):
+        if self._both_silent(soles, sensors.accelerometer):
             return None
         lost = self._silent_sole(soles, sensors.accelerometer)
         return readings if lost is None else self._replaced(sensors, readings, lost)
 
-    def _both_silent(self, soles: SoleCheck) -> bool:
-        """Whether both soles are stuck, or unloaded while carrying."""
-        silent = self._unloaded * self._period > _WEIGHTLESS and soles.left + soles.right < 0.05 * self._weight
-        # A foot in the air reports no force, and one that is known to be silent neither.
-        if silent and self._last.phase.stance is None and self._lost is None:
+    def _both_silent(self, soles: SoleCheck, accelerometer: NDArray[np.float64]) -> bool:
+        """Whether both soles are stuck, or unloaded while the robot stands on both."""
+        total = soles.left + soles.right
+        self._carried = self._carried or total > _UNLOADED * self._weight
+        silent = self._carried and total < _EMPTY * self._weight and self._last.phase.stance is None
+        self._empty = self._empty + 1 if silent and _is_carried(accelerometer) else 0
+        # Where one sole is known to be silent, the other's foot may still come down.
+        if self._empty * self._period > (_WEIGHTLESS if self._lost is None else _LANDING):
             return True
-        both = min(soles.left_same, soles.right_same) >= self._stuck and soles.left + soles.right > 0.0
+        both = min(soles.left_same, soles.right_same) >= self._stuck and total > 0.0
         return both and self._last.phase.kind != PhaseKind.STANDING
 
     def _silent_sole(self, soles: SoleCheck, accelerometer: NDArray[np.float64]) -> Side | None:
@@ -234,9 +253,10 @@ class SafetyShell:
             if own > 0.1 * weight:
                 self._lost = None
             return self._lost
-        carried = 0.6 * GRAVITY < math.hypot(*accelerometer.tolist()) < 1.6 * GRAVITY
-        self._unloaded = self._unloaded + 1 if carried and soles.left + soles.right < _UNLOADED * weight else 0
-        if self._unloaded * self._period > _WEIGHTLESS:
+        light = soles.left + soles.right < _UNLOADED * weight
+        self._unloaded = self._unloaded + 1 if light and _is_carried(accelerometer) else 0
+        # Of two empty soles under a robot that stands on both, none replaces the other.
+        if self._unloaded * self._period > _WEIGHTLESS and not self._empty:
             self._lost = phase.stance or ("left" if soles.left < soles.right else "right")
         return self._lost
 
@@ -275,3 +295,8 @@ def _sound(readings: Readings, side: Side, count: int) -> Reading | None:
         return None
     first = reading.force.item(0)
     return None if first != first and np.isnan(reading.force).all() else reading
+
+
+def _is_carried(accelerometer: NDArray[np.float64]) -> bool:
+    """Whether the specific force is that of a robot on its feet, not that of a drop or a blow."""
+    return 0.6 * GRAVITY < math.hypot(*accelerometer.tolist()) < 1.6 * GRAVITY

@@ -1,0 +1,91 @@
+"""Whether the base is upright, by the IMU alone, whatever becomes of the estimated state."""
+
+import math
+
+from ..base import memory
+
+__all__ = ["Uprightness"]
+
+_SPIN = 20.0  # rad/s: faster, no robot turns that is on its feet
+_LEAST, _MOST = 2.9, 400.0  # m/s^2: the specific force of a robot that neither drops for long nor is broken
+_NEAR_LOW, _NEAR_HIGH = 6.9, 12.8  # m/s^2: 0.7 and 1.3 of gravity, between which the specific force shows what is up
+_DRAWN, _ALONE = 1.0, 0.2  # s: time constants of the accelerometer beside a gyro, and without one
+_GRAVITY = 9.81
+
+
+class Uprightness:
+    """Follows the direction up in the base frame: the gyro turns it, the accelerometer draws it.
+
+    A sensor that reports NaN, nothing, what no robot does, or the same bits for `frozen` ticks is left out.
+
+    Args:
+        period: Of control in s.
+        frozen: Ticks.
+
+    Attributes:
+        turned: Cosine of the tilt by both.
+        pulled: Cosine of the tilt by the accelerometer alone.
+        turns: Whether the gyro works; `pulls` likewise the accelerometer.
+    """
+
+    def __init__(self, period, frozen):
+        self.period = period
+        self.frozen = frozen
+        self.begun = False
+        self.x = self.y = self.ax = self.ay = 0.0
+        self.z = self.az = 1.0
+        self.turned = self.pulled = 1.0
+        self.turns = self.pulls = False
+        self.gyro_x = self.gyro_y = self.gyro_z = self.force_x = self.force_y = self.force_z = 0.0
+        self.gyro_same = self.force_same = 0
+
+    def update(self, gyro, accelerometer):
+        """Follow a tick's gyro (3,) in rad/s and accelerometer (3,) in m/s^2; returns whether one of them works."""
+        turns = memory.size(gyro) == 3 and self._turn(memory.values(gyro))
+        pulls = memory.size(accelerometer) == 3 and self._pull(memory.values(accelerometer), turns)
+        self.turns, self.pulls = turns, pulls
+        self.turned = self.z
+        size = math.sqrt(self.ax * self.ax + self.ay * self.ay + self.az * self.az)
+        self.pulled = self.az / size if size > 0.0 else 1.0
+        return turns or pulls
+
+    def _turn(self, w):
+        wx, wy, wz = w[0], w[1], w[2]
+        same = wx == self.gyro_x and wy == self.gyro_y and wz == self.gyro_z
+        self.gyro_same = self.gyro_same + 1 if same else 0
+        self.gyro_x, self.gyro_y, self.gyro_z = wx, wy, wz
+        spin = wx * wx + wy * wy + wz * wz
+        if self.gyro_same >= self.frozen or not 0.0 < spin < _SPIN * _SPIN:
+            return False
+        x, y, z, dt = self.x, self.y, self.z, self.period
+        # A direction that is fixed in the world turns by -w in the base frame.
+        self.x = x + dt * (y * wz - z * wy)
+        self.y = y + dt * (z * wx - x * wz)
+        self.z = z + dt * (x * wy - y * wx)
+        return True
+
+    def _pull(self, a, turns):
+        x, y, z = a[0], a[1], a[2]
+        same = x == self.force_x and y == self.force_y and z == self.force_z
+        self.force_same = self.force_same + 1 if same else 0
+        self.force_x, self.force_y, self.force_z = x, y, z
+        size = math.sqrt(x * x + y * y + z * z)
+        if self.force_same >= self.frozen or not _LEAST < size < _MOST:
+            return False
+        if not self.begun:
+            self.begun = True
+            self.x, self.y, self.z = x / size, y / size, z / size
+            self.ax, self.ay, self.az = self.x, self.y, self.z
+        share = min(1.0, self.period / _ALONE)
+        self.ax += share * (x / _GRAVITY - self.ax)
+        self.ay += share * (y / _GRAVITY - self.ay)
+        self.az += share * (z / _GRAVITY - self.az)
+        if _NEAR_LOW < size < _NEAR_HIGH:
+            share = min(1.0, self.period / (_DRAWN if turns else _ALONE))
+            self.x += share * (x / size - self.x)
+            self.y += share * (y / size - self.y)
+            self.z += share * (z / size - self.z)
+        size = math.sqrt(self.x * self.x + self.y * self.y + self.z * self.z)
+        if size > 0.0:
+            self.x, self.y, self.z = self.x / size, self.y / size, self.z / size
+        return True
