@@ -17,14 +17,11 @@ from numpy.typing import NDArray
 from plantar.shoes.solid.arcs import Arc, CurvedSolid, with_arcs
 from plantar.shoes.solid.kernel import ocp, parts_of, points_of
 from plantar.shoes.solid.polyhedron import Loops, Polyhedron
-from plantar.shoes.solid.step_text import with_shared_entities
 
 _TOLERANCE = 1e-5  # mm
 _SAME = 1e-6  # mm between the centres of a cone's two arcs
-_ON = 1e-9  # mm between corners and their line or plane: edges one degree apart meet 60 times as far off
 
 Array = NDArray[np.float64]
-_Known = dict[tuple[float, ...], list[tuple[Any, Array, Array]]]  # lines and planes by about where they are
 
 
 @dataclass(frozen=True)
@@ -88,7 +85,7 @@ def write_step(parts: Sequence[StepPart], path: str | os.PathLike[str], name: st
     text = re.sub(r"(STEP translator \d+\.\d+) \d+", r"\1", text)
     number = count(1)
     text = re.sub(r"(?<=NEXT_ASSEMBLY_USAGE_OCCURRENCE\(')\d+", lambda _: str(next(number)), text)
-    Path(path).write_text(with_shared_entities(text), encoding="utf-8")
+    Path(path).write_text(text, encoding="utf-8")
 
 
 def _plain(name: str) -> str:
@@ -102,19 +99,6 @@ def release_date() -> str:
     return when.strftime("%Y-%m-%dT%H:%M:%S")
 
 
-def _once(known: _Known, kind: Any, points: Array, way: Array, *axes: Any) -> Any:
-    """Line or plane, a `kind`, of axes, through points (n, 3) along or across a way (3,), or an equal one of before."""
-    line = kind is ocp.gp.gp_Lin
-    place = points[0] - (points[0] @ way) * way if line else points[0] @ way
-    near = known.setdefault(tuple(np.round(np.append(way, place), 3)), [])
-    for made, at, along in near:
-        off = np.cross(points - at, along) if line else (points - at) @ along
-        if np.abs(off).max() < _ON:
-            return made
-    near.append((kind(*axes), points[0], way))
-    return near[-1][0]
-
-
 def _point(at: Array) -> Any:
     return ocp.gp.gp_Pnt(*at.tolist())
 
@@ -125,17 +109,14 @@ def _direction(way: Array) -> Any:
 
 def _solid(solid: CurvedSolid) -> Any:
     corners = solid.body.corners
-    known = _Known()
     vertices = [ocp.BRepBuilderAPI.BRepBuilderAPI_MakeVertex(_point(p)).Vertex() for p in corners]
-    edges = {
-        (a, b): _edge(corners, vertices, a, b, solid.arcs.get((a, b)), known) for a, b in solid.body.neighbours if a < b
-    }
+    edges = {(a, b): _edge(corners, vertices, a, b, solid.arcs.get((a, b))) for a, b in solid.body.neighbours if a < b}
     builder = ocp.BRep.BRep_Builder()
     shell = ocp.TopoDS.TopoDS_Shell()
     builder.MakeShell(shell)
     for number, (face, normal) in enumerate(zip(solid.body.faces, solid.body.normals, strict=True)):
         curved = number in solid.curved
-        made = _curved_face(solid, face, normal, edges) if curved else _flat_face(corners, face, normal, edges, known)
+        made = _curved_face(solid, face, normal, edges) if curved else _flat_face(corners, face, normal, edges)
         builder.Add(shell, made)
     shell.Closed(True)
     whole = ocp.BRepBuilderAPI.BRepBuilderAPI_MakeSolid(shell).Solid()
@@ -143,14 +124,10 @@ def _solid(solid: CurvedSolid) -> Any:
     return whole
 
 
-def _edge(corners: Array, vertices: list[Any], a: int, b: int, arc: Arc | None, known: _Known) -> Any:
+def _edge(corners: Array, vertices: list[Any], a: int, b: int, arc: Arc | None) -> Any:
     if arc is not None:
         return ocp.BRepBuilderAPI.BRepBuilderAPI_MakeEdge(_curve(corners, a, b, arc), vertices[a], vertices[b]).Edge()
-    way = (corners[b] - corners[a]) / math.dist(corners[a], corners[b])
-    if tuple(np.round(way, 6)) < (0.0, 0.0, 0.0):
-        return ocp.TopoDS.TopoDS.Edge_s(_edge(corners, vertices, b, a, None, known).Reversed())
-    line = _once(known, ocp.gp.gp_Lin, corners[[a, b]], way, _point(corners[a]), _direction(way))
-    return ocp.BRepBuilderAPI.BRepBuilderAPI_MakeEdge(line, vertices[a], vertices[b]).Edge()
+    return ocp.BRepBuilderAPI.BRepBuilderAPI_MakeEdge(vertices[a], vertices[b]).Edge()
 
 
 def _curve(corners: Array, a: int, b: int, arc: Arc) -> Any:
@@ -169,11 +146,8 @@ def _wire(loop: tuple[int, ...], edges: dict[tuple[int, int], Any]) -> Any:
     return wire
 
 
-def _flat_face(corners: Array, face: Loops, normal: Array, edges: dict[tuple[int, int], Any], known: _Known) -> Any:
-    a, b = sorted(face[0][:2])
-    # Along an edge, whose direction the file has.
-    axes = ocp.gp.gp_Ax3(_point(corners[face[0][0]]), _direction(normal), _direction(corners[b] - corners[a]))
-    plane = _once(known, ocp.gp.gp_Pln, corners[list(face[0])], normal, axes)
+def _flat_face(corners: Array, face: Loops, normal: Array, edges: dict[tuple[int, int], Any]) -> Any:
+    plane = ocp.gp.gp_Pln(_point(corners[face[0][0]]), _direction(normal))
     made = ocp.BRepBuilderAPI.BRepBuilderAPI_MakeFace(plane, _wire(face[0], edges), True)
     for hole in face[1:]:
         made.Add(_wire(hole, edges))
