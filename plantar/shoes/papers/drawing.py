@@ -32,9 +32,8 @@ Array = NDArray[np.float64]
 
 
 def draw_shoe(shoe: Shoe, build: ShoeBuild, triangles: Array, paths: Sequence[str | os.PathLike[str]]) -> list[Path]:
-    """Draw a build's shoe with triangles (n, 3, 3) in mm to paths: .pdf, .svg, .png, .dxf; returns these."""
-    sheet = sheet_of(shoe, build, triangles)
-    return [sheet.write(path) for path in paths]
+    """Draw a build's shoe with triangles (n, 3, 3) in mm to paths: .pdf, .png or .svg; returns these."""
+    return sheet_of(shoe, build, triangles).write(*paths)
 
 
 def sheet_of(shoe: Shoe, build: ShoeBuild, triangles: Array) -> Sheet:

@@ -242,8 +242,7 @@ def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
 def _draw(shoe: Shoe, build: ShoeBuild, surface: NDArray[np.float64], target: Path) -> list[str]:
     side = shoe.side
     p = build.parameters
-    formats = ("png", "svg", "pdf", "dxf")
-    drawn = draw_shoe(shoe, build, surface, [target / f"drawing_{side}.{ending}" for ending in formats])
+    drawn = draw_shoe(shoe, build, surface, [target / f"drawing_{side}.{ending}" for ending in ("pdf", "png")])
     pad = pad_surface(shoe.plan, p) if p.pad_thickness > 0.0 else None
     title = f"{shoe.layout.name}, {side} {build.kind}"
     drawn.append(draw_picture(surface, pad, title, target / f"picture_{side}.png"))

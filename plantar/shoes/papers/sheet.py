@@ -1,4 +1,4 @@
-"""Drawing sheet in mm on paper, as PDF, SVG, PNG and DXF (ISO 128 lines, ISO 129 dimensions)."""
+"""Drawing sheet in mm on paper (ISO 128 lines, ISO 129 dimensions)."""
 
 import math
 import os
@@ -11,12 +11,11 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from plantar.common.atomic import write_text
 from plantar.plotting import new_figure, save_figure
 
 _SIZE = (420.0, 297.0)  # A3
 _INCH = 25.4
-# Width in mm, dashes and colour of each kind of line; their names are the layers of the DXF
+# Width in mm, dashes and colour of each kind of line
 _KINDS: dict[str, tuple[float, str, str]] = {
     "OUTLINE": (0.5, "solid", "#111111"),
     "THIN": (0.25, "solid", "#111111"),
@@ -117,10 +116,13 @@ class Sheet:
             self.line([(x, at[1]), (x, bottom)], "HATCH")
         self.box((at[0], bottom), (float(edges[-1]), at[1]))
 
-    def write(self, path: str | os.PathLike[str]) -> Path:
-        """Write the sheet by the path's ending: .pdf, .svg, .png or .dxf."""
-        if Path(path).suffix == ".dxf":
-            return write_text(Path(path), self._dxf())
+    def write(self, *paths: str | os.PathLike[str]) -> list[Path]:
+        """Draw the sheet once and save it to each of the paths, by its ending: .pdf, .png or .svg; returns these."""
+        figure = self._drawn()
+        return [save_figure(figure, path) for path in paths]
+
+    def _drawn(self) -> Any:
+        """The sheet as a matplotlib figure of its own size."""
         figure, axes = new_figure(_SIZE[0] / _INCH, _SIZE[1] / _INCH)
         figure.set_layout_engine("none")
         axes.set_position([0.0, 0.0, 1.0, 1.0])
@@ -136,31 +138,7 @@ class Sheet:
         for at, text, height, turn, align in self.texts:
             style: dict[str, Any] = {"rotation": turn, "ha": align, "va": "bottom" if turn == 0.0 else "center"}
             axes.text(*at, text, fontsize=1.25 * height * points, **style)
-        return save_figure(figure, path)
-
-    def _dxf(self) -> str:
-        lines = [*self.lines, *(("AREA", np.vstack([a, a[:1]])) for _, a in self.areas)]
-        out: list[str] = []
-        for (x, y), text, height, turn, align in self.texts:
-            plain = text.replace("⌀", "%%c").replace("±", "%%p").replace("°", "%%d").replace("²", "2")
-            code = {"left": "0", "center": "1", "right": "2"}[align]
-            place = (f"{x:.3f}", f"{y:.3f}")
-            out += ["0", "TEXT", "8", "TEXT", "10", place[0], "20", place[1], "30", "0.0", "40", f"{height:g}"]
-            out += ["1", plain, "50", f"{turn:g}", "72", code, "11", place[0], "21", place[1], "31", "0.0"]
-        return dxf_text(lines, out)
-
-
-def dxf_text(lines: Iterable[tuple[str, Any]], more: Iterable[str] = (), *, closed: bool = False) -> str:
-    """Gives lines, layer and points (k, 2) of each, and more codes and values as DXF (R12, mm); closed lines end at
-    their first point.
-    """
-    out = ["0", "SECTION", "2", "HEADER", "9", "$INSUNITS", "70", "4", "0", "ENDSEC", "0", "SECTION", "2", "ENTITIES"]
-    for layer, points in lines:
-        out += ["0", "POLYLINE", "8", layer, "66", "1", *(("70", "1") if closed else ())]
-        for x, y in np.asarray(points).tolist():
-            out += ["0", "VERTEX", "8", layer, "10", f"{x:.4f}", "20", f"{y:.4f}", "30", "0.0"]
-        out += ["0", "SEQEND", "8", layer]
-    return "\n".join([*out, *more, "0", "ENDSEC", "0", "EOF", ""])
+        return figure
 
 
 @dataclass(frozen=True)

@@ -3,17 +3,17 @@
 Each taxel, or sheet row and column, has its own line to the heel connector. KiCad's y points down.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from plantar.common.table_writer import csv_text
 from plantar.shoes.build import Shoe, ShoeBuild
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.papers.bill import WINDOW
-from plantar.shoes.papers.sheet import dxf_text
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.wiring import (
     cable_outlines,
@@ -82,7 +82,18 @@ def cells_dxf(shoe: Shoe, build: ShoeBuild) -> str:
     if plan.lines is not None:
         layers |= _electrodes(shoe)
     parts = [(layer, q) for layer, shapes in layers.items() for s in shapes for q in getattr(s, "geoms", [s])]
-    return dxf_text([(k, ring(q)) for k, q in parts if q.geom_type == "Polygon" and not q.is_empty], closed=True)
+    return _dxf_of_rings((k, ring(q)) for k, q in parts if q.geom_type == "Polygon" and not q.is_empty)
+
+
+def _dxf_of_rings(rings: Iterable[tuple[str, NDArray[np.float64]]]) -> str:
+    """Closed polylines as DXF (R12, mm), by layer and corners (k, 2) of each."""
+    out = ["0", "SECTION", "2", "HEADER", "9", "$INSUNITS", "70", "4", "0", "ENDSEC", "0", "SECTION", "2", "ENTITIES"]
+    for layer, corners in rings:
+        out += ["0", "POLYLINE", "8", layer, "66", "1", "70", "1"]
+        for x, y in corners.tolist():
+            out += ["0", "VERTEX", "8", layer, "10", f"{x:.4f}", "20", f"{y:.4f}", "30", "0.0"]
+        out += ["0", "SEQEND", "8", layer]
+    return "\n".join([*out, "0", "ENDSEC", "0", "EOF", ""])
 
 
 def _electrodes(shoe: Shoe) -> dict[str, tuple[Any, ...]]:
