@@ -37,7 +37,7 @@ from foot_family import FAMILY, REFUSED, TURNS, small_turns, turned  # noqa: E40
 from shoe_witness import Witness  # noqa: E402
 
 TABLE = FOLDER / "difficult_feet.csv"
-COLUMNS = ("foot", "turn", "outcome", "taxels", "bound", "flat_percent", "half_percent", "undercut_mm2", "blind_rim_mm")
+COLUMNS = ("foot", "turn", "outcome", "taxels", "flat_percent", "half_percent", "undercut_mm2", "blind_rim_mm")
 COLUMNS += ("seconds", "commit", "reason")
 OUTCOMES = ("holds", "refused", "reported", "hidden", "crashed")
 LONG_BED = {"large": {"bed_length": 500.0}}
@@ -55,12 +55,12 @@ def shoe_of(name: str, turn: int) -> dict[str, Any]:
             report = export_shoe(build, folder)
             assert foot.triangles is not None
             faults = Witness(Path(folder), foot.triangles).problems() if report.holds else []
-        checked, share = report.checks["left"], build.load_share
+        checked = report.checks["left"]
+        share = build.load_share
         failed = [f"{c.name}: {c.value} ({c.allowed})" for c in checked.checks if not c.holds]
         row |= {
             "outcome": "reported" if failed else "hidden" if faults else "holds",
             "taxels": len(build.shoes[0].layout),
-            "bound": build.fit.bound,
             "flat_percent": round(100.0 * share.flat, 1),
             "half_percent": round(100.0 * share.half, 1),
             "undercut_mm2": checked.mounting.undercut,
@@ -91,8 +91,10 @@ def plans(turns: int, names: list[str]) -> None:
     print("| process | scatter mm | plans | refused | hold | active % | area % | CoP mm | fails |")
     print("|---|---|---|---|---|---|---|---|---|")
     for process in PROCESSES:
-        found, failed = [], Counter[str]()
-        refused = hold = 0
+        found = []
+        failed = Counter[str]()
+        refused = 0
+        hold = 0
         for name, turn in product(names or sorted(set(FAMILY) - REFUSED), range(turns)):
             parameters = ShoeParameters(process=process, **LONG_BED.get(name, {}))
             try:
@@ -114,19 +116,21 @@ def plans(turns: int, names: list[str]) -> None:
 
 
 def report() -> None:
-    found, lines = rows(), []
+    found = rows()
+    lines = []
     for name in sorted({name for name, _ in found}):
         own = [row for (foot, _), row in found.items() if foot == name]
         outcomes = Counter(row["outcome"] for row in own)
         built = [row for row in own if row["taxels"]]
-        cells = span = "-"
+        cells = "-"
+        span = "-"
         if built:
             least, most = (f([int(row["taxels"]) for row in built]) for f in (min, max))
-            cells = f"{least} to {most} / {max(int(row['bound']) for row in built)}"
+            cells = f"{least} to {most}"
             span = ", ".join(f"{min(float(row[c]) for row in built):.0f}" for c in ("flat_percent", "half_percent"))
         spent = median(float(row["seconds"]) for row in own)
         lines.append((name, len(own), *(outcomes[kind] for kind in OUTCOMES), cells, span, f"{spent:.0f}"))
-    head = ("foot", "turns", *OUTCOMES, "taxels / bound", "flat, half %", "s")
+    head = ("foot", "turns", *OUTCOMES, "taxels", "flat, half %", "s")
     write_table(FOLDER / "difficult_feet.md", [markdown_table(head, lines)])
 
 

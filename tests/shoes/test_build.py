@@ -13,11 +13,13 @@ import shapely
 from plantar import Percept, Reading, read_layout
 from plantar.errors import FootError, InputError
 from plantar.gait.analysis.analyse import analyse, with_layout
+from plantar.layouts.hex_lattice import HexLattice
 from plantar.shoes import ShoeBuild, ShoeParameters, build_shoe, export_shoe, foot_from_dimensions, foot_from_mesh
 from plantar.shoes.build import build_insole
 from plantar.shoes.checks.check import ShoeCheck, check_plan, check_shoe
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.foot.mesh_file import read_mesh
+from plantar.shoes.geometry.outline import grown
 from plantar.shoes.papers.mesh_files import write_stl
 from plantar.shoes.parameters import read_parameters
 from plantar.shoes.solid.step_model import StepPart, read_step, write_step
@@ -92,10 +94,16 @@ def test_a_layout_needs_no_cad_kernel():
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_feet_of_every_shape_are_covered_almost_as_well_as_can_be(generated_feet, name):
+def test_no_random_lattice_has_more_cells_on_feet_of_every_shape(generated_feet, name):
     foot = foot_from_triangles(name, generated_feet[name], where=name)
     fit = build_shoe(foot, cell_area=300.0 if name == "short" else 691.0, layout_only=True).fit
-    assert 0 < 0.9 * fit.bound <= fit.whole <= fit.bound
+    region = grown(fit.sole, fit.overhang)
+    chance = np.random.default_rng(3)
+    for _ in range(30):
+        turn = chance.uniform(0.0, np.pi / 3.0)
+        lattice = HexLattice(fit.cell_area, tuple(chance.uniform(0.0, 40.0, 2)), turn)
+        near = lattice.cells_near(region.bounds[:2], region.bounds[2:])
+        assert shapely.covers(region, shapely.polygons(lattice.corners(near))).sum() <= fit.whole
 
 
 @pytest.mark.long
@@ -125,7 +133,7 @@ def test_real_feet_give_shoes_that_hold(real_data, tmp_path, name):
     assert report.holds, report.checks
     fit = report.build.fit
     face = report.build.shoes[0].plan.contact.area
-    assert 0.9 * fit.bound <= fit.whole <= fit.bound <= face / 691.0
+    assert fit.whole <= face / 691.0
     assert fit.whole >= 0.7 * truth["taxels_691mm2_upper_bound_hull"]
     size = np.ptp(report.build.shoes[0].layout.outline, axis=0) * 1000
     assert truth["lowest_5mm"]["length_mm"] < size[0] < truth["silhouette_mm"][0] + 8
@@ -143,7 +151,7 @@ def test_fifty_one_taxels_on_the_foot_of_the_other_paper():
     build = build_shoe(foot, taxels=51, layout_only=True)
     layout = build.shoes[0].layout
     assert len(layout) == 51
-    assert build.fit.bound < 51
+    assert build.fit.whole < 51
     assert build.shoes[0].plan.overhang < 10.0
     assert build.fit.shares.min() > 0.95
     assert 0.0352 * 0.99 < layout.areas.sum() <= 51 * 691e-6
@@ -156,7 +164,8 @@ PERSON = foot_from_dimensions("person", length=0.255, width=0.095, corner_radius
 @pytest.mark.parametrize("thickness", [4.0, 5.5, 8.0, 15.0])
 def test_an_insole_is_as_thick_as_asked_for_and_covers_the_sole(thickness):
     build = build_insole(PERSON, thickness, layout_only=True)
-    p, plan = build.parameters, build.shoes[0].plan
+    p = build.parameters
+    plan = build.shoes[0].plan
     assert p.thickness == pytest.approx(thickness)
     assert p.floor >= p.wall_min
     assert (p.material, p.retention, build.kind) == ("TPU", "none", "insole")
@@ -245,7 +254,8 @@ def test_a_foot_that_stands_on_a_part_of_its_length_is_reported(rise, holds):
     low, high = (np.column_stack([outline, z]) for z in (lift, np.full(len(outline), 80.0)))
     ends = [((55.0, 0.0, 0.11 * rise), low[::-1]), ((55.0, 0.0, 80.0), high)]
     parts = [np.stack([np.broadcast_to(m, r.shape), r, np.roll(r, -1, axis=0)], axis=1) for m, r in ends]
-    after, up = np.roll(low, -1, axis=0), np.roll(high, -1, axis=0)
+    after = np.roll(low, -1, axis=0)
+    up = np.roll(high, -1, axis=0)
     foot = np.concatenate([*parts, np.stack([low, after, up], axis=1), np.stack([low, up, high], axis=1)])
     build = build_shoe(foot_from_triangles("last", foot, where="last", forward="x"), side="left", layout_only=True)
     (check,) = (c for c in check_plan(build.shoes[0].plan, build) if "length of the sole" in c.name)

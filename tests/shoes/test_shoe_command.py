@@ -84,7 +84,8 @@ def test_a_check_that_does_not_hold_is_exit_1(run, stl, box, tmp_path):
 
 
 def test_bad_options_are_refused_in_one_line(run, stl, box, tmp_path):
-    foot, out = stl(box((-50, 150), (-40, 40), (0, 60))), tmp_path / "out"
+    foot = stl(box((-50, 150), (-40, 40), (0, 60)))
+    out = tmp_path / "out"
     letter = tmp_path / "letter.doc"
     letter.write_text("Dear reader")
     for arguments, reason in (
@@ -153,7 +154,7 @@ def test_a_robots_model_and_a_drawing_give_layouts(run, stl, box, tmp_path):
     assert json.loads(out)["taxels"] == told["taxels"] == 20
     code, out, err = run("--dimensions", "200x90x0", "--layout-only", "-o", tmp_path / "c", "--json", "--name", "box")
     assert (code, err) == (0, "")
-    assert json.loads(out)["taxels"] == json.loads(out)["whole_taxels_bound"] == 20
+    assert json.loads(out)["taxels"] == json.loads(out)["whole_taxels"] == 20
     assert json.loads((tmp_path / "c" / "layout_left.json").read_text())["name"] == "box"
 
 

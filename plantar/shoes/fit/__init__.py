@@ -1,1 +1,1 @@
-"""Taxels on the shoe's face: lattice fit and bound."""
+"""Taxels on the shoe's face."""

@@ -135,15 +135,12 @@ def _cuts(inner: _Line, outer: _Line, depth: float, length: float) -> list[tuple
     return list(dict.fromkeys(out))
 
 
-def _core(inside: Any, cell_area: float) -> tuple[list[Array], Lattice, int]:
+def _core(inside: Any, cell_area: float) -> tuple[list[Array], Lattice]:
     clear = inside.buffer(-_CLEAR, join_style="mitre")
     try:
-        fit = fit_lattice(clear, cell_area=cell_area)
-        lattice = fit.lattice
-        bound = fit.bound
+        lattice: Lattice = fit_lattice(clear, cell_area=cell_area).lattice
     except FootError:  # too narrow for a whole one
         lattice = hex_pattern(cell_area).at((inside.centroid.x, inside.centroid.y), 0.0)
-        bound = 0
     box = np.array(inside.bounds).reshape(2, 2)
     corners = lattice.corners(lattice.cells_near(box[0], box[1]))
     cells = shapely.polygons(corners)
@@ -156,20 +153,19 @@ def _core(inside: Any, cell_area: float) -> tuple[list[Array], Lattice, int]:
         # Grooves that meet in one point would leave an edge of four faces.
         long = shapely.length(shapely.get_parts(meets)).min(initial=np.inf) > _SNAP
         kept.append(cell if whole[i] or long else trimmed_cell(cells[i], clear))
-    return kept, lattice, bound
+    return kept, lattice
 
 
 def fit_fine_rim(foot: Any, *, cell_area: float, overhang: float, border: float) -> TaxelFit:
     """Fit taxels with a fine rim to a shoe's face.
 
     `foot`: Shapely outline below the rim's upper edge; `cell_area`: whole cell in mm^2; `overhang`: allowed cell reach
-    beyond the outline in mm; `border`: plate beyond the cells in mm. Returns cells, heel to toes; the bound is the
-    inner ones'.
+    beyond the outline in mm; `border`: plate beyond the cells in mm. Returns cells, heel to toes.
     """
     region = tidy(grown(foot, overhang))
     face = tidy(grown(foot, overhang + border))
     strip, inside = strip_cells(region, face, cell_area)
-    core, lattice, bound = _core(inside, cell_area)
+    core, lattice = _core(inside, cell_area)
     polygons = [shapely.Polygon(c) for c in (*strip, *(gathered(c, np.concatenate(strip)) for c in core))]
     polygons.sort(key=lambda c: (round(c.centroid.x, 3), round(c.centroid.y, 3)))
     areas = shapely.area(polygons)
@@ -183,7 +179,6 @@ def fit_fine_rim(foot: Any, *, cell_area: float, overhang: float, border: float)
         cell_area=cell_area,
         overhang=overhang,
         sole=foot,
-        bound=bound,
         border=border,
         lattice_cells=None,
         notes=(note,),

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from plantar.errors import FootError, InputError
 from plantar.shoes.fit.cell_pattern import CellPattern, Lattice, hex_pattern
-from plantar.shoes.fit.fit_bound import bound_whole_cells
 
 CELL_AREAS = (100.0, 5000.0)  # cell areas in mm^2 that are taken
 
@@ -32,14 +31,12 @@ _SLACK = 1e-3  # mm by which a cell may leave the region; above the rounding of 
 class LatticeFit:
     """Placed lattice and its kept cells.
 
-    `cells`: axial coordinates (n, 2), row by row; `overhang`: used cell reach beyond the outline in mm; `bound`: proven
-    most whole cells with this overhang.
+    `cells`: axial coordinates (n, 2), row by row; `overhang`: used cell reach beyond the outline in mm.
     """
 
     lattice: Lattice
     cells: NDArray[np.int64]
     overhang: float
-    bound: int = 0
 
 
 @dataclass(frozen=True)
@@ -93,8 +90,8 @@ def fit_lattice(
 ) -> LatticeFit:
     """Place the lattice with most whole cells inside a sole; deterministic.
 
-    At every fifth degree (fifteenth for cells with a tail) the best offset is found exactly; `bound_whole_cells` looks
-    between. Ties: straight rows, area under the cells and inside their hull, distance from the sole's centre.
+    At every fifth degree (fifteenth for cells with a tail), and along long edges, the best offset is found exactly.
+    Ties: straight rows, area under the cells and inside their hull, distance from the sole's centre.
 
     `sole`: Shapely outline in mm; `cell_area` in mm^2; `taxels`: their number, with the least overhang in steps of 0.5
     mm; None takes as many as fit; `overhang`: allowed cell reach beyond the outline in mm without `taxels`; the least
@@ -111,12 +108,7 @@ def fit_lattice(
     if taxels is not None:
         overhang = _least_overhang(sole, pattern, taxels, overhang, overhang_max)
     region = sole.buffer(overhang) if overhang > 0.0 else sole
-    scans = _scan(sole, pattern, overhang)
-    most = _most(scans)
-    proven = bound_whole_cells(region, pattern, known=most)
-    if proven.bound > most:
-        scans += _scan(sole, pattern, overhang, proven.angles)
-    placements = _placements(sole, pattern, taxels, scans)
+    placements = _placements(sole, pattern, taxels, _scan(sole, pattern, overhang))
     if not placements:
         raise FootError(
             f"no whole cell of {pattern.area:g} mm^2 fits the sole ({sole.area:.0f} mm^2); use a smaller cell area, "
@@ -124,7 +116,7 @@ def fit_lattice(
         )
     best = max(placements, key=lambda p: p.score)
     best = _centred(best, sole, region, pattern)
-    return LatticeFit(best.lattice, best.cells, overhang, proven.bound)
+    return LatticeFit(best.lattice, best.cells, overhang)
 
 
 def _least_overhang(sole: Any, pattern: CellPattern, taxels: int, overhang: float, overhang_max: float) -> float:
@@ -138,7 +130,7 @@ def _least_overhang(sole: Any, pattern: CellPattern, taxels: int, overhang: floa
     at_most = most(steps) if steps else most(0)
     if at_most < taxels:
         raise FootError(
-            f"{taxels} taxels of {pattern.area:g} mm^2 do not fit: at most {at_most} with cells up to "
+            f"{taxels} taxels of {pattern.area:g} mm^2 do not fit: {at_most} do with cells up to "
             f"{overhang + steps * _OVERHANG_STEP:g} mm beyond the sole; ask for fewer or use a smaller cell area"
         )
     # low does not hold enough, high does
@@ -162,14 +154,11 @@ class _Scan:
     counts: NDArray[np.int64]
 
 
-def _scan(sole: Any, pattern: CellPattern, overhang: float, angles: Sequence[float] | None = None) -> list[_Scan]:
+def _scan(sole: Any, pattern: CellPattern, overhang: float) -> list[_Scan]:
     region = sole.buffer(overhang) if overhang > 0.0 else sole
     out = []
-    known = _angles(pattern)
-    first = 0 if angles is None else len(known)
-    tried = [*np.radians(known), *_edge_angles(sole, pattern)] if angles is None else angles
     straight = len(_straight(pattern))
-    for rank, angle in enumerate(tried, start=first):
+    for rank, angle in enumerate([*np.radians(_angles(pattern)), *_edge_angles(sole, pattern)]):
         allowed = whole_cell_region(region, pattern.parts, float(angle))
         if allowed.is_empty:
             continue

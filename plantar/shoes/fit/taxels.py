@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from plantar.errors import FootError
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.shoes.cells.cell import Cell
-from plantar.shoes.fit.cell_pattern import Lattice, hex_pattern
+from plantar.shoes.fit.cell_pattern import Lattice
 from plantar.shoes.fit.lattice_fit import LatticeFit, fit_lattice
 from plantar.shoes.geometry.outline import CORNER, grown, tidy
 
@@ -40,7 +40,6 @@ class TaxelFit:
         cell_area: Whole cell in mm^2.
         overhang: Used cell reach beyond the foot's outline.
         sole: Shapely outline of the face.
-        bound: Proven most whole cells; None of a sheet.
         border: Left around the cells.
         lattice_cells: Axial coordinates (n, 2) if all are whole.
         blind_most: Requested widest blind rim in mm.
@@ -58,7 +57,6 @@ class TaxelFit:
     cell_area: float
     overhang: float
     sole: Any
-    bound: int | None
     border: float
     lattice_cells: NDArray[np.int64] | None
     notes: tuple[str, ...] = ()
@@ -147,7 +145,6 @@ def _whole(sole: Any, fit: LatticeFit, cell_area: float, border: float, notes: t
         cell_area=cell_area,
         overhang=fit.overhang,
         sole=sole,
-        bound=fit.bound,
         border=border,
         lattice_cells=fit.cells,
         notes=notes,
@@ -161,8 +158,6 @@ def rows_and_columns(lines: NDArray[np.int64]) -> tuple[int, int]:
 
 def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit | None:
     """A number of cells within a distance of the sole, least cut by the rim, or None."""
-    from plantar.shoes.fit.fit_bound import bound_whole_cells
-
     # Gentle corners stay one point: a cut cell gets no short edges.
     region = shapely.set_precision(sole.simplify(0.1).buffer(reach, join_style="mitre", mitre_limit=CUT_CORNER), 1e-4)
     shapely.prepare(region)
@@ -184,9 +179,8 @@ def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit
     for corners, share in zip(lattice.corners(axial), shares, strict=True):
         cells.append(corners if share > 1.0 - 1e-6 else trimmed_cell(shapely.Polygon(corners), region))
     cut = int((shares <= 1.0 - 1e-6).sum())
-    bound = bound_whole_cells(region, hex_pattern(cell_area)).bound
     note = (
-        f"{taxels} whole cells do not fit within {reach:.2f} mm of the sole (at most {bound} do): {cut} cells at the "
+        f"{taxels} whole cells do not fit within {reach:.2f} mm of the sole: {cut} cells at the "
         f"rim are cut, to {100 * shares.min():.0f} % of a cell or more"
     )
     return TaxelFit(
@@ -196,7 +190,6 @@ def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit
         cell_area=cell_area,
         overhang=reach,
         sole=sole,
-        bound=bound,
         border=0.0,
         lattice_cells=None,
         notes=(note,),

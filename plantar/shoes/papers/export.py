@@ -63,7 +63,6 @@ class ShoeReport:
             "kind": build.kind,
             "taxels": len(first.layout),
             "whole_taxels": fit.whole,
-            "whole_taxels_bound": fit.bound,
             "cell_area_mm2": round(fit.cell_area, 3),
             "cell": None if fit.cell is None else fit.cell.as_dict() | {"kind": fit.cell.kind},
             "smallest_cell_share": round(float(fit.shares.min()), 4),
@@ -252,13 +251,11 @@ def _draw(shoe: Shoe, build: ShoeBuild, surface: NDArray[np.float64], target: Pa
 def shoe_text(summary: Mapping[str, Any]) -> str:
     """Shoe's figures for people."""
     lines = [f"  {note}" for note in summary["notes"]]
-    bound = summary["whole_taxels_bound"]
     size = f"{summary['cell_area_mm2']:g} mm^2{' or less' if summary['smallest_cell_share'] < 1.0 else ''}"
     lines.append(
         f"{summary['taxels']} taxels of {size} cover "
         f"{100 * summary['covered_area_ratio']:.0f} % of the sole, blind rim {summary['blind_rim_mm']:.0f} mm; "
         f"overhang {summary['overhang_mm']:g} mm"
-        + ("" if bound is None else f"; at most {bound} whole ones fit there (proven)")
     )
     if "mass_g" in summary:
         size = " x ".join(f"{v:.1f}" for v in summary["size_mm"])

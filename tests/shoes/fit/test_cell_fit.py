@@ -50,10 +50,12 @@ def some(*quick: str) -> list[object]:
 @pytest.mark.parametrize("notched", [False, pytest.param(True, marks=pytest.mark.long)])
 @pytest.mark.parametrize("name", some("square", "wide", "hex film"))
 def test_cells_are_inside_and_ribs_are_left_between_their_pockets(name, notched):
-    cell, sole = CELLS[name], outline(3, notched)
+    cell = CELLS[name]
+    sole = outline(3, notched)
     fit = fit_cells(sole, cell, rib=RIB)
-    pockets, felt = polygons(fit.pockets), polygons(fit.cells)
-    assert 0 < len(felt) == len(pockets) <= fit.bound
+    pockets = polygons(fit.pockets)
+    felt = polygons(fit.cells)
+    assert 0 < len(felt) == len(pockets)
     assert all(sole.buffer(0.01).covers(shape) for shape in (*pockets, *felt))
     apart = [a.distance(b) for a, b in itertools.combinations(pockets, 2)]
     assert min(apart, default=RIB) > RIB - 0.02
@@ -75,12 +77,15 @@ def brute_force(sole: shapely.Polygon, cell: Cell, steps: int, angles: np.ndarra
     for angle in angles:
         room = shapely.affinity.rotate(pattern.room, angle, origin=(0, 0), use_radians=True)
         ring = np.array(room.exterior.coords)
-        c, s = math.cos(angle), math.sin(angle)
+        c = math.cos(angle)
+        s = math.sin(angle)
         i, j = (v.ravel() for v in np.meshgrid(np.arange(-40, 41), np.arange(-40, 41)))
-        u, v = i * pattern.width + j * pattern.shift, j * pattern.rise
+        u = i * pattern.width + j * pattern.shift
+        v = j * pattern.rise
         grid = np.column_stack([c * u - s * v, s * u + c * v])
         for a, b in itertools.product(np.arange(steps) / steps, repeat=2):
-            du, dv = a * pattern.width, b * pattern.rise
+            du = a * pattern.width
+            dv = b * pattern.rise
             at = grid + np.array([c * du - s * dv, s * du + c * dv])
             at = at[shapely.contains_xy(sole, at[:, 0], at[:, 1])]
             most = max(most, int(shapely.covers(sole, shapely.polygons(at[:, None] + ring)).sum()))
@@ -93,29 +98,30 @@ def test_no_placement_of_a_grid_of_them_holds_more(name):
     fit = fit_cells(sole, CELLS[name], rib=RIB)
     period = pattern_of(CELLS[name], RIB).period
     most = brute_force(sole, CELLS[name], 6, np.linspace(0.0, period, 6, endpoint=False))
-    assert most <= len(fit.cells) <= fit.bound
+    assert most <= len(fit.cells)
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(12))
 @pytest.mark.parametrize("name", CELLS)
-def test_no_placement_of_a_fine_grid_beats_the_bound(name, seed):
-    sole, cell = outline(seed, notched=seed % 2 == 1), CELLS[name]
+def test_at_most_one_more_fits_at_any_placement_of_a_fine_grid(name, seed):
+    sole = outline(seed, notched=seed % 2 == 1)
+    cell = CELLS[name]
     fit = fit_cells(sole, cell, rib=RIB)
     period = pattern_of(cell, RIB).period
     known = brute_force(sole, cell, 16, np.array([0.0, fit.lattice.angle]))
     every = brute_force(sole, cell, 8, np.linspace(0.0, period, 24, endpoint=False))
     assert known <= len(fit.cells)  # at an angle that was looked at the best offset is found exactly
-    assert max(known, every) <= fit.bound
+    assert every <= len(fit.cells) + 1
 
 
 @pytest.mark.parametrize(("columns", "rows"), [(4, 3), (1, 1)])
 @pytest.mark.parametrize("turn", [0.0, 21.0])
-def test_a_box_made_for_squares_is_proven_to_hold_just_those(columns, rows, turn):
+def test_a_box_made_for_squares_holds_just_those(columns, rows, turn):
     pitch = 20.0 + 0.4 + RIB
     box = shapely.affinity.rotate(shapely.box(0, 0, columns * pitch + 0.2, rows * pitch + 0.2), turn)
     fit = fit_cells(box, CELLS["square"], rib=RIB)
-    assert len(fit.cells) == fit.bound == columns * rows
+    assert len(fit.cells) == columns * rows
 
 
 @pytest.mark.long
@@ -124,7 +130,7 @@ def test_a_number_of_cells_takes_the_least_overhang():
     fit = fit_cells(sole, CELLS["square"], rib=RIB, taxels=12, overhang_max=8.0)
     assert len(fit.cells) == 12
     assert 2.5 <= fit.overhang <= 3.0
-    with pytest.raises(FootError, match="do not fit: at most"):
+    with pytest.raises(FootError, match=r"do not fit: \d+ do with cells up to"):
         fit_cells(sole, CELLS["square"], rib=RIB, taxels=40, overhang_max=8.0)
 
 
@@ -136,9 +142,11 @@ def test_a_pitch_that_leaves_no_rib_is_refused():
 
 @pytest.mark.parametrize("seed", [0, 3])
 def test_a_sheet_has_the_crossings_that_lie_inside_and_is_cut_there(seed):
-    sole, cell = outline(seed, notched=seed > 1), read_cell("sheet")
+    sole = outline(seed, notched=seed > 1)
+    cell = read_cell("sheet")
     fit = fit_cells(sole, cell, rib=RIB)
-    felt, (recess,) = polygons(fit.cells), polygons(fit.pockets)
+    felt = polygons(fit.cells)
+    (recess,) = polygons(fit.pockets)
     assert sole.buffer(-0.5 * RIB + 0.01).covers(recess)
     assert all(recess.buffer(0.01).covers(c) for c in felt)
     assert shapely.union_all(felt, grid_size=1e-6).area == pytest.approx(sum(c.area for c in felt), rel=1e-4)
@@ -151,7 +159,6 @@ def test_a_sheet_has_the_crossings_that_lie_inside_and_is_cut_there(seed):
     for k, line in ((1, rows), (0, columns)):
         start = centres[whole, k] - cell.pitch_x * line[whole]
         assert np.ptp(start) < 1e-3
-    assert fit.bound is None
     with pytest.raises(InputError, match="a sheet has as many crossings as the outline holds"):
         fit_cells(sole, cell, rib=RIB, taxels=20)
 
