@@ -93,11 +93,13 @@ def foot_from_triangles(
     forward: Axis | None = None,
     sole_band: float = 5.0,
     links: Triangles | None = None,
+    of_link: bool = False,
 ) -> Foot:
     """Foot from triangles; options as in `foot_from_mesh`.
 
     `triangles` (n, 3, 3), ankle at the origin; `up`: upward axis; `sole_z`: sole plane in mm; `sole_band`: sole height
-    in mm; `links`: points (n, 3) of other robot links, likewise.
+    in mm; `links`: points (n, 3) of other robot links, likewise; `of_link`: whether the triangles are a robot link's,
+    whose frame shows where the toes are and is never turned but by quarters.
     """
     if forward is not None and forward not in AXES[:4]:
         raise InputError(f"forward axis is {forward!r}; allowed: {', '.join(AXES[:4])}")
@@ -111,7 +113,7 @@ def foot_from_triangles(
     notes = [note, *([] if is_closed(triangles) else ["the mesh is not closed; only its outline is used"])]
     settings: dict[str, Any] = {
         "where": where, "mesh_side": mesh_side, "sole_z": sole_z, "forward": forward, "sole_band": sole_band,
-        "read": read, "links": links,
+        "read": read, "links": links, "of_link": of_link,
     }  # fmt: skip
     if up is None:
         size = np.ptp(triangles.reshape(-1, 3), axis=0)
@@ -154,6 +156,7 @@ def _standing(
     notes: list[str],
     read: Triangles,
     links: Triangles | None,
+    of_link: bool,
     up_given: bool = False,
 ) -> Foot:
     """Foot from triangles in mm, z up; links move as the surface does from `read`."""
@@ -165,7 +168,7 @@ def _standing(
             notes.append(f"levelled: the plane that the foot rests on was tilted by {tilt:.1f} degrees")
     _check_height(triangles, where)
     upright = triangles
-    triangles, facing = _facing(triangles, where, forward, sole_band)
+    triangles, facing = _facing(triangles, where, forward, sole_band, of_link)
     notes += facing
     if mesh_side == "right":
         triangles = triangles[:, ::-1] * np.array([1.0, -1.0, 1.0])
@@ -210,13 +213,17 @@ def _standing(
     )
 
 
-def _facing(triangles: Triangles, where: str, forward: Axis | None, sole_band: float) -> tuple[Triangles, list[str]]:
+def _facing(
+    triangles: Triangles, where: str, forward: Axis | None, sole_band: float, of_link: bool
+) -> tuple[Triangles, list[str]]:
     """Triangles with the toes along x, and notes."""
+    notes: list[str] = []
     if forward is not None:
-        notes = [] if forward == "x" else [f"the mesh's {forward} axis points to the toes, as given"]
+        notes += [] if forward == "x" else [f"the mesh's {forward} axis points to the toes, as given"]
         return triangles @ rotation_forward(forward).T, notes
     check_one_body(triangles, where)
-    triangles, notes = straightened(triangles, where)
+    if not of_link:
+        triangles, notes = straightened(triangles, where, sole_band=sole_band)
     try:
         axis, how = forward_axis(triangles, where)
     except FootError:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from plantar.common.optional_library import optional_library
 from plantar.errors import FootError
 from plantar.geometry.hull_plane import hull_plane
+from plantar.shoes.geometry.outline import cut_below
 from plantar.shoes.geometry.surface import convex_outline, corner_numbers, thinned
 
 Axis = Literal["x", "-x", "y", "-y", "z", "-z"]  # an axis of a mesh, with its direction
@@ -214,12 +215,14 @@ def check_one_body(triangles: Array, where: str) -> None:
         )
 
 
-def straightened(triangles: Array, where: str = "the mesh") -> tuple[Array, list[str]]:
-    """Gives triangles with the foot's length along x or y, and notes; where is the file's name.
+def straightened(triangles: Array, where: str = "the mesh", *, sole_band: float = 5.0) -> tuple[Array, list[str]]:
+    """Gives triangles with the sole's length along x or y, and notes; where is the file's name.
 
-    The direction within 25 degrees of the outline's long axis with the best mirror symmetry.
+    Only the lowest `sole_band` mm count, since ankles and motors above are no mirror images. The direction is the one
+    within 25 degrees of the sole's long axis with the best mirror symmetry.
     """
-    hull = convex_outline(triangles.reshape(-1, 3)[:, :2])
+    below = cut_below(triangles, float(triangles[..., 2].min()) + sole_band)
+    hull = convex_outline(below.reshape(-1, 3)[:, :2])
     if hull.geom_type != "Polygon":
         return triangles, []
     hull = hull.simplify(0.3)
@@ -237,19 +240,21 @@ def straightened(triangles: Array, where: str = "the mesh") -> tuple[Array, list
         return triangles, []
     if abs(off) < _TURN_LEAST:
         return triangles, [
-            f"by its symmetry the foot points {off:.1f} degrees past an axis of the mesh: taken as it stands, since "
-            f"that is less than {_TURN_LEAST:g}; turn the mesh if it should not"
+            f"by the symmetry of its sole the foot points {off:.1f} degrees past an axis of the mesh: taken as it "
+            f"stands, since that is less than {_TURN_LEAST:g}; turn the mesh if it should not"
         ]
     if square and abs(off) > _TURN_SQUARE:
         raise FootError(
-            f"{where}: the foot is about as wide as long and stands askew by {abs(off):.0f} degrees, so that nothing "
+            f"{where}: the sole is about as wide as long and stands askew by {abs(off):.0f} degrees, so that nothing "
             f"shows where it points; turn the mesh, or give the forward axis ({', '.join(AXES[:4])}) to take it as it "
             "stands"
         )
     c = math.cos(math.radians(-off))
     s = math.sin(math.radians(-off))
     turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-    note = f"the foot points {off:.1f} degrees past an axis of the mesh, by its symmetry: turned back by that"
+    note = (
+        f"the foot points {off:.1f} degrees past an axis of the mesh, by the symmetry of its sole: turned back by that"
+    )
     return np.asarray(triangles @ turn.T), [note]
 
 

@@ -83,7 +83,7 @@ def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
         found = read_foot_body(path, source.body, options["unit"])
         named = source.mesh_side or found.side
         where = f"{path}, body '{source.body}'"
-        options |= {"file_unit": "m", "mesh_side": named or "left", "links": found.links}
+        options |= {"file_unit": "m", "mesh_side": named or "left", "links": found.links, "of_link": True}
         foot = foot_from_triangles(path.stem, found.triangles, where=where, **options)
         return replace(foot, mass=found.mass, notes=(*found.notes, *foot.notes, *(() if named else (_ASSUMED,))))
     if source.body is not None:

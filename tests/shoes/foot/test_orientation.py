@@ -104,6 +104,27 @@ def test_a_turned_foot_is_straightened_by_its_symmetry(prism, yaw):
         assert "degrees past an axis" in notes[0]
 
 
+def test_what_stands_askew_above_the_sole_turns_nothing(prism, box):
+    sole = prism(np.array([[-80, -45], [140, -45], [140, 45], [-80, 45]], dtype=float), 0.0, 15.0)
+    c = np.cos(np.radians(20.0))
+    s = np.sin(np.radians(20.0))
+    motor = box((-95, 150), (-48, 48), (15, 60)) @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]).T
+    foot = np.concatenate([sole, motor])
+    same, notes = straightened(foot)
+    assert notes == []
+    np.testing.assert_array_equal(same, foot)
+
+
+def test_a_links_frame_is_not_turned_where_a_mesh_would_be(prism):
+    outline = np.array([[-80, -32], [60, -46], [130, -25], [140, 0], [130, 25], [60, 46], [-80, 32]], dtype=float)
+    turned = in_pose(prism(outline, 0.0, 40.0), 0.0, 0.0, 12.0)
+    mesh = foot_from_triangles("a", turned, where="a")
+    assert any("12.0 degrees past an axis of the mesh, by the symmetry of its sole" in note for note in mesh.notes)
+    link = foot_from_triangles("a", turned, where="a", of_link=True)
+    np.testing.assert_allclose(link.triangles.reshape(-1, 3).min(axis=0), turned.reshape(-1, 3).min(axis=0), atol=1e-9)
+    assert not any("past an axis" in note for note in link.notes)
+
+
 def test_two_feet_are_told_from_a_foot_and_a_loose_part(box):
     foot = box((-50, 150), (-40, 40), (0, 40))
     check_one_body(np.concatenate([foot, box((-20, 20), (-20, 20), (45, 60))]), "a.stl")
@@ -140,7 +161,8 @@ def test_a_rounded_sole_that_is_tilted_with_its_foot_is_refused(prism, radius):
     foot = rocker(radius, prism)
     assert "level as the mesh's axes" in check_level(foot, "foot")[0]
     for tilt in (4.0, 8.0, -8.0, 15.0):
-        c, s = np.cos(np.radians(tilt)), np.sin(np.radians(tilt))
+        c = np.cos(np.radians(tilt))
+        s = np.sin(np.radians(tilt))
         tilted = foot @ np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]]).T
         with pytest.raises(FootError, match=rf"tilted by {abs(tilt):.1f} degrees, .*--up z"):
             check_level(tilted, "foot")
@@ -167,7 +189,8 @@ def test_a_wedge_turned_by_180_degrees_is_refused_and_stands_by_the_axis_that_is
 @pytest.mark.parametrize("yaw", [8.0, 20.0, -25.0, 40.0, 5.0])
 def test_a_foot_about_as_wide_as_long_is_straightened_where_its_sides_tell(box, yaw):
     foot = box((-60, 100), (-78, 78), (0, 25))
-    c, s = np.cos(np.radians(yaw)), np.sin(np.radians(yaw))
+    c = np.cos(np.radians(yaw))
+    s = np.sin(np.radians(yaw))
     turned = foot @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]).T
     if yaw == 40.0:
         with pytest.raises(FootError, match=r"askew by 40 degrees.* forward axis"):
