@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import SIDES, Side
 from plantar.errors import FormatError, InputError
+from plantar.formats.belts import are_belts
 from plantar.formats.format import ReadOptions
 from plantar.formats.plate_sides import LEAST, Plate, PlateContact, plate_contacts, sides_of_contacts
 from plantar.recordings.pressure_recording import FootRecording, StatedEvents, true_runs
@@ -76,13 +77,15 @@ def feet_of_plates(
                 f"{used[0].name} is never empty and its load changes by {100.0 * spread:.0f} %: both feet walk on one "
                 "plate, which does not separate them; allowed: a plate for each foot"
             )
-    every = _sees_all(contacts, len(used))
-    both = [] if every else [c for c in contacts if _is_of_both(used[c.plate], c)]
+    every = are_belts(used, contacts, rate, warnings)
+    both = [] if every else [c for c in contacts if used[c.plate].side is None and _is_of_both(used[c.plate], c)]
     if both:
         names = ", ".join(f"{used[c.plate].name} at {c.begin / rate:.1f} s" for c in both[:5])
         text = f"both feet are on one plate ({names}): its centre of pressure goes farther than a foot is long or wide"
         if len(both) == len(contacts):
-            raise FormatError(f"{text}; allowed: a plate for each foot")
+            raise FormatError(
+                f"{text}; allowed: a plate for each foot, or --plates, which names the foot of each plate"
+            )
         warnings.append(f"{text}; left out, and a step that is partly on another plate is too small there")
     found = sides_of_contacts(used, contacts, every, rate, options.side, warnings, markers, events)
     sides = [None if c in both else s for c, s in zip(contacts, found, strict=True)]
@@ -249,11 +252,6 @@ def _is_of_both(plate: Plate, contact: PlateContact) -> bool:
     low, high = np.percentile(points @ axes, (2.0, 98.0), axis=0)
     width, length = np.sort(high - low)
     return bool(length > _FOOT[0] or width > _FOOT[1])
-
-
-def _sees_all(contacts: Sequence[PlateContact], plates: int) -> bool:
-    """Whether plates are a treadmill's, stepped on again and again."""
-    return plates > 1 and bool((np.bincount([c.plate for c in contacts], minlength=plates) >= 4).sum() >= 2)
 
 
 def _weights(

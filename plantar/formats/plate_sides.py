@@ -94,11 +94,13 @@ def sides_of_contacts(
     """
     if treadmill:
         _report_crossings(plates, contacts, rate, warnings)
-    if all(p.side is not None for p in plates):
-        return [plates[c.plate].side or "left" for c in contacts]
+    named = _named_sides(plates, warnings)
+    if all(side is not None for side in named):
+        return [named[c.plate] or "left" for c in contacts]
     if given is not None and len(plates) == 1:
         return [given] * len(contacts)
     found, why = _found(plates, contacts, treadmill, rate, markers, events)
+    found = [named[c.plate] or side for c, side in zip(contacts, found, strict=True)]
     if treadmill and any(found):
         found = _by_belt(len(plates), contacts, found)
     elif _walks_on_one_foot(contacts, found):
@@ -112,6 +114,19 @@ def sides_of_contacts(
     )
     warnings.append(f"which foot steps on each plate follows from {why} ({names}; --plates overrides)")
     return out
+
+
+def _named_sides(plates: Sequence[Plate], warnings: list[str]) -> list[Side | None]:
+    """Foot named for each plate; of two plates the one without a name is the other foot's."""
+    named = [p.side for p in plates]
+    if len(plates) != 2 or named.count(None) != 1:
+        return named
+    known = next(side for side in named if side is not None)
+    plate = plates[named.index(None)]
+    warnings.append(
+        f"{plate.name} names no foot: it is the {other_side(known)} one's, as the other plate is the {known} one's"
+    )
+    return [side or other_side(known) for side in named]
 
 
 def _found(
