@@ -59,7 +59,7 @@ def temporary_beside(path: str | os.PathLike[str]) -> Path:
 def write_text(path: str | os.PathLike[str], text: str) -> Path:
     """Write a whole text file (UTF-8) or none; returns the path."""
     with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+        temporary.write_text(text, encoding="utf-8", errors="replace")  # names of files may be of any bytes
     return Path(path)
 
 

@@ -19,6 +19,7 @@ from plantar.errors import DependencyError, FormatError
 from plantar.formats.force_plates import feet_of_plates
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.plate_sides import Plate
+from plantar.formats.plausibility import possible
 from plantar.formats.units import FORCES, LENGTHS, MOMENTS, plain
 from plantar.recordings.pressure_recording import PressureRecording, StatedEvents, possible_rate
 
@@ -139,7 +140,7 @@ def _plate(held: Mapping[str, NDArray[Any]], number: int, up: int, length: float
             f"the channels of {name} are in {in_volts[0]}, and no calibration matrix makes forces of them; allowed: "
             "forces and moments in N and N mm, or a plate of type 4 or 5"
         )
-    values = np.where(np.isfinite(channels), channels, np.nan)
+    values = possible(channels)
     newton, newton_metre = _scales(units, kind, length, name, values, warnings)
     origin = np.array(held[f"origin_{number}"], dtype=float)
     local, moment = _load(

@@ -1,10 +1,12 @@
 """Checks of a read recording: missing-value marks, doubts about unit, rate or cell size."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.errors import FormatError
 from plantar.recordings.frame_table import blocks_of_frames, column_maxima, let_go, room
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, true_runs
 
@@ -31,7 +33,11 @@ _SEEN = 500_000
 _SWITCH = 0.20
 _LOW = 0.1
 _ZEROS = 0.05
+MOST = 1e12
+"""Largest value of any sensor, in N or counts: above are damaged numbers."""
+_SHORTEST_FOOT = 0.05
 _LONGEST_FOOT = 0.40
+_OPTION = re.compile(r"\(--\w+")  # that states what was assumed
 # Share of its peak that a loaded foot has at least, and what is left where its samples are lost; time in s in which no
 # foot is lifted and set down again.
 _UNDER_FOOT = 0.30
@@ -42,10 +48,48 @@ _SLENDER = (1.8, 4.2)  # How many times longer than wide insoles are, with room;
 
 def checked(recording: PressureRecording) -> PressureRecording:
     """Recording with missing-value marks as NaN, warnings of these and of all doubts."""
-    found = without_marks(recording)
+    found = without_marks(_without_impossible(recording))
     alone = [f"the recording holds the {side} foot only" for side in found.feet if len(found.feet) == 1]
     notes = [*found.warnings, *(alone if found.kind != "platform" else ()), *doubts(found)]
+    notes.sort(key=lambda note: _OPTION.search(note) is None)  # what was assumed, and an option states, first
     return replace(found, warnings=tuple(dict.fromkeys(notes)))
+
+
+def _without_impossible(recording: PressureRecording) -> PressureRecording:
+    """Recording with values that no sensor gives as NaN, each foot's with a warning."""
+    feet, warnings = dict(recording.feet), list(recording.warnings)
+    for side, foot in recording.feet.items():
+        parts = {"force": foot.force, "total": foot.total, "cop": foot.cop, "wrench": foot.wrench}
+        changed = {
+            n: part for n, whole in parts.items() if whole is not None and (part := possible(whole)) is not whole
+        }
+        if changed:
+            feet[side] = replace(foot, **changed)  # type: ignore[arg-type]
+            warnings.append(
+                f"values of the {side} foot's {' and '.join(changed)} are larger than {MOST:g}, which no sensor "
+                "gives: they count as not measured"
+            )
+    return recording if feet == recording.feet else replace(recording, feet=feet, warnings=tuple(warnings))
+
+
+def possible(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Returns values (n, ...) with NaN for infinite ones and those above `MOST`; the same array without any."""
+    high = any((np.abs(values[rows]) > MOST).any() for rows in blocks_of_frames(values))
+    let_go(values)
+    return np.where(np.abs(values) <= MOST, values, np.nan) if high else values
+
+
+def refuse_small(recording: PressureRecording) -> None:
+    """FormatError for a sensor that no foot fits on, such as a finger's."""
+    if recording.kind not in ("insole", "platform"):
+        return
+    for side, foot in recording.feet.items():
+        extent = np.inf if foot.layout is None else float(np.ptp(foot.layout.outline, axis=0).max())
+        if extent < _SHORTEST_FOOT:
+            raise FormatError(
+                f"the {side} foot's sensor is {1e3 * extent:.3g} mm long, which no foot is; allowed: "
+                f"{1e3 * _SHORTEST_FOOT:g} mm or more (check the cell size; --layout overrides)"
+            )
 
 
 def doubts(recording: PressureRecording) -> list[str]:
@@ -79,7 +123,7 @@ def doubts(recording: PressureRecording) -> list[str]:
         if not _CELL[0] <= cell <= _CELL[1]:
             out.append(f"the {side} foot's cells of {cell * 1e6:.4g} mm2 are unusual: check the cell size")
         extent = float(np.ptp(foot.layout.outline, axis=0).max())
-        if recording.kind != "platform" and not 0.05 <= extent <= _LONGEST_FOOT:
+        if recording.kind != "platform" and extent > _LONGEST_FOOT:
             out.append(f"the {side} sole is {extent * 1e3:.4g} mm long, which is unusual: check the cell size")
         out += _slender_or_wide(foot) if recording.kind == "insole" else []
     return out

@@ -10,6 +10,7 @@ from plantar.common.atomic import output_folder
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, named_format
 from plantar.formats.given import recording_of
+from plantar.formats.plausibility import refuse_small
 from plantar.formats.stated_events import read_events
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.options import AnalysisOptions
@@ -21,6 +22,12 @@ from plantar.gait.analysis.steps.gaps import without_gaps
 from plantar.gait.analysis.subject import Subject
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import read_layout
+
+_FIGURES = ("pressure", "regions", "force", "steps", "symmetry", "wrench", "summary", "footprint")
+PRODUCTS = {"metrics.json", "steps.csv", "regions.csv", "footprints.csv", "report.html", "summary.html"} | {
+    f"{name}{suffix}" for name in _FIGURES for suffix in (".png", ".svg")
+}
+"""Files that an analysis writes into its folder, where the recording allows them."""
 
 Progress = Callable[[float, str], None]
 """Called with a fraction 0..1 and what is being done."""
@@ -42,7 +49,9 @@ def analyse_one(
     known = options or ReadOptions()
     if subject is not None and known.mass_kg is None:
         known = dataclasses.replace(known, mass_kg=subject.mass_kg)
-    recording, prints = separated_feet(recording_of(given, format, known))
+    held = recording_of(given, format, known)
+    refuse_small(held)
+    recording, prints = separated_feet(held)
     chosen = choices or AnalysisOptions()
     if chosen.events_file is not None:
         recording = dataclasses.replace(recording, events=read_events(chosen.events_file))
@@ -91,6 +100,7 @@ def analyse_recording(
         raise InputError(f"--mm-per-pixel is for footprint images; {path} is a recording")
     if also is not None and image:
         raise InputError(f"--export is for recordings; {path} is a footprint image")
+    again = (Path(out) / "metrics.json").is_file()
     with output_folder(out, (path, layout, (choices or AnalysisOptions()).events_file)) as folder:
         if image:
             from plantar.gait.analysis.pages.footprint_report import analyse_image
@@ -103,8 +113,16 @@ def analyse_recording(
             if also is not None:
                 also(analysis, folder)
         names = sorted(p.name for p in folder.iterdir())
+    if again:
+        _remove_earlier(Path(out), {*names, Path(path).name})
     report(1.0, "done")
     return {**metrics, "files": [str(Path(out) / name) for name in names]}
+
+
+def _remove_earlier(folder: Path, names: set[str]) -> None:
+    """Remove what an earlier analysis wrote into a folder, but for `names`: it may be of another person."""
+    for name in sorted(PRODUCTS - names):
+        (folder / name).unlink(missing_ok=True)
 
 
 def with_layout(options: ReadOptions | None, layout: SoleLayout | str | os.PathLike[str] | None) -> ReadOptions:

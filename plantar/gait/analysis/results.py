@@ -103,11 +103,13 @@ def write_analysis(
 
     embedded = draw_figures(recording, feet, folder, progress)
     page = report_page(metrics, embedded, title=recording.path.name, player=player_data(recording, feet))
-    (folder / "report.html").write_text(page, encoding="utf-8")
+    (folder / "report.html").write_text(page, encoding="utf-8", errors="replace")
     sheet = write_figures(
         [("summary", figure_summary(recording, feet), "Force, butterfly and trend of the steps")], folder
     )
-    (folder / "summary.html").write_text(one_page(metrics, sheet, recording.path.name), encoding="utf-8")
+    (folder / "summary.html").write_text(
+        one_page(metrics, sheet, recording.path.name), encoding="utf-8", errors="replace"
+    )
 
 
 def _in_order(feet: Mapping[Side, FootGait]) -> list[Step]:

@@ -71,7 +71,9 @@ def analyse_image(
     if figures:
         caption = "Footprints with their contours, axes, thirds and toe lines"
         embedded = write_figures([("footprint", draw_footprints(image, prints), caption)], folder)
-        (folder / "report.html").write_text(footprint_page(metrics, embedded, path.name), encoding="utf-8")
+        (folder / "report.html").write_text(
+            footprint_page(metrics, embedded, path.name), encoding="utf-8", errors="replace"
+        )
     return metrics
 
 
