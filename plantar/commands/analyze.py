@@ -37,6 +37,11 @@ class FileOrder:
     plates: str | None = _option(
         None, "Which foot steps on each force plate, in order; - leaves a plate out.", metavar="L,R"
     )
+    columns: str | None = _option(
+        None,
+        "Which columns of a table are what, where their names do not show it: a name or number each.",
+        metavar="MAP",
+    )
     mm_per_pixel: float | None = _option(None, "Footprint images: size of a pixel in mm.")
 
     def options(self, mass: float | None) -> Any:
@@ -51,6 +56,7 @@ class FileOrder:
             insole_size=self.insole_size,
             mass_kg=mass,
             plates=sides_of_plates(self.plates),
+            columns=self.columns,
         )
 
 
@@ -68,6 +74,9 @@ class AnalysisOrder:
     events: str = _option(
         "own", "own finds heel strikes and toe offs in the force; vendor uses those of the file; or a file's path."
     )
+    threshold: float | None = _option(
+        None, "Force in N at which heel strikes and toe offs lie, by a protocol, instead of those found in the force."
+    )
     participant: str = _option("", "The person's name, for the report's heading.")
     mass: float | None = _option(None, "Mass of the body in kg: forces are given in percent of its weight.")
     foot_length: float | None = _option(None, "Length of the foot in m, for the report's heading.")
@@ -77,7 +86,9 @@ class AnalysisOrder:
         from plantar.gait.analysis.options import AnalysisOptions, steps_of_text
 
         steps = steps_of_text(self.steps)
-        return AnalysisOptions(steps, self.begin, self.end, self.segment, cast(Any, self.baseline), self.events)
+        return AnalysisOptions(
+            steps, self.begin, self.end, self.segment, cast(Any, self.baseline), self.events, self.threshold
+        )
 
     def subject(self) -> Any:
         """The person."""
@@ -131,6 +142,8 @@ def analyze(
     Example: plantar analyze walk.asc --export c3d --export npz
 
     Example: plantar analyze table.csv --layout insole.json --unit kPa
+
+    Example: plantar analyze table.csv --columns "left=Fz1, right=Fz2, time=t"
 
     Example: plantar analyze scan.png --mm-per-pixel 0.5
 

@@ -130,6 +130,8 @@ def read_recording(
         found = checked(chosen.read(Path(path), known))
         if known.plates and found.kind != "plate":
             raise InputError(f"--plates is for force plates; {path} is a recording of kind {found.kind}")
+        if known.columns is not None and chosen.name != "csv":
+            raise InputError(f"--columns is for tables; {path} is a {chosen.name} file, whose columns are known")
         return found
     except FormatError as error:
         text = str(error)

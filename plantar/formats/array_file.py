@@ -23,7 +23,7 @@ from plantar.common.files.zip_archive import open_archive
 from plantar.common.sides import SIDES
 from plantar.errors import FormatError, LayoutError, PlantarError
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
-from plantar.formats.column_names import heading_of
+from plantar.formats.field_names import heading_of
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import on_one_time, side_of
 from plantar.formats.stated_rate import in_seconds, or_usual, stated_rate

@@ -107,7 +107,7 @@ def halves(
     why = ""
     if options.layout is not None and k == 2 * len(options.layout):
         why = "there are twice the layout's cells"
-    elif side is None and options.layout is None and k >= 4 and k % 2 == 0 and _in_turns(values):
+    elif side is None and options.layout is None and feet_in_turns(values):
         why = f"the two halves of {k} columns carry load in turns, as feet do (--side, if they are one foot's)"
     if why:
         warnings.append(f"{why}: the first half is taken as the left foot, the second as the right")
@@ -118,7 +118,10 @@ def halves(
     return [(side, values)]
 
 
-def _in_turns(values: NDArray[np.float64]) -> bool:
+def feet_in_turns(values: NDArray[np.float64]) -> bool:
+    """Whether the halves of columns (n, k) carry load in turns, as two feet do."""
+    if values.shape[1] < 4 or values.shape[1] % 2:
+        return False
     half = values.shape[1] // 2
     one = np.nansum(values[:, :half], axis=1)
     other = np.nansum(values[:, half:], axis=1)

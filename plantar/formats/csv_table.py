@@ -1,7 +1,7 @@
 """Tables of any origin (CSV, TSV, text): a row a frame, below lines of unit, rate and names.
 
-OpenSim's .mot and .sto, Cortex' .forces, loadsol's text, and nameless tables whose last columns sum others (PhysioNet's
-gaitpdb) count, too.
+OpenSim's .mot and .sto, Cortex' .forces and loadsol's text without zones count, too. A column is what its name says, or
+what `ReadOptions.columns` states; one without either is nothing.
 """
 
 import re
@@ -11,9 +11,10 @@ from pathlib import Path
 
 from plantar.common.sides import SIDES
 from plantar.errors import FormatError
-from plantar.formats.column_names import heading_of
+from plantar.formats.column_map import column_map, mapped_columns
+from plantar.formats.field_names import heading_of
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.side import is_side_column, number_of_side, side_of
+from plantar.formats.side import is_side_column, names_a_foot, number_of_side, side_of
 from plantar.formats.table_columns import recording_of_columns
 from plantar.formats.table_text import (
     CountedSeconds,
@@ -68,26 +69,29 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
             raise FormatError(
                 "rows have twice as many cells as names: a comma cannot be decimal sign and delimiter, too"
             )
-        clock = _clock(names, [line.split(delimiter) for line in first])
+        stated = mapped_columns(column_map(options.columns), names, head.width)
+        names = [stated.get(i, "") for i in range(head.width)] if stated else names
+        cells = [line.split(delimiter) for line in first]
+        clock = _clock(names, cells, list(stated) or list(range(len(names) or 1)))
         if clock is not None:
             rows = with_column(rows, delimiter, clock, CountedSeconds())
             names[clock : clock + 1] = [f"time {side_of(names[clock]) or ''} [s]"] if names else []
         for i in head.labels:
             rows = with_column(rows, delimiter, i, lambda cell: "nan" if number(cell) is None else cell)
-        of_side = next((i for i, n in enumerate(names) if is_side_column(n)), None)
-        if of_side is not None:
-            rows = with_column(rows, delimiter, of_side, number_of_side)
+        for i, name in enumerate(names):
+            if is_side_column(name) or all(names_a_foot(row[i]) for row in cells if i < len(row)):
+                rows = with_column(rows, delimiter, i, number_of_side)
         if head.width > _MOST_COLUMNS:
             raise FormatError(f"a table of {head.width} columns cannot be read; allowed: up to {_MOST_COLUMNS}")
-        table = table_of_lines(path, rows, delimiter, head.width, warnings)
+        table = table_of_lines(path, rows, delimiter, head.width, warnings, sorted(stated))
+    names = [names[i] for i in sorted(stated)] if stated else names
     return recording_of_columns(table, names, options, path, dict(head.facts), warnings)
 
 
-def _clock(names: list[str], rows: list[list[str]]) -> int | None:
+def _clock(names: list[str], rows: list[list[str]], tried: list[int]) -> int | None:
     """Column of times of day or dates: the one that is called time, else the first that holds them."""
-    named = [i for i, n in enumerate(names) if time_unit(n) is not None][:1]
-    tried = named or range(len(names) or 1)
-    return next((i for i in tried if any(seconds_of_time(row[i]) is not None for row in rows if i < len(row))), None)
+    named = [i for i, n in enumerate(names) if time_unit(n) is not None][:1] or tried
+    return next((i for i in named if any(seconds_of_time(row[i]) is not None for row in rows if i < len(row))), None)
 
 
 FORMAT = Format(

@@ -1,6 +1,6 @@
 """Type of a recording format: name, recognition and reading."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,6 +22,7 @@ class ReadOptions:
         insole_size: Of a pedar insole, such as "x" or "vw"; see `plantar.formats.nominal_insole`.
         mass_kg: Body mass, which turns forces in body weights into N.
         plates: Foot of each force plate in file order; None leaves a plate out.
+        columns: Which columns of a table are what, such as "left=Fz1, right=Fz2, time=t", or as a mapping.
 
     Raises:
         InputError: If the rate, mass or side cannot be.
@@ -34,6 +35,7 @@ class ReadOptions:
     insole_size: str | None = None
     mass_kg: float | None = None
     plates: tuple[Side | None, ...] = ()
+    columns: str | Mapping[str, str | int] | None = None
 
     def __post_init__(self) -> None:
         if self.rate_hz is not None and not RATES[0] <= self.rate_hz <= RATES[1]:

@@ -10,8 +10,9 @@ import numpy as np
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, read_recording
 from plantar.formats.array_file import recording_of_arrays, seconds
+from plantar.formats.column_map import column_map, mapped_columns
 from plantar.formats.plausibility import checked
-from plantar.formats.side import is_side_column, number_of_side
+from plantar.formats.side import names_a_foot, number_of_side
 from plantar.formats.table_columns import recording_of_columns
 from plantar.formats.table_text import CountedSeconds, seconds_of_time, time_unit
 from plantar.formats.text import row_of_numbers
@@ -33,7 +34,11 @@ def recording_of(given: Any, format: str | None = None, options: ReadOptions | N
     if isinstance(given, str | os.PathLike):
         return read_recording(given, format, options=known)
     if hasattr(given, "columns") and not isinstance(given, Mapping):
-        found = recording_of_columns(*_columns(given), known, Path("data frame"))
+        table, names = _columns(given)
+        stated = mapped_columns(column_map(known.columns), names, len(names))
+        if stated:
+            table, names = table[:, sorted(stated)], [stated[i] for i in sorted(stated)]
+        found = recording_of_columns(table, names, known, Path("data frame"))
     elif isinstance(given, Mapping):
         held = {str(k): _array(v) for k, v in given.items()}
         times = {k: _numbers(v) for k, v in held.items() if v.ndim == 1 and time_unit(k) is not None}
@@ -85,9 +90,13 @@ def _columns(frame: Any) -> tuple[np.ndarray[Any, Any], list[str]]:
         if name := "time" if dated else getattr(index, "name", None):
             names = [str(name), *names]
             columns = [values, *columns]
-    return np.column_stack(list(map(_numbers, columns, names))) if columns else np.zeros((0, 0)), names
+    return np.column_stack(list(map(_numbers, columns))) if columns else np.zeros((0, 0)), names
 
 
-def _numbers(column: np.ndarray[Any, Any], name: str = "") -> np.ndarray[Any, Any]:
-    read = number_of_side if is_side_column(name) else CountedSeconds()  # of times of day, or dates with a zone
-    return seconds(column) if column.dtype.kind in "iufbmM" else row_of_numbers(list(map(read, map(str, column))))[0]
+def _numbers(column: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    if column.dtype.kind in "iufbmM":
+        return seconds(column)
+    cells = [str(cell) for cell in column]
+    of_feet = bool(cells) and all(map(names_a_foot, cells[:100]))
+    read = number_of_side if of_feet else CountedSeconds()  # of times of day, or dates with a zone
+    return row_of_numbers([read(cell) for cell in cells])[0]

@@ -1,7 +1,7 @@
 """Foot of a one-sensor recording, force plate or table row."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import SIDES, Side, other_side
 from plantar.errors import FormatError, InputError
-from plantar.formats.column_names import heading_of
+from plantar.formats.field_names import heading_of
 
+_LOOKED_AT = 200  # Rows that show whether a column names feet
 _MARKS: dict[Side, re.Pattern[str]] = {
     "left": re.compile(
         r"(?i)left|links|linke[mnrs]?\b|gauche|izquierd|sinistr|esquerd|左|(?:(?<=[\W_\d])|^)(?:l|lf|lt)(?=[\W_\d]|$)"
@@ -52,15 +53,18 @@ def sides_of_plates(text: str | None) -> tuple[Side | None, ...]:
 
 
 _SIDE_COLUMN = re.compile(
-    r"(?i)\W*(?:body )?(?:side|foot|sole|insole|shoe|leg|limb|fuss|fuß|seite|pied|côté|pie|lado|lato|piede|zijde)"
-    r"(?:[ _-]?(?:side|id))?\W*|足"
+    r"(?i)\W*(?:body )?(?:side|foot|sole|insole|shoe|leg|limb|laterality|left/right|l/r|right/left|r/l|fuss|fuß|seite|"
+    r"pied|côté|pie|lado|lato|piede|zijde)(?:[ _-]?(?:side|id))?\W*|足"
 )
+_CODES = ({0.0, 1.0}, {1.0, 2.0})  # Numbers of the left and the right foot
 # Usual distances between a foot's rows over which its values are interpolated, whatever the unit of the times: more
 # was not measured, and is filled or not as in any recording.
 _GAP = 2.5
 # Usual distances by which one foot's rows may begin or end before the other's for no more than their shift.
 _SHIFT = 1.5
-_MARK: dict[Side, str] = {"left": "0", "right": "1"}
+# What stands for a foot by name in a table of numbers: no code of a foot is negative.
+_MARK: dict[Side, str] = {"left": "-2", "right": "-1"}
+_NAMED_SIDES = {-2.0, -1.0}
 
 
 def is_side_column(name: str) -> bool:
@@ -73,12 +77,32 @@ def is_side_column(name: str) -> bool:
     return _SIDE_COLUMN.fullmatch(name) is not None
 
 
+def side_column(names: Sequence[str], table: NDArray[np.float64]) -> int | None:
+    """Column of a table (n, k) that gives each row's foot: one that holds names of feet, else one that is called so."""
+    called = [i for i, name in enumerate(names) if is_side_column(name)]
+    head = table[:_LOOKED_AT]
+    of_feet = np.isin(head, list(_NAMED_SIDES)) | ~np.isfinite(head)
+    known = np.flatnonzero(of_feet.all(axis=0) & np.isfinite(head).any(axis=0)).tolist()
+    both = [i for i in known if len(np.unique(head[np.isfinite(head[:, i]), i])) == 2]
+    return next(iter([*(i for i in called if i in known), *both, *called]), None)
+
+
 @lru_cache(maxsize=64)
 def number_of_side(cell: str) -> str:
-    """Cell of a side column as 0 (left) or 1 (right); unchanged if it names no foot."""
+    """Cell of a side column as -2 (left) or -1 (right); unchanged if it names no foot."""
     text = cell.strip().strip('"')
     side = side_of(text) or heading_of(text).side
     return cell if side is None else _MARK[side]
+
+
+def names_a_foot(cell: str) -> bool:
+    """Whether a cell is a foot's name and nothing else.
+
+    Example:
+        >>> [names_a_foot(cell) for cell in ("L", " right", "12", "left 3")]
+        [True, True, False, True]
+    """
+    return len(cell) < 12 and number_of_side(cell) != cell
 
 
 def rows_of_sides(values: NDArray[np.float64], warnings: list[str]) -> dict[Side, NDArray[np.int64]]:
@@ -88,15 +112,22 @@ def rows_of_sides(values: NDArray[np.float64], warnings: list[str]) -> dict[Side
         raise FormatError(
             f"the column of sides holds {len(kinds)} different values; allowed: two, such as left and right"
         )
-    if not set(kinds.tolist()) <= {0.0, 1.0}:
+    codes = next((c for c in (_NAMED_SIDES, *_CODES) if set(kinds.tolist()) <= c), None)
+    if codes is None:
+        raise FormatError(
+            f"the column of sides holds {' and '.join(f'{k:g}' for k in kinds)}, which name no foot; allowed: left and "
+            "right, L and R, 0 and 1, or 1 and 2"
+        )
+    if codes != _NAMED_SIDES:
         warnings.append(
-            f"the column of sides holds {kinds[0]:g} and {kinds[-1]:g}: the smaller is taken as the left foot"
+            f"the column of sides holds {' and '.join(f'{k:g}' for k in kinds)}: the smaller is taken as the left "
+            "foot; else all of left and right is exchanged"
         )
     lost = int((~np.isfinite(values)).sum())
     if lost:
         warnings.append(f"{lost} row(s) name no foot: left out")
     if len(kinds) == 1:
-        side: Side = "right" if kinds[0] == 1.0 else "left"
+        side: Side = "right" if kinds[0] == max(codes) else "left"
         return {side: np.flatnonzero(values == kinds[0])}
     return {side: np.flatnonzero(values == kind) for side, kind in zip(SIDES, kinds, strict=True)}
 

@@ -10,11 +10,14 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import SIDES, Side
 from plantar.errors import FormatError
-from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
-from plantar.formats.column_names import Heading, heading_of
+from plantar.formats.cells_of_foot import cells_of_foot, feet_in_turns, unit_of_values
+from plantar.formats.column_map import proposed_map
+from plantar.formats.field_names import Heading, heading_of, spelled_out
 from plantar.formats.format import ReadOptions
-from plantar.formats.side import is_side_column, on_one_time, rows_of_sides, side_of
+from plantar.formats.plausibility import possible
+from plantar.formats.side import on_one_time, rows_of_sides, side_column, side_of
 from plantar.formats.stated_rate import in_seconds, or_usual, stated_rate
+from plantar.formats.stated_rows import on_counted_rows, report_lost_rows
 from plantar.formats.table_forces import feet_of_forces, is_force_table
 from plantar.formats.table_text import time_unit
 from plantar.formats.units import find_unit, plain
@@ -22,9 +25,10 @@ from plantar.recordings.pressure_recording import FootRecording, PressureRecordi
 
 _CLOCK = re.compile(r"(?i)time|zeit|tiempo|temp[os]|tijd|clock|elapsed|epoch|[\[({（]m?s([ei][cgk]\w*)?[\])}）]|秒|^s$")
 _MOST_NAMED = 10  # Columns that are left out by name in the warnings; of more their number is given
-_SUMS = 0.02  # How near a column is to the sum of others, relative to its largest value, where it is their total
-_SIGNED = 0.3  # Share of the largest reading that cells do not reach on both sides of zero
 _CURVES = 40  # Numbered columns without a time from which rows that name trials are curves and no frames
+_SLOWEST = 5.0  # Hz: rows that are farther apart are steps or minutes, and no frames
+_SIGNED = 0.3  # Share of the largest reading that cells do not reach on both sides of zero
+_FEWEST = 3  # Rows of a recording
 
 
 def recording_of_columns(
@@ -38,36 +42,47 @@ def recording_of_columns(
     """Returns recording from a table of numbers and its column names.
 
     Columns are plates' forces, moments and CoP, a foot's forces, or cells, by quantity; others are left out with a
-    warning. FormatError without load columns, for trial curves, or an unknown unit.
+    warning. FormatError without load columns or names, for trial curves, or an unknown unit.
 
-    `table`: numbers (n, k), NaN if missing; `names`: columns (k); may be empty; `facts`: "unit", "rate", "side" of
-    comments.
+    `table`: numbers (n, k), NaN if missing; `names`: columns (k), empty where a layout has as many cells; `facts`:
+    "unit", "rate", "side" of comments.
     """
     facts = {} if facts is None else facts
     warnings = [] if warnings is None else warnings
-    if not names:
-        warnings.append("the table has no row of names: the first column is taken as time in s if it increases")
-    at = next((i for i, n in enumerate(names) if time_unit(n) is not None), None)
-    if at is None:
-        like = 0 if not names or not names[0] else next((i for i, n in enumerate(names) if _CLOCK.search(n)), None)
-        at = like if like is not None and (np.diff(table[:, like]) > 0.0).all() else None
-    of_side = next((i for i, n in enumerate(names) if is_side_column(n)), None)
+    if len(table) < _FEWEST:
+        raise FormatError(
+            f"the table has {len(table)} row(s) of numbers, which is no recording over time; allowed: a row a frame"
+        )
+    names = spelled_out(names) if names else _laid_out(table, options, warnings)
+    of_side = side_column(names, table)
+    at = _clock(table, names)
     if of_side is not None:
         table, names = _side_by_side(table, names, at, of_side, warnings)
         at = None if at is None else 0
-    elif at is not None and names:
+    elif at is not None:
         table, names, at = _on_one_clock(table, names, at, warnings)
+    elif options.rate_hz is None:
+        table = on_counted_rows(table, names, warnings)
+    report_lost_rows(len(table), facts, warnings)
     clocks = [i for i, n in enumerate(names) if time_unit(n) is not None and i != at]
+    for i in range(table.shape[1]):
+        if i != at and i not in clocks:
+            table[:, i] = possible(table[:, i])
     headings = [heading_of(name) for name in names]
     _refuse_curves(headings, at)
     time, rate, notes = _times(table, names, at, facts, options, warnings)
+    if rate < _SLOWEST and options.rate_hz is None:
+        raise FormatError(
+            f"the rows are {1.0 / rate:.3g} s apart, as steps are and no frames; allowed: a row a frame, "
+            f"{_SLOWEST:g} or more a second (--rate overrides)"
+        )
     columns = [i for i in range(table.shape[1]) if i != at and i not in clocks]
-    copies, both = _repeated(table, names, columns, warnings) if names else (set[int](), dict[Side, list[int]]())
+    copies, both = _repeated(table, names, columns, warnings)
     columns = [i for i in columns if i not in copies]
     kind = "insole"
     every = True
     raw = False
-    if names and is_force_table([headings[i] for i in columns]):
+    if is_force_table([headings[i] for i in columns]):
         named = {i: headings[i] for i in columns}
         stated = options.side or side_of(facts.get("side", ""), facts.get("foot", ""))
         given = replace(options, side=stated)
@@ -87,6 +102,30 @@ def recording_of_columns(
         raw=raw,
         kind="plate" if kind == "plate" else "insole",
     )
+
+
+def _laid_out(table: NDArray[np.float64], options: ReadOptions, warnings: list[str]) -> list[str]:
+    """Names of nameless columns that are as many as a layout's cells, below a clock or not; else FormatError."""
+    width, cells = table.shape[1], 0 if options.layout is None else len(options.layout)
+    if not cells or width not in (cells, cells + 1, 2 * cells, 2 * cells + 1):
+        raise FormatError(
+            "the columns have no names, so that nothing shows which of them are loads; allowed: a row of names, or "
+            f"the columns by their numbers, such as {proposed_map([], table)}"
+        )
+    warnings.append(
+        f"the columns have no names: taken as the layout's {cells} cells in its order (--columns overrides)"
+    )
+    numbers = [str(i + 1) for _ in range(width // cells) for i in range(cells)]
+    return ["time"] * (width % cells == 1) + numbers if cells > 1 else numbers
+
+
+def _clock(table: NDArray[np.float64], names: list[str]) -> int | None:
+    """Column of times: one that is called so, or rises throughout and is called like one."""
+    at = next((i for i, n in enumerate(names) if time_unit(n) is not None), None)
+    if at is not None:
+        return at
+    like = 0 if not names[0] else next((i for i, n in enumerate(names) if _CLOCK.search(n)), None)
+    return like if like is not None and (np.diff(table[:, like]) > 0.0).all() else None
 
 
 def _repeated(
@@ -205,64 +244,20 @@ def _report_left_out(names: Sequence[str], warnings: list[str], what: str) -> No
 
 
 def _chosen_cells(headings: Sequence[Heading], columns: Sequence[int]) -> list[int]:
-    """Cell columns by name; without known names, those of one unknown word and numbers."""
+    """Columns of cells: numbered, or placed on the sole; a foot's one column where it has no others."""
     stated = any(find_unit(headings[i].unit) is not None for i in columns if headings[i].unit)
 
     def foreign(i: int) -> bool:  # where some state a unit of load, what is in another one is no load
         return bool(stated and headings[i].unit and find_unit(headings[i].unit) is None)
 
     known = [i for i in columns if headings[i].quantity in ("cell", "number", "pressure", "force") and not foreign(i)]
-    known = [i for i in known if headings[i].quantity != "number" or headings[i].number is not None or headings[i].side]
-    cells = [i for i in known if headings[i].quantity != "force" or headings[i].number is not None]
-    if known:
-        return cells or known
-    rest = [
-        i for i in columns if headings[i].quantity == "unknown" and headings[i].number is not None and not foreign(i)
-    ]
-    stems = {re.sub(r"left|right|links|rechts", "", headings[i].words) for i in rest}
-    stems = {s[1:] if s[:1] in "lr" and {"l" + s[1:], "r" + s[1:]} <= stems else s for s in stems}
-    return rest if len(stems) == 1 else []
-
-
-def _sampled(table: NDArray[np.float64], columns: Sequence[int]) -> NDArray[np.float64]:
-    values = table[:: max(1, len(table) // 2000)][:, columns]
-    return np.asarray(values[np.isfinite(values).all(axis=1)])
-
-
-def _is_sum(total: NDArray[np.float64], parts: NDArray[np.float64]) -> bool:
-    top = float(np.abs(total).max(initial=0.0))
-    return top > 0.0 and float(np.abs(total - parts.sum(axis=1)).max()) <= _SUMS * top
-
-
-def _total_of(table: NDArray[np.float64], columns: list[int]) -> int | None:
-    values = _sampled(table, columns)
-    if len(columns) < 3 or not len(values):
-        return None
-    k = int(np.argmax(values.sum(axis=0)))
-    return columns[k] if _is_sum(values[:, k], np.delete(values, k, axis=1)) else None
-
-
-def _nameless_cells(
-    table: NDArray[np.float64], columns: list[int], warnings: list[str]
-) -> tuple[list[int], dict[Side, list[int]]]:
-    """Columns, and each foot's before their two sums; FormatError for a plate's."""
-    low = float(np.nanmin(table[:, columns], initial=0.0))
-    high = float(np.nanmax(table[:, columns], initial=0.0))
-    if min(-low, high) > _SIGNED * max(-low, high):
-        raise FormatError(
-            f"columns without names go from {low:.4g} to {high:.4g}, as forces and moments of a plate do and no "
-            "cells; allowed: a row of names (FP1 Fx, FP1 Fy, FP1 Fz, FP1 Mx, ...)"
-        )
-    values = _sampled(table, columns)
-    half = (len(columns) - 2) // 2
-    pairs = len(columns) % 2 == 0 and half >= 2 and len(values) > 0
-    if pairs and _is_sum(values[:, -2], values[:, :half]) and _is_sum(values[:, -1], values[:, half:-2]):
-        warnings.append(
-            f"the last two of {len(columns)} columns are the sums of {half} before them each: taken as {half} cells of "
-            "the left foot, then of the right one, in N, and their totals left out (as in PhysioNet's gaitpdb)"
-        )
-        return columns[:-2], {"left": columns[:half], "right": columns[half:-2]}
-    return columns, {}
+    cells = [i for i in known if headings[i].number is not None or headings[i].quantity == "cell"]
+    parted = {headings[i].side for i in cells}
+    # A column of a foot without number or place is its only one, or the total of its cells.
+    whole = [i for i in known if i not in cells and (headings[i].side or headings[i].quantity in ("pressure", "force"))]
+    return sorted(
+        [*cells, *(i for i in whole if headings[i].side not in parted and not (cells and headings[i].side is None))]
+    )
 
 
 def _cells(
@@ -275,32 +270,24 @@ def _cells(
     options: ReadOptions,
     warnings: list[str],
 ) -> tuple[dict[Side, FootRecording], bool]:
-    chosen = _chosen_cells(headings, columns) if names else columns
-    if names:
-        _report_left_out([names[i] for i in columns if i not in chosen], warnings, "cell")
-    else:
-        chosen, both = _nameless_cells(table, chosen, warnings)
-    found = [headings[i].unit for i in chosen if headings[i].unit] if names else []
-    if len({find_unit(u) for u in found}) > 1:
-        raise FormatError(f"the columns are in different units: {', '.join(sorted(set(found)))}")
-    stated = facts.get("unit", facts.get("units")) or (max(set(found), key=found.count) if found else None)
-    if both and not names and not stated and not options.unit:
-        stated = "N"
-    unit = unit_of_values(stated, options, warnings, "the table")
+    chosen = _chosen_cells(headings, columns)
+    _report_left_out([names[i] for i in columns if i not in chosen], warnings, "cell")
     if not chosen:
         raise FormatError(
             f"no column of the table is a load; its columns are {', '.join(map(repr, names[:8]))}; allowed: names of "
-            "cells (left 3 [kPa], heel) or of forces (Left Fz [N], FP1 Fz)"
+            "cells (left 3 [kPa], heel) or of forces (Left Fz [N], FP1 Fz), or which is which: "
+            f"{proposed_map(names, table)}"
         )
+    _refuse_signs(table[:, chosen])
+    found = [headings[i].unit for i in chosen if headings[i].unit]
+    if len({find_unit(u) for u in found}) > 1:
+        raise FormatError(f"the columns are in different units: {', '.join(sorted(set(found)))}")
+    stated = facts.get("unit", facts.get("units")) or (max(set(found), key=found.count) if found else None)
+    unit = unit_of_values(stated, options, warnings, "the table")
     by_side: dict[Side | None, list[int]] = {}
     for i in chosen:
-        side = next((s for s, own in both.items() if i in own), headings[i].side if names else None)
+        side = next((s for s, own in both.items() if i in own), headings[i].side)
         by_side.setdefault(side, []).append(i)
-    for own in by_side.values():
-        if (total := _total_of(table, own)) is not None:
-            own.remove(total)
-            name = repr(names[total]) if names else total + 1
-            warnings.append(f"column {name} is the sum of its foot's others: left out as their total")
     nameless = by_side.get(None, [])
     if len(by_side) > 1 and nameless:
         _report_left_out([names[i] for i in nameless], warnings, "named foot's cell")
@@ -308,10 +295,47 @@ def _cells(
     parts = [(side, _taken(table, by_side[side])) for side in SIDES if side in by_side]
     if not parts:
         stated_side = options.side or side_of(facts.get("side", ""), facts.get("foot", ""))
-        values = _taken(table, nameless)
-        parts = [(stated_side, values)] if stated_side else halves(values, options, warnings)
+        parts = _of_no_named_foot(table, names, nameless, stated_side, options, warnings)
     feet = {}
     for side, part in parts:
-        ids = [n for i in by_side.get(side, nameless) if names and (n := headings[i].number) is not None]
+        ids = [n for i in by_side.get(side, nameless) if (n := headings[i].number) is not None]
         feet[side] = cells_of_foot(side, part, unit, options, warnings, ids if len(ids) == part.shape[1] else None)
     return feet, unit.kind == "raw"
+
+
+def _refuse_signs(values: NDArray[np.float64]) -> None:
+    known = values[:: max(1, len(values) // 2000)]
+    known = known[np.isfinite(known)]
+    low, high = (float(v) for v in np.percentile(known, (2.0, 98.0))) if len(known) else (0.0, 0.0)
+    if min(-low, high) > _SIGNED * max(-low, high):
+        raise FormatError(
+            f"the cells go from {low:.4g} to {high:.4g}, as forces and moments of a plate do and no cells; allowed: "
+            "names such as FP1 Fx, FP1 Fy, FP1 Fz, FP1 Mx, or which is which with --columns"
+        )
+
+
+def _of_no_named_foot(
+    table: NDArray[np.float64],
+    names: list[str],
+    cells: list[int],
+    stated: Side | None,
+    options: ReadOptions,
+    warnings: list[str],
+) -> list[tuple[Side, NDArray[np.float64]]]:
+    """Feet of cells that name none: two of the layout's, else the stated one, else the left one."""
+    values = _taken(table, cells)
+    layout = options.layout
+    if layout is not None and len(cells) == 2 * len(layout):
+        warnings.append(
+            "there are twice the layout's cells: the first half is taken as the left foot (--columns overrides)"
+        )
+        return [("left", values[:, : len(layout)]), ("right", values[:, len(layout) :])]
+    if stated is None and layout is None and feet_in_turns(values):
+        raise FormatError(
+            f"the two halves of {len(cells)} cells carry load in turns, as two feet do, and name none; allowed: names "
+            f"such as left 1, or which is which: {proposed_map(names, table)} (--side, if they are one foot's)"
+        )
+    if stated is None:
+        stated = "left" if layout is None else layout.side
+        warnings.append(f"the file does not state which foot it is: taken as the {stated} one (--side overrides)")
+    return [(stated, values)]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from plantar.common.gravity import GRAVITY
 from plantar.common.sides import SIDES, Side
 from plantar.errors import FormatError
-from plantar.formats.column_names import BODY_WEIGHTS, Heading
+from plantar.formats.field_names import BODY_WEIGHTS, Heading
 from plantar.formats.force_plates import feet_of_plates
 from plantar.formats.format import ReadOptions
 from plantar.formats.plate_sides import Plate
@@ -26,6 +26,7 @@ _LEAST = 9.0
 _WEIGHTS = (0.7, 4.0)  # Largest vertical forces without a unit that are body weights and no N
 # Weight in N that forces in body weights are read with, so that levels in N hold; they are divided by it again.
 _NOMINAL = 700.0
+_LEAST_NEWTONS = 15.0  # Forces without a unit that reach less are in another one
 _TOTALS = {"total", "sum", "gesamt", "summe", "totale", "tot"}  # of both feet, beside each
 
 
@@ -184,8 +185,13 @@ def _unit(
             warnings.append(f"forces are in {text}: given in percent of body weight; --mass makes N of them")
             return factor * _NOMINAL, True
         return factor * weight, False
+    if not text and largest < _LEAST_NEWTONS:
+        raise FormatError(
+            f"the forces state no unit and reach {largest:.3g}, which no foot presses in N; allowed: --unit N, kN, "
+            "kg, lbf or BW (volts of a plate need its calibration)"
+        )
     if not text:
-        warnings.append("the forces state no unit: N is assumed (--unit overrides)")
+        warnings.append(f"the forces state no unit: N is assumed, in which they reach {largest:.4g} (--unit overrides)")
     elif name not in FORCES:
         raise FormatError(f"unknown unit of force {text!r}; allowed: N, kN, kg, lbf, BW, %BW, N/kg")
     return FORCES.get(name, 1.0), False
@@ -231,6 +237,7 @@ def _plate(
 
 
 def _length(unit: str, cop: NDArray[np.float64], vertical: NDArray[np.float64], warnings: list[str]) -> float:
+    # The unit of places where the file does not state it: a person's CoP ranges over more than 5 mm, and less than 5 m.
     known = LENGTHS.get(plain(unit))
     if known is not None:
         return known

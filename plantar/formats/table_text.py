@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from itertools import pairwise
 
-from plantar.formats.column_names import heading_of
+from plantar.formats.field_names import heading_of
 from plantar.formats.side import number_of_side, side_of
 from plantar.formats.text import MISSING, cells_of_row, number, ungrouped
 from plantar.formats.units import FORCES, LENGTHS, MOMENTS, PASCALS, RAW, plain

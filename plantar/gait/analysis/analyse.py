@@ -3,6 +3,7 @@
 import dataclasses
 import os
 import tempfile
+from collections.abc import Mapping
 from typing import Any
 
 from plantar.formats import ReadOptions, is_study_folder
@@ -27,6 +28,7 @@ def analyse(
     layout: SoleLayout | str | os.PathLike[str] | None = None,
     unit: str | None = None,
     rate_hz: float | None = None,
+    columns: str | Mapping[str, str | int] | None = None,
 ) -> Analysis | Study:
     """Measure a recording in any form; no file is written.
 
@@ -34,13 +36,14 @@ def analyse(
         given: Path of a file; folder of recordings (a study); `PressureRecording`; array (n, k) of n frames and k
             cells, or a mapping of arrays "left", "right" and "time"; data frame with a column a cell.
         format: By content where None.
-        options: What else is known; the three keywords below override it.
+        options: What else is known; the four keywords below override it.
         progress: Called with a share 0..1 and the work.
         choices: Steps in the means, and events used.
         subject: Person.
         layout: Layout or its file; mirrored for the other foot.
         unit: Unit of values, such as "kPa", "N" or "raw".
         rate_hz: Frames a second.
+        columns: Which columns of a table or data frame are what: "left=Fz1, right=Fz2, time=t", or a mapping.
 
     Returns:
         Analysis: `.steps` (columns of every measure), `.to_pandas()`, `.report()`, `.metrics`, `.feet`; of a folder a
@@ -59,7 +62,7 @@ def analyse(
         ([800, 800, 800], 'walking')
     """
     known = with_layout(options, layout)
-    changes = {k: v for k, v in (("unit", unit), ("rate_hz", rate_hz)) if v is not None}
+    changes = {k: v for k, v in (("unit", unit), ("rate_hz", rate_hz), ("columns", columns)) if v is not None}
     known = dataclasses.replace(known, **changes)  # type: ignore[arg-type]
     if isinstance(given, str | os.PathLike) and is_study_folder(given):
         with tempfile.TemporaryDirectory() as folder:

@@ -246,7 +246,16 @@ def test_sensors_by_place_and_times_in_milliseconds(tmp_path):
         ),
         ("time,Left Fz,Right Fz\ns,mV,mV\n" + rows([TIME, LEFT, RIGHT], ","), "unknown unit of force 'mV'"),
         ("Czas (s),F lewa (N),F prawa (N)\n" + rows([TIME, LEFT, RIGHT], ","), "no column of the table is a load"),
-        (rows([AHEAD["left"], LEFT, 90.0 * AHEAD["left"], NONE], ","), "as forces and moments of a plate do"),
+        (rows([AHEAD["left"], LEFT, 90.0 * AHEAD["left"], NONE], ","), "the columns have no names"),
+        (
+            "time,P1,P2,P3\n" + rows([TIME, AHEAD["left"], LEFT, 90.0 * AHEAD["left"]], ","),
+            "as forces and moments of a plate do",
+        ),
+        ("a,b\n1,2\n", "not a recording|no recording over time"),
+        ("left (N),right (N)\n1,2\n3,4\n", "2 row.s. of numbers, which is no recording over time"),
+        ("time (s),left (N),right (N)\n" + rows([128.0 * TIME, LEFT, RIGHT], ","), "1.28 s apart, as steps are"),
+        ("time,LTOE[0],LTOE[1],LTOE[2]\n" + rows([TIME] * 4, ","), 'no column .* --columns "time=time, left=COLUMN'),
+        ("time,Fz1,Fz2\n" + rows([TIME, 0.01 * LEFT, 0.01 * RIGHT], ","), "no unit and reach 8"),
         ("time,Fz\n" + rows([TIME, 700.0 + 200.0 * np.sin(12.0 * TIME)], ","), "both feet walk on one plate"),
     ],
 )

@@ -112,9 +112,9 @@ def test_what_is_not_stated_is_raw_or_assumed_aloud(tmp_path, layout, values):
     write_csv(path, {str(i): values[:, k] for k, i in enumerate(layout.ids)}, header=False)
     bare = read_recording(path, options=ReadOptions(layout=layout, unit="N"))
     text = " ".join(bare.warnings)
-    for word in ("no row of names", "states no rate", "does not state which foot"):
+    for word in ("the columns have no names", "states no rate", "does not state which foot"):
         assert word in text
-    with pytest.raises(FormatError, match="give a layout with --layout"):
+    with pytest.raises(FormatError, match="the columns have no names"):
         read_recording(path, options=ReadOptions(unit="kPa"))
     with pytest.raises(InputError, match="unknown unit 'x'"):
         read_recording(path, options=ReadOptions(unit="x"))
@@ -323,7 +323,7 @@ def test_a_table_with_a_column_of_sides_is_two_feet(tmp_path, layout, values, wo
     truth = np.column_stack([np.interp(recording.time, at, 2.0 * column) for column in smooth.T])
     assert recording.feet["right"].force == pytest.approx(truth, rel=1e-4)
     assert any("interpolated" in w for w in recording.warnings) == (shift > 0.0)
-    assert any("smaller is taken as the left" in w for w in recording.warnings) == (words == ("1", "2"))
+    assert any("smaller is taken as the left" in w for w in recording.warnings) == words[0].isdigit()
 
 
 @pytest.mark.parametrize("lost", ["left", "right"])

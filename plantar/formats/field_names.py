@@ -1,11 +1,11 @@
-"""Meaning of a heading: quantity, axis, foot or plate, and unit.
+"""The field's names: words of forces, places, feet and plates in ten languages, and what a column's name means by them.
 
-A heading is cut into known words ("FzLeft" is force, z, left; "1_ground_force_vy" is 1, ground, force, y); one unknown
-word makes it unknown.
+A name is cut at signs, digits and capitals ("FzLeft" is Fz and Left), never within a word: each piece is a word of this
+dictionary, or one that makers write together ("fzl", "linkervoet"). One unknown piece makes the whole name unknown.
 """
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Literal
 
@@ -14,7 +14,7 @@ from plantar.formats.units import FORCES, LENGTHS, MOMENTS, PASCALS, find_unit, 
 
 Quantity = Literal["force", "pressure", "cop", "moment", "place", "cell", "number", "foreign", "unknown"]
 """What a column holds: "number" is a heading of nothing but side and number, as cells have; "foreign" is known
-and no load, such as an angle; "place" is an axis alone, a CoP next to forces; "unknown" is a word that is not known."""
+and no load, such as an angle; "place" is an axis alone, a CoP next to forces; "unknown" has an unknown word."""
 
 BODY_WEIGHTS: dict[str, float] = {
     **dict.fromkeys(("bw", "xbw", "n/bw", "bodyweight", "bodyweights", "timesbodyweight"), 1.0),
@@ -22,10 +22,15 @@ BODY_WEIGHTS: dict[str, float] = {
 }
 """Units of force relative to the body's weight; N/kg is apart, since it is of the mass."""
 
+# Where each is seen: OpenSim .mot (ground_force_vx), Cortex .forces (FX1), D-Flow (FP1.ForX), Vicon Nexus (Fx, Force
+# Plate #1), BioWare (Ax), BTK and Visual3D (F1X), AMTI (FX), novel (links, Kraft), loadsol (Force[N]), Noraxon (LT),
+# Moticon (total force), Arduino sketches (FSR1, A0, millis), theses in ten languages.
 _WORDS_OF_KIND = {
-    "left": "l left links linker linke li gauche izquierdo izquierda izq sinistro sinistra lt esquerdo esquerda 左",
-    "right": "r right rechts rechter rechte re droit droite derecho derecha der destro destra rt direito direita 右",
-    "force": "f force forces for kraft kracht grf grfs load last fuerza forza força reaction vgrf 荷重 力",
+    "left": "l lt li left links linker linke linkes gauche izquierdo izquierda izq sinistro sinistra "
+    "esquerdo esquerda 左",
+    "right": "r rt re right rechts rechter rechte rechtes droit droite derecho derecha der "
+    "destro destra direito direita 右",
+    "force": "f force forces for kraft kracht grf grfs load last carga fuerza forza força reaction vgrf 荷重 力",
     "pressure": "pressure druck press pression presion presión kpa 圧力",
     "cop": "cop copp pressurecenter copposition",
     "moment": "m mom moment moments torque t tz free drehmoment",
@@ -34,7 +39,7 @@ _WORDS_OF_KIND = {
     "ml": "ml mediolateral lateral medial",
     "plate": "fp plate forceplate platform plattform belt treadmill tm ground amti kistler bertec",
     "plain": "net foot feet fuss fuß pied pie piede voet pé 足 leg limb side of the in insole insoles sole shoe "
-    "component comp value data signal ch noraxon ultium loadsol",
+    "component comp value data signal noraxon ultium loadsol",
     "total": "total sum gesamt summe totale tot",
     "cell": "cell cells sensor sens taxel sensel fsr fsrs pad zelle s c p a adc heel hindfoot rearfoot calcaneus mid "
     "midfoot arch met meta metatarsal mt mth forefoot toe toes hallux bigtoe big great ball ferse zehe inner outer mtp "
@@ -43,17 +48,28 @@ _WORDS_OF_KIND = {
     "gyroscope mag magnetometer quat quaternion emg emgs imu angular rate temp temperature temperatur battery volt "
     "voltage current trigger sync pin frame frames sample index counter count knee hip ankle pelvis trunk power event "
     "phase status flag label subject trial session id participant state step stride cycle roll pitch yaw incline slope "
-    "distance area humidity hr off",
+    "distance area humidity hr off rim handrim wheel handrail finger thumb",
 }
 _KINDS: dict[str, str] = {w: kind for kind, words in _WORDS_OF_KIND.items() for w in words.split()}
 _KINDS |= {axis: axis for axis in "xyz"}
 _PLACES = frozenset(w for w, kind in _KINDS.items() if kind == "cell" and len(w) > 1) - {"adc"}
-_LONGEST = max(map(len, _KINDS))
-_SHORT = {"s", "c", "p", "a", "li", "re", "der"}  # Words of which many others could be put together, such as Czas
+# Words that are written together: a foot before or after what is measured, and an axis.
+_FOOT = "left|right|links|rechts|linker|rechter|lt|rt|l|r|左|右"
+_WHAT = (
+    "force|forces|load|kraft|grfs?|copp?|moment|mom|torque|total|sum|foot|feet|fuss|fuß|voet|足|leg|insole|sole|plate|belt|"
+    "sensor|cell|fsr|heel|hindfoot|rearfoot|mid|midfoot|arch|forefoot|toes?|hallux|met|meta|mth"
+)
+_TOGETHER = re.compile(
+    rf"(?P<foot>{_FOOT})?(?P<before>v|vertical|total)?(?P<what>{_WHAT})(?P<axis>[xyzv])?(?P<after>{_FOOT})?"
+    rf"|(?P<foot2>{_FOOT})?(?P<what2>for|f|m|p|v)(?P<axis2>[xyz])(?P<after2>{_FOOT})?"
+)
+_CAPITALS = re.compile(r"[A-ZÄÖÜ]{2,}(?![a-zß-ÿ])|[A-ZÄÖÜ]?[a-zß-ÿ]+|[A-ZÄÖÜ]")
 _UNIT = re.compile(
     r"[\[(<{]\s*([^\])>}]*?)\s*[\])>}]|[_ ](kpa|n|pa|mmhg|psi|raw|kg|lbf|nm|nmm|mm|cm|bw|%bw|newtons?)$", re.I
 )
 _LETTER = re.compile(r"(plate|platform|fp|belt)[ _-]?([a-d])(?![a-z])", re.IGNORECASE)  # instead of a number
+_COORDINATE = re.compile(r"\[[0-2]\]\s*$")  # of a marker, as LTOE[0]
+_ADAPTER = re.compile(r"([fpm])(\d+)_([123])")
 _STATED = {**FORCES, **PASCALS, **LENGTHS, **MOMENTS, **BODY_WEIGHTS}
 
 
@@ -75,6 +91,22 @@ class Heading:
     words: str = ""
 
 
+def spelled_out(names: list[str]) -> list[str]:
+    """Names of OpenSim's C3DFileAdapter (f1_1 to f1_3, p1_1, m1_1 of plate 1) as FP1 Fx, FP1 COPx, FP1 Mx.
+
+    Example:
+        >>> spelled_out(["time", "f1_1", "f1_2", "f1_3", "p1_1", "m1_3"])
+        ['time', 'FP1 Fx', 'FP1 Fy', 'FP1 Fz', 'FP1 COPx', 'FP1 Mz']
+    """
+    if not {"f1_1", "f1_2", "f1_3"} <= set(names):
+        return names
+    found = [_ADAPTER.fullmatch(name) for name in names]
+    what = {"f": "F", "p": "COP", "m": "M"}
+    return [
+        n if m is None else f"FP{m[2]} {what[m[1]]}{'xyz'[int(m[3]) - 1]}" for n, m in zip(names, found, strict=True)
+    ]
+
+
 def heading_of(text: str) -> Heading:
     """Meaning of a heading.
 
@@ -84,7 +116,7 @@ def heading_of(text: str) -> Heading:
         >>> h = heading_of("2_ground_force_vy"); h.quantity, h.axis, h.number, h.plate
         ('force', 'y', 2, True)
         >>> [heading_of(t).quantity for t in ("FP1.CopX", "ground_torque_z", "met5", "R_12", "LHEE.PosX", "knee angle")]
-        ['cop', 'moment', 'cell', 'number', 'foreign', 'foreign']
+        ['cop', 'moment', 'cell', 'number', 'unknown', 'foreign']
     """
     name = _LETTER.sub(lambda m: f"{m[1]} {ord(m[2].lower()) - 96} ", text.strip().strip('"'))
     unit = ""
@@ -96,48 +128,40 @@ def heading_of(text: str) -> Heading:
             name = name[: match.start()] + " " + name[match.end() :]
         else:
             name = name[: match.start()] + " " + stated + " " + name[match.end() :]
-    return _heading(name, unit)
+    found = _heading(name, unit)
+    of_marker = _COORDINATE.search(text) is not None and not _PLACES.isdisjoint(found.words.split())
+    return replace(found, quantity="foreign") if of_marker else found
 
 
 @lru_cache(maxsize=4096)
 def _words(name: str) -> tuple[str, ...] | None:
     """Name's known words and numbers; None with any other."""
     out: list[str] = []
-    for chunk in re.findall(r"[^\W_]+|%", name):
-        parts = _cut(chunk)
-        if parts is None:
+    for chunk in re.findall(r"[^\W\d_]+|\d+|%", name):
+        words = [chunk] if not chunk.isalpha() else _known(chunk)
+        if words is None:
             return None
-        out += parts
+        out += words
     return tuple(out)
 
 
-def _cut(chunk: str) -> list[str] | None:
-    """Letters and digits as known words and numbers: cut at case changes, then into the fewest fitting words."""
-    spans = re.findall(r"[A-Z]{2,}(?![a-zß-ÿ])|[A-Z]?[a-zß-ÿ]+|[A-Z]|\d+", chunk)
-    cased = [_fewest(span.lower()) if not span.isdigit() else [span] for span in spans]
-    if all(part is not None for part in cased) and "".join(spans) == chunk:
-        by_case = [word for part in cased if part is not None for word in part]
-        whole = _fewest(chunk.lower())
-        return by_case if whole is None or len(by_case) <= len(whole) else whole
-    return _fewest(chunk.lower())
+def _known(letters: str) -> list[str] | None:
+    """Known words of letters: one, one written together, or one from each capital on; None with an unknown one."""
+    whole = _one_word(letters.lower())
+    if whole is not None:
+        return whole
+    pieces = _CAPITALS.findall(letters)
+    words = [_one_word(piece.lower()) for piece in pieces]
+    if len(pieces) < 2 or "".join(pieces) != letters or None in words:
+        return None
+    return [word for own in words for word in own or ()]
 
 
-def _fewest(text: str) -> list[str] | None:
-    best: list[list[str] | None] = [[]] + [None] * len(text)
-    for end in range(1, len(text) + 1):
-        for begin in range(max(0, end - _LONGEST), end):
-            before = best[begin]
-            word = text[begin:end]
-            split_number = word.isdigit() and (end < len(text) and text[end].isdigit())
-            if before is None or split_number or not (word in _KINDS or word.isdigit()):
-                continue
-            if best[end] is None or len(before) + 1 < len(best[end] or []):
-                best[end] = [*before, word]
-    letters = [word for word in best[-1] or () if not word.isdigit()]
-    short = [w for w in letters if w in _SHORT]
-    beside = [w for w in letters if len(w) < 3 and w not in _SHORT]
-    unlikely = short and (len(short) > 1 or len(set(beside)) < len(beside) or not set(beside) <= set("lrxyz"))
-    return None if unlikely else best[-1]
+def _one_word(text: str) -> list[str] | None:
+    if text in _KINDS:
+        return [text]
+    match = _TOGETHER.fullmatch(text)
+    return None if match is None else [part for part in match.groups() if part]
 
 
 def _heading(name: str, unit: str) -> Heading:
@@ -146,7 +170,7 @@ def _heading(name: str, unit: str) -> Heading:
     number = int(last[-1][-9:]) if last else None
     if words is None:
         letters = "".join(re.findall(r"[^\W\d_]+", name)).lower()
-        return Heading("foreign" if _is_foreign(name, letters) else "unknown", number=number, unit=unit, words=letters)
+        return Heading("unknown", number=number, unit=unit, words=letters)
     kinds = [_KINDS.get(w, "number") for w in words]
     sides = {k for k in kinds if k in ("left", "right")}
     side: Side | None = None if len(sides) != 1 else "left" if "left" in sides else "right"
@@ -161,13 +185,6 @@ def _heading(name: str, unit: str) -> Heading:
         found |= {"place"}
     plate = "plate" in found or ground or ("force" in found and bool(axis))
     return Heading(_quantity(words, found, axis, ground), axis, side, number, unit, plate, rest)
-
-
-def _is_foreign(name: str, letters: str) -> bool:
-    chunks = re.findall(r"[A-Z]?[a-z]+|[A-Z]+", name)
-    return any(_KINDS.get(chunk.lower()) == "foreign" for chunk in chunks) or any(
-        w in letters for w, kind in _KINDS.items() if kind == "foreign" and len(w) > 3
-    )
 
 
 def _quantity(words: tuple[str, ...], found: set[str], axis: str, ground: bool) -> Quantity:
@@ -194,7 +211,7 @@ def _quantity(words: tuple[str, ...], found: set[str], axis: str, ground: bool) 
     if "total" in found:
         return "force"
     if "cell" in found:
-        return "cell"
+        return "foreign" if axis in ("x", "y", "z") else "cell"
     if axis:
         return "force" if "plate" in found else "foreign"
     return "number"

@@ -1,0 +1,146 @@
+"""A stated map of a table's columns: "left=Fz1, right=Fz2, time=t", instead of what their names say."""
+
+import re
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from plantar.formats.field_names import heading_of
+from plantar.formats.side import is_side_column, side_of
+from plantar.formats.table_text import time_unit
+
+_LOADS = ("force", "cop", "moment", "place", "pressure", "cell", "number")
+_ALLOWED = (
+    "allowed: time, left, right and side, or names such as Fz1, left Fz, FP2 COPx [mm], each with = and a column's "
+    "name or number; the cells of a foot as left=A + B, or left=A..B for all from A to B"
+)
+_PLATE = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")  # The channels of a force plate, in the order of all makers
+_FEWEST = 3  # Numbered columns up to which they may be the axes of a marker
+_SIGNED = 0.05  # Share of its largest value that a column reaches below zero, as only a plate's channels do
+
+
+def column_map(text: str | Mapping[str, str | int] | None) -> dict[str, str]:
+    """The columns of each name of a map as text or mapping; empty for None. InputError if it cannot be understood.
+
+    Example:
+        >>> column_map("left=Fz1, right=Fz2, time=t")
+        {'left': 'Fz1', 'right': 'Fz2', 'time': 't'}
+    """
+    if text is None:
+        return {}
+    if isinstance(text, str):
+        pairs = [part.partition("=") for part in text.split(",") if part.strip()]
+        if not pairs or any(not sign or not held.strip() for _, sign, held in pairs):
+            raise InputError(f"--columns is {text!r}; {_ALLOWED}")
+        named = [(key.strip(), held.strip()) for key, _, held in pairs]
+    else:
+        named = [(str(key).strip(), str(held).strip()) for key, held in text.items()]
+    out = dict(named)
+    if len(out) < len(named):
+        raise InputError("--columns gives a name twice; allowed: each once, with the cells of a foot as left=A + B")
+    for key in out:
+        known = key in ("left", "right") or time_unit(key) is not None or is_side_column(key)
+        if not known and heading_of(key).quantity not in _LOADS:
+            raise InputError(f"--columns names {key!r}, which is no load; {_ALLOWED}")
+    return out
+
+
+def mapped_columns(wanted: Mapping[str, str], names: Sequence[str], width: int) -> dict[int, str]:
+    """Returns the new name of each column of a map, by its number from 0; InputError for a column that is not there.
+
+    Args:
+        wanted: Of `column_map`.
+        names: Of the table's columns; may be empty.
+        width: Their number.
+    """
+    out: dict[int, str] = {}
+    for key, held in wanted.items():
+        columns = [i for part in _parts(held, names) for i in _columns(part, names, width)]
+        side = side_of(key) if heading_of(key).quantity == "number" else None
+        for count, i in enumerate(columns, 1):
+            if i in out:
+                raise InputError(f"--columns takes column {_shown(i, names)} twice; allowed: each once")
+            unit = heading_of(names[i]).unit if names and not heading_of(key).unit else ""
+            name = key if side is None else f"{key} force" if len(columns) == 1 else f"{key} {count}"
+            out[i] = f"{name} [{unit}]" if unit and time_unit(key) is None else name
+        if len(columns) > 1 and side is None:
+            raise InputError(
+                f"--columns gives {key!r} {len(columns)} columns; allowed: one, or several of left or right"
+            )
+    return out
+
+
+def _parts(held: str, names: Sequence[str]) -> list[str]:
+    return [held] if held in names else [part.strip() for part in held.split("+")]
+
+
+def _columns(part: str, names: Sequence[str], width: int) -> list[int]:
+    if part not in names and ".." in part:
+        first, _, last = part.partition("..")
+        (a,), (b,) = (_columns(end.strip(), names, width) for end in (first, last))
+        return list(range(a, b + 1))
+    found = [i for i, name in enumerate(names) if name == part]
+    found = found or [i for i, name in enumerate(names) if name.lower() == part.lower()]
+    if len(found) > 1:
+        raise InputError(f"--columns: {len(found)} columns are called {part!r}; allowed: their numbers, from 1 on")
+    if not found and part.isdecimal() and 1 <= int(part) <= width:
+        return [int(part) - 1]
+    if not found:
+        shown = ", ".join(map(repr, names[:8])) or f"1 to {width}"
+        raise InputError(f"--columns names {part!r}, which is no column; the table's are {shown}")
+    return found
+
+
+def _shown(i: int, names: Sequence[str]) -> str:
+    """A column by its name, or by its number where the name is not its own or would not survive the map's signs."""
+    name = names[i] if names else ""
+    plain = name and not re.search(r"[,=+\"]|\.\.", name) and [n.lower() for n in names].count(name.lower()) == 1
+    return name if plain else str(i + 1)
+
+
+def proposed_map(names: Sequence[str], table: NDArray[np.float64]) -> str:
+    """Returns the map of a table (n, k) that names do not tell, filled in as far as they and the numbers go.
+
+    Six columns with negative values are a plate's channels; others one or two feet's cells.
+    """
+    steps = np.diff(table, axis=0)
+    timed = [i for i, n in enumerate(names) if time_unit(n) is not None]
+    timed = timed or [i for i in range(table.shape[1]) if len(steps) and (steps[:, i] > 0.0).all()]
+    rest = [i for i in range(table.shape[1]) if i not in timed[:1]]
+    parts = [f"time={_shown(timed[0], names)}"] if timed else []
+    rest = _possible_loads(names, table, rest) if names else rest
+    if not rest:
+        return f'--columns "{", ".join([*parts, "left=COLUMN", "right=COLUMN"])}"'
+    lows = np.nanmin(table[:, rest], axis=0, initial=0.0)
+    highs = np.nanmax(np.abs(table[:, rest]), axis=0, initial=1e-9)
+    if len(rest) % len(_PLATE) == 0 and (lows < -_SIGNED * highs).any():
+        count = len(rest) // len(_PLATE)
+        channels = [f"{c}{plate + 1 if count > 1 else ''}" for plate in range(count) for c in _PLATE]
+        parts += [f"{channel}={_shown(i, names)}" for channel, i in zip(channels, rest, strict=True)]
+    elif len(rest) > 1 and len(rest) % 2 == 0:
+        half = len(rest) // 2
+        parts += [f"left={_span(rest[:half], names)}", f"right={_span(rest[half:], names)}"]
+    else:
+        parts.append(f"left={_span(rest, names)}")
+    return f'--columns "{", ".join(parts)}"'
+
+
+def _possible_loads(names: Sequence[str], table: NDArray[np.float64], columns: Sequence[int]) -> list[int]:
+    """Columns that names show as loads, else numbered ones of one word without negative values; else none."""
+    headings = {i: heading_of(names[i]) for i in columns}
+    loads = [
+        i for i, h in headings.items() if h.quantity in _LOADS and (h.quantity != "number" or h.number is not None)
+    ]
+    if loads:
+        return loads
+    numbered = [i for i, h in headings.items() if h.quantity == "unknown" and h.number is not None and not h.axis]
+    alike = len({headings[i].words for i in numbered}) == 1 and len(numbered) > _FEWEST
+    return numbered if alike and not (table[:, numbered] < 0.0).any() else []
+
+
+def _span(columns: Sequence[int], names: Sequence[str]) -> str:
+    if len(columns) > 2 and columns[-1] - columns[0] == len(columns) - 1:
+        return f"{_shown(columns[0], names)}..{_shown(columns[-1], names)}"
+    return " + ".join(_shown(i, names) for i in columns)

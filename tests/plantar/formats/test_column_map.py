@@ -1,0 +1,98 @@
+"""Columns by a stated map, and the map that a refusal prints."""
+
+import re
+
+import numpy as np
+import pytest
+
+from plantar import FormatError, InputError
+from plantar.formats.column_map import column_map, mapped_columns
+from plantar.formats.format import ReadOptions
+from plantar.gait.analysis.analyse import analyse
+
+from .test_table_kinds import AHEAD, LEFT, LEFTWARD, RIGHT, TIME, check, rows
+
+
+def printed(path) -> str:
+    """The map that the refusal of a file prints."""
+    with pytest.raises(FormatError) as refused:
+        analyse(path)
+    assert "\n" not in str(refused.value)
+    match = re.search(r'--columns "([^"]+)"', str(refused.value))
+    assert match is not None
+    return match[1]
+
+
+def test_a_map_names_the_columns_of_two_feet(tmp_path):
+    path = tmp_path / "walk.csv"
+    path.write_text("when,alpha,beta\n" + rows([TIME, LEFT, RIGHT], ","))
+    check(analyse(path, columns="left=alpha, right=beta, time=when"))
+    check(analyse(path, columns={"left": "alpha", "right": "3", "time [s]": 1}))
+
+
+def test_the_printed_map_of_a_plate_without_names_mends_it(tmp_path):
+    path = tmp_path / "plate.txt"
+    moments = [0.1 * AHEAD["right"], -0.2 * AHEAD["right"], 0.01 * AHEAD["right"]]
+    path.write_text(rows([TIME, AHEAD["right"], LEFTWARD["right"], RIGHT, *moments]))
+    columns = printed(path)
+    assert columns == "time=1, Fx=2, Fy=3, Fz=4, Mx=5, My=6, Mz=7"
+    check(analyse(path, options=ReadOptions(columns=columns, side="right")), ["right"])
+
+
+def test_the_printed_map_of_cells_of_an_unknown_word_mends_it(tmp_path):
+    path = tmp_path / "cells.csv"
+    names = ",".join(f"zone{i}" for i in range(1, 9))
+    path.write_text(f"time,{names}\n" + rows([TIME, *[LEFT / 4.0] * 4, *[RIGHT / 4.0] * 4], ","))
+    columns = printed(path)
+    assert columns == "time=time, left=zone1..zone4, right=zone5..zone8"
+    check(analyse(path, columns=columns, unit="N"))
+
+
+def test_a_map_of_a_data_frame():
+    frame = {"t": TIME, "Fz1": LEFT, "Fz2": RIGHT}
+
+    class Frame:
+        def __init__(self):
+            self.columns = list(frame)
+
+        def __getitem__(self, name):
+            return frame[name]
+
+    check(analyse(Frame(), columns={"time": "t", "right": "Fz2", "left": "Fz1"}, unit="N"))
+
+
+def test_names_that_are_not_single_are_taken_by_their_numbers():
+    names = ["t", "F", "F", "a, b"]
+    assert mapped_columns(column_map("time=t, left=2, right=3"), names, 4) == {
+        0: "time",
+        1: "left force",
+        2: "right force",
+    }
+    assert mapped_columns(column_map("left=2..4"), names, 4) == {1: "left 1", 2: "left 2", 3: "left 3"}
+    with pytest.raises(InputError, match="2 columns are called 'F'; allowed: their numbers"):
+        mapped_columns(column_map("left=F"), names, 4)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "--columns is ''"),
+        ("left", "--columns is 'left'"),
+        ("left=", "--columns is 'left='"),
+        ("left=a, left=b", "gives a name twice"),
+        ("knee angle=a", "'knee angle', which is no load"),
+        ("left=c", "'c', which is no column; the table's are 'a', 'b'"),
+        ("left=3", "'3', which is no column"),
+        ("left=a, right=a", "takes column a twice"),
+        ("time=a..b", "gives 'time' 2 columns"),
+    ],
+)
+def test_a_map_that_cannot_be_is_refused(text, words):
+    with pytest.raises(InputError, match=re.escape(words)):
+        mapped_columns(column_map(text), ["a", "b"], 2)
+
+
+def test_a_map_is_for_tables(tmp_path):
+    np.save(tmp_path / "walk.npy", np.ones((50, 4)))
+    with pytest.raises(InputError, match="--columns is for tables"):
+        analyse(tmp_path / "walk.npy", columns="left=1")
