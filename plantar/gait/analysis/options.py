@@ -10,6 +10,8 @@ from plantar.errors import InputError
 ACTIVITIES = ("walking", "running", "hopping")
 """Activities of steps that segments are of."""
 
+_HIGHEST = 500.0  # N
+
 
 @dataclass(frozen=True)
 class AnalysisOptions:
@@ -19,7 +21,8 @@ class AnalysisOptions:
     ones; `begin`: time in s before which steps do not count; `end`: time in s after which steps do not count;
     `segment`: activity in the means, such as "walking"; the one with most steps where None; `baseline`: "auto" removes
     swing readings that are an offset; "keep" leaves them; `events`: "own" finds events in the force; "vendor" uses
-    those stored in the file; else the path of an events file (see `plantar.formats.stated_events`).
+    those stored in the file; else the path of an events file (see `plantar.formats.stated_events`); `threshold`: force
+    in N whose crossings are the events, as a protocol may state.
     """
 
     steps: tuple[int, int] | Literal["steady", "all"] = "steady"
@@ -28,8 +31,13 @@ class AnalysisOptions:
     segment: str | None = None
     baseline: Literal["auto", "keep"] = "auto"
     events: str = "own"
+    threshold: float | None = None
 
     def __post_init__(self) -> None:
+        if self.threshold is not None and not 0.0 < self.threshold < _HIGHEST:
+            raise InputError(f"--threshold is {self.threshold:g} N; allowed: above 0, below {_HIGHEST:g}")
+        if self.threshold is not None and self.events != "own":
+            raise InputError(f"--threshold is for events in the force; --events is {self.events!r}; allowed: own")
         if self.baseline not in ("auto", "keep"):
             raise InputError(f"--baseline is {self.baseline!r}; allowed: auto, keep")
         if self.segment not in (None, *ACTIVITIES):

@@ -18,7 +18,15 @@ from plantar.gait.analysis.prints.platform_walk import PAUSE
 from plantar.gait.analysis.prints.regions import REGIONS
 from plantar.gait.analysis.steps.baseline import resting_level
 from plantar.gait.analysis.steps.cop_path import averaged_path
-from plantar.gait.analysis.steps.events import EVENT_LEVELS, Contact, Levels, find_contacts, force_levels, run_together
+from plantar.gait.analysis.steps.events import (
+    EVENT_LEVELS,
+    Contact,
+    Levels,
+    find_contacts,
+    force_levels,
+    run_together,
+    threshold_levels,
+)
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 from plantar.gait.analysis.steps.pressure_measures import pressure_measures, region_measures
 from plantar.gait.analysis.steps.segments import most_common, with_activities, without_standing
@@ -66,7 +74,7 @@ def analyse_feet(
     known = options or AnalysisOptions()
     if known.events != "own":
         _check_stated(recording)
-    feet = with_activities(_out_of_time(_measured_feet(recording, prints, known.events != "own")))
+    feet = with_activities(_out_of_time(_measured_feet(recording, prints, known.events != "own", known.threshold)))
     names = [step.activity for gait in feet.values() for step in gait.steps if step.activity]
     chosen = known.segment or (most_common(names) if known.steps == "steady" else "")
     if known.segment is not None and known.segment not in names:
@@ -126,8 +134,10 @@ def _check_stated(recording: PressureRecording) -> None:
             )
 
 
-def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint], stated: bool) -> dict[Side, FootGait]:
-    found = {side: _events_of(recording, side, stated) for side in recording.feet}
+def _measured_feet(
+    recording: PressureRecording, prints: Sequence[PlatformPrint], stated: bool, threshold: float | None
+) -> dict[Side, FootGait]:
+    found = {side: _events_of(recording, side, stated, threshold) for side in recording.feet}
     brushes = {side: own for side in found if not stated and (own := _brushes(recording, side, found))}
     found = {s: (levels, [c for c in own if c not in brushes.get(s, ())]) for s, (levels, own) in found.items()}
     events = _by_passes(recording, prints, found)
@@ -242,8 +252,14 @@ def analyse_foot(
     return replace(gait, steps=tuple(steps), warnings=tuple(_doubts(recording, gait)))
 
 
-def _events_of(recording: PressureRecording, side: Side, stated: bool) -> tuple[Levels | None, list[Contact]]:
+def _events_of(
+    recording: PressureRecording, side: Side, stated: bool, threshold: float | None = None
+) -> tuple[Levels | None, list[Contact]]:
     levels = _levels(recording, side)
+    if threshold is not None and recording.raw:
+        raise InputError(f"--threshold {threshold:g} is in N; {recording.path.name} holds raw counts or body weights")
+    if threshold is not None and levels is not None:
+        levels = threshold_levels(levels, threshold)
     return levels, _contacts(recording, side, stated, levels)
 
 
@@ -328,7 +344,7 @@ def _doubts(recording: PressureRecording, gait: FootGait) -> list[str]:
             "sole's length"
         )
     noisy = _RAISED * EVENT_LEVELS[recording.kind].strike
-    if gait.levels is not None and _release_share(gait.levels) > noisy:
+    if gait.levels is not None and gait.levels.clear is not None and _release_share(gait.levels) > noisy:
         out.append(
             f"the {side} foot's force scatters by {gait.levels.noise:.3g} N in swing: heel strikes are found at "
             f"{100.0 * _release_share(gait.levels):.0f} % of its range and so later than usual, toe offs sooner"

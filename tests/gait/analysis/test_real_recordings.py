@@ -39,7 +39,7 @@ def test_moticon_events_agree_with_the_vendors(real_data):
         events = np.array([[e["heel_strike_s"], e["toe_off_s"]] for e in foot["events"]])
         assert events.shape == truth.shape  # all of them and no others
         assert np.abs(events[:, 0] - truth[:, 0]).max() < 0.020
-        assert np.abs(events[:, 1] - truth[:, 1]).max() < 0.035
+        assert np.abs(events[:, 1] - truth[:, 1]).max() < 0.020
         stance = [(e[:-1, 1] - e[:-1, 0]) / np.diff(e[:, 0]) for e in (events, truth)]
         assert abs(float(np.mean(stance[0]) - np.mean(stance[1]))) < 0.01  # of a stride
         assert len(foot["incomplete"]) == 2  # the standing at both ends

@@ -1,11 +1,12 @@
 """Gait events: heel strikes and toe offs from a foot's vertical force.
 
 `EVENT_LEVELS` are shares of the range from swing level to robust peak, raised by noise. An event is where force crosses
-its level, or midway in a jump of half the range; an insole's toe off is where the straightened fall of push-off ends.
+its level, or midway in a jump of half the range; an insole's landing is straightened back to where its rise begins, and
+its push-off to where its fall ends, by up to a hundredth of a second.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import cast
 
@@ -33,7 +34,7 @@ EVENT_LEVELS: Mapping[Kind, EventLevels] = {
     "insole": EventLevels(0.05, 0.10, 0.10, 0.02),
     "robot": EventLevels(0.05, 0.10, 0.05),
     "platform": EventLevels(0.02, 0.05, 0.02),
-    "plate": EventLevels(0.02, 0.05, 0.02),
+    "plate": EventLevels(0.02, 0.05, 0.03),
 }
 """Levels of the events by what measures."""
 
@@ -58,6 +59,12 @@ _BESIDE = 0.5  # Time in s before a landing and after a push-off in which the fo
 # Shares of the range that part the rise of a landing, from the event level on: its steepest piece is continued back
 # straight. A shoe that touches lightly before the foot lands makes the first piece flat.
 _RISE = (0.20, 0.50)
+# Shares of the range that makers' events of insoles lie at, and times in s by which a straightened landing may begin
+# before and a push-off end after: a slow walker's shoe presses long before and after what makers call a contact.
+_STATED_RISE = 0.075
+_STATED_FALL = 0.13
+_BEFORE = 0.008
+_AFTER = 0.010
 _LIGHT = 0.7  # Share of the middle load that a contact has to reach for its peak to count
 # Contacts of more than 1.5 s are looked at for steps in them: force that rises by more than half of the foot's range
 # within 0.25 s, from 0.2 to 0.8 of what it ranges over there; weight is shifted more slowly.
@@ -138,6 +145,12 @@ def force_levels(force: NDArray[np.float64], kind: Kind = "robot", lifted: bool 
         lift=rest + max(share.lift * span, _NOISE_RELEASE * noise),
         clear=None if share.clear is None else rest + max(share.clear * span, _NOISE_RELEASE * noise),
     )
+
+
+def threshold_levels(levels: Levels, threshold: float) -> Levels:
+    """Levels of a protocol whose events lie where the force crosses a threshold in N; `levels` are the foot's own."""
+    contact = max(threshold, levels.contact)
+    return replace(levels, release=threshold, contact=contact, lift=threshold, clear=None)
 
 
 def smoothed(force: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -305,7 +318,9 @@ def _begin_of_rise(
     before = first + np.flatnonzero(force[first:begin] <= levels.clear)
     least = _crossing(time, force, int(before[-1]) + 1, levels.clear) if len(before) else strike
     least -= slow[steepest] * (levels.clear - levels.rest)
-    return min(strike, max(straight, least))
+    loaded = np.flatnonzero(force[begin:end] >= levels.rest + _STATED_RISE * (levels.peak - levels.rest))
+    stated = _crossing(time, force, begin + int(loaded[0]), levels.rest + _STATED_RISE * (levels.peak - levels.rest))
+    return max(min(strike, max(straight, least)), stated - _BEFORE)
 
 
 def _end_of_push_off(
@@ -337,7 +352,10 @@ def _end_of_push_off(
     if len(light):
         clear = _crossing(time, force, end + int(light[0]), levels.clear)
         straight = min(straight, clear + slow[piece] * (levels.clear - levels.rest))
-    return max(lift, min(straight, float(time[-1])))
+    level = levels.rest + _STATED_FALL * (levels.peak - levels.rest)
+    loaded = begin + np.flatnonzero(force[begin:end] >= level)
+    stated = _crossing(time, force, int(loaded[-1]) + 1, level) if len(loaded) else lift
+    return min(max(lift, min(straight, float(time[-1]))), stated + _AFTER)
 
 
 def _longest_gap(

@@ -62,7 +62,12 @@ def test_means_are_of_one_activity(choice, cadence):
     [
         ((0.52, 0.44), 0.75, "running", "both feet are off the ground for"),  # a limping run
         ((0.50, 0.40), 0.7, "running", "both feet are off the ground for"),
-        ((0.75, 0.45), 1.1, "walking", "off the ground for 0.0[45].* but a foot stands for 60 % of it"),  # on crutches
+        (
+            (0.75, 0.45),
+            1.1,
+            "walking",
+            "off the ground for 0.0[4-7].* but a foot stands for (59|60) % of it",
+        ),  # on crutches
         ((0.70, 0.54), 1.1, "walking", "a foot is on the ground at all times"),  # a limp
     ],
 )
