@@ -3,7 +3,8 @@
 - A robot TOML names files in its own folder and below.
 - A model (MJCF, URDF) also in the folder above it, unless that is, or holds, the home folder or that of temporary
   files.
-- `package://name/...` is looked for in the folders above the model that are called so.
+- `package://name/...` is looked for in the folders above the model whose package.xml states that name, or that are
+  called so.
 - Folders in the environment variable PLANTAR_MODEL_FOLDERS (separated as PATH is) are allowed in addition.
 """
 
@@ -93,13 +94,25 @@ def mesh_of_urdf(file: Path, name: str, error: type[PlantarError], where: str) -
     plain = plain.lstrip("/")  # of package:///name/..., which other readers take, too
     parts = Path(plain).parts
     inside = Path(*parts[1:]) if len(parts) > 1 else Path(plain)
-    above = tuple(f for f in file.resolve().parents if parts and f.name == parts[0] and _is_a_package(f))
+    above = tuple(f for f in file.resolve().parents if parts and _is_called(f, parts[0]) and _is_a_package(f))
     allowed = (*own, *above)
     for folder in (file.parent, *allowed, *(f.parent for f in above), *_besides()):
         for candidate in (folder / plain, folder / inside):
             if os.path.isfile(candidate):
                 return named_file(candidate, allowed, error, where)
     return named_file(file.parent / inside, allowed, error, where)
+
+
+def _is_called(folder: Path, name: str) -> bool:
+    """Whether a folder is the ROS package of a name: by its package.xml, or where it has none by its own name."""
+    manifest = folder / "package.xml"
+    if not manifest.is_file():
+        return folder.name == name
+    try:
+        stated = parse_xml(read_input(manifest, PlantarError, XML_MOST), PlantarError, str(manifest)).findtext("name")
+    except PlantarError:
+        return folder.name == name
+    return name in ((stated or "").strip(), folder.name)
 
 
 def mesh_of_mjcf(file: Path, spec: Any, mesh: Any, attached: Iterable[Path], error: type[PlantarError]) -> Path:

@@ -1,7 +1,9 @@
 """Limits of a robot's model (MJCF, URDF), checked in its text."""
 
 import math
+import os
 import re
+from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element
 
@@ -90,9 +92,25 @@ def quiet_mujoco() -> Any:
     return mujoco
 
 
+def spec_of_file(path: str | os.PathLike[str]) -> Any:
+    """MuJoCo's editable model of an MJCF or URDF file.
+
+    MuJoCo reads MJCF only under the name .xml; under another one, such as .mjcf, its text is read in its folder.
+    """
+    kind = quiet_mujoco().MjSpec
+    file = Path(path)
+    if file.suffix.lower() in (".xml", ".urdf"):
+        return kind.from_file(str(file))
+    others = [p for pattern in ("*.xml", "*.mjcf") for p in file.parent.glob(pattern) if p.is_file() and p != file]
+    beside = {p.name: p.read_bytes() for p in others}  # what it may include
+    spec = kind.from_string(file.read_text(encoding="utf-8"), include=beside)
+    spec.modelfiledir = str(file.parent)
+    return spec
+
+
 def parsed_in_trial(path: str) -> dict[str, int]:
     """Let MuJoCo read a model, for `confined`; returns its body count, 0 if refused."""
     try:
-        return {"bodies": len(quiet_mujoco().MjSpec.from_file(str(path)).bodies)}
+        return {"bodies": len(spec_of_file(path).bodies)}
     except Exception:  # MuJoCo raises ValueError, OSError and its own
         return {"bodies": 0}

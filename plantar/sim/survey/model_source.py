@@ -13,6 +13,7 @@ import mujoco
 import numpy as np
 
 from plantar.common.files.model_files import attached_models, check_model, mesh_of_mjcf, mesh_of_urdf, parsed_model
+from plantar.common.files.model_limits import spec_of_file
 from plantar.errors import RobotError
 from plantar.mujoco.deletion import delete_all
 from plantar.robots.model_file import forget_own_simulation
@@ -84,7 +85,7 @@ def read_model(file: Path, folder: Path) -> ModelSource:
     root = parsed_model(file, RobotError)
     urdf = _urdf_text(root, file, folder, stated) if root.tag == "robot" else ""
     try:
-        spec = mujoco.MjSpec.from_string(urdf) if urdf else mujoco.MjSpec.from_file(str(file))
+        spec = mujoco.MjSpec.from_string(urdf) if urdf else spec_of_file(file)
     except Exception as error:  # MuJoCo's parser raises ValueError, OSError and its own errors
         raise RobotError(f"{file}: cannot be read: {' '.join(str(error).split())}") from None
     _name_all(spec)

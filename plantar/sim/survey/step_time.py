@@ -13,7 +13,7 @@ from dataclasses import replace
 
 from plantar.common.gravity import GRAVITY
 from plantar.common.sides import Side
-from plantar.robots.kinematics.body import rolling_joints, stood
+from plantar.robots.kinematics.body import pitching_joints, rolling_joints, stood
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
 
@@ -30,8 +30,16 @@ _SHORTEST = 0.2  # s: the least that the timing of a walk allows
 
 
 def has_ankle_roll(robot: Robot, legs: LegModel, side: Side = "left") -> bool:
-    """Returns whether a `robot`'s leg of a `side` of `legs` rolls in hip and ankle."""
-    return len(rolling_joints(robot, side, legs.model, stood(robot, legs.model))) >= 2
+    """Returns whether a `robot`'s leg of a `side` of `legs` has a joint below its knee that rolls the sole.
+
+    The knee is the last pitching joint but one; where ankle and hip alone pitch, any joint below the hip counts.
+    """
+    data = stood(robot, legs.model)
+    order = [int(legs.model.joint(name).id) for name in robot.legs[side].joints]
+    pitching = pitching_joints(robot, side, legs.model, data)
+    rolling = rolling_joints(robot, side, legs.model, data)
+    knee = order.index(pitching[-2]) if len(pitching) > 1 else 0
+    return any(order.index(joint) > knee for joint in rolling)
 
 
 def rocking(robot: Robot, com_height: float) -> Robot:

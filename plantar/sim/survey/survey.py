@@ -72,7 +72,7 @@ def survey_model(file: Path, folder: Path) -> Survey:
     except RobotError as error:
         raise explained(error, source.notes) from None
     held, held_notes = _held(source, legs)
-    imu = next((i for i in source.imus if _on_body(model, legs, i)), None)
+    imu = _lowest_imu(source, legs)
     names = {s: [model.joint(j).name for j in legs.by_side[s].joints] for s in SIDES}
     pairs = list(zip(names["left"], names["right"], strict=True))
     efforts = tuple(_lesser(source.efforts, pair) for pair in pairs)
@@ -125,7 +125,10 @@ def _check_masses(model: Any, feet: float, file: Path) -> None:
 
 def explained(error: RobotError, notes: Iterable[str]) -> RobotError:
     """Returns an `error` with explaining `notes`."""
-    return RobotError("; ".join([str(error), *[n for n in notes if n.startswith("held, ") or "cannot be" in n][:3]]))
+    missing = [note for note in notes if "cannot be read" in note][:2]
+    causes = [note for note in notes if note.startswith("held, ") or ("cannot be" in note and note not in missing)]
+    file, _, problem = str(error).partition(": ")
+    return RobotError("; ".join([f"{file}: {'; '.join([*missing, problem])}", *causes[:3]]))
 
 
 def _loop_notes(source: ModelSource, legs: Legs) -> list[str]:
@@ -161,9 +164,29 @@ def _held(source: ModelSource, legs: Legs) -> tuple[dict[str, float], list[str]]
     return held, [*([keyframe] if source.upper_posture and held else []), *notes]
 
 
-def _on_body(model: Any, legs: Legs, imu: tuple[str, str]) -> bool:
+def _lowest_imu(source: ModelSource, legs: Legs) -> tuple[str, str] | None:
+    """The IMU that the fewest joints part from the pelvis: one above the waist turns with it."""
+    model = source.model
+    usable = [imu for imu in source.imus if _on_body(model, legs, imu)]
+    return min(usable, key=lambda imu: _joints_between(model, _body_of_imu(model, imu), legs.pelvis), default=None)
+
+
+def _joints_between(model: Any, body: int, pelvis: int) -> int:
+    """Joints from a body up to the pelvis's link, or to the world where it is not above."""
+    count = 0
+    while body > 0 and int(model.body_weldid[body]) != int(model.body_weldid[pelvis]):
+        count += int(model.body_jntnum[body])
+        body = int(model.body_parentid[body])
+    return count
+
+
+def _body_of_imu(model: Any, imu: tuple[str, str]) -> int:
     kind, name = imu
-    return not _on_leg(model, legs, model.body(name).id if kind == "body" else int(model.site(name).bodyid[0]))
+    return int(model.body(name).id) if kind == "body" else int(model.site(name).bodyid[0])
+
+
+def _on_body(model: Any, legs: Legs, imu: tuple[str, str]) -> bool:
+    return not _on_leg(model, legs, _body_of_imu(model, imu))
 
 
 def _on_leg(model: Any, legs: Legs, body: int) -> bool:

@@ -2,6 +2,8 @@
 
 import math
 
+from plantar.common.console.ending import one_line
+from plantar.errors import PlantarError
 from plantar.gait.estimate.push_estimate import PushRules
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
@@ -27,7 +29,10 @@ class _Trial(Simulation):
 
 def trial_walk(robot_file: str) -> tuple[float, list[str]]:
     """Walk level ground; returns the largest acceleration in m/s^2 that ZMP and IMU disagreed by, and notes."""
-    trial = _Trial(load_scene("flat", [f"walk.steps={_STEPS}", f"push_estimate.begins={_SILENT}"], robot_file), 0)
+    try:
+        trial = _Trial(load_scene("flat", [f"walk.steps={_STEPS}", f"push_estimate.begins={_SILENT}"], robot_file), 0)
+    except PlantarError as error:
+        return 0.0, [f"its trial walk cannot begin: {one_line(error)}"]
     summary = trial.run()
     missed = ", ".join(str(reason["criterion"]) for reason in summary["reasons"])
     level = 0.0 if summary["fell"] else trial.level  # what a fall leaves is no walk's

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import mujoco
 import numpy as np
@@ -284,3 +285,63 @@ def test_the_command_chooses_opengl_without_a_display(monkeypatch, tmp_path):
     with pytest.raises(PlantarError):
         robot_command(tmp_path / "none.urdf", output=tmp_path)
     assert os.environ["MUJOCO_GL"] == "egl"
+
+
+def test_the_walk_decides_and_the_file_is_written_all_the_same(tmp_path, monkeypatch):
+    """The check, which expects trouble here, refuses nothing; a trial walk that is not completed gives exit code 1."""
+    truth = random_biped(SEED, tmp_path)
+    (tmp_path / "out").mkdir()
+    doubts = SimpleNamespace(failures=["torque: too weak"])
+    monkeypatch.setattr("plantar.sim.survey.introduce.check_robot", lambda *_: doubts)
+    monkeypatch.setattr("plantar.sim.survey.introduce.trial_walk", lambda _: (0.0, ["its first steps missed fall"]))
+    found = introduce(truth.file, tmp_path / "out", shoe_for_surface)
+    assert not found.walks
+    assert found.as_dict(tmp_path)["walks"] is False
+    assert list(found.walked) == ["the check expects trouble: torque: too weak", "its first steps missed fall"]
+    load_robot(tmp_path / "out" / "robot.toml")
+
+
+def test_without_a_picture_the_robot_is_kept(tmp_path, monkeypatch):
+    def no_opengl(*_):
+        raise RuntimeError("no OpenGL platform")
+
+    truth = random_biped(SEED, tmp_path)
+    (tmp_path / "out").mkdir()
+    monkeypatch.setattr("plantar.sim.survey.introduce.draw_robot", no_opengl)
+    monkeypatch.setattr("plantar.sim.survey.introduce.trial_walk", lambda _: (0.0, []))
+    found = introduce(truth.file, tmp_path / "out", shoe_for_surface)
+    assert found.walks
+    assert "robot.png is not drawn: no OpenGL platform" in found.walked[-1]
+
+
+def test_a_model_called_mjcf_is_read_as_one_called_xml(tmp_path):
+    truth = random_biped(SEED, tmp_path)
+    other = truth.file.with_suffix(".mjcf")
+    expected = survey_model(truth.file, tmp_path)
+    truth.file.rename(other)
+    found = survey_model(other, tmp_path)
+    assert found.joint_names("left") == expected.joint_names("left")
+    assert found.mass == expected.mass
+    np.testing.assert_array_equal(found.soles["left"].origin, expected.soles["left"].origin)
+
+
+def test_of_two_imus_the_one_on_the_pelvis_is_taken(tmp_path):
+    """The one above the waist comes first in the file, and has a gyro."""
+    truth = random_biped(SEED, tmp_path)
+    spec = mujoco.MjSpec.from_file(str(truth.file))
+    for sensor in list(spec.sensors):
+        spec.delete(sensor)
+    for site in [s for s in spec.sites if "imu" in s.name.lower()]:
+        spec.delete(site)
+    pelvis = spec.body("trunk")
+    above = pelvis.add_body(name="chest", pos=[0.0, 0.0, 0.1])
+    above.add_joint(name="waist", axis=[0.0, 0.0, 1.0])
+    above.add_geom(size=[0.05, 0.05, 0.05], mass=0.1)
+    for body, name in ((above, "imu_in_chest"), (pelvis, "imu_in_pelvis")):
+        body.add_site(name=name)
+        spec.add_sensor(
+            name=f"gyro_{name}", type=mujoco.mjtSensor.mjSENS_GYRO, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=name
+        )
+    spec.compile()
+    truth.file.write_text(spec.to_xml())
+    assert survey_model(truth.file, tmp_path).imu == ("site", "imu_in_pelvis")

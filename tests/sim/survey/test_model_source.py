@@ -357,7 +357,7 @@ def test_a_foot_without_a_shape_is_refused_by_its_name(tmp_path):
     missing = "<asset><mesh name='foot' file='foot.stl'/></asset></mujoco>"
     truth.file.write_text(spec.to_xml().replace("</mujoco>", missing))
     with pytest.raises(
-        RobotError, match=r"'.*', which moves below .* has no shape; .*; mesh foot.stl cannot be read"
+        RobotError, match=r": mesh foot.stl cannot be read; .*; '.*', which moves below .* has no shape"
     ) as caught:
         survey_model(truth.file, tmp_path)
     assert any(f"'{name}', which moves" in str(caught.value) for name in truth.feet.values())

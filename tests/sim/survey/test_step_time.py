@@ -56,3 +56,13 @@ def test_weak_ankles_bear_the_robot_as_far_as_their_torque_goes():
     assert ankle_reach(replace(robot, effort_limits=tuple(limits)), weight, 4) is None
     limits[4] = 0.05 * weight
     assert ankle_reach(replace(robot, effort_limits=tuple(limits)), weight, 4) == pytest.approx(0.05, abs=1e-4)
+
+
+def test_two_rolling_joints_of_the_hip_are_no_ankle(monkeypatch):
+    robot = load_robot("h1")
+    legs = build_leg_model(robot)
+    names = robot.legs["left"].joints
+    ids = [int(legs.model.joint(name).id) for name in names]
+    assert has_ankle_roll(robot, legs)
+    monkeypatch.setattr("plantar.sim.survey.step_time.rolling_joints", lambda *_: ids[:2])
+    assert not has_ankle_roll(robot, legs)

@@ -171,3 +171,14 @@ def test_entities_are_not_read(within):
         data = "".join([*lines, "]><r>&e11;</r>"]).encode(encoding)
         with within(megabytes=20), pytest.raises(RobotError, match="declares entities"):
             parse_xml(data, RobotError, "x.xml")
+
+
+def test_a_ros_package_is_found_by_the_name_that_its_manifest_states(tmp_path):
+    folder = tmp_path / "checkout-main" / "urdf"
+    folder.mkdir(parents=True)
+    (folder.parent / "package.xml").write_text("<package><name>my_robot_description</name></package>")
+    (folder.parent / "meshes").mkdir()
+    mesh = folder.parent / "meshes" / "foot.stl"
+    mesh.write_bytes(b"solid")
+    named = "package://my_robot_description/meshes/foot.stl"
+    assert mesh_of_urdf(folder / "robot.urdf", named, RobotError, "robot.urdf").resolve() == mesh.resolve()
