@@ -9,6 +9,7 @@ import pytest
 from plantar.errors import SceneError
 from plantar.sim.run.scene import load_scene
 from plantar.sim.terrain import (
+    GROUND_GROUP,
     Beam,
     Block,
     Course,
@@ -23,6 +24,10 @@ from plantar.sim.terrain import (
 )
 
 HALF = (0.125, 0.075)
+
+
+SEEN = np.array([i == GROUND_GROUP for i in range(6)], dtype=np.uint8)
+"""Groups of geoms that a ray meets: what soles touch is not seen."""
 
 
 def feet(steps: int = 6, length: float = 0.2, sideways: float = 0.0) -> PlannedFeet:
@@ -52,7 +57,7 @@ def height_of(terrain: Terrain, planned: PlannedFeet, seed: int = 0):
     def height(point: np.ndarray) -> float:
         geom = np.empty(1, dtype=np.int32)
         start = np.array([point[0], point[1], 1.0])
-        return 1.0 - float(mujoco.mj_ray(model, data, start, np.array([0.0, 0.0, -1.0]), None, 1, -1, geom))
+        return 1.0 - float(mujoco.mj_ray(model, data, start, np.array([0.0, 0.0, -1.0]), SEEN, 1, -1, geom))
 
     return height
 

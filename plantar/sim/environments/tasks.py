@@ -18,7 +18,7 @@ from plantar.mechanics.rotation import rotation_from_angles
 from plantar.mujoco.bound_skin import SkinReading
 from plantar.robots.robot import Robot
 from plantar.sim.model.world import World
-from plantar.sim.terrain import Ground, Motion, Solid, Terrain
+from plantar.sim.terrain import CORNERS, Ground, Motion, Solid, Terrain
 
 
 class Simulated(Protocol):
@@ -186,11 +186,13 @@ class Walk(Task):
     def reset(self, rng: np.random.Generator) -> None:
         model = self.env.model
         world = self.env.world
-        first = model.geom("ground_0").id
+        seen = model.geom("ground_0").id
+        touched = model.geom(f"ground_0{CORNERS}").id
         rises = self.env.difficulty * self.leg / 40.0 * rng.uniform(-1.0, 1.0, len(self._level))
-        model.geom_pos[first : first + len(rises), 2] = np.where(self._level, 0.0, rises) - 0.1
+        for first in (seen, touched):
+            model.geom_pos[first : first + len(rises), 2] = np.where(self._level, 0.0, rises) - 0.1
         soles = [g for geoms in world.sole_geoms.values() for g in geoms]
-        tiles = range(first, first + len(rises))
+        tiles = range(touched, touched + len(rises))
         model.geom_friction[[*tiles, model.geom("ground").id, *soles], 0] = rng.uniform(0.5, 1.0)
         self._next = 0.0
         self.command = np.zeros(3)

@@ -6,6 +6,7 @@ import numpy as np
 
 from plantar.kernels.judging.piece_loads import PieceLoads
 from plantar.sim.model.world import World
+from plantar.sim.terrain import CORNERS, FLAT
 
 if TYPE_CHECKING:
     from plantar.sim.terrain import Ground, PlannedFeet
@@ -26,8 +27,9 @@ class GroundPieces:
         self._period = world.period
         self.count = len(ground.solids)
         numbers = np.full(world.model.ngeom, -1, dtype=np.intp)
-        for piece in range(self.count):
-            numbers[world.model.geom(f"ground_{piece}").id] = piece
+        for piece, solid in enumerate(ground.solids):
+            touched = f"ground_{piece}{CORNERS}" if solid.shape in FLAT else f"ground_{piece}"
+            numbers[world.model.geom(touched).id] = piece
         self.loads = PieceLoads(numbers, least)
 
     def carried(self, piece: int) -> bool:

@@ -27,7 +27,7 @@ from plantar.sim.judging.step_count import Stand, StepCount
 from plantar.sim.judging.walk_goal import WalkGoal, Way
 from plantar.sim.model.contact_truth import ContactReader, GroundTruth, foot_contacts
 from plantar.sim.model.world import DIVERGED, World
-from plantar.sim.terrain import Ground
+from plantar.sim.terrain import CORNERS, Ground
 
 _LEVEL = 0.9999  # cosine of the tilt up to which a face is level
 
@@ -214,7 +214,10 @@ class Judge:
         if not contacts.size:
             return None
         ground = int(contacts.other_geoms[int(np.argmax(contacts.forces[:, 2]))])
-        if ground < 0 or int(model.geom_type[ground]) not in _FLAT_FACES:
+        if ground < 0:
+            return None
+        ground = int(model.geom(model.geom(ground).name.removesuffix(CORNERS)).id)
+        if int(model.geom_type[ground]) not in _FLAT_FACES:
             return None
         up = data.geom_xmat[ground].reshape(3, 3)[:, 2]
         sole = data.site_xmat[self.world.sole_sites[side]].reshape(3, 3)[:, 2]

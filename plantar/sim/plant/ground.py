@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from plantar.common.settings.body_scale import BodyScale
 from plantar.sim.plant.draw import TruePlant, stream
-from plantar.sim.terrain import GROUND_GROUP
+from plantar.sim.terrain import GROUND_CONTACT
 
 PATCH = 0.05
 """Size in m of a patch of one colour."""
@@ -55,7 +55,7 @@ def make_ground_true(model: Any, plant: TruePlant, touching: Sequence[int], body
     model.geom_solref[touching, 0] = np.hypot(np.hypot(before, plant.softness), foam)
     if not plant.patchiness:
         return
-    pieces = [geom for geom in touching if model.geom_group[geom] == GROUND_GROUP]
+    pieces = [geom for geom in touching if model.geom_contype[geom] & GROUND_CONTACT]
     less = 1.0 - plant.patchiness * stream(plant.seed, "patches").uniform(size=(len(pieces), 2))
     hard = before[[touching.index(geom) for geom in pieces]]
     model.geom_friction[pieces, 0] *= less[:, 0]

@@ -4,6 +4,8 @@ from plantar.sim.terrain.beam import Beam
 from plantar.sim.terrain.block import Block
 from plantar.sim.terrain.course import Course
 from plantar.sim.terrain.ground import (
+    CORNERS,
+    FLAT,
     GROUND_CONTACT,
     GROUND_GROUP,
     Flat,
@@ -20,6 +22,8 @@ from plantar.sim.terrain.stones import Partial, Pebbles, Stones, Uneven
 from plantar.sim.terrain.way import Relief, Slopes, Stairs
 
 __all__ = [
+    "CORNERS",
+    "FLAT",
     "GROUND_CONTACT",
     "GROUND_GROUP",
     "Beam",

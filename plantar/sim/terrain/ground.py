@@ -7,6 +7,7 @@ A kind is a frozen dataclass of a scene's `[terrain]` table that turns footprint
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,14 @@ GROUND_GROUP = 2
 GROUND_CONTACT = 2
 """MuJoCo's bit of contacts with the ground."""
 
+FLAT = ("box", "cylinder")
+"""Shapes with flat faces, which soles touch as meshes of their corners."""
+
+CORNERS = "_corners"
+"""How the name of such a mesh ends; without that it is the name of the shape that is seen."""
+
+_SIDES = 24  # of the prism that a cylinder is touched as: its corners are on the circle
+_UNSEEN = 4  # geom group that pictures and proximity leave out
 _FIELD_BASE = 0.05  # m of a field's body below its lowest level
 _LEVEL = 0.9999  # cosine of the tilt up to which a face is level
 _SAME_HEIGHT = 1e-4  # m up to which faces are at one height
@@ -177,12 +186,12 @@ class Ground:
         return max([self.floor, *(solid.top for solid in self.solids)])
 
     def add_to(self, spec: Any) -> None:
-        """Add floor geom "ground" and solids "ground_0", "ground_1"... to a `mujoco.MjSpec`."""
+        """Add floor geom "ground" and solids "ground_0", "ground_1"... to a `mujoco.MjSpec`.
+
+        Boxes and cylinders are seen as they are and touched as meshes of their corners, "ground_0_corners"...
+        """
         import mujoco
 
-        from plantar.sim.terrain.face_contact import MARK, install_face_contacts
-
-        install_face_contacts()
         kinds = {
             "box": mujoco.mjtGeom.mjGEOM_BOX,
             "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
@@ -190,46 +199,78 @@ class Ground:
             "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER,
             "field": mujoco.mjtGeom.mjGEOM_HFIELD,
         }
-        common = {
-            "group": GROUND_GROUP,
-            "contype": GROUND_CONTACT | MARK,
-            "conaffinity": 1,
-            "friction": [self.friction, 0.005, 0.0001],
-        }
-        spec.worldbody.add_geom(
-            name="ground",
-            type=mujoco.mjtGeom.mjGEOM_PLANE,
-            size=[0.0, 0.0, 1.0],
-            pos=[0.0, 0.0, self.floor],
-            material="ground",
-            **common,
-        )
-        for i, solid in enumerate(self.solids):
-            quaternion = np.empty(4)
-            mujoco.mju_mat2Quat(quaternion, solid.rotation.ravel())
-            place = {"pos": solid.position.tolist(), "quat": quaternion.tolist()}
-            body = spec.worldbody
-            if solid.motions:
-                body = spec.worldbody.add_body(name=f"ground_{i}", mocap=True, **place)
-                place = {}
-            if solid.heights is not None:
-                rows, columns = solid.heights.shape
-                field = spec.add_hfield(
-                    name=f"ground_{i}",
-                    nrow=rows,
-                    ncol=columns,
-                    size=[*solid.size[:2], max(solid.size[2], 1e-6), _FIELD_BASE],
-                    userdata=solid.heights.ravel().tolist(),
-                )
-                place["hfieldname"] = field.name
+        touched = {"contype": GROUND_CONTACT, "conaffinity": 1, "friction": [self.friction, 0.005, 0.0001]}
+        floor = {"size": [0.0, 0.0, 1.0], "pos": [0.0, 0.0, self.floor], "material": "ground"}
+        spec.worldbody.add_geom(name="ground", type=mujoco.mjtGeom.mjGEOM_PLANE, group=GROUND_GROUP, **floor, **touched)
+        places = [_placed(spec, i, solid) for i, solid in enumerate(self.solids)]
+        for i, (solid, (body, place)) in enumerate(zip(self.solids, places, strict=True)):
             body.add_geom(
                 name=f"ground_{i}",
                 type=kinds[solid.shape],
-                size=[0.0, 0.0, 0.0] if solid.heights is not None else list(solid.size),
+                group=GROUND_GROUP,
                 rgba=[0.72, 0.66, 0.55, 1.0] if i % 2 else [0.62, 0.68, 0.60, 1.0],
                 **place,
-                **common,
+                **_shape(spec, i, solid),
+                **({"contype": 0, "conaffinity": 0} if solid.shape in FLAT else touched),
             )
+        _use_many_contacts(spec)
+        meshes: dict[tuple[str, tuple[float, ...]], str] = {}
+        for i, (solid, (body, place)) in enumerate(zip(self.solids, places, strict=True)):
+            if solid.shape in FLAT:
+                mesh = meshes.setdefault((solid.shape, solid.size), f"ground_{i}{CORNERS}")
+                if mesh.startswith(f"ground_{i}_"):
+                    spec.add_mesh(name=mesh, uservert=_corners(solid).ravel().tolist())
+                body.add_geom(
+                    name=f"ground_{i}{CORNERS}",
+                    type=mujoco.mjtGeom.mjGEOM_MESH,
+                    meshname=mesh,
+                    group=_UNSEEN,
+                    **place,
+                    **touched,
+                )
+
+
+def _placed(spec: Any, number: int, solid: Solid) -> tuple[Any, dict[str, Any]]:
+    """Body of a solid, and its place in it."""
+    import mujoco
+
+    quaternion = np.empty(4)
+    mujoco.mju_mat2Quat(quaternion, solid.rotation.ravel())
+    place = {"pos": solid.position.tolist(), "quat": quaternion.tolist()}
+    if not solid.motions:
+        return spec.worldbody, place
+    return spec.worldbody.add_body(name=f"ground_{number}", mocap=True, **place), {}
+
+
+def _shape(spec: Any, number: int, solid: Solid) -> dict[str, Any]:
+    if solid.heights is None:
+        return {"size": list(solid.size)}
+    rows, columns = solid.heights.shape
+    field = spec.add_hfield(
+        name=f"ground_{number}",
+        nrow=rows,
+        ncol=columns,
+        size=[*solid.size[:2], max(solid.size[2], 1e-6), _FIELD_BASE],
+        userdata=solid.heights.ravel().tolist(),
+    )
+    return {"size": [0.0, 0.0, 0.0], "hfieldname": field.name}
+
+
+def _corners(solid: Solid) -> NDArray[np.float64]:
+    """Corners (k, 3) in m of a box, or of a prism in place of a cylinder."""
+    if solid.shape == "box":
+        return np.array(list(product((-1.0, 1.0), repeat=3))) * solid.size
+    radius, half, _ = solid.size
+    turns = 2.0 * math.pi * np.arange(_SIDES) / _SIDES
+    ring = radius * np.column_stack([np.cos(turns), np.sin(turns)])
+    return np.concatenate([np.column_stack([ring, np.full(_SIDES, z)]) for z in (-half, half)])
+
+
+def _use_many_contacts(spec: Any) -> None:
+    """Let MuJoCo find several contacts of a pair of convex shapes: before MuJoCo 4 that has to be asked for."""
+    import mujoco
+
+    spec.option.enableflags |= int(getattr(mujoco.mjtEnableBit, "mjENBL_MULTICCD", 0))
 
 
 class Terrain(Settings):

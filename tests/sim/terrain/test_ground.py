@@ -1,17 +1,21 @@
-"""Contacts of a sole on each kind of solid: continuous in its pose, exact where they can be derived."""
+"""Contacts of a sole on each kind of solid, by plain MuJoCo: nearly always continuous in its pose."""
 
+import ast
 import math
+import subprocess
+import sys
+from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+import plantar
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.sim.model.contact_truth import contact_wrench_in_world, foot_contacts
-from plantar.sim.terrain import Ground, Solid
-from plantar.sim.terrain.face_contact import MARK
+from plantar.sim.terrain import CORNERS, Ground, Solid
 
 HALF = np.array([0.115, 0.08, 0.006])
 MASS, COM, INERTIA = 80.0, [0.0, 0.0, 0.7], [8.0, 8.0, 2.0]
@@ -121,28 +125,100 @@ def breaks(name: str, count: int, seed: int) -> tuple[int, int]:
     return broken, tried
 
 
+LARGEST_SHARE = {"box": 0.01, "cylinder": 0.06}
+"""Of pairs of poses a micrometre apart, how many may jump; MuJoCo finds its own contacts, and not always all four."""
+
+
 @pytest.mark.parametrize("name", SOLIDS)
 def test_force_and_center_of_pressure_are_continuous(name):
-    broken, _ = breaks(name, 400, 0)
-    assert broken == 0
+    broken, tried = breaks(name, 400, 0)
+    assert broken <= LARGEST_SHARE.get(SOLIDS[name].shape, 0.0) * tried
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", SOLIDS)
-def test_at_most_one_pair_of_poses_in_ten_thousand_breaks_continuity(name):
-    broken, _ = breaks(name, 10_000, 11)
-    assert broken <= 1
+def test_few_pairs_of_poses_break_continuity(name):
+    broken, tried = breaks(name, 5000, 11)
+    assert broken <= LARGEST_SHARE.get(SOLIDS[name].shape, 1e-3) * tried
 
 
-def test_contacts_of_boxes_that_are_not_marked_stay_as_they_were():
-    """MuJoCo's own contacts flicker in these very poses, which shows that the property can fail."""
-    original = Ground.add_to
+def few_contacts(touched: str) -> float:
+    """Share of poses in which a sole lies nearly aligned across a beam, and has fewer than four contacts.
 
-    def unmarked(self: Ground, spec: mujoco.MjSpec) -> None:
-        original(self, spec)
-        for geom in spec.geoms:
-            geom.contype &= ~MARK
+    `touched` is the name of the beam's geom that the sole touches.
+    """
+    rig = Rig(Ground((SOLIDS["beam"],), -2.0, 0.8))
+    for name in ("ground_0", f"ground_0{CORNERS}"):
+        geom = rig.model.geom(name)
+        geom.contype[0], geom.conaffinity[0] = (2, 1) if name == touched else (0, 0)
+    rng = np.random.default_rng(0)
+    few = 0
+    for _ in range(1000):
+        place = np.array([0.016 + rng.normal(0.0, 2e-3), rng.normal(0.0, 0.1), 0.1 - abs(rng.normal(150e-6, 50e-6))])
+        rig.wrench(place, turned(rng.normal(0.0, [2e-4, 2e-4, 3e-3])))
+        few += rig.data.ncon < 4
+    return few / 1000.0
 
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Ground, "add_to", unmarked)
-        assert breaks("stone", 1000, 0)[0] > 0
+
+def test_soles_touch_a_mesh_of_corners_since_contacts_of_two_boxes_are_lost():
+    """Four contacts are right: MuJoCo's function for two boxes drops to one in more than a third of the poses."""
+    assert few_contacts(f"ground_0{CORNERS}") < 0.02
+    assert few_contacts("ground_0") > 0.2
+
+
+def test_a_box_is_seen_and_touched_in_one_place():
+    rotation = rotation_from_angles(0.7, 0.1, -0.2)
+    solid = Solid("box", (0.3, 0.2, 0.1), np.array([0.4, -0.3, 0.2]), rotation)
+    rig = Rig(Ground((solid,), -2.0, 0.8))
+    mujoco.mj_kinematics(rig.model, rig.data)
+    seen, touched = rig.model.geom("ground_0"), rig.model.geom(f"ground_0{CORNERS}")
+    mesh = int(touched.dataid[0])
+    first, count = int(rig.model.mesh_vertadr[mesh]), int(rig.model.mesh_vertnum[mesh])
+    corners = rig.model.mesh_vert[first : first + count] @ rig.data.geom_xmat[touched.id].reshape(3, 3).T
+    local = (corners + rig.data.geom_xpos[touched.id] - solid.position) @ rotation
+    wanted = [[a, b, c] for a in (-0.3, 0.3) for b in (-0.2, 0.2) for c in (-0.1, 0.1)]
+    assert np.array(sorted(np.round(local, 6).tolist())) == pytest.approx(np.array(wanted))
+    assert rig.data.geom_xpos[seen.id] == pytest.approx(solid.position)
+    assert (int(seen.contype[0]), int(seen.conaffinity[0])) == (0, 0)
+
+
+SWEPT = """
+import hashlib, sys
+{imports}
+import mujoco
+model = mujoco.MjModel.from_xml_string('''<mujoco><worldbody><geom type="box" size="1 1 .1" pos="0 0 -.1"/>
+<body pos="0 0 .11"><freejoint/><geom type="box" size=".12 .08 .1"/></body></worldbody></mujoco>''')
+data = mujoco.MjData(model)
+data.qvel[:] = [0.1, 0.0, 0.0, 0.2, 0.3, 0.1]
+digest = hashlib.sha256()
+for _ in range(500):
+    mujoco.mj_step(model, data)
+    digest.update(data.qpos.tobytes() + data.qfrc_constraint.tobytes())
+print(digest.hexdigest())
+"""
+
+
+def test_a_model_of_ones_own_moves_alike_beside_plantar_and_without_it():
+    """Nothing of MuJoCo is overwritten: boxes on boxes keep their own contacts."""
+    beside = "from plantar.sim.run.runner import Simulation\nfrom plantar.sim.run.scene import load_scene\n"
+    beside += "Simulation(load_scene('beam', ['steps=2']))"
+    found = {
+        subprocess.run(
+            [sys.executable, "-c", SWEPT.format(imports=imports)], capture_output=True, text=True, check=True
+        ).stdout
+        for imports in ("", beside)
+    }
+    assert len(found) == 1
+
+
+@pytest.mark.parametrize("room", ["sim", "mujoco"])
+def test_no_file_reaches_into_memory_of_another_library(room):
+    package = Path(plantar.__file__).parent / room
+    for path in package.rglob("*.py"):
+        names = [
+            alias.name if isinstance(node, ast.Import) else node.module
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+            if isinstance(node, ast.Import | ast.ImportFrom)
+            for alias in node.names
+        ]
+        assert "ctypes" not in names, path
