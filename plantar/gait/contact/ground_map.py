@@ -4,16 +4,15 @@ The sensors' bias shows at lift-off, when the distance is the sole's rise.
 """
 
 import math
-from collections import deque
-from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.record import Record
 from plantar.common.settings.part import Part
 from plantar.common.settings.schema import choice, share
-from plantar.kernels.gait.highest_ground import highest_plane
+from plantar.kernels.gait.ground_sight import GroundSight
 from plantar.layouts.layout import SoleLayout
 from plantar.percepts.percept import Percept
 from plantar.percepts.percept_options import PROXIMITY_GAIN
@@ -25,7 +24,6 @@ _EVEN = 0.9  # share of the taxels that see ground which lies on a plane where a
 _LIFTED_OFF = 1 / 120  # leg that a sole has risen when it is compared with the distance it sees
 _LEAST_NOISE = 1 / 300  # leg: standard deviation of a taxel's distance that is expected at least
 _NOISE_SHARE = 0.02  # share of a reading in what is known of that
-_SIGMA_OF_MEDIAN = 1.4826  # of the median of the absolute values of normal noise
 _LEAST_BIAS = 0.75  # standard deviations of a taxel's distance that noise cannot make of that
 _REMEMBERED = 12  # control ticks for which poses are kept, for readings that are late
 
@@ -52,8 +50,7 @@ class GroundMapSettings(
     jump_of_all: ClassVar[float] = 1.5  # The same for the mean of all taxels, which is less noisy
 
 
-@dataclass(frozen=True)
-class GroundView:
+class GroundView(Record, frozen=True):
     """The ground under a swinging sole.
 
     `distance`: down to the first contact in m; `middle`: down under the sole's middle in m; the same without a plane;
@@ -74,24 +71,23 @@ class GroundMap:
         self.layout = layout
         self.settings = settings
         self.bias = 0.0
-        self._x = layout.positions[:, 0].copy()
-        self._y = layout.positions[:, 1].copy()
-        self._corners = layout.outline
         self._centre = layout.positions.mean(axis=0)
         self._spread = ((layout.positions - self._centre) ** 2).mean(axis=0)[:2]
-        self._distance = np.full(len(layout), np.inf)
-        self._readings = np.zeros(len(layout))
-        self._on_plane = np.zeros(len(layout), dtype=np.uint8)
-        self._plane = np.zeros(3)
-        self._read = -math.inf
-        self._most = float(settings.readings_moving)
         self._leg = settings.body.leg
-        self._noise = _LEAST_NOISE * self._leg
+        self._sight = GroundSight(
+            layout.positions,
+            layout.outline,
+            (settings.readings_moving, settings.readings, settings.still),
+            (_LEAST_NOISE * self._leg, _NOISE_SHARE),
+            (settings.jump, settings.jump_of_all),
+            (settings.follow_taxels, settings.largest_slope),
+            _REMEMBERED,
+        )
+        self._distance = np.asarray(self._sight.distance)
+        self._read = -math.inf
         self._rising = False
         self._stood: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
         self._liftoff: float | None = None
-        self._poses: deque[tuple[float, NDArray[np.float64], NDArray[np.float64]]] = deque(maxlen=_REMEMBERED)
-        self._rise = np.zeros(len(layout))  # of each taxel from the last pose but one to the last
 
     @property
     def distance(self) -> NDArray[np.float64]:
@@ -100,10 +96,8 @@ class GroundMap:
 
     def begin(self) -> None:
         """Empty the map for a swing."""
-        self._distance[:] = np.inf
-        self._readings[:] = 0.0
+        self._sight.begin()
         self._read = -math.inf
-        self._poses.clear()
         self._rising = True
         self._liftoff = None if self._stood is None else self._height(*self._stood)
         self._stood = None
@@ -120,18 +114,13 @@ class GroundMap:
         """Returns the ground with the new `percept` of a sole at a `time` in s, or None if unseen; `position` and
         `rotation` as of `stand`.
         """
-        if self._poses:
-            _, before, turned = self._poses[-1]
-            s = self.settings
-            moved = math.dist(position, before)
-            self._most = max(float(s.readings_moving), s.readings * s.still / (s.still + moved))
-            self._rise = self._risen(before, turned, position, rotation)
-            self._distance = self._distance + self._rise
-        self._poses.append((time, position.copy(), rotation.copy()))
-        reading = percept.reading.proximity
-        if reading is not None and percept.reading.time > self._read:
-            self._read = percept.reading.time
-            self._mix(reading + self._risen_since(self._read))
+        sight = self._sight
+        sight.move(time, position, rotation)
+        distances = percept.reading.proximity
+        read = percept.reading.time
+        if distances is not None and read > self._read:
+            self._read = read
+            sight.mix(distances, read, position, rotation)
         view = self._view()
         if not self._rising:
             return view
@@ -155,74 +144,21 @@ class GroundMap:
         if risen < _LIFTED_OFF * self._leg:
             return view
         self._rising = False
-        if view is None or not view.even or abs(view.middle - risen) < _LEAST_BIAS * self._noise:
+        if view is None or not view.even or abs(view.middle - risen) < _LEAST_BIAS * self._sight.noise:
             return view
         self.bias += view.middle - risen
         return self._view()
 
-    def _risen(
-        self,
-        before: NDArray[np.float64],
-        turned: NDArray[np.float64],
-        position: NDArray[np.float64],
-        rotation: NDArray[np.float64],
-    ) -> NDArray[np.float64]:
-        """Taxels' rise (n,) in m between two sole poses."""
-        up = rotation.T.dot(position - before)
-        turn = turned.T.dot(rotation)
-        return np.asarray(up[2] + turn[2, 0] * self._x + turn[2, 1] * self._y)
-
-    def _risen_since(self, time: float) -> NDArray[np.float64]:
-        """Taxels' rise (n,) in m over a reading's age."""
-        _, position, rotation = self._poses[-1]
-        later: tuple[float, NDArray[np.float64]] = (self._poses[-1][0], np.zeros(len(self._x)))
-        for k, (then, before, turned) in enumerate(reversed(self._poses)):
-            risen = self._rise if k == 1 else self._risen(before, turned, position, rotation)
-            if then <= time:
-                span = later[0] - then
-                share = (time - then) / span if span > 0.0 else 1.0
-                return risen + share * (later[1] - risen)
-            later = (then, risen)
-        return later[1]
-
-    def _mix(self, reading: NDArray[np.float64]) -> None:
-        """Average a reading (n,) in m into the map, which restarts on moved ground."""
-        s = self.settings
-        known = np.isfinite(reading) & np.isfinite(self._distance)
-        news = np.subtract(reading, self._distance, out=np.zeros(len(known)), where=known)
-        fresh = news[known]
-        if len(fresh):
-            if abs(float(fresh.sum()) / len(fresh)) > s.jump_of_all * self._noise:
-                self._readings[:] = 0.0
-            spread = _SIGMA_OF_MEDIAN * _median(np.abs(fresh))
-            self._noise = max(_LEAST_NOISE * self._leg, self._noise + _NOISE_SHARE * (spread - self._noise))
-        self._readings[~known | (np.abs(news) > s.jump * self._noise)] = 0.0
-        self._readings = np.minimum(self._readings + 1.0, self._most)
-        self._distance = np.where(known, self._distance + news / self._readings, reading)
-
     def _view(self) -> GroundView | None:
-        distance = self._distance - self.bias
-        seen = int(np.count_nonzero(np.isfinite(distance)))
-        if seen < 3:
+        sight = self._sight
+        if not sight.look(self.bias):
             return None
-        s = self.settings
-        found = highest_plane(
-            self._x, self._y, distance, self._readings, self._noise, s.follow_taxels, self._on_plane, self._plane
-        )
-        count = int(np.count_nonzero(self._on_plane))
-        level, sx, sy = self._plane.tolist() if found else (0.0, 0.0, 0.0)
-        slope: tuple[float, float] | None = (sx, sy)
-        if count < s.follow_taxels or math.hypot(sx, sy) > s.largest_slope:
-            slope = None  # too little to stand on, or too steep: the sole stays level
-        if slope is None or not found:
-            nearest = float(np.sort(distance[self._on_plane != 0])[: max(1, count // 3)].mean())
-            middle = nearest
-        else:
-            nearest = level - float((self._corners.dot(np.array([sx, sy]))).max())
-            middle = level - sx * float(self._centre[0]) - sy * float(self._centre[1])
-            if s.orientation == "moment":
-                slope = self._slope_of_moment(seen)
-        return GroundView(nearest, middle, slope, count > _EVEN * seen)
+        slope: tuple[float, float] | None = None  # too little to stand on, or too steep: the sole stays level
+        if sight.sloped:
+            slope = (sight.slope_x, sight.slope_y)
+            if sight.found and self.settings.orientation == "moment":
+                slope = self._slope_of_moment(sight.seen)
+        return GroundView(sight.nearest, sight.middle, slope, sight.on_plane > _EVEN * sight.seen)
 
     def _slope_of_moment(self, count: int) -> tuple[float, float]:
         """Slope for a level sole by the virtual moment about its middle (T 4.26)."""
@@ -234,10 +170,3 @@ class GroundMap:
             float(-moment_y / (PROXIMITY_GAIN * count * self._spread[0])),
             float(moment_x / (PROXIMITY_GAIN * count * self._spread[1])),
         )
-
-
-def _median(values: NDArray[np.float64]) -> float:
-    """Median of a few finite values (n,), ten times as fast as `np.median`."""
-    ordered = np.sort(values)
-    middle = len(ordered) // 2
-    return float(ordered[middle] if len(ordered) % 2 else 0.5 * (ordered[middle - 1] + ordered[middle]))

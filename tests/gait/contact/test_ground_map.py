@@ -93,7 +93,8 @@ def test_one_noisy_reading_of_a_taxel_is_not_yet_high_ground():
     distance = np.full(len(LAYOUT), 0.01)
     for k in range(40):
         ground.update(percept(distance, PERIOD * k), np.array([0.0, 0.0, 0.03]), np.eye(3), PERIOD * k)
-    ground._readings[0], ground._distance[0] = 1.0, 0.005  # a taxel that sees this ground for the first time
+    ground._sight.readings[0] = 1.0  # a taxel that sees this ground for the first time
+    ground._sight.distance[0] = 0.005
     view = ground.update(percept(distance, 0.195), np.array([0.0, 0.0, 0.03]), np.eye(3), 0.195)
     assert view.distance == pytest.approx(0.01, abs=5e-4)
     assert view.slope == pytest.approx((0.0, 0.0), abs=5e-3)
