@@ -1,0 +1,17 @@
+cimport cython
+from ..base cimport pointers as memory
+
+cdef double _INFINITE
+
+@cython.final
+cdef class TouchingCells:
+    cdef const double[:, ::1] places
+    cdef unsigned char[::1] touches
+    cdef double least_force, least_share, smoothing, gap
+    cdef double[::1] mean
+    cdef double[:, ::1] slope
+    cpdef void lift(self) noexcept
+    @cython.locals(total=double, now=double, changed=bint)
+    cpdef bint carry(self, force, rotation) except -1
+    @cython.locals(changed=bint)
+    cpdef bint turn(self, rotation, center_of_pressure) except -1

@@ -1,0 +1,74 @@
+"""Cells of a standing sole that carry, or carried until its turn lifted them."""
+
+import numpy as np
+
+from ..base import memory
+
+__all__ = ["TouchingCells"]
+
+_INFINITE = float("inf")
+
+
+class TouchingCells:
+    """Contacts of a sole of n taxels.
+
+    Args:
+        places: Taxels' centers (n, 2) in sole frame in m.
+        touches: Receives 1 for cells (n,) that touch, else 0.
+        least_force: Running mean in N of a cell that carries.
+        least_share: The same as a share of the sum of all.
+        smoothing: Share of a new reading in the running mean.
+        gap: Rise in m of a lifted cell.
+    """
+
+    def __init__(self, places, touches, least_force, least_share, smoothing, gap):
+        self.places = np.array(places, dtype=float)
+        self.touches = touches
+        self.least_force, self.least_share = least_force, least_share
+        self.smoothing, self.gap = smoothing, gap
+        self.mean = np.zeros(len(touches))
+        self.slope = np.zeros((len(touches), 2))
+
+    def lift(self):
+        """Clear the contacts of a foot in the air."""
+        for i in range(self.mean.shape[0]):
+            self.mean[i] = self.slope[i, 0] = self.slope[i, 1] = 0.0
+            self.touches[i] = 0
+
+    def carry(self, force, rotation):
+        """Add a reading (n,) in N of a sole turned by `rotation` (3, 3) to the world; what is not finite counts as 0.
+
+        Returns whether another cell touches.
+        """
+        given, r = memory.values(force), memory.values(rotation)
+        total = 0.0
+        for i in range(self.mean.shape[0]):
+            now = given[i] if -_INFINITE < given[i] < _INFINITE else 0.0
+            self.mean[i] += self.smoothing * (now - self.mean[i])
+            total += self.mean[i]
+        least = max(self.least_force, self.least_share * total)
+        changed = False
+        for i in range(self.mean.shape[0]):
+            if self.mean[i] > least:
+                changed = changed or not self.touches[i]
+                self.touches[i] = 1
+                # A cell that carries has not lifted off, as the sole did before or not: rises count from here.
+                self.slope[i, 0], self.slope[i, 1] = r[6], r[7]
+        return changed
+
+    def turn(self, rotation, center_of_pressure):
+        """Clear cells that the sole's rotation (3, 3) has lifted; returns whether there are any.
+
+        The sole turns about its center of pressure (2,): to first order a cell rises by slope times its distance from
+        there.
+        """
+        r, point = memory.values(rotation), memory.values(center_of_pressure)
+        changed = False
+        for i in range(self.mean.shape[0]):
+            if self.touches[i]:
+                along = (r[6] - self.slope[i, 0]) * (self.places[i, 0] - point[0])
+                aside = (r[7] - self.slope[i, 1]) * (self.places[i, 1] - point[1])
+                if not along + aside < self.gap:
+                    self.touches[i] = 0
+                    changed = True
+        return changed
