@@ -13,6 +13,7 @@ from plantar.common.settings.part import Part
 from plantar.common.settings.schema import fixed, number, switch
 from plantar.geometry.polygon import area, centroid, signed_margin
 from plantar.kernels.gait.carried_load import mark_carried, take_in
+from plantar.kernels.gait.seen_depth import SeenDepth
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.partial_contact import PartialContact
 from plantar.sensing.reading import Reading
@@ -75,14 +76,16 @@ class StanceContact:
     def __init__(self, layout: SoleLayout, settings: ContactSettings, sensing_range: float = math.inf) -> None:
         self.layout = layout
         self.settings = settings
-        # From higher up, taxels that see no ground may only be out of range: that needs the sight of a step down.
-        self._highest = sensing_range - _IN_SIGHT * settings.step_down
         self._fit = PartialContact(layout)
         most = max((len(near) for near in layout.neighbours), default=0)
         self._near = np.full((len(layout), max(1, most)), -1, dtype=np.intp)
         for i, near in enumerate(layout.neighbours):
             self._near[i, : len(near)] = near
         self._whole_area = area(self._fit.polygon(np.empty((0, 3))))
+        # From higher up, taxels that see no ground may only be out of range: that needs the sight of a step down.
+        highest = sensing_range - _IN_SIGHT * settings.step_down
+        self._sight = SeenDepth(len(layout), settings.least_seen, highest, settings.deep, settings.sight)
+        self._depth = np.asarray(self._sight.depth)
         self.lift()
 
     def lift(self) -> None:
@@ -97,9 +100,10 @@ class StanceContact:
         self._weight = 0.0
         self._count = 0
         self._idle = np.zeros(n, dtype=bool)
-        self._depth: NDArray[np.float64] | None = None
+        self._sight.lift()
+        self._edges: NDArray[np.float64] | None = None
+        self._edges_of = 0
         self._seen_time = -1.0
-        self._looks = 0
         self._believed: NDArray[np.float64] | None = None
         self._remembered: NDArray[np.float64] | None = None
         self._denied = 0
@@ -116,7 +120,7 @@ class StanceContact:
     @property
     def seen(self) -> bool:
         """Whether the ground was seen before touchdown; found by loads alone, it can shrink."""
-        return self._depth is not None
+        return bool(self._sight.looks)
 
     @property
     def center_in_sole(self) -> NDArray[np.float64]:
@@ -164,28 +168,14 @@ class StanceContact:
         if distance is None or reading.time <= self._seen_time:
             return
         self._seen_time = reading.time
-        sound = distance > -np.inf
-        near = distance[np.isfinite(distance)]
-        # From a few distances the height of the nearest ground is no more than noise.
-        if len(near) < self.settings.least_seen:
-            return
-        # Relative to the nearest ground: the foot is on its way down.
-        ground = float(np.sort(near)[: max(self.settings.least_seen, len(near) // 3)].mean())
-        depth = np.minimum(np.maximum(distance - ground, -self.settings.deep), self.settings.deep)
-        if ground > self._highest:
-            return
-        self._looks += 1
-        # Where nothing was known the first sight counts whole.
-        share = self.settings.sight if self._depth is not None else 1.0
-        before = np.zeros(len(depth)) if self._depth is None else self._depth
-        self._depth = np.where(sound, before + share * (depth - before), np.nan)
+        self._sight.look(distance)
 
     def foresee(self, ahead: NDArray[np.float64]) -> NDArray[np.float64] | None:
         """Part (k, 2) of a descending sole in m that will carry; None for all, or too little seen.
 
         `ahead` (2,) in m: the sole's remaining move in its own plane.
         """
-        if self._looks < self.settings.foresee_readings:
+        if self._sight.looks < self.settings.foresee_readings:
             return None
         lines = self._from_sight()
         if lines is None or not len(lines):
@@ -200,10 +190,14 @@ class StanceContact:
 
     def _from_sight(self) -> NDArray[np.float64] | None:
         """Edges (m, 3) as seen before touchdown, or None."""
-        if self._depth is None:
+        looks = self._sight.looks
+        if not looks:
             return None
-        idle = self._depth > self.settings.step_down
-        return self._fit.between(np.isfinite(self._depth) & ~idle, idle)
+        if self._edges_of != looks:  # a new view
+            idle = self._depth > self.settings.step_down
+            self._edges = self._fit.between(np.isfinite(self._depth) & ~idle, idle)
+            self._edges_of = looks
+        return self._edges
 
     def _find(self) -> bool:
         s = self.settings
