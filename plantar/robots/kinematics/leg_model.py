@@ -10,6 +10,7 @@ from plantar.common.arrays import read_only
 from plantar.common.sides import SIDES, Side
 from plantar.gait.estimate.estimator import Posture
 from plantar.kernels.joints.leg_targets import JointEntries, LegTargets
+from plantar.kernels.joints.motion_load import MotionLoad
 from plantar.kernels.joints.static_load import StaticLoad
 from plantar.kernels.joints.task_step import PointRows
 from plantar.mechanics.lip import GRAVITY
@@ -79,9 +80,19 @@ class LegModel:
             *(self._dof.astype(np.intp), self.torques),
         )
         self._levers = [(s, *_lever(model, self._data, int(model.site_bodyid[i]))) for s, i in self._sites.items()]
-        self.rows = np.concatenate([np.arange(6), self._dof])
-        self._axes = np.array(ids)
+        self.rows = np.concatenate([np.arange(6), self._dof]).astype(np.intp)
         self._inertial = np.zeros(model.nv)
+        data, root = self._data, self._root
+        self._motion = MotionLoad(
+            (data.qvel, data.qacc),
+            self._gravity,
+            self.rows,
+            self._inertial,
+            (data.qpos[:3], data.xmat[root], data.subtree_com[root]),
+            (data.xaxis, np.array(ids, dtype=np.intp)),
+            model.dof_armature[self._dof],
+            self.torques,
+        )
         self.inverse = InverseKinematics(
             model,
             self._data,
@@ -190,7 +201,7 @@ class LegModel:
         self,
         velocity: NDArray[np.float64],
         acceleration: NDArray[np.float64],
-        shares: Mapping[Side, float],
+        left: float,
         momentum: NDArray[np.float64] = _NOTHING,
         whole: bool = True,
     ) -> None:
@@ -198,26 +209,19 @@ class LegModel:
 
         The ground changes the angular momentum L about the CoM, mostly of a swinging leg, by a couple on the soles.
 
-        `velocity` of base and joints (6 + k,) in m/s and rad/s; `acceleration` in m/s^2 and rad/s^2; `momentum` (-L_y',
-        L_x') / (m g) (2,) in m that the forces of `carry` give already; `whole`: whether an unloaded leg gets what
-        moves it, too; a stiff servo lands softer without.
+        Args:
+            velocity: Of base and joints (6 + k,) in m/s and rad/s.
+            acceleration: In m/s^2 and rad/s^2.
+            left: Share of the weight on the left sole.
+            momentum: (-L_y', L_x') / (m g) (2,) in m that the forces of `carry` give already.
+            whole: Whether an unloaded leg gets what moves it, too; a stiff servo lands softer without.
         """
-        model = self.model
-        data = self._data
-        inertial = self._inertial
-        data.qvel[self.rows] = velocity
-        data.qacc[self.rows] = acceleration
-        data.qacc[:3] += self._gravity  # as if it fell: the weight is carried already
-        mujoco.mj_comVel(model, data)
-        mujoco.mj_rne(model, data, 1, inertial)
-        x, y, z = (data.subtree_com[self._root] - data.qpos[:3]).tolist()
-        fx, fy, fz = inertial[:3].tolist()
-        couple = data.xmat[self._root].reshape(3, 3) @ inertial[3:6]
-        dx, dy = (self.mass * GRAVITY * momentum).tolist()
-        couple -= (y * fz - z * fy + dy, z * fx - x * fz - dx, x * fy - y * fx)
-        carried = np.repeat([shares["left"], shares["right"]], len(self.joints) // 2)
-        taken = inertial[self._dof] + model.dof_armature[self._dof] * acceleration[6:]
-        self.torques += (taken if whole else carried * taken) - carried * data.xaxis[self._axes].dot(couple)
+        self._motion.move(velocity, acceleration)
+        mujoco.mj_comVel(self.model, self._data)
+        mujoco.mj_rne(self.model, self._data, 1, self._inertial)
+        x, y = momentum.tolist()
+        weight = self.mass * GRAVITY
+        self._motion.add(acceleration, left, weight * y, -weight * x, whole)
 
 
 def _lever(model: mujoco.MjModel, data: mujoco.MjData, body: int) -> tuple[PointRows, NDArray[np.float64]]:

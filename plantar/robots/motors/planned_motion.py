@@ -50,7 +50,7 @@ class PlannedMotion:
         self._legs.add_motion(
             self.velocity,
             self.acceleration,
-            {"left": share, "right": 1.0 - share},
+            share,
             command.momentum,
             self._whole,
         )

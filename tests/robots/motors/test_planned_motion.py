@@ -50,7 +50,7 @@ def test_torques_and_the_grounds_wrench_hold_the_equation_of_motion(legs, seed, 
     force = wanted[:3]  # of the ground: the base's rows are what nothing but it exerts
     # Through the CoM, such forces turn the body by nothing; the couple is left to the motion.
     model.carry({s: shares[s] * force for s in SIDES}, dict.fromkeys(SIDES, com))
-    model.add_motion(velocity[model.rows], acceleration[model.rows], shares)
+    model.add_motion(velocity[model.rows], acceleration[model.rows], shares["left"])
     jacobians = {s: np.zeros((6, m.nv)) for s in SIDES}
     for side, jacobian in jacobians.items():
         body = int(m.site_bodyid[m.site(robot.legs[side].sole_site).id])
@@ -65,7 +65,7 @@ def test_torques_and_the_grounds_wrench_hold_the_equation_of_motion(legs, seed, 
         full = model.torques.copy()
         model.carry({s: shares[s] * force for s in SIDES}, dict.fromkeys(SIDES, com))
         still = model.torques.copy()
-        model.add_motion(velocity[model.rows], acceleration[model.rows], shares, whole=False)
+        model.add_motion(velocity[model.rows], acceleration[model.rows], shares["left"], whole=False)
         assert model.torques[:6] == pytest.approx(full[:6])
         assert model.torques[6:].tolist() == still[6:].tolist()
 

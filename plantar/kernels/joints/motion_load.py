@@ -1,0 +1,58 @@
+"""Joint torques of a robot's motion, of the load that MuJoCo's inverse dynamics finds."""
+
+from ..base import memory
+
+__all__ = ["MotionLoad"]
+
+
+class MotionLoad:
+    """Inertial load of the legs, and the couple on the soles that changes the angular momentum.
+
+    Args:
+        state: Velocities and accelerations (nv,) that the inverse dynamics read.
+        gravity: Acceleration (3,) of a falling body.
+        rows: Velocities (6 + k,) of base and joints.
+        load: Inverse dynamics' load (nv,).
+        root: Position (3,) in m and rotation (9,) of the base, and the CoM (3,).
+        axes: Each joint's axis (joints, 3) in the world, and the legs' places (k,) among them.
+        armature: Of the legs' rotors (k,) in kg m^2.
+        torques: Torques (k,) in N m of the legs, the left one's first, that the load is added to.
+    """
+
+    def __init__(self, state, gravity, rows, load, root, axes, armature, torques):
+        self.velocity, self.acceleration = state
+        self.gravity, self.rows, self.load = gravity, rows, load
+        self.position, self.rotation, self.com = root
+        self.axes, self.joints = axes
+        self.armature, self.torques = armature, torques
+
+    def move(self, velocity, acceleration):
+        """Write the motion (6 + k,) in m/s and rad/s, m/s^2 and rad/s^2, as if it fell: the weight is carried."""
+        speeds, changes = memory.values(velocity), memory.values(acceleration)
+        for i in range(self.rows.shape[0]):
+            self.velocity[self.rows[i]], self.acceleration[self.rows[i]] = speeds[i], changes[i]
+        for i in range(3):
+            self.acceleration[i] += self.gravity[i]
+
+    def add(self, acceleration, left, couple_x, couple_y, whole):
+        """Add the load.
+
+        Args:
+            acceleration: Of `move`.
+            left: Share of the weight on the left sole, the rest on the right one.
+            couple_x: Couple in N m about x that the forces on the soles exert already; `couple_y` about y.
+            whole: Whether an unloaded leg gets what moves it, too.
+        """
+        changes, load = memory.values(acceleration), self.load
+        x, y, z = self.com[0] - self.position[0], self.com[1] - self.position[1], self.com[2] - self.position[2]
+        fx, fy, fz, r = load[0], load[1], load[2], self.rotation
+        tx = r[0] * load[3] + r[1] * load[4] + r[2] * load[5] - (y * fz - z * fy + couple_x)
+        ty = r[3] * load[3] + r[4] * load[4] + r[5] * load[5] - (z * fx - x * fz + couple_y)
+        tz = r[6] * load[3] + r[7] * load[4] + r[8] * load[5] - (x * fy - y * fx)
+        count = self.torques.shape[0]
+        for i in range(count):
+            carried = left if i < count // 2 else 1.0 - left
+            axis = self.joints[i]
+            taken = load[self.rows[6 + i]] + self.armature[i] * changes[6 + i]
+            about = self.axes[axis, 0] * tx + self.axes[axis, 1] * ty + self.axes[axis, 2] * tz
+            self.torques[i] += (taken if whole else carried * taken) - carried * about
