@@ -55,21 +55,28 @@ def encoder_offsets(
     offsets = np.zeros(k)
     rotation, position = standing_base(kinematics(joint_positions), up, feet)
     for _ in range(_ITERATIONS):
-        posture, moved, turned = _differenced(kinematics, joint_positions - offsets)
-        rows: list[NDArray[np.float64]] = []
-        errors: list[NDArray[np.float64]] = []
-        for side in SIDES:
+        places, turns, moved, turned = _differenced(kinematics, joint_positions - offsets)
+        rows = np.zeros((14 + k, k + 6))
+        errors = np.zeros(14 + k)
+        for i, side in enumerate(SIDES):
             x, y, z, yaw = feet[side]
-            arm = rotation @ posture.positions[side]
-            rows.append(np.hstack([-rotation @ moved[side], -_cross(arm), np.eye(3)]) / tolerances.place)
-            rows.append(np.hstack([-rotation @ turned[side], np.eye(3), np.zeros((3, 3))]) / tolerances.turn)
-            lean = sine_vector(rotation @ posture.rotations[side] @ level_rotation(yaw).T)
-            errors += [(position + arm - np.array([x, y, z])) / tolerances.place, lean / tolerances.turn]
+            arm = rotation @ places[i]
+            place, turn = slice(6 * i, 6 * i + 3), slice(6 * i + 3, 6 * i + 6)
+            rows[place, :k], rows[turn, :k] = -rotation @ moved[i], -rotation @ turned[i]
+            rows[place, k : k + 3], rows[place, k + 3 :] = -_cross(arm), np.eye(3)
+            rows[turn, k : k + 3] = np.eye(3)
+            errors[place] = position + arm - (x, y, z)
+            errors[turn] = sine_vector(rotation @ turns[i] @ level_rotation(yaw).T)
+            rows[place] /= tolerances.place
+            errors[place] /= tolerances.place
+            rows[turn] /= tolerances.turn
+            errors[turn] /= tolerances.turn
         above = rotation @ up
-        rows.append(np.hstack([np.zeros((2, k)), -_cross(above)[:2], np.zeros((2, 3))]) / tolerances.turn)
-        rows.append(np.hstack([np.eye(k), np.zeros((k, 6))]) / tolerances.offset)
-        errors += [above[:2] / tolerances.turn, offsets / tolerances.offset]
-        step = np.asarray(np.linalg.lstsq(np.vstack(rows), -np.concatenate(errors), rcond=None)[0], dtype=np.float64)
+        rows[12:14, k : k + 3] = -_cross(above)[:2] / tolerances.turn
+        errors[12:14] = above[:2] / tolerances.turn
+        rows[14:, :k] = np.eye(k) / tolerances.offset
+        errors[14:] = offsets / tolerances.offset
+        step = np.asarray(np.linalg.lstsq(rows, -errors, rcond=None)[0], dtype=np.float64)
         offsets = offsets + step[:k]
         rotation = orthonormalised(rotation_from_vector(step[k : k + 3]) @ rotation)
         position = position + step[k + 3 :]
@@ -96,19 +103,25 @@ def standing_base(
 
 def _differenced(
     kinematics: Callable[[NDArray[np.float64]], _Posture], joints: NDArray[np.float64]
-) -> tuple[_Posture, dict[Side, NDArray[np.float64]], dict[Side, NDArray[np.float64]]]:
-    """A posture, and each sole's velocity (3, k) and angular velocity (3, k) by joint, base frame."""
-    posture = kinematics(joints)
-    moved: dict[Side, NDArray[np.float64]] = {side: np.zeros((3, len(joints))) for side in SIDES}
-    turned: dict[Side, NDArray[np.float64]] = {side: np.zeros((3, len(joints))) for side in SIDES}
-    for i in range(len(joints)):
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Each sole's place (2, 3) and rotation (2, 3, 3), velocity (2, 3, k) and angular velocity (2, 3, k) by joint, base
+    frame.
+    """
+    count = len(joints)
+    places, turns = np.zeros((count + 1, 2, 3)), np.zeros((count + 1, 2, 3, 3))
+    for i in range(count + 1):
         bent = joints.copy()
-        bent[i] += _STEP
-        other = kinematics(bent)
-        for side in SIDES:
-            moved[side][:, i] = (other.positions[side] - posture.positions[side]) / _STEP
-            turned[side][:, i] = sine_vector(other.rotations[side] @ posture.rotations[side].T) / _STEP
-    return posture, moved, turned
+        if i > 0:
+            bent[i - 1] += _STEP
+        posture = kinematics(bent)
+        for j, side in enumerate(SIDES):
+            places[i, j], turns[i, j] = posture.positions[side], posture.rotations[side]
+    moved = (places[1:] - places[0]) / _STEP
+    turn = turns[1:] @ turns[0].transpose(0, 2, 1)
+    sine = np.stack(
+        [turn[..., 2, 1] - turn[..., 1, 2], turn[..., 0, 2] - turn[..., 2, 0], turn[..., 1, 0] - turn[..., 0, 1]]
+    )
+    return places[0], turns[0], moved.transpose(1, 2, 0), sine.transpose(2, 0, 1) / (2.0 * _STEP)
 
 
 def _cross(v: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -96,7 +96,7 @@ class IdentifiedBody:
         self.encoder_offsets = np.zeros(len(stood.joint_positions))
         if rules.encoders:
             tolerances = StandingTolerances(rules.encoder_error, rules.place_error, rules.turn_error)
-            found = encoder_offsets(self._kinematics.posture, stood.joint_positions, stood.up, self._feet, tolerances)
+            found = encoder_offsets(self._live_posture, stood.joint_positions, stood.up, self._feet, tolerances)
             # What noise explains stays out: it would turn the soles of a robot that equals its model, permanently.
             if float(np.sqrt(np.mean(found**2))) > rules.encoder_least:
                 self.encoder_offsets = _limited(found, float(np.abs(found).max()), rules.encoder_largest)
