@@ -166,6 +166,7 @@ class FloatingBaseEstimator:
         self.push_acceleration = np.zeros(2)
         self._heights = [math.nan, math.nan]
         self._same_height = _SAME_HEIGHT * gains.body.leg
+        self._turning = self.omega**2 * self.legs.turning
         self._share = min(1.0, self.period * _ANCHOR / gains.body.beat)
 
     def update(
@@ -208,7 +209,7 @@ class FloatingBaseEstimator:
             base.take()
             self._stand(posture, accelerometer / float(np.linalg.norm(accelerometer)))
             zmp = base.place()
-        swinging = self.omega**2 * self.legs.turning * swing  # CoM acceleration off the ZMP's pendulum
+        swinging = self._turning * swing  # CoM acceleration off the ZMP's pendulum
         if self.push is not None:
             moved = self._rotation.dot(accelerometer)[:2] - (base_planned - planned_acceleration)
             self.push_acceleration = self._pushed(self.push, moved, zmp, felt, swinging)

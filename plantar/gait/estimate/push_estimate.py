@@ -5,8 +5,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.arrays import read_only
 from plantar.common.settings.part import Part
 from plantar.common.settings.schema import share
+from plantar.kernels.base.vectors import vector2
+
+_NO_PUSH = read_only(np.zeros(2))
 
 
 class PushRules(Part, table="push_estimate", needs={"control.push_estimate": ("soles", "skin")}):
@@ -32,7 +36,7 @@ class PushEstimate:
     def __init__(self, rules: PushRules, period: float) -> None:
         self._rules = rules
         self._share = 1.0 if rules.time_constant == 0.0 else -math.expm1(-period / rules.time_constant)
-        self.disagreement = np.zeros(2)
+        self.disagreement = _NO_PUSH
         self.acts = False
 
     def update(self, measured: NDArray[np.float64], pendulum: NDArray[np.float64] | None) -> NDArray[np.float64]:
@@ -42,10 +46,11 @@ class PushEstimate:
         None without load.
         """
         if pendulum is None:
-            self.disagreement = np.zeros(2)
-            self.acts = False
-            return np.zeros(2)
-        self.disagreement = self.disagreement + self._share * (measured - pendulum - self.disagreement)
-        size = math.hypot(*self.disagreement.tolist())
-        self.acts = size > (self._rules.ends if self.acts else self._rules.begins)
-        return self.disagreement if self.acts else np.zeros(2)
+            self.disagreement, self.acts = _NO_PUSH, False
+            return _NO_PUSH
+        x, y = self.disagreement.tolist()
+        (ax, ay), (px, py) = measured.tolist(), pendulum.tolist()
+        x, y = x + self._share * (ax - px - x), y + self._share * (ay - py - y)
+        self.disagreement = vector2(x, y)
+        self.acts = math.hypot(x, y) > (self._rules.ends if self.acts else self._rules.begins)
+        return self.disagreement if self.acts else _NO_PUSH

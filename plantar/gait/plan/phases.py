@@ -56,7 +56,7 @@ class Phase:
     swing: Side | None = None
     wait: float = 0.0
 
-    @property
+    @cached_property
     def stance(self) -> Side | None:
         """Carrying foot of single support, else None."""
         return None if self.swing is None else other_side(self.swing)
