@@ -70,7 +70,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         rate_hz=rate,
         time=np.arange(frames) / rate,
         feet=feet,
-        metadata={"plates": count, "sees_every_step": every},
+        metadata={"plates": count, "sees_every_step": every, "axes": _TO_Z_UP[up]},
         warnings=tuple(dict.fromkeys(warnings)),
         kind="plate",
         events=events,

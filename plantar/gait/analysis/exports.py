@@ -20,6 +20,7 @@ from plantar.common.sides import Side
 from plantar.common.table_writer import write_csv_rows
 from plantar.common.version import VERSION
 from plantar.errors import InputError
+from plantar.gait.analysis.c3d_export import write_onto_c3d
 from plantar.gait.analysis.results import Analysis
 from plantar.layouts.layout_file import layout_to_dict
 from plantar.recordings.pressure_recording import PressureRecording
@@ -228,6 +229,11 @@ def _write_c3d(analysis: Analysis, path: Path) -> None:
     with optional_library("ezc3d", "formats"):
         import ezc3d
     recording = analysis.recording
+    if recording.format == "c3d" and recording.path.is_file():
+        forces = {side: reaction.force for side, reaction in ground_reactions(analysis).items()}
+        places = {side: gait.cop for side, gait in analysis.feet.items() if gait.cop is not None}
+        write_onto_c3d(recording, path, _events(analysis), forces, places)
+        return
     frames, at, lost = _even_frames(recording)
     cops = {f"{side}.CoP": gait.cop for side, gait in analysis.feet.items() if gait.cop is not None}
     points = np.zeros((4, max(1, len(cops)), frames))  # the format has no file without points

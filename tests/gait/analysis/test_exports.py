@@ -19,6 +19,7 @@ from plantar.gait.analysis.exports import export_analysis
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.parameters import analyse_feet
 
+from ...fuzz.made_plates import made_laboratory, write_c3d
 from .walks import made_walk
 
 
@@ -188,3 +189,27 @@ def test_an_export_does_not_replace_its_recording(tmp_path):
     with pytest.raises(InputError, match="it is what this is made of"):
         export_analysis(analyse(tmp_path / "walk.npz"), tmp_path / "walk.npz")
     assert (tmp_path / "walk.npz").read_bytes() == before
+
+
+def test_a_c3d_file_keeps_what_it_held(tmp_path):
+    """Markers, channels, parameters and stated events stay; centres of pressure, forces and other events are added."""
+    ezc3d = pytest.importorskip("ezc3d", reason="ezc3d is not installed")
+    lab, random = made_laboratory(1)
+    write_c3d(tmp_path / "lab.c3d", lab, random, shown="markers")
+    walk = analyse(tmp_path / "lab.c3d")
+    path, _ = export_analysis(walk, tmp_path / "out.c3d")
+    before, after = ezc3d.c3d(str(tmp_path / "lab.c3d")), ezc3d.c3d(str(path))
+    points, analogs = (np.array(before["data"][name]) for name in ("points", "analogs"))
+    np.testing.assert_array_equal(np.array(after["data"]["points"])[:, : points.shape[1]], points)
+    np.testing.assert_array_equal(np.array(after["data"]["analogs"])[:, : analogs.shape[1]], analogs)
+    assert set(before["parameters"]) <= set(after["parameters"])
+    labels = after["parameters"]["ANALOG"]["LABELS"]["value"]
+    for side, gait in walk.feet.items():
+        three = [np.array(after["data"]["analogs"])[0, labels.index(f"{side}.F{axis}")] for axis in "xyz"]
+        size = np.linalg.norm(np.nan_to_num(gait.foot.wrench[:, :3]), axis=1)
+        np.testing.assert_allclose(np.linalg.norm(three, axis=0), size, atol=1e-3 * size.max())
+    again = analyse(path)
+    for side, gait in walk.feet.items():
+        found = [s.heel_strike_s for s in again.feet[side].steps]
+        assert found == pytest.approx([s.heel_strike_s for s in gait.steps], abs=1e-6)
+        assert again.recording.events[side].heel_strikes == pytest.approx(gait.heel_strikes, abs=1e-3)
