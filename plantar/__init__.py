@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     )
     from plantar.formats import read_recording as read
     from plantar.gait.analysis.analyse import analyse
+    from plantar.gait.analysis.analyse import analyse as analyze
     from plantar.geometry import polygon
     from plantar.layouts.cell_layout import joined_layout, layout_of_cells
     from plantar.layouts.curved_sole import laid_over
@@ -103,6 +104,7 @@ __all__ = [
     "TaxelActivation",
     "__version__",
     "analyse",
+    "analyze",
     "batch",
     "fit_ground_plane",
     "grid_layout",
@@ -137,6 +139,7 @@ _PLACES = {
     "StuckMonitor": "sensing.health",
     "TaxelActivation": "sensing.activation",
     "analyse": "gait.analysis.analyse",
+    "analyze": "gait.analysis.analyse:analyse",
     "fit_ground_plane": "sensing.ground_plane",
     "grid_layout": "layouts.tiling",
     "hex_layout": "layouts.tiling",
