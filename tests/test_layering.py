@@ -59,7 +59,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "plantar.gait.analysis": (
         *("measures", "options", "subject", "prints", "steps", "summary", "health", "activity"),
         *("parameters", "measure_errors", "pages", "metrics", "results", "analyse_one", "compare", "study"),
-        *("custom", "exports", "analyse"),
+        *("custom", "c3d_export", "exports", "analyse"),
     ),
     "plantar.wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
     "plantar.robots": (

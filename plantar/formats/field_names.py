@@ -67,6 +67,7 @@ _CAPITALS = re.compile(r"[A-ZÄÖÜ]{2,}(?![a-zß-ÿ])|[A-ZÄÖÜ]?[a-zß-ÿ]+|[
 _UNIT = re.compile(
     r"[\[(<{]\s*([^\])>}]*?)\s*[\])>}]|[_ ](kpa|n|pa|mmhg|psi|raw|kg|lbf|nm|nmm|mm|cm|bw|%bw|newtons?)$", re.I
 )
+_VOLTS = re.compile(r"(?i)[fm]\d*[xyz]\d*[_ ](m?v|volts?)$")  # of a plate's channel; after another word v is vertical
 _LETTER = re.compile(r"(plate|platform|fp|belt)[ _-]?([a-d])(?![a-z])", re.IGNORECASE)  # instead of a number
 _COORDINATE = re.compile(r"\[[0-2]\]\s*$")  # of a marker, as LTOE[0]
 _ADAPTER = re.compile(r"([fpm])(\d+)_([123])")
@@ -120,6 +121,9 @@ def heading_of(text: str) -> Heading:
     """
     name = _LETTER.sub(lambda m: f"{m[1]} {ord(m[2].lower()) - 96} ", text.strip().strip('"'))
     unit = ""
+    if volts := _VOLTS.search(name):
+        unit = volts[1]
+        name = name[: volts.start(1) - 1]
     while match := _UNIT.search(name):
         stated = match[1] if match[1] is not None else match[2]
         known = plain(stated) in _STATED or find_unit(stated) is not None or "/" in stated or "%" in stated

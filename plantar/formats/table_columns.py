@@ -70,6 +70,8 @@ def recording_of_columns(
             table[:, i] = possible(table[:, i])
     headings = [heading_of(name) for name in names]
     _refuse_curves(headings, at)
+    if at is None and options.rate_hz is None and stated_rate(facts, []) is None:
+        _refuse_steps(table, headings)
     time, rate, notes = _times(table, names, at, facts, options, warnings)
     if rate < _SLOWEST and options.rate_hz is None:
         raise FormatError(
@@ -170,6 +172,16 @@ def _refuse_curves(headings: Sequence[Heading], at: int | None) -> None:
             raise FormatError(
                 "each row is a curve of a trial, since columns name subjects or trials and the rest is numbered; "
                 "allowed: a row a frame, with a column of times or --rate"
+            )
+
+
+def _refuse_steps(table: NDArray[np.float64], headings: Sequence[Heading]) -> None:
+    for i, heading in enumerate(headings):
+        counts = {"step", "stride", "cycle"} & set(heading.words.split()) and not heading.unit
+        if counts and (np.diff(table[:, i]) == 1.0).all():
+            raise FormatError(
+                f"each row is a {heading.words}, since a column counts them and none holds times; allowed: a row a "
+                "frame (--rate, if the rows are frames)"
             )
 
 

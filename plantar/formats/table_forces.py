@@ -173,7 +173,10 @@ def _unit(
     if not text and _WEIGHTS[0] <= largest <= _WEIGHTS[1]:
         text = "BW"
         name = "bw"
-        warnings.append(f"the forces state no unit and reach {largest:.3g}: taken as body weights (--unit overrides)")
+        warnings.append(
+            f"the forces state no unit and reach {largest:.3g}: taken as body weights, where kN or volts would reach "
+            "as much (--unit overrides)"
+        )
     if name in ("n/kg", "newton/kg", "nkg-1", "n/kgbm"):
         text = "N/kg"
         name = "bw"

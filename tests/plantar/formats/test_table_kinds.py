@@ -251,6 +251,11 @@ def test_sensors_by_place_and_times_in_milliseconds(tmp_path):
             "time,P1,P2,P3\n" + rows([TIME, AHEAD["left"], LEFT, 90.0 * AHEAD["left"]], ","),
             "as forces and moments of a plate do",
         ),
+        (
+            "stride,left_force_N,right_force_N\n" + rows([np.arange(20.0), 20.0 + TIME[:20], 20.0 + TIME[:20]], ","),
+            "each row is a stride",
+        ),
+        ("time,Fz1_V,Fz2_V\n" + rows([TIME, LEFT, RIGHT], ","), "unknown unit of force 'V'"),
         ("a,b\n1,2\n", "not a recording|no recording over time"),
         ("left (N),right (N)\n1,2\n3,4\n", "2 row.s. of numbers, which is no recording over time"),
         ("time (s),left (N),right (N)\n" + rows([128.0 * TIME, LEFT, RIGHT], ","), "1.28 s apart, as steps are"),
