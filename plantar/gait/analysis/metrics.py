@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from plantar.gait.analysis.activity import activity_of, loaded_frames, progression_doubts, sway_measures
+from plantar.gait.analysis.direction import direction_notes, direction_of
 from plantar.gait.analysis.health import (
     creep_doubts,
     implied_weight,
@@ -58,6 +59,8 @@ def metrics_of(
         elif not gait.steps:
             warnings.append(f"the {side} foot has no complete step: each contact is cut off{_lowest(gait)}")
         warnings += gait.warnings
+    direction = None if standing else direction_of(feet)
+    warnings += direction_notes(feet, direction)
     weight = implied_weight(recording, feet)
     subject = subject_of(recording, subject)
     segments = () if standing else segments_of(feet)
@@ -84,6 +87,7 @@ def metrics_of(
         "not_given": not_given(recording.kind),
         "gait": {
             **gait_of_feet(feet),
+            "direction": direction,
             "implied_weight_N": weight,
             "body_weight_N": None if recording.raw else subject.weight or weight,
             "symmetry_percent": {named(key): value for key, value in symmetry(feet).items()},

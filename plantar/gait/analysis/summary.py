@@ -91,8 +91,16 @@ def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]
         "cadence_steps_per_min": None if stride is None else 120.0 / stride,
         "steady_cadence_steps_per_min": None if steady is None else 120.0 / steady,
         **{key: _mean(feet, key) for key in _OF_BOTH},
+        **({} if _of_one_way(feet) else {"step_length_m": None}),
         "walking_speed_m_s": _mean(feet, "stride_velocity_m_s"),
     }
+
+
+def _of_one_way(feet: Mapping[Side, FootGait]) -> bool:
+    """Whether both feet step ahead of the other one: sideways one leads, and a mean of both is half of a stride."""
+    means = [spread(gait.columns.get("step_length_m", ())).mean for gait in feet.values()]
+    known = [mean for mean in means if mean is not None]
+    return min(known, default=0.0) >= 0.0 or max(known, default=0.0) <= 0.0
 
 
 def _mean(feet: Mapping[Side, FootGait], key: str) -> float | None:

@@ -64,7 +64,9 @@ def summary_text(metrics: Mapping[str, Any]) -> str:
     counts = [f"{len(foot['steps_used'])} of {foot['steps']} {side}" for side, foot in metrics["feet"].items()]
     cadence = metrics["gait"].get("steady_cadence_steps_per_min")
     pace = "" if cadence is None else f" at {number(cadence)} steps/min"
-    what = "A recording" if activity == "unknown" else f"This is {activity}"
+    direction = metrics["gait"].get("direction")
+    way = "" if direction in (None, "forwards") else f" {direction}"
+    what = "A recording" if activity == "unknown" else f"This is {activity}{way}"
     first = (
         f"{what}: {' and '.join(counts)} steps are in the means{pace}."
         if activity != "standing"
