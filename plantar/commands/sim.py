@@ -44,9 +44,10 @@ def sim(
     Example: plantar sim push --seed 3 --set feedback=false --json
 
     With --set plant=random the true robot, its sensors and the ground differ from what the controller takes them for,
-    by the seed; level=1 halves that (plantar list settings plant).
+    by the seed, as much as ordinary care leaves; level=1 halves that, level=3 has half more, 0 is the exact plant
+    (plantar list settings plant).
 
-    Example: plantar sim flat --set plant=random --set level=1
+    Example: plantar sim flat --set plant=random
     """
     if scene is None:
         from plantar.sim.run.listing import listed
