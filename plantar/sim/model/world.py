@@ -16,6 +16,7 @@ from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.robot_model import Visitor, compiled_model, robot_spec
 from plantar.robots.leg_shapes import COLLIDES, keep_apart
 from plantar.robots.robot import Robot
+from plantar.sim.model.contact_settings import Contact
 from plantar.sim.model.contact_truth import REACH
 from plantar.sim.plant.body import make_true
 from plantar.sim.plant.draw import TruePlant
@@ -24,9 +25,9 @@ from plantar.sim.terrain import GROUND_CONTACT, GROUND_GROUP, Ground, Solid
 PHYSICS_PERIOD = 0.001
 """Time step of the physics in s, where a scene gives none."""
 
-_CONTACT_TIME = 5e-3  # s that a contact takes to bring penetration to rest: solref of `plantar.sim.contact_models`
-_CONTACT_STEPS = 2.0  # physics steps that it takes at least
-_SOFT = 1 / 600  # leg: penetration over which a contact becomes as stiff as it gets, and gap up to which it is listed
+_CONTACT_STEPS = 2.0  # physics steps that a contact takes to bring penetration to rest at least
+_CONES = {"elliptic": mujoco.mjtCone.mjCONE_ELLIPTIC, "pyramidal": mujoco.mjtCone.mjCONE_PYRAMIDAL}
+_USUAL = Contact()
 
 _LEG_CONTACT = "truth_leg_contact"
 _LEGS = tuple(contype for contype, _ in COLLIDES.values())
@@ -180,14 +181,15 @@ def build_world(
     period: float = PHYSICS_PERIOD,
     plant: TruePlant | None = None,
     others: Sequence[Visitor] = (),
+    contact: Contact = _USUAL,
 ) -> World:
     """Build and compile the world in its reference configuration.
 
     `period`: physics step in s; `plant`: True differences, or None; `others`: bodies with coordinates after the
-    robot's. Returns the world.
+    robot's; `contact`: of soles and ground, scaled to the robot's body. Returns the world.
     """
     spec = robot_spec(robot)
-    _set_solver(spec, period)
+    _set_solver(spec, period, contact)
     add_looks(spec, robot.torso_body)
     for geom in spec.geoms:
         if geom.group == GROUND_GROUP:
@@ -202,7 +204,7 @@ def build_world(
         other.add_to(spec)
     model = compiled_model(spec, robot)
     body = body_of(robot, model)
-    _soften(model, soles, body, period, robot.contact_damping)
+    _soften(model, soles, contact.for_body(body), period, robot.contact_damping)
     keep_apart(model, robot)
     world = _world_of(model, robot, ground, body)
     if plant is not None:
@@ -210,11 +212,11 @@ def build_world(
     return world
 
 
-def _set_solver(spec: Any, period: float) -> None:
+def _set_solver(spec: Any, period: float, contact: Contact) -> None:
     spec.option.timestep = period
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
-    spec.option.impratio = 10.0
+    spec.option.cone = _CONES[contact.cone]
+    spec.option.impratio = contact.impratio
     spec.option.iterations = 20
 
 
@@ -226,12 +228,12 @@ def _set_contacts(spec: Any, friction: float) -> list[str]:
     return [geom.name for geom in touching]
 
 
-def _soften(model: Any, names: Sequence[str], body: BodyScale, period: float, damping: float) -> None:
-    """Contact parameters of soles and ground (`plantar.sim.contact_models`)."""
+def _soften(model: Any, names: Sequence[str], contact: Contact, period: float, damping: float) -> None:
+    """Give geoms of soles and ground the parameters of their `contact`."""
     ids = [model.geom(name).id for name in names]
-    model.geom_solref[ids] = [max(_CONTACT_TIME, _CONTACT_STEPS * period), damping]
-    model.geom_solimp[ids] = [0.95, 0.99, _SOFT * body.leg, 0.5, 2]
-    model.geom_gap[ids] = _SOFT * body.leg  # corners that hover by micrometres stay in the contact list
+    model.geom_solref[ids] = [max(contact.settling, _CONTACT_STEPS * period), damping]
+    model.geom_solimp[ids] = [contact.least_impedance, contact.largest_impedance, contact.rigid_depth, 0.5, 2]
+    model.geom_gap[ids] = contact.listed_gap
 
 
 def _servos_of(model: Any, robot: Robot, names: Sequence[str], ids: Sequence[int]) -> NDArray[np.int64]:

@@ -179,7 +179,9 @@ class Simulation(Run):
 
     def build_world(self, others: Sequence[Visitor]) -> World:
         """The run's world, with robot, ground and others."""
-        return build_world(self.robot, self.ground, self.scene.control.physics_period, self.plant, others)
+        scene = self.scene
+        period = scene.control.physics_period
+        return build_world(self.robot, self.ground, period, self.plant, others, scene.sole_contact)
 
     def _arm(self, skin: BodySkin | None) -> CompliantArm | None:
         if self.worn is None:

@@ -17,6 +17,7 @@ from plantar.robots.walk import Control, Walk
 from plantar.sim.arms.settings import ArmSettings
 from plantar.sim.judging.criteria.criterion import Criterion
 from plantar.sim.judging.criteria.kinds import outcome_of
+from plantar.sim.model.contact_settings import Contact
 from plantar.sim.papers.preset import with_paper
 from plantar.sim.partner.settings import GuideSettings, PartnerSettings
 from plantar.sim.plant.settings import Plant
@@ -85,6 +86,7 @@ SECTIONS: dict[str, type[Settings]] = {
     "guide": GuideSettings,
     "control": Control,
     "plant": Plant,
+    "sole_contact": Contact,
 }
 """Settings class of each table of a scene; `terrain` has the one of its kind."""
 
@@ -122,6 +124,7 @@ class Scene:
     partner: PartnerSettings = field(default_factory=PartnerSettings)
     arm: ArmSettings = field(default_factory=ArmSettings)
     guide: GuideSettings = field(default_factory=GuideSettings)
+    sole_contact: Contact = field(default_factory=Contact)
     outcome: Mapping[str, Criterion] = field(default_factory=dict)
 
     @property
