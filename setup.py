@@ -1,12 +1,13 @@
 """Compile the kernels ahead of time where Cython and a C compiler are there; the rest is in pyproject.toml.
 
-Each kernel is plain Python that runs as it is. Without Cython, or where the compiler fails, the package is built
-without the extensions and works the same, slower.
+Each kernel is plain Python that runs as it is. Without Cython, or where the compiler fails for one of them, the package
+is built without the extensions and works the same, slower. A whole build is stamped (plantar/kernels/build_stamp.py).
 """
 
 import os
 import re
 from importlib.machinery import EXTENSION_SUFFIXES
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
 from setuptools import Extension, setup
@@ -82,12 +83,27 @@ def types_of(kernel: Path) -> set[Path]:
     return found
 
 
-def remove_extensions_without_source(folder: Path) -> None:
-    """Remove the extension modules of kernels that are there no more: Python would load them, a wheel hold them."""
-    sources = {p.relative_to(KERNEL_FOLDER).with_suffix("") for p in [*KERNELS, SHARED]}
+def remove_extensions(folder: Path, kept: set[Path]) -> None:
+    """Remove extension modules from a folder of rooms, except those of kernels that are kept.
+
+    Python would load what former kernels left, and a wheel hold it.
+    """
     for path in [p for suffix in EXTENSION_SUFFIXES for p in folder.rglob(f"*{suffix}")]:
-        if path.relative_to(folder).with_name(path.name.split(".")[0]) not in sources:
+        if path.relative_to(folder).with_name(path.name.split(".")[0]) not in kept:
             path.unlink(missing_ok=True)
+
+
+def stamp(folder: Path) -> None:
+    """Stamp a folder that holds every extension; of one that does not, remove those that it holds."""
+    spec = spec_from_file_location("build_stamp", KERNEL_FOLDER / "build_stamp.py")
+    assert spec is not None
+    assert spec.loader is not None
+    build_stamp = module_from_spec(spec)
+    spec.loader.exec_module(build_stamp)
+    missing = build_stamp.write(folder, KERNEL_FOLDER)
+    if missing:
+        print(f"plantar: {len(missing)} kernels are not compiled ({', '.join(missing[:3])}); all stay plain Python")
+        remove_extensions(folder, set())
 
 
 class BuildWherePossible(build_ext):
@@ -100,10 +116,15 @@ class BuildWherePossible(build_ext):
             self.parallel = os.cpu_count() or 1
 
     def run(self) -> None:
-        """Compile them, and clear away what former kernels left, in the checkout and where wheels are put together."""
-        for folder in (KERNEL_FOLDER, Path(self.build_lib, KERNEL_FOLDER)):
-            remove_extensions_without_source(folder)
+        """Compile them, clear away what former kernels left, and stamp, in the checkout and where wheels are made."""
+        folders = (KERNEL_FOLDER, Path(self.build_lib, KERNEL_FOLDER))
+        sources = {p.relative_to(KERNEL_FOLDER).with_suffix("") for p in [*KERNELS, SHARED]}
+        for folder in folders:
+            remove_extensions(folder, sources if self.extensions else set())
         super().run()
+        for folder in folders if self.inplace else folders[1:]:
+            if folder.is_dir():
+                stamp(folder)
 
     def build_extensions(self) -> None:
         """Compile them, and go on with those that could be: an editable install copies each from where it was built."""
@@ -115,7 +136,8 @@ class BuildWherePossible(build_ext):
         try:
             super().build_extension(ext)
         except Exception as problem:
-            print(f"plantar: {ext.name} is not compiled and stays plain Python, which is slower: {problem}")
+            print(f"plantar: {ext.name} cannot be compiled: {problem}")
+            Path(self.get_ext_fullpath(ext.name)).unlink(missing_ok=True)  # what was made of an older source
 
 
 setup(ext_modules=extensions(), cmdclass={"build_ext": BuildWherePossible})

@@ -64,7 +64,7 @@ def rows():
         1e3 * first,
         megabytes(source.__file__),
     )
-    if kernels.is_compiled("convex"):
+    if kernels.compiled:
         first = time.perf_counter()
         convex.area(POLYGON)
         first = time.perf_counter() - first

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from plantar import commands
+from plantar import commands, kernels
 from plantar.common.console.command import Command, run_command
 from plantar.common.console.ending import print_note, run
 from plantar.common.extensions import extensions
@@ -37,6 +37,8 @@ def _commands(
     ] = False,
 ) -> None:
     """Plantar skin and gait: build a tactile shoe, walk a robot on plantar feedback, analyse recordings."""
+    if kernels.problem:
+        print_note(kernels.form_text())
 
 
 def _found() -> dict[str, Command]:

@@ -61,9 +61,9 @@ PURPOSES = {
 def examine(libraries: Mapping[str, Mapping[str, str]] = LIBRARIES) -> dict[str, Any]:
     """Load every library that Plantar can use.
 
-    Returns versions, platform, whether kernels are compiled, whether pictures need no display (`opengl`), and each
-    library's extra, name, version and problem: None, "missing" or why it cannot be loaded. `holds` is False where a
-    required one is missing, or one is broken.
+    Returns versions, platform, whether kernels are compiled, a line of that (`kernels`), whether pictures need no
+    display (`opengl`), and each library's extra, name, version and problem: None, "missing" or why it cannot be loaded.
+    `holds` is False where a required one is missing, or one is broken.
 
     Example:
         >>> examine({"": {"no-such-library": "no_such_library"}})["libraries"][0]["problem"]
@@ -74,12 +74,14 @@ def examine(libraries: Mapping[str, Mapping[str, str]] = LIBRARIES) -> dict[str,
         for extra, modules in libraries.items()
         for name, module in modules.items()
     ]
+    kernels = import_module("plantar.kernels")
     wrong = [f for f in found if f["problem"] is not None and (f["problem"] != "missing" or not f["extra"])]
     return {
         "plantar": VERSION,
         "python": platform.python_version(),
         "platform": platform.platform(),
-        "compiled": bool(import_module("plantar.kernels").compiled),
+        "compiled": kernels.compiled,
+        "kernels": kernels.form_text(),
         "opengl": sys.platform != "linux" or any(find_library(name) is not None for name in ("EGL", "OSMesa")),
         "libraries": found,
         "holds": not wrong,
@@ -93,10 +95,7 @@ def doctor_text(found: Mapping[str, Any]) -> str:
         >>> print(doctor_text(examine({"sim": {"no-such-library": "no_such_library"}})).splitlines()[-1].strip())
         get them: pip install 'plantar[sim]'
     """
-    kernels = (
-        "compiled" if found["compiled"] else "plain Python, slower: install a C compiler and Cython, then Plantar again"
-    )
-    lines = [f"plantar {found['plantar']}, Python {found['python']}, {found['platform']}", f"kernels: {kernels}"]
+    lines = [f"plantar {found['plantar']}, Python {found['python']}, {found['platform']}", found["kernels"]]
     if not found["opengl"]:
         lines.append("pictures and videos: no EGL; on Debian or Ubuntu: sudo apt-get install libegl1")
     for extra in dict.fromkeys(f["extra"] for f in found["libraries"]):

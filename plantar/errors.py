@@ -10,6 +10,7 @@
     ├── RobotError               a robot description is not valid
     ├── SceneError               a scene description is not valid
     ├── WorkerError              the workers of a sweep cannot run or went away; the command line exits 1
+    ├── KernelError              what is asked for needs the compiled kernels, which were not built
     └── DependencyError          an optional library is missing (holds the command that installs it) or cannot be loaded
 
 Each message is one line: what is wrong and what is allowed.
@@ -54,6 +55,10 @@ class SceneError(PlantarError):
 
 class WorkerError(PlantarError):
     """Worker of a sweep cannot run, or went away; the input is right."""
+
+
+class KernelError(PlantarError):
+    """Compiled kernels are needed, and were not built."""
 
 
 class DependencyError(PlantarError):

@@ -27,6 +27,10 @@ if "MUJOCO_GL" not in os.environ and find_spec("mujoco") is not None:
     del os.environ["MUJOCO_GL"]
 
 
+# Interpreted, the simulations would take hours.
+if kernels.problem and kernels.problem != "none of them is compiled":
+    pytest.exit(kernels.form_text(), returncode=4)
+
 # For its doctests pytest loads a module from the source; a kernel that was not yet loaded would stay interpreted and
 # lack what compiled ones share among themselves.
 for kernel in kernels.KERNELS:

@@ -67,7 +67,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
         *("motors", "controller_settings", "start", "controller"),
     ),
     "plantar.kernels": (
-        *("base", "geometry", "mechanics", "skin", "gait", "joints", "contacts", "sensors", "judging"),
+        *("build_stamp", "base", "geometry", "mechanics", "skin", "gait", "joints", "contacts", "sensors", "judging"),
         *("formats", "safety"),
     ),
     "plantar.sim": (

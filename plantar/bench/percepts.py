@@ -16,7 +16,7 @@ from plantar.bench.kernels import OFFSET
 from plantar.bench.rivals import Corners, hull_shapely
 from plantar.bench.soles import contacts, sole_of
 from plantar.geometry import polygon
-from plantar.kernels import is_compiled, python_form
+from plantar.kernels import compiled, python_form
 from plantar.layouts.layout import SoleLayout
 from plantar.percepts.feet import FeetPercept
 from plantar.percepts.foot_tick import walking_tick
@@ -243,7 +243,7 @@ def _few(wrenches: Array) -> Array:
 
 def compare_forms(rounds: int = 5) -> Iterator[tuple[str, list[Result]]]:
     """Yields the sole kernel's compiled form next to the interpreted one."""
-    if not is_compiled("sole"):
+    if not compiled:
         return
     found = contacts("20")
     layout = found[0].layout

@@ -10,6 +10,7 @@ from plantar.common.console.command import Command, Json, end_command
 from plantar.common.console.progress import part_of, progress_bar
 from plantar.common.optional_library import need_libraries
 from plantar.common.sides import SIDES
+from plantar.kernels import need_compiled
 from plantar.sim.libraries import LIBRARIES
 
 
@@ -25,6 +26,7 @@ def demo(
     Example: plantar demo -o out
     """
     need_libraries("sim", *LIBRARIES)
+    need_compiled("walking")
     from plantar.common.atomic import output_folder, write_text
     from plantar.gait.analysis.analyse_one import analyse_recording
     from plantar.layouts.layout_file import read_layout

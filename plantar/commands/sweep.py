@@ -10,6 +10,7 @@ from plantar.common.console.command import Command, Json, Output, end_command
 from plantar.common.console.ending import Terminated, ignore_further_interrupts, print_note
 from plantar.common.console.progress import progress_bar
 from plantar.common.optional_library import need_libraries
+from plantar.kernels import need_compiled
 from plantar.sim.libraries import LIBRARIES
 
 
@@ -56,6 +57,7 @@ def sweep(
     """
     os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn here; MuJoCo would look for a display
     need_libraries("sim", *LIBRARIES)
+    need_compiled("a sweep")
     from plantar.sim.sweep import SweepStopped, plan_from_texts, run_sweep
     from plantar.sim.sweep.cluster import network_note
     from plantar.sim.sweep.sweep_text import sweep_errors, sweep_text

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from plantar.common.files.input_file import open_input
 from plantar.common.files.text_table import encoding_of
 from plantar.errors import FormatError
-from plantar.kernels import is_compiled
+from plantar.kernels import compiled
 from plantar.kernels.formats import decimals
 from plantar.recordings.frame_table import FrameTable
 
@@ -228,7 +228,7 @@ def row_of_numbers(cells: Sequence[str]) -> tuple[NDArray[np.float64], int]:
     return out, bad
 
 
-_COMPILED = is_compiled("decimals")
+_COMPILED = compiled
 
 
 def number_rows(

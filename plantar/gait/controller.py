@@ -35,6 +35,7 @@ from plantar.gait.tick.estimation import Estimation
 from plantar.gait.tick.foot_targets import FootTargets
 from plantar.gait.tick.footing import Footing
 from plantar.gait.tick.proposers import proposers
+from plantar.kernels import need_compiled
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
 
@@ -94,6 +95,7 @@ class WalkingController:
         kinematics: LegKinematics,
         motors: Motors | None = None,
     ) -> None:
+        need_compiled("walking")
         s = settings
         feet = start.feet
         begin = start.time - 1.0

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.common.plane_points import plane_points
-from plantar.kernels import is_compiled
+from plantar.kernels import compiled
 from plantar.kernels.geometry.shapes import ConvexShapes
 
 
@@ -39,7 +39,7 @@ def enclosing_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
     return np.asarray(convex_shapes().parallelogram_around(plane_points(polygon)))
 
 
-_SHARED = ConvexShapes(False) if is_compiled("shapes") else None
+_SHARED = ConvexShapes(False) if compiled else None
 
 
 def convex_shapes() -> ConvexShapes:

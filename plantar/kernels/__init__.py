@@ -1,19 +1,22 @@
 """Hot functions, one plain-Python source each, compiled ahead of time where a compiler is found.
 
 `geometry/convex.py` is plain Python; `convex.pxd` next to it has the C types with which Cython compiles that very file.
-Without a compiler the source runs, slower, equal to the last bit. PLANTAR_KERNELS=python always runs the sources.
+Without a compiler the sources run, slower, equal to the last bit. PLANTAR_KERNELS=python always runs the sources. Where
+one extension is missing or older than its source, all sources run: see `build_stamp`.
 """
 
 import os
 import sys
-import warnings
 from collections.abc import Sequence
 from importlib import import_module
-from importlib.machinery import EXTENSION_SUFFIXES, FileFinder, ModuleSpec, SourceFileLoader
+from importlib.machinery import FileFinder, ModuleSpec, SourceFileLoader
 from pathlib import Path
 from types import ModuleType
 
-__all__ = ["KERNELS", "compiled", "is_compiled", "outdated", "python_form"]
+from plantar.errors import KernelError
+from plantar.kernels.build_stamp import lack
+
+__all__ = ["KERNELS", "compiled", "form_text", "need_compiled", "problem", "python_form"]
 
 _FOLDER = Path(__file__).resolve().parent
 
@@ -55,36 +58,39 @@ def _full(name: str) -> str:
     return name if "." in name else f"{_ROOM[name]}.{name}"
 
 
-def is_compiled(name: str) -> bool:
-    """Whether a kernel runs compiled. Returns False without extension, or with PLANTAR_KERNELS=python."""
-    room, kernel = _full(name).split(".")
-    return not _PYTHON and any((_FOLDER / room / f"{kernel}{suffix}").is_file() for suffix in EXTENSION_SUFFIXES)
-
-
-def outdated(folder: Path) -> list[str]:
-    """Kernels in a folder of rooms whose source changed after they were compiled.
-
-    Returns their names, such as "geometry.convex".
-
-    Example:
-        >>> outdated(Path("no such folder"))
-        []
-    """
-    found = []
-    for room in sorted(p for p in folder.glob("*") if p.is_dir()):
-        changed = {entry.name: entry.stat().st_mtime for entry in os.scandir(room)}
-        for kernel in sorted(name[:-3] for name in changed if name.endswith(".py")):
-            made = [changed[kernel + suffix] for suffix in EXTENSION_SUFFIXES if kernel + suffix in changed]
-            if made and max(changed[f"{kernel}.py"], changed.get(f"{kernel}.pxd", 0.0)) > max(made):
-                found.append(f"{room.name}.{kernel}")
-    return found
-
-
 _PYTHON = os.environ.get("PLANTAR_KERNELS", "") == "python"
-if _PYTHON:
-    sys.meta_path.insert(0, _SourceFinder(__name__))
-elif (_FOLDER.parents[1] / "setup.py").is_file() and (_outdated := outdated(_FOLDER)):  # a checkout, not an install
-    warnings.warn(f"kernels compiled from older sources ({', '.join(_outdated[:3])}): run `make setup`", stacklevel=2)
+_CHECKOUT = (_FOLDER.parents[1] / "setup.py").is_file()
 
-compiled: bool = all(is_compiled(name) for name in KERNELS)
-"""Whether every kernel runs compiled."""
+problem: str = "" if _PYTHON else lack(_FOLDER, sources_too=_CHECKOUT)
+"""Why kernels run as plain Python though PLANTAR_KERNELS does not ask for that; empty if they are compiled."""
+
+compiled: bool = not _PYTHON and not problem
+"""Whether the kernels run compiled: all of them do, or none."""
+
+if not compiled:
+    sys.meta_path.insert(0, _SourceFinder(__name__))
+
+
+def form_text() -> str:
+    """A line for people: in which form the kernels run, and where that is not as asked for, why and what to do."""
+    if compiled:
+        return "kernels: compiled"
+    if not problem:
+        return "kernels: plain Python, as PLANTAR_KERNELS asks for"
+    remedy = "run `make setup`" if _CHECKOUT else "install a C compiler, then Plantar again"
+    return f"kernels: plain Python, slower ({problem}); {remedy}"
+
+
+def need_compiled(work: str) -> None:
+    """Refuse work that is too slow by interpreted kernels; PLANTAR_KERNELS=python allows it.
+
+    Args:
+        work: Such as "walking".
+
+    Raises:
+        KernelError: If they are not compiled.
+    """
+    if problem:
+        raise KernelError(
+            f"{work} needs compiled kernels, a control tick of 5 ms takes about 19 ms without; {form_text()}"
+        )

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from plantar.common.plane_points import plane_points
 from plantar.errors import InputError
-from plantar.kernels import is_compiled
+from plantar.kernels import compiled
 from plantar.kernels.geometry.outline import EdgeTable
 
 __all__ = ["WELD", "EdgeTable", "cells_overlap", "edge_table"]
@@ -50,7 +50,7 @@ def edge_table(vertices: ArrayLike, corners: Sequence[Sequence[int]]) -> EdgeTab
     twin = np.array([index.get((b, a), -1) for a, b in directed], dtype=np.intp)
     origin = np.array([a for a, _ in directed], dtype=np.intp)
     flat = np.ascontiguousarray(xy).reshape(-1)
-    if is_compiled("outline"):
+    if compiled:
         return EdgeTable((start, cell, twin, after, origin), flat, straight, True)
     # Without C, lists are faster to read than arrays.
     lists = tuple(numbers.tolist() for numbers in (start, cell, twin, after, origin))

@@ -79,7 +79,7 @@ def test_a_recording_streams_from_disk(tmp_path):
 def test_a_contiguous_recording_is_not_copied():
     import tracemalloc
 
-    frames = 20000 if kernels.is_compiled("frames") else 500
+    frames = 20000 if kernels.compiled else 500
     force = np.zeros((frames, len(SOLE)))
     wrenches(SOLE, force[:1])
     for function, size in ((wrenches, 6), (loads, 9), (support_polygons, 4)):

@@ -11,6 +11,7 @@ from plantar.common.console.command import file_lines
 from plantar.common.console.progress import Progress, part_of, progress_bar
 from plantar.common.optional_library import need_libraries
 from plantar.errors import InputError
+from plantar.kernels import need_compiled
 from plantar.sim.libraries import LIBRARIES
 
 
@@ -50,6 +51,8 @@ def measure(what: str, options: BenchOptions, output: Path) -> Measured:
     _check(what, options)
     of_kind = {"kernels": ("scipy", "cv2"), "all": (*LIBRARIES, "cv2")}
     need_libraries("sim", *of_kind.get(what, LIBRARIES))
+    if what not in ("kernels", "contact"):
+        need_compiled("walking")
     with progress_bar() as progress:
         if what in _TABLES:
             measured = _TABLES[what](output, options, progress)

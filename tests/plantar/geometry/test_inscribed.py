@@ -24,7 +24,7 @@ from plantar.geometry.inscribed import (
 )
 from plantar.geometry.outline import Outline, concave_outline
 from plantar.geometry.polygon import area, closest_point, convex_hull, inner_offset, signed_margin
-from plantar.kernels import is_compiled
+from plantar.kernels import compiled
 from plantar.layouts.hex_lattice import HexLattice
 
 seeds = st.integers(0, 2**32 - 1)
@@ -105,7 +105,7 @@ def test_rectangle_of_the_transposed_polygon_is_the_same(seed):
     assert area(inscribed_rectangle(flipped)) == pytest.approx(area(inscribed_rectangle(hull)), rel=1e-12)
 
 
-@settings(max_examples=25 if is_compiled("shapes") else 3)
+@settings(max_examples=25 if compiled else 3)
 @given(seeds)
 def test_rectangle_at_any_angle_is_the_best_of_a_dense_scan(seed):
     hull = random_hull(seed)
@@ -235,7 +235,7 @@ def test_a_rectangle_whose_area_stays_the_same_over_angles_is_found_in_time(turn
     row[[middle, beside[0], beside[1]]] = True
     outline = concave_outline(layout, row)
     found = area(rectangle_in_outline_any_angle(outline).corners)
-    steps = 400 if is_compiled("shapes") else 40
+    steps = 400 if compiled else 40
     best = max(area(rectangle_in_outline(outline, a)) for a in np.linspace(0.0, math.pi / 2, steps))
     assert best * (1 - 1e-6) <= found <= outline.area
 

@@ -281,7 +281,7 @@ def test_outlines_and_their_copies_are_read_only(sole):
                 one.starts[1] = 10**6
 
 
-@pytest.mark.skipif(not kernels.is_compiled("outline"), reason="plain Python cannot keep others from assigning")
+@pytest.mark.skipif(not kernels.compiled, reason="plain Python cannot keep others from assigning")
 def test_an_outline_keeps_what_it_is(sole):
     outline = Outline.of_rings([SQUARE])
     for name in ("points", "starts", "ring_areas"):

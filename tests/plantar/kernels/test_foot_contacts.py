@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar.kernels import is_compiled, python_form
+from plantar.kernels import compiled, python_form
 from plantar.kernels.contacts import foot_contacts, ground_reaction
 from plantar.kernels.geometry import convex, few_points
 from plantar.kernels.geometry.hull import convex_hull
@@ -65,7 +65,7 @@ def seen(foot, origin):
     return out
 
 
-@pytest.mark.skipif(not is_compiled("foot_contacts"), reason="without a compiler there is one form only")
+@pytest.mark.skipif(not compiled, reason="without a compiler there is one form only")
 @settings(max_examples=60)
 @given(seeds)
 def test_the_two_forms_agree_to_the_last_bit(seed):

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import hex_layout
-from plantar.kernels import is_compiled, python_form
+from plantar.kernels import compiled, python_form
 from plantar.kernels.skin import ground
 
 SOLE = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
@@ -27,7 +27,7 @@ def readings(seed):
     return distance
 
 
-@pytest.mark.skipif(not is_compiled("ground"), reason="without a compiler there is one form only")
+@pytest.mark.skipif(not compiled, reason="without a compiler there is one form only")
 @settings(max_examples=60)
 @given(seeds)
 def test_the_two_forms_agree_to_the_last_bit(seed):

@@ -7,7 +7,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from plantar.geometry.polygon import convex_hull, inner_offset
-from plantar.kernels import is_compiled, python_form
+from plantar.kernels import compiled, python_form
 from plantar.kernels.contacts import pressed_patch
 
 seeds = st.integers(0, 2**32 - 1)
@@ -36,7 +36,7 @@ def pressed(module, seed: int):
     return found
 
 
-@pytest.mark.skipif(not is_compiled("pressed_patch"), reason="without a compiler there is one form only")
+@pytest.mark.skipif(not compiled, reason="without a compiler there is one form only")
 @settings(max_examples=60)
 @given(seeds)
 def test_the_two_forms_agree_to_the_last_bit(seed):
@@ -115,7 +115,7 @@ def spread(module, seed: int):
     return whole, part, carried, out[cells]
 
 
-@pytest.mark.skipif(not is_compiled("pressed_patch"), reason="without a compiler there is one form only")
+@pytest.mark.skipif(not compiled, reason="without a compiler there is one form only")
 @settings(max_examples=100)
 @given(seeds)
 def test_both_forms_of_the_foundation_agree(seed):

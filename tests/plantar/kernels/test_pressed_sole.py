@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import hex_layout
-from plantar.kernels import is_compiled, python_form
+from plantar.kernels import compiled, python_form
 from plantar.kernels.contacts.foot_contacts import ContactsInSole, FootContacts
 from plantar.kernels.contacts.pressed_sole import PressedSole
 from plantar.sim.sensing import sole_pressure
@@ -51,7 +51,7 @@ def test_all_contacts_at_once_carry_what_each_pair_carries_alone(seed):
         assert np.array_equal(together.springs.press(foot, vectors, REACH), wanted)
 
 
-@pytest.mark.skipif(not is_compiled("pressed_sole"), reason="without a compiler there is one form only")
+@pytest.mark.skipif(not compiled, reason="without a compiler there is one form only")
 @settings(max_examples=20, deadline=None)
 @given(seeds)
 def test_the_two_forms_agree_to_the_last_bit(seed):

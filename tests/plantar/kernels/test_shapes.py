@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 
 from plantar import hex_layout
 from plantar.geometry.polygon import convex_hull
-from plantar.kernels import is_compiled, python_form
+from plantar.kernels import compiled, python_form
 from plantar.kernels.geometry import outline, shapes
 from plantar.layouts.cell_edges import edge_table
 
-pytestmark = pytest.mark.skipif(not is_compiled("shapes"), reason="without a compiler there is one form only")
+pytestmark = pytest.mark.skipif(not compiled, reason="without a compiler there is one form only")
 
 seeds = st.integers(0, 2**32 - 1)
 SOLE = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]], cell_area=4e-4, angle=0.2)
