@@ -20,6 +20,7 @@ from plantar.common.arrays import array, integers, numbers, own, read_only
 from plantar.common.sides import SIDES, Side, other_side
 from plantar.errors import LayoutError
 from plantar.kernels.skin.sole import SoleKernel
+from plantar.layouts.source_pose import SourcePose
 from plantar.mechanics.lip import GRAVITY
 
 __all__ = [
@@ -73,6 +74,7 @@ class SoleLayout:
         modalities: Sensed quantities, out of MODALITIES.
         ranges: Sensing range (low, high) of each in SI.
         thresholds: Activation threshold of each in SI.
+        pose: Of the sole's frame in the file or link that it came from, if known.
 
     Raises:
         LayoutError: Invalid field, named in the message.
@@ -99,6 +101,7 @@ class SoleLayout:
     modalities: tuple[str, ...] = ("force", "proximity")
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=lambda: dict(DEFAULT_RANGES))
     thresholds: Mapping[str, float] = field(default_factory=lambda: dict(DEFAULT_THRESHOLDS))
+    pose: SourcePose | None = None
 
     def __post_init__(self) -> None:
         kept = self.__dict__  # past what keeps others from assigning
@@ -144,6 +147,8 @@ class SoleLayout:
 
     def _check(self, n: int) -> None:
         instance(self.name, str, "layout field 'name'", LayoutError)
+        if self.pose is not None:
+            instance(self.pose, SourcePose, "layout field 'pose'", LayoutError)
         if self.side not in SIDES:
             raise LayoutError(f"layout field 'side' is {self.side!r}; allowed: left, right")
         if len(np.unique(self.ids)) != n:
@@ -274,7 +279,7 @@ class SoleLayout:
 
 
 def mirrored(layout: SoleLayout) -> SoleLayout:
-    """Same sole for the other foot: y changes sign, order stays.
+    """Same sole for the other foot: y changes sign, order stays; it has no pose, since it came from no file.
 
     Args:
         layout: Layout of one side.
@@ -299,6 +304,7 @@ def mirrored(layout: SoleLayout) -> SoleLayout:
         vertices=layout.vertices * flip,
         corners=tuple((c[0], *reversed(c[1:])) for c in layout.corners),
         outline=(layout.outline * flip[:2])[::-1],
+        pose=None,
     )
 
 

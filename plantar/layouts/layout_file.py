@@ -15,6 +15,7 @@ from plantar.common.atomic import write_text
 from plantar.common.files.structured_text import read_json
 from plantar.errors import LayoutError
 from plantar.layouts.layout import Side, SoleLayout
+from plantar.layouts.source_pose import SourcePose
 
 SCHEMA = "plantar.layout/1"
 """Schema name and version that a layout file states."""
@@ -25,6 +26,7 @@ _UNITS = "m, N, degC; sole frame: x forward, y left, z up, on the outer contact 
 def layout_to_dict(layout: SoleLayout) -> dict[str, Any]:
     """A layout as lossless plain JSON values, SI, sole frame."""
     instance(layout, SoleLayout, "layout")
+    pose = {} if layout.pose is None else {"pose": layout.pose.as_dict()}
     return {
         "schema": SCHEMA,
         "name": layout.name,
@@ -35,6 +37,7 @@ def layout_to_dict(layout: SoleLayout) -> dict[str, Any]:
         "modalities": list(layout.modalities),
         "ranges": {k: list(v) for k, v in layout.ranges.items()},
         "thresholds": dict(layout.thresholds),
+        **pose,
         "outline": layout.outline.tolist(),
         "vertices": layout.vertices.tolist(),
         "taxels": [
@@ -137,6 +140,7 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
             modalities=tuple(modalities),
             ranges={k: (float(v[0]), float(v[1])) for k, v in ranges.items()},
             thresholds={k: float(v) for k, v in thresholds.items()},
+            pose=None if source.get("pose") is None else SourcePose.from_mapping(source["pose"], where),
         )
         check_cells(layout)
         return layout

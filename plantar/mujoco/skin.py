@@ -9,7 +9,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from plantar.common.arguments import instance, items, number, positive
 from plantar.common.gravity import GRAVITY
@@ -17,6 +17,7 @@ from plantar.common.sides import SIDES, Side, other_side
 from plantar.errors import InputError, LayoutError, RobotError
 from plantar.layouts.layout import SoleLayout, mirrored
 from plantar.layouts.layout_file import read_layout
+from plantar.layouts.source_pose import SourcePose
 from plantar.layouts.tiling import hex_layout
 from plantar.mujoco.bound_skin import BoundSkin
 from plantar.mujoco.contacts import REACH
@@ -38,8 +39,9 @@ _NEAR = 0.004  # m: how far a site may be from the face
 class Skin:
     """A plantar skin for a body of any MuJoCo model.
 
-    The sole's face is the lowest of the body's collision shapes in the reference pose (first keyframe, or `qpos0`), its
-    origin below the body's, x the world's.
+    The sole's face is the lowest of the body's collision shapes in the reference pose (first keyframe, or `qpos0`). Its
+    origin and axes are those of the pose that the layout states in this body's frame; else its origin lies below the
+    body's, and x is the world's.
 
     Args:
         layout: Layout, or path of its file; None fits hexagons to the body.
@@ -154,7 +156,27 @@ class Skin:
             listed = ", ".join(able) or "none"
             raise RobotError(f"body '{self.body}' has no geom that collides; bodies that have: {listed}")
         shape = sole_shape(model, body, geoms, self.outward, self.forward)
-        return geoms, shape if self.site is None else self._at_site(model, body, shape)
+        if self.site is not None:
+            return geoms, self._at_site(model, body, shape)
+        pose = None if self.layout is None else self.layout.pose
+        stated = pose is not None and pose.body == self.body and self.outward is None and self.forward is None
+        return geoms, self._at_pose(pose, shape) if pose is not None and stated else shape
+
+    def _at_pose(self, pose: SourcePose, shape: SoleShape) -> SoleShape:
+        """The sole in the frame that the layout states, on the face of the shapes: models wear shoes or none."""
+        self._check_level(f"the pose that the layout has from {pose.file}", pose.rotation, shape)
+        normal = pose.rotation[:, 2]
+        height = float((shape.position - pose.position) @ normal)
+        return _in_frame(shape, pose.position + height * normal, pose.rotation)
+
+    def _check_level(self, what: str, rotation: NDArray[np.float64], shape: SoleShape) -> None:
+        """Refuse a frame whose z is not that of the sole."""
+        up = float(rotation[:, 2] @ shape.rotation[:, 2])
+        if up < -_LEVEL:
+            raise RobotError(f"{what} is upside down: its z points out of the body; it should point into it")
+        if up < _LEVEL:
+            angle = math.degrees(math.acos(max(-1.0, min(1.0, up))))
+            raise RobotError(f"{what} is tilted by {angle:.0f} deg from the sole of '{self.body}'")
 
     def _at_site(self, model: Any, body: int, shape: SoleShape) -> SoleShape:
         """The sole with a site as its frame."""
@@ -167,23 +189,11 @@ class Skin:
         turn = data.xmat[body].reshape(3, 3).T
         rotation = turn @ data.site_xmat[site].reshape(3, 3)
         position = turn @ (data.site_xpos[site] - data.xpos[body])
-        up = float(rotation[:, 2] @ shape.rotation[:, 2])
-        if up < -_LEVEL:
-            raise RobotError(
-                f"site '{self.site}' is upside down: its z points out of the body; it should point into it"
-            )
-        if up < _LEVEL:
-            angle = math.degrees(math.acos(max(-1.0, min(1.0, up))))
-            raise RobotError(f"site '{self.site}' is tilted by {angle:.0f} deg from the sole of '{self.body}'")
+        self._check_level(f"site '{self.site}'", rotation, shape)
         height = float((position - shape.position) @ shape.rotation[:, 2])
         if abs(height) > _NEAR:
             raise RobotError(f"site '{self.site}' is {1e3 * height:.0f} mm above the sole's face; allowed: on it")
-        outline = (
-            np.column_stack([shape.outline, np.zeros(len(shape.outline))]) @ shape.rotation.T
-            + shape.position
-            - position
-        )
-        return shape._replace(position=position, rotation=rotation, outline=(outline @ rotation)[:, :2])
+        return _in_frame(shape, position, rotation)
 
     def _fitted(self, model: Any, body: int, shape: SoleShape) -> SoleLayout:
         import shapely
@@ -247,6 +257,13 @@ class Skin:
                 f"{where} covers {100 * covered:.0f} % of the sole; allowed: {100 * _COVERED:.0f} % or more, "
                 "or partial=True"
             )
+
+
+def _in_frame(shape: SoleShape, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> SoleShape:
+    """The same sole in another frame on its face, of origin (3,) and rotation (3, 3) to the body's."""
+    corners = np.column_stack([shape.outline, np.zeros(len(shape.outline))])
+    outline = corners @ shape.rotation.T + shape.position - position
+    return shape._replace(position=position, rotation=rotation, outline=(outline @ rotation)[:, :2])
 
 
 def _cells(layout: SoleLayout) -> Any:

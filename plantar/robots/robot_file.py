@@ -255,9 +255,10 @@ class _RobotFile(RobotTables):
 
     def _shoe(self, kind: str) -> dict[str, Any]:
         exported = _exported_shoe(self._layout_file("left"))
-        places = self._sole_frames(kind)
+        layouts = {side: self._layout(side) for side in SIDES}
+        places = self._sole_frames(kind, layouts)
         return {
-            "layouts": {side: self._layout(side) for side in SIDES},
+            "layouts": layouts,
             "sole_origins": {side: place[0] for side, place in places.items()},
             "sole_rotations": {side: place[1] for side, place in places.items()},
             "shoe_thickness": self.number("thickness", "shoe", 0.0, 0.1, exported.get("thickness")),
@@ -266,11 +267,17 @@ class _RobotFile(RobotTables):
             "contact_damping": self.number("contact_damping", "shoe", 0.1, 10.0, 1.0),
         }
 
-    def _sole_frames(self, kind: str) -> dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]]:
-        """Sole frames' origin (3,) in m and rotation (3, 3); right mirrors left."""
+    def _sole_frames(
+        self, kind: str, layouts: Mapping[Side, SoleLayout]
+    ) -> dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        """Sole frames' origin (3,) in m and rotation (3, 3): as given, right mirrors left; else of the layouts."""
         if kind == "biped":
             return {side: (np.zeros(3), np.eye(3)) for side in SIDES}
         given = self.table("shoe")
+        if "origin" not in given:
+            poses = self._poses_in_feet(layouts)
+            if poses is not None:
+                return poses
         origin = np.array(self.numbers("origin", "shoe", 3, -1.0, 1.0))
 
         def three(field: str, most: float, otherwise: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -284,6 +291,18 @@ class _RobotFile(RobotTables):
             return rotation_from_angles(math.radians(yaw), math.radians(pitch), math.radians(roll))
 
         return {"left": (origin, rotation(*angles)), "right": (right, rotation(*turned))}
+
+    def _poses_in_feet(
+        self, layouts: Mapping[Side, SoleLayout]
+    ) -> dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]] | None:
+        """Sole frames that the layouts state in the frames of the feet; None where one does not."""
+        poses = {side: layouts[side].pose for side in SIDES}
+        found = {}
+        for side, pose in poses.items():
+            if pose is None or pose.body != self.text("foot_body", "legs", side):
+                return None
+            found[side] = (pose.position, pose.rotation)
+        return found
 
     def _layout_file(self, side: Side) -> Path:
         path = self.path.parent / self.text("layout", "shoe").replace("{side}", side)

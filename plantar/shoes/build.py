@@ -29,6 +29,7 @@ from plantar.shoes.solid.body import bare_floor, insole_steps, mark_outline, sho
 from plantar.shoes.solid.kernel import build_solid, load_kernel
 from plantar.shoes.solid.polyhedron import Polyhedron
 from plantar.shoes.solid.retention import Retention, choose_retention
+from plantar.shoes.units import to_m
 
 Sides = Literal["left", "right", "both"]  # which shoes to build
 
@@ -165,9 +166,9 @@ def build_shoe(
     touching = check_touching(left, load, p)
     if layout_only:
         report(1.0, "layouts fitted")
-        return ShoeBuild(foot, fit, p, _planned_sides(left, sides), share, notes=notes, touching=touching)
+        return ShoeBuild(foot, fit, p, _planned_sides(foot, left, sides, p), share, notes=notes, touching=touching)
     retention = choose_retention(foot, left, p)
-    shoes = _built_sides(left, shoe_steps(foot, left, retention, p), p, sides, report)
+    shoes = _built_sides(foot, left, shoe_steps(foot, left, retention, p), p, sides, report)
     return ShoeBuild(foot, fit, p, shoes, share, retention, (*notes, retention.note), touching=touching)
 
 
@@ -249,19 +250,31 @@ def _sides_of(side: Sides, rim: Rim) -> tuple[Side, ...]:
     return SIDES if side == "both" else (side,)
 
 
-def _planned_sides(left: ShoePlan, sides: tuple[Side, ...]) -> tuple[Shoe, ...]:
-    return tuple(Shoe(left if which == "left" else mirrored_plan(left)) for which in sides)
+def _planned_sides(foot: Foot, left: ShoePlan, sides: tuple[Side, ...], p: ShoeParameters) -> tuple[Shoe, ...]:
+    """Shoes without solids; each layout with its sole's pose, on the shoe's outer face, where it is known."""
+    shoes = []
+    for which in sides:
+        plan = left if which == "left" else mirrored_plan(left)
+        bare = foot.poses.get(which)
+        pose = None if bare is None else bare.lowered(to_m(p.thickness))
+        shoes.append(Shoe(replace(plan, layout=replace(plan.layout, pose=pose))))
+    return tuple(shoes)
 
 
 def _built_sides(
-    left: ShoePlan, steps: tuple[Step, ...], parameters: ShoeParameters, sides: tuple[Side, ...], report: Progress
+    foot: Foot,
+    left: ShoePlan,
+    steps: tuple[Step, ...],
+    parameters: ShoeParameters,
+    sides: tuple[Side, ...],
+    report: Progress,
 ) -> tuple[Shoe, ...]:
     """Solids of the requested sides, with marks."""
     p = parameters
     report(0.1, "loading the CAD kernel")
     load_kernel()
     shoes = []
-    for i, shoe in enumerate(_planned_sides(left, sides)):
+    for i, shoe in enumerate(_planned_sides(foot, left, sides, p)):
         plan = shoe.plan
         which = shoe.side
         report(0.4 + 0.6 * i / len(sides), f"building the {which} side")
@@ -316,6 +329,6 @@ def build_insole(
     share = check_load_share(left, load, p)
     every = (*foot.notes, *of_cell, *notes, *fit.notes, *led, *lowered, *left.notes, _NOTE.format(thickness))
     if layout_only:
-        return ShoeBuild(foot, fit, p, _planned_sides(left, sides), share, notes=every, kind="insole")
-    shoes = _built_sides(left, insole_steps(left, p), p, sides, report)
+        return ShoeBuild(foot, fit, p, _planned_sides(foot, left, sides, p), share, notes=every, kind="insole")
+    shoes = _built_sides(foot, left, insole_steps(left, p), p, sides, report)
     return ShoeBuild(foot, fit, p, shoes, share, Retention("none", (), 0.0, 0.0, ""), every, kind="insole")

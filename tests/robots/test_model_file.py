@@ -2,12 +2,15 @@
 
 import re
 import shutil
+from dataclasses import replace
 
 import mujoco
 import numpy as np
 import pytest
 
 from plantar.errors import RobotError, SceneError
+from plantar.layouts.layout_file import read_layout, write_layout
+from plantar.layouts.source_pose import SourcePose
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.robots import load_robot
 from plantar.robots.kinematics.robot_model import build_leg_model, robot_spec
@@ -144,6 +147,22 @@ def test_bad_files_say_what_is_wrong(own, old, new, words):
         run_scene(load_scene("flat", ["steps=2", "crouch=0"], robot=str(own)))
     assert all(word in str(caught.value) for word in words), caught.value
     assert "\n" not in str(caught.value)
+
+
+def test_a_robot_without_an_origin_takes_the_poses_of_its_layouts(own):
+    places = {side: np.array([0.01, -0.02 if side == "left" else 0.02, -0.13]) for side in ("left", "right")}
+    own.write_text(own.read_text().replace("origin = [0.0, 0.0, -0.129]\n", ""))
+    for side, place in places.items():
+        path = own.parent / f"layout_{side}.json"
+        pose = SourcePose("own.xml", f"{side}_foot", place, np.eye(3))
+        write_layout(replace(read_layout(path), pose=pose), path)
+    robot = load_robot(own)
+    for side, place in places.items():
+        np.testing.assert_array_equal(robot.sole_origins[side], place)
+    pose = SourcePose("own.xml", "another", np.zeros(3), np.eye(3))
+    write_layout(replace(read_layout(path), pose=pose), path)
+    with pytest.raises(RobotError, match="origin"):
+        load_robot(own)
 
 
 def test_a_file_that_is_no_model_is_one_line(own):

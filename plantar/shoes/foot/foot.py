@@ -1,15 +1,17 @@
 """Foot as the shoe sees it: outline at the sole and up to the rim."""
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.errors import FootError
+from plantar.layouts.source_pose import SourcePose
 from plantar.shoes.geometry.outline import rounded_rectangle, tidy
 from plantar.shoes.units import MM_PER_M, to_mm
 
@@ -28,6 +30,7 @@ class Foot:
         support: Part touching a flat floor; None for all.
         mass: Robot's in kg.
         links: Points (n, 3) of other robot links as the ankle moves; None if unknown.
+        poses: Of each side's sole frame, on the bare sole, in the file or link it came from, where known; in m.
     """
 
     name: str
@@ -39,6 +42,7 @@ class Foot:
     support: Any | None = None
     mass: float | None = None
     links: NDArray[np.float64] | None = None
+    poses: Mapping[Side, SourcePose] = field(default_factory=dict)
 
     def passing(self, height: float) -> Any:
         """Outline of what passes a height in mm while the shoe is pushed on."""

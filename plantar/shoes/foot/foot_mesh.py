@@ -2,13 +2,16 @@
 
 import math
 import os
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import Side
 from plantar.errors import FootError, InputError
+from plantar.layouts.source_pose import SourcePose
 from plantar.shoes.foot.foot import FOOT_LENGTHS, Foot
 from plantar.shoes.foot.mesh_file import Unit, read_mesh
 from plantar.shoes.foot.orientation import (
@@ -26,6 +29,7 @@ from plantar.shoes.foot.orientation import (
 )
 from plantar.shoes.geometry.outline import cut_below, outline_of, outlines_below, touching
 from plantar.shoes.geometry.surface import convex_outline, is_closed
+from plantar.shoes.units import to_m
 
 UNIT_SIZE: dict[str, float] = {"m": 1000.0, "cm": 10.0, "mm": 1.0, "in": 25.4}  # length of each unit in mm
 
@@ -38,10 +42,22 @@ _TOUCHING = 1.0  # mm: what lies lower touches the floor
 Triangles = NDArray[np.float64]
 
 
+@dataclass(frozen=True)
+class Link:
+    """Link of a robot's model that a foot's triangles belong to.
+
+    `file`: name of the model's file; `rotation` (3, 3) from the triangles' axes to the link's frame, of one origin.
+    """
+
+    file: str
+    body: str
+    rotation: Triangles
+
+
 def foot_from_mesh(
     path: str | os.PathLike[str],
     *,
-    mesh_side: Literal["left", "right"] = "left",
+    mesh_side: Side = "left",
     unit: Unit | None = None,
     up: Axis | None = None,
     sole_z: float | None = None,
@@ -85,7 +101,7 @@ def foot_from_triangles(
     triangles: Triangles,
     *,
     where: str,
-    mesh_side: Literal["left", "right"] = "left",
+    mesh_side: Side = "left",
     unit: Unit | None = None,
     file_unit: Unit | None = None,
     up: Axis | None = None,
@@ -93,13 +109,13 @@ def foot_from_triangles(
     forward: Axis | None = None,
     sole_band: float = 5.0,
     links: Triangles | None = None,
-    of_link: bool = False,
+    link: Link | None = None,
 ) -> Foot:
     """Foot from triangles; options as in `foot_from_mesh`.
 
     `triangles` (n, 3, 3), ankle at the origin; `up`: upward axis; `sole_z`: sole plane in mm; `sole_band`: sole height
-    in mm; `links`: points (n, 3) of other robot links, likewise; `of_link`: whether the triangles are a robot link's,
-    whose frame shows where the toes are and is never turned but by quarters.
+    in mm; `links`: points (n, 3) of other robot links, likewise; `link`: the robot link that the triangles
+    are of, whose frame shows where the toes are and is never turned but by quarters.
     """
     if forward is not None and forward not in AXES[:4]:
         raise InputError(f"forward axis is {forward!r}; allowed: {', '.join(AXES[:4])}")
@@ -113,7 +129,7 @@ def foot_from_triangles(
     notes = [note, *([] if is_closed(triangles) else ["the mesh is not closed; only its outline is used"])]
     settings: dict[str, Any] = {
         "where": where, "mesh_side": mesh_side, "sole_z": sole_z, "forward": forward, "sole_band": sole_band,
-        "read": read, "links": links, "of_link": of_link,
+        "read": read, "scale": scale, "links": links, "link": link,
     }  # fmt: skip
     if up is None:
         size = np.ptp(triangles.reshape(-1, 3), axis=0)
@@ -149,17 +165,18 @@ def _standing(
     triangles: Triangles,
     *,
     where: str,
-    mesh_side: str,
+    mesh_side: Side,
     sole_z: float | None,
     forward: Axis | None,
     sole_band: float,
     notes: list[str],
     read: Triangles,
+    scale: float,
     links: Triangles | None,
-    of_link: bool,
+    link: Link | None,
     up_given: bool = False,
 ) -> Foot:
-    """Foot from triangles in mm, z up; links move as the surface does from `read`."""
+    """Foot from triangles in mm, z up, that were `read` in a unit of `scale` mm; links move with them."""
     notes = list(notes)
     tilt = 0.0
     if sole_z is None:
@@ -168,10 +185,12 @@ def _standing(
             notes.append(f"levelled: the plane that the foot rests on was tilted by {tilt:.1f} degrees")
     _check_height(triangles, where)
     upright = triangles
-    triangles, facing = _facing(triangles, where, forward, sole_band, of_link)
+    triangles, facing = _facing(triangles, where, forward, sole_band, link is not None)
     notes += facing
+    rotation = _rotation_between(read, triangles)
+    flip_y = np.array([1.0, -1.0 if mesh_side == "right" else 1.0, 1.0])
     if mesh_side == "right":
-        triangles = triangles[:, ::-1] * np.array([1.0, -1.0, 1.0])
+        triangles = triangles[:, ::-1] * flip_y
         notes.append("the mesh is a right foot; mirrored to the left")
     lowest = float(triangles[..., 2].min())
     plane = lowest if sole_z is None else sole_z
@@ -181,9 +200,8 @@ def _standing(
         notes.append(f"sole plane at z = {plane:.1f} mm as given")
         if plane - lowest > 1e-6:
             notes.append(f"{plane - lowest:.1f} mm of the mesh lie below the sole plane and are ignored")
-    triangles = triangles - np.array([0.0, 0.0, plane])
-    if links is not None:
-        links = _moved_along(read, triangles[:, ::-1] if mesh_side == "right" else triangles, links)
+    origin = np.array([0.0, 0.0, plane])  # of the sole frame, in axes that are turned already
+    triangles = triangles - origin
     flip = np.array([1.0, 1.0, -1.0])
     triangles = cut_below(triangles * flip, 0.0) * flip
     if not len(triangles):
@@ -193,7 +211,7 @@ def _standing(
     if not _box_holds(box, 0.5):
         middle = np.array([0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3]), 0.0]).round(3)
         triangles = triangles - middle
-        links = None if links is None else links - middle
+        origin = origin + middle
         sole = _checked_sole(triangles, sole_band, forward, where)
         notes.append("the mesh's origin lies far from the sole: the layout's origin is the middle of the sole instead")
     notes.append(f"sole {box[2] - box[0]:.1f} x {box[3] - box[1]:.1f} mm (lowest {sole_band:g} mm of the mesh)")
@@ -201,6 +219,14 @@ def _standing(
     if not up_given and sole_z is None:
         notes += [*check_upright(upright, where), *check_level(upright, where, tilt)]
     support = touching(lifted, _TOUCHING).intersection(sole)
+    if links is not None:
+        links = links * scale @ rotation.T * flip_y - origin
+    position = to_m(rotation.T @ (origin * flip_y))
+    file = Path(where).name
+    if link is None:
+        pose = SourcePose(file, None, position, rotation.T)
+    else:
+        pose = SourcePose(link.file, link.body, link.rotation @ position, link.rotation @ rotation.T)
     return Foot(
         name,
         sole,
@@ -210,6 +236,7 @@ def _standing(
         lifted,
         support if support.area > 1.0 else None,
         links=links,
+        poses={mesh_side: pose},
     )
 
 
@@ -233,10 +260,11 @@ def _facing(
     return triangles @ rotation_forward(axis).T, [*notes, how]
 
 
-def _moved_along(start: Triangles, end: Triangles, points: Triangles) -> Triangles:
-    corners = np.column_stack([start.reshape(-1, 3), np.ones(3 * len(start))])
-    move = np.linalg.lstsq(corners, end.reshape(-1, 3), rcond=None)[0]
-    return np.asarray(np.column_stack([points, np.ones(len(points))]) @ move)
+def _rotation_between(start: Triangles, end: Triangles) -> Triangles:
+    """Rotation (3, 3) that turns triangles into others of the same shape, whatever their scale and place (Kabsch)."""
+    a, b = (t.reshape(-1, 3) - t.reshape(-1, 3).mean(axis=0) for t in (start, end))
+    u, _, v = np.linalg.svd(b.T @ a)
+    return np.asarray(u @ np.diag([1.0, 1.0, np.linalg.det(u @ v)]) @ v)
 
 
 def _check_height(triangles: Triangles, where: str) -> None:

@@ -50,13 +50,14 @@ class BodyPlace(NamedTuple):
     """Body in the zero pose.
 
     `shaped`: whether it, or what is fixed to it, has a shape; `carries`: whether a moving body hangs on it; `depth`:
-    bodies above it; `height`: origin in m.
+    bodies above it; `position`: origin (3,) in the model's world in m; `rotation` (3, 3): from its frame to that world.
     """
 
     shaped: bool
     carries: bool
     depth: int
-    height: float
+    position: Array
+    rotation: Array
 
 
 @dataclass(frozen=True)
@@ -104,7 +105,9 @@ class ModelSource:
             depth[i] = depth[model.body_parentid[i]] + 1
         names = {i: model.body(i).name for i in range(1, model.nbody)}
         return {
-            name: BodyPlace(shaped[name], carries[name], int(depth[i]), float(data.xpos[i, 2]))
+            name: BodyPlace(
+                shaped[name], carries[name], int(depth[i]), data.xpos[i].copy(), data.xmat[i].reshape(3, 3).copy()
+            )
             for i, name in names.items()
             if name in parts and name != BELOW
         }

@@ -6,9 +6,10 @@ import math
 import os
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -20,12 +21,15 @@ from plantar.common.files.input_file import check_input, read_input
 from plantar.common.files.structured_text import read_json
 from plantar.common.files.xml_file import XML_MOST, parse_xml
 from plantar.common.optional_library import optional_library
+from plantar.common.sides import Side
 from plantar.errors import DependencyError, FootError, InputError
+from plantar.layouts.source_pose import SourcePose
 from plantar.shoes.foot.foot import Foot, foot_from_outline
 from plantar.shoes.foot.foot_mesh import unit_scale
 from plantar.shoes.foot.mesh_file import Unit
 from plantar.shoes.foot.orientation import AXES, Axis, rotation_forward
 from plantar.shoes.geometry.outline import single_outline
+from plantar.shoes.units import to_m
 
 OUTLINE_FORMATS: tuple[str, ...] = (".dxf", ".svg", ".geojson", ".json")  # file endings of drawings that are read
 
@@ -46,7 +50,7 @@ _LONG = 1.3
 def foot_from_drawing(
     path: str | os.PathLike[str],
     *,
-    mesh_side: Literal["left", "right"] = "left",
+    mesh_side: Side = "left",
     unit: Unit | None = None,
     forward: Axis | None = None,
 ) -> Foot:
@@ -66,18 +70,23 @@ def foot_from_drawing(
     notes = [note, *notes]
     axis: Axis = forward or ("y" if box[3] - box[1] > 1.05 * (box[2] - box[0]) else "x")
     notes.append(f"the drawing's {axis} axis points to the toes, {'as given' if forward else 'its longer side'}")
-    turn = rotation_forward(axis)[:2, :2] * scale * factor
+    rotation = rotation_forward(axis)
+    turn = rotation[:2, :2] * scale * factor
     if mesh_side == "right":
         turn = np.diag([1.0, -1.0]) @ turn
         notes.append("the drawing is of a right foot; mirrored to the left")
     outline = shapely.transform(outline, lambda points: points @ turn.T)
     low_x, low_y, high_x, high_y = outline.bounds
+    x = 0.0
+    y = 0.0
     if not (low_x <= 0.0 <= high_x and low_y <= 0.0 <= high_y):
         x = round(0.5 * (low_x + high_x), 3)
         y = round(0.5 * (low_y + high_y), 3)
         outline = shapely.affinity.translate(outline, -x, -y)
         notes.append("the drawing's origin lies outside the sole: the layout's origin is the middle of the sole")
-    return foot_from_outline(Path(path).stem, outline, tuple(notes))
+    origin = np.array([x, -y if mesh_side == "right" else y, 0.0])
+    pose = SourcePose(Path(path).name, None, to_m(rotation.T @ origin), rotation.T)
+    return replace(foot_from_outline(Path(path).stem, outline, tuple(notes)), poses={mesh_side: pose})
 
 
 def read_outline(path: str | os.PathLike[str]) -> tuple[Lines, Unit | None, float]:

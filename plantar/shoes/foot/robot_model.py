@@ -11,8 +11,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import other_side
 from plantar.errors import FootError
-from plantar.shoes.foot.foot_mesh import unit_scale
+from plantar.layouts.source_pose import SourcePose
+from plantar.shoes.foot.foot_mesh import Link, unit_scale
 from plantar.shoes.foot.mesh_file import Unit
 from plantar.shoes.foot.model_source import FARTHEST, BodyPlace, ModelSource, read_model_source
 from plantar.shoes.geometry.surface import surface_points, thinned
@@ -22,8 +24,26 @@ MODEL_FORMATS: tuple[str, ...] = (".xml", ".mjcf", ".urdf")  # file endings of r
 _SHOWN = 14  # names in a message
 _WORDS = ("foot|feet|sole", "ank", "toe")  # in names of bodies that are a foot, or hold one
 _MOST_SHAPES = 200  # of a foot's body
+_APART = 0.02  # m between the origins of two feet
+_UNLIKE = 2e-3  # m by which the extents of two feet may differ that are mirror images
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class OtherFoot:
+    """The other foot's link, and the reflection (3, 3) that turns this foot into it, about both origins."""
+
+    link: Link
+    mirror: Array
+
+    def pose(self, pose: SourcePose, link: Link) -> SourcePose:
+        """Pose of the other sole from that of this one, which is in the frame of `link`."""
+        back = link.rotation.T
+        flip = np.diag([1.0, -1.0, 1.0])
+        position = self.link.rotation @ self.mirror @ back @ pose.position
+        rotation = self.link.rotation @ self.mirror @ back @ pose.rotation @ flip
+        return SourcePose(self.link.file, self.link.body, position, rotation)
 
 
 @dataclass(frozen=True)
@@ -31,7 +51,7 @@ class BodyGeometry:
     """Body surface about its origin, zero pose.
 
     `triangles` (n, 3, 3) in m, z up; `mass`: robot's in kg, or None; `links`: points (n, 3) in m of moving links above,
-    or None.
+    or None; `link`: its frame; `other`: the other foot, where it is this one's mirror image.
     """
 
     triangles: Array
@@ -39,6 +59,8 @@ class BodyGeometry:
     mass: float | None
     notes: tuple[str, ...]
     links: Array | None = None
+    link: Link | None = None
+    other: OtherFoot | None = None
 
 
 def side_of_name(name: str) -> Literal["left", "right"] | None:
@@ -77,7 +99,67 @@ def read_foot_body(path: str | os.PathLike[str], body: str | None, unit: Unit | 
     read += ", without what moves below it" if bodies[body].carries else ""
     foreign = None, "the links above the foot are read in m alone"
     links, swept = swept_points(source, body, triangles) if unit in (None, "m") else foreign
-    return BodyGeometry(triangles, side_of_name(body), mass, (read, note, swept), links)
+    link = Link(source.file.name, body, bodies[body].rotation.T)
+    other = _other_foot(source, body, bodies, triangles)
+    return BodyGeometry(triangles, side_of_name(body), mass, (read, note, swept), links, link, other)
+
+
+def name_of_other(body: str) -> str | None:
+    """Name of the other foot's body; None where no word of it is a side.
+
+    Example:
+        >>> name_of_other("left_ankle_roll_link"), name_of_other("R_ANKLE_P_S"), name_of_other("RightFoot")
+        ('right_ankle_roll_link', 'L_ANKLE_P_S', 'LeftFoot')
+        >>> name_of_other("sole") is None
+        True
+    """
+    side = side_of_name(body)
+    if side is None:
+        return None
+    other = other_side(side)
+    start = body[: len(side)]
+    if start.lower() == side:
+        return _spelled_as(other, start) + body[len(side) :]
+    words = re.split(r"([A-Z]?[a-z]+|[A-Z]+|\d+)", body)
+    for own, its in ((side, other), (side[0], other[0])):
+        changed = [_spelled_as(its, word) if word.lower() == own else word for word in words]
+        if changed != words:
+            return "".join(changed)
+    return None
+
+
+def _spelled_as(word: str, example: str) -> str:
+    if example.isupper():
+        return word.upper()
+    return word.capitalize() if example[0].isupper() else word
+
+
+def _other_foot(source: ModelSource, body: str, bodies: dict[str, BodyPlace], triangles: Array) -> OtherFoot | None:
+    """The other foot, where the robot is its own mirror image in the zero pose."""
+    name = name_of_other(body)
+    if name is None or name not in bodies:
+        return None
+    own = bodies[body]
+    its = bodies[name]
+    apart = its.position - own.position
+    distance = float(np.linalg.norm(apart))
+    if distance < _APART:
+        return None
+    normal = apart / distance
+    mirror = np.eye(3) - 2.0 * np.outer(normal, normal)
+    try:
+        drawn, colliding = source.shapes(name, _MOST_SHAPES)
+    except FootError:
+        return None
+    shapes = drawn or colliding
+    if not shapes:
+        return None
+    seen = np.concatenate(shapes).reshape(-1, 3)
+    wanted = triangles.reshape(-1, 3) @ mirror
+    off = [np.abs(limit(seen, axis=0) - limit(wanted, axis=0)).max() for limit in (np.min, np.max)]
+    if max(off) > _UNLIKE:
+        return None
+    return OtherFoot(Link(source.file.name, name, its.rotation.T), mirror)
 
 
 def _names_shown(bodies: dict[str, BodyPlace], wanted: str) -> str:
@@ -95,7 +177,7 @@ def _like_feet(bodies: dict[str, BodyPlace], wanted: str) -> list[str]:
     named = [name for name in shaped if called[name] < len(_WORDS)]
 
     def rank(name: str) -> tuple[int, bool, float, int]:
-        return called[name], bodies[name].carries, round(bodies[name].height, 2), -bodies[name].depth
+        return called[name], bodies[name].carries, round(float(bodies[name].position[2]), 2), -bodies[name].depth
 
     return [*alike, *(name for name in sorted(named or shaped, key=rank) if name not in alike)]
 

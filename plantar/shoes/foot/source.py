@@ -7,13 +7,14 @@ from typing import Any, cast
 
 from plantar.common.files.input_file import check_input
 from plantar.common.files.structured_text import packaged_files, read_toml
-from plantar.common.sides import SIDES
+from plantar.common.sides import SIDES, Side, other_side
 from plantar.errors import FootError, InputError, RobotError
+from plantar.layouts.source_pose import SourcePose
 from plantar.shoes.foot.foot import Foot, foot_from_dimensions
 from plantar.shoes.foot.foot_mesh import foot_from_mesh, foot_from_triangles
 from plantar.shoes.foot.mesh_file import MESH_FORMATS
 from plantar.shoes.foot.outline_file import OUTLINE_FORMATS, foot_from_drawing
-from plantar.shoes.foot.robot_model import MODEL_FORMATS, read_foot_body, side_of_name
+from plantar.shoes.foot.robot_model import MODEL_FORMATS, BodyGeometry, read_foot_body, side_of_name
 from plantar.shoes.order import FootSource
 
 _ALLOWED = {
@@ -83,13 +84,23 @@ def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
         found = read_foot_body(path, source.body, options["unit"])
         named = source.mesh_side or found.side
         where = f"{path}, body '{source.body}'"
-        options |= {"file_unit": "m", "mesh_side": named or "left", "links": found.links, "of_link": True}
+        options |= {"file_unit": "m", "mesh_side": named or "left", "links": found.links, "link": found.link}
         foot = foot_from_triangles(path.stem, found.triangles, where=where, **options)
-        return replace(foot, mass=found.mass, notes=(*found.notes, *foot.notes, *(() if named else (_ASSUMED,))))
+        notes = (*found.notes, *foot.notes, *(() if named else (_ASSUMED,)))
+        return replace(foot, mass=found.mass, notes=notes, poses=_poses_of_both(foot, found))
     if source.body is not None:
         raise InputError(f"--body is for a robot's model ({', '.join(MODEL_FORMATS)}); {path} is none")
     foot = foot_from_mesh(path, mesh_side=side, **options)
     return replace(foot, notes=(*foot.notes, *assumed))
+
+
+def _poses_of_both(foot: Foot, found: BodyGeometry) -> dict[Side, SourcePose]:
+    """Poses of the sole that was read, and of the other foot's where the robot is its own mirror image."""
+    poses = dict(foot.poses)
+    (side, pose), *_ = poses.items()
+    if found.other is not None and found.link is not None:
+        poses[other_side(side)] = found.other.pose(pose, found.link)
+    return poses
 
 
 def _box_foot(text: str) -> Foot:

@@ -138,6 +138,7 @@ def bad_fields(n):
     ring, alone = (0, 1, 2), ((),) * n
     return [
         ("side", "middle", "allowed: left, right"),
+        ("pose", [0.0, 0.0, 0.0], "pose"),
         ("positions", np.full((n, 3), 120.0), "allowed: within 50 m"),
         ("rotations", flipped, "not a rotation"),
         ("rotations", stretched, "not a rotation"),
