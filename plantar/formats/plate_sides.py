@@ -23,6 +23,7 @@ _REACH = 0.2  # Time in s between a contact's begin and a stated heel strike of 
 _INWARD = 0.01
 _PAUSE = 1.0  # Time in s without load that ends a pass over the plates
 _ACROSS = 0.02  # Distance in m of plates or contacts across the direction of walking that shows which are the left ones
+_CARRIED = 0.2  # Mean way in m of the CoP in a belt's contacts from which the belt runs against it
 _LONG = 1.4  # Contacts and gaps on a treadmill's belt of so many medians show that a foot was on the other belt
 
 
@@ -250,9 +251,14 @@ def _forward(plates: Sequence[Plate], contacts: Sequence[PlateContact], treadmil
     for contact in contacts:
         plate = plates[contact.plate]
         length = contact.end - contact.begin
-        span = np.nan_to_num(plate.force[contact.begin : contact.end, :2])
+        span = plate.force[contact.begin : contact.end, :2]
+        if not np.isfinite(span).any(axis=0).all():
+            continue  # of one axis alone the direction is not known
+        span = np.nan_to_num(span)
         push += span[int(0.6 * length) :].sum(axis=0) - span[: int(0.4 * length)].sum(axis=0)
-    way = _way(plates, contacts) * (-1.0 if treadmill else 1.0)
+    way = _way(plates, contacts)
+    if treadmill:  # a belt that runs carries the foot farther back than it rolls
+        way = -way if np.hypot(*way) > _CARRIED * len(contacts) else np.zeros(2)
     total = sum(float(np.nansum(plates[c.plate].force[c.begin : c.end, 2])) for c in contacts)
     vector = push if np.hypot(*push) > 0.02 * total > 0.0 else way
     size = float(np.hypot(*vector))

@@ -82,7 +82,9 @@ def stated_rate(facts: Mapping[str, str], warnings: list[str]) -> float | None:
 def or_usual(rate: float | None, without: str, warnings: list[str]) -> float:
     """Returns rate in Hz, else the usual one; warnings tell what the file is without."""
     if rate is None:
-        warnings.append(f"{without}: {_USUAL:g} Hz is assumed (--rate overrides)")
+        warnings.append(
+            f"{without}: {_USUAL:g} Hz is assumed; at half of that all times are twice as long (--rate overrides)"
+        )
     return rate or _USUAL
 
 

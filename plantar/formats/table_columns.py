@@ -28,6 +28,8 @@ _MOST_NAMED = 10  # Columns that are left out by name in the warnings; of more t
 _CURVES = 40  # Numbered columns without a time from which rows that name trials are curves and no frames
 _SLOWEST = 5.0  # Hz: rows that are farther apart are steps or minutes, and no frames
 _SIGNED = 0.3  # Share of the largest reading that cells do not reach on both sides of zero
+_COUNTED = 4  # Numbered cells of a foot from which a gap in their numbers is reported
+_LACKING = 0.34  # Share of them that may be lacking
 _FEWEST = 3  # Rows of a recording
 
 
@@ -146,7 +148,10 @@ def _repeated(
     axes_or_sides = any(axis or side for _, axis, side, *_ in keys.values())
     again = half >= 2 and not axes_or_sides and [keys[i] for i in one] == [keys[i] for i in other]
     if again and not np.array_equal(table[:, one], table[:, other], equal_nan=True):
-        warnings.append("the cells' names begin again: the first ones are taken as the left foot's, then the right's")
+        warnings.append(
+            "the cells' names begin again: the first ones are taken as the left foot's, then the right's, else "
+            "all of left and right is exchanged (--columns overrides)"
+        )
         return set(), {"left": one, "right": other}
     copies: set[int] = set()
     firsts: dict[tuple[object, ...], int] = {}
@@ -291,6 +296,8 @@ def _cells(
             f"{proposed_map(names, table)}"
         )
     _refuse_signs(table[:, chosen])
+    if options.layout is None:
+        _report_missing([headings[i] for i in chosen], warnings)
     found = [headings[i].unit for i in chosen if headings[i].unit]
     if len({find_unit(u) for u in found}) > 1:
         raise FormatError(f"the columns are in different units: {', '.join(sorted(set(found)))}")
@@ -313,6 +320,20 @@ def _cells(
         ids = [n for i in by_side.get(side, nameless) if (n := headings[i].number) is not None]
         feet[side] = cells_of_foot(side, part, unit, options, warnings, ids if len(ids) == part.shape[1] else None)
     return feet, unit.kind == "raw"
+
+
+def _report_missing(cells: Sequence[Heading], warnings: list[str]) -> None:
+    """Add to `warnings` which numbers a foot's cells leave out: they may be in a column with another name."""
+    for side in dict.fromkeys(cell.side for cell in cells):
+        numbers = {cell.number for cell in cells if cell.side == side and cell.number is not None}
+        lacking = sorted(set(range(min(numbers, default=0), max(numbers, default=0))) - numbers)
+        if len(numbers) >= _COUNTED and 0 < len(lacking) <= _LACKING * len(numbers):
+            shown = ", ".join(map(str, lacking))
+            warnings.append(
+                f"{f'the {side} foot has' if side else 'there are'} cells {min(numbers)} to {max(numbers)} without "
+                f"{shown}: forces are about {100.0 * len(lacking) / (len(numbers) + len(lacking)):.0f} % too small, "
+                "if these are cells (--columns names them)"
+            )
 
 
 def _refuse_signs(values: NDArray[np.float64]) -> None:

@@ -26,7 +26,7 @@ _LEAST = 9.0
 _WEIGHTS = (0.7, 4.0)  # Largest vertical forces without a unit that are body weights and no N
 # Weight in N that forces in body weights are read with, so that levels in N hold; they are divided by it again.
 _NOMINAL = 700.0
-_LEAST_NEWTONS = 15.0  # Forces without a unit that reach less are in another one
+_LEAST_NEWTONS = 150.0  # Forces without a unit that reach less are in another one
 _TOTALS = {"total", "sum", "gesamt", "summe", "totale", "tot"}  # of both feet, beside each
 
 

@@ -510,3 +510,25 @@ def test_temperatures_of_the_feet_are_no_times(tmp_path):
     told = " ".join(read_recording(path).warnings)
     assert "interpolated" not in told
     assert "'T_L' is no cell" in told
+
+
+def test_a_number_that_cells_leave_out_is_reported(tmp_path):
+    path = tmp_path / "walk.csv"
+    path.write_text(
+        "time (s),left 1 [N],left 2 [N],zone [N],left 4 [N],left 5 [N]\n" + rows([TIME, *[LEFT / 5.0] * 5], ",")
+    )
+    (told,) = [w for w in analyse(path).warnings if "without" in w]
+    assert told.startswith("the left foot has cells 1 to 5 without 3: forces are about 20 % too small")
+
+
+@pytest.mark.parametrize("lacking", range(4))
+def test_a_component_that_a_plate_lacks_exchanges_no_feet(tmp_path, lacking):
+    """The direction of walking does not follow from one horizontal force alone."""
+    path = tmp_path / "walk.csv"
+    names = ["FP1_Fx", "FP1_Fy", "FP2_Fx", "FP2_Fy", "FP1_Fz", "FP1_COPx", "FP1_COPy", "FP2_Fz", "FP2_COPx", "FP2_COPy"]
+    one = [AHEAD["left"], LEFTWARD["left"]], [LEFT, PLACE["left"], NONE + 0.1]
+    other = [AHEAD["right"], LEFTWARD["right"]], [RIGHT, PLACE["right"], NONE - 0.1]
+    columns = [*one[0], *other[0], *one[1], *other[1]]
+    del names[lacking], columns[lacking]
+    path.write_text("time (s)," + ",".join(names) + "\n" + rows([TIME, *columns], ","))
+    check(analyse(path))
