@@ -49,7 +49,7 @@ data.qpos[:3], data.qpos[qpos] = walker.base_position, walker.stance.angles
 data.ctrl[servos] = walker.stance.angles + walker.stance.torques / stiffness
 mujoco.mj_step(model, data, 500)  # the soles settle on the floor
 ticks = 0
-while ticks * walker.period < walker.controller.end and not data.warning.number.any():
+while ticks * walker.period < walker.end and not data.warning.number.any():
     targets = walker.joint_targets(walker.step(sense()))
     data.ctrl[servos] = targets.angles + targets.torques / stiffness
     mujoco.mj_step(model, data, round(walker.period / model.opt.timestep))
@@ -57,4 +57,5 @@ while ticks * walker.period < walker.controller.end and not data.warning.number.
 torso = data.body(walker.robot.torso_body)
 diverged = data.warning.number.any()  # MuJoCo then begins again, at time 0
 end = "diverged" if diverged else "fell" if torso.xmat[8] < 0.7 else "stands"
-print(f"walked {torso.xpos[0]:.2f} m and {end}; controller: {walker.controller.safe_state or 'walks'}")
+print(f"walked {torso.xpos[0]:.2f} m and {end}; controller: {walker.state or 'walks'}")
+print(*walker.findings, sep="\n")  # what bring-up found wrong: nothing here

@@ -2,7 +2,7 @@
 
 import os
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from typer import Argument, Option
 
@@ -32,6 +32,10 @@ def sim(
     ] = None,
     video: Annotated[Path | None, Option(help="Write a video with what the soles measure: an .mp4 file.")] = None,
     plot: Annotated[Path | None, Option(help="Folder for figures: balance, plane and feet.")] = None,
+    bring_up: Annotated[
+        bool,
+        Option("--bring-up", help="First check sensors and wiring, as on a robot; exit code 1 if not passed."),
+    ] = False,
     as_json: Json = False,
 ) -> None:
     """Run one scenario in MuJoCo and judge it by the true contact forces.
@@ -64,9 +68,37 @@ def sim(
     from plantar.sim.run.scene_kind import open_scene, run
 
     loaded = open_scene(scene, settings or [], robot)
+    if bring_up:
+        _run_with_bring_up(loaded, seed, (record, video, plot), as_json)
+        return
     with progress_bar() as progress:
         summary = run(loaded, seed, record=record, video=video, plot=plot, progress=progress)
     end_command(summary, as_json, run_text(summary), failed=not summary["completed"])
+
+
+def _run_with_bring_up(
+    scene: Any, seed: int, files: tuple[Path | None, Path | None, Path | None], as_json: bool
+) -> None:
+    """Check the robot, and run the scene if it passed; `files` are recording, video and figures."""
+    from plantar.sim.run.bring_up import bring_up_summary, bring_up_text, check_before_walk
+    from plantar.sim.run.run_text import run_text
+    from plantar.sim.run.runner import Simulation
+    from plantar.sim.run.scene_kind import simulation_of
+
+    begun = simulation_of(scene, seed)
+    if not isinstance(begun, Simulation):
+        raise InputError(f"--bring-up is for scenes of a walk; '{scene.name}' is an experiment of the companion")
+    checks = check_before_walk(begun)
+    if not checks.passed:
+        refused = {"scene": scene.name, "robot": scene.robot, "seed": seed, "completed": False}
+        end_command({**refused, "bring_up": bring_up_summary(checks)}, as_json, bring_up_text(checks), failed=True)
+        return
+    record, video, plot = files
+    with progress_bar() as progress:
+        summary = begun.run_to_files(record, video, plot, progress)
+    summary["bring_up"] = bring_up_summary(checks)
+    text = f"{bring_up_text(checks)}\n{run_text(summary)}"
+    end_command(summary, as_json, text, failed=not summary["completed"])
 
 
 COMMAND = Command(sim, "Run one scenario in MuJoCo, judged by the true contacts.", 40)

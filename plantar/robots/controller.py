@@ -18,6 +18,9 @@ from plantar.gait.command import Command, JointTargets, Sensors
 from plantar.gait.controller import WalkingController
 from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table
 from plantar.gait.plan.walk_plan import vrp_of_step
+from plantar.gait.safety.bring_up.bring_up import BringUp
+from plantar.gait.safety.bring_up.finding import Finding
+from plantar.robots.bring_up import bring_up_of
 from plantar.robots.controller_settings import com_height_of, controller_settings
 from plantar.robots.kinematics.ankle_limits import ankle_limits
 from plantar.robots.kinematics.ankle_sensors import ankle_sensors
@@ -45,6 +48,9 @@ class RobotController:
     `stance`: joint angles and torques before the start; `base_position`: base position (3,) in m in that stance, world
     frame; `began`: whether sensors were sound.
 
+    Before the first step it checks the robot for 6 s (docs/safety.md): it stands, leans and unloads each foot. What
+    fails is in `findings`, and it then keeps standing.
+
     Example:
         >>> walker = load_controller("h1", {"walk": {"steps": 4}})
         >>> walker.period, len(walker.joints), round(walker.controller.end, 1)
@@ -60,6 +66,31 @@ class RobotController:
     base_position: NDArray[np.float64] = field(repr=False)
     motion: PlannedMotion = field(repr=False)
     began: bool = field(default=False, init=False)
+
+    @property
+    def bring_up(self) -> BringUp | None:
+        """The checks before the first step; None where they are taken off."""
+        return None if self.controller.shell is None else self.controller.shell.bring_up
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What bring-up found wrong, each with its likely cause; empty while it checks, and where all is well."""
+        return () if self.bring_up is None else self.bring_up.findings
+
+    @property
+    def state(self) -> str | None:
+        """Named state, None while it walks: `WalkingController.safe_state`, "bring-up" or "refused"."""
+        return self.controller.safe_state
+
+    @property
+    def end(self) -> float:
+        """Time in s since the first tick at which the walk is over, with its bring-up."""
+        return self.controller.end + (0.0 if self.bring_up is None else self.bring_up.duration)
+
+    def count_as_checked(self) -> None:
+        """Walk without bring-up, as in a simulator whose sensors are known to be wired right."""
+        if self.controller.shell is not None:
+            self.controller.shell.bring_up = None
 
     def step(self, sensors: Sensors) -> Command:
         """One control tick: command of CoM, torso and soles. Until sensors were sound, InputError names what is not."""
@@ -113,7 +144,8 @@ def load_controller(
         seed: Draws the velocities of a walk that wanders.
 
     Returns:
-        The controller, before its first tick.
+        The controller, before its first tick. It takes no step before its bring-up has passed
+            (`RobotController.findings`).
 
     Raises:
         RobotError, SceneError: If an argument is invalid.
@@ -139,4 +171,6 @@ def load_controller(
     names = (*own.legs["left"].joints, *own.legs["right"].joints)
     motion = PlannedMotion(legs, settings.period, body.beat)
     place = legs.configuration[:3]
+    if controller.shell is not None:
+        controller.shell.bring_up = bring_up_of(own, controller, start.feet)
     return RobotController(own, legs, controller, names, settings.period, stance, place, motion)

@@ -57,6 +57,7 @@ def test_a_clock_that_did_not_begin_with_the_walk_changes_nothing():
     targets = []
     for began in (0.0, 86_400.0):
         walker = load_controller("h1", {"walk": {"steps": 2, "settle": 0.2}})
+        walker.count_as_checked()
         for tick in range(120):
             sensors = resting(walker, began + tick * walker.period)
             targets.append(walker.joint_targets(walker.step(sensors)).angles)
@@ -67,6 +68,7 @@ def test_a_clock_that_did_not_begin_with_the_walk_changes_nothing():
 @pytest.mark.parametrize("wrong", [np.degrees, lambda angles: angles * np.nan, lambda angles: angles[:-1]])
 def test_sensors_that_never_make_sense_are_waited_for_and_named(wrong):
     walker = load_controller("h1", {"walk": {"steps": 2}})
+    walker.count_as_checked()
     for tick in range(30):
         sensors = resting(walker, tick * walker.period)
         walker.controller.step(sensors.changed(joint_positions=wrong(sensors.joint_positions)))
@@ -97,7 +99,18 @@ def test_first_sensors_that_cannot_be_right_are_named(name, wrong, words):
             walker.step(sensors.changed(**{name: wrong(getattr(sensors, name))}))
     walker.step(sensors)
     walker.step(sensors.changed(**{name: wrong(getattr(sensors, name))}))  # from now on the shell bridges it
-    assert walker.controller.safe_state is None
+    assert walker.state == "bring-up"
+
+
+def test_no_step_is_taken_before_bring_up_has_passed():
+    walker = load_controller("h1", {"walk": {"steps": 2}})
+    commands = [walker.step(resting(walker, tick * walker.period)) for tick in range(1700)]
+    assert walker.state == "refused"  # by sensors that never move
+    assert "gyro silent" in [finding.cause for finding in walker.findings]
+    places = np.array([[command.feet[side].position for side in SIDES] for command in commands])
+    assert np.ptp(places, axis=0).max() == 0.0
+    assert np.ptp([command.com for command in commands], axis=0).max() < 0.02
+    assert walker.end == pytest.approx(walker.controller.end + 5.95)
 
 
 def test_targets_are_the_callers_own(walker):

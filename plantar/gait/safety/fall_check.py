@@ -15,6 +15,7 @@ _PULLED = 0.6  # cosine by the mean specific force of 0.2 s, which has to agree 
 _LOW = 0.5  # share of its height below which the CoM of a robot that stands never is
 _OFF = 0.1  # weight: soles with less have left the ground
 _OFF_FOR = 0.3  # s: longer, no walking robot is in the air
+_ANGLE = 3.2  # rad: beyond, and in degrees, an angle shows nothing
 _FROZEN = 0.12  # s for which a sensor that works may report the same bits
 
 
@@ -78,7 +79,7 @@ class FallCheck:
     def _is_low(self, sensors: Sensors) -> bool:
         """Whether the legs have folded under the body."""
         joints = getattr(sensors, "joint_positions", None)
-        if self._posture is None or not isinstance(joints, np.ndarray) or not np.isfinite(joints).all():
+        if self._posture is None or not isinstance(joints, np.ndarray) or not (np.abs(joints) < _ANGLE).all():
             return False
         posture = self._posture(joints)
         height = max(float(posture.com[2] - posture.positions[side][2]) for side in SIDES)

@@ -13,6 +13,7 @@ from plantar.common.sides import Side, other_side
 from plantar.gait.command import Command, Sensors
 from plantar.gait.estimate.estimator import Posture
 from plantar.gait.plan.phases import PhaseKind
+from plantar.gait.safety.bring_up.bring_up import BringUp
 from plantar.gait.safety.fall_check import FallCheck
 from plantar.gait.safety.safe_stop import SafeStop
 from plantar.gait.safety.target_limits import TargetLimits
@@ -44,8 +45,10 @@ Readings = Mapping[Side, Reading]
 class SafetyShell:
     """Guards a controller's tick.
 
-    Attributes `state`: "fallen", "limp", "blind" (these stay, but that a blind robot falls or goes limp), "late" (ends
-    with the first usable time), "waiting" (ends with the first usable reading), or None.
+    Attributes `state`: "bring-up", "refused" (bring-up found something wrong: it stands), "fallen", "limp", "blind"
+    (these stay, but that a blind robot falls or goes limp), "late" (ends with the first usable time), "waiting" (ends
+    with the first usable reading), or None. `bring_up` has to pass before the first tick of the walk, whose time then
+    counts from 0; None skips it.
 
     Args:
         start: Command before the first sound reading.
@@ -98,6 +101,7 @@ class SafetyShell:
         self._empty = 0
         self._unknown = 0
         self._carried = False
+        self.bring_up: BringUp | None = None
         self.state: str | None = None
         self.errors = 0
         self.error = ""
@@ -124,7 +128,10 @@ class SafetyShell:
     def _stepped(self, sensors: Sensors, time: float) -> Command:
         if self.state in ("fallen", "limp"):
             return self._held()
-        if self._fall.is_down(sensors) or self._is_fallen():
+        down = self._fall.is_down(sensors)
+        if self.bring_up is not None and not self.bring_up.passed:
+            return self._checked(self.bring_up, sensors)
+        if down or self._is_fallen():
             self.state = "fallen"
             return self._held()
         if self.state == "blind":
@@ -146,13 +153,26 @@ class SafetyShell:
             sensors = sensors.changed(time=time, readings=readings)
         return self._commanded(sensors)
 
+    def _checked(self, bring_up: BringUp, sensors: Sensors) -> Command:
+        """A tick of bring-up, whose own look at the IMU counts until it is known to be wired right."""
+        command = bring_up.step(sensors)
+        if bring_up.fell:
+            self.state = "fallen"
+            return self._held()
+        self.state = "refused" if bring_up.ended else "bring-up"
+        if bring_up.passed:
+            self.state = None
+            self._clock = TickClock(self._period, 0.0)
+        return command
+
     def _commanded(self, sensors: Sensors) -> Command:
         command = self._tick(sensors)
         self._sound = sensors
         self._silent = 0
         if not self._begun:
             self._begun = True
-            return command
+            if self.bring_up is None:
+                return command
         if self._is_contradicted(command, sensors.readings):
             self.state = "blind"
             return self._held()

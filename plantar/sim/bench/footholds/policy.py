@@ -63,6 +63,7 @@ class OwnController(Policy):
 
     def __init__(self, task: WalkTask) -> None:
         self._walker: RobotController = load_controller(task.robot, {"walk": task.walk})
+        self._walker.count_as_checked()
 
     def step(self, sensors: Sensors) -> Action:
         command = self._walker.step(sensors)

@@ -1,0 +1,1 @@
+"""Checks of a robot that stands, leans and unloads each foot, before its first step."""
