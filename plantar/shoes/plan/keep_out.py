@@ -1,11 +1,12 @@
 """Ways of other robot links, and whether straps, lugs or clips block them. In mm.
 
-Without a robot model a shank is assumed on the block on top of the foot, or on the ankle at the origin, leaning by 20
-degrees every way.
+Without a robot model a shank is assumed about the ankle at the origin, from the sole upwards, and on the block on top of
+the foot, leaning by 20 degrees every way.
 """
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import shapely
@@ -16,6 +17,7 @@ from plantar.shoes.foot.foot import Foot
 from plantar.shoes.geometry.surface import convex_outline, surface_points
 
 _SPACING = 2.0  # mm between points on the foot
+_GRID = 4.0  # mm between points of a shank that is not known
 _ROOM = 2.0  # mm between a link and what is printed or strapped
 _SHANK = 0.1  # of the foot's length: radius of a shank that is not known
 # of length and height: what is shorter on top of a foot is what its shank stands on
@@ -82,17 +84,23 @@ def keep_out(foot: Foot) -> KeepOut:
     low, _, high, _ = foot.sole.bounds
     length = high - low
     top = min(foot.height, 60.0)
-    shank = shapely.Point(0.0, 0.0).buffer(_SHANK * length)
+    ankle = shapely.Point(0.0, 0.0).buffer(_SHANK * length)
+    shank = ankle
     if surface is not None and foot.height > _THIN * length:
         upper = surface[surface[:, 2] > (1.0 - _UPPER) * foot.height, :2]
         block = convex_outline(upper)
         if np.ptp(upper[:, 0]) < _BLOCK * length and block.geom_type == "Polygon":
             shank = block
-    grid = []
-    for height in np.arange(0.0, _TALL, 4.0).tolist():
-        outline = shank.buffer(height * _LEANS)
-        x, y = (np.arange(outline.bounds[i], outline.bounds[i + 2] + 4.0, 4.0) for i in (0, 1))
-        xy = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-        kept = xy[shapely.contains_xy(outline, xy[:, 0], xy[:, 1])]
-        grid.append(np.column_stack([kept, np.full(len(kept), top + height)]))
+    # A link may reach down beside the foot's own ankle: what is above the sole there is not taken to be free.
+    grid = [_points_in(ankle, height) for height in np.arange(0.0, top, _GRID).tolist()]
+    leaning = np.arange(0.0, _TALL, _GRID).tolist()
+    grid += [_points_in(shank.buffer(height * _LEANS), top + height) for height in leaning]
     return KeepOut(np.concatenate(grid), surface, False)
+
+
+def _points_in(outline: Any, height: float) -> Array:
+    """Points (n, 3) on a grid in a shapely outline, at a height."""
+    x, y = (np.arange(outline.bounds[i], outline.bounds[i + 2] + _GRID, _GRID) for i in (0, 1))
+    xy = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    kept = xy[shapely.contains_xy(outline, xy[:, 0], xy[:, 1])]
+    return np.column_stack([kept, np.full(len(kept), height)])

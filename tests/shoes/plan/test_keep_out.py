@@ -43,6 +43,18 @@ def test_straps_are_where_links_leave_room(links):
         assert not (near[:, 2] < 40.0).any()  # by hand: none of the shank over the strap's width
 
 
+def test_a_strap_keeps_off_the_ankle_of_a_foot_without_a_model():
+    """A flat plate, whose ankle lies where the rear strap would: its links would come down to the plate there."""
+    plate = prism(np.array([[-80, -45], [150, -45], [150, 45], [-80, 45]], dtype=float), 0.0, 25.0)
+    rear = 35.0 - 0.2 * 230.0
+    foot = foot_from_triangles("a", plate - np.array([rear, 0.0, 0.0]), where="a", up="z", forward="x")
+    plan = build_shoe(foot, side="left", layout_only=True).shoes[0].plan
+    held = choose_retention(foot, plan, STRAPS)
+    assert held.straps == 2
+    for place in held.places:
+        assert abs(place.x) > 0.5 * held.width + 0.1 * 230.0 - 4.0  # the grid of the shank's points
+
+
 @pytest.mark.parametrize("turn", [7, 16, 36])
 def test_the_upper_end_of_a_tilted_plate_is_no_shank(turn):
     plate = turned(FAMILY["plate"](), *small_turns("plate")[turn])
