@@ -18,7 +18,8 @@ from plantar.errors import PlantarError
 
 _CODE = "from plantar.common.files.confined import _called_on_file; _called_on_file()"
 _LARGEST_FILE = 1_000_000_000  # bytes that the process may write of a temporary file
-_STARTING = 10.0  # s that starting the process may take on a busy machine
+_WAITED = 20.0  # times the processor time that is allowed: a busy machine gives a process a small share of it
+_STARTING = 60.0  # s that starting the process may take on a busy machine
 
 
 def confined(
@@ -27,7 +28,8 @@ def confined(
     """Returns arrays of a `function`, "package.module:name", called on `path` in a separate process.
 
     It takes the path and returns arrays by name. Raises `error` if it raises, crashes or passes a limit: `memory` in
-    bytes, processor time `seconds` (as much again to wait); `what` is the expected file, such as "a C3D file".
+    bytes, processor time `seconds`; what takes none is waited for a multiple of that, however busy the machine; `what`
+    is the expected file, such as "a C3D file".
 
     Example:
         >>> confined("os.path:getsize", "none", PlantarError, "a file", memory=1e9, seconds=10.0)
@@ -43,7 +45,7 @@ def confined(
                 capture_output=True,
                 stdin=subprocess.DEVNULL,
                 env=_environment(folder),
-                timeout=2.0 * seconds + _STARTING,
+                timeout=_WAITED * seconds + _STARTING,
                 check=False,
             )
         except subprocess.TimeoutExpired:

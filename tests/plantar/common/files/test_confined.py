@@ -78,6 +78,7 @@ def test_what_never_ends_is_ended(library, name, tmp_path, monkeypatch):
     monkeypatch.setattr("plantar.common.files.confined._LARGEST_FILE", 50_000_000)
     if name == "waits":  # nothing but the end of the time ends it
         monkeypatch.setattr("plantar.common.files.confined._STARTING", 1.0)
+        monkeypatch.setattr("plantar.common.files.confined._WAITED", 2.0)
     start = time.monotonic()
     with pytest.raises(FormatError, match=r"it takes longer than 1 s|Errno 27|SIGXFSZ"):
         call(name, library, seconds=1.0)
