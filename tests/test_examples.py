@@ -80,6 +80,9 @@ QUICK = {
     "shoe_from_any_foot": Example(
         r"a box: .* (\d+) whole.*an ellipse: .* (\d+) whole.*h1: .* (\d+) whole", holds=lambda *n: min(n) > 20
     ),
+    "shoe_in_cadquery": Example(
+        r"(\S+) cm\^3, valid: True, the hole takes (\d+) mm", holds=lambda volume, taken: volume > 50 and taken > 10
+    ),
     "shoe_from_files": Example(
         r"svg: .* (\d+) cm.*dxf: .* (\d+) cm.*geojson: .* (\d+) cm.*robot.xml: .* (\d+) cm",
         holds=lambda *area: area == (176, 176, 176, 176),

@@ -1,13 +1,16 @@
 """A foot's pair of shoes or insoles: fit, plan and solid in one call."""
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Literal
+from pathlib import Path
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.gravity import GRAVITY
+from plantar.common.optional_library import optional_library
 from plantar.common.sides import SIDES
 from plantar.errors import FootError, InputError
 from plantar.layouts.layout import Side, SoleLayout
@@ -16,7 +19,9 @@ from plantar.shoes.fit.cell_fit import fit_cells
 from plantar.shoes.fit.fine_rim import BLIND_MOST, fit_fine_rim
 from plantar.shoes.fit.taxels import TaxelFit, fit_taxels
 from plantar.shoes.foot.foot import Foot
+from plantar.shoes.foot.source import read_foot
 from plantar.shoes.geometry.outline import CORNER
+from plantar.shoes.order import FootSource
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import Block, Step, mirrored_step
 from plantar.shoes.plan.cell_room import cell_parameters, led_parameters
@@ -29,6 +34,7 @@ from plantar.shoes.solid.body import bare_floor, insole_steps, mark_outline, sho
 from plantar.shoes.solid.kernel import build_solid, load_kernel
 from plantar.shoes.solid.polyhedron import Polyhedron
 from plantar.shoes.solid.retention import Retention, choose_retention
+from plantar.shoes.solid.step_model import StepPart
 from plantar.shoes.units import to_m
 
 Sides = Literal["left", "right", "both"]  # which shoes to build
@@ -59,6 +65,19 @@ class Shoe:
     @property
     def layout(self) -> SoleLayout:
         return self.plan.layout
+
+    @property
+    def workplane(self) -> Any:
+        """The printed solid as a `cadquery.Workplane`, in mm in the sole frame, to be changed and exported there.
+
+        InputError for layouts alone.
+        """
+        if self.solid is None:
+            raise InputError(f"the {self.side} shoe has no solid; build it without layout_only")
+        with optional_library("cadquery", "shoes"):
+            import cadquery
+        shape = cadquery.Shape.cast(StepPart(self.layout.name, self.solid, {}).shape)
+        return cadquery.Workplane("XY").newObject([shape])
 
 
 @dataclass(frozen=True)
@@ -96,7 +115,7 @@ def _blind_note(plan: ShoePlan, fit: TaxelFit) -> tuple[str, ...]:
 
 
 def build_shoe(
-    foot: Foot,
+    foot: Foot | str | os.PathLike[str],
     *,
     side: Sides = "both",
     cell_area: float = 691.0,
@@ -112,7 +131,7 @@ def build_shoe(
     """Fit taxels to a foot's sole and build the shoe around both.
 
     Args:
-        foot: Left foot.
+        foot: Left foot, or a file of one as `plantar shoe` takes it: mesh or drawing.
         side: "left", "right" or "both"; right mirrors left.
         cell_area: Taxel in mm^2.
         taxels: Their number; None takes as many whole cells as fit.
@@ -138,6 +157,7 @@ def build_shoe(
         >>> [(shoe.side, len(shoe.layout)) for shoe in build.shoes]
         [('left', 21), ('right', 21)]
     """
+    foot = _read(foot, parameters)
     sides = _sides_of(side, rim)
     if parameters is not None and parameters.material == "TPU":
         raise InputError("a shoe of TPU would bend under the robot; allowed: PA12, PETG, PLA (TPU is for insoles)")
@@ -170,6 +190,15 @@ def build_shoe(
     retention = choose_retention(foot, left, p)
     shoes = _built_sides(foot, left, shoe_steps(foot, left, retention, p), p, sides, report)
     return ShoeBuild(foot, fit, p, shoes, share, retention, (*notes, retention.note), touching=touching)
+
+
+def _read(foot: Foot | str | os.PathLike[str], parameters: ShoeParameters | None) -> Foot:
+    """A foot as it is, or read from its file."""
+    if isinstance(foot, Foot):
+        return foot
+    if not isinstance(foot, str | os.PathLike):
+        raise InputError(f"foot is a {type(foot).__name__}; allowed: a Foot, or the path of a mesh or drawing")
+    return read_foot(FootSource(file=Path(foot)), sole_band=(parameters or ShoeParameters()).sole_band)[0]
 
 
 def _fitted(
@@ -291,7 +320,7 @@ _NOTE = "an insole of {:g} mm lies in the wearer's shoe, below the foot; nothing
 
 
 def build_insole(
-    foot: Foot,
+    foot: Foot | str | os.PathLike[str],
     thickness: float,
     *,
     side: Sides = "both",
@@ -316,7 +345,7 @@ def build_insole(
         ('insole', 6.0, 0.95)
     """
     sides = _sides_of(side, rim)
-    foot = insole_foot(foot)
+    foot = insole_foot(_read(foot, parameters))
     report = progress or (lambda fraction, text: None)
     p, of_cell = cell_parameters(cell, parameters or ShoeParameters())
     p, notes = insole_parameters(foot, thickness, p)

@@ -82,6 +82,32 @@ def test_progress_rises_to_one(small_foot):
     assert all(text for _, text in seen)
 
 
+def test_a_shoe_is_built_from_a_file_as_from_its_foot(stl, box):
+    path = stl(box((-60, 140), (-45, 45), (0, 40)), "left_foot.stl")
+    build = build_shoe(path, layout_only=True)
+    assert build.foot.name == "left_foot"
+    np.testing.assert_array_equal(
+        build.shoes[0].layout.positions,
+        build_shoe(foot_from_mesh(str(path)), layout_only=True).shoes[0].layout.positions,
+    )
+    assert len(build_insole(str(path), 6.0, layout_only=True).shoes[0].layout) > 10
+    with pytest.raises(InputError, match="foot is a int; allowed: a Foot, or the path"):
+        build_shoe(3)
+    with pytest.raises(FootError, match=r"none\.stl"):
+        build_shoe("none.stl")
+
+
+def test_a_shoes_solid_is_a_workplane_of_cadquery(exported):
+    shoe = exported[0].build.shoes[0]
+    solid = shoe.workplane.val()
+    assert solid.isValid()
+    assert solid.Volume() == pytest.approx(shoe.solid.volume, rel=2e-3)
+    half = shoe.workplane.cut(type(shoe.workplane)("XY").box(1e3, 1e3, 1e3).translate((500.0, 0.0, 0.0)))
+    assert 0.2 * solid.Volume() < half.val().Volume() < 0.8 * solid.Volume()
+    with pytest.raises(InputError, match="no solid; build it without layout_only"):
+        replace(shoe, solid=None).workplane  # noqa: B018
+
+
 def test_a_layout_needs_no_cad_kernel():
     code = (
         "import sys; from plantar.shoes import build_shoe, foot_from_dimensions;"

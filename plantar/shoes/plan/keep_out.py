@@ -1,7 +1,7 @@
 """Ways of other robot links, and whether straps, lugs or clips block them. In mm.
 
-Without a robot model a shank is assumed about the ankle at the origin, from the sole upwards, and on the block on top of
-the foot, leaning by 20 degrees every way.
+Without a robot model a shank is assumed about the ankle at the origin, from the sole upwards, and on the block on top
+of the foot, leaning by 20 degrees every way.
 """
 
 import math
