@@ -21,7 +21,7 @@ help:
 	@echo "make demo      build the H1 shoe, walk on plantar feedback, analyse the recording (into $(OUT)/)"
 	@echo "make test      run the tests, without the long ones"
 	@echo "make test-all  run every test"
-	@echo "make bench     measure run time against error, and show it on a page (into $(OUT)/bench/); BENCH_OPTIONS=--quick"
+	@echo "make bench     measure run time against error (into $(OUT)/bench/); BENCH_OPTIONS=--quick"
 	@echo "make docs      build the site (into $(OUT)/site/), and open every page of it in Chromium"
 	@echo "make pictures  draw the pictures of README and docs again (into docs/images/)"
 	@echo "make lint      ruff, mypy and the layering test"

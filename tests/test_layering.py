@@ -72,7 +72,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     ),
     "plantar.sim": (
         *("libraries", "papers", "terrain", "plant", "model", "judging", "sensing", "body_skin"),
-        *("contact_models", "figures", "loop", "companion", "arms", "partner", "run", "environments"),
+        *("figures", "loop", "companion", "arms", "partner", "run", "environments"),
         *("bench", "survey", "sweep"),
     ),
     "plantar.shoes": (

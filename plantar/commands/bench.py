@@ -9,10 +9,7 @@ from plantar.common.console.command import Command, Json, Output, end_command
 
 
 def bench(
-    what: Annotated[str, Argument(help="kernels, contact, scenes, skip, stress, footholds or all.")] = "",
-    layout: Annotated[
-        Path | None, Option(help="contact: layout file of the sole. Default: 250 x 155 mm with taxels of 691 mm^2.")
-    ] = None,
+    what: Annotated[str, Argument(help="kernels, scenes, skip, stress, footholds or all.")] = "",
     scenarios: Annotated[int, Option(help="stress: how many scenarios.")] = 10_000,
     first: Annotated[int, Option(min=0, help="stress: number of the first one.")] = 0,
     scene: Annotated[
@@ -37,9 +34,6 @@ def bench(
     kernels: perception next to scipy, shapely, cv2 and approximations, with errors against exact references; under 2
     minutes.
 
-    contact: ways to simulate a sole's contact and its taxels, against MuJoCo's exact contact wrench. Exit code 1 if the
-    chosen model is off by more than 2 mm in the centre of pressure or 1 mm in the tip-over edge.
-
     scenes: short walks over the settings that trade run time against error (physics step, contact, solver, skin and
     control rate, taxel size), next to a fine reference of the same walk: half an hour; --quick 3 minutes.
     scene_runs.csv goes on where it was left.
@@ -54,8 +48,7 @@ def bench(
     footholds: the built-in controller or your own policy on narrow and uneven ground and under pushes; a second or two
     a run. footholds.csv goes on where it was left; another policy adds its rows.
 
-    all: kernels, contact, skip, quick scenes on flat ground and the papers' experiments, shown by bench.html; about 12
-    minutes of one core, --quick 4.
+    all: kernels and skip; about 8 minutes of one core, --quick 2.
 
     Example: plantar bench all -o out/bench
 
@@ -68,8 +61,8 @@ def bench(
     from plantar.sim.bench.kinds import BenchOptions, measure
 
     walks = tuple(scene or ()), tuple(robot or ())
-    done = measure(what, BenchOptions(layout, scenarios, first, *walks, quick, policy, seeds), output)
+    done = measure(what, BenchOptions(scenarios, first, *walks, quick, policy, seeds), output)
     end_command(done.result, as_json, done.text, done.failures, bool(done.failures))
 
 
-COMMAND = Command(bench, "Measure run time against error, and show it on a page.", 90)
+COMMAND = Command(bench, "Measure run time against error.", 90)

@@ -19,12 +19,16 @@ from plantar.sim.libraries import LIBRARIES
 class BenchOptions:
     """Options; `measure` refuses those that a kind does not take.
 
-    `layout`: layout file of sole, or None; `scenarios`: number of scenarios of whole loop; `scene`: walks to run; all
-    where empty; `robot`: robots for them; all where empty; `quick`: run the most informative cases, once; `policy`:
-    Python file, or None for built-in controller.
+    Attributes:
+        scenarios: Number of scenarios of whole loop.
+        first: Number of the first one.
+        scene: Walks to run; all where empty.
+        robot: Robots for them; all where empty.
+        quick: Run the most informative cases, once.
+        policy: Python file, or None for built-in controller.
+        seeds: Runs of each trial.
     """
 
-    layout: Path | None = None
     scenarios: int = 10_000
     first: int = 0
     scene: tuple[str, ...] = ()
@@ -70,7 +74,6 @@ def _check(what: str, options: BenchOptions) -> None:
 
 
 _TAKEN_BY: Mapping[str, tuple[str, ...]] = {
-    "layout": ("contact", "all"),
     "scenarios": ("stress",),
     "first": ("stress",),
     "scene": ("scenes", "footholds"),
@@ -118,14 +121,6 @@ def _kernels(folder: Path, options: BenchOptions, progress: Progress) -> Measure
     return Measured(result, kernel_text(result))
 
 
-def _contact(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
-    from plantar.sim.contact_models.report import contact_text, measure_contact
-
-    result = measure_contact(folder, options.layout, progress)
-    failed = () if result["holds"] else ("the chosen contact model is not as right as it must be",)
-    return Measured(result, contact_text(result), failed)
-
-
 def _skip(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
     from plantar.sim.bench.skipping import SCENES, measure_skipping, skip_text
 
@@ -138,28 +133,21 @@ def _skip(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
 # Kinds that write all their files at their end, in the order of `all`
 _PARTS: Mapping[str, Callable[[Path, BenchOptions, Progress], Measured]] = {
     "kernels": _kernels,
-    "contact": _contact,
     "skip": _skip,
 }
 
 
 def _measure_parts(what: str, options: BenchOptions, output: Path, progress: Progress) -> Measured:
     names = tuple(_PARTS) if what == "all" else (what,)
-    count = len(names) + (2 if what == "all" else 0)
-    shares = [part_of(progress, i / count, 1 / count) for i in range(count)]
     result: dict[str, Any] = {}
     texts: list[str] = []
     failures: list[str] = []
     with output_folder(output) as folder:
-        for name, share in zip(names, shares, strict=False):
-            measured = _PARTS[name](folder, options, share)
+        for i, name in enumerate(names):
+            measured = _PARTS[name](folder, options, part_of(progress, i / len(names), 1 / len(names)))
             result[name] = measured.result
             texts.append(measured.text)
             failures += measured.failures
-        if what == "all":
-            from plantar.sim.bench.page.measure_page import measure_page
-
-            result |= measure_page(folder, output, (shares[-2], shares[-1]), result, options.quick)
         files = [str(output / name) for part in result.values() for name in part.pop("files")]
         result["files"] = [*files, str(output / "bench.json")]
         write_text(folder / "bench.json", json.dumps(result, indent=1) + "\n")

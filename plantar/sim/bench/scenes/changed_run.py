@@ -5,19 +5,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.sides import SIDES, Side
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.tiling import hex_layout
-from plantar.mujoco.quaternions import rotation_of
 from plantar.robots.kinematics.robot_model import Visitor
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
 from plantar.sim.bench.scenes.scene_setting import SceneSetting
-from plantar.sim.contact_models.sole_mjcf import SPHERE_RADIUS, support_points
 from plantar.sim.model.contact_truth import ContactReader, ground_truth
 from plantar.sim.model.world import World
 from plantar.sim.run.runner import Simulation
@@ -29,34 +26,6 @@ SAMPLE = 0.01
 _FORCES_EVERY = 0.001  # s between two looks at the contact forces that such a mean is made of
 _CARRIED = 0.01  # of the weight: below it there is no ZMP
 _SILENT = ("force", "proximity", "encoder", "gyro", "accelerometer")
-
-
-class _SpheresBelow:
-    def __init__(self, robot: Robot, count: int) -> None:
-        self._robot = robot
-        self._count = count
-
-    def names(self, side: Side) -> list[str]:
-        return [f"{side}_point_{i}" for i in range(self._count * len(self._robot.layouts[side]))]
-
-    def add_to(self, spec: Any) -> None:
-        for side in SIDES:
-            box = spec.geom(f"{side}_sole_box")
-            layout = self._robot.layouts[side]
-            site = spec.site(self._robot.legs[side].sole_site)
-            rotation = rotation_of(site.quat)
-            points = np.concatenate([support_points(layout.cell_polygon(i), self._count) for i in range(len(layout))])
-            for name, (x, y) in zip(self.names(side), points.tolist(), strict=True):
-                box.parent.add_geom(
-                    name=name,
-                    type=mujoco.mjtGeom.mjGEOM_SPHERE,
-                    size=[SPHERE_RADIUS, 0.0, 0.0],
-                    pos=np.asarray(site.pos) + rotation @ (x, y, SPHERE_RADIUS),
-                    mass=0.0,
-                    **{k: getattr(box, k) for k in ("group", "contype", "conaffinity", "condim", "friction")},
-                )
-            box.contype = 0
-            box.conaffinity = 0
 
 
 class ChangedRun(Simulation):
@@ -76,19 +45,9 @@ class ChangedRun(Simulation):
             self.world.model.opt.iterations = setting.iterations
 
     def build_world(self, others: Sequence[Visitor]) -> World:
-        setting = self._setting
-        spheres = _SpheresBelow(self.robot, setting.points) if setting.points else None
-        world = super().build_world(others if spheres is None else (*others, spheres))
+        world = super().build_world(others)
         model = world.model
-        if spheres is not None:
-            soles = {side: tuple(model.geom(name).id for name in spheres.names(side)) for side in SIDES}
-            for side in SIDES:
-                box = world.sole_geoms[side][0]
-                ids = list(soles[side])
-                model.geom_solref[ids] = model.geom_solref[box]
-                model.geom_solimp[ids] = model.geom_solimp[box]
-                model.geom_gap[ids] = model.geom_gap[box]
-            world = replace(world, sole_geoms=soles)
+        setting = self._setting
         if setting.contact_time is not None:
             own = model.geom_solref[world.sole_geoms["left"][0], 0]
             model.geom_solref[model.geom_solref[:, 0] == own, 0] = setting.contact_time

@@ -111,18 +111,14 @@ class _Job(NamedTuple):
 def _jobs(case: SceneCase, settings: Sequence[SceneSetting], seeds: Sequence[int], traced: int) -> Iterator[_Job]:
     references = list(dict.fromkeys(s.against for s in settings))
     for seed in seeds[:traced]:
-        for setting in _of_seed(settings, seed == seeds[0]):
+        for setting in settings:
             own = [setting.name] if setting.name in references else [setting.against]
             for against in references if setting is OWN else own:
                 yield _Job(case, setting, against, "traced", seed)
         yield _Job(case, OWN, OWN.name, "noise", seed)
     for seed in seeds:
-        for setting in _of_seed(settings, seed == seeds[0]):
+        for setting in settings:
             yield _Job(case, setting, "", "seeded", seed)
-
-
-def _of_seed(settings: Sequence[SceneSetting], first: bool) -> list[SceneSetting]:
-    return [s for s in settings if first or not s.costly]
 
 
 def _costs(run: ChangedRun) -> dict[str, Any]:

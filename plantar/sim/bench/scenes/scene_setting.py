@@ -14,10 +14,9 @@ class SceneSetting:
         settings: Of the scene, as `key=value`.
         contact_time: Time constant in s of contacts, or None.
         iterations: Most iterations of MuJoCo's solver, or None.
-        points: Spheres a taxel under each sole; 0 for its box.
         cell_ratio: Area of taxels over the robot's own.
         machine: Whether it is another robot (its skin, its clock).
-        costly: Whether only the first seed runs.
+        quick: Whether quick runs have it.
     """
 
     knob: str
@@ -25,12 +24,10 @@ class SceneSetting:
     settings: tuple[str, ...] = ()
     contact_time: float | None = None
     iterations: int | None = None
-    points: int = 0
     cell_ratio: float = 1.0
     against: str = "reference"
     machine: bool = False
     quick: bool = False
-    costly: bool = False
 
     @property
     def name(self) -> str:
@@ -72,8 +69,6 @@ SETTINGS: tuple[SceneSetting, ...] = (
     SceneSetting("solver iterations", "1", iterations=1, quick=True),
     SceneSetting("solver iterations", "2", iterations=2),
     SceneSetting("solver iterations", "5", iterations=5),
-    SceneSetting("contact points", "1 a taxel", points=1, quick=True),
-    SceneSetting("contact points", "3 a taxel", points=3, costly=True),
     SceneSetting("coarse", "1.67 ms, 2 iterations", _step(0.005 / 3, held=True).settings, CONTACT_TIME, 2, quick=True),
     *(
         _machine("skin rate", f"{rate} Hz", "1000 Hz", f"sensing.skin_rate={rate}", quick=rate in (1000, 125))

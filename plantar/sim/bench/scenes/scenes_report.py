@@ -101,7 +101,7 @@ program that ran them. Each row changes one setting and runs the same walk.
 - **Time**: processor time of a simulated second over that of the scene as it is, with the same seed. - **Error**:
 root mean square of the difference from a reference with the same seed, both without sensor noise, until the   centers
 of mass are a sixtieth of the leg apart; "together" is the share of the walk until then. - *Physics step, contact
-time, solver iterations, contact points* compute the same robot in another way; the reference   takes steps of 0.1 ms
+time, solver iterations* compute the same robot in another way; the reference   takes steps of 0.1 ms
 with up to 100 iterations. *Skin rate, control rate, taxel area and model* are another robot, and   are compared with
 their own finest value. - *Sensor noise* is how far the scene's own noise moves the walk. Errors below it do not
 matter.

@@ -1,22 +1,18 @@
 """Contact models on the test rig, and the report of the comparison."""
 
 import csv
-import json
 import math
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from contact_comparison import PLANE, Rig, compare_contact_models, full_stance, tip_over
+from contact_models import holds, write_contact_report
+from contact_parameters import study_contact_parameters
+from contact_soles import CANDIDATES, Candidate, build_sole
 
-from plantar import InputError, cli, hex_layout
+from plantar import InputError, hex_layout
 from plantar.layouts.hex_lattice import HexLattice
-from plantar.sim.contact_models.comparison import PLANE, Rig, compare_contact_models, full_stance, tip_over
-from plantar.sim.contact_models.parameters import study_contact_parameters
-from plantar.sim.contact_models.report import holds, write_contact_report
-from plantar.sim.contact_models.sole import build_sole
-from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Candidate
 
 OUTLINE = [[-0.125, -0.0775], [0.125, -0.0775], [0.125, 0.0775], [-0.125, 0.0775]]
 LAYOUT = hex_layout(OUTLINE)
@@ -115,20 +111,3 @@ def test_report_reads_back(rows, tmp_path):
     by = {p.name: p for p in parameters}
     assert by["recommended"].slip_mm_s < 0.1 * by["MuJoCo's defaults"].slip_mm_s
     assert by["recommended"].penetration_mm < by["solref 0.02"].penetration_mm
-
-
-def test_command_refuses_what_it_does_not_know(tmp_path):
-    result = CliRunner().invoke(cli.app, ["bench", "speed", "-o", str(tmp_path / "out")])
-    assert isinstance(result.exception, InputError)
-    assert "allowed: kernels, contact, skip, scenes, stress, footholds, all" in str(result.exception)
-    assert not (tmp_path / "out").exists()
-
-
-@pytest.mark.long
-def test_command_writes_one_json_object_and_its_files(tmp_path):
-    result = CliRunner().invoke(cli.app, ["bench", "contact", "-o", str(tmp_path / "out"), "--json"])
-    assert result.exit_code == 0
-    summary = json.loads(result.stdout)
-    assert summary["contact"]["holds"] is True
-    assert len(summary["contact"]["models"]) == len(CANDIDATES)
-    assert all(Path(name).is_file() for name in summary["files"])

@@ -8,12 +8,11 @@ from typing import Any
 
 import mujoco
 import numpy as np
+from contact_comparison import PLANE, Rig
+from contact_soles import CANDIDATES, MASS, Contact, bounding_rectangle, build_sole
 
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
-from plantar.sim.contact_models.comparison import PLANE, Rig
-from plantar.sim.contact_models.sole import MASS, build_sole
-from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Contact, bounding_rectangle
 from plantar.sim.model.contact_truth import contact_wrench_in_world, foot_contacts
 
 _SOFT = (0.9, 0.95, 0.001, 0.5, 2.0)

@@ -11,14 +11,13 @@ from typing import Any
 
 import mujoco
 import numpy as np
+from contact_soles import CANDIDATES, MASS, Candidate, Sole, bounding_rectangle, build_sole
 from numpy.typing import NDArray
 
 from plantar.geometry.polygon import area, convex_hull
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
 from plantar.sensing.force import center_of_pressure
-from plantar.sim.contact_models.sole import MASS, Sole, build_sole
-from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Candidate, bounding_rectangle
 from plantar.sim.model.contact_truth import contact_wrench_in_frame, foot_contacts, support_polygon_of_contacts
 
 PLANE = '<geom name="ground" type="plane" size="2 2 0.1" {contact}/>'  # the ground

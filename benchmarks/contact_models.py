@@ -1,9 +1,19 @@
-"""The comparison of contact models as text, page, tables and figure."""
+"""Ways to simulate a sole's contact and its taxels: `python benchmarks/contact_models.py [LAYOUT] [-o DIR]`.
 
+Writes contact_models.md, contact_models.png, contact.csv and contact_parameters.csv. Exit code 1 if the chosen model is
+off by more than 2 mm in the centre of pressure or 1 mm in the tip-over edge.
+"""
+
+import argparse
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
+
+from contact_comparison import INNER, ContactRow, compare_contact_models
+from contact_parameters import ParameterRow, study_contact_parameters
+from contact_soles import CANDIDATES, MASS, Contact
 
 from plantar.bench.tables import Mark, draw_errors, made_on, markdown_table, plain_row, write_rows
 from plantar.common.atomic import write_text
@@ -12,10 +22,6 @@ from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import read_layout
 from plantar.layouts.tiling import hex_layout
 from plantar.plotting import COLOURS, new_figure, save_figure
-from plantar.sim.contact_models.comparison import INNER, ContactRow, compare_contact_models
-from plantar.sim.contact_models.parameters import ParameterRow, study_contact_parameters
-from plantar.sim.contact_models.sole import MASS
-from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Contact
 
 COP_LIMIT_MM = 2.0
 EDGE_LIMIT_MM = 1.0
@@ -85,10 +91,10 @@ _HEAD = """# Contact models of a sole
 
 ![Error against run time](contact_models.png)
 
-`plantar bench contact -o DIR` writes this page ({made}). A free body of {mass:g} kg on one sole of {length:.0f} x
-{width:.0f} mm with {taxels} taxels is pushed with known wrenches; the truth is MuJoCo's own contact wrench of the
-same step. Chosen: **{chosen}**, which {holds}: largest error of the centre of pressure under {cop:g} mm, tip-over
-edge within {edge:g} mm of the true one.
+`python benchmarks/contact_models.py` writes this page ({made}). A free body of {mass:g} kg on one sole of
+{length:.0f} x {width:.0f} mm with {taxels} taxels is pushed with known wrenches; the truth is MuJoCo's own contact
+wrench of the same step. Chosen: **{chosen}**, which {holds}: largest error of the centre of pressure
+under {cop:g} mm, tip-over edge within {edge:g} mm of the true one.
 
 {models}
 
@@ -206,3 +212,18 @@ def _draw(path: Path, rows: Sequence[ContactRow]) -> None:
         loc="upper left", bbox_to_anchor=(1.02, 1.0), fontsize=8.5, title=f"under {_LEAST:g} mm: drawn there"
     )
     save_figure(figure, path)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("layout", nargs="?", type=Path, help="layout file of a sole, instead of 250 x 155 mm")
+    parser.add_argument("-o", "--output", type=Path, default=Path(__file__).parent)
+    options = parser.parse_args()
+    options.output.mkdir(parents=True, exist_ok=True)
+    result = measure_contact(options.output, options.layout, lambda share, text: print(text, file=sys.stderr))
+    print(contact_text(result))
+    sys.exit(not result["holds"])
+
+
+if __name__ == "__main__":
+    main()

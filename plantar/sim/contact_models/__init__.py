@@ -1,1 +1,0 @@
-"""How a simulated sole can touch and measure ground (`plantar bench contact`)."""
