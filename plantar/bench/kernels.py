@@ -1,267 +1,252 @@
-"""Run time against error of the perception's kernels and other routes."""
+"""`plantar bench kernels`: the kernels of perception next to shapely and numpy."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import partial
-from typing import NamedTuple
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
+from functools import cache, partial
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from plantar.bench import references as exact
-from plantar.bench import rivals
-from plantar.bench.comparison import Reference, Result, Route, compare
-from plantar.bench.soles import Contact, contacts, random_outline
-from plantar.geometry import enclosing, inscribed, polygon
-from plantar.geometry.outline import Outline, concave_outline
+from plantar import batch
+from plantar.bench.comparison import Reference, Route, compare
+from plantar.bench.kind import BenchOptions, Case, Finding, Kind, PageTable, Row
+from plantar.bench.tables import Mark, draw_errors
+from plantar.geometry import enclosing, polygon
+from plantar.geometry.outline import concave_outline
+from plantar.layouts.hex_lattice import HexLattice
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.tiling import hex_layout
+from plantar.percepts.feet import FeetPercept
+from plantar.percepts.foot_tick import walking_tick
 from plantar.percepts.percept import Percept
+from plantar.percepts.sole_pose import SolePose
+from plantar.plotting import new_figure, save_figure
 from plantar.sensing.reading import Reading
 
 Array = NDArray[np.float64]
-Compared = tuple[list[Route], Reference]
 
-OFFSET = 0.01
-"""Distance in m of the inner offset that is measured."""
+_OFFSET = 0.01  # m, of the inner offset
+_AIM = np.array([0.09, 0.06])  # point in m that a tick clamps to the offset polygon
+_PATCHES = 12  # contacts of each size
+_FRAMES = 20_000  # of a recording
+_OUTLINE = ((-0.15, -0.1), (0.15, -0.1), (0.15, 0.1), (-0.15, 0.1))  # m: around all cells
+_SIZES = {"5 active": (691e-6, 5), "20 active": (691e-6, 20), "51 active": (691e-6, 51), "1000 cells": (35e-6, 850)}
+"""Area of a cell in m^2, and how many cells are active."""
 
-RANDOM = (100, 300)
-"""Cells, active by chance, of the outlines in which rectangles at any angle are measured."""
+
+class _Contact(NamedTuple):
+    """A sole with a patch of active taxels, and the patch's corner points (v, 2) and cells in m."""
+
+    layout: SoleLayout
+    active: NDArray[np.bool_]
+    force: Array
+    points: Array
+    cells: list[Array]
 
 
-def compare_shapes(size: str, rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
-    """Yields each shape kernel's name and its routes' results.
+@cache
+def _sole(cell_area: float) -> SoleLayout:
+    """Whole hexagons on a sole of about 260 x 155 mm, rounded."""
+    lattice = HexLattice(cell_area)
+    cells = lattice.cells_near(np.array([-0.15, -0.1]), np.array([0.15, 0.1]))
+    centres = np.abs(lattice.centres(cells)) / (0.135, 0.081)
+    return hex_layout(_OUTLINE, cell_area=cell_area, cells=cells[(centres**2.8).sum(axis=1) < 1.0])
 
-    `size` is one of `plantar.bench.soles.SIZES`; `rounds` are those of the median.
-    """
-    found = contacts(size)
-    few = found[:4] if size == "dense" else found[:6]
-    hulls = [polygon.convex_hull(c.points) for c in few]
-    measures: tuple[tuple[str, Callable[[], Compared]], ...] = (
-        ("hull + area", lambda: _hull(found if size != "dense" else few)),
-        ("concave outline", lambda: _outline(few)),
-        ("closest point", lambda: _closest(hulls)),
-        *((name, partial(_of_hulls, kernel, hulls)) for name, kernel in _INSIDE.items()),
-        ("rectangle in the outline", lambda: _outline_rectangle(few[:3])),
-        ("rectangle in the outline, any angle", lambda: _outline_any_rectangle(few[1:3])),
-        *((name, partial(_of_hulls, kernel, hulls)) for name, kernel in _AROUND.items()),
+
+def _contacts(size: str, seed: int = 0) -> list[_Contact]:
+    cell_area, count = _SIZES[size]
+    layout = _sole(cell_area)
+    rng = np.random.default_rng(seed)
+    return [_contact(layout, count, rng) for _ in range(_PATCHES)]
+
+
+def _contact(layout: SoleLayout, count: int, rng: np.random.Generator) -> _Contact:
+    centre = layout.positions[rng.integers(len(layout)), :2]
+    distance = np.hypot(*(layout.positions[:, :2] - centre).T)
+    active = np.isin(np.arange(len(layout)), np.argsort(distance, kind="stable")[:count])
+    force = np.where(active, rng.uniform(3.0, 60.0, len(layout)), 0.0)
+    used = np.unique(layout.corner_vertex[np.repeat(active, np.diff(layout.corner_start))])
+    cells = [layout.cell_polygon(int(i)) for i in np.flatnonzero(active)]
+    return _Contact(layout, active, force, np.ascontiguousarray(layout.vertices[used, :2]), cells)
+
+
+def _pair(ours: Route, other: Route) -> tuple[list[Route], Reference]:
+    """Two routes to one value, ours first, and the other's values as the reference."""
+    values = [np.asarray(other.value(other.call(case)), dtype=float) for case in other.cases]
+    return [ours, other], Reference(values, [float(np.abs(v).max()) or 1.0 for v in values])
+
+
+def _hull(size: str) -> tuple[list[Route], Reference]:
+    found = _contacts(size)
+    layout = found[0].layout
+    ours = Route("plantar, from active taxels", layout.kernel.hull, [c.active for c in found], lambda r: r[1], True)
+    return _pair(ours, Route("shapely convex_hull", _hull_of_points, [c.points for c in found]))
+
+
+def _hull_of_points(points: Array) -> float:
+    return float(shapely.area(shapely.convex_hull(shapely.multipoints(points))))
+
+
+def _outline(size: str) -> tuple[list[Route], Reference]:
+    found = _contacts(size)
+    layout = found[0].layout
+    ours = Route("plantar", lambda a: concave_outline(layout, a).area, [c.active for c in found], ours=True)
+    other = Route(
+        "shapely coverage_union_all",
+        lambda cells: shapely.coverage_union_all(shapely.polygons(cells)).area,
+        [c.cells for c in found],
     )
-    for name, make in measures:
-        routes, reference = make()
-        yield name, compare(name, size, routes, reference, rounds)
+    return _pair(ours, other)
 
 
-def compare_random_cells(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
-    """Yields the largest rectangle's kernel name and its routes' results in random outlines."""
-    name = "rectangle in the outline, any angle, random cells"
-    for cells in RANDOM:
-        outlines = [random_outline(cells, share, 0) for share in (0.3, 0.5, 0.6, 0.7, 0.9)]
-        call = inscribed.rectangle_in_outline_any_angle
-        along = inscribed.rectangle_in_outline
-        routes = [
-            Route("plantar", call, outlines, lambda r: _size(r.corners), ours=True),
-            Route("plantar, its proven bound", call, outlines, lambda r: _size(r.corners) * (1.0 + r.gap), ours=True),
-            Route("plantar, along the axes", along, outlines, _size, approximate=True),
-        ]
-        wanted = [_size(call(o, 3000).corners) for o in outlines]
-        yield name, compare(name, f"{cells} random", routes, Reference(wanted), rounds)
-
-
-def _size(ring: Array) -> float:
-    return abs(polygon.area(ring))
-
-
-def _hull(found: Sequence[Contact]) -> Compared:
-    layout = found[0].layout
-    corners = rivals.Corners(found[0].layout)
-    masks = [c.active for c in found]
-    points = [c.points for c in found]
-    routes = [
-        Route("plantar, from active taxels", layout.kernel.hull, masks, lambda r: r[1], ours=True),
-        Route(
-            "plantar, through a Percept",
-            lambda f: Percept(layout, Reading(0.0, f)).support_area,
-            [c.force for c in found],
-            ours=True,
-        ),
-        Route("plantar, from points", lambda p: polygon.area(polygon.convex_hull(p)), points, ours=True),
-        Route("scipy ConvexHull, from active taxels", lambda m: rivals.hull_scipy(corners.of(m)), masks),
-        Route("scipy ConvexHull, points ready", rivals.hull_scipy, points),
-        Route("shapely convex_hull, from active taxels", lambda m: rivals.hull_shapely(corners.of(m)), masks),
-        Route("shapely convex_hull, points ready", rivals.hull_shapely, points),
-        Route("cv2 convexHull (float32)", rivals.hull_cv2, [p.astype(np.float32) for p in points]),
-    ]
-    return routes, Reference([exact.hull_area_exact(p) for p in points])
-
-
-def _outline(found: Sequence[Contact]) -> Compared:
-    layout = found[0].layout
-    cells = [c.cells for c in found]
-    points = [c.points for c in found]
-    radius = 1.1 * float(np.sqrt(layout.cell_area * 2.0 / (3.0 * np.sqrt(3.0))))
-    routes = [
-        Route("plantar", lambda mask: concave_outline(layout, mask).area, [c.active for c in found], ours=True),
-        Route("shapely coverage_union_all", lambda c: shapely.coverage_union_all(shapely.polygons(c)).area, cells),
-        Route("shapely union_all", lambda c: shapely.union_all(shapely.polygons(c)).area, cells),
-        Route(
-            "shapely concave_hull",
-            lambda p: shapely.concave_hull(shapely.multipoints(p), ratio=0.3).area,
-            points,
-            approximate=True,
-        ),
-        Route("alpha shape (scipy Delaunay)", lambda p: rivals.alpha_shape_area(p, radius), points, approximate=True),
-    ]
-    return routes, Reference([exact.area_exact(c) for c in cells])
-
-
-def _closest(hulls: Sequence[Array]) -> Compared:
+def _closest(size: str) -> tuple[list[Route], Reference]:
     rng = np.random.default_rng(1)
-    cases = [(h, h.mean(axis=0) + rng.uniform(-0.15, 0.15, 2)) for h in hulls for _ in range(3)]
-    routes = [
-        Route("plantar", lambda case: polygon.closest_point(*case), cases, ours=True),
-        Route("shapely nearest_points, with construction", rivals.closest_shapely, cases),
-    ]
-    return routes, Reference([exact.closest_point_exact(*case) for case in cases], [float(np.ptp(h)) for h, _ in cases])
+    hulls = [polygon.convex_hull(c.points) for c in _contacts(size)]
+    cases = [(hull, hull.mean(axis=0) + rng.uniform(-0.15, 0.15, 2)) for hull in hulls]
+    ours = Route("plantar", lambda case: polygon.closest_point(*case), cases, ours=True)
+    return _pair(ours, Route("shapely shortest_line", _closest_by_shapely, cases))
 
 
-class _HullKernel(NamedTuple):
-    """A kernel of convex polygons (k, 2): its exact value, routes still without cases, and which ones are measured."""
-
-    exact: Callable[[Array], float]
-    routes: tuple[Route, ...]
-    measured: slice = slice(None)
+def _closest_by_shapely(case: tuple[Array, Array]) -> Array:
+    line = shapely.shortest_line(shapely.Polygon(case[0]), shapely.Point(case[1]))
+    return np.asarray(shapely.get_coordinates(line)[0])
 
 
-def _of_hulls(kernel: _HullKernel, hulls: Sequence[Array]) -> Compared:
-    cases = hulls[kernel.measured]
-    return [route._replace(cases=cases) for route in kernel.routes], Reference([kernel.exact(h) for h in cases])
-
-
-_INSIDE: Mapping[str, _HullKernel] = {
-    "inner offset": _HullKernel(
-        lambda h: exact.inner_offset_area(h, OFFSET),
-        (
-            Route("plantar", lambda h: polygon.inner_offset(h, OFFSET), value=_size, ours=True),
-            Route(
-                "shapely buffer, mitred",
-                lambda h: shapely.buffer(shapely.Polygon(h), -OFFSET, join_style="mitre").area,
-            ),
-        ),
+_OF_A_HULL: Mapping[str, tuple[Callable[[Array], Any], Callable[[Any], float], str, Callable[[Array], float]]] = {
+    "inner offset": (
+        lambda h: polygon.inner_offset(h, _OFFSET),
+        lambda ring: abs(polygon.area(ring)),
+        "shapely buffer, mitred",
+        lambda h: shapely.buffer(shapely.Polygon(h), -_OFFSET, join_style="mitre").area,
     ),
-    "triangle inside": _HullKernel(
-        exact.triangle_area_exact,
-        (
-            Route("plantar", inscribed.inscribed_triangle, value=_size, ours=True),
-            Route("numpy, all triples", rivals.triangle),
-        ),
-    ),
-    "parallelogram inside": _HullKernel(
-        exact.parallelogram_area,
-        (
-            Route("plantar", inscribed.inscribed_parallelogram, value=_size, ours=True),
-            Route("numpy, 48 directions", partial(exact.parallelogram_area, samples=48, finest=1.0), approximate=True),
-            Route("numpy, nested search", exact.parallelogram_area),
-        ),
-        slice(2),
-    ),
-    "circle inside": _HullKernel(
-        exact.circle_radius,
-        (
-            Route("plantar", inscribed.inscribed_circle, value=lambda circle: circle.radius, ours=True),
-            Route(
-                "shapely maximum_inscribed_circle, default tolerance",
-                lambda h: shapely.maximum_inscribed_circle(shapely.Polygon(h)).length,
-                approximate=True,
-            ),
-        ),
-    ),
-    "rectangle inside, axis-aligned": _HullKernel(
-        exact.rectangle_area,
-        (
-            Route("plantar", inscribed.inscribed_rectangle, value=_size, ours=True),
-            Route("scipy SLSQP, exact gradients", rivals.rectangle_slsqp),
-        ),
-        slice(4),
-    ),
-    "rectangle inside, any angle": _HullKernel(
-        exact.rectangle_area_any_angle,
-        (
-            Route("plantar", inscribed.inscribed_rectangle_any_angle, value=_size, ours=True),
-            Route(
-                "scipy SLSQP at 32 angles",
-                lambda h: max(map(rivals.rectangle_slsqp, rivals.turned(h, 32))),
-                approximate=True,
-            ),
-        ),
-        slice(1, 2),
+    "box around, any angle": (
+        enclosing.oriented_box,
+        lambda ring: abs(polygon.area(ring)),
+        "shapely oriented_envelope",
+        lambda h: shapely.oriented_envelope(shapely.Polygon(h)).area,
     ),
 }
+"""Kernels of a convex polygon: ours, its value, and the library's."""
 
-_AROUND: Mapping[str, _HullKernel] = {
-    "parallelogram around": _HullKernel(
-        exact.least_parallelogram_area,
-        (
-            Route("plantar", enclosing.enclosing_parallelogram, value=_size, ours=True),
-            Route("numpy, all pairs of edges", rivals.parallelogram_around),
-        ),
-    ),
-    "box around, any angle": _HullKernel(
-        exact.least_box_area,
-        (
-            Route("plantar", enclosing.oriented_box, value=_size, ours=True),
-            Route("shapely oriented_envelope", lambda h: shapely.oriented_envelope(shapely.Polygon(h)).area),
-        ),
-    ),
+
+def _of_a_hull(kernel: str, size: str) -> tuple[list[Route], Reference]:
+    call, value, name, library = _OF_A_HULL[kernel]
+    hulls = [polygon.convex_hull(c.points) for c in _contacts(size)]
+    ours = Route("plantar", call, hulls, value, ours=True)
+    return _pair(ours, Route(name, library, hulls))
+
+
+def _tick(size: str) -> tuple[list[Route], Reference]:
+    found = _contacts(size)
+    layout = found[0].layout
+    forces = [c.force for c in found]
+    ours = Route("plantar", lambda f: walking_tick(layout, f, _AIM, _OFFSET), forces, _tick_values, ours=True)
+    return _pair(ours, Route("shapely + numpy", partial(_tick_by_shapely, layout), forces))
+
+
+def _tick_values(tick: Any) -> Array:
+    return np.concatenate([tick.position_cop, tick.wrench[2:5], [tick.support_area], tick.centroid, tick.clamped])
+
+
+def _tick_by_shapely(layout: SoleLayout, force: Array) -> Array:
+    active = force > layout.force_threshold
+    kept = np.where(active, force, 0.0)
+    used = np.unique(layout.corner_vertex[np.repeat(active, np.diff(layout.corner_start))])
+    hull = shapely.convex_hull(shapely.multipoints(layout.vertices[used, :2]))
+    middle = shapely.get_coordinates(shapely.centroid(hull))[0]
+    safe = shapely.buffer(hull, -_OFFSET, join_style="mitre")
+    clamped = shapely.get_coordinates(shapely.shortest_line(safe, shapely.Point(_AIM)))[0]
+    cop = kept @ layout.positions[:, :2] / kept.sum()
+    return np.concatenate([cop, (layout.wrench_map @ kept)[2:5], [hull.area], middle, clamped])
+
+
+def _percept(size: str) -> tuple[list[Route], Reference | None]:
+    found = _contacts(size)
+    layout = found[0].layout
+    poses = [SolePose.flat(0.0, 0.1), SolePose.flat(0.05, -0.1, yaw=0.1)]
+    of_feet = [name for name in dir(FeetPercept) if not name.startswith("_")]
+
+    def every_member(force: Array) -> None:
+        feet = [Percept(layout, Reading(0.0, force)) for _ in poses]
+        for foot in feet:
+            for member in Percept.members():
+                getattr(foot, member)
+        both = FeetPercept(feet, poses)
+        for member in of_feet:
+            getattr(both, member)
+
+    forces = [c.force for c in found]
+    none = Route("plantar, no member", lambda f: [Percept(layout, Reading(0.0, f)) for _ in poses], forces, ours=True)
+    return [Route("plantar, every member of both feet", every_member, forces, ours=True), none], None
+
+
+def _recording(size: str) -> tuple[list[Route], Reference]:
+    layout = _sole(_SIZES["20 active"][0])
+    force = np.random.default_rng(4).gamma(0.6, 12.0, (_FRAMES, len(layout)))
+    columns = np.ascontiguousarray(layout.wrench_map.T)
+    level = layout.force_threshold
+    ours = Route("plantar", lambda f: batch.wrenches(layout, f), [force], ours=True)
+    return _pair(ours, Route("numpy where, @", lambda f: np.where(f > level, f, 0.0) @ columns, [force]))
+
+
+_KERNELS: Mapping[str, tuple[Callable[[str], tuple[list[Route], Reference | None]], tuple[str, ...]]] = {
+    "hull + area": (_hull, tuple(_SIZES)),
+    "concave outline": (_outline, tuple(_SIZES)),
+    "closest point": (_closest, tuple(_SIZES)),
+    **{kernel: (partial(_of_a_hull, kernel), tuple(_SIZES)) for kernel in _OF_A_HULL},
+    "walking tick": (_tick, ("20 active",)),
+    "percept": (_percept, ("20 active",)),
+    "wrench of a recording": (_recording, (f"{_FRAMES} frames",)),
 }
+"""What makes the routes of each kernel, and the sizes that are measured."""
 
 
-def _outline_rectangle(found: Sequence[Contact]) -> Compared:
-    outlines = [concave_outline(c.layout, c.active) for c in found]
-    rings = [list(o.rings) for o in outlines]
-    routes = [
-        Route("plantar", inscribed.rectangle_in_outline, outlines, _size, ours=True),
-        Route("largestinteriorrectangle's method, 1 mm", rivals.interior_rectangle, rings, approximate=True),
+def _cases(options: BenchOptions) -> list[Case]:
+    rounds = 3 if options.quick else 9
+    return [
+        Case((kernel, size), partial(_measure, kernel, size, rounds))
+        for kernel, (_, sizes) in _KERNELS.items()
+        for size in sizes
     ]
-    return routes, Reference([_best_known(o, 0.0) for o in outlines])
 
 
-def _outline_any_rectangle(found: Sequence[Contact]) -> Compared:
-    outlines = [concave_outline(c.layout, c.active) for c in found]
-    rings = [list(o.rings) for o in outlines]
-
-    def rasters(rings: list[Array]) -> float:
-        turned = zip(*(rivals.turned(ring, 16) for ring in rings), strict=True)
-        return max(rivals.interior_rectangle(some) for some in turned)
-
-    routes = [
-        Route("plantar", inscribed.rectangle_in_outline_any_angle, outlines, lambda r: _size(r.corners), ours=True),
-        Route("largestinteriorrectangle's method, 1 mm, 16 angles", rasters, rings, approximate=True),
-    ]
-    return routes, Reference([_best_known_at_any_angle(o) for o in outlines])
+def _measure(kernel: str, size: str, rounds: int) -> list[Row]:
+    routes, reference = _KERNELS[kernel][0](size)
+    results = compare(kernel, size, routes, reference, rounds)
+    # The library's answer is the reference: it has no error of its own here.
+    return [asdict(r) if r.ours else asdict(r) | {"error": None} for r in results]
 
 
-def _best_known(outline: Outline, angle: float) -> float:
-    """Best known rectangle's area in m^2 at an angle: ours if valid, or the reference's."""
-    ours = _area_inside(outline, inscribed.rectangle_in_outline(outline, angle))
-    return ours if angle else max(ours, exact.outline_rectangle_area(outline.rings))
+def _find(rows: Sequence[Row], options: BenchOptions) -> Finding:
+    lines = [(r["kernel"], r["size"], r["route"], r["median_us"], r["spread"], r["ratio"], r["error"]) for r in rows]
+    head = ("kernel", "size", "route", "median [us]", "spread", "ratio", "error")
+    return Finding({"results": list(rows)}, [PageTable("Kernels", head, lines)], draw=partial(_draw, rows))
 
 
-def _best_known_at_any_angle(outline: Outline) -> float:
-    """The same at any angle: every half degree, then finer around the best four."""
-    found: dict[float, float] = {}
-
-    def areas(angles: Array) -> Array:
-        for a in angles.tolist():
-            found[a] = _size(inscribed.rectangle_in_outline(outline, a))
-        return np.array([found[a] for a in angles.tolist()])
-
-    exact.search_period(areas, 0.5 * np.pi, 180)
-    for angle in sorted(found, key=lambda a: -found[a])[:8]:
-        inside = _area_inside(outline, inscribed.rectangle_in_outline(outline, angle))
-        if inside:
-            return max(inside, _best_known(outline, 0.0))
-    return _best_known(outline, 0.0)
+def _draw(rows: Sequence[Row], path: Path) -> None:
+    figure, axis = new_figure(8.0, 5.0)
+    marks = [Mark(r["median_us"], r["error"], r["kernel"], text=r["size"]) for r in rows if r["error"] is not None]
+    labels = ("Kernels of perception: 0 is drawn at 1e-17", "median time of a call [us]", "relative error [-]")
+    draw_errors(axis, marks, labels, 1e-17)
+    axis.legend(fontsize=7)
+    save_figure(figure, path)
 
 
-def _area_inside(outline: Outline, corners: Array) -> float:
-    parts = [shapely.Polygon(i[0], i[1:]) for i in outline.islands]
-    outside = shapely.area(shapely.difference(shapely.Polygon(corners), shapely.union_all(parts)))
-    return _size(corners) if outside < 1e-9 * _size(corners) else 0.0
+KERNELS = Kind(
+    page="kernels",
+    title="Kernels of perception: run time against error",
+    lead=(
+        "Each kernel next to the library call that gives the same answer. A time is the median of a call; both routes\n"
+        "take turns, so ratios are reliable where times depend on the machine. An error is relative, against the\n"
+        "library's answer."
+    ),
+    table="kernels.csv",
+    keys=("kernel", "size"),
+    columns=("route", "ours", "approximate", "median_us", "spread", "ratio", "error"),
+    cases=_cases,
+    find=_find,
+    resumes=False,
+)

@@ -58,10 +58,11 @@ def bench(
 
     Example: plantar bench footholds --policy examples/own_policy.py --seeds 10
     """
-    from plantar.sim.bench.kinds import BenchOptions, measure
+    from plantar.bench.kind import BenchOptions
+    from plantar.sim.bench.runner import run_bench
 
     walks = tuple(scene or ()), tuple(robot or ())
-    done = measure(what, BenchOptions(scenarios, first, *walks, quick, policy, seeds), output)
+    done = run_bench(what, BenchOptions(scenarios, first, *walks, quick, policy, seeds), output)
     end_command(done.result, as_json, done.text, done.failures, bool(done.failures))
 
 

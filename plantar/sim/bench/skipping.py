@@ -4,7 +4,8 @@ import hashlib
 import time
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -13,9 +14,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.bench.tables import made_on, markdown_table, write_rows
-from plantar.common.atomic import write_text
-from plantar.common.console.progress import Progress
+from plantar.bench.kind import BenchOptions, Case, Finding, Kind, PageTable, Row
 from plantar.gait.command import Command
 from plantar.percepts.percept import Percept
 from plantar.sim.bench.room_times import ROOMS, RoomTimes
@@ -197,86 +196,54 @@ def _counts(run: WatchedSimulation, summary: Mapping[str, Any]) -> dict[str, dic
     return {"skipped": skipped, "computed": computed}
 
 
-def measure_skipping(
-    folder: Path,
-    progress: Progress,
-    scenes: Sequence[tuple[str, str, Sequence[str]]] = SCENES,
-    rounds: int = 3,
-) -> dict[str, Any]:
-    """Compare `scenes` (scene, robot, settings); write skipping.md and skipping.csv into an existing `folder`.
-
-    Returns the rows as plain JSON values, whether all motions were the same, and file names; `rounds` of the medians,
-    `progress` gets fraction done and text.
-    """
-    rows = []
-    for number, (scene, robot, settings) in enumerate(scenes):
-        progress(number / len(scenes), f"{scene}, {robot}")
-        rows.append(compare_skipping(scene, robot, settings, rounds))
-    write_rows(folder / "skipping.csv", [_flat(row) for row in rows])
-    write_text(folder / "skipping.md", _page(rows))
-    return {
-        "scenes": [asdict(row) for row in rows],
-        "same_motion": all(row.same_motion for row in rows),
-        "files": ["skipping.md", "skipping.csv"],
-    }
+def _cases(options: BenchOptions) -> list[Case]:
+    scenes, rounds = (SCENES[:1], 1) if options.quick else (SCENES, 3)
+    return [
+        Case((scene, robot, " ".join(settings)), partial(_measure, scene, robot, settings, rounds))
+        for scene, robot, settings in scenes
+    ]
 
 
-def _flat(row: SkipRow) -> dict[str, Any]:
-    cells = asdict(row)
-    for name in ("shares", "skipped", "computed"):
-        cells |= {f"{name}: {key}": value for key, value in cells.pop(name).items()}
-    return cells
+def _measure(scene: str, robot: str, settings: Sequence[str], rounds: int) -> list[Row]:
+    return [asdict(compare_skipping(scene, robot, settings, rounds))]
 
 
-def skip_text(result: Mapping[str, Any]) -> str:
-    """The main figures as text."""
-    lines = [f"{'scene':12}{'robot':10}{'x real time':>12}{'rest/physics':>14}{'saved':>8}  motion"]
-    for row in result["scenes"]:
-        factor = row["sim_s"] / row["run_s"]
-        motion = "same" if row["same_motion"] else "NOT THE SAME"
-        lines.append(
-            f"{row['scene']:12}{row['robot']:10}{factor:>12.1f}{row['factor']:>14.2f}{row['saved']:>7.1f}x  {motion}"
-        )
-    return "\n".join(lines)
-
-
-_HEAD = """# What a scene's time goes to, and what is skipped
-
-`plantar bench skip -o DIR` writes these tables ({made}). "Physics alone" is the same motion by `mj_step` in a loop;
-"rest / physics" is everything else over it. "With everything" computes every member of each percept, casts every ray
-and records the run; "saved" is the factor by which everything but physics is cheaper without. "Same motion" compares a
-hash of all positions.
-
-{times}
-
-## Time by room
-
-Share of the run in percent, sampled each millisecond.
-
-{rooms}
-
-## What was skipped
-
-{counts}
-"""
-
-
-def _page(rows: Sequence[SkipRow]) -> str:
+def _find(rows: Sequence[Row], options: BenchOptions) -> Finding:
     times = [
         (
-            *(row.scene, row.robot, row.settings, row.sim_s / row.run_s, row.run_s, row.everything_s, row.physics_s),
-            *(row.factor, f"{row.saved:.1f} x", "yes" if row.same_motion else "**no**"),
+            *(r["scene"], r["robot"], r["settings"], r["sim_s"] / r["run_s"], r["run_s"], r["everything_s"]),
+            *(r["physics_s"], r["factor"], f"{r['saved']:.1f} x", "yes" if r["same_motion"] else "**no**"),
         )
-        for row in rows
+        for r in rows
     ]
     head = ("scene", "robot", "settings", "real-time factor", "run [s]", "with everything [s]", "physics alone [s]")
-    shares = [(row.scene, row.robot, *(f"{100.0 * row.shares.get(room, 0.0):.0f}" for room in ROOMS)) for row in rows]
+    shares = [(r["scene"], r["robot"], *(f"{100.0 * r['shares'].get(room, 0.0):.0f}" for room in ROOMS)) for r in rows]
     counts = [
-        (row.scene, row.robot, *(f"{n} of {n + row.computed[name]}" for name, n in row.skipped.items())) for row in rows
+        (r["scene"], r["robot"], *(f"{n} of {n + r['computed'][name]}" for name, n in r["skipped"].items()))
+        for r in rows
     ]
-    return _HEAD.format(
-        made=made_on(),
-        times=markdown_table((*head, "rest / physics", "saved", "same motion"), times),
-        rooms=markdown_table(("scene", "robot", *ROOMS), shares),
-        counts=markdown_table(("scene", "robot", *rows[0].skipped), counts),
-    )
+    tables = [
+        PageTable("Times", (*head, "rest / physics", "saved", "same motion"), times),
+        PageTable("Time by room, in percent of the run", ("scene", "robot", *ROOMS), shares),
+        PageTable("What was skipped", ("scene", "robot", *rows[0]["skipped"]), counts),
+    ]
+    same = all(row["same_motion"] for row in rows)
+    failed = "a run that skips what its scene does not need moves otherwise than one that does not"
+    return Finding({"scenes": list(rows), "same_motion": same}, tables, () if same else (failed,))
+
+
+SKIPPING = Kind(
+    page="skipping",
+    title="What a scene's time goes to, and what is skipped",
+    lead="""\
+"Physics alone" is the same motion by `mj_step` in a loop; "rest / physics" is everything else over it. "With
+everything" computes every member of each percept, casts every ray and records the run; "saved" is the factor by which
+everything but physics is cheaper without. "Same motion" compares a hash of all positions. Rooms are sampled each
+millisecond.""",
+    table="skipping.csv",
+    keys=("scene", "robot", "settings"),
+    columns=tuple(f.name for f in fields(SkipRow) if f.name not in ("scene", "robot", "settings")),
+    cases=_cases,
+    find=_find,
+    resumes=False,
+)

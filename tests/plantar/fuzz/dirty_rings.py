@@ -10,9 +10,10 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.bench.references import exact_hull, turn
 from plantar.geometry.polygon import convex_hull
 from plantar.layouts.hex_lattice import HexLattice
+
+from ..references import exact_hull, turn
 
 Array = NDArray[np.float64]
 Corner = tuple[Fraction, Fraction]

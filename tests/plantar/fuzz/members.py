@@ -6,12 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar import batch
-from plantar.bench import references as exact
 from plantar.mechanics.zmp import zero_moment_wrench
 from plantar.percepts.feet import FeetPercept
 from plantar.percepts.sole_pose import SolePose
 from plantar.sensing import force, ground_plane, proximity, temperature, virtual_wrench
 
+from .. import references as exact
 from .shapes import strictly_convex
 from .soles import Block, check, differing, not_finite, numbers, unit_wrenches
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from plantar.bench import references as exact
 from plantar.geometry import enclosing, inscribed, polygon
 from plantar.geometry.outline import concave_outline
 
+from .. import references as exact
 from .soles import Block, numbers
 
 SHAPES = {

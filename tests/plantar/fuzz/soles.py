@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.bench.soles import foot_outline, sole_of
 from plantar.layouts.cell_layout import joined_layout, layout_of_cells
 from plantar.layouts.curved_sole import laid_over
 from plantar.layouts.hex_lattice import HexLattice
@@ -18,6 +17,8 @@ from plantar.layouts.tiling import grid_layout, hex_layout
 from plantar.percepts.percept import Percept
 from plantar.percepts.sole_pose import SolePose
 from plantar.sensing.reading import Reading
+
+from ..sample_soles import foot_outline, sole_of
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

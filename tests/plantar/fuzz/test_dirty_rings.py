@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from plantar.bench.references import area_exact
-
+from ..references import area_exact
 from .dirty_rings import ExactRing, convex_ring, dirty_ring
 
 

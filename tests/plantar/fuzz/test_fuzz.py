@@ -13,10 +13,10 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar.bench.soles import random_outline
 from plantar.geometry import polygon
 from plantar.geometry.inscribed import rectangle_in_outline, rectangle_in_outline_any_angle
 
+from ..sample_soles import random_outline
 from .members import MEMBER_CHECKS
 from .shapes import SHAPE_CHECKS
 from .soles import block_of, stress_soles

@@ -12,8 +12,6 @@ import numpy as np
 import pytest
 
 from plantar import grid_layout, walking_tick
-from plantar.bench import references as exact
-from plantar.bench.soles import sole_of
 from plantar.geometry.enclosing import bounding_box, enclosing_parallelogram, oriented_box
 from plantar.geometry.inscribed import (
     inscribed_circle,
@@ -31,7 +29,9 @@ from plantar.kernels.geometry.clean import turning
 from plantar.percepts.sole_pose import feet_support_polygon
 from plantar.sensing.partial_contact import PartialContact
 
+from .. import references as exact
 from ..fuzz.dirty_rings import ExactRing, chamfered_rectangle, dirty_ring, vanishing_depths
+from ..sample_soles import sole_of
 
 COUNT = 600
 

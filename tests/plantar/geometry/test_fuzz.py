@@ -14,9 +14,10 @@ import pytest
 import shapely
 
 from plantar import InputError
-from plantar.bench.references import exact_hull, inner_offset_area, turn
 from plantar.geometry import enclosing, inscribed, polygon
 from plantar.percepts.sole_pose import feet_support_polygon
+
+from ..references import exact_hull, inner_offset_area, turn
 
 LEAVES_OUT = (polygon.convex_hull,)
 """Functions that leave out points that are not finite; the others refuse them."""

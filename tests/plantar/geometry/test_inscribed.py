@@ -9,7 +9,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import hex_layout
-from plantar.bench.references import outline_rectangle_area, parallelogram_area, rectangle_area
 from plantar.errors import InputError
 from plantar.geometry.enclosing import bounding_box
 from plantar.geometry.inscribed import (
@@ -26,6 +25,8 @@ from plantar.geometry.outline import Outline, concave_outline
 from plantar.geometry.polygon import area, closest_point, convex_hull, inner_offset, signed_margin
 from plantar.kernels import compiled
 from plantar.layouts.hex_lattice import HexLattice
+
+from ..references import outline_rectangle_area, parallelogram_area, rectangle_area
 
 seeds = st.integers(0, 2**32 - 1)
 CONVEX = [inscribed_triangle, inscribed_parallelogram, inscribed_rectangle, inscribed_rectangle_any_angle]

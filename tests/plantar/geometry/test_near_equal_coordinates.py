@@ -12,7 +12,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar.bench.references import exact_hull, turn
 from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.enclosing import bounding_box, enclosing_parallelogram, oriented_box
 from plantar.geometry.inscribed import (
@@ -37,6 +36,8 @@ from plantar.geometry.polygon import (
 )
 from plantar.kernels.geometry.few_points import FewPoints
 from plantar.percepts.sole_pose import feet_support_polygon
+
+from ..references import exact_hull, turn
 
 HAIRS = (0.0, 1e-17, 1e-16, 1e-13, 1e-11, 3e-9, 1e-7, 1e-6)  # m
 LANDED = [(0.029, 0.655), (0.029, 0.815), (0.149, 0.655), (0.149, 0.815), (0.149 + 3e-9, 0.625)]

@@ -7,9 +7,10 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from plantar import InputError
-from plantar.bench.references import exact_hull
 from plantar.geometry.polygon import area, centroid, closest_point, convex_hull, inner_offset, signed_margin
 from plantar.layouts.hex_lattice import HexLattice
+
+from ..references import exact_hull
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 seeds = st.integers(0, 2**32 - 1)

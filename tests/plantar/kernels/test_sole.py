@@ -9,12 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import ReadingError, hex_layout
-from plantar.bench.references import hull_area_exact
 from plantar.geometry.polygon import area, centroid, convex_hull
 from plantar.kernels import python_form
 from plantar.kernels.skin.sole import SoleKernel
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.sensing.health import dead_taxels, saturated_taxels
+
+from ..references import hull_area_exact
 
 OUTLINE = [[-0.12, -0.05], [0.12, -0.04], [0.12, 0.04], [-0.12, 0.05]]
 LAYOUTS = {

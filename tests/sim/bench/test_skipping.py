@@ -2,12 +2,15 @@
 
 import csv
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
+from plantar.bench.kind import BenchOptions
 from plantar.percepts.percept import Percept
 from plantar.sim.bench import skipping
-from plantar.sim.bench.skipping import WatchedSimulation, compare_skipping, measure_skipping, replay_physics, skip_text
+from plantar.sim.bench.runner import run_kind
+from plantar.sim.bench.skipping import SKIPPING, WatchedSimulation, compare_skipping, replay_physics
 from plantar.sim.run.scene import load_scene
 
 SHORT = ("steps=1", "walk.start=0.2", "walk.end=0.2", "walk.settle=0")
@@ -50,16 +53,17 @@ def test_physics_alone_is_less_than_the_run(row):
 
 @pytest.mark.long
 def test_a_motion_that_differs_is_reported(row, tmp_path, monkeypatch):
-    differs = replace(row, same_motion=False)
+    differs = replace(row, scene="beam", same_motion=False)
+    monkeypatch.setattr(skipping, "SCENES", (("flat", "h1", ()), ("beam", "h1", ())))
     monkeypatch.setattr(skipping, "compare_skipping", lambda scene, *_: {"flat": row, "beam": differs}[scene])
-    told: list[float] = []
-    scenes = [("flat", "h1", ()), ("beam", "h1", ())]
-    result = measure_skipping(tmp_path, lambda share, _: told.append(share), scenes)
-    assert not result["same_motion"]
-    assert told == [0.0, 0.5]
-    assert "NOT THE SAME" in skip_text(result)
+    shares: list[float] = []
+    done = run_kind(SKIPPING, BenchOptions(), tmp_path, lambda share, _: shares.append(share))
+    assert not done.result["same_motion"]
+    assert len(done.failures) == 1
+    assert shares == [0.0, 0.5]
+    assert "**no**" in done.text
     assert "**no**" in (tmp_path / "skipping.md").read_text()
-    assert sorted(result["files"]) == sorted(p.name for p in tmp_path.iterdir())
+    assert sorted(Path(name).name for name in done.result["files"]) == sorted(p.name for p in tmp_path.iterdir())
     with (tmp_path / "skipping.csv").open() as table:
         assert [r["same_motion"] for r in csv.DictReader(table)] == ["True", "False"]
 

@@ -1,7 +1,7 @@
 """Cost and error of a setting, and whether the scene's own stays."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median
 from typing import NamedTuple
@@ -11,7 +11,7 @@ from plantar.sim.bench.scenes.scene_setting import OWN, SETTINGS, setting_named
 NOISE = "sensor noise"
 """Name of the row of how far the scene's own noise moves a walk, which errors are compared with."""
 
-Runs = Sequence[dict[str, str]]
+Runs = Sequence[Mapping[str, str]]
 
 
 @dataclass(frozen=True)
@@ -100,11 +100,11 @@ def _row(case: tuple[str, str, str], name: str, against: str, kind: str, runs: R
     )
 
 
-def _cost(row: dict[str, str]) -> float:
+def _cost(row: Mapping[str, str]) -> float:
     return _number(row, "cpu_s") / _number(row, "sim_s")
 
 
-def _number(row: dict[str, str], name: str) -> float:
+def _number(row: Mapping[str, str], name: str) -> float:
     return float(row.get(name) or "nan")
 
 

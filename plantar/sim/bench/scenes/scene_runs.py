@@ -1,21 +1,18 @@
-"""The single runs of `plantar bench scenes`, in a growing table."""
+"""The single runs of `plantar bench scenes`."""
 
 import time
-from collections.abc import Callable, Iterator, Sequence
-from pathlib import Path
+from collections.abc import Iterator, Sequence
+from functools import partial
 from statistics import median
 from typing import Any, NamedTuple
 
-from plantar.bench.tables import GrowingTable
+from plantar.bench.kind import Case, Row
 from plantar.errors import PlantarError
 from plantar.sim.bench.scenes.changed_run import ChangedRun, Trace, TracedRun, trace_error
 from plantar.sim.bench.scenes.scene_setting import OWN, SceneSetting, setting_named
 
-TABLE = "scene_runs.csv"  # a row for each run
-
-_KEYS = ("scene", "robot", "walk", "setting", "against", "kind", "seed")
+KEYS = ("scene", "robot", "walk", "setting", "against", "kind", "seed")
 COLUMNS = (
-    *_KEYS,
     *("sim_s", "cpu_s", "completed", "impact_N", "margin_mm"),
     *("com_mm", "zmp_mm", "force", "impact", "together_s"),
 )
@@ -32,36 +29,23 @@ class SceneCase(NamedTuple):
 
 
 class SceneRuns:
-    """The table of runs in a folder, and the missing runs."""
+    """The runs of a walk in all settings; a traced run is kept while others are compared with it."""
 
-    def __init__(self, folder: Path) -> None:
-        self._table = GrowingTable(folder / TABLE, COLUMNS, "scene runs")
+    def __init__(self) -> None:
         self._traces: dict[tuple[SceneCase, str, int], tuple[dict[str, Any], Trace]] = {}
 
-    @property
-    def rows(self) -> list[dict[str, str]]:
-        """Its rows, as text by column."""
-        return self._table.rows
-
-    def run(
-        self,
-        cases: Sequence[SceneCase],
-        settings: Sequence[SceneSetting],
-        seeds: Sequence[int],
-        traced: int,
-        progress: Callable[[float, str], None],
-    ) -> None:
-        """Run what is missing of `cases`, walks, with each of `settings`, in turn against busy minutes, and `seeds`.
-
-        `traced` is the number of first seeds whose motions are compared; `progress` gets fraction done and text.
+    def cases(
+        self, walks: Sequence[SceneCase], settings: Sequence[SceneSetting], seeds: Sequence[int], traced: int
+    ) -> list[Case]:
+        """Returns cases of `walks` with each of `settings` in turn, against busy minutes, and `seeds`; the motions of
+        the first `traced` seeds are compared.
         """
-        have = {tuple(row[name] for name in _KEYS) for row in self.rows}
-        wanted = [job for case in cases for job in _jobs(case, settings, seeds, traced)]
-        for done, job in enumerate(wanted):
-            progress(done / len(wanted), f"{job.case.scene}, {job.case.robot}: {job.setting.name}, seed {job.seed}")
-            if job.key not in have:
-                self._table.add({**dict(zip(_KEYS, job.key, strict=True)), **self._measure(job)})
-        self._traces.clear()
+        return [
+            Case(job.key, partial(self._rows, job)) for walk in walks for job in _jobs(walk, settings, seeds, traced)
+        ]
+
+    def _rows(self, job: "_Job") -> list[Row]:
+        return [self._measure(job)]
 
     def _measure(self, job: "_Job") -> dict[str, Any]:
         try:

@@ -1,16 +1,17 @@
 """`plantar bench scenes`: cost and error of walks in many settings."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from plantar.bench.tables import Mark, draw_errors, markdown_table, plain_row, write_rows
-from plantar.common.atomic import write_text
+from plantar.bench.kind import BenchOptions, Case, Finding, Kind, PageTable, Row
+from plantar.bench.tables import Mark, draw_errors, plain_row
 from plantar.errors import InputError
 from plantar.plotting import COLOURS, new_figure, save_figure
-from plantar.sim.bench.scenes.scene_row import NOISE, KnobVerdict, SceneRow, knob_verdicts, scene_rows
-from plantar.sim.bench.scenes.scene_runs import TABLE, SceneCase, SceneRuns
+from plantar.sim.bench.scenes.scene_row import NOISE, SceneRow, knob_verdicts, scene_rows
+from plantar.sim.bench.scenes.scene_runs import COLUMNS, KEYS, SceneCase, SceneRuns
 from plantar.sim.bench.scenes.scene_setting import OWN, SETTINGS
 
 _WALKS = {"flat": "steps=4", "beam": "steps=6", "uneven": "steps=4"}
@@ -26,40 +27,30 @@ _SEEDS = 5
 _TRACED = 2
 
 
-def measure_scenes(
-    folder: Path,
-    progress: Callable[[float, str], None],
-    scenes: Sequence[str] = (),
-    robots: Sequence[str] = (),
-    quick: bool = False,
-) -> dict[str, Any]:
-    """Run what scene_runs.csv in a `folder` (made if needed) lacks, and write scenes.md, scenes.csv and scenes.png.
-
-    `scenes` and `robots` are names, all of `CASES` where empty; `quick` runs the most informative settings with one
-    seed, by default of H1 on flat ground. `progress` gets fraction done and text. Returns rows and verdicts as plain
-    JSON values, and the files' names; an InputError if invalid.
-    """
-    cases = _chosen(scenes, robots, quick)
-    folder.mkdir(parents=True, exist_ok=True)
-    runs = SceneRuns(folder)
-    settings = [s for s in SETTINGS if s.quick or not quick]
-    seeds = range(1, 2 if quick else _SEEDS + 1)
-    runs.run(cases, settings, seeds, 1 if quick else _TRACED, progress)
-    return write_scenes(folder, runs.rows)
+def _cases(options: BenchOptions) -> list[Case]:
+    walks = _chosen(options.scene, options.robot, options.quick)
+    settings = [s for s in SETTINGS if s.quick or not options.quick]
+    seeds = range(1, 2 if options.quick else _SEEDS + 1)
+    return SceneRuns().cases(walks, settings, seeds, 1 if options.quick else _TRACED)
 
 
-def write_scenes(folder: Path, runs: Sequence[dict[str, str]]) -> dict[str, Any]:
-    """Write `runs` (one row of `SceneRuns` or more) into `folder`; returns as `measure_scenes`."""
+def _find(runs: Sequence[Row], options: BenchOptions) -> Finding:
     rows = scene_rows(runs)
     verdicts = knob_verdicts(rows)
-    write_rows(folder / "scenes.csv", [plain_row(row) for row in rows])
-    write_text(folder / "scenes.md", _page(verdicts))
-    _draw(folder / "scenes.png", rows)
-    return {
-        "rows": [plain_row(row) for row in rows],
-        "verdicts": [v._asdict() for v in verdicts],
-        "files": ["scenes.md", "scenes.csv", "scenes.png", TABLE],
-    }
+    plain = [plain_row(row) for row in rows]
+    compared = [_line(row) for row in rows if row.setting != row.against]
+    kept = [(v.scene, v.robot, v.knob, "kept" if v.stays else "**a better one**", v.reason) for v in verdicts]
+    tables = [
+        PageTable("Settings", ("scene", "robot", "setting", "time", "CoM mm", "ZMP mm", "force %", "walked"), compared),
+        PageTable("Defaults", ("scene", "robot", "knob", "default", "reason"), kept),
+    ]
+    result = {"rows": plain, "verdicts": [v._asdict() for v in verdicts]}
+    return Finding(result, tables, draw=partial(_draw, rows), summary=plain)
+
+
+def _line(row: SceneRow) -> tuple[Any, ...]:
+    walked = f"{row.completed}/{row.seeds}" if row.seeds else "yes" if row.walked else "NO"
+    return (row.scene, row.robot, row.setting, row.ratio, row.com_mm, row.zmp_mm, 100.0 * row.force, walked)
 
 
 def _chosen(scenes: Sequence[str], robots: Sequence[str], quick: bool) -> list[SceneCase]:
@@ -71,51 +62,6 @@ def _chosen(scenes: Sequence[str], robots: Sequence[str], quick: bool) -> list[S
     scenes = scenes or (("flat",) if quick else ())
     robots = robots or (("h1",) if quick else ())
     return [c for c in CASES if (not scenes or c.scene in scenes) and (not robots or c.robot in robots)]
-
-
-_SHOWN = {"ratio": (".2f", 7), "com_mm": (".3f", 9), "zmp_mm": (".2f", 9), "force": (".1%", 8)}
-
-
-def scenes_text(result: Mapping[str, Any]) -> str:
-    """The main figures as text."""
-    lines = [f"{'scene':10}{'robot':9}{'setting':34}{'time':>7}{'CoM mm':>9}{'ZMP mm':>9}{'force':>8}  walked"]
-    for row in result["rows"]:
-        if row["setting"] == row["against"]:
-            continue
-        cells = (f"{'-' if row[k] is None else format(row[k], form):>{width}}" for k, (form, width) in _SHOWN.items())
-        walked = f"{row['completed']}/{row['seeds']}" if row["seeds"] else "yes" if row["walked"] else "NO"
-        lines.append(f"{row['scene']:10}{row['robot']:9}{row['setting']:34}{''.join(cells)}  {walked}")
-    for v in result["verdicts"]:
-        kept = "kept" if v["stays"] else "A BETTER VALUE EXISTS"
-        lines.append(f"{v['scene']}, {v['robot']}, {v['knob']}: {kept}: {v['reason']}")
-    return "\n".join(lines)
-
-
-_HEAD = """# Run time against error of whole scenes
-
-![Run time against error](scenes.png)
-
-`plantar bench scenes -o DIR` writes this page and continues from `scene_runs.csv`, whose rows keep the times of the
-program that ran them. Each row changes one setting and runs the same walk.
-
-- **Time**: processor time of a simulated second over that of the scene as it is, with the same seed. - **Error**:
-root mean square of the difference from a reference with the same seed, both without sensor noise, until the   centers
-of mass are a sixtieth of the leg apart; "together" is the share of the walk until then. - *Physics step, contact
-time, solver iterations* compute the same robot in another way; the reference   takes steps of 0.1 ms
-with up to 100 iterations. *Skin rate, control rate, taxel area and model* are another robot, and   are compared with
-their own finest value. - *Sensor noise* is how far the scene's own noise moves the walk. Errors below it do not
-matter.
-
-## Defaults
-
-A default is kept where its errors are below sensor noise and no other such value saves a twentieth of the time. All
-rows are in `scenes.csv`.
-"""
-
-
-def _page(verdicts: Sequence[KnobVerdict]) -> str:
-    kept = [(v.scene, v.robot, v.knob, "kept" if v.stays else "**a better one**", v.reason) for v in verdicts]
-    return _HEAD + "\n" + markdown_table(("scene", "robot", "knob", "default", "reason"), kept) + "\n"
 
 
 def pareto(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -135,7 +81,7 @@ def pareto(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
 _ERRORS = (("com_mm", "error of the CoM [mm]", 1.0), ("force", "error of the ground forces [% of weight]", 100.0))
 
 
-def _draw(path: Path, rows: Sequence[SceneRow]) -> None:
+def _draw(rows: Sequence[SceneRow], path: Path) -> None:
     cases = list(dict.fromkeys((r.scene, r.robot) for r in rows))
     figure, axes = new_figure(5.2 * len(cases) + 0.4, 9.0, len(_ERRORS), len(cases), squeeze=False)
     for column, case in enumerate(cases):
@@ -175,3 +121,27 @@ def _draw(path: Path, rows: Sequence[SceneRow]) -> None:
         "Scenes: run time against error (lower left is better; hollow: another robot; cross: does not walk)"
     )
     save_figure(figure, path)
+
+
+SCENES = Kind(
+    page="scenes",
+    title="Run time against error of whole scenes",
+    lead="""\
+Rows of `scene_runs.csv` keep the times of the program that ran them. Each row changes one setting and runs the same
+walk.
+
+- **Time**: processor time of a simulated second over that of the scene as it is, with the same seed.
+- **Error**: root mean square of the difference from a reference with the same seed, both without sensor noise, until
+  the centers of mass are a sixtieth of the leg apart; "together" in `scenes.csv` is the share of the walk until then.
+- *Physics step, contact time, solver iterations* compute the same robot in another way; the reference takes steps of
+  0.1 ms with up to 100 iterations. *Skin rate, control rate, taxel area and model* are another robot, and are compared
+  with their own finest value.
+- *Sensor noise* is how far the scene's own noise moves the walk. Errors below it do not matter.
+
+A default is kept where its errors are below sensor noise and no other such value saves a twentieth of the time.""",
+    table="scene_runs.csv",
+    keys=KEYS,
+    columns=COLUMNS,
+    cases=_cases,
+    find=_find,
+)

@@ -1,17 +1,17 @@
-"""Stress runs, a row each in a growing table."""
+"""`plantar bench stress`: the whole loop in random short scenarios."""
 
 import traceback
 import warnings
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.bench.tables import GrowingTable
+from plantar.bench.kind import BenchOptions, Case, Finding, Kind, PageTable, Row
 from plantar.common.settings.body_scale import BodyScale
 from plantar.common.sides import SIDES, Side
 from plantar.errors import InputError, PlantarError
@@ -164,50 +164,63 @@ def _described(error: Exception) -> str:
     return f"{type(error).__name__}: {text} ({'/'.join(last.filename.split('/')[-3:])}:{last.lineno})"
 
 
-_COLUMNS = ("number", "scene", "robot", "outcome", "detail", "time_s")
-_TABLE = "stress.csv"
+_QUICK = 3  # scenarios of a quick run
 
 
-def measure_stress(
-    folder: Path, count: int, first: int = 0, progress: Callable[[float, str], None] | None = None
-) -> dict[str, Any]:
-    """Run the scenarios that stress.csv in a `folder` (made if needed) lacks: `count`, 1 or more, from number `first`
-    on.
+def _cases(options: BenchOptions) -> list[Case]:
+    if options.scenarios < 1:
+        raise InputError(f"stress run of {options.scenarios} scenarios; allowed: 1 or more")
+    return [Case((str(number),), partial(_measure, number)) for number in _numbers(options)]
 
-    `progress` gets fraction done and text. Returns counts of each outcome, the failures, and the table's name; an
-    InputError if invalid.
-    """
-    if count < 1:
-        raise InputError(f"stress run of {count} scenarios; allowed: 1 or more")
-    folder.mkdir(parents=True, exist_ok=True)
-    table = GrowingTable(folder / _TABLE, _COLUMNS, "stress runs")
-    rows = {int(row["number"]): row for row in table.rows}
-    wanted = range(first, first + count)
-    for done, number in enumerate(wanted):
-        if number in rows:
-            continue
-        scenario = draw_scenario(number)
-        found = run_scenario(scenario)
-        row = (number, scenario.scene, scenario.robot, found.kind, found.detail, round(found.time, 3))
-        table.add(dict(zip(_COLUMNS, row, strict=True)))
-        rows[number] = table.rows[-1]
-        if progress is not None:
-            failures = sum(r["outcome"] in FAILURES for r in rows.values())
-            progress((done + 1) / count, f"scenario {number}, {failures} failures")
-    own = [rows[number] for number in wanted]
-    return {
-        "scenarios": count,
-        "first": first,
-        "outcomes": dict(Counter(row["outcome"] for row in own).most_common()),
+
+def _numbers(options: BenchOptions) -> range:
+    return range(options.first, options.first + (_QUICK if options.quick else options.scenarios))
+
+
+def _measure(number: int) -> list[Row]:
+    scenario = draw_scenario(number)
+    found = run_scenario(scenario)
+    return [
+        {
+            "scene": scenario.scene,
+            "robot": scenario.robot,
+            "outcome": found.kind,
+            "detail": found.detail,
+            "time_s": round(found.time, 3),
+        }
+    ]
+
+
+def _find(rows: Sequence[Row], options: BenchOptions) -> Finding:
+    wanted = set(map(str, _numbers(options)))
+    own = [row for row in rows if row["number"] in wanted]
+    outcomes = dict(Counter(row["outcome"] for row in own).most_common())
+    failed = [row for row in own if row["outcome"] in FAILURES]
+    result = {
+        "scenarios": len(wanted),
+        "first": options.first,
+        "outcomes": outcomes,
         "simulated_s": round(sum(float(row["time_s"]) for row in own), 1),
-        "failures": [row for row in own if row["outcome"] in FAILURES],
-        "files": [_TABLE],
+        "failures": failed,
     }
+    tables = [PageTable("Outcomes", ("outcome", "scenarios"), list(outcomes.items()))]
+    if failed:
+        lines = [(r["number"], r["scene"], r["robot"], r["detail"]) for r in failed]
+        tables.append(PageTable("Failed", ("number", "scene", "robot", "what is wrong"), lines))
+    failures = (f"{len(failed)} of {len(wanted)} scenarios failed",) if failed else ()
+    return Finding(result, tables, failures)
 
 
-def stress_loop_text(result: dict[str, Any]) -> str:
-    """The outcomes as text."""
-    lines = [f"{result['scenarios']} scenarios from number {result['first']} on, {result['simulated_s']} s simulated"]
-    lines += [f"{count:8} {outcome}" for outcome, count in result["outcomes"].items()]
-    lines += [f"FAILED {r['number']}, {r['scene']}, {r['robot']}: {r['detail']}" for r in result["failures"]]
-    return "\n".join(lines)
+STRESS = Kind(
+    page="stress",
+    title="The whole loop in random short scenarios",
+    lead=(
+        "Each scenario is drawn by its number: scene, robot, gains, noise and faulty sensors. `plantar bench stress\n"
+        "--first N --scenarios 1` repeats one. Only a failed one is a fault of the program."
+    ),
+    table="stress.csv",
+    keys=("number",),
+    columns=("scene", "robot", "outcome", "detail", "time_s"),
+    cases=_cases,
+    find=_find,
+)

@@ -9,11 +9,13 @@ import numpy as np
 import pytest
 
 from plantar import InputError
+from plantar.bench.kind import BenchOptions
 from plantar.gait.plan.plan_change import MovedStep
 from plantar.sim.bench.footholds import measure_footholds as module
 from plantar.sim.bench.footholds.foothold_run import TRIALS, FootholdResult, run_trial, scene_of_trial
-from plantar.sim.bench.footholds.measure_footholds import footholds_text, measure_footholds
+from plantar.sim.bench.footholds.measure_footholds import FOOTHOLDS
 from plantar.sim.bench.footholds.policy import Action, OwnController, load_policy
+from plantar.sim.bench.runner import Benched, run_kind
 from plantar.sim.run.runner import Simulation
 
 EXAMPLE = Path(__file__).resolve().parents[4] / "examples" / "own_policy.py"
@@ -83,7 +85,11 @@ def test_every_trial_is_a_scene_of_every_robot(robot):
         assert scene.terrain.kind == trial.tables["terrain"]["kind"]
 
 
-def test_a_table_grows_and_is_gone_on_with(tmp_path, monkeypatch):
+def measured(folder: Path, policy: Path | None, seeds: int, *kinds: str) -> Benched:
+    return run_kind(FOOTHOLDS, BenchOptions(policy=policy, seeds=seeds, scene=kinds), folder, lambda *_: None)
+
+
+def test_a_table_grows_and_continues(tmp_path, monkeypatch):
     ran = []
 
     def fake(make, trial, robot, seed):
@@ -91,18 +97,17 @@ def test_a_table_grows_and_is_gone_on_with(tmp_path, monkeypatch):
         return FootholdResult(seed > 0, 8 * (seed > 0), 8, seed == 0, 3.0, 0.01, 12.0)
 
     monkeypatch.setattr(module, "run_trial", fake)
-    measure_footholds(tmp_path, seeds=1, kinds=["push"])
-    result = measure_footholds(tmp_path, EXAMPLE, seeds=4, kinds=["push"])
+    measured(tmp_path, None, 1, "push")
+    done = measured(tmp_path, EXAMPLE, 4, "push")
     assert len(ran) == 3 + 12
-    assert len(measure_footholds(tmp_path, EXAMPLE, seeds=4, kinds=["push"])["rows"]) == 6
+    assert len(measured(tmp_path, EXAMPLE, 4, "push").result["rows"]) == 6
     assert len(ran) == 15
-    own = result["rows"][-1]
+    own = done.result["rows"][-1]
     assert own["policy"].startswith("own_policy-")
     assert (own["completed"], own["fell"], own["runs"]) == (0.75, 0.25, 4)
     assert own["low"] < 0.75 < own["high"]
-    text = footholds_text(result)
-    assert "push 0.15 sqrt(g l)" in text
-    assert (tmp_path / "footholds.md").read_text() == text + "\n"
+    assert "push 0.15 sqrt(g l)" in done.text
+    assert done.text in (tmp_path / "footholds.md").read_text()
 
 
 def test_a_policy_that_was_changed_is_another_one(tmp_path, monkeypatch):
@@ -110,15 +115,15 @@ def test_a_policy_that_was_changed_is_another_one(tmp_path, monkeypatch):
     monkeypatch.setattr(module, "run_trial", lambda *_: FootholdResult(True, 8, 8, False, 3.0, 0.01, 12.0))
     for text in ("make_policy = print", "make_policy = len", "make_policy = print"):
         policy.write_text(text)
-        result = measure_footholds(tmp_path, policy, seeds=1, kinds=["flat"])
-    assert len({row["policy"] for row in result["rows"]}) == 2
-    assert [row["runs"] for row in result["rows"]] == [1, 1]
+        done = measured(tmp_path, policy, 1, "flat")
+    assert len({row["policy"] for row in done.result["rows"]}) == 2
+    assert [row["runs"] for row in done.result["rows"]] == [1, 1]
 
 
-@pytest.mark.parametrize("given", [{"seeds": 0}, {"kinds": ["lava"]}])
-def test_wrong_questions_are_refused(given, tmp_path):
+@pytest.mark.parametrize(("seeds", "kinds"), [(0, ()), (1, ("lava",))])
+def test_wrong_questions_are_refused(seeds, kinds, tmp_path):
     with pytest.raises(InputError, match="allowed: 1 or more of flat, beam, stones, slopes, steps, push"):
-        measure_footholds(tmp_path, **given)
+        measured(tmp_path, None, seeds, *kinds)
 
 
 def simulation():

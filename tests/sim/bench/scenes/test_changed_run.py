@@ -70,18 +70,15 @@ def test_a_standing_robot_is_carried_below_its_centre_of_mass():
 
 
 @pytest.mark.long
-def test_runs_are_appended_once(tmp_path):
+def test_every_run_is_measured_next_to_its_reference():
     settings = [OWN, REFERENCE, setting_named("solver iterations: 5")]
-    case = SceneCase("flat", "h1", STANDING)
-    told: list[str] = []
-    for _ in range(2):
-        SceneRuns(tmp_path).run([case], settings, [1], 1, lambda _, text: told.append(text))
-    rows = SceneRuns(tmp_path).rows
-    assert len(rows) == 7 == len(told) / 2  # three without noise, one for the noise itself, three with it
-    own = next(r for r in rows if (r["setting"], r["kind"]) == (OWN.name, "traced"))
+    cases = SceneRuns().cases([SceneCase("flat", "h1", STANDING)], settings, [1], 1)
+    assert len({case.key for case in cases}) == 7  # three without noise, one for the noise itself, three with it
+    rows = {case.key: case.measure()[0] for case in cases}
+    own = next(r for key, r in rows.items() if (key[3], key[5]) == (OWN.name, "traced"))
     assert 0.0 < float(own["com_mm"]) < 1.0
-    assert all(float(r["cpu_s"]) > 0.0 for r in rows)
-    assert next(r["com_mm"] for r in rows if r["setting"] == REFERENCE.name) == "0.0000"
+    assert all(float(r["cpu_s"]) > 0.0 for r in rows.values())
+    assert next(r["com_mm"] for key, r in rows.items() if key[3] == REFERENCE.name) == "0.0000"
 
 
 RNG = np.random.default_rng(0)

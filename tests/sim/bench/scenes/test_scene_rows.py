@@ -1,14 +1,18 @@
 """Rows, verdicts, page and figure from made-up runs."""
 
 import csv
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+from plantar.bench.kind import BenchOptions
+from plantar.bench.page import tables_text, write_page
 from plantar.errors import InputError
+from plantar.sim.bench.runner import run_kind
 from plantar.sim.bench.scenes.scene_row import NOISE, knob_verdicts, scene_rows
-from plantar.sim.bench.scenes.scene_runs import COLUMNS, SceneRuns
-from plantar.sim.bench.scenes.scenes_report import measure_scenes, scenes_text, write_scenes
+from plantar.sim.bench.scenes.scene_runs import COLUMNS, KEYS
+from plantar.sim.bench.scenes.scenes_report import SCENES
 
 OWN, FINE, COARSE = "scene's own", "reference", "physics step: 1.67 ms"
 
@@ -19,7 +23,7 @@ def run(setting: str, kind: str, cpu: float, com: float = 0.0, seed: int = 1, **
     row |= {"seed": seed, "sim_s": 10.0, "cpu_s": cpu, "completed": "yes", "impact_N": 300.0, "margin_mm": 20.0}
     if kind != "seeded":
         row |= {"com_mm": com, "zmp_mm": com, "force": 0.01 * com, "impact": 0.1, "together_s": 10.0}
-    return {name: str(value) for name, value in {**dict.fromkeys(COLUMNS, ""), **row, **named}.items()}
+    return {name: str(value) for name, value in {**dict.fromkeys((*KEYS, *COLUMNS), ""), **row, **named}.items()}
 
 
 def runs(coarse_error: float, coarse_cpu: float = 1.0, own_error: float = 0.5) -> list[dict[str, str]]:
@@ -78,29 +82,27 @@ def test_a_cheaper_setting_that_falls_or_parts_will_not_do():
     assert knob_verdicts(scene_rows(rows))[0].stays
 
 
-def test_files_tell_what_was_run(tmp_path):
-    told = write_scenes(tmp_path, runs(0.7))
-    assert {"scenes.md", "scenes.csv", "scenes.png"} == {p.name for p in tmp_path.iterdir()}
+def test_files_report_what_was_run(tmp_path):
+    finding = SCENES.find(runs(0.7), BenchOptions())
+    assert write_page(tmp_path, SCENES, finding) == ["scenes.md", "scenes.png", "scenes.csv"]
     page = (tmp_path / "scenes.md").read_text()
     assert "| flat | h1 | physics step | **a better one** |" in page
     assert "nan" not in page
     with (tmp_path / "scenes.csv").open() as table:
         assert [r["setting"] for r in csv.DictReader(table)] == [OWN, FINE, COARSE, NOISE]
-    assert "A BETTER VALUE EXISTS" in scenes_text(told)
+    assert tables_text(finding) in page
+    assert finding.result["rows"][0]["setting"] == OWN
+    assert not finding.failures
 
 
-def test_a_stopped_table_goes_on_and_a_foreign_one_is_refused(tmp_path):
-    table = tmp_path / "scene_runs.csv"
-    table.write_text(",".join(COLUMNS) + "\n" + ",".join(run(OWN, "seeded", 2.0).values()) + "\nflat,h1,st")
-    assert len(SceneRuns(tmp_path).rows) == 1
-    assert table.read_text().endswith("\n")
-    table.write_text("time,force\n")
-    with pytest.raises(InputError, match="no table of scene runs"):
-        SceneRuns(tmp_path)
+def test_a_foreign_table_is_refused(tmp_path):
+    (tmp_path / "scene_runs.csv").write_text("time,force\n")
+    with pytest.raises(InputError, match="no table of scenes runs"):
+        run_kind(SCENES, BenchOptions(quick=True), tmp_path, lambda *_: None)
 
 
 @pytest.mark.parametrize(("scene", "robot"), [("beem", "h1"), ("flat", "h2")])
-def test_an_unknown_walk_is_refused_before_anything_is_written(tmp_path, scene, robot):
+def test_an_unknown_walk_is_refused_before_anything_is_written(tmp_path: Path, scene: str, robot: str):
     with pytest.raises(InputError, match="allowed: "):
-        measure_scenes(tmp_path / "out", lambda *_: None, [scene], [robot])
+        run_kind(SCENES, BenchOptions(scene=(scene,), robot=(robot,)), tmp_path / "out", lambda *_: None)
     assert not (tmp_path / "out").exists()

@@ -9,14 +9,16 @@ from typing import Any
 import numpy as np
 import pytest
 
+from plantar.bench.kind import BenchOptions
 from plantar.errors import InputError
 from plantar.gait.command import Sensors
 from plantar.gait.controller import WalkingController
 from plantar.sensing.reading import Reading
+from plantar.sim.bench.runner import run_kind
 from plantar.sim.bench.stress import stress_run
 from plantar.sim.bench.stress.faults import Faults, FaultySensors
 from plantar.sim.bench.stress.scenario import SCENES, Scenario, draw_scenario
-from plantar.sim.bench.stress.stress_run import FAILURES, Outcome, measure_stress, run_scenario, stress_loop_text
+from plantar.sim.bench.stress.stress_run import FAILURES, STRESS, Outcome, run_scenario
 from plantar.sim.run.scene import load_scene
 
 CASES = json.loads((Path(__file__).parent / "cases.json").read_text())
@@ -106,7 +108,7 @@ def test_faults_do_what_they_say():
     assert passed(jitter=1e-3).readings["left"].time != 0.004
 
 
-def test_a_table_goes_on_where_it_was_left(tmp_path, monkeypatch):
+def test_a_table_continues_where_it_was_left(tmp_path, monkeypatch):
     ran: list[int] = []
 
     def run(scenario: Scenario) -> Outcome:
@@ -114,15 +116,17 @@ def test_a_table_goes_on_where_it_was_left(tmp_path, monkeypatch):
         return Outcome(FAILURES[0] if scenario.number == 2 else "ended", "a, text", 1.0)
 
     monkeypatch.setattr(stress_run, "run_scenario", run)
-    measure_stress(tmp_path, 2)
+    run_kind(STRESS, BenchOptions(scenarios=2), tmp_path, lambda *_: None)
     with (tmp_path / "stress.csv").open("a") as table:
         table.write("2,fl")  # a run that was killed
-    result = measure_stress(tmp_path, 4)
+    done = run_kind(STRESS, BenchOptions(scenarios=4), tmp_path, lambda *_: None)
     assert ran == [0, 1, 2, 3]
-    assert result["outcomes"] == {"ended": 3, "raised": 1}
-    assert "FAILED 2," in stress_loop_text(result)
+    assert done.result["outcomes"] == {"ended": 3, "raised": 1}
+    assert [row["number"] for row in done.result["failures"]] == ["2"]
+    assert done.failures == ("1 of 4 scenarios failed",)
+    assert "a, text" in done.text
     (tmp_path / "stress.csv").write_text("something else\n")
     with pytest.raises(InputError, match="no table of stress runs"):
-        measure_stress(tmp_path, 1)
+        run_kind(STRESS, BenchOptions(scenarios=1), tmp_path, lambda *_: None)
     with pytest.raises(InputError, match="allowed: 1 or more"):
-        measure_stress(tmp_path, 0)
+        run_kind(STRESS, BenchOptions(scenarios=0), tmp_path, lambda *_: None)

@@ -1,18 +1,26 @@
-"""The kernels' comparison: measurements, targets, page, table and figure."""
+"""Kernels of perception next to libraries and published methods: `python benchmarks/kernels.py [-o DIR] [--quick]`.
 
+Writes kernels.md, kernels.csv and kernels.png. Errors are relative, against exact references (`references.py` in
+tests/plantar).
+"""
+
+import argparse
+import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from plantar.bench.comparison import Result
-from plantar.bench.kernels import RANDOM, compare_random_cells, compare_shapes
-from plantar.bench.percepts import TAXELS, compare_forms, compare_percepts, compare_recordings
-from plantar.bench.soles import SIZES
 from plantar.bench.tables import Mark, cell, draw_errors, made_on, markdown_table, write_rows
 from plantar.common.atomic import write_text
 from plantar.kernels import compiled
 from plantar.plotting import new_figure, save_figure
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "plantar"))
+from kernel_percepts import TAXELS, compare_forms, compare_percepts, compare_recordings
+from kernel_shapes import RANDOM, compare_random_cells, compare_shapes
+from sample_soles import SIZES
 
 
 @dataclass(frozen=True)
@@ -175,9 +183,9 @@ _HEAD = """# Perception kernels: run time against error
 
 ![Run time against error](kernels.png)
 
-`plantar bench kernels -o DIR` writes this page ({made}, kernels {form}). A time is the median of a call; all routes
+`python benchmarks/kernels.py` writes this page ({made}, kernels {form}). A time is the median of a call; all routes
 of a kernel take turns, so ratios are reliable where times depend on the machine. An error is relative, against exact
-integers or fractions (`plantar/bench/references.py`). Sizes: 5, 20 or 51 active hexagons of 691 mm^2, and 1,000 small
+integers or fractions (`tests/plantar/references.py`). Sizes: 5, 20 or 51 active hexagons of 691 mm^2, and 1,000 small
 ones with holes (dense). A target compares with the fastest library that gives the same answer from the same input.
 All routes are in `kernels.csv`.
 """
@@ -224,3 +232,19 @@ def _draw(path: Path, results: Sequence[Result]) -> None:
     figure.legend(handles=handles, loc="outside lower center", ncols=5)
     figure.suptitle("Perception kernels: run time against error (lower left is better; 0 is drawn at 1e-17)")
     save_figure(figure, path)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("-o", "--output", type=Path, default=Path(__file__).parent)
+    parser.add_argument("--quick", action="store_true", help="fewer rounds")
+    options = parser.parse_args()
+    options.output.mkdir(parents=True, exist_ok=True)
+    result = measure_kernels(
+        options.output, lambda share, text: print(text, file=sys.stderr), rounds=3 if options.quick else 9
+    )
+    print(kernel_text(result))
+
+
+if __name__ == "__main__":
+    main()

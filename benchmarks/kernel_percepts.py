@@ -6,15 +6,15 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+import references as exact
 import shapely
+from kernel_rivals import Corners, hull_shapely
+from kernel_shapes import OFFSET
 from numpy.typing import NDArray
+from sample_soles import contacts, sole_of
 
 from plantar import batch
-from plantar.bench import references as exact
 from plantar.bench.comparison import Reference, Result, Route, compare
-from plantar.bench.kernels import OFFSET
-from plantar.bench.rivals import Corners, hull_shapely
-from plantar.bench.soles import contacts, sole_of
 from plantar.geometry import polygon
 from plantar.kernels import compiled, python_form
 from plantar.layouts.layout import SoleLayout
