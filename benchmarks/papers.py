@@ -10,11 +10,11 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from statistics import mean
 
+from paper_experiments import EXPERIMENTS, PaperExperiment, figure_of
 from resumable import FOLDER, append_row, commit, drawn_seeds, rows_of, write_table
 
 from plantar.bench.intervals import wilson_interval
 from plantar.bench.tables import markdown_table
-from plantar.sim.papers.experiments import EXPERIMENTS, PaperExperiment, figure_of
 from plantar.sim.run.scene_kind import open_scene, run
 
 TABLE = FOLDER / "papers.csv"

@@ -1,22 +1,24 @@
-"""The papers' experiments that are scenes here: one list, for `plantar bench` and for benchmarks/papers.py."""
+"""The papers' experiments that are scenes here: the list of benchmarks/papers.py."""
 
 import math
 from collections.abc import Mapping
-from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from plantar.errors import PlantarError
 
 _ON_SLAB = 4  # which landing of `obstacle`
-_NONE: Mapping[str, float] = MappingProxyType({})
 
 
 class PaperExperiment(NamedTuple):
     """An experiment of a paper.
 
-    `source`: section, figure or table; `without`: settings of the ablation; empty where there is none; `robot`: robot;
-    empty for that of the scene; `printed`: the paper's figures of a real robot by name; `long`: whether a quick bench
-    leaves it out.
+    Attributes:
+        source: Section, figure or table.
+        paper: What the paper reports.
+        figure: Which figure of a run is compared (`figure_of`).
+        without: Settings of the ablation; empty where there is none.
+        robot: Robot; empty for that of the scene.
+        settings: Settings of all variants.
     """
 
     name: str
@@ -27,10 +29,6 @@ class PaperExperiment(NamedTuple):
     without: tuple[str, ...] = ()
     robot: str = ""
     settings: tuple[str, ...] = ()
-    printed: Mapping[str, float] = _NONE
-    printed_without: Mapping[str, float] = _NONE
-    fell_without: bool = False
-    long: bool = False
 
 
 _LEVEL = ("walk.steps=6",)
@@ -63,8 +61,6 @@ EXPERIMENTS = (
         "balance",
         "ZMPs differ by 10 mm",
         "largest difference",
-        printed={"largest difference": 10.0},
-        long=True,
     ),
     *(
         PaperExperiment(f"feasibility-{n}", "T 4.3.2, Table 3", f"feasibility-{n}", paper, "steps", _ANKLES)
@@ -75,17 +71,15 @@ EXPERIMENTS = (
             f"level ground, {name}",
             place,
             "flat",
-            f"{with_[0]:g} N, without {without[0]:g}",
+            f"{with_} N, without {without}",
             "mean impact",
             _NO_PFC,
             robot,
             _LEVEL,
-            printed=dict(zip(("mean impact", "largest impact"), with_, strict=True)),
-            printed_without=dict(zip(("mean impact", "largest impact"), without, strict=True)),
         )
         for name, place, robot, with_, without in (
-            ("HRP-2Kai", "T 4.4.1.2", "hrp2kai", (58.0, 200.0), (340.0, 430.0)),
-            ("H1", "T 4.4.1.3", "h1", (109.0, 261.0), (486.0, 615.0)),
+            ("HRP-2Kai", "T 4.4.1.2", "hrp2kai", 58, 340),
+            ("H1", "T 4.4.1.3", "h1", 109, 486),
         )
     ),
     PaperExperiment(
@@ -95,17 +89,10 @@ EXPERIMENTS = (
         "370 N, without 1100 and falls",
         _SLAB,
         _NO_PFC,
-        printed={_SLAB: 370.0},
-        printed_without={_SLAB: 1100.0},
-        fell_without=True,
     ),
     PaperExperiment("half a foothold, rear", "T Fig. 61", "partial-rear", "walks on", "steps", _BLIND),
-    PaperExperiment(
-        "30 % of the sole", "T Fig. 62", "partial-third", "walks on", "steps", _BLIND, printed={"steps": 6.0}
-    ),
-    PaperExperiment(
-        "beam of 12 cm", "T Fig. 63", "beam", "50 steps", "steps", _BLIND, printed={"steps": 50.0}, long=True
-    ),
+    PaperExperiment("30 % of the sole", "T Fig. 62", "partial-third", "walks on", "steps", _BLIND),
+    PaperExperiment("beam of 12 cm", "T Fig. 63", "beam", "50 steps", "steps", _BLIND),
     PaperExperiment("beam, turned", "T Fig. 64", "beam-yaw", "50 steps", "steps", _BLIND),
     PaperExperiment(
         "pushed in place", "K 5.1", "push-step", "small push keeps the step, large moves it", "steps", _STILL
@@ -136,8 +123,15 @@ EXPERIMENTS = (
 def figure_of(name: str, summary: Mapping[str, Any]) -> float | None:
     """A figure of a run.
 
-    `name`: as an experiment's `figure` or `printed`, or a number of the summary. Returns impact in N, steps, longer
-    strides, ZMPs' difference in mm, or the number; None where the run has none.
+    Args:
+        name: As an experiment's `figure`, or a number of the summary.
+        summary: The run's.
+
+    Returns:
+        Impact in N, steps, longer strides, ZMPs' difference in mm, or the number; None where the run has none.
+
+    Raises:
+        PlantarError: If no figure has that name.
     """
     impacts = summary.get("impacts_N") or []
     match name:
