@@ -49,6 +49,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
             "record",
             "atomic",
             "table_writer",
+            "row_table",
         ),
         *("console", "extensions", "optional_library", "files", "settings", "pages"),
     ),

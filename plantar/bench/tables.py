@@ -1,7 +1,5 @@
 """Tables and figures of every benchmark."""
 
-import csv
-import io
 import math
 import platform
 import time
@@ -11,8 +9,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from plantar.common.atomic import write_text
-from plantar.common.table_writer import csv_text, mapping_rows, original_cell, write_csv_rows
-from plantar.errors import InputError
+from plantar.common.table_writer import csv_text, mapping_rows
 from plantar.plotting import COLOURS
 
 _PAINT = ("#4c78a8", "#f2a541", "#59a14f", "#b279a2", "#9d755d", "#2f4b7c", "#76b7b2", "#e377c2", "#8c8c8c")
@@ -60,43 +57,6 @@ def write_rows(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
     names = list(rows[0]) if rows else []
     cells = ({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
     write_text(path, csv_text(names, mapping_rows(names, cells)))
-
-
-class GrowingTable:
-    """A CSV file of appended rows: a stopped benchmark continues, without a cut row.
-
-    `path`: the file; its folder must exist at the first row.
-
-    Example:
-        >>> from tempfile import TemporaryDirectory
-        >>> with TemporaryDirectory() as folder:
-        ...     GrowingTable(Path(folder, "runs.csv"), ("seed", "time"), "runs").add({"seed": 3, "time": 0.5})
-        ...     GrowingTable(Path(folder, "runs.csv"), ("seed", "time"), "runs").rows
-        [{'seed': '3', 'time': '0.5'}]
-    """
-
-    def __init__(self, path: Path, columns: Sequence[str], what: str) -> None:
-        self._path = path
-        self._columns = tuple(columns)
-        self.rows: list[dict[str, str]] = []
-        if not path.exists():
-            return
-        text = path.read_text(encoding="utf-8")
-        whole = text[: text.rfind("\n") + 1]
-        reader = csv.DictReader(io.StringIO(whole))
-        if tuple(reader.fieldnames or ()) != self._columns:
-            raise InputError(f"{path} is no table of {what}: its first line has to be {','.join(self._columns)}")
-        self.rows = [{name: original_cell(text or "") for name, text in row.items()} for row in reader]
-        if whole != text:
-            path.write_text(whole, encoding="utf-8")
-
-    def add(self, row: Mapping[str, Any]) -> None:
-        """Append a row; missing columns stay empty."""
-        whole = {name: str(row.get(name, "")) for name in self._columns}
-        new = not self._path.exists()
-        with self._path.open("a", newline="", encoding="utf-8") as file:
-            write_csv_rows(file, [*([self._columns] if new else []), list(whole.values())])
-        self.rows.append(whole)
 
 
 class Mark(NamedTuple):

@@ -10,11 +10,12 @@ from typing import Any, NamedTuple
 
 from plantar.bench.kind import BenchOptions, Case, Kind, Row
 from plantar.bench.page import tables_text, write_page
-from plantar.bench.tables import GrowingTable, write_rows
+from plantar.bench.tables import write_rows
 from plantar.common.atomic import output_folder, write_text
 from plantar.common.console.command import file_lines
 from plantar.common.console.progress import Progress, part_of, progress_bar
 from plantar.common.optional_library import need_libraries
+from plantar.common.row_table import RowTable
 from plantar.errors import InputError
 from plantar.sim.libraries import LIBRARIES
 
@@ -107,14 +108,17 @@ def run_kind(kind: Kind, options: BenchOptions, output: Path, progress: Progress
 
 def _continued(kind: Kind, cases: Sequence[Case], folder: Path, progress: Progress) -> list[Row]:
     """All rows of the table, after the missing cases."""
-    table = GrowingTable(folder / kind.table, (*kind.keys, *kind.columns), f"{kind.page} runs")
-    done = {tuple(row[name] for name in kind.keys) for row in table.rows}
-    for number, case in enumerate(cases):
-        progress(number / len(cases), ", ".join(case.key))
-        if case.key not in done:
-            for row in case.measure():
-                table.add({**_named(kind, case), **row})
-    return list(table.rows)
+
+    def key(row: Row) -> tuple[str, ...]:
+        return tuple(row[name] for name in kind.keys)
+
+    with RowTable(folder / kind.table, (*kind.keys, *kind.columns), key) as table:
+        for number, case in enumerate(cases):
+            progress(number / len(cases), ", ".join(case.key))
+            if case.key not in table.rows:
+                for row in case.measure():
+                    table.append({**_named(kind, case), **row})
+        return list(table.rows.values())
 
 
 def _measured(kind: Kind, cases: Sequence[Case], progress: Progress) -> list[Row]:

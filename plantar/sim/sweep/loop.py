@@ -5,6 +5,7 @@ import signal
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -18,55 +19,39 @@ from plantar.sim.sweep.results import open_results
 from plantar.sim.sweep.task import Row, Task, columns_of
 from plantar.sim.sweep.workers import LocalWorkers, Workers
 
-_NAMES = {signal.SIGINT: "Ctrl-C", signal.SIGTERM: "SIGTERM"}
+Progress = Callable[[float, str], None]
+_SIGNALS = {signal.SIGINT: "Ctrl-C", signal.SIGTERM: "SIGTERM"}
+_PAUSE = 0.2  # s: how soon a signal is seen where no row comes
+_END = "end"
 
 
 class SweepStopped(KeyboardInterrupt):
     """The signal `number` ended a sweep; `kept` names what is kept."""
 
     def __init__(self, number: int, kept: str = "no run was begun") -> None:
-        super().__init__(f"stopped by {_NAMES.get(signal.Signals(number), number)}: {kept}")
+        super().__init__(f"stopped by {_SIGNALS.get(signal.Signals(number), number)}: {kept}")
         self.number = number
 
 
+@dataclass
 class StopNote:
     """The first signal that asked for a stop, or 0."""
 
-    def __init__(self) -> None:
-        self.number = 0
-        self._held = False
-
-    @contextmanager
-    def held(self) -> Iterator[None]:
-        """Only note a signal during this; raised at the end."""
-        self._held = True
-        try:
-            yield
-        finally:
-            self._held = False
-        self.check()
-
-    def check(self) -> None:
-        """Raise SweepStopped if a signal came."""
-        if self.number:
-            raise SweepStopped(self.number)
+    number: int = 0
 
     def take(self, number: int, frame: Any) -> None:
         """Handle a signal `number` in any `frame`."""
-        if not self.number:
-            self.number = number
-            if not self._held:
-                self.check()
+        self.number = self.number or number
 
 
 @contextmanager
 def stop_noted() -> Iterator[StopNote]:
-    """Handle both signals during this, in the main thread only."""
+    """Only note both signals during this, in the main thread: a row is written whole, then the sweep ends."""
     note = StopNote()
-    before = {}
+    before: dict[int, Any] = {}
     if threading.current_thread() is threading.main_thread():
         # Who ignores a signal (nohup, a shell's background) goes on ignoring it.
-        before = {n: signal.getsignal(n) for n in _NAMES if signal.getsignal(n) not in (signal.SIG_IGN, None)}
+        before = {n: signal.getsignal(n) for n in _SIGNALS if signal.getsignal(n) not in (signal.SIG_IGN, None)}
     try:
         for number in before:
             signal.signal(number, note.take)
@@ -74,11 +59,6 @@ def stop_noted() -> Iterator[StopNote]:
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
-
-
-Progress = Callable[[float, str], None]
-_PAUSE = 0.2  # s: how soon a signal is seen where no row comes
-_END = "end"
 
 
 def run_sweep(
@@ -106,31 +86,31 @@ def run_sweep(
     inputs = {robot: inputs_of(checked.scene, robot) for robot in dict.fromkeys(map(checked.robot_of, points))}
     with (
         stop_noted() as note,
+        open_results(folder, plan.identity(), inputs, checked.axes, columns) as table,
         closing(LocalWorkers(workers) if scheduler is None else ClusterWorkers(scheduler)) as pool,
-        open_results(folder, plan.identity(), inputs, checked.axes, columns) as results,
     ):
-        before = len(results.rows)
-        tasks = _Tasks(plan, inputs, results.rows)
+        before = len(table.rows)
+        tasks = _Tasks(plan, inputs, table.rows)
         try:
-            with note.held():
-                for task, row in _rows_of(iter(tasks), pool, note):
-                    values, seed = tasks.keys[task]
-                    empty = dict.fromkeys(columns, "")
-                    results.append({**empty, **dict(zip(checked.axes, values, strict=True)), "seed": seed, **row})
-                    if progress is not None:
-                        progress(*plan.progress(results.rows))
-            found = plan.found(results.rows)
-            figures = [
-                str(save_figure(figure, folder / f"{name}.png"))
-                for name, figure in figures_of(plan, found, results.rows).items()
-            ]
-        except (KeyboardInterrupt, InputError, WorkerError) as error:
-            kept = f"kept {plan.progress(results.rows)[1]} in {results.path}; the same command goes on from there"
-            if isinstance(error, KeyboardInterrupt):
-                raise SweepStopped(note.number or signal.SIGINT, kept) from None
+            for task, row in _rows_of(iter(tasks), pool, note):
+                values, seed = tasks.keys[task]
+                table.append({**dict(zip(checked.axes, values, strict=True)), "seed": seed, **row})
+                if progress is not None:
+                    progress(*plan.progress(table.rows))
+            if note.number:
+                raise SweepStopped(note.number)
+        except (SweepStopped, InputError, WorkerError) as error:
+            kept = f"kept {plan.progress(table.rows)[1]} in {table.path}; the same command goes on from there"
+            if isinstance(error, SweepStopped):
+                raise SweepStopped(error.number, kept) from None
             raise type(error)(f"{error}: {kept}") from None
-        ran = len(results.rows) - before
-    return {**found, "runs": ran, "resumed": tasks.count - ran, "files": [str(results.path), *figures]}
+        found = plan.found(table.rows)
+        figures = [
+            str(save_figure(figure, folder / f"{name}.png"))
+            for name, figure in figures_of(plan, found, table.rows).items()
+        ]
+        ran = len(table.rows) - before
+    return {**found, "runs": ran, "resumed": tasks.count - ran, "files": [str(table.path), *figures]}
 
 
 class _Tasks:
@@ -154,9 +134,8 @@ class _Tasks:
                 continue
             point, seed = run
             robot = checked.robot_of(point)
-            settings = (*checked.settings, *point)
             inputs = tuple(self._inputs[robot].items())
-            task = Task(_anywhere(checked.scene), _anywhere(robot), settings, seed, inputs)
+            task = Task(_anywhere(checked.scene), _anywhere(robot), (*checked.settings, *point), seed, inputs)
             self.keys[task] = key_of(*run)
             yield task
 

@@ -1,12 +1,16 @@
-"""Worker processes on this machine, one run at a time each."""
+"""What runs the tasks of a sweep, as futures; here processes of this machine, one run at a time each."""
 
 import os
 import signal
 import threading
+from abc import ABC, abstractmethod
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
-from multiprocessing import connection, get_context, parent_process, resource_tracker
-from typing import Any, Protocol
+from multiprocessing import get_context, resource_tracker
+from typing import Any
 
 from plantar.errors import PlantarError, WorkerError
 from plantar.sim.sweep.task import Row, Task, failed, run_task
@@ -17,164 +21,163 @@ TRIES = 3
 _STARTS = 3  # workers in a row that end before they are ready: no other will do better
 
 
-class Workers(Protocol):
-    """What runs the tasks of a sweep."""
+class Workers(ABC):
+    """Runs the tasks of a sweep."""
+
+    def __init__(self) -> None:
+        self._running: dict[Future[Row], Task] = {}
+        self._error: PlantarError | None = None
 
     @property
     def room(self) -> int:
         """How many more tasks can be taken."""
+        return self._capacity() - len(self._running)
 
     def submit(self, task: Task) -> None:
         """Begin a task."""
+        self._running[self._begin(task)] = task
 
     def finished(self, timeout: float) -> Sequence[tuple[Task, Row]]:
-        """Wait for a task's end, or a time in s; return ended tasks with rows."""
+        """Wait for a task's end, or a time in s; return ended tasks with rows.
 
+        Raises:
+            WorkerError: If the workers cannot go on.
+            PlantarError: If no run is possible.
+        """
+        if self._error is None:
+            done = wait(self._running, timeout, FIRST_COMPLETED).done
+            rows = [found for future in done for found in self._taken(future)]
+            if rows:
+                return rows
+        if self._error is not None:
+            raise self._error
+        self._check()
+        return []
+
+    def _taken(self, future: Future[Row]) -> list[tuple[Task, Row]]:
+        task = self._running.pop(future)
+        try:
+            return [(task, row) for row in self._outcome(task, future)]
+        except PlantarError as error:  # raised after the rows that have come
+            self._error = error
+            return []
+
+    @abstractmethod
     def close(self) -> None:
         """End the workers at once."""
+
+    @abstractmethod
+    def _capacity(self) -> int:
+        """How many tasks may run."""
+
+    @abstractmethod
+    def _begin(self, task: Task) -> Future[Row]: ...
+
+    @abstractmethod
+    def _outcome(self, task: Task, future: Future[Row]) -> Sequence[Row]:
+        """The row of an ended task; none where it was begun again."""
+
+    @abstractmethod
+    def _check(self) -> None:
+        """Raise a WorkerError if no row will come any more."""
+
+
+class _Worker:
+    """An executor of one process: where that dies, it is known in which run."""
+
+    def __init__(self, ended: Any) -> None:
+        context = get_context("spawn")
+        self.executor = ProcessPoolExecutor(1, context, initializer=_end_when_closed, initargs=(ended,))
+        self._loaded = self.submit(_load)
+
+    @property
+    def ready(self) -> bool:
+        """Whether it has loaded what a run needs."""
+        return self._loaded.done() and self._loaded.exception() is None
+
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        with _interrupts_held():  # a process may be started
+            return self.executor.submit(function, *arguments)
 
 
 class LocalWorkers(Workers):
     """At most `count` processes that `run` tasks by an importable function; a dead one's task starts again."""
 
     def __init__(self, count: int, run: Callable[[Task], Row] = run_task) -> None:
+        super().__init__()
         self._count = count
         self._run = run
-        self._workers: list[_Worker] = []
-        self._deaths: dict[Task, int] = {}
+        self._idle: list[_Worker] = []
+        self._busy: dict[Future[Row], _Worker] = {}
+        self._deaths: Counter[Task] = Counter()
         self._false_starts = 0
-        self._error: PlantarError | None = None
-
-    @property
-    def room(self) -> int:
-        return self._count - sum(w.task is not None for w in self._workers)
-
-    def submit(self, task: Task) -> None:
-        for worker in self._workers:
-            if worker.task is None:
-                worker.begin(task)
-                return
-        try:
-            worker = _Worker(self._run)
-        except OSError as error:
-            raise WorkerError(f"no worker process can be started ({error.strerror})") from None
-        self._workers.append(worker)
-        worker.begin(task)
-
-    def finished(self, timeout: float) -> Sequence[tuple[Task, Row]]:
-        if self._error is not None:
-            raise self._error
-        rows: list[tuple[Task, Row]] = []
-        busy = {w.connection: w for w in self._workers if w.task is not None}
-        for ready in connection.wait(list(busy), timeout):
-            worker = busy[ready]  # type: ignore[index]
-            task = worker.task
-            assert task is not None
-            try:
-                kind, answer = worker.connection.recv()
-            except (EOFError, OSError):
-                rows += self._replace(worker, task)
-                continue
-            if kind == "ready":
-                worker.ready = True
-                self._false_starts = 0
-            elif kind == "error":
-                self._error = answer
-            else:
-                worker.task = None
-                rows.append((task, answer))
-        if self._error is not None and not rows:
-            raise self._error
-        return rows
+        # Every worker waits for the end of this pipe, which comes when it is closed or this process dies.
+        self._ended, self._open = get_context("spawn").Pipe(duplex=False)
 
     def close(self) -> None:
-        for worker in self._workers:
-            worker.process.kill()
-        for worker in self._workers:
-            worker.process.join(2.0)
-            worker.connection.close()
-        self._workers = []
+        self._open.close()
+        for worker in (*self._idle, *self._busy.values()):
+            worker.executor.shutdown(cancel_futures=True)
+        self._ended.close()
 
-    def _replace(self, worker: "_Worker", task: Task) -> list[tuple[Task, Row]]:
-        self._workers.remove(worker)
-        how = worker.end()
+    def _capacity(self) -> int:
+        return self._count
+
+    def _check(self) -> None:
+        """A process that ends is seen at its run."""
+
+    def _begin(self, task: Task) -> Future[Row]:
+        try:
+            while True:
+                worker = self._idle.pop() if self._idle else _Worker(self._ended)
+                with suppress(BrokenProcessPool):  # it died while it was idle
+                    future = worker.submit(self._run, task)
+                    self._busy[future] = worker
+                    return future
+        except OSError as error:
+            raise WorkerError(f"no worker process can be started ({error.strerror})") from None
+
+    def _outcome(self, task: Task, future: Future[Row]) -> Sequence[Row]:
+        worker = self._busy.pop(future)
+        try:
+            row = future.result()
+        except BrokenProcessPool:
+            return self._died(task, worker)
+        except PlantarError:
+            raise
+        except ImportError as error:
+            raise WorkerError(f"a worker cannot load what it needs: {error}") from None
+        self._idle.append(worker)
+        self._false_starts = 0
+        return [row]
+
+    def _died(self, task: Task, worker: _Worker) -> Sequence[Row]:
         if worker.ready:
-            self._deaths[task] = self._deaths.get(task, 0) + 1
+            self._deaths[task] += 1
         else:
             self._false_starts += 1
         if self._false_starts == _STARTS:
-            self._error = WorkerError(f"worker processes end before they are ready ({how})")
-        elif self._deaths.get(task, 0) == TRIES:
-            return [(task, failed(f"the worker died in this run, {TRIES} times of {TRIES} ({how})"))]
-        else:
-            try:
-                self.submit(task)
-            except WorkerError as error:
-                self._error = error
+            raise WorkerError("worker processes end before they are ready")
+        if self._deaths[task] == TRIES:
+            return [failed(f"the worker died in this run, {TRIES} times of {TRIES} (as when memory runs out)")]
+        self.submit(task)
         return []
 
 
-class _Worker:
-    def __init__(self, run: Callable[[Task], Row]) -> None:
-        context = get_context("spawn")
-        self.connection, theirs = context.Pipe()
-        self.process = context.Process(target=_serve, args=(theirs, run), daemon=True)
-        try:
-            with _interrupts_held():
-                self.process.start()
-        finally:
-            theirs.close()
-        self.task: Task | None = None
-        self.ready = False
-
-    def begin(self, task: Task) -> None:
-        self.task = task
-        with suppress(OSError):  # it died while it was idle, which shows when it is asked for its answer
-            self.connection.send(task)
-
-    def end(self) -> str:
-        self.connection.close()
-        self.process.join(5.0)
-        code = self.process.exitcode
-        if code is not None and code < 0:
-            name = signal.Signals(-code).name
-            return f"{name}, as when memory runs out" if name == "SIGKILL" else name
-        return f"exit code {code}"
+def _load() -> None:
+    import plantar.sim.run.runner  # noqa: F401  the heavy part, so that what dies from here on died of its run
 
 
-def _serve(pipe: Any, run: Callable[[Task], Row]) -> None:
+def _end_when_closed(pipe: Any) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches all processes of a terminal; the sweep ends this one
-    _end_with_parent()
     os.environ["MUJOCO_GL"] = "disable"  # no pictures here; looking for a display starts a process that outlives a kill
-    try:
-        import plantar.sim.run.runner  # noqa: F401  the heavy part, so that what dies from here on died of its run
-    except (ImportError, OSError) as error:
-        pipe.send(("error", WorkerError(f"a worker cannot load what it needs: {error}")))
-        return
-    with suppress(EOFError, OSError):  # the sweep has ended
-        pipe.send(("ready", None))
-        while True:
-            pipe.send(_answer(run, pipe.recv()))
 
+    def watch() -> None:
+        with suppress(EOFError, OSError):
+            pipe.recv()
+        os._exit(1)
 
-def _answer(run: Callable[[Task], Row], task: Task) -> tuple[str, Row | PlantarError]:
-    try:
-        return "row", run(task)
-    except PlantarError as error:
-        return "error", error
-    except ImportError as error:
-        return "error", WorkerError(f"a worker cannot load what it needs: {error}")
-
-
-def _end_with_parent() -> None:
-    parent = parent_process()
-    if parent is not None:
-
-        def watch() -> None:
-            parent.join()
-            os._exit(1)
-
-        threading.Thread(target=watch, daemon=True).start()
+    threading.Thread(target=watch, daemon=True).start()
 
 
 @contextmanager

@@ -185,10 +185,10 @@ def test_a_killed_worker_costs_its_run_and_a_killed_sweep_takes_its_workers_alon
 
 def test_a_second_sweep_on_a_folder_is_refused_while_the_first_goes_on(tmp_path):
     first = start(*SWEEP, "--workers=1", "-o", tmp_path)
-    until(lambda: (tmp_path / "results.csv").exists(), "no table")
+    until(lambda: owns(first, tmp_path), "no table")
     code, errors, _ = finish(start(*SWEEP, "--workers=1", "-o", tmp_path))
     assert code == 2
-    assert errors.startswith(f"plantar: another sweep (process {first.pid} on ")
+    assert errors.startswith(f"plantar: another process writes to {tmp_path / 'results.csv'}; wait for its end")
     assert errors.count("\n") == 1
     stop_parent(first, signal.SIGTERM)
     assert_stopped(*finish(first), signal.SIGTERM, tmp_path)
@@ -223,11 +223,10 @@ def undisturbed(tmp_path_factory):
 
 
 def owns(sweep: subprocess.Popen[str], folder: Path) -> bool:
-    """Whether a sweep has begun: whether it is what the folder is locked by."""
-    try:
-        return (folder / ".sweep.lock").read_text().startswith(f"process {sweep.pid} on ")
-    except FileNotFoundError:
-        return False
+    """Whether a sweep has begun: whether it has the table open."""
+    with suppress(psutil.Error):
+        return str(folder / "results.csv") in [file.path for file in psutil.Process(sweep.pid).open_files()]
+    return False
 
 
 def at_random(moments: random.Random, sweep: subprocess.Popen[str], folder: Path, duration: float) -> list[Any]:

@@ -92,40 +92,23 @@ def interruptible():
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_is_raised_at_once_or_after_what_must_not_be_interrupted(number):
-    with pytest.raises(SweepStopped) as caught, stop_noted():
+def test_a_signal_ends_a_sweep_after_a_whole_row(number, tmp_path):
+    def stop(fraction: float, text: str) -> None:
         os.kill(os.getpid(), number)
+        os.kill(os.getpid(), signal.SIGINT)  # the first one counts
+
+    with pytest.raises(SweepStopped, match=r"kept 1 of 4 rows in .*results.csv; the same command goes on") as caught:
+        run_sweep(standing(2), tmp_path, progress=stop)
     assert caught.value.number == number
-    whole = []
-
-    def row() -> None:
-        with stop_noted() as note, note.held():
-            os.kill(os.getpid(), number)
-            whole.append(note.number)
-
-    with pytest.raises(SweepStopped):
-        row()
-    assert whole == [number]
-
-
-def test_the_first_signal_counts_and_later_ones_do_not_disturb_its_end():
-    done = False
-    with stop_noted() as note:
-        try:
-            with note.held():
-                os.kill(os.getpid(), signal.SIGTERM)
-                os.kill(os.getpid(), signal.SIGINT)
-        except SweepStopped as stop:
-            os.kill(os.getpid(), signal.SIGINT)
-            done = stop.number == signal.SIGTERM
-    assert done
+    assert len(rows(tmp_path)) == 1
+    assert run_sweep(standing(2), tmp_path)["runs"] == 3
     with pytest.raises(KeyboardInterrupt):
         os.kill(os.getpid(), signal.SIGINT)
 
 
 def test_what_is_ignored_stays_ignored():
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    with stop_noted() as note, note.held():
+    with stop_noted() as note:
         os.kill(os.getpid(), signal.SIGINT)
     assert note.number == 0
 
@@ -134,7 +117,7 @@ def test_another_thread_handles_no_signals():
     seen = []
 
     def sweep() -> None:
-        with stop_noted() as note, note.held():
+        with stop_noted() as note:
             seen.append(note.number)
 
     thread = threading.Thread(target=sweep)

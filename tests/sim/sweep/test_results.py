@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from plantar.errors import InputError
-from plantar.sim.sweep.results import locked, open_results
+from plantar.sim.sweep.results import open_results
 
 IDENTITY = {"scene": "flat", "axes": ["friction", "direction"]}
 INPUTS = {"h1": {"plantar": "1.0", "scene file flat.toml": "9f", "layout layout_left.json": "e0"}}
@@ -70,8 +70,8 @@ def test_a_value_is_found_however_it_is_written(tmp_path):
     [
         ((b"0.7,left,1,", b"0.7,left,0,"), ("line 3", "has one already")),
         ((b"0.7,left,1,", b"0.70,left,0,"), ("line 3", "has one already")),
-        ((b"0.7,left,1,True,", b"0.7,left,1,True"), ("line 3", "not a row")),
-        ((b"0.7,left,1,", b"0.7,left,x,"), ("line 3", "not a row")),
+        ((b"0.7,left,1,True,", b"0.7,left,1,True"), ("line 3", "no row")),
+        ((b"0.7,left,1,", b"0.7,left,x,"), ("line 3", "no row")),
         ((b"completed,", b"finished,"), ("other columns",)),
         ((b"left", b"\xff"), ("cannot be used", "utf-8", "-o")),
     ],
@@ -164,28 +164,17 @@ def test_a_folder_that_cannot_be_is_one_line(tmp_path):
         pass
 
 
-HOLD = "import sys; from pathlib import Path; from plantar.sim.sweep.results import locked\n"
-
-HOLD += "with locked(Path(sys.argv[1])): print('held', flush=True); sys.stdin.read()"
-
-TAKE_TURNS = """
-import sys, time; from pathlib import Path; from plantar.errors import InputError
-from plantar.sim.sweep.results import locked
-folder = Path(sys.argv[1])
-done = 0
-while done < 50:
-    try:
-        with locked(folder):
-            with open(folder / "inside", "x"): pass  # fails where another is inside
-            time.sleep(0.0002)
-            (folder / "inside").unlink()
-        done += 1
-    except InputError:
-        pass
+HOLD = """
+import sys
+from pathlib import Path
+from plantar.sim.sweep.results import open_results
+with open_results(Path(sys.argv[1]), {}, {}, (), ("completed",)):
+    print("held", flush=True)
+    sys.stdin.read()
 """
 
 
-def test_a_second_owner_is_refused_and_the_first_named(tmp_path, repository):
+def test_a_second_owner_is_refused_until_the_first_has_ended(tmp_path, repository):
     holder = subprocess.Popen(
         [sys.executable, "-c", HOLD, tmp_path], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=repository
     )
@@ -194,25 +183,23 @@ def test_a_second_owner_is_refused_and_the_first_named(tmp_path, repository):
     with holder.stdin, holder.stdout:
         assert holder.stdout.readline() == b"held\n"
         with (
-            pytest.raises(InputError, match=f"another sweep .process {holder.pid} .*choose another folder"),
-            locked(tmp_path),
+            pytest.raises(InputError, match=r"another process writes to .*choose another folder"),
+            open_results(tmp_path, {}, {}, (), ("completed",)),
         ):
             pass
         holder.kill()
         holder.wait()
-    with locked(tmp_path):  # the dead one's file is still there, its lock is not
-        pass
-    assert list(tmp_path.iterdir()) == []
+    with open_results(tmp_path, {}, {}, (), ("completed",)) as table:
+        table.append({"seed": 1, "completed": True})
 
 
-def test_owners_that_come_and_go_are_never_two(tmp_path, repository):
-    """The file is deleted by each owner while the others open it: none may lock a deleted one beside a new one."""
-    command = [sys.executable, "-c", TAKE_TURNS, tmp_path]
-    owners = [subprocess.Popen(command, stderr=subprocess.PIPE, cwd=repository) for _ in range(3)]
-    for owner in owners:
-        _, errors = owner.communicate(timeout=120.0)
-        assert (owner.returncode, errors) == (0, b"")
-    assert list(tmp_path.iterdir()) == []
+def test_a_sweep_that_was_killed_before_its_plan_was_written_begins_again(tmp_path):
+    (tmp_path / "results.csv").write_text("seed,comp")
+    with open_results(tmp_path, {}, {}, (), ("completed",)) as table:
+        assert table.rows == {}
+    (tmp_path / "sweep.json").unlink()
+    with open_results(tmp_path, {}, {}, (), ("completed",)) as table:
+        assert table.rows == {}
 
 
 def test_a_folder_that_takes_no_lock_is_one_line(tmp_path, monkeypatch):
@@ -220,5 +207,8 @@ def test_a_folder_that_takes_no_lock_is_one_line(tmp_path, monkeypatch):
         raise OSError(95, os.strerror(95))
 
     monkeypatch.setattr("fcntl.flock", no_locks)
-    with pytest.raises(InputError, match=r"cannot be locked .*not supported.*choose"), locked(tmp_path):
+    with (
+        pytest.raises(InputError, match=r"cannot be locked .*not supported.*choose"),
+        open_results(tmp_path, {}, {}, (), ()),
+    ):
         pass

@@ -97,7 +97,7 @@ def test_files_report_what_was_run(tmp_path):
 
 def test_a_foreign_table_is_refused(tmp_path):
     (tmp_path / "scene_runs.csv").write_text("time,force\n")
-    with pytest.raises(InputError, match="no table of scenes runs"):
+    with pytest.raises(InputError, match="has other columns than scene,robot"):
         run_kind(SCENES, BenchOptions(quick=True), tmp_path, lambda *_: None)
 
 

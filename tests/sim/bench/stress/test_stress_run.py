@@ -126,7 +126,7 @@ def test_a_table_continues_where_it_was_left(tmp_path, monkeypatch):
     assert done.failures == ("1 of 4 scenarios failed",)
     assert "a, text" in done.text
     (tmp_path / "stress.csv").write_text("something else\n")
-    with pytest.raises(InputError, match="no table of stress runs"):
+    with pytest.raises(InputError, match="has other columns than number,scene"):
         run_kind(STRESS, BenchOptions(scenarios=1), tmp_path, lambda *_: None)
     with pytest.raises(InputError, match="allowed: 1 or more"):
         run_kind(STRESS, BenchOptions(scenarios=0), tmp_path, lambda *_: None)
