@@ -47,7 +47,7 @@ BENCHMARK = Benchmark(
         "torque_limit_share": "torque_limit.share_of_time",
     },
     [
-        Case(scene, scene, name, settings, 20, file=str(robot_file(name)))
+        Case(scene, scene, name, settings, 1, file=str(robot_file(name)))
         for name, (scene, settings) in product(MODELS, SCENES.items())
     ],
     {

@@ -21,7 +21,7 @@ from types import ModuleType
 from introduced_robots import introduce
 from resumable import Benchmark, Case, add_row, commit, differences, latest, rows_of, run_row, wanted
 
-TABLES = ("push_steps", "footholds", "stones", "unknown_ground", "force_only", "velocity", "introduced_robots")
+TABLES = ("push_steps", "footholds", "stones", "unknown_ground", "introduced_robots")
 TABLES += ("walks", "guide", "balance", "reactive_options", "survival_map", "plant", "grounds", "speed")
 
 

@@ -2,8 +2,7 @@
 
 A case is counted on two plants: one drawn within what a carefully built robot has (`plant=random`, `level=1`), and the
 controller's exact model. Seeds are drawn from the commit, so that no version of the code has met them before, and the
-first draw is published. Rows without a plant are of the older ground and judge, on an exact plant and on the same seeds
-at every commit; they have a separate column until they are counted again.
+first draw is published. A table keeps the rows of the commits that are listed under it.
 """
 
 import csv
@@ -30,7 +29,7 @@ FEW = 4
 PLANTS: dict[str, tuple[str, ...]] = {"drawn": ("plant=random", "plant.level=1"), "exact": (), "own": ()}
 """Settings of each plant that a case is counted on; "own" is for cases that are about the plant."""
 
-HEADS = ("plant drawn", "exact plant", "older ground, exact plant")
+HEADS = ("plant drawn", "exact plant")
 """Heads of the cells that `counted` gives."""
 
 
@@ -168,7 +167,7 @@ def rows_of(path: Path) -> list[Row]:
 
 def latest(rows: Iterable[Row]) -> list[Row]:
     """The row that counts of each run."""
-    return list({(r["case"], r["robot"], r.get("plant", ""), r["seed"]): r for r in rows}.values())
+    return list({(r["case"], r["robot"], r["plant"], r["seed"]): r for r in rows}.values())
 
 
 def drawn_seeds(made: str, count: int) -> list[int]:
@@ -179,7 +178,7 @@ def drawn_seeds(made: str, count: int) -> list[int]:
 
 def wanted(benchmark: Benchmark, made: str | None = None) -> Iterator[tuple[int, Case, tuple[str, int]]]:
     """Runs that are missing at a commit, each with its rank, the lower the sooner, and its plant and seed."""
-    done = {(r["case"], r["robot"], r.get("plant", ""), int(r["seed"])) for r in rows_of(benchmark.path)}
+    done = {(r["case"], r["robot"], r["plant"], int(r["seed"])) for r in rows_of(benchmark.path)}
     seeds = drawn_seeds(made or commit(), max((case.seeds for case in benchmark.cases), default=0))
     for case in benchmark.cases:
         for plant in case.plants:
@@ -250,31 +249,25 @@ def differences(row: Row, again: dict[str, Any]) -> list[str]:
 
 
 def counted(rows: Sequence[Row]) -> list[str]:
-    """Completed runs on a drawn plant, an exact one, and of older rows, with Wilson's interval at 95 % in percent."""
+    """Completed runs on a drawn plant and on an exact one, with Wilson's interval at 95 % in percent."""
     cells = []
-    for plants in (("drawn", "own"), ("exact",), ("",)):
-        mine = [r["completed"] == "True" for r in latest(rows) if r.get("plant", "") in plants]
+    for plants in (("drawn", "own"), ("exact",)):
+        mine = [r["completed"] == "True" for r in latest(rows) if r["plant"] in plants]
         low, high = wilson_interval(sum(mine), len(mine))
         cells.append(f"{sum(mine)}/{len(mine)} ({100 * low:.0f}-{100 * high:.0f})" if mine else "-")
     return cells
 
 
 def of_now(rows: Sequence[Row]) -> list[Row]:
-    """The rows that a table's other columns sum up: those on drawn plants, or else the older ones."""
+    """The rows that a table's other columns sum up: those on drawn plants, or else all."""
     mine = latest(rows)
-    return [r for r in mine if r.get("plant", "") in ("drawn", "own")] or mine
+    return [r for r in mine if r["plant"] in ("drawn", "own")] or mine
 
 
-def origin(benchmark: Benchmark, missing: int | None = None) -> str:
-    """Commits of the rows that count, and number of missing rows, for under a table."""
-    made: dict[str, int] = {}
-    for r in latest(rows_of(benchmark.path)):
-        name = r["commit"] if r.get("plant", "") else f"{r['commit']} (older ground)"
-        made[name] = made.get(name, 0) + 1
-    text = ", ".join(f"{n} of {c}" for c, n in sorted(made.items(), key=lambda m: -m[1]))
-    newest = next((r["commit"] for r in reversed(rows_of(benchmark.path)) if r.get("plant", "")), None)
-    left = sum(1 for _ in wanted(benchmark, newest)) if missing is None else missing
-    return f"Runs by commit: {text or 'none'}. Still to be run: {left or 'none'}."
+def origin(benchmark: Benchmark) -> str:
+    """Commits of the rows that count, for under a table."""
+    made = Counter(r["commit"] for r in latest(rows_of(benchmark.path))).most_common()
+    return f"Runs by commit: {', '.join(f'{n} of {name}' for name, n in made) or 'none'}."
 
 
 def write_table(path: Path, lines: Sequence[str], name: str = "table") -> None:

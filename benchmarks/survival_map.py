@@ -283,9 +283,7 @@ def report() -> None:
                 known_shares = {(c.angle, c.phase): s for c, s in zip(asked, shares, strict=True)}
                 figure.colorbar(draw(axis, walk, known_shares, missed), ax=axis, shrink=0.8)
     save_figure(figure, FOLDER / "survival_map.png")
-    left = sum(1 for _ in missing())
-    note = f"{origin(BENCHMARK, left)} That counts cells with runs still to come."
-    write_table(FOLDER / "survival_map.md", [markdown_table(head, lines), "", note])
+    write_table(FOLDER / "survival_map.md", [markdown_table(head, lines), "", origin(BENCHMARK)])
 
 
 def draw(axis: Any, walk: str, shares: dict[tuple[int, float], float], missed: set[tuple[int, float]]) -> Any:
