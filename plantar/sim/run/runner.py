@@ -5,7 +5,7 @@ import time as clock
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -13,38 +13,19 @@ import mujoco
 import numpy as np
 
 from plantar.common.sides import SIDES
-from plantar.errors import SceneError
-from plantar.gait.controller import Command, Sensors, Start, WalkingController
+from plantar.gait.controller import Command, Start
 from plantar.gait.plan.walk_plan import vrp_of_step
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.percepts.percept import Percept
-from plantar.robots.controller_settings import com_height_of, controller_settings
-from plantar.robots.kinematics.ankle_limits import ankle_limits
-from plantar.robots.kinematics.ankle_sensors import ankle_sensors
-from plantar.robots.kinematics.body import body_of
-from plantar.robots.kinematics.leg_inertia import leg_inertia
-from plantar.robots.kinematics.robot_model import Visitor, build_leg_model
-from plantar.robots.motors.torque_control import command_motors
-from plantar.robots.robot import Robot
-from plantar.robots.robot_file import load_robot
-from plantar.robots.start import start_of_walk
-from plantar.robots.walk import crouches
+from plantar.robots.kinematics.robot_model import Visitor
 from plantar.sensing.link_skin import BodySkin
 from plantar.sim.arms.compliant_arm import CompliantArm
-from plantar.sim.arms.settings import ArmSettings
-from plantar.sim.arms.worn_arm import WornArm
 from plantar.sim.figures.film import Film
 from plantar.sim.figures.run_figure import plot_run
-from plantar.sim.judging.foothold_truth import FootholdTruth
-from plantar.sim.judging.judge import Judge, PlainGround
-from plantar.sim.judging.recovery import Recovery
-from plantar.sim.judging.velocity_truth import VelocityTruth
-from plantar.sim.judging.walk_goal import WalkGoal
-from plantar.sim.judging.zmp_comparison import ZmpComparison
 from plantar.sim.loop import Progress, Result, Run
 from plantar.sim.model.world import World, build_world, check_stable
 from plantar.sim.plant.draw import drawn_plant
-from plantar.sim.run.hand_pushing import upper_body_skin_of
+from plantar.sim.run.judges import Judges
 from plantar.sim.run.log import RunLog
 from plantar.sim.run.motor_drives import MotorDrives
 from plantar.sim.run.planned_walk import planned_feet
@@ -54,10 +35,10 @@ from plantar.sim.run.scene import SECTIONS, Push, Scene
 from plantar.sim.run.servos import LegServos
 from plantar.sim.run.standing import stand
 from plantar.sim.run.touched import Touched
+from plantar.sim.run.walker import walker_of
 from plantar.sim.sensing.sensors import SensorSuite
 
 _MEMBERS = frozenset(Percept.members())
-_AROUND = 0.25  # leg around a sole within which an edge may be why a step is moved
 
 
 class Simulation(Run):
@@ -75,107 +56,67 @@ class Simulation(Run):
 
     def __init__(self, scene: Scene, seed: int = 0, layouts: Mapping[Side, SoleLayout] | None = None) -> None:
         self.seed = seed
-        robot = load_robot(scene.robot)
-        if layouts is not None:
-            robot = replace(robot, layouts=dict(layouts))
-        self.robot: Robot = robot
-        self.worn = _worn(robot, scene.arm)
-        worn = () if self.worn is None else (self.worn,)
-        self.legs = build_leg_model(robot, worn)
-        self.body = body_of(robot, self.legs.model)
-        scene = scene.for_body(self.body)
-        self.scene = scene
-        walk = scene.walk
-        self.velocities = walk.velocities(seed)
-        start = self.start_walk()
-        self.feet = dict(start.feet)
-        self.steps = start.steps
-        skin = upper_body_skin_of(scene, robot, self.legs.model, self.body, self.worn)
-        self.settings = controller_settings(
-            scene,
-            robot,
-            self.body,
-            ankle_sensors(self.legs.model, robot),
-            ankle_limits(robot, self.legs.model, self.body.weight, crouches(walk, robot)[1]),
-            skin if scene.sensing.body_skin else None,
-            leg_inertia(robot, self.legs, com_height_of(walk, robot)),
-        )
-        self.motors = command_motors(robot, self.legs, self.body, scene.control, self.settings.period)
-        self.controller = WalkingController(self.settings, start, robot.layouts, self.legs, self.motors)
-        self.centers = self.controller.middles
-        self.planned = planned_feet(robot, self.feet, self.steps, self.controller.schedule)
-        ground = scene.terrain.ground(self.planned, np.random.default_rng([seed, 0x7E]))
-        self.ground = ground
-        self.plant = drawn_plant(scene.plant, seed, self.body, len(robot.legs["left"].joints) * 2, robot.layouts)
         self.skipped = Counter(percept_members=0, recorded_ticks=0, rendered_frames=0)
-        self._everything = scene.control.skip == "none"
         self._log: RunLog | None = None
-        self._enter_world(skin)
-        self.periods = self.world.period, self.settings.period
-        self._add_judges()
+        self.compile(scene, layouts)
+        self.initialize()
+        self.reset()
 
-    def _enter_world(self, skin: BodySkin | None) -> None:
-        scene = self.scene
-        seed = self.seed
+    def compile(self, scene: Scene, layouts: Mapping[Side, SoleLayout] | None) -> None:
+        """Make what needs no physics: robot, plan, controller, and the ground under the plan."""
+        walker = walker_of(scene, self.seed, layouts, self.placed)
+        self.walker = walker
+        self.scene = walker.scene
+        self.robot = walker.robot
+        self.worn = walker.worn
+        self.legs = walker.legs
+        self.body = walker.body
+        self.velocities = walker.velocities
+        self.feet = walker.feet
+        self.steps = walker.steps
+        self.settings = walker.settings
+        self.motors = walker.motors
+        self.controller = walker.controller
+        self.centers = walker.controller.middles
+        self._everything = self.scene.control.skip == "none"
+        self.planned = planned_feet(self.robot, self.feet, self.steps, self.controller.schedule)
+        self.ground = self.scene.terrain.ground(self.planned, np.random.default_rng([self.seed, 0x7E]))
+        joints = 2 * len(self.robot.legs["left"].joints)
+        self.plant = drawn_plant(self.scene.plant, self.seed, self.body, joints, self.robot.layouts)
+
+    def initialize(self) -> None:
+        """Make the world, and what moves, touches and measures the robot in it."""
+        self.touched = self._upper_body(self.walker.skin)
         worn = () if self.worn is None else (self.worn,)
-        self.touched: Touched | None = None
-        if skin is not None:
-            reach = scene.terrain.height + self.settings.com_height
-            plan = (lambda: self.controller.schedule, self.feet, self.steps)
-            self.touched = Touched(scene, skin, self.body, *plan, seed, reach, self.worn)
-        others = (*worn, *([] if self.touched is None else self.touched.partners))
-        self.world: World = self.build_world(others)
+        partners = () if self.touched is None else self.touched.partners
+        self.world: World = self.build_world((*worn, *partners))
+        self.periods = self.world.period, self.settings.period
         self.touch = None if self.touched is None else self.touched.enter(self.world)
-        self.sensors = SensorSuite(
-            self.world,
-            scene.sensing,
-            seed,
-            proximity=scene.control.pfc or scene.control.footholds == "skin",
-            force_torque=scene.sensing.force_torque
-            or "force_torque" in (scene.control.zmp_source, scene.control.feasibility),
-            plant=self.plant,
-        )
-        self.servos: LegServos | MotorDrives
-        if self.motors is None:
-            self.servos = LegServos(self.world, self.legs, self.settings.period, self.plant)
-        else:
-            self.servos = MotorDrives(self.world, self.motors, self.plant)
-        force = scene.push if scene.push.by == "force" else Push()
-        self.pusher = Pusher(force, self.controller.schedule, seed)
+        self.sensors = self._sensor_suite()
+        self.servos = self._drives()
+        force = self.scene.push if self.scene.push.by == "force" else Push()
+        self.pusher = Pusher(force, self.controller.schedule, self.seed)
+        self.arm = self._moving_arm(self.settings.skin)
+
+    def reset(self) -> None:
+        """Stand the robot on its feet at time 0, where judging begins."""
         centers = {side: vrp_of_step(self.feet[side], self.centers[side]) for side in SIDES}
-        self.arm = self._arm(self.settings.skin)
         hold = None if self.arm is None else self.arm.hold
         stand(self.world, self.legs, self.servos, self.feet, centers, self.settings.com_height, hold)
         if self.touch is not None:
             self.touch.place()
-            if scene.sensing.body_skin:
+            if self.scene.sensing.body_skin:
                 self.sensors.body_skin = self.touch.read
+        self.judges = Judges(self.walker, self.world, self.ground, self.pusher, self.touched, self.touch)
+        self.judge = self.judges.judge
+        self.foothold_truth = self.judges.footholds
+        self.recovery = self.judges.recovery
+        self.speeds = self.judges.speeds
+        self.zmps = self.judges.zmps
 
-    def _add_judges(self) -> None:
-        scene = self.scene
-        robot = self.robot
-        ground = self.ground
-        self.recovery = Recovery(self.pusher.shoves, self.body) if scene.push.count else None
-        self.zmps: ZmpComparison | None = None
-        if scene.sensing.force_torque:
-            self.zmps = ZmpComparison(robot.layouts, scene.sensing.force_noise, self.settings.period)
-        self.foothold_truth = FootholdTruth(self.world, ground)
-        goal = WalkGoal(self.feet, self.steps, self.body.leg, scene.guide.way)
-        self.speeds: VelocityTruth | None = None
-        if self.velocities is not None:
-            begin = goal.end(self.centers)
-            self.speeds = VelocityTruth(self.world, self.velocities, self.settings.timing, begin)
-        plain = PlainGround(ground, {s: robot.layouts[s].outline for s in SIDES}, _AROUND * self.body.leg)
-        self.judge = Judge(
-            self.world,
-            self.settings.com_height,
-            goal,
-            plain,
-            scene.control.learn_strides,
-            actors=(self.pusher,) if self.touch is None else (self.pusher, self.touch.sensor),
-        )
-        if any(criterion.of_pieces for criterion in scene.outcome.values()):
-            self.judge.follow_pieces(ground)
+    def placed(self, start: Start) -> Start:
+        """The start of the walk; others may move it."""
+        return start
 
     def build_world(self, others: Sequence[Visitor]) -> World:
         """The run's world, with robot, ground and others."""
@@ -183,24 +124,38 @@ class Simulation(Run):
         period = scene.control.physics_period
         return build_world(self.robot, self.ground, period, self.plant, others, scene.sole_contact)
 
-    def _arm(self, skin: BodySkin | None) -> CompliantArm | None:
+    def _upper_body(self, skin: BodySkin | None) -> Touched | None:
+        if skin is None:
+            return None
+        reach = self.scene.terrain.height + self.settings.com_height
+        plan = (lambda: self.controller.schedule, self.feet, self.steps)
+        return Touched(self.scene, skin, self.body, *plan, self.seed, reach, self.worn)
+
+    def _sensor_suite(self) -> SensorSuite:
+        sensing = self.scene.sensing
+        control = self.scene.control
+        return SensorSuite(
+            self.world,
+            sensing,
+            self.seed,
+            proximity=control.pfc or control.footholds == "skin",
+            force_torque=sensing.force_torque or "force_torque" in (control.zmp_source, control.feasibility),
+            plant=self.plant,
+        )
+
+    def _drives(self) -> LegServos | MotorDrives:
+        if self.motors is None:
+            return LegServos(self.world, self.legs, self.settings.period, self.plant)
+        return MotorDrives(self.world, self.motors, self.plant)
+
+    def _moving_arm(self, skin: BodySkin | None) -> CompliantArm | None:
         if self.worn is None:
             return None
         noise = self.scene.sensing.encoder_noise
-        period = self.settings.period
-        arm = CompliantArm(self.worn, skin, self.scene.arm, self.world, period, noise, self.seed)
+        arm = CompliantArm(self.worn, skin, self.scene.arm, self.world, self.settings.period, noise, self.seed)
         self.legs.hold_others(arm.posture)
         self.sensors.body_links = arm.read
         return arm
-
-    def start_walk(self) -> Start:
-        """Feet at the start, and planned and commanded walk; raises SceneError if the robot cannot walk so."""
-        scene = self.scene
-        height = com_height_of(self.scene.walk, self.robot)
-        try:
-            return start_of_walk(scene.walk, self.robot, height, scene.terrain.height, self.velocities)
-        except SceneError as error:
-            raise SceneError(f"scene '{scene.name}': {error}") from None
 
     @property
     def end(self) -> float:
@@ -216,7 +171,7 @@ class Simulation(Run):
         return f"{self.world.data.time:.1f} s, {len(self.judge.landings)} landings for {len(self.steps)} steps"
 
     def open_log(self, path: Path, files: ExitStack) -> None:
-        log = RunLog(path, self.world, self._identity(), zmps=bool(self.zmps), touch=self.touch, arm=self.arm)
+        log = RunLog(path, self.world, self._identity(), zmps=bool(self.judges.zmps), touch=self.touch, arm=self.arm)
         self._log = files.enter_context(log)
 
     def open_film(self, path: Path, files: ExitStack) -> Callable[[], None]:
@@ -271,32 +226,14 @@ class Simulation(Run):
 
     def after_tick(self) -> None:
         reading, command, joints = self._tick
-        self._judge_tick(reading, command)
+        self.judges.update(reading, command)
         if self._log is None:
             self.skipped["recorded_ticks"] += 1
             return
         judge = self.judge
         self._log.tick(reading, command, self.controller.plan.view, joints, judge.truth(), judge.loads)
-        if self.zmps is not None:
-            self._log.zmps(reading.time, *self.zmps.latest)
-
-    def _judge_tick(self, reading: Sensors, command: Command) -> None:
-        judge = self.judge
-        time = reading.time
-        if command.footholds:
-            self.foothold_truth.update(command.footholds)
-        pushed = self.pusher.pushing or (self.touch is not None and bool(np.any(self.touch.force)))
-        judge.update(time, command.state.com, command.state.zmp, command.moved_steps, pushed)
-        if self.speeds is not None:
-            self.speeds.update(time)
-        if self.touched is not None:
-            self.touched.update(self.world, time, judge.truth().zmp)
-        if self.zmps is not None:
-            self.zmps.update(time, command)
-        if self.recovery is not None:
-            plan = command.reference
-            com = self.world.data.subtree_com[self.world.torso, :2]
-            self.recovery.update(time, judge.truth().zmp, com, plan.vrp, plan.com)
+        if self.judges.zmps is not None:
+            self._log.zmps(reading.time, *self.judges.zmps.latest)
 
     def compute_rest(self, command: Command, everything: bool) -> int:
         """Returns how many percepts of a `command` were not computed; `everything` computes them all."""
@@ -318,12 +255,6 @@ class Simulation(Run):
             "ground": self.ground.seen_from_above(),
             "settings": {name: asdict(getattr(self.scene, name)) for name in SECTIONS},
         }
-
-
-def _worn(robot: Robot, arm: ArmSettings) -> WornArm | None:
-    if arm.side == "none":
-        return None
-    return WornArm(robot, "left" if arm.side == "left" else "right", arm.posture)
 
 
 def run_scene(

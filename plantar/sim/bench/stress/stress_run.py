@@ -117,12 +117,11 @@ class _StressedRun(Simulation):
         self.controller.step = stepped  # type: ignore[method-assign, assignment]
         self.servos.command = checked  # type: ignore[method-assign]
 
-    def start_walk(self) -> Start:
-        start = super().start_walk()
-        feet = {side: self._placed(foot) for side, foot in start.feet.items()}
-        return replace(start, feet=feet, steps=tuple(map(self._placed, start.steps)))
+    def placed(self, start: Start) -> Start:
+        feet = {side: self._moved(foot) for side, foot in start.feet.items()}
+        return replace(start, feet=feet, steps=tuple(map(self._moved, start.steps)))
 
-    def _placed(self, foot: Footstep) -> Footstep:
+    def _moved(self, foot: Footstep) -> Footstep:
         x, y, yaw = self._place
         c = float(np.cos(yaw))
         s = float(np.sin(yaw))
