@@ -250,3 +250,4 @@ KERNELS = Kind(
     find=_find,
     resumes=False,
 )
+"""`plantar bench kernels`."""

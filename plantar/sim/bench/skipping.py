@@ -247,3 +247,4 @@ millisecond.""",
     find=_find,
     resumes=False,
 )
+"""`plantar bench skip`."""

@@ -63,7 +63,12 @@ class Simulation(Run):
         self.reset()
 
     def compile(self, scene: Scene, layouts: Mapping[Side, SoleLayout] | None) -> None:
-        """Make what needs no physics: robot, plan, controller, and the ground under the plan."""
+        """Make what needs no physics: robot, plan, controller, and the ground under the plan.
+
+        Args:
+            scene: The scene.
+            layouts: Instead of the robot's own, or None.
+        """
         walker = walker_of(scene, self.seed, layouts, self.placed)
         self.walker = walker
         self.scene = walker.scene

@@ -122,3 +122,4 @@ FOOTHOLDS = Kind(
     cases=_cases,
     find=_find,
 )
+"""`plantar bench footholds`."""

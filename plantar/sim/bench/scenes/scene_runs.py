@@ -12,6 +12,8 @@ from plantar.sim.bench.scenes.changed_run import ChangedRun, Trace, TracedRun, t
 from plantar.sim.bench.scenes.scene_setting import OWN, SceneSetting, setting_named
 
 KEYS = ("scene", "robot", "walk", "setting", "against", "kind", "seed")
+"""Columns that name a run."""
+
 COLUMNS = (
     *("sim_s", "cpu_s", "completed", "impact_N", "margin_mm"),
     *("com_mm", "zmp_mm", "force", "impact", "together_s"),

@@ -145,3 +145,4 @@ A default is kept where its errors are below sensor noise and no other such valu
     cases=_cases,
     find=_find,
 )
+"""`plantar bench scenes`."""

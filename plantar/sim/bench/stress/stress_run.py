@@ -223,3 +223,4 @@ STRESS = Kind(
     cases=_cases,
     find=_find,
 )
+"""`plantar bench stress`."""
