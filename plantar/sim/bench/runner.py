@@ -17,6 +17,7 @@ from plantar.common.console.progress import Progress, part_of, progress_bar
 from plantar.common.optional_library import need_libraries
 from plantar.common.row_table import RowTable
 from plantar.errors import InputError
+from plantar.kernels import need_compiled
 from plantar.sim.libraries import LIBRARIES
 
 KINDS = {
@@ -64,6 +65,8 @@ def run_bench(what: str, options: BenchOptions, output: Path) -> Benched:
         raise InputError(f"{wrong}; allowed: {', '.join(allowed)}")
     _check_options(what, options)
     need_libraries("sim", *(("scipy",) if what == "kernels" else LIBRARIES))
+    if what != "kernels":
+        need_compiled("walking")
     kinds: dict[str, Kind] = {name: resolve_name(KINDS[name]) for name in (ALL if what == "all" else (what,))}
     with progress_bar() as progress:
         found = {
