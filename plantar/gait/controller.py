@@ -256,8 +256,9 @@ class WalkingController:
         targets = self.foot_targets.targets(stand, law.act(balanced, stand))
         if feedback:
             self.foot_targets.compensate(targets, phase, com, torso, posture, state)
+        shift = None if body is None else body.com_shift
         return Command(
-            com=com if body is None else com - posture.dot(body.com_shift),
+            com=com if shift is None else com - posture.dot(shift),
             rotation_torso=posture,
             feet=targets,
             phase=phase,

@@ -98,6 +98,12 @@ class SoleWrenchSwitch:
         """Start again, on the ground if `landed`."""
         self.landed = landed
 
+    def update_force(self, force: float) -> bool:
+        """Whether the sole has landed, by a vertical contact `force` in N alone; NaN or inf counts as zero."""
+        size = abs(force) if math.isfinite(force) else 0.0
+        self.landed = size > (self.release if self.landed else self.threshold)
+        return self.landed
+
     def update(self, contact: ArrayLike, virtual: ArrayLike) -> NDArray[np.float64]:
         """Returns the wrench (6,) in N and N m of the next `contact` and `virtual` wrench (6,).
 

@@ -199,9 +199,13 @@ class FloatingBaseEstimator:
         loads: dict[str, float] = {"left": self._carry(0, "left", soles), "right": self._carry(1, "right", soles)}
         base = self._base
         self._watch(posture)
-        base_planned = self.legs.base_acceleration(planned_acceleration, swing)
+        planned_x, planned_y = planned_acceleration.tolist()
+        swing_x, swing_y = swing.tolist()
+        mu = self.legs.share  # as `LegInertia.base_acceleration`, in plain numbers
+        base_x = (planned_x - mu * swing_x) / (1.0 - 2.0 * mu)
+        base_y = (planned_y - mu * swing_y) / (1.0 - 2.0 * mu)
         if self._begun:
-            zmp = base.follow(*gyro.tolist(), *accelerometer.tolist(), *base_planned.tolist())
+            zmp = base.follow(*gyro.tolist(), *accelerometer.tolist(), base_x, base_y)
             self._anchor(loads)
         else:
             self._begun = True
@@ -209,11 +213,13 @@ class FloatingBaseEstimator:
             base.take()
             self._stand(posture, accelerometer / float(np.linalg.norm(accelerometer)))
             zmp = base.place()
-        swinging = self._turning * swing  # CoM acceleration off the ZMP's pendulum
+        swinging = self._turning * swing_x, self._turning * swing_y  # CoM acceleration off the ZMP's pendulum
         if self.push is not None:
-            moved = self._rotation.dot(accelerometer)[:2] - (base_planned - planned_acceleration)
+            measured_x, measured_y, _ = self._rotation.dot(accelerometer).tolist()
+            moved = measured_x - (base_x - planned_x), measured_y - (base_y - planned_y)
             self.push_acceleration = self._pushed(self.push, moved, zmp, felt, swinging)
-        base.observe(*(self.push_acceleration + swinging).tolist())
+        push_x, push_y = self.push_acceleration.tolist()
+        base.observe(push_x + swinging[0], push_y + swinging[1])
         if self.dcm_filter is not None:
             self._filter(self.dcm_filter, posture, zmp, swinging)
         rotation, position, com, velocity, left, right, turn_left, turn_right = base.snapshot()
@@ -286,19 +292,24 @@ class FloatingBaseEstimator:
     def _pushed(
         self,
         push: PushEstimate,
-        moved: NDArray[np.float64],
+        moved: tuple[float, float],
         zmp: NDArray[np.float64] | None,
         felt: NDArray[np.float64] | None,
-        swinging: NDArray[np.float64],
+        swinging: tuple[float, float],
     ) -> NDArray[np.float64]:
-        pendulum = None if zmp is None else self.omega**2 * (self._com[:2] - zmp) + swinging
+        pendulum = None
+        if zmp is not None:
+            x, y, _ = self._com.tolist()
+            zmp_x, zmp_y = zmp.tolist()
+            square = self.omega**2
+            pendulum = square * (x - zmp_x) + swinging[0], square * (y - zmp_y) + swinging[1]
         estimated = push.update(moved, pendulum)
         return estimated if felt is None else felt
 
     def _filter(
-        self, dcm_filter: DcmFilter, posture: Posture, zmp: NDArray[np.float64] | None, swinging: NDArray[np.float64]
+        self, dcm_filter: DcmFilter, posture: Posture, zmp: NDArray[np.float64] | None, swinging: tuple[float, float]
     ) -> None:
         com = self._position + self._rotation.dot(posture.com)
-        filtered = dcm_filter.update(com[:2], zmp, (self.push_acceleration + swinging) / self.omega**2)
+        filtered = dcm_filter.update(com[:2], zmp, (self.push_acceleration + np.array(swinging)) / self.omega**2)
         self._com[:2] = filtered.com
         self._velocity[:2] = self.omega * (filtered.dcm - filtered.com)

@@ -122,12 +122,12 @@ class IdentifiedBody:
     @property
     def joint_offsets(self) -> NDArray[np.float64] | None:
         """Added to joint set-points (k,) in rad, since servos follow encoders; None for none."""
-        return self._faded * self.encoder_offsets if len(self.encoder_offsets) else None
+        return self._faded * self.encoder_offsets if self._reads_off else None
 
     @property
-    def com_shift(self) -> NDArray[np.float64]:
-        """Subtracted from the desired CoM (3,) in m, base frame, to get the model's."""
-        return self._faded * self.com_offset
+    def com_shift(self) -> NDArray[np.float64] | None:
+        """Subtracted from the desired CoM (3,) in m, base frame, to get the model's; None for none."""
+        return self._faded * self.com_offset if self._lies_off else None
 
     @property
     def lean(self) -> float:

@@ -10,7 +10,8 @@ from plantar.common.settings.part import Part
 from plantar.common.settings.schema import share
 from plantar.kernels.base.vectors import vector2
 
-_NO_PUSH = read_only(np.zeros(2))
+NO_PUSH = read_only(np.zeros(2))
+"""What an estimate returns without a push."""
 
 
 class PushRules(Part, table="push_estimate", needs={"control.push_estimate": ("soles", "skin")}):
@@ -36,21 +37,22 @@ class PushEstimate:
     def __init__(self, rules: PushRules, period: float) -> None:
         self._rules = rules
         self._share = 1.0 if rules.time_constant == 0.0 else -math.expm1(-period / rules.time_constant)
-        self.disagreement = _NO_PUSH
+        self.disagreement = NO_PUSH
         self.acts = False
 
-    def update(self, measured: NDArray[np.float64], pendulum: NDArray[np.float64] | None) -> NDArray[np.float64]:
+    def update(self, measured: tuple[float, float], pendulum: tuple[float, float] | None) -> NDArray[np.float64]:
         """Returns CoM acceleration (2,) in m/s^2 by a push after a tick; zero without.
 
-        By the base's `measured` horizontal one (2,), world frame, and the `pendulum`'s w^2 (x - p), (2,) in m/s^2,
+        By the base's `measured` horizontal one, world frame, and the `pendulum`'s w^2 (x - p), along x and y in m/s^2,
         None without load.
         """
         if pendulum is None:
-            self.disagreement, self.acts = _NO_PUSH, False
-            return _NO_PUSH
+            self.disagreement = NO_PUSH
+            self.acts = False
+            return NO_PUSH
         x, y = self.disagreement.tolist()
-        (ax, ay), (px, py) = measured.tolist(), pendulum.tolist()
-        x, y = x + self._share * (ax - px - x), y + self._share * (ay - py - y)
+        x += self._share * (measured[0] - pendulum[0] - x)
+        y += self._share * (measured[1] - pendulum[1] - y)
         self.disagreement = vector2(x, y)
         self.acts = math.hypot(x, y) > (self._rules.ends if self.acts else self._rules.begins)
-        return self.disagreement if self.acts else _NO_PUSH
+        return self.disagreement if self.acts else NO_PUSH

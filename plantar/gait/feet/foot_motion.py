@@ -370,7 +370,7 @@ class FootMotion:
             if view is not None and remaining < _NEARLY_THERE * self._leg:
                 self.surprise = float(sense.position[2] - frame.offset[2]) - view.middle - self._expected
             turn = compliance.turn(self._tilts[side], view if remaining < _CLOSE_BY * self._leg else None, period)
-            if turn.any():
+            if turn.item(0) != 0.0 or turn.item(1) != 0.0:
                 self._tilts[side] = self._tilts[side].dot(rotation_from_vector(turn))
             # A leg that is stretched leaves its foot behind; commanded further down, it would slam where it gets there.
             lowest = float(sense.position[2] - frame.offset[2]) - _AHEAD * self._leg

@@ -65,13 +65,12 @@ class SwingCompliance:
     def update_load(self, load: float) -> bool:
         """Whether the foot has landed (T 4.30 corrected), by `load` in N, less its tare."""
         self.force += 0.5 * (load - self.force)
+        if not self.by_wrench:
+            return self.switch.update_force(self.force)
         up = np.array([0.0, 0.0, self.force, 0.0, 0.0, 0.0])
-        if self.by_wrench:
-            reach = self.ground.settings.sensing_range
-            virtual = virtual_ground_reaction_wrench(self.layout, self.ground.distance, PROXIMITY_GAIN, reach)
-            self._wrench = self.switch.update(up, virtual)
-        else:
-            self.switch.update(up, np.zeros(6))
+        reach = self.ground.settings.sensing_range
+        virtual = virtual_ground_reaction_wrench(self.layout, self.ground.distance, PROXIMITY_GAIN, reach)
+        self._wrench = self.switch.update(up, virtual)
         return self.switch.landed
 
     def damped(self, planned: float, time_left: float, period: float) -> float:

@@ -39,12 +39,13 @@ class LipReference(Record, frozen=True):
 
     def plus(self, shift: Self) -> Self:
         """This plan plus the DCM and CoM of another VRP."""
-        return self.changed(
-            dcm=self.dcm + shift.dcm,
-            dcm_velocity=self.dcm_velocity + shift.dcm_velocity,
-            com=self.com + shift.com,
-            com_velocity=self.com_velocity + shift.com_velocity,
-            com_acceleration=self.com_acceleration + shift.com_acceleration,
+        return type(self)(
+            self.vrp,
+            self.dcm + shift.dcm,
+            self.dcm_velocity + shift.dcm_velocity,
+            self.com + shift.com,
+            self.com_velocity + shift.com_velocity,
+            self.com_acceleration + shift.com_acceleration,
         )
 
 

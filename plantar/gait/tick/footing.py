@@ -16,6 +16,7 @@ from plantar.gait.contact.foot_contacts import FootContacts
 from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.estimate.command_frame import CommandFrame
 from plantar.gait.estimate.estimator import SoleLoad
+from plantar.gait.estimate.push_estimate import NO_PUSH
 from plantar.gait.estimate.sole_slope import SoleSlope
 from plantar.gait.estimate.wrench_filter import WrenchFilter
 from plantar.gait.feet.foot_motion import FootMotion, SoleSense
@@ -201,7 +202,10 @@ class Footing:
         omega = self._estimation.omega
         plan = self._plan
         if self._settings.push_estimate is not None and self._settings.step_adjustment is not None:
-            expected = self._push.update(self._estimation.estimator.push_acceleration / omega**2)
+            push = self._estimation.estimator.push_acceleration
+            expected = _NO_PUSH
+            if push is not NO_PUSH or self._push.acts:  # else there is none, and none is expected
+                expected = self._push.update(push / omega**2)
             if self._push.acts and phase.swing:
                 offset = self._push.mean(max(0.0, phase.end - time))
                 # xi' = w u_w, summed over the time that the low pass remembers.

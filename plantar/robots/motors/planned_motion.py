@@ -6,7 +6,6 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.common.sides import SIDES
 from plantar.gait.command import Command
 from plantar.robots.kinematics.command_joints import carry_command
 from plantar.robots.kinematics.leg_model import LegModel
@@ -45,7 +44,8 @@ class PlannedMotion:
     def carry(self, command: Command) -> None:
         """Torques of the last solution under a `command`'s forces and of its motion: the legs' `torques`."""
         carry_command(self._legs, command)
-        left, right = (max(command.feet[side].force.item(2), 0.0) for side in SIDES)
+        left = max(command.feet["left"].force.item(2), 0.0)
+        right = max(command.feet["right"].force.item(2), 0.0)
         share = left / (left + right) if left + right > 0.0 else 0.5
         self._legs.add_motion(
             self.velocity,

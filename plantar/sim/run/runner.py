@@ -248,7 +248,7 @@ class Simulation(Run):
                 for name in _MEMBERS:
                     getattr(percept, name)
             else:
-                count += len(_MEMBERS) - len(_MEMBERS.intersection(percept.__dict__))
+                count += len(_MEMBERS) - len(percept.__dict__)  # a percept keeps its members alone
         return count
 
     def _identity(self) -> dict[str, object]:

@@ -131,3 +131,12 @@ def test_a_switch_can_start_on_the_ground():
             SoleWrenchSwitch(5.0, release)
         with pytest.raises(InputError):
             sole_wrenches(np.zeros((1, 6)), np.zeros((1, 6)), 5.0, release)
+
+
+def test_a_force_alone_switches_as_its_wrench_does():
+    forces = [0.0, 4.9, 5.1, 3.0, 2.4, -6.0, np.nan, 5.1, np.inf, 0.0]
+    by_wrench = SoleWrenchSwitch(5.0)
+    by_force = SoleWrenchSwitch(5.0)
+    for force in forces:
+        by_wrench.update([0.0, 0.0, force, 0.0, 0.0, 0.0], np.zeros(6))
+        assert by_force.update_force(force) == by_wrench.landed == by_force.landed
