@@ -4,7 +4,8 @@ Nothing of the judge is used: forces are MuJoCo's by `mj_contactForce`, hulls ar
 """
 
 import math
-from itertools import pairwise
+from collections import Counter
+from itertools import groupby, pairwise
 from typing import Any
 
 import mujoco
@@ -17,6 +18,7 @@ from plantar.common.sides import SIDES
 from plantar.mechanics.lip import GRAVITY
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
+from plantar.sim.terrain import CORNERS
 
 WALK = ["steps=3", "walk.start=0.5", "settle=0.3", "walk.end=0.5"]
 COPLANAR = ("flat", "beam", "beam-yaw", "partial-inner", "push", "turn")
@@ -50,6 +52,7 @@ class Watched(Simulation):
         w, data = self.world, self.world.data
         row: dict[str, Any] = {"time": time, "pushed": pushed, "points": [], "loads": [], "wrench": np.zeros(6)}
         row["height"] = 0.0
+        row["pieces"] = Counter()
         own = [set(w.sole_geoms[side]) for side in SIDES]
         for soles in own:
             load, points = 0.0, []
@@ -66,6 +69,8 @@ class Watched(Simulation):
                 row["wrench"] += [*force, *(np.cross(contact.pos, force) + torque)]
                 row["height"] += force[2] * contact.pos[2]
                 load += force[2]
+                other = w.model.geom((set(pair) - soles).pop()).name.removesuffix(CORNERS)
+                row["pieces"][other] += force[2]
                 if contact.efc_address >= 0 or contact.dist <= w.reach:
                     points.append(contact.pos[:2].copy())
             row["loads"].append(load)
@@ -131,6 +136,7 @@ def check(run: Watched, summary: dict[str, Any]) -> None:
         assert summary["contact_area_ratio"][number] == pytest.approx(area / sole, abs=0.02)
         assert summary["contact_area_ratio"][number] >= area / sole - 6e-4
     check_stance(run, summary, [k for k, _ in landings], depth)
+    check_outcome(run, summary, loads, [(k, foot, k + round(0.202 * beat / period) + 1) for k, foot in landings])
     # Stands and slips, the first ones too.
     slips = [0.0]
     for foot in range(2):
@@ -175,6 +181,40 @@ def check(run: Watched, summary: dict[str, Any]) -> None:
     pushed = period * np.sum([row["pushed"] for row in rows], axis=0)
     if "push" in summary:
         assert summary["push"]["impulse_Ns"] == pytest.approx(np.linalg.norm(pushed), abs=6e-5)
+
+
+def check_outcome(
+    run: Watched, summary: dict[str, Any], loads: np.ndarray, landings: list[tuple[int, int, int]]
+) -> None:
+    """Count what the run's ground, landings and motors show, and compare it with the reasons that the judge gives.
+
+    `landings` are each one's first step, foot, and end of the steps in which its impact is looked for.
+    """
+    w = run.world
+    weight = w.body.weight
+    given = {reason["criterion"] for reason in summary["reasons"]}
+    hardest = max((loads[a:b, foot].max() for a, foot, b in landings), default=0.0) / weight
+    names = [f"ground_{i}" for i in range(len(run.ground.solids))]
+    tops = {round(solid.top, 4) for solid in run.ground.solids}
+    level = run.scene.name in COPLANAR
+    assert not level or tops <= {0.0}
+    assert ("impact" in given) == (hardest > (1.0 if level else 1.5))
+    held = np.abs([row["torque"] for row in run.rows]) >= 0.999 * w.model.actuator_forcerange[w.servos, 1]
+    assert ("torque_limit" in given) == (held.any(axis=1).mean() > 0.1)
+    assert not given & {"outside_force", "ground_contact"}
+    on_pieces = np.array([[row["pieces"][name] for name in names] for row in run.rows])
+    if "soft_landings" in run.scene.outcome:
+        assert ("soft_landings" in given) == (hardest > 0.5)
+    if run.judge.pieces is None:
+        return
+    carries = on_pieces >= 0.25 * weight
+    for piece, name in enumerate(names):
+        assert run.judge.pieces.largest(piece) == pytest.approx(on_pieces[:, piece].max(), abs=1e-6), name
+        longest = max((len(list(g)) for on, g in groupby(carries[:, piece]) if on), default=0)
+        assert run.judge.pieces.longest(piece) == pytest.approx(longest * w.period), name
+    if "never_stood_on" in run.scene.outcome:
+        stood = max(run.judge.pieces.longest(piece) for piece in range(len(names)))
+        assert ("never_stood_on" in given) == (stood > run.scene.outcome["never_stood_on"].longest)
 
 
 def check_stance(run: Watched, summary: dict[str, Any], landings: list[int], depth: np.ndarray) -> None:
@@ -258,6 +298,8 @@ def test_figures_of_a_flat_walk_are_the_simulators():
     [
         ("beam", WALK),
         ("obstacle", [*WALK, "terrain.step=1"]),
+        ("feasibility-2", [*WALK, "terrain.step=1", "feasibility=off"]),
+        ("slide-in", [*WALK, "terrain.step=1"]),
         ("uneven", WALK),
         ("stones", WALK),
         ("partial-inner", WALK),

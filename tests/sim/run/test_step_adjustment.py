@@ -66,18 +66,6 @@ def test_a_trunk_that_leans_leaves_the_hip_what_a_push_needs(seed):
 
 
 @pytest.mark.long
-@pytest.mark.xfail(strict=True, reason="held until b0ad81cd; now h1 holds 41 N s and falls by 41.5")
-def test_a_foot_that_the_sinking_pelvis_puts_down_early_comes_to_carry():
-    # 42.5 N s to the left as the left foot lifts off: its hip's torque holds the pelvis no longer.
-    push = ["push.small=0", "push.impulse=42.5", "push.duration=0.1", "direction=angle", "push.angle=90"]
-    when = ["push.step=3", "push.cycle=0.5", "push.with_swing=false", "outcome=none", "walk.steps=6"]
-    simulation, out = run("push-step", 1, *push, *when)
-    assert not out["fell"]
-    assert any(a.change.reason == "landed beside its place" for a in simulation.controller.plan.record)
-    assert out["slip_max_m"] < 0.02
-
-
-@pytest.mark.long
 def test_who_is_not_confident_follows_and_who_is_leads():
     ways = []
     for confidence in (0.0, 1.0):
