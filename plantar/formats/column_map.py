@@ -106,9 +106,11 @@ def proposed_map(names: Sequence[str], table: NDArray[np.float64]) -> str:
     Six columns with negative values are a plate's channels; others one or two feet's cells.
     """
     steps = np.diff(table, axis=0)
+    rising = [i for i in range(table.shape[1]) if len(steps) and (steps[:, i] > 0.0).all()]
+    counters = [i for i in rising if (steps[:, i] == 1.0).all()]
     timed = [i for i, n in enumerate(names) if time_unit(n) is not None]
-    timed = timed or [i for i in range(table.shape[1]) if len(steps) and (steps[:, i] > 0.0).all()]
-    rest = [i for i in range(table.shape[1]) if i not in timed[:1]]
+    timed = timed or [i for i in rising if i not in counters]
+    rest = [i for i in range(table.shape[1]) if i not in (*timed[:1], *counters)]
     parts = [f"time={_shown(timed[0], names)}"] if timed else []
     rest = _possible_loads(names, table, rest) if names else rest
     if not rest:
@@ -133,6 +135,8 @@ def _possible_loads(names: Sequence[str], table: NDArray[np.float64], columns: S
     loads = [
         i for i, h in headings.items() if h.quantity in _LOADS and (h.quantity != "number" or h.number is not None)
     ]
+    if any(headings[i].axis in ("x", "y", "z") for i in loads):
+        return []  # of a plate, and which is a force is not to be seen
     if loads:
         return loads
     numbered = [i for i, h in headings.items() if h.quantity == "unknown" and h.number is not None and not h.axis]

@@ -23,8 +23,8 @@ BODY_WEIGHTS: dict[str, float] = {
 """Units of force relative to the body's weight; N/kg is apart, since it is of the mass."""
 
 # Where each is seen: OpenSim .mot (ground_force_vx), Cortex .forces (FX1), D-Flow (FP1.ForX), Vicon Nexus (Fx, Force
-# Plate #1), BioWare (Ax), BTK and Visual3D (F1X), AMTI (FX), novel (links, Kraft), loadsol (Force[N]), Noraxon (LT),
-# Moticon (total force), Arduino sketches (FSR1, A0, millis), theses in ten languages.
+# Plate #1), BioWare (Ax), BTK (F1X), Visual3D (COFP), AMTI (FX), novel (links, Kraft), loadsol (Force[N]),
+# Noraxon (LT), Moticon (total force), Arduino sketches (FSR1, A0, millis), theses in ten languages.
 _WORDS_OF_KIND = {
     "left": "l lt li left links linker linke linkes gauche izquierdo izquierda izq sinistro sinistra "
     "esquerdo esquerda 左",
@@ -32,8 +32,8 @@ _WORDS_OF_KIND = {
     "destro destra direito direita 右",
     "force": "f force forces for kraft kracht grf grfs load last carga fuerza forza força reaction vgrf 荷重 力",
     "pressure": "pressure druck press pression presion presión kpa 圧力",
-    "cop": "cop copp pressurecenter copposition",
-    "moment": "m mom moment moments torque t tz free drehmoment",
+    "cop": "cop copp cofp pressurecenter copposition",
+    "moment": "freemoment m mom moment moments torque t tz free drehmoment",
     "vertical": "vertical vert v normal vertikal vertikale senkrecht verticale verticaal 垂直",
     "ap": "ap anteroposterior anterior posterior",
     "ml": "ml mediolateral lateral medial",
@@ -44,9 +44,10 @@ _WORDS_OF_KIND = {
     "cell": "cell cells sensor sens taxel sensel fsr fsrs pad zelle s c p a adc heel hindfoot rearfoot calcaneus mid "
     "midfoot arch met meta metatarsal mt mth forefoot toe toes hallux bigtoe big great ball ferse zehe inner outer mtp "
     "head first fifth second third fourth central front back",
-    "foreign": "pos position marker angle angles vel velocity speed acc accel acceleration accelerometer gyr gyro "
-    "gyroscope mag magnetometer quat quaternion emg emgs imu angular rate temp temperature temperatur battery volt "
-    "voltage current trigger sync pin frame frames sample index counter count knee hip ankle pelvis trunk power event "
+    "foreign": "target analog pos position marker angle angles vel velocity speed acc accel acceleration "
+    "accelerometer gyr gyro gyroscope mag magnetometer quat quaternion emg emgs imu angular rate temp "
+    "temperature temperatur battery volt voltage "
+    "current trigger sync pin frame frames sample index counter count knee hip ankle pelvis trunk power event "
     "phase status flag label subject trial session id participant state step stride cycle roll pitch yaw incline slope "
     "distance area humidity hr off rim handrim wheel handrail finger thumb",
 }
@@ -56,8 +57,8 @@ _PLACES = frozenset(w for w, kind in _KINDS.items() if kind == "cell" and len(w)
 # Words that are written together: a foot before or after what is measured, and an axis.
 _FOOT = "left|right|links|rechts|linker|rechter|lt|rt|l|r|左|右"
 _WHAT = (
-    "force|forces|load|kraft|grfs?|copp?|moment|mom|torque|total|sum|foot|feet|fuss|fuß|voet|足|leg|insole|sole|plate|belt|"
-    "sensor|cell|fsr|heel|hindfoot|rearfoot|mid|midfoot|arch|forefoot|toes?|hallux|met|meta|mth"
+    "force|forces|load|kraft|grfs?|copp?|cofp|moment|mom|torque|total|sum|foot|feet|fuss|fuß|voet|足|leg|insole|sole|"
+    "plate|belt|sensor|cell|fsr|heel|hindfoot|rearfoot|mid|midfoot|arch|forefoot|toes?|hallux|met|meta|mth"
 )
 _TOGETHER = re.compile(
     rf"(?P<foot>{_FOOT})?(?P<before>v|vertical|total)?(?P<what>{_WHAT})(?P<axis>[xyzv])?(?P<after>{_FOOT})?"

@@ -16,6 +16,8 @@ _ROWS = 10  # Rows of numbers in a row from which a table begins, where there ar
 _ALIKE = 3  # Rows from which a text that stands in all of them is a label
 _LONGEST_NAME = 200
 _OTHERS = "s sec secs ms hz - % %bw bw xbw n/kg deg"
+# Rows above a table of Visual3D: file, signal, kind, folder, and ITEM beside the axes; kinds that name a quantity.
+_VISUAL3D = ("FORCE", "COFP", "FREEMOMENT", "TARGET", "ANALOG")
 _UNITS = {*FORCES, *PASCALS, *LENGTHS, *MOMENTS, *RAW, *_OTHERS.split(), ""}
 
 
@@ -145,6 +147,12 @@ _PLATE = re.compile(r".*\b(?:\w*plat(?:e|te|t?form|eforme)|fp|kistler|amti|berte
 
 
 def _names(above: Sequence[str], delimiter: str | None, width: int) -> tuple[list[str], int]:
+    if len(above) >= len(_VISUAL3D) and above[-1].startswith("ITEM"):
+        signals, kinds, _, axes = (names_of_row(line.rstrip("\r\n"), delimiter) for line in above[-4:])
+        if {len(signals), len(kinds), len(axes)} == {width}:
+            parts = zip(signals, kinds, axes, strict=True)
+            names = [f"{signal} {kind if kind in _VISUAL3D else ''} {axis}" for signal, kind, axis in parts]
+            return ["Frame", *names[1:]], len(above) - len(_VISUAL3D)
     at = len(above) - 1
     rows = []
     for line in above[-3:]:

@@ -179,6 +179,16 @@ def bioware() -> str:
     return head + rows([TIME, AHEAD["right"], LEFTWARD["right"], -RIGHT, PLACE["right"], NONE])
 
 
+def visual3d() -> str:
+    """Visual3D: rows of file, signal, kind and folder above the axes; frames are counted."""
+    columns = [np.arange(1.0, len(TIME) + 1.0)]
+    for side, force, y in (("left", LEFT, 0.1), ("right", RIGHT, -0.1)):
+        columns += [AHEAD[side], LEFTWARD[side], force, PLACE[side], NONE + y, NONE]
+    heads = [["walk.c3d"] * 12, ["FP1"] * 6 + ["FP2"] * 6, (["FORCE"] * 3 + ["COFP"] * 3) * 2, ["ORIGINAL"] * 12]
+    lines = ["\t".join(["", *row]) for row in heads]
+    return "\n".join([*lines, "\t".join(["ITEM", *"XYZXYZXYZXYZ"])]) + "\n" + rows(columns)
+
+
 @pytest.mark.parametrize(
     ("name", "text", "kind", "sides"),
     [
@@ -189,6 +199,7 @@ def bioware() -> str:
         ("GaCo01_01.txt", gaitpdb, "insole", ("left", "right")),
         ("d_flow.txt", d_flow, "plate", ("left", "right")),
         ("bioware.txt", bioware, "plate", ("right",)),
+        ("visual3d.txt", visual3d, "plate", ("left", "right")),
         ("vicon.csv", vicon, "plate", ("left", "right")),
         ("markers.csv", with_empty_names, "plate", ("left", "right")),
         ("regions.csv", parts_and_totals, "insole", ("left", "right")),
