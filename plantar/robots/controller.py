@@ -13,13 +13,14 @@ from plantar.common.arguments import does, instance, number
 from plantar.common.arrays import array
 from plantar.common.gravity import GRAVITY
 from plantar.common.settings.unknown_keys import refuse_unknown_keys
-from plantar.errors import InputError, SceneError
+from plantar.errors import InputError, RecordingError, SceneError
 from plantar.gait.command import Command, JointTargets, Sensors
 from plantar.gait.controller import WalkingController
 from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table
 from plantar.gait.plan.walk_plan import vrp_of_step
 from plantar.gait.safety.bring_up.bring_up import BringUp
 from plantar.gait.safety.bring_up.finding import Finding
+from plantar.gait.safety.fault_log import Fault
 from plantar.robots.bring_up import bring_up_of
 from plantar.robots.controller_settings import com_height_of, controller_settings
 from plantar.robots.kinematics.ankle_limits import ankle_limits
@@ -87,6 +88,39 @@ class RobotController:
         """Time in s since the first tick at which the walk is over, with its bring-up."""
         return self.controller.end + (0.0 if self.bring_up is None else self.bring_up.duration)
 
+    def stop(self, *, limp: bool = False) -> None:
+        """Emergency stop, from any thread: at the next tick it begins to put both feet down and sits; `limp` goes limp.
+
+        It stays stopped: make a new controller to go on.
+        """
+        if self.controller.shell is not None:
+            self.controller.shell.stop(limp=limp)
+
+    def expect_heartbeat(self, longest: float) -> None:
+        """Stop where `heartbeat` is not called for a time in s, such as by an operator's pendant."""
+        if self.controller.shell is not None:
+            self.controller.shell.expect_heartbeat(longest)
+
+    def heartbeat(self) -> None:
+        """The supervisor is there; from any thread."""
+        if self.controller.shell is not None:
+            self.controller.shell.heartbeat()
+
+    @property
+    def faults(self) -> tuple[Fault, ...]:
+        """Faults so far, each with its time in s since the first tick."""
+        return () if self.controller.shell is None else tuple(self.controller.shell.log.faults)
+
+    def write_faults(self, path: str | os.PathLike[str]) -> None:
+        """Write the faults and the 2 s before each as an MCAP recording; not in the loop: it takes some milliseconds.
+
+        Raises:
+            RecordingError: If it cannot be written, or the controller runs without its shell.
+        """
+        if self.controller.shell is None:
+            raise RecordingError("the controller has no safety shell, which keeps the faults")
+        self.controller.shell.log.write(path)
+
     def count_as_checked(self) -> None:
         """Walk without bring-up, as in a simulator whose sensors are known to be wired right."""
         if self.controller.shell is not None:
@@ -122,6 +156,7 @@ class RobotController:
         Those of the command where motors are driven. Out of reach, the unloaded foot misses first.
         """
         if command.joints is not None:
+            self._give(command.joints.angles)
             return command.joints
         follow_command(self.legs, command)
         self.motion.update()
@@ -129,7 +164,13 @@ class RobotController:
         angles = self.legs.joints.copy()
         if command.joint_offsets is not None:
             angles += command.joint_offsets
+        self._give(angles)
         return JointTargets(angles, self.legs.torques.copy())
+
+    def _give(self, angles: NDArray[np.float64]) -> None:
+        """Compare the next angles with these, a copy: the caller may change what it gets."""
+        if self.controller.shell is not None:
+            self.controller.shell.commanded = angles.copy()
 
 
 def load_controller(

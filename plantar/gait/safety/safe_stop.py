@@ -15,6 +15,9 @@ _SHIFT = 0.3  # weight/beat by which forces of the feet change
 _LIMP = 0.5  # s in which forces and stiffness of a fallen robot go to zero
 _SINKS = 2.0  # s in which those of a robot do that sits, and may stand
 
+SITS = ("blind", "lost", "stopped")
+"""States in which a robot sits down."""
+
 
 class SafeStop:
     """Commands after a state that stays.
@@ -22,7 +25,8 @@ class SafeStop:
     "sit" levels a foot in the air with the other, brings the CoM over their middle and lowers it; "limp" releases the
     joints.
 
-    `period` of control in s; `leg`: leg length in m; `beat`: body's time unit in s; `weight` in N.
+    `period` of control in s; `leg`: leg length in m; `beat`: body's time unit in s; `weight` in N. Attribute `state`:
+    that the last command answered, None before any.
     """
 
     def __init__(self, period: float, leg: float, beat: float, weight: float) -> None:
@@ -31,17 +35,19 @@ class SafeStop:
         self._sink = _SINK * leg * share
         self._shift = _SHIFT * weight * share
         self._depth = _DEPTH * leg
-        self._limp = {"fallen": period / _LIMP, "limp": period / _SINKS}
+        self._limp = {"fallen": period / _LIMP, "released": period / _LIMP, "limp": period / _SINKS}
         self._height: float | None = None
+        self.state: str | None = None
 
     def after(self, last: Command, state: str | None) -> Command:
-        """Returns the command after `last` in a `state`: "fallen" goes limp, "limp" likewise in 2 s, "blind" and "lost"
-        sit, others hold.
+        """Returns the command after `last` in a `state`: "fallen" and "released" go limp in 0.5 s, "limp" in 2 s, those
+        of `SITS` sit, others hold.
         """
+        self.state = state
         last = last.changed(footholds=(), moved_steps=())
         if state in self._limp:
             return self._limped(last, self._limp[state])
-        return self._seated(last) if state in ("blind", "lost") else last
+        return self._seated(last) if state in SITS else last
 
     def _limped(self, last: Command, by: float) -> Command:
         stiffness = max(0.0, last.stiffness - by)

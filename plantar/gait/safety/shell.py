@@ -4,21 +4,25 @@ Sound input and targets without jumps leave the command unchanged (docs/safety.m
 """
 
 import math
+import time as clock
 from collections.abc import Callable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.arguments import positive
 from plantar.common.sides import Side, other_side
 from plantar.gait.command import Command, Sensors
 from plantar.gait.estimate.estimator import Posture
 from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.safety.bring_up.bring_up import BringUp
 from plantar.gait.safety.fall_check import FallCheck
-from plantar.gait.safety.safe_stop import SafeStop
+from plantar.gait.safety.fault_log import FaultLog
+from plantar.gait.safety.safe_stop import SITS, SafeStop
 from plantar.gait.safety.target_limits import TargetLimits
 from plantar.gait.safety.tick_clock import TickClock
 from plantar.kernels.safety.plausible import BodyCheck, SoleCheck
+from plantar.kernels.safety.tracking import TrackingCheck
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
 from plantar.sensing.reading import Reading
@@ -38,6 +42,12 @@ _FALLEN = 0.5  # cosine of the trunk's tilt, and share of its height, below whic
 _LANDING = 0.15  # s of double support within which a foot comes down that lands late
 _EMPTY = 0.05  # weight on both soles of a robot that stands on both feet, below which both are silent
 _UNKNOWN = 2.0  # s after which a blind robot sits, and goes limp where neither IMU nor soles show that it stands
+_STALLED = 0.1  # s by which a tick comes late, and is noted
+_OFF = 0.5  # rad by which a joint misses its target; with a quarter of the drives' stiffness knees miss it by 0.3
+_OFF_FOR = 0.015  # s after which it is off
+_MOST_OFF = 2  # joints whose encoders fail at a time; more are moved from outside, as by a blow
+_FINAL = ("fallen", "limp", "released")
+_PROBLEMS = ("", "a joint angle that no robot has", "an IMU reading that no robot has", "IMU stuck", "encoders stuck")
 
 Readings = Mapping[Side, Reading]
 
@@ -45,10 +55,15 @@ Readings = Mapping[Side, Reading]
 class SafetyShell:
     """Guards a controller's tick.
 
-    Attributes `state`: "bring-up", "refused" (bring-up found something wrong: it stands), "fallen", "limp", "blind"
-    (these stay, but that a blind robot falls or goes limp), "late" (ends with the first usable time), "waiting" (ends
-    with the first usable reading), or None. `bring_up` has to pass before the first tick of the walk, whose time then
-    counts from 0; None skips it.
+    Attributes:
+        state: "bring-up", "refused" (bring-up found something wrong: it stands), "stopped" and "released" (by `stop`),
+            "fallen", "limp", "blind" (these stay, but that a robot that sits may fall or go limp), "late" (ends with
+            the first usable time), "waiting" (ends with the first usable reading), or None.
+        reason: Why, in words.
+        bring_up: Has to pass before the first tick of the walk, whose time then counts from 0; None skips it.
+        commanded: Joint angles (k,) in rad that the drives were given last, which measured ones are compared with;
+            None does not.
+        log: Faults, with what came before each.
 
     Args:
         start: Command before the first sound reading.
@@ -101,10 +116,35 @@ class SafetyShell:
         self._empty = 0
         self._unknown = 0
         self._carried = False
+        self._tracking: TrackingCheck | None = None
+        self._off = 0
+        self._asked: tuple[str, str] | None = None
+        self._beat: float | None = None
+        self._longest_beat = math.inf
+        self._named: str | None = None
         self.bring_up: BringUp | None = None
+        self.commanded: NDArray[np.float64] | None = None
+        self.log = FaultLog(period, layouts)
+        self.reason = ""
         self.state: str | None = None
         self.errors = 0
         self.error = ""
+
+    def stop(self, reason: str = "asked for", *, limp: bool = False) -> None:
+        """Stop from the next tick on, from any thread: "stopped" puts both feet down and sits; `limp`, "released", goes
+        limp in 0.5 s. It stays stopped.
+        """
+        if self._asked is None or limp:
+            self._asked = ("released" if limp else "stopped", reason)
+
+    def expect_heartbeat(self, longest: float) -> None:
+        """Stop where no `heartbeat` comes for a time in s: of a supervisor, an operator's pendant, a radio."""
+        self._longest_beat = positive(longest, "longest time without a heartbeat", "s")
+        self.heartbeat()
+
+    def heartbeat(self) -> None:
+        """The supervisor is there."""
+        self._beat = clock.monotonic()
 
     def step(self, sensors: Sensors) -> Command:
         """Command of the controller, or of its state, at a tick; never raises."""
@@ -113,53 +153,110 @@ class SafetyShell:
         except (AttributeError, TypeError, ValueError):
             reported = math.nan
         time = self._clock.time_of(reported)
+        if self._clock.jumped > _STALLED:
+            self.log.note(f"a tick came {self._clock.jumped:.2f} s late: the loop stalled, or its clock jumped")
         try:
             command = self._stepped(sensors, time)
         except Exception as raised:  # of any kind: a robot that walks needs a command
             self.errors += 1
             self.error = f"{type(raised).__name__}: {raised}"
+            self.reason = self.error
             try:
                 command = self._bridge(time)
             except Exception:  # the last sound reading makes the tick raise, too
                 command = self._held()
         self._last = command
+        self.log.add(sensors, command)
+        self._note_state()
         return command
 
+    def _note_state(self) -> None:
+        """Log a state that has just begun."""
+        named = self.state or self._stop.state
+        if named == self._named:
+            return
+        self._named = named
+        if named == "lost":
+            self.reason = "the CoM would have to be farther from the feet than it is high"
+        if named not in (None, "bring-up"):
+            self.log.note(f"{named}: {self.reason}" if self.reason else str(named))
+
     def _stepped(self, sensors: Sensors, time: float) -> Command:
-        if self.state in ("fallen", "limp"):
-            return self._held()
         down = self._fall.is_down(sensors)
-        if self.bring_up is not None and not self.bring_up.passed:
+        stopped = self._stopped()
+        if stopped is not None:
+            return stopped
+        if self.bring_up is not None and not self.bring_up.passed and self._asked is None:
             return self._checked(self.bring_up, sensors)
+        if self.state in _FINAL:
+            return self._held()
         if down or self._is_fallen():
-            self.state = "fallen"
-            return self._held()
-        if self.state == "blind":
-            self._unknown = 0 if self._fall.knows else self._unknown + 1
-            if self._unknown * self._period > _UNKNOWN:
-                self.state = "limp"
-            return self._held()
-        self.state = "late" if self._clock.odd * self._period > _LATE else None
-        if self.state == "late":
-            return self._held()
-        if self._problem(sensors):
+            return self._in_state("fallen", "the trunk tilts, the soles are off the ground, or the legs have folded")
+        if self.state in SITS:
+            return self._sitting()
+        self.state = None
+        if self._clock.odd * self._period > _LATE:
+            return self._in_state("late", "times that cannot be used")
+        sensors = self._with_targets(sensors)
+        problem = self._problem(sensors)
+        if problem:
+            self.reason = _PROBLEMS[problem]
             return self._bridge(time)
         if self._body is not None and self._body.slipped:
             sensors = sensors.changed(joint_positions=sensors.joint_positions - self._body.slips)
         readings = self._readings(sensors)
         if readings is None:
+            self.reason = "both soles missing, silent or stuck"
             return self._bridge(time)
         if time != sensors.time or readings is not sensors.readings:
             sensors = sensors.changed(time=time, readings=readings)
         return self._commanded(sensors)
 
+    def _in_state(self, state: str, reason: str) -> Command:
+        self.state = state
+        self.reason = reason
+        return self._held()
+
+    def _stopped(self) -> Command | None:
+        """The command of a robot that has just been asked to stop; None for any other."""
+        if self._beat is not None and clock.monotonic() - self._beat > self._longest_beat:
+            self.stop(f"no heartbeat for {self._longest_beat:g} s")
+        if self._asked is None or self.state in ("fallen", "limp", self._asked[0]):
+            return None
+        return self._in_state(*self._asked)
+
+    def _sitting(self) -> Command:
+        """A tick of a robot that sits down; limp once it is seated and nothing shows that it stands."""
+        self._unknown = 0 if self._fall.knows else self._unknown + 1
+        if self._unknown * self._period > _UNKNOWN:
+            return self._in_state("limp", "neither IMU nor soles show whether it stands")
+        return self._held()
+
+    def _with_targets(self, sensors: Sensors) -> Sensors:
+        """Sensors with the commanded angle of a joint whose encoder does not follow it."""
+        commanded = self.commanded
+        if commanded is None or len(sensors.joint_positions) != len(commanded):
+            return sensors
+        if self._tracking is None:
+            self._tracking = TrackingCheck(len(commanded), max(1, round(_OFF_FOR / self._period)), _OFF)
+        count = self._tracking.update(sensors.joint_positions, commanded)
+        if count != self._off:
+            self._off = count
+            if count:
+                which = ", ".join(map(str, np.flatnonzero(self._tracking.off)))
+                self.log.note(f"joints that do not follow their targets, counted from 0: {which}")
+        if not 0 < count <= _MOST_OFF:
+            return sensors
+        angles = np.where(self._tracking.off > 0.0, commanded, sensors.joint_positions)
+        return sensors.changed(joint_positions=angles)
+
     def _checked(self, bring_up: BringUp, sensors: Sensors) -> Command:
         """A tick of bring-up, whose own look at the IMU counts until it is known to be wired right."""
         command = bring_up.step(sensors)
         if bring_up.fell:
-            self.state = "fallen"
-            return self._held()
+            return self._in_state("fallen", "it leaned over during bring-up")
         self.state = "refused" if bring_up.ended else "bring-up"
+        self.reason = "; ".join(map(str, bring_up.findings))
         if bring_up.passed:
             self.state = None
             self._clock = TickClock(self._period, 0.0)
@@ -174,8 +271,7 @@ class SafetyShell:
             if self.bring_up is None:
                 return command
         if self._is_contradicted(command, sensors.readings):
-            self.state = "blind"
-            return self._held()
+            return self._in_state("blind", "the standing sole turns, by encoders and IMU, but presses as a flat one")
         return self._limits.limited(self._last, command)
 
     def _is_contradicted(self, command: Command, readings: Readings) -> bool:

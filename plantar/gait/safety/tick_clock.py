@@ -29,6 +29,7 @@ class TickClock:
         self._last: float | None = None
         self._offset = 0.0
         self.odd = 0
+        self.jumped = 0.0
 
     def time_of(self, reported: float) -> float:
         """A tick's time in s, after the last one's, by the `reported` time in s."""
@@ -38,6 +39,7 @@ class TickClock:
             return self._last
         expected = self._last + self._period
         error = reported + self._offset - expected
+        self.jumped = 0.0
         if abs(error) <= _NEAR * self._period:
             self.odd = 0
             self._last = reported + self._offset
@@ -50,6 +52,7 @@ class TickClock:
             expected += min(max(_DRAWN * error, -most), most)
         else:
             self.odd += 1
+            self.jumped = error
             self._offset = expected - reported
         self._last = expected
         return expected

@@ -90,7 +90,7 @@ def test_without_the_shell_a_fault_falls_jumps_or_raises(name):
     assert seen.jump > 20.0 or not seen.upright
 
 
-def test_an_undisturbed_walk_is_the_same_to_the_last_bit_and_the_shell_takes_5_us():
+def test_an_undisturbed_walk_is_the_same_to_the_last_bit_and_the_shell_takes_10_us():
     parts = Simulation(load_scene("flat", ["steps=2"]))
     world, sensors, controller = parts.world, parts.sensors, parts.controller
     other = Simulation(load_scene("flat", ["steps=2"])).controller
@@ -119,7 +119,7 @@ def test_an_undisturbed_walk_is_the_same_to_the_last_bit_and_the_shell_takes_5_u
         shell.step(reading)
         times.append(time.perf_counter() - begun)
     # The quietest tenth of the run: other programs take the processor now and then.
-    assert np.median(np.reshape(times, (10, -1)), axis=1).min() < 5e-6
+    assert np.median(np.reshape(times, (10, -1)), axis=1).min() < 10e-6
 
 
 def test_what_comes_first_may_be_anything():
