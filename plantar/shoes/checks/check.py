@@ -1,7 +1,7 @@
 """Checks of a built shoe, measured on exported STL and STEP."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -86,8 +86,12 @@ class ShoeCheck:
         return all(c.holds for c in self.checks)
 
 
-def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: StepSolid) -> ShoeCheck:
-    """Gives measures and checks of a build's shoe, by STL surface (n, 3, 3) in mm and STEP solid (step)."""
+def check_shoe(
+    shoe: Shoe, build: ShoeBuild, *, surface: Array, step: StepSolid, parts: Mapping[str, bool] | None = None
+) -> ShoeCheck:
+    """Gives measures and checks of a build's shoe, by STL surface (n, 3, 3) in mm and STEP solid (step); `parts`:
+    whether each other part of the assembly is valid.
+    """
     with optional_library("trimesh", "shoes"):
         import trimesh
     assert build.retention is not None
@@ -111,6 +115,7 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: StepSolid)
     reach = _reach(shoe.plan, surface)
     checks = (
         *_solid_checks(step, watertight, int(mesh.body_count), difference),
+        *(Check(f"{name} of the assembly valid", good, good, "true") for name, good in (parts or {}).items()),
         Check("thinnest wall, mm", wall >= p.wall_min - 1e-2, round(wall, 3), f"{p.wall_min:g} or more"),
         *_layout_checks(shoe, p, step),
         *check_plan(shoe.plan, build),

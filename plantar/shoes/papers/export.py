@@ -27,7 +27,7 @@ from plantar.shoes.papers.picture import draw_picture
 from plantar.shoes.papers.step_assembly import assembly_parts
 from plantar.shoes.papers.wiring_files import board_text, cells_dxf, net_list_text, wiring_text
 from plantar.shoes.solid.pad import mould_surface, pad_surface, taxel_surfaces
-from plantar.shoes.solid.step_model import StepSolid, read_step, write_step
+from plantar.shoes.solid.step_model import StepSolid, is_valid, read_step, write_step
 from plantar.shoes.units import to_m
 
 
@@ -171,9 +171,9 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
         count = len(build.shoes)
         if shoe.surface is not None:
             report_progress(i / count, f"writing the {side} shoe")
-            surface, step, names = _write_solids(shoe, build, target)
+            surface, step, names, parts = _write_solids(shoe, build, target)
             report_progress((i + 0.4) / count, f"checking the {side} shoe")
-            checks[side] = check_shoe(shoe, build, surface=surface, step=step)
+            checks[side] = check_shoe(shoe, build, surface=surface, step=step, parts=parts)
             weights[side] = checks[side].weights
             bills[side] = bill_of_parts(shoe, build, weights[side])
             names += _write_for_wiring(shoe, build, target)
@@ -196,7 +196,10 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
     return report
 
 
-def _write_solids(shoe: Shoe, build: ShoeBuild, target: Path) -> tuple[NDArray[np.float64], StepSolid, list[str]]:
+def _write_solids(
+    shoe: Shoe, build: ShoeBuild, target: Path
+) -> tuple[NDArray[np.float64], StepSolid, list[str], dict[str, bool]]:
+    """Files of the solids; the print's surface and solid as they are read back, names, and which parts are valid."""
     assert shoe.surface is not None
     side = shoe.side
     p = build.parameters
@@ -215,7 +218,8 @@ def _write_solids(shoe: Shoe, build: ShoeBuild, target: Path) -> tuple[NDArray[n
             write_stl(mould_surface(shoe.plan, p), target / names[5])
     except OSError as error:
         raise InputError(f"cannot write the {side} shoe to {target}: {error.strerror}") from None
-    return read_mesh(target / names[0])[0], read_step(target / names[1]), names
+    valid = {part.name: is_valid(part) for part in parts[1:]}
+    return read_mesh(target / names[0])[0], read_step(target / names[1]), names, valid
 
 
 def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:

@@ -92,7 +92,7 @@ def keep_out(foot: Foot) -> KeepOut:
         if np.ptp(upper[:, 0]) < _BLOCK * length and block.geom_type == "Polygon":
             shank = block
     # A link may reach down beside the foot's own ankle: what is above the sole there is not taken to be free.
-    grid = [_points_in(ankle, height) for height in np.arange(0.0, top, _GRID).tolist()]
+    grid = [_points_in(ankle, height) for height in np.arange(_GRID, top, _GRID).tolist()]
     leaning = np.arange(0.0, _TALL, _GRID).tolist()
     grid += [_points_in(shank.buffer(height * _LEANS), top + height) for height in leaning]
     return KeepOut(np.concatenate(grid), surface, False)

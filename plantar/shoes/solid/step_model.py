@@ -184,6 +184,11 @@ def _curved_face(solid: CurvedSolid, face: Loops, normal: Array, edges: dict[tup
     return ocp.TopoDS.TopoDS.Face_s(made.Reversed()) if turned else made
 
 
+def is_valid(part: StepPart) -> bool:
+    """Whether a part is a solid without faults, by the kernel."""
+    return bool(ocp.BRepCheck.BRepCheck_Analyzer(part.shape).IsValid())
+
+
 def read_step(path: str | os.PathLike[str]) -> StepSolid:
     """Measure the solid of a STEP file."""
     reader = ocp.STEPControl.STEPControl_Reader()

@@ -41,6 +41,12 @@ def test_a_good_shoe_passes(exported, failed):
         assert check.mounting.support_share == pytest.approx(1.0)
 
 
+def test_a_part_of_the_assembly_that_is_no_solid_fails(exported, failed):
+    names = {c.name for c in exported[0].checks["left"].checks}
+    assert {"pad of the assembly valid", "connection board of the assembly valid"} <= names
+    assert failed(parts={"pad": False, "taxel": True}) == {"pad of the assembly valid"}
+
+
 def test_an_open_surface_fails(exported, failed):
     surface = exported[0].build.shoes[0].surface
     assert "watertight" in failed(surface=surface[5:])
