@@ -66,6 +66,17 @@ def estimated_mass(length: float) -> float:
     return round(min(_MOST_MASS, 60.0 * (length / 224.0) ** 3), 1)
 
 
+def mass_range(length: float) -> tuple[float, float]:
+    """Least and greatest mass in kg of the humanoids that `estimated_mass` rests on, scaled to feet of a length in mm.
+
+    Example:
+        >>> mass_range(224.0)
+        (17.0, 112.0)
+    """
+    scale = (length / 224.0) ** 3
+    return float(f"{17.0 * scale:.3g}"), float(f"{112.0 * scale:.3g}")
+
+
 def load_case(foot: Foot, parameters: ShoeParameters) -> LoadCase:
     """Gives one foot's load: parameters may state the robot's mass."""
     p = parameters
@@ -78,7 +89,8 @@ def load_case(foot: Foot, parameters: ShoeParameters) -> LoadCase:
         source = "of the robot's file"
     else:
         mass = estimated_mass(high - low)
-        source = "estimated from the foot's length; parameter robot_mass gives it"
+        least, most = mass_range(high - low)
+        source = f"estimated from the foot's length, {least:g} to {most:g} kg; parameter robot_mass gives it"
     force = p.load_factor * mass * GRAVITY
     return LoadCase(mass, source, round(force, 1), force / (p.load_share * foot.sole.area))
 

@@ -20,6 +20,7 @@ def test_the_load_is_one_and_a_half_weights_on_a_third():
     assert load_case(FOOT, ShoeParameters(robot_mass=80.0)).mass == 80.0
     unknown = replace(FOOT, mass=None)
     assert load_case(unknown, ShoeParameters()).mass == estimated_mass(200.0)
+    assert "12.1 to 79.7 kg" in load_case(unknown, ShoeParameters()).source
     assert "estimated" in load_case(unknown, ShoeParameters()).source
     assert estimated_mass(450.0) == 150.0
 
