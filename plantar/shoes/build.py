@@ -27,6 +27,7 @@ from plantar.shoes.plan.block import Block, Step, mirrored_step
 from plantar.shoes.plan.cell_room import cell_parameters, led_parameters
 from plantar.shoes.plan.insole_plan import fit_insole, insole_foot, insole_parameters, plan_insole
 from plantar.shoes.plan.load_share import LoadShare, check_load_share, relieved
+from plantar.shoes.plan.low_wall import lowered_wall
 from plantar.shoes.plan.shoe_plan import ShoePlan, mirrored_plan, plan_shoe
 from plantar.shoes.plan.strength import load_case, strengthened
 from plantar.shoes.plan.touching import Touching, check_touching, observability, softened
@@ -170,6 +171,7 @@ def build_shoe(
             f"overhang of the taxels is {overhang:g} mm; allowed: 0 to {p.overhang_max:g} mm (overhang_max)"
         )
     report(0.0, "fitting the taxels to the sole")
+    p, low = lowered_wall(foot, p)
     fit, left, chosen = _fitted(foot, p, name, cell_area, taxels, overhang, rim, cell)
     p = replace(p, border=fit.border)
     p, raised = strengthened(foot, left.contact, p)
@@ -180,8 +182,10 @@ def build_shoe(
     left, gentle = _sensitive(left, load.mass)
     p, soft = softened(left, load, p)
     p, lowered = relieved(left, load, p)
-    changed = (*of_cell, *chosen, *fit.notes, *gentle, *raised, *led, *soft, *lowered, *left.notes)
+    changed = (*of_cell, *low, *chosen, *fit.notes, *gentle, *raised, *led, *soft, *lowered, *left.notes)
     notes = (*foot.notes, *changed, *_blind_note(left, fit))
+    if load.source.startswith("estimated"):
+        notes = (*notes, f"the robot's mass is taken as {load.mass:g} kg, {load.source}")
     share = check_load_share(left, load, p)
     touching = check_touching(left, load, p)
     if layout_only:

@@ -62,6 +62,17 @@ def test_the_upper_end_of_a_tilted_plate_is_no_shank(turn):
     np.testing.assert_allclose(links[links[:, 2] < 20.0].mean(axis=0)[:2], 0.0, atol=2.0)  # above the ankle
 
 
+def test_a_wall_is_lowered_where_a_link_passes():
+    beside = np.stack(np.meshgrid(np.arange(-20, 20, 2.0), [47.0, 48.0], np.arange(8.0, 30.0, 2.0)), -1).reshape(-1, 3)
+    build = build_shoe(foot_with(beside), side="left", layout_only=True)
+    assert build.parameters.rim_height == 7.0
+    assert any("rim_height lowered from 12 to 7 mm: other links" in note for note in build.notes)
+    free = build_shoe(foot_with(beside + np.array([0.0, 20.0, 0.0])), side="left", layout_only=True)
+    assert free.parameters.rim_height == 12.0
+    everywhere = build_shoe(foot_with(beside - np.array([0.0, 0.0, 6.0])), side="left", layout_only=True)
+    assert everywhere.parameters.rim_height == 12.0  # which the check of the mounting names
+
+
 def test_screws_where_neither_straps_nor_clips_have_room():
     sides = np.stack(np.meshgrid(np.arange(-80, 150, 2.0), [-48.0, 48.0], np.arange(20, 40, 2.0)), -1).reshape(-1, 3)
     for links, kind in ((column(-80.0, 150.0), "clips"), (np.concatenate([column(-80.0, 150.0), sides]), "screws")):
