@@ -18,7 +18,8 @@ _KEYS = ("policy", "robot", "kind", "value", "seed")
 
 def _cases(options: BenchOptions) -> list[Case]:
     known = list(dict.fromkeys(t.kind for t in TRIALS))
-    kinds, seeds = options.scene, _QUICK_SEEDS if options.quick else options.seeds
+    kinds = options.scene
+    seeds = _QUICK_SEEDS if options.quick else options.seeds
     if seeds < 1 or set(kinds) - set(known):
         raise InputError(f"{seeds} seeds of {', '.join(kinds) or 'all'}; allowed: 1 or more of {', '.join(known)}")
     make, name = (OwnController, "plantar") if options.policy is None else _own(options.policy)
