@@ -169,9 +169,12 @@ if not TYPE_CHECKING:  # a type checker reads the imports above, and reports a n
             raise AttributeError(f"module 'plantar' has no attribute {name!r}")
         place, _, called = _PLACES.get(name, "errors").partition(":")
         place = f"plantar.{place}".rstrip(".")
-        module = import_module(place) if place != "plantar" else None
-        value = getattr(module, called or name, None)
-        value = import_module(f"{place}.{name}") if value is None else value
+        from plantar.common.optional_library import missing_libraries
+
+        with missing_libraries("sim"):
+            module = import_module(place) if place != "plantar" else None
+            value = getattr(module, called or name, None)
+            value = import_module(f"{place}.{name}") if value is None else value
         globals()[name] = value
         return value
 

@@ -8,43 +8,9 @@ from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from plantar.common.optional_library import optional_library
+from plantar.common.optional_library import LIBRARIES, optional_library
 from plantar.common.version import VERSION
 from plantar.errors import DependencyError
-
-LIBRARIES: dict[str, dict[str, str]] = {
-    "": {
-        "numpy": "numpy",
-        "scipy": "scipy",
-        "shapely": "shapely",
-        "typer": "typer",
-        "rich": "rich",
-        "mcap": "mcap",
-        "matplotlib": "matplotlib",
-        "msgspec": "msgspec",
-        "protobuf": "google.protobuf",
-        "xlrd": "xlrd",
-    },
-    "shoes": {
-        "cadquery": "cadquery",
-        "ezdxf": "ezdxf",
-        "fonttools": "fontTools",
-        "pycollada": "collada",
-        "trimesh": "trimesh",
-    },
-    "sim": {
-        "mujoco": "mujoco",
-        "opencv-contrib-python-headless": "cv2",
-        "daqp": "daqp",
-        "pycollada": "collada",
-        "trimesh": "trimesh",
-    },
-    "formats": {"rosbags": "rosbags", "ezc3d": "ezc3d", "opencv-contrib-python-headless": "cv2"},
-    "cluster": {"distributed": "distributed"},
-    "gym": {"gymnasium": "gymnasium"},
-    "warp": {"mujoco-warp": "mujoco_warp", "warp-lang": "warp"},
-}
-"""Distribution and module of the libraries that each extra brings; those without an extra are always needed."""
 
 PURPOSES = {
     "": "reading, perception and analysis of recordings",
@@ -92,8 +58,8 @@ def doctor_text(found: Mapping[str, Any]) -> str:
     """`examine`'s result for people: an extra a paragraph, and what to do.
 
     Example:
-        >>> print(doctor_text(examine({"sim": {"no-such-library": "no_such_library"}})).splitlines()[-1].strip())
-        get them: pip install 'plantar[sim]'
+        >>> print(doctor_text(examine({"gym": {"no-such-library": "no_such_library"}})).splitlines()[-1].strip())
+        get them: pip install 'gymnasium>=1.0'
     """
     lines = [f"plantar {found['plantar']}, Python {found['python']}, {found['platform']}", found["kernels"]]
     if not found["opengl"]:
@@ -103,8 +69,7 @@ def doctor_text(found: Mapping[str, Any]) -> str:
         lines.append(f"{extra or 'always needed'} ({PURPOSES.get(extra, '')})")
         lines += [f"    {f['library']} {f['version'] or ''}{_told(f['problem'])}".rstrip() for f in own]
         if any(f["problem"] == "missing" for f in own):
-            wanted = f"'plantar[{extra}]'" if extra else "plantar"
-            lines.append(f"    get them: pip install {wanted}")
+            lines.append(f"    get them: {DependencyError.install_command(extra)}")
     return "\n".join(lines)
 
 

@@ -72,7 +72,7 @@ class DependencyError(PlantarError):
 
     def __init__(self, library: str, extra: str, reason: str | None = None) -> None:
         if reason is None:
-            text = f"{library} is not installed; install it with: pip install 'plantar[{extra}]'"
+            text = f"{library} is not installed; install it with: {self.install_command(extra)}"
         else:
             reason = " ".join(reason.split())[:300]
             text = f"{library} is installed but cannot be loaded ({reason}); repair it or what it needs"
@@ -84,3 +84,28 @@ class DependencyError(PlantarError):
     def __reduce__(self) -> tuple[type["DependencyError"], tuple[str, str, str | None]]:
         """Rebuild from the arguments, in another process."""
         return type(self), (self.library, self.extra, self.reason)
+
+    @staticmethod
+    def install_command(extra: str) -> str:
+        """The command that installs the libraries of an extra, or with "" those that are always needed.
+
+        It names the libraries, not `plantar[extra]`: that is right in a checkout, beside a wheel and from an index.
+
+        Example:
+            >>> DependencyError.install_command("gym")
+            "pip install 'gymnasium>=1.0'"
+        """
+        from importlib.metadata import PackageNotFoundError, requires
+
+        try:
+            lines = requires("plantar") or []
+        except PackageNotFoundError:  # on the path, and not installed
+            lines = []
+        wanted = [f"'{line.partition(';')[0].strip()}'" for line in lines if _extra_of(line) == extra]
+        return f"pip install {' '.join(wanted)}" if wanted else f"pip install '.[{extra}]' in a checkout of plantar"
+
+
+def _extra_of(requirement: str) -> str:
+    """Extra of a line such as 'mujoco>=3.10; extra == "sim"'; "" without one."""
+    _, _, marker = requirement.partition("extra ==")
+    return marker.strip().strip("\"'")

@@ -101,3 +101,80 @@ def test_a_sensor_is_recorded_and_viewed(environment, tmp_path):
 )
 def test_an_example_of_perception_or_of_recordings_runs(name, environment, tmp_path):
     assert run(environment, tmp_path, ROOT / "examples" / f"{name}.py").strip()
+
+
+DOORS = (
+    "plantar.read('walk.asc')",
+    "plantar.analyse('walk.asc')",
+    "plantar.view(['run.mcap'], 'view.html')",
+    "plantar.load_robot('h1')",
+    "plantar.load_controller('h1')",
+    "plantar.load_scene('flat')",
+    "plantar.run('flat')",
+    "plantar.mujoco.Skin(body='foot')",
+    "plantar.shoes.read_parameters('none.toml')",
+    "plantar.shoes.foot_from_dimensions('box', length=0.25, width=0.1)",
+    "plantar.shoes.build_shoe(plantar.shoes.foot_from_dimensions('box', length=0.25, width=0.1))",
+)
+"""What each door is asked for, without the libraries of any extra."""
+
+
+@pytest.mark.parametrize("door", DOORS)
+def test_a_door_gives_a_value_or_the_command_that_installs_what_is_missing(door, environment, walk):
+    code = f"""
+import plantar, plantar.shoes
+from plantar import PlantarError
+try:
+    print(type({door}).__name__)
+except plantar.DependencyError as error:
+    print(error)
+except PlantarError as error:
+    assert "none.toml" in str(error)
+"""
+    said = run(environment, walk, "-c", code)
+    assert "not installed" not in said or "install it with: pip install '" in said
+
+
+COMMANDS = (
+    "demo",
+    "shoe --robot h1",
+    "shoe --dimensions 250x100",
+    "sim flat",
+    "sweep flat",
+    "robot model.xml",
+    "robot check robot.toml",
+    *(f"bench {what}" for what in ("kernels", "contact", "scenes", "skip", "stress", "footholds", "all")),
+    *(f"list {what}" for what in ("", "robots", "scenes", "papers", "papers K", "formats", "sources", "settings")),
+    "view run.mcap",
+    "analyze walk.asc --json",
+    "analyze walk.asc --export c3d",
+    "live replay:run.mcap --seconds 0.1",
+    "--help",
+)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_command_is_done_or_ends_in_the_line_that_installs_what_is_missing(command, environment, walk):
+    done = subprocess.run(
+        [sys.executable, "-m", "plantar", *command.split()],
+        cwd=walk,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    if done.returncode == 0:
+        return
+    assert done.returncode == 2, done.stderr
+    assert done.stderr.count("\n") == 1
+    assert "is not installed; install it with: pip install '" in done.stderr
+
+
+@pytest.fixture(scope="module")
+def walk(environment, tmp_path_factory):
+    """A folder with a recording of insoles, one of a sensor, and a model."""
+    folder = tmp_path_factory.mktemp("walk")
+    run(environment, folder, ROOT / "examples" / "insole_walk.py", "walk.asc")
+    run(environment, folder, ROOT / "examples" / "record_own_sensor.py", "run.mcap")
+    (folder / "model.xml").write_text("<mujoco/>")
+    return folder

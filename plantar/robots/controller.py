@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from plantar.common.arguments import does, instance, number
 from plantar.common.arrays import array
 from plantar.common.gravity import GRAVITY
+from plantar.common.optional_library import missing_libraries
 from plantar.common.settings.unknown_keys import refuse_unknown_keys
 from plantar.errors import InputError, RecordingError, SceneError
 from plantar.gait.command import Command, JointTargets, Sensors
@@ -173,6 +174,7 @@ class RobotController:
             self.controller.shell.commanded = angles.copy()
 
 
+@missing_libraries("sim")
 def load_controller(
     robot: str | os.PathLike[str], tables: Mapping[str, Mapping[str, Any]] | None = None, *, seed: int = 0
 ) -> RobotController:

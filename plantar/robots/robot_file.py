@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from plantar.common.files.input_file import check_input
 from plantar.common.files.model_files import named_file
 from plantar.common.files.structured_text import packaged_files, read_json, read_toml
+from plantar.common.optional_library import missing_libraries
 from plantar.common.settings.unknown_keys import builtin_or_file, refuse_unknown_keys
 from plantar.common.sides import SIDES, Side
 from plantar.errors import InputError, LayoutError, RobotError
@@ -73,6 +74,7 @@ def _builtin() -> dict[str, Path]:
     return {path.parent.name: path for path in packaged_files("plantar.robots", "*/robot.toml")}
 
 
+@missing_libraries("sim")
 def load_robot(name: str | os.PathLike[str]) -> Robot:
     """Load a robot by its built-in name or from a TOML file.
 

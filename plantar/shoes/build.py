@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.gravity import GRAVITY
-from plantar.common.optional_library import optional_library
+from plantar.common.optional_library import missing_libraries, optional_library
 from plantar.common.sides import SIDES
 from plantar.errors import FootError, InputError
 from plantar.layouts.layout import Side, SoleLayout
@@ -115,6 +115,7 @@ def _blind_note(plan: ShoePlan, fit: TaxelFit) -> tuple[str, ...]:
     )
 
 
+@missing_libraries("shoes")
 def build_shoe(
     foot: Foot | str | os.PathLike[str],
     *,
@@ -323,6 +324,7 @@ def _built_sides(
 _NOTE = "an insole of {:g} mm lies in the wearer's shoe, below the foot; nothing holds it"
 
 
+@missing_libraries("shoes")
 def build_insole(
     foot: Foot | str | os.PathLike[str],
     thickness: float,

@@ -32,7 +32,7 @@ def test_an_extra_that_is_missing_is_no_failure_and_a_broken_library_is(tmp_path
     missing = examine({"sim": {"no-such-library": "no_such_library"}})
     assert missing["holds"]
     assert "no-such-library missing" in doctor_text(missing)
-    assert "pip install 'plantar[sim]'" in doctor_text(missing)
+    assert "pip install 'mujoco>=" in doctor_text(missing)
     assert not examine({"": {"no-such-library": "no_such_library"}})["holds"]
     (tmp_path / "broken_library.py").write_text("raise OSError('libGL.so.1: cannot open shared object file')")
     monkeypatch.syspath_prepend(tmp_path)

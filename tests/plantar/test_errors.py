@@ -1,4 +1,5 @@
 import pickle
+from importlib.metadata import PackageNotFoundError
 
 import pytest
 
@@ -35,10 +36,22 @@ def test_a_foreign_file_is_caught_as_a_bad_recording():
         raise errors.FormatError("not a pedar file")
 
 
-def test_missing_dependency_gives_the_command_that_installs_it():
+def test_missing_dependency_gives_the_command_that_installs_what_its_extra_brings(monkeypatch):
+    """The libraries themselves: the name `plantar` on an index may be another package."""
+    lines = ["numpy>=2.0", "trimesh>=4.5; extra == 'shoes'", 'cadquery>=2.5 ; extra == "shoes"', 'daqp; extra == "sim"']
+    monkeypatch.setattr("importlib.metadata.requires", lambda name: lines)
     error = errors.DependencyError("cadquery", "shoes")
-    assert str(error) == "cadquery is not installed; install it with: pip install 'plantar[shoes]'"
+    assert str(error) == "cadquery is not installed; install it with: pip install 'trimesh>=4.5' 'cadquery>=2.5'"
     assert (error.library, error.extra) == ("cadquery", "shoes")
+    assert errors.DependencyError.install_command("") == "pip install 'numpy>=2.0'"
+
+
+def test_a_checkout_that_is_not_installed_is_what_gets_installed(monkeypatch):
+    def not_installed(name):
+        raise PackageNotFoundError(name)
+
+    monkeypatch.setattr("importlib.metadata.requires", not_installed)
+    assert errors.DependencyError.install_command("sim").startswith("pip install '.[sim]'")
 
 
 @pytest.mark.parametrize("kind", [k for k in ALL if k is not errors.DependencyError])

@@ -19,6 +19,7 @@ from contextlib import contextmanager, suppress
 from types import FrameType
 from typing import Any
 
+from plantar.common.optional_library import missing_libraries
 from plantar.errors import PlantarError, WorkerError
 
 FAILED = 1
@@ -118,7 +119,8 @@ def run(command: Callable[[], int | None]) -> int:
     _prepare_streams()
     with _interruptible(), _terminable():
         try:
-            code = command() or 0
+            with missing_libraries():
+                code = command() or 0
             if sys.stdout is not None:
                 sys.stdout.flush()
         except WorkerError as error:

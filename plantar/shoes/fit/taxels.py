@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from plantar.common.optional_library import missing_libraries
 from plantar.errors import FootError
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.shoes.cells.cell import Cell
@@ -83,6 +84,7 @@ class TaxelFit:
         return int((np.abs(self.shares - 1.0) < 1e-6).sum())
 
 
+@missing_libraries("shoes")
 def fit_taxels(
     foot: Any,
     *,

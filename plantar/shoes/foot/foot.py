@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.optional_library import missing_libraries
 from plantar.common.sides import Side
 from plantar.errors import FootError
 from plantar.layouts.source_pose import SourcePose
@@ -53,6 +54,7 @@ class Foot:
         return cache(lambda height: tidy(self.outline_up_to(height).union(self.sole)))
 
 
+@missing_libraries("shoes")
 def foot_from_dimensions(
     name: str,
     *,
@@ -102,6 +104,7 @@ def foot_from_dimensions(
     return Foot(name, sole, lambda height: sole, math.inf, (note,), mass=mass)
 
 
+@missing_libraries("shoes")
 def foot_from_outline(name: str, outline: Any, notes: tuple[str, ...] = ()) -> Foot:
     """Gives straight-sided foot with a name from a sole outline, shapely in mm about the ankle; notes are kept.
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.optional_library import missing_libraries
 from plantar.common.sides import Side
 from plantar.errors import FootError, InputError
 from plantar.layouts.source_pose import SourcePose
@@ -54,6 +55,7 @@ class Link:
     rotation: Triangles
 
 
+@missing_libraries("shoes")
 def foot_from_mesh(
     path: str | os.PathLike[str],
     *,

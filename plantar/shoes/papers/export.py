@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.atomic import write_text
+from plantar.common.optional_library import missing_libraries
 from plantar.errors import InputError
 from plantar.layouts.layout_file import layout_to_dict
 from plantar.shoes.build import Progress, Shoe, ShoeBuild
@@ -146,6 +147,7 @@ def _layout_text(shoe: Shoe, build: ShoeBuild, weights: Weights | None) -> str:
     return json.dumps(layout_to_dict(shoe.layout) | {"shoe": extra}, indent=1) + "\n"
 
 
+@missing_libraries("shoes")
 def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: Progress | None = None) -> ShoeReport:
     """Write and check every shoe's files.
 

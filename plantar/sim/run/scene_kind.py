@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from plantar.common.arguments import integer
 from plantar.common.files.structured_text import read_toml
+from plantar.common.optional_library import missing_libraries
 from plantar.errors import InputError, SceneError
 from plantar.sim.run.scene import Scene, scene_file, scene_of
 
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from plantar.sim.loop import Run
 
 
+@missing_libraries("sim")
 def open_scene(
     name: str | os.PathLike[str], settings: Sequence[str] = (), robot: str | None = None
 ) -> Scene | CompanionScene:
@@ -25,7 +27,8 @@ def open_scene(
     `key=value` `settings` and `robot`, or machine, replace the file's. A SceneError if name or field is invalid.
 
     Example:
-        >>> open_scene("flat", ["steps=4"]).walk.steps
+        >>> import plantar
+        >>> plantar.load_scene("flat", ["steps=4"]).walk.steps
         4
     """
     path = scene_file(name)
@@ -59,6 +62,7 @@ def simulation_of(scene: Scene | CompanionScene, seed: int) -> Run:
     return Companion(scene, seed)
 
 
+@missing_libraries("sim")
 def run(
     scene: Scene | CompanionScene | str | os.PathLike[str],
     seed: int = 0,
@@ -87,7 +91,7 @@ def run(
         InputError: If a file cannot be written.
 
     Example:
-        >>> run("flat", 0)["completed"]  # doctest: +SKIP
+        >>> plantar.run("flat", 0)["completed"]  # doctest: +SKIP
         True
     """
     for what, file, ending in (("record", record, ".mcap"), ("video", video, ".mp4")):

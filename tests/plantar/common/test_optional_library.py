@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from plantar.common.optional_library import need_libraries, optional_library
+from plantar.common.optional_library import missing_libraries, need_libraries, optional_library
 from plantar.errors import DependencyError
 
 INTERRUPTED = """
@@ -40,7 +40,7 @@ def load(tmp_path, monkeypatch):
 
 
 def test_a_library_that_is_not_there_is_not_installed():
-    with pytest.raises(DependencyError, match=r"frail is not installed; install it with: pip install 'plantar\[sim\]'"):  # noqa: SIM117
+    with pytest.raises(DependencyError, match=r"frail is not installed; install it with: pip install 'mujoco>="):  # noqa: SIM117
         with optional_library("frail", "sim"):
             importlib.import_module("frail")
 
@@ -104,5 +104,19 @@ def test_the_error_crosses_processes():
 def test_the_first_library_that_is_missing_is_named(monkeypatch):
     need_libraries("sim", "json", "math")
     monkeypatch.setitem(sys.modules, "json", None)  # as if it were not installed
-    with pytest.raises(DependencyError, match=r"json is not installed.*plantar\[sim\]"):
+    with pytest.raises(DependencyError, match=r"json is not installed.*pip install 'mujoco>="):
         need_libraries("sim", "math", "json", "no_such_library")
+
+
+@pytest.mark.parametrize(
+    ("library", "extra", "named"), [("trimesh", "sim", "sim"), ("trimesh", "", "shoes"), ("cv2", "gym", "sim")]
+)
+def test_a_missing_library_of_an_extra_is_named_with_one_that_brings_it(library, extra, named):
+    with pytest.raises(DependencyError) as caught, missing_libraries(extra):
+        raise ModuleNotFoundError("No module", name=f"{library}.part")
+    assert (caught.value.library, caught.value.extra) == (library, named)
+
+
+def test_a_missing_module_that_no_extra_brings_stays_what_it_is():
+    with pytest.raises(ModuleNotFoundError), missing_libraries("sim"):
+        raise ModuleNotFoundError("No module", name="no_such_part")
