@@ -31,4 +31,6 @@ def main(model: str, folder: str) -> bool:
 
 
 if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit("give a model and a folder: python examples/introduce_robot.py my_robot.urdf out/mine")
     sys.exit(0 if main(*sys.argv[1:3]) else 1)

@@ -11,6 +11,8 @@ import numpy as np
 
 from plantar.recordings.recording import read_mcap
 
+if len(sys.argv) < 2:
+    sys.exit("give a recording: python examples/record_to_tables.py RUN.mcap [FOLDER]")
 recording = read_mcap(sys.argv[1])
 folder = Path(sys.argv[2]) if len(sys.argv) > 2 else Path(mkdtemp())
 

@@ -181,3 +181,12 @@ def test_the_page_of_examples_names_each():
 def test_the_page_that_compares_counts_them():
     page = (ROOT / "docs" / "compare.md").read_text(encoding="utf-8")
     assert f" {len(EXAMPLES)}, one idea each, and four notebooks" in page
+
+
+@pytest.mark.parametrize("name", ["insole_walk", "introduce_robot", "record_to_tables", "gallery"])
+def test_an_example_without_the_file_that_it_needs_says_what_to_give(name, tmp_path):
+    command = [sys.executable, str(ROOT / "examples" / f"{name}.py")]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert done.returncode != 0
+    assert done.stderr.count("\n") == 1, done.stderr
+    assert "give " in done.stderr or "usage" in done.stderr.lower()

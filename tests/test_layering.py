@@ -51,7 +51,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
             "table_writer",
             "row_table",
         ),
-        *("console", "extensions", "optional_library", "files", "settings", "pages"),
+        *("optional_library", "console", "extensions", "files", "settings", "pages"),
     ),
     "plantar.gait": (
         *("analysis", "plan", "estimate", "contact", "balance", "feet", "propose", "command", "safety"),
