@@ -169,8 +169,7 @@ if not TYPE_CHECKING:  # a type checker reads the imports above, and reports a n
             raise AttributeError(f"module 'plantar' has no attribute {name!r}")
         place, _, called = _PLACES.get(name, "errors").partition(":")
         place = f"plantar.{place}".rstrip(".")
-        from plantar.common.optional_library import missing_libraries
-
+        missing_libraries = import_module("plantar.common.optional_library").missing_libraries
         with missing_libraries("sim"):
             module = import_module(place) if place != "plantar" else None
             value = getattr(module, called or name, None)

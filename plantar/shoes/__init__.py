@@ -61,8 +61,7 @@ if not TYPE_CHECKING:  # a type checker reads the imports above, and reports a n
         """Load a public name at first use."""
         if name not in _PLACES:
             raise AttributeError(f"module 'plantar.shoes' has no attribute {name!r}")
-        from plantar.common.optional_library import missing_libraries
-
+        missing_libraries = import_module("plantar.common.optional_library").missing_libraries
         with missing_libraries("shoes"):
             value = getattr(import_module(f"plantar.shoes.{_PLACES[name]}"), name)
         globals()[name] = value
