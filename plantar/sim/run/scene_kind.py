@@ -71,6 +71,8 @@ def run(
     video: str | os.PathLike[str] | None = None,
     plot: str | os.PathLike[str] | None = None,
     progress: Callable[[float, str], None] | None = None,
+    robot: str | None = None,
+    **settings: object,
 ) -> dict[str, Any]:
     """Simulate a scene, judge it by true contact forces, and write files.
 
@@ -81,6 +83,8 @@ def run(
         video: Video, .mp4, or None.
         plot: Figure folder, or None.
         progress: Called with fraction and text.
+        robot: Robot or machine instead of the scene's.
+        settings: Values of the scene, as `--set` takes them: `steps=3`, `footholds="off"`, `**{"push.dv": 0.2}`.
 
     Returns:
         The summary, as `plantar sim --json` prints it: "completed", "reasons" (failed criteria), "fell" and more,
@@ -88,15 +92,26 @@ def run(
 
     Raises:
         SceneError: If it cannot run.
-        InputError: If a file cannot be written.
+        InputError: If a file cannot be written, or settings are given with a scene that is loaded already.
 
     Example:
-        >>> plantar.run("flat", 0)["completed"]  # doctest: +SKIP
+        >>> import plantar
+        >>> plantar.run("flat", steps=3)["completed"]  # doctest: +SKIP
         True
     """
     for what, file, ending in (("record", record, ".mcap"), ("video", video, ".mp4")):
         if file is not None and Path(file).suffix != ending:
             raise InputError(f"{what} {os.fspath(file)} needs a name that ends in {ending}")
-    found: Any = scene if hasattr(scene, "robot") else open_scene(scene)
+    if hasattr(scene, "robot") and (settings or robot is not None):
+        raise InputError(
+            "settings are given with a loaded scene; allowed: load_scene(name, settings), or run(name, ...)"
+        )
+    texts = [f"{name}={_setting_text(value)}" for name, value in settings.items()]
+    found: Any = scene if hasattr(scene, "robot") else open_scene(scene, texts, robot)
     recording, film, figures = (None if path is None else Path(path) for path in (record, video, plot))
     return simulation_of(found, integer(seed, "seed", 0)).run_to_files(recording, film, figures, progress)
+
+
+def _setting_text(value: object) -> str:
+    """Value of a setting as `--set` takes it."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
