@@ -4,6 +4,7 @@ Doors, each documented by `help(plantar.NAME)`; what a door needs is loaded at i
 
     read(file)                   a recording of any known maker as a `PressureRecording`
     analyse(recording or file)   steps, timing, loads and figures of a recording, a folder, an array or a data frame
+    sole(recording, at, foot)    what a sole perceives at an instant: CoP, wrench, polygons, contours, as a picture
     view([file, ...], page)      a page for the browser that plays one or two recordings
     load_robot(name or file)     a robot: model, legs, soles
     load_controller(robot)       its walking controller, for a control loop of your own; needs no simulator
@@ -79,6 +80,7 @@ if TYPE_CHECKING:
     from plantar.sim.run.scene_kind import open_scene as load_scene
     from plantar.sim.run.scene_kind import run
     from plantar.viewer.page import write_page as view
+    from plantar.viewer.sole_view import sole
 
 
 __all__ = [
@@ -121,6 +123,7 @@ __all__ = [
     "read",
     "read_layout",
     "run",
+    "sole",
     "view",
     "walking_tick",
     "write_layout",
@@ -153,6 +156,7 @@ _PLACES = {
     "read": "formats:read_recording",
     "read_layout": "layouts.layout_file",
     "run": "sim.run.scene_kind",
+    "sole": "viewer.sole_view",
     "view": "viewer.page:write_page",
     "walking_tick": "percepts.foot_tick",
     "write_layout": "layouts.layout_file",

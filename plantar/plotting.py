@@ -1,5 +1,7 @@
 """Only module that imports matplotlib, at the first figure."""
 
+import base64
+import html
 import io
 import os
 from collections.abc import Sequence
@@ -142,6 +144,16 @@ def png_of(picture: NDArray[np.float64]) -> bytes:
     file = io.BytesIO()
     imsave(file, picture, format="png")
     return file.getvalue()
+
+
+def html_of(figure: Any, text: str) -> str:
+    """A figure with a line of text above it as HTML that needs no other file, for notebooks; None for no figure."""
+    if figure is None:
+        return f"<p>{html.escape(text)}</p>"
+    file = io.BytesIO()
+    figure.savefig(file, format="png", dpi=90)
+    picture = base64.b64encode(file.getvalue()).decode()
+    return f'<p>{html.escape(text)}</p><img alt="" src="data:image/png;base64,{picture}">'
 
 
 def thinned(

@@ -54,6 +54,10 @@ QUICK = {
         r"cells (\S+) cm.*inside, along the sole: (\S+) cm.*inside, at any angle: (\S+) cm.*cells, at any angle: (\S+)",
         holds=lambda cells, along, any_angle, outlined: along < outlined < min(any_angle, cells),
     ),
+    "sole_at_an_instant": Example(
+        r"left: .*convex polygon (\S+) cm2, concave polygon (\S+) cm2.*wrote sole_left.png",
+        holds=lambda convex, concave: float(convex) >= float(concave) > 50,
+    ),
     "percept_faults": Example(
         r"1 dead, 0 saturated, 1 stuck.*true load (\d+) N: (\d+) N .*, (\d+) N",
         holds=lambda true, left_out, filled: left_out < 0.98 * true and abs(filled - true) < 0.005 * true,

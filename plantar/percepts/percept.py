@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import partial
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -125,6 +126,12 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
         known["position_cop_in_sole"] = loads[7:] if 0.0 < vertical < math.inf else None
         return percept
 
+    def __repr__(self) -> str:
+        return f"Percept({_shown('percept_text', self)})"
+
+    def _repr_html_(self) -> str:
+        return _shown("percept_html", self)
+
     def __reduce__(self) -> tuple[Any, ...]:
         # Copies and pickles compute their members again: numpy forgets what is read-only.
         masks: dict[str, Any] = {"active": self._given_active, "stuck": self._stuck, "options": self.options}
@@ -233,3 +240,8 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
     def centroid_in_sole(self) -> NDArray[np.float64] | None:
         """Centroid (2,) of support polygon in sole frame in m, or None without contact (T 4.4.2)."""
         return self._centroid()
+
+
+def _shown(form: str, percept: Percept) -> str:
+    """A percept in a form of `plantar.percepts.percept_figure`, loaded when one is shown."""
+    return str(getattr(import_module("plantar.percepts.percept_figure"), form)(percept))

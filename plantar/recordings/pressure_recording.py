@@ -16,6 +16,9 @@ from plantar.recordings.frame_table import blocks_of_frames, table_of_blocks
 RATES = (0.1, 1e5)
 """Lowest and highest rate in frames a second that is believed."""
 
+COP_FORCE = 20.0
+"""Load in N below which a center of pressure is not given, unless another is stated."""
+
 _GAP = 2.5  # Steps in time of more than so many usual ones are gaps, and are not used for the rate
 _COUNTED = 5.0  # Stated rate in Hz from which times that rise by 1 are no seconds but the frames' numbers
 # Frames that go on in order, on the average, where a recording has begun again and is not merely out of order.
@@ -28,7 +31,7 @@ Kind = Literal["insole", "platform", "robot", "plate"]
 """What measured: insoles in shoes, a platform that is walked over, a robot's soles, or force plates without cells."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class FootRecording:
     """Cells under one foot, n frames of k cells; FormatError if the layout's count differs.
 
@@ -54,6 +57,11 @@ class FootRecording:
             cells = self.force.shape[1]
             name = self.layout.name
             raise FormatError(f"the {self.side} foot has {cells} cells, layout '{name}' {len(self.layout)}")
+
+    def __repr__(self) -> str:
+        frames, cells = self.force.shape
+        layout = "no layout" if self.layout is None else f"layout '{self.layout.name}'"
+        return f"FootRecording({self.side}: {frames} frames of {cells} cells, {layout})"
 
     @cached_property
     def missing(self) -> NDArray[np.bool_] | None:
@@ -96,8 +104,11 @@ class FootRecording:
         """Pressure (n, k) in Pa, NaN if unmeasured; None without cell areas."""
         return None if self.layout is None else np.asarray(self.force / self.layout.areas)
 
-    def center_of_pressure(self, minimum_force: float) -> NDArray[np.float64] | None:
-        """CoP (n, 2) in the sole frame in m (T 4.21); NaN below `minimum_force` in N, None without layout."""
+    def center_of_pressure(self, minimum_force: float = COP_FORCE) -> NDArray[np.float64] | None:
+        """CoP (n, 2) in the sole frame in m (T 4.21); the device's if given, else computed from the cells.
+
+        NaN below `minimum_force` in N, by default 20 N; None without layout.
+        """
         with np.errstate(invalid="ignore"):
             loaded = self.vertical_force >= max(minimum_force, 1e-9)
         if self.cop is not None:
@@ -121,7 +132,7 @@ class StatedEvents:
     toe_offs: NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PressureRecording:
     """Recording of one or two feet on one time base.
 
@@ -149,6 +160,23 @@ class PressureRecording:
     raw: bool = False
     grid: tuple[int, int] | None = None
     events: Mapping[Side, StatedEvents] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        feet = ", ".join(self.feet) or "no feet"
+        frames = f"{len(self.time)} frames at {self.rate_hz:g} Hz"
+        return f"PressureRecording({self.path.name}: {self.format}, {feet}, {frames})"
+
+    def _repr_html_(self) -> str:
+        from plantar.plotting import COLOURS, html_of, new_figure, thinned
+
+        figure, axes = new_figure(8.0, 2.6, grid=True)
+        for side, foot in self.feet.items():
+            axes.plot(*thinned(self.time, foot.vertical_force), color=COLOURS[side], linewidth=1.0, label=side)
+        axes.set_xlabel("time in s")
+        axes.set_ylabel("counts" if self.raw else "vertical force in N")
+        if self.feet:
+            axes.legend(loc="upper right")
+        return html_of(figure, repr(self))
 
 
 def _product(values: NDArray[np.float64], matrix: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -22,13 +22,24 @@ from plantar.recordings.pressure_recording import PressureRecording
 _LONG = 500  # Steps from which metrics.json is one line
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Analysis:
     """Recording, its feet and their measures. `recording` of platforms with footprints separated."""
 
     recording: PressureRecording
     feet: Mapping[Side, FootGait]
     metrics: Mapping[str, Any]
+
+    def __repr__(self) -> str:
+        steps = ", ".join(f"{side} {len(gait.steps)} steps" for side, gait in self.feet.items()) or "no feet"
+        span = len(self.recording.time) / self.recording.rate_hz
+        return f"Analysis({self.recording.path.name}: {self.recording.format}, {span:.1f} s; {steps})"
+
+    def _repr_html_(self) -> str:
+        from plantar.gait.analysis.pages.one_page import figure_summary
+        from plantar.plotting import html_of
+
+        return html_of(figure_summary(self.recording, self.feet), repr(self))
 
     @cached_property
     def steps(self) -> dict[str, NDArray[Any]]:

@@ -49,6 +49,7 @@ class RunLog(ExitStack):
         recorder = self.enter_context(Recorder(path, metadata, {s: world.robot.layouts[s] for s in SIDES}))
         channel = recorder.channel
         self._skin = {s: channel(f"/skin/{s}", [("force", len(world.robot.layouts[s]))]) for s in SIDES}
+        self._proximity = {s: channel(f"/proximity/{s}", [("distance", len(world.robot.layouts[s]))]) for s in SIDES}
         self._joints = channel("/joints", [("position", k), ("command", k), ("torque", k)])
         self._estimate = channel("/estimate", [("com", 3), ("com_velocity", 3), ("dcm", 2), ("zmp", 2)])
         self._reference = channel(
@@ -83,6 +84,10 @@ class RunLog(ExitStack):
         """Record the soles' latest readings at their sample times."""
         for side, channel in self._skin.items():
             channel.write(readings[side].time, readings[side].force)
+        for side, near in self._proximity.items():
+            distance = readings[side].proximity
+            if distance is not None:
+                near.write(readings[side].time, distance)
         self._drawn.skin(readings)
 
     def zmps(self, time: float, skin: NDArray[np.float64] | None, force_torque: NDArray[np.float64] | None) -> None:
