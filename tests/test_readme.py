@@ -88,6 +88,23 @@ def test_an_example_of_the_readme_runs(user, number):
     assert "None" not in done.stdout, "the skin of the example carries no load"
 
 
+def test_each_row_of_the_table_of_things_names_what_there_is():
+    """A command with a scene, a paper and options that exist; its figure is checked as a link below."""
+    table = README.partition("## One command for each thing")[2].partition("## Start")[0]
+    found = [shlex.split(c) for c in re.findall(r"`((?:plantar|python) [^`]+)`", table)]
+    assert len(found) >= 15
+    scenes = run([sys.executable, "-m", "plantar", "list", "scenes"], ROOT).stdout
+    helped: dict[str, str] = {}
+    for program, word, *rest in found:
+        if program == "python":
+            assert (ROOT / word).exists()
+            continue
+        if word not in helped:
+            helped[word] = run([sys.executable, "-m", "plantar", word, "--help"], ROOT).stdout
+        assert [option for option in rest if option.startswith("--") and option not in helped[word]] == []
+        assert word != "sim" or re.search(rf"^{rest[0]} ", scenes, re.MULTILINE), rest
+
+
 def test_the_table_of_commands_is_the_command_lines():
     listed = set(re.findall(r"^\| `plantar (\w+)` \|", README, re.MULTILINE))
     helped = run([sys.executable, "-m", "plantar", "--help"], ROOT).stdout.partition("Commands:")[2]
