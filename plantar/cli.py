@@ -3,9 +3,10 @@
 import sys
 from importlib import import_module
 from pkgutil import iter_modules
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
 from plantar import commands, kernels
 from plantar.common.console.command import Command, run_command
@@ -14,8 +15,23 @@ from plantar.common.extensions import extensions
 from plantar.common.version import VERSION
 from plantar.errors import InputError
 
+_FIRST = ("demo", "shoe", "analyze", "sole", "robot", "sim", "view")  # commands that a new user looks for
+
+
+class _Groups(TyperGroup):
+    """Help that lists the first commands, and the rest below."""
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        found = {name: command for name in self.list_commands(ctx) if (command := self.get_command(ctx, name))}
+        first = [name for name in _FIRST if name in found]
+        for title, names in (("Commands", first), ("More", [name for name in found if name not in first])):
+            with formatter.section(title):
+                formatter.write_dl([(name, found[name].get_short_help_str(80)) for name in names])
+
+
 app = typer.Typer(
     name="plantar",
+    cls=_Groups,
     no_args_is_help=True,
     add_completion=True,
     pretty_exceptions_enable=False,

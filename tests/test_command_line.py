@@ -155,3 +155,19 @@ def test_an_argument_of_any_length_is_one_line(arguments, monkeypatch, capsys, t
     said = capsys.readouterr()
     assert (said.out, said.err.count("\n")) == ("", 1)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_scene_with_a_typing_error_is_named_alone(monkeypatch, capsys):
+    assert called(monkeypatch, "sim", "flatt") == 2
+    said = capsys.readouterr().err
+    assert "did you mean flat?" in said
+    assert "plantar list scenes" in said
+    assert len(said) < 150
+
+
+def test_the_help_begins_with_what_a_new_user_looks_for(monkeypatch, capsys):
+    assert called(monkeypatch, "--help") == 0
+    first, _, more = capsys.readouterr().out.partition("Commands:")[2].partition("More:")
+    names = re.findall(r"^  (\w+)  ", first, re.MULTILINE)
+    assert names == ["demo", "shoe", "analyze", "sole", "robot", "sim", "view"]
+    assert set(re.findall(r"^  (\w+)  ", more, re.MULTILINE)) == set(COMMANDS) - set(names)

@@ -7,6 +7,8 @@ from pathlib import Path
 
 from plantar.errors import InputError, PlantarError
 
+_MOST_LISTED = 12  # names in a message that also has a near one
+
 
 def refuse_unknown_keys(
     given: Iterable[str], allowed: Iterable[str], where: str, error: type[PlantarError] = InputError, note: str = ""
@@ -62,5 +64,7 @@ def builtin_or_file(
     if str(name) not in builtin:
         near = get_close_matches(str(name), builtin, 2)
         hint = f"did you mean {' or '.join(near)}? " if near else ""
-        raise error(f"unknown {what} '{name}'; {hint}allowed: {', '.join(builtin)}, or a {what} .toml file")
+        long = near and len(builtin) > _MOST_LISTED
+        allowed = f"what plantar list {what}s lists" if long else ", ".join(builtin)
+        raise error(f"unknown {what} '{name}'; {hint}allowed: {allowed}, or a {what} .toml file")
     return builtin[str(name)]
