@@ -205,7 +205,9 @@ class FloatingBaseEstimator:
         base_x = (planned_x - mu * swing_x) / (1.0 - 2.0 * mu)
         base_y = (planned_y - mu * swing_y) / (1.0 - 2.0 * mu)
         if self._begun:
-            zmp = base.follow(*gyro.tolist(), *accelerometer.tolist(), base_x, base_y)
+            gyro_x, gyro_y, gyro_z = gyro.tolist()
+            x, y, z = accelerometer.tolist()
+            zmp = base.follow(gyro_x, gyro_y, gyro_z, x, y, z, base_x, base_y)
             self._anchor(loads)
         else:
             self._begun = True

@@ -10,6 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.kernels.base.limits import points_within, values_within
 from plantar.sim.judging.unmet import unmet
 
 _ROUNDING = 1e-9  # N or N m: actors that share a body are added in another order
@@ -55,11 +56,11 @@ class OutsideForce:
             self._known[:] = 0.0
             for actor in self._actors:
                 actor.add_applied(self._known)
-            forces = forces - self._known
-        if forces.any():
+            forces = np.subtract(forces, self._known, out=self._known)
+        if not points_within(forces, _ROUNDING):
             body = int(np.abs(forces).max(axis=1).argmax())
             self._found(float(np.abs(forces[body]).max()), self._model.body(body).name)
-        if self._on_joints.any():
+        if not values_within(self._on_joints, _ROUNDING):
             torques = np.abs(self._on_joints[self._own])
             axis = int(torques.argmax())
             self._found(float(torques[axis]), self._model.joint(self._model.dof_jntid[self._own[axis]]).name)
