@@ -11,6 +11,7 @@ Doors, each documented by `help(plantar.NAME)`; what a door needs is loaded at i
     load_scene(name or file)     a scene for the simulator
     run(scene, seed)             simulate it, judge it by the true contact forces, and record it
     mujoco                       the same skin for any MuJoCo model
+    live.open_live(source)       readings as they come, from a serial port, the network, a file or a program
 
 What a sole measures, and what follows from it:
 
@@ -44,7 +45,7 @@ from typing import TYPE_CHECKING
 from plantar.common.version import VERSION as __version__
 
 if TYPE_CHECKING:
-    from plantar import batch, mujoco
+    from plantar import batch, live, mujoco
     from plantar.errors import (
         DependencyError,
         FootError,
@@ -114,6 +115,7 @@ __all__ = [
     "joined_layout",
     "laid_over",
     "layout_of_cells",
+    "live",
     "load_controller",
     "load_robot",
     "load_scene",
@@ -161,6 +163,7 @@ _PLACES = {
     "walking_tick": "percepts.foot_tick",
     "write_layout": "layouts.layout_file",
     "batch": "",
+    "live": "",
     "mujoco": "",
     "polygon": "geometry",
 }

@@ -14,7 +14,7 @@ from .public_names import defined_names, public_names
 ROOT = Path(__file__).resolve().parent.parent
 COMMANDS = {*(ROOT / "plantar" / "commands").glob("*.py")}  # their functions are commands, not for import
 FILES = sorted({*(ROOT / "plantar").rglob("*.py")} - COMMANDS)
-EXPLAINED = ("FORMAT", "COMMAND", "SOURCE")  # entries of registries, which their type explains
+EXPLAINED = ("FORMAT", "COMMAND", "SOURCE", "SINK")  # entries of registries, which their type explains
 MODULES = [".".join(p.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__") for p in FILES]
 
 CONSTANT = re.compile(r"[A-Z][A-Z_0-9]+(: [^=]+)? = ")

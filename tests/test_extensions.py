@@ -35,7 +35,7 @@ def plugin(tmp_path):
     package, info = tmp_path / "mine", tmp_path / "mine-1.0.dist-info"
     package.mkdir()
     info.mkdir()
-    files = dict(zip(("ditch", "high_swing", "weigh", "hold", "udp"), blocks("part.md", "python"), strict=True))
+    files = dict(zip(("ditch", "high_swing", "weigh", "hold", "packets"), blocks("part.md", "python"), strict=True))
     make, files["mysole"], *_ = blocks("format.md", "python")
     for name, text in ({"__init__": ""} | files).items():
         (package / f"{name}.py").write_text(text)
@@ -141,15 +141,15 @@ def test_a_live_source_of_a_users_package(plugin):
     sender = threading.Thread(target=send)
     sender.start()
     options = ("--layout", "layout.json", "--seconds", "0.2", "-o", "run.mcap", "--json")
-    done = plantar(plugin, "live", f"udp:{port}", *options)
+    done = plantar(plugin, "live", f"packets:{port}", *options)
     over.set()
     sender.join()
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout)["feet"]["left"]["frames"] > 2
     assert read_recording(plugin / "run.mcap").feet["left"].vertical_force[1] == pytest.approx(2.0 * len(sole))
-    assert "udp" in plantar(plugin, "list", "sources").stdout
-    refused = plantar(plugin, "live", "udp")
-    assert (refused.returncode, "allowed: udp:PORT" in refused.stderr) == (2, True)
+    assert "packets" in plantar(plugin, "list", "sources").stdout
+    refused = plantar(plugin, "live", "packets")
+    assert (refused.returncode, "allowed: packets:PORT" in refused.stderr) == (2, True)
 
 
 @pytest.mark.parametrize(
@@ -159,7 +159,7 @@ def test_a_live_source_of_a_users_package(plugin):
         ("plantar.terrain", "flat", "mine.ditch:Ditch", ("flat = mine.ditch:Ditch", "taken name")),
         ("plantar.formats", "csv", "mine.mysole:FORMAT", ("csv = mine.mysole:FORMAT", "taken name")),
         ("plantar.swings", "low", "mine.gone:Low", ("mine.gone:Low", "No module named")),
-        ("plantar.live", "replay", "mine.udp:SOURCE", ("replay = mine.udp:SOURCE", "taken name")),
+        ("plantar.live", "replay", "mine.packets:SOURCE", ("replay = mine.packets:SOURCE", "taken name")),
     ],
 )
 def test_a_part_that_cannot_be_used_is_named(plugin, group, name, value, words):

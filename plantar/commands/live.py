@@ -1,7 +1,8 @@
 """`plantar live`: record soles as their readings come."""
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from typer import Argument, Option
 
@@ -13,31 +14,56 @@ def live(
     source: Annotated[str, Argument(help="Source, and its address after a colon; plantar list sources lists them.")],
     layout: Annotated[Path | None, Option(help="Sole layout (.json); mirrored for the other foot.")] = None,
     seconds: Annotated[float, Option(help="How long; without it until the source ends, or Ctrl-C.")] = float("inf"),
+    kind: Annotated[str | None, Option(help="What measures: robot, insole or platform.")] = None,
+    send: Annotated[list[str] | None, Option(help="Where readings go on to, such as udp:9871; several times.")] = None,
+    correct_clocks: Annotated[bool, Option("--correct-clocks", help="Put both soles on the left one's clock.")] = False,
+    strict: Annotated[bool, Option("--strict", help="End with exit 2 at what is not a reading in order.")] = False,
     output: Annotated[Path, Option("-o", "--output", help="The recording to write.")] = Path("out/live.mcap"),
     as_json: Json = False,
 ) -> None:
     """Record soles as their readings come, and show load and center of pressure.
 
-    The recording opens in plantar analyze, plantar view and Foxglove.
+    What is not a reading, repeats, restarts, gaps and clocks that differ are counted, and events in the recording.
+    It opens in plantar analyze, plantar view and Foxglove.
 
     Example: my_insole | plantar live lines --layout layout_left.json -o walk.mcap
 
-    Example: plantar live replay:run.mcap --seconds 5
+    Example: plantar live serial:/dev/ttyACM0 --layout layout_left.json --kind insole
+
+    Example: plantar live replay:run.mcap --seconds 5 --send udp:9871
     """
     from plantar.common.atomic import keep_inputs, parent_folder
     from plantar.layouts.layout_file import read_layout
+    from plantar.live import open_live
     from plantar.live.record import record
-    from plantar.live.source import open_live
+    from plantar.live.sink import open_sink
 
     keep_inputs(output, [source.partition(":")[2], layout])
-    stream = open_live(source, None if layout is None else read_layout(layout))
+    sinks = [open_sink(text) for text in send or []]
+    sole = None if layout is None else read_layout(layout)
+    stream = open_live(source, sole, strict=strict, correct=correct_clocks, kind=kind)
     with parent_folder(output), progress_bar() as progress:
-        found = {"file": str(output), **record(stream, output, seconds, progress)}
-    feet = "".join(
-        f"\n  {side}: {one['frames']} readings, {one['rate_hz'] or 0:.0f} Hz, gap up to {one['gap_max_s'] or 0:g} s"
+        found = {"file": str(output), **record(stream, output, seconds, progress, sinks)}
+    lines = [f"{found['seconds']:.1f} s recorded", *_feet_lines(found), *_fault_lines(found), f"  {output}"]
+    end_command(found, as_json, "\n".join(lines))
+
+
+def _feet_lines(found: Mapping[str, Any]) -> list[str]:
+    return [
+        f"  {side}: {one['frames']} readings, {one['rate_hz'] or 0:.0f} Hz, gap up to {one['gap_max_s'] or 0:g} s"
         for side, one in found["feet"].items()
-    )
-    end_command(found, as_json, f"{found['seconds']:.1f} s recorded{feet}\n  {output}")
+    ]
+
+
+def _fault_lines(found: Mapping[str, Any]) -> list[str]:
+    counts = ", ".join(f"{kind.replace('_', ' ')} {count}" for kind, count in found["faults"].items() if count)
+    lines = [f"  faults: {counts or 'none'}"]
+    clocks = found["clocks"]
+    if clocks is not None:
+        rate = "" if clocks["rate_ppm"] is None else f", {clocks['rate_ppm']:+.0f} ppm"
+        done = "corrected" if clocks["corrected"] else "not corrected"
+        lines.append(f"  clocks: right minus left {clocks['right_minus_left_s']:+.3f} s{rate}, {done}")
+    return lines
 
 
 COMMAND = Command(live, "Record soles as their readings come.", 45)

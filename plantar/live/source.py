@@ -13,21 +13,25 @@ from plantar.common.extensions import extensions
 from plantar.common.sides import Side
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
+from plantar.live.arrival import Arrival
 from plantar.recordings.pressure_recording import Kind
-from plantar.sensing.reading import Reading
+
+QUIET = 0.5
+"""Time in s without a reading after which a source yields None."""
 
 
 class LiveStream(NamedTuple):
-    """Readings as they come.
+    """What arrives of a source.
 
     Attributes:
         soles: Layout of each side that comes.
-        readings: A side and its reading each, in order of time; ends with the device, closed when no longer read.
+        readings: A side and its reading each, as they arrive; in their place a `Fault` for what is no reading, and None
+            where nothing comes for half a second. Ends with the device, closed when no longer read.
         kind: What measures: a robot's soles, a person's insoles, or a platform.
     """
 
     soles: Mapping[Side, SoleLayout]
-    readings: Iterator[tuple[Side, Reading]]
+    readings: Iterator[Arrival]
     kind: Kind = "robot"
 
 
@@ -50,8 +54,8 @@ def live_sources() -> dict[str, LiveSource]:
     """All sources by name; InputError if an entry point is none.
 
     Example:
-        >>> list(live_sources())[:2]
-        ['lines', 'replay']
+        >>> list(live_sources())[:5]
+        ['file', 'lines', 'replay', 'serial', 'udp']
     """
     modules = (import_module(f"plantar.live.{module.name}") for module in iter_modules([str(Path(__file__).parent)]))
     found = {s.name: s for module in modules if isinstance(s := getattr(module, "SOURCE", None), LiveSource)}
@@ -59,9 +63,9 @@ def live_sources() -> dict[str, LiveSource]:
     return {**found, **{name: replace(source, name=name) for name, source in others.items()}}
 
 
-def open_live(text: str, layout: SoleLayout | None = None) -> LiveStream:
-    """Returns the stream of a source by its `text`, such as "replay:run.mcap"; its soles have a `layout`, mirrored for
-    the other foot, or their own. PlantarError if it is unknown or cannot be opened.
+def opened_source(text: str, layout: SoleLayout | None) -> LiveStream:
+    """Returns what arrives of a source by its `text`, such as "replay:run.mcap", unchecked; its soles have a `layout`,
+    mirrored for the other foot, or their own. PlantarError if it is unknown or cannot be opened.
     """
     name, _, address = text.partition(":")
     known = live_sources()

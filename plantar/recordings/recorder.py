@@ -13,6 +13,7 @@ import zlib
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
+from tempfile import SpooledTemporaryFile
 from types import TracebackType
 from typing import IO, Any, Generic, NamedTuple, Self, TypeVar
 
@@ -46,6 +47,7 @@ _MESSAGE_HEAD = np.dtype(
     ]
 )
 _MOST = 256  # messages of a topic that are gathered before they are written
+_MOST_INDEXES = 1 << 16  # bytes of the chunks' indexes that are kept in memory: of 4 minutes
 _Message = TypeVar("_Message")
 _Encode = Callable[[list[int], list[_Message]], "Sequence[bytes] | NDArray[np.uint8]"]
 
@@ -133,6 +135,13 @@ def _as_cdr(times: list[int], rows: list[NDArray[np.float64]]) -> NDArray[np.uin
     return np.hstack([_CDR_LITTLE_ENDIAN.repeat(len(rows), axis=0), np.array(rows).view(np.uint8)])
 
 
+def _json_texts(metadata: Mapping[str, object]) -> dict[str, str]:
+    try:
+        return {key: json.dumps(value) for key, value in metadata.items()}
+    except (TypeError, ValueError) as error:
+        raise RecordingError(f"recording metadata cannot be stored as JSON: {error}") from None
+
+
 class Recorder:
     """Writes one recording; a context manager.
 
@@ -171,10 +180,7 @@ class Recorder:
 
         if not (math.isfinite(chunk_duration) and chunk_duration > 0.0):
             raise RecordingError(f"chunk duration is {chunk_duration} s; allowed: above 0")
-        try:
-            texts = {key: json.dumps(value) for key, value in (metadata or {}).items()}
-        except (TypeError, ValueError) as error:
-            raise RecordingError(f"recording metadata cannot be stored as JSON: {error}") from None
+        texts = _json_texts(metadata or {})
         documents = {f"layout_{s}.json": json.dumps(layout_to_dict(own)).encode() for s, own in (layouts or {}).items()}
         self.path = Path(path)
         self.chunk_duration = chunk_duration
@@ -184,8 +190,9 @@ class Recorder:
         self._channels: list[Channel[Any]] = []
         self._definitions: list[Any] = []  # schema and channel records that no chunk holds yet
         self._summary: list[Any] = []
-        self._chunk_indexes: list[Any] = []
-        self._indexes: list[Any] = []  # of metadata, then of each layout
+        self._chunks = 0
+        self._metadata_indexes: list[Any] = []
+        self._layout_indexes: list[Any] = []
         self._time_range: tuple[int, int] | None = None
         self._flush_at = math.inf
         if self.path.is_dir():
@@ -195,15 +202,15 @@ class Recorder:
         except InputError as error:
             raise RecordingError(str(error).replace("cannot write", "cannot write recording", 1)) from None
         self._file: IO[bytes] = open(self._temporary, "wb")  # noqa: SIM115  closed by close()
+        self._chunk_indexes = SpooledTemporaryFile(_MOST_INDEXES)  # noqa: SIM115  closed by close()
         self._put(MCAP_MAGIC)
         self._put(self._encoded(records.Header(profile="ros2", library="plantar")))
-        record = self._encoded(records.Metadata(name="plantar", metadata=texts))
-        self._indexes.append(records.MetadataIndex(offset=self._put(record), length=len(record), name="plantar"))
+        self._put_metadata(texts)
         for name, data in documents.items():
             about: dict[str, Any] = {"log_time": 0, "create_time": 0, "name": name, "media_type": "application/json"}
             record = self._encoded(records.Attachment(data=data, **about))
             about |= {"length": len(record), "data_size": len(data)}
-            self._indexes.append(records.AttachmentIndex(offset=self._put(record), **about))
+            self._layout_indexes.append(records.AttachmentIndex(offset=self._put(record), **about))
         self._file.flush()
         self._flush_at = 0.0
 
@@ -293,7 +300,8 @@ class Recorder:
         about = (low, high, offset, zlib.crc32(data), len(_COMPRESSION), _COMPRESSION, len(packed))
         start = self._put(_CHUNK_HEAD.pack(_CHUNK, _CHUNK_HEAD.size - 9 + len(packed), *about))
         self._put(packed)
-        self._chunk_indexes.append(
+        self._chunks += 1
+        self._keep_index(
             self._records.ChunkIndex(
                 chunk_start_offset=start,
                 chunk_length=_CHUNK_HEAD.size + len(packed),
@@ -311,6 +319,25 @@ class Recorder:
         try:
             self._file.flush()
             self._take_name()
+        except OSError as error:
+            raise self._write_error(error) from None
+
+    def note(self, **metadata: object) -> None:
+        """Add `metadata`, JSON values by name, to what the recording began with; a later value of a name counts.
+
+        RecordingError if it is not JSON, or the disk is full or unwritable.
+        """
+        self._put_metadata(_json_texts(metadata))
+
+    def _put_metadata(self, texts: dict[str, str]) -> None:
+        record = self._encoded(self._records.Metadata(name="plantar", metadata=texts))
+        index = self._records.MetadataIndex(offset=self._put(record), length=len(record), name="plantar")
+        self._metadata_indexes.append(index)
+
+    def _keep_index(self, index: Any) -> None:
+        """Keep a chunk's index for the file's end, in a file of its own once they are many."""
+        try:
+            self._chunk_indexes.write(self._encoded(index))
         except OSError as error:
             raise self._write_error(error) from None
 
@@ -333,6 +360,7 @@ class Recorder:
         finally:
             with suppress(OSError):  # given above already where it matters
                 self._file.close()
+            self._chunk_indexes.close()
             if self._temporary is not None:  # not a single message was written: an old recording stays
                 self._temporary.unlink(missing_ok=True)
 
@@ -345,6 +373,7 @@ class Recorder:
         if error is not None and self._temporary is not None and not any(c._times for c in self._channels):
             with suppress(OSError):  # nothing was recorded: leave nothing behind
                 self._file.close()
+            self._chunk_indexes.close()
             self._temporary.unlink(missing_ok=True)
             return
         self.close()
@@ -361,14 +390,18 @@ class Recorder:
             message_count=sum(counts.values()),
             schema_count=len(counts),
             channel_count=len(counts),
-            attachment_count=len(self._indexes) - 1,
-            metadata_count=1,
-            chunk_count=len(self._chunk_indexes),
+            attachment_count=len(self._layout_indexes),
+            metadata_count=len(self._metadata_indexes),
+            chunk_count=self._chunks,
             message_start_time=low,
             message_end_time=high,
             channel_message_counts=counts,
         )
-        start = self._put(self._encoded(*self._summary, statistics, *self._chunk_indexes, *self._indexes))
+        start = self._put(self._encoded(*self._summary, statistics))
+        self._chunk_indexes.seek(0)
+        while indexes := self._chunk_indexes.read(_MOST_INDEXES):
+            self._put(indexes)
+        self._put(self._encoded(*self._metadata_indexes, *self._layout_indexes))
         self._put(self._encoded(records.Footer(summary_start=start, summary_offset_start=0, summary_crc=0)))
         self._put(MCAP_MAGIC)
 
