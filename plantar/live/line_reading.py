@@ -6,6 +6,8 @@ A missing force is empty or nan.
 import math
 from collections.abc import Iterable, Iterator, Mapping
 
+import numpy as np
+
 from plantar.common.sides import SIDES, Side
 from plantar.errors import InputError, ReadingError
 from plantar.layouts.layout import SoleLayout
@@ -35,7 +37,7 @@ def reading_of(line: bytes, soles: Mapping[Side, SoleLayout], name: str) -> tupl
         return Fault("blank", f"{name} holds no time and forces: it is empty; allowed: side,time,force,force,...")
     called, *cells = text.split(",")
     try:
-        at, *force = [float(cell or math.nan) for cell in cells]
+        at, *force = _numbers(cells)
     except ValueError:
         return Fault("garbled", f"{name} holds no time and forces; allowed: side,time,force,force,...")
     side = next((known for known in soles if known == called), None)
@@ -44,9 +46,17 @@ def reading_of(line: bytes, soles: Mapping[Side, SoleLayout], name: str) -> tupl
     if len(force) != len(soles[side]):
         return Fault("garbled", f"{name} holds {len(force)} forces; allowed: {len(soles[side])}, one a taxel")
     try:
-        return side, Reading(at, force)
+        return side, Reading(at, np.array(force))  # of a list each force would be checked by itself
     except ReadingError as error:
         return Fault("impossible", f"{name}: {error}")
+
+
+def _numbers(cells: list[str]) -> list[float]:
+    """Numbers of cells, empty ones NaN; ValueError if one is no number."""
+    try:
+        return list(map(float, cells))
+    except ValueError:
+        return [float(cell or math.nan) for cell in cells]
 
 
 def arrivals_of(chunks: Iterable[bytes], soles: Mapping[Side, SoleLayout]) -> Iterator[Arrival]:

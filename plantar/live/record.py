@@ -21,7 +21,8 @@ Show = Callable[[float, str], object]
 """Receives the share of the recording's time that has passed, and a line."""
 
 _SHOWN = 0.2  # s between two lines of what comes
-_GAP = 2.5  # usual steps
+_GAP = 2.5  # mean steps, above which a step does not count for the rate
+_FIRST = 5  # steps that do
 
 
 def record(
@@ -187,11 +188,12 @@ class _Foot:
     def take(self, now: float, item: LiveReading) -> None:
         self.frames += 1
         if item.late:
+            self._steps += 1  # within a step that was counted as one
             return
         if self.last is not None:
             step = now - self._time
             self._gap = max(self._gap, step)
-            if not self._steps or step <= _GAP * self._passed / self._steps:
+            if self._steps < _FIRST or step * self._steps <= _GAP * self._passed:
                 self._steps += 1
                 self._passed += step
         self._time = now
