@@ -28,6 +28,7 @@ from plantar.shoes.foot.orientation import (
     rotation_up,
     straightened,
 )
+from plantar.shoes.foot.scan_floor import floor_of_scan
 from plantar.shoes.geometry.outline import cut_below, outline_of, outlines_below, touching
 from plantar.shoes.geometry.surface import convex_outline, is_closed
 from plantar.shoes.units import to_m
@@ -185,6 +186,12 @@ def _standing(
         triangles, tilt = levelled(triangles)
         if tilt > 0.0:
             notes.append(f"levelled: the plane that the foot rests on was tilted by {tilt:.1f} degrees")
+    if sole_z is None and link is None:
+        floor = floor_of_scan(triangles)
+        if floor.any():
+            triangles = triangles[~floor]
+            read = read[~floor]
+            notes.append("a floor around the foot is left out: a single sheet, level with the sole")
     _check_height(triangles, where)
     upright = triangles
     triangles, facing = _facing(triangles, where, forward, sole_band, link is not None)
