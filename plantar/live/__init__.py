@@ -1,4 +1,4 @@
-"""Readings of soles as they are sampled: `open_live` opens a source, whose `readings` go on whatever arrives."""
+"""Readings of soles as they are sampled: `open_live` opens a source, whose `readings` go on after faulty input."""
 
 from plantar.live.arrival import Fault
 from plantar.live.checked_stream import CheckedStream, open_live

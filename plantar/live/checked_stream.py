@@ -28,7 +28,7 @@ _SLEWED = 0.05  # of the time that passes, by which a correction changes
 
 
 class CheckedStream:
-    """Readings of a live stream in order of time for each sole, whatever arrives.
+    """Readings of a live stream in order of time for each sole; faulty input is counted and left out.
 
     Args:
         stream: What a source opened.

@@ -1,4 +1,4 @@
-"""A stream goes on whatever arrives: each fault is counted, times go on, forces that cannot be are missing."""
+"""A stream goes on after faulty input: each fault is counted, times go on, forces that cannot be are missing."""
 
 import math
 
