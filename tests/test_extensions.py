@@ -176,3 +176,8 @@ def test_commands_go_on_without_one_that_cannot_be_loaded(plugin):
     done = plantar(plugin, "--version")
     assert done.returncode == 0
     assert "mine.gone:COMMAND" in done.stderr
+
+
+def test_the_parts_of_the_tutorial_lack_nothing(plugin):
+    (code,) = blocks("part.md", "py")
+    python(plugin, code)

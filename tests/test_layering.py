@@ -17,6 +17,7 @@ ALLOWED = {
     "wholebody": {"wholebody", "plantar"},
     "shoes": {"shoes", "plantar"},
     "sim": {"sim", "robots", "gait", "wholebody", "plantar"},
+    "testing": {"testing", "sim", "robots", "gait", "wholebody", "plantar"},
     "commands": {"commands", "sim", "robots", "gait", "wholebody", "shoes", "plantar"},
     "cli": {"cli", "commands", "sim", "robots", "gait", "wholebody", "shoes", "plantar"},
 }
@@ -92,7 +93,7 @@ PLACE_OF_LIBRARY = {
     "OCP": "plantar.shoes",
     "trimesh": ("plantar.shoes", "plantar.common.files.mesh_library"),
     "mujoco": (
-        *("plantar.sim", "plantar.robots", "plantar.mujoco"),
+        *("plantar.testing.terrain", "plantar.sim", "plantar.robots", "plantar.mujoco"),
         *("plantar.shoes.foot.model_source", "plantar.common.files.model_limits"),
     ),
     "matplotlib": "plantar.plotting",

@@ -25,5 +25,10 @@ def terrain_kinds() -> dict[str, type[Terrain]]:
         for _, value in sorted(vars(module).items())
         if isinstance(value, type) and value.__module__ == module.__name__
     ]
-    found = {kind.__name__.lower(): kind for kind in defined if issubclass(kind, Terrain) and kind is not Terrain}
+    found = {kind.__name__.lower(): kind for kind in defined if issubclass(kind, Terrain) and not _is_abstract(kind)}
     return {"flat": found.pop("flat"), **found, **extensions("plantar.terrain", Terrain, ("flat", *found))}
+
+
+def _is_abstract(kind: type[Terrain]) -> bool:
+    """Whether a class is what kinds share: it leaves a method to them."""
+    return kind is Terrain or any(getattr(getattr(kind, name), "__isabstractmethod__", False) for name in dir(kind))

@@ -1,6 +1,7 @@
 """Stones, one under each planned footprint: partial, uneven or bumpy."""
 
 import math
+from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
@@ -43,6 +44,7 @@ class Laid(Terrain):
     def _drawn(self, rng: np.random.Generator, foot: Footprint) -> Any:
         """A step's random choices."""
 
+    @abstractmethod
     def _under(self, foot: Footprint, k: int, feet: PlannedFeet, drawn: Any) -> Sequence[Solid]:
         """Solids under step `k`, below 0 of standing feet."""
         raise NotImplementedError
