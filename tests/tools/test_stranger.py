@@ -1,0 +1,55 @@
+"""The stranger's test tells what is broken from what only lacks a library or a file."""
+
+import importlib.util
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="module")
+def stranger():
+    spec = importlib.util.spec_from_file_location("stranger", ROOT / "tools" / "stranger.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize(
+    ("code", "extras", "ended"),
+    [
+        ("print(1)", "", "done"),
+        (
+            "import sys; sys.exit('plantar: mujoco is not installed; install it with: pip install \\'mujoco\\'')",
+            "",
+            "done",
+        ),
+        ("raise ModuleNotFoundError(\"No module named 'mujoco'\")", "", "library"),
+        ("raise ModuleNotFoundError(\"No module named 'mujoco'\")", "sim", "broken"),
+        ("raise ModuleNotFoundError(\"No module named 'scipy.special'\")", "", "broken"),
+        ("import plantar.no_such_room", "sim,gym", "broken"),
+        ("open('walk.asc')", "", "file"),
+        ("undefined", "", "broken"),
+    ],
+)
+def test_how_a_block_ends(code, extras, ended, stranger, tmp_path):
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True)
+    assert stranger.outcome(done, stranger.absent_libraries(extras)) == ended
+
+
+def test_a_block_that_goes_on_from_the_one_before_it_is_tried_with_it_and_a_broken_one_is_found(stranger, tmp_path):
+    tried = stranger.Stranger(Path(sys.executable), "")
+    tried._try_block(stranger.Block("page:2", "python", "print(x)\n"), "x = 1\n", tmp_path)
+    assert tried.counts == {"done": 1}
+    tried._try_block(stranger.Block("page:3", "python", "print(y)\n"), "x = 1\n", tmp_path)
+    assert tried.counts == {"done": 1, "broken": 1}
+    assert tried.broken[0].startswith("page:3")
+
+
+def test_every_page_has_blocks_or_none_that_are_missed(stranger):
+    found = [block for page in stranger.PAGES for block in stranger.blocks_of(page)]
+    assert {block.language for block in found} == {"python", "sh"}
+    assert any(block.place.startswith("docs/learning.md") for block in found)

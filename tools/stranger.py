@@ -1,0 +1,191 @@
+"""Try what README, docs and examples show as a stranger would: the wheel alone, an empty folder, nothing imported.
+
+python tools/stranger.py [--extras "" sim shoes sim,gym] [--wheel FILE] [--python PYTHON] [--only TEXT]
+
+The wheel is built once and installed in a fresh environment for each set of extras. Every fenced block of Python and of
+the shell, and every example, then runs in a process of its own, a page's in one folder, in order. Each must end in one
+of four ways: done; the line that gives the command for a missing library; the absence of a library that none of the
+installed extras brings; or one line on a file of the user's that is not there. Anything else is printed, and the exit
+code is 1.
+"""
+
+import argparse
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import venv
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+
+from plantar.common.optional_library import LIBRARIES  # noqa: E402
+
+PAGES = (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
+LIMIT = 300  # s for one block
+_DEPENDENCY = "install it with: pip install '"
+_NEEDS_A_FILE = re.compile(
+    r"(cannot be read|does not exist|No such file or directory|give a \w+|^usage: )", re.MULTILINE
+)
+_NOT_RUN = (
+    "make ",
+    "pip ",
+    "git ",
+    "python3 -m venv",
+    ". .venv",
+    "source ",
+    "cd ",
+    "sudo ",
+    "dask ",
+    "uv ",
+    "#",
+    "cat ",
+)
+_OTHER_LIBRARIES = {"torch", "jax", "mjlab", "pandas", "mine", "mink"}  # of pages on other people's packages, or yours
+
+
+class Block(NamedTuple):
+    """A block of a page, or an example: its `place`, `language` ("python" or "sh") and `text`."""
+
+    place: str
+    language: str
+    text: str
+
+
+def blocks_of(page: Path) -> Iterator[Block]:
+    """Fenced blocks of Python and of the shell on a page, in order."""
+    text = page.read_text(encoding="utf-8")
+    for found in re.finditer(r"^```(python|sh|bash)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+        line = text.count("\n", 0, found.start()) + 1
+        language = "python" if found[1] == "python" else "sh"
+        yield Block(f"{page.relative_to(ROOT)}:{line}", language, found[2])
+
+
+def lines_of(block: Block) -> list[str]:
+    """Commands of a block of the shell that are tried: none that sets up an environment."""
+    lines = block.text.replace("\\\n", " ").splitlines()
+    return [line.partition(" #")[0].strip() for line in lines if line.strip() and not line.startswith(_NOT_RUN)]
+
+
+def absent_libraries(extras: str) -> set[str]:
+    """Modules that an environment with some extras, such as "sim,gym", may lack."""
+    brought = {module for extra in ("", *extras.split(",")) for module in LIBRARIES.get(extra, {}).values()}
+    return {module for modules in LIBRARIES.values() for module in modules.values()} - brought | _OTHER_LIBRARIES
+
+
+def outcome(done: subprocess.CompletedProcess[str], absent: set[str]) -> str:
+    """How a process ended: "done", "dependency", "library", "file" or "broken"; `absent`: libraries it may lack."""
+    if done.returncode in (0, 1) and "Traceback" not in done.stderr:
+        return "done"  # 1: a walk that fell, or a check that does not hold
+    last = done.stderr.strip().splitlines()[-1:] or [""]
+    if _DEPENDENCY in last[0]:
+        return "dependency"
+    module = re.search(r"No module named '(\w+)", last[0])
+    if module is not None and module[1] in absent:
+        return "library"
+    if _NEEDS_A_FILE.search(last[0]):
+        return "file"
+    return "broken"
+
+
+class Stranger:
+    """An environment with the wheel, and what is tried in it; `broken` gathers what ended otherwise."""
+
+    def __init__(self, python: Path, extras: str) -> None:
+        self._absent = absent_libraries(extras)
+        clean = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "VIRTUAL_ENV", "PLANTAR"))}
+        path = f"{python.parent}{os.pathsep}{clean.get('PATH', '')}"
+        self.python = python
+        self.environment = clean | {"PATH": path, "MUJOCO_GL": "egl"}
+        self.counts: dict[str, int] = {}
+        self.broken: list[str] = []
+
+    def try_pages(self, only: str) -> None:
+        """Each page's blocks in a folder of its own, which has the examples as a clone has."""
+        for page in PAGES:
+            with tempfile.TemporaryDirectory() as folder:
+                (Path(folder) / "examples").symlink_to(ROOT / "examples")
+                before = ""
+                for block in blocks_of(page):
+                    if only in block.place:
+                        self._try_block(block, before, Path(folder))
+                    before += block.text if block.language == "python" else ""
+
+    def try_examples(self, only: str) -> None:
+        """Each example without arguments."""
+        for example in sorted((ROOT / "examples").glob("*.py")):
+            place = str(example.relative_to(ROOT))
+            if only in place:
+                with tempfile.TemporaryDirectory() as folder:
+                    self._judge(place, self._run([str(self.python), str(example)], Path(folder)))
+
+    def _try_block(self, block: Block, before: str, folder: Path) -> None:
+        if block.language == "sh":
+            for line in lines_of(block):
+                self._judge(f"{block.place} {line}", self._run(["sh", "-c", line], folder))
+            return
+        done = self._run([str(self.python), "-c", block.text], folder)
+        if "NameError" in done.stderr:  # it goes on where the block before it ended
+            done = self._run([str(self.python), "-c", before + block.text], folder)
+        self._judge(block.place, done)
+
+    def _run(self, command: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
+        try:
+            return subprocess.run(
+                command, cwd=folder, env=self.environment, capture_output=True, text=True, timeout=LIMIT, input=""
+            )
+        except subprocess.TimeoutExpired:
+            return subprocess.CompletedProcess(command, 0, "", "")  # long, and not broken until then
+
+    def _judge(self, place: str, done: subprocess.CompletedProcess[str]) -> None:
+        ended = outcome(done, self._absent)
+        self.counts[ended] = self.counts.get(ended, 0) + 1
+        if ended == "broken":
+            last = "\n    ".join(done.stderr.strip().splitlines()[-3:])
+            self.broken.append(f"{place}: exit {done.returncode}\n    {last}")
+
+
+def built_wheel(folder: Path) -> Path:
+    """The wheel of this checkout."""
+    command = [sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", str(folder), str(ROOT)]
+    subprocess.run(command, check=True)
+    return next(folder.glob("*.whl"))
+
+
+def installed(wheel: Path, extras: str, folder: Path) -> Path:
+    """Python of a fresh environment with a wheel and some of its extras."""
+    venv.create(folder, with_pip=True)
+    python = folder / ("Scripts" if os.name == "nt" else "bin") / "python"
+    wanted = f"{wheel}[{extras}]" if extras else str(wheel)
+    subprocess.run([str(python), "-m", "pip", "install", "--quiet", wanted], check=True)
+    return python
+
+
+def main() -> int:
+    """Try everything in every environment; 1 where something is broken."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--extras", nargs="*", default=["", "sim", "shoes", "sim,gym"])
+    parser.add_argument("--wheel", type=Path, help="built already")
+    parser.add_argument("--python", type=Path, help="of an environment that has it already, instead of fresh ones")
+    parser.add_argument("--only", default="", help="part of the place of what is tried")
+    given = parser.parse_args()
+    broken = 0
+    with tempfile.TemporaryDirectory() as made:
+        wheel = None if given.python else given.wheel or built_wheel(Path(made))
+        for number, extras in enumerate([""] if wheel is None else given.extras):
+            python = given.python if wheel is None else installed(wheel, extras, Path(made) / str(number))
+            stranger = Stranger(python.absolute(), extras)
+            stranger.try_pages(given.only)
+            stranger.try_examples(given.only)
+            print(f"[{extras or 'bare'}]", stranger.counts)
+            print("\n".join(stranger.broken), flush=True)
+            broken += len(stranger.broken)
+    return 1 if broken else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
