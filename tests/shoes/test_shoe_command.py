@@ -99,7 +99,7 @@ def test_bad_options_are_refused_in_one_line(run, stl, box, tmp_path):
         ((foot, "--cell-area", "0"), "cell area is 0.0 mm^2; allowed: 100 to 5000 mm^2"),
         ((foot, "--cell-area", "nan"), "cell area is nan"),
         ((foot, "--taxels", "0"), "number of taxels is 0"),
-        ((foot, "--taxels", "500"), "500 taxels of 691 mm^2 do not fit: at most"),
+        ((foot, "--taxels", "500"), "500 taxels of 691 mm^2 do not fit: 21 do with cells"),
         ((foot, "--overhang", "-1"), "overhang of the taxels is -1 mm; allowed: 0 to 10 mm"),
         ((foot, "--sole-z", "nan"), "sole plane is at nan mm"),
         ((foot, "--parameters", tmp_path / "none.toml"), "none.toml cannot be read"),

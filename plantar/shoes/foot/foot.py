@@ -43,7 +43,7 @@ class Foot:
     support: Any | None = None
     mass: float | None = None
     links: NDArray[np.float64] | None = None
-    poses: Mapping[Side, SourcePose] = field(default_factory=dict)
+    poses: Mapping[Side, SourcePose] = field(default_factory=dict, hash=False)
 
     def passing(self, height: float) -> Any:
         """Outline of what passes a height in mm while the shoe is pushed on."""
